@@ -1,0 +1,69 @@
+# Two commands do everything on a fresh machine: `make figures` and `make test`.
+# They need Python >= 3.11, a C++20 compiler and make; all else goes into .venv.
+PYTHON  ?= python3
+VENV    := .venv
+BIN     := $(VENV)/bin
+RUN     := $(BIN)/python
+BUILD   := build
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+
+# ---- environment and build ------------------------------------------------------------------------------------
+CORE_SOURCES := $(wildcard src/core/*.cpp src/core/*.hpp src/bindings/*.cpp src/bindings/*.hpp) \
+                src/CMakeLists.txt src/core/CMakeLists.txt src/bindings/CMakeLists.txt
+
+$(BUILD)/.venv: pyproject.toml
+	@mkdir -p $(BUILD)
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/pip install --quiet --disable-pip-version-check \
+	    $$($(PYTHON) -c 'import tomllib; p = tomllib.load(open("pyproject.toml", "rb"))["project"]; print(*p["dependencies"], *p["optional-dependencies"]["dev"])')
+	@touch $@
+
+$(BUILD)/.installed: $(BUILD)/.venv $(CORE_SOURCES)
+	$(BIN)/pip install --quiet --disable-pip-version-check --no-build-isolation --no-deps --editable .
+	@touch $@
+
+.PHONY: build
+build: $(BUILD)/.installed ## build the C++ core and install the package into .venv
+
+# ---- figures, tests, checks -----------------------------------------------------------------------------------
+include figures.mk
+
+.PHONY: test
+test: build lint ## lint, then run every test
+	$(RUN) -m pytest
+
+.PHONY: lint
+lint: build ## ruff, mypy --strict, clang-format
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/clang-format --dry-run --Werror $(filter %.cpp %.hpp,$(CORE_SOURCES))
+
+.PHONY: format
+format: build ## rewrite the sources in the project's format
+	$(BIN)/ruff check --fix-only .
+	$(BIN)/ruff format .
+	$(BIN)/clang-format -i $(filter %.cpp %.hpp,$(CORE_SOURCES))
+
+.PHONY: bench
+bench: build ## measure beside the peers, in one run
+	$(BIN)/pip install --quiet --disable-pip-version-check \
+	    $$($(PYTHON) -c 'import tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["bench"])')
+	$(RUN) tests/benchmarks/tessellate.py
+
+.PHONY: fuzz
+fuzz: build ## the long comparison with brute force (PIXELS=..., SEED=...)
+	$(RUN) tests/fuzz/tessellate.py --pixels $(or $(PIXELS),100000000) --seed $(or $(SEED),1)
+
+.PHONY: sanitize
+sanitize: build ## run the engine tests on a build with address and undefined-behaviour sanitizers
+	tests/sanitize.sh $(RUN)
+
+.PHONY: clean
+clean: ## remove what was built (.venv and build/)
+	rm -rf $(BUILD) $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis
+
+.PHONY: help
+help: ## show this list
+	@awk -F ':.*## ' '/^[a-z0-9-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)

@@ -1,0 +1,1 @@
+# One rule a figure of the paper; its body is a vorotool pipeline.

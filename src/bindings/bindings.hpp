@@ -1,0 +1,12 @@
+// What the parts of the extension module share: one function a part, called by module.cpp.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+namespace vorotool::bindings {
+
+void bind_text(nanobind::module_& module);
+void bind_tessellation(nanobind::module_& module);
+void bind_regions(nanobind::module_& module);
+
+}  // namespace vorotool::bindings

@@ -1,0 +1,9 @@
+// The extension module vorotool._core: conversions only; the algorithms are in src/core.
+#include "bindings.hpp"
+
+NB_MODULE(_core, module) {
+  module.doc() = "Compiled core of vorotool (private: use the functions of the package).";
+  vorotool::bindings::bind_text(module);
+  vorotool::bindings::bind_tessellation(module);
+  vorotool::bindings::bind_regions(module);
+}

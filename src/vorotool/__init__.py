@@ -1,0 +1,48 @@
+"""Exact Voronoi diagrams of images, points and polygons.
+
+Importing this package imports nothing heavy: every public name is loaded when it is first used.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+__version__ = "0.1.0"
+
+_HOME = {
+    "InputError": "vorotool.errors",
+    "LimitError": "vorotool.errors",
+    "OutputError": "vorotool.errors",
+    "UsageError": "vorotool.errors",
+    "VerificationError": "vorotool.errors",
+    "VorotoolError": "vorotool.errors",
+    "Frame": "vorotool.geometry.frame",
+    "LabelImage": "vorotool.geometry.label_image",
+    "PointSet": "vorotool.geometry.points",
+    "Raster": "vorotool.geometry.raster",
+    "SeedSet": "vorotool.geometry.seeds",
+    "Table": "vorotool.geometry.table",
+    "read": "vorotool.formats",
+    "write": "vorotool.formats",
+    "seeds_from_points": "vorotool.engines.seeding",
+    "seeds_from_raster": "vorotool.engines.seeding",
+    "tessellate": "vorotool.engines.tessellate",
+    "verify_tessellation": "vorotool.engines.tessellate",
+    "region_table": "vorotool.engines.regions",
+    "neighbour_table": "vorotool.engines.regions",
+    "voronoi_diagram": "vorotool.engines.regions",
+    "colour_regions": "vorotool.engines.regions",
+}
+
+__all__ = ["__version__", *_HOME]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module 'vorotool' has no attribute {name!r}")
+    return getattr(import_module(_HOME[name]), name)
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

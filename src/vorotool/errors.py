@@ -1,0 +1,64 @@
+"""Errors that a user can act on, each with the exit code of the command line."""
+
+from __future__ import annotations
+
+
+class VorotoolError(Exception):
+    """Base of all errors raised on purpose; a bare one is a defect of ours (exit 1)."""
+
+    exit_code = 1
+
+
+class VerificationError(VorotoolError):
+    """A shipped checker found a result wrong (exit 1)."""
+
+
+class UsageError(VorotoolError, ValueError):
+    """Options that do not go together, or an option's value out of range (exit 2)."""
+
+    exit_code = 2
+
+
+class InputError(VorotoolError, ValueError):
+    """Input that cannot be used: the message names the file, the place, the value and what to do (exit 3)."""
+
+    exit_code = 3
+
+
+class OutputError(VorotoolError, OSError):
+    """Output that cannot be written; an older file is untouched (exit 4)."""
+
+    exit_code = 4
+
+
+class LimitError(VorotoolError):
+    """A limit would be exceeded; found before memory is taken (exit 5)."""
+
+    exit_code = 5
+
+
+class Warnings:
+    """Collects what was repaired, snapped or guessed, for standard error and ``--stats``.
+
+    Parameters
+    ----------
+    emit : callable, optional
+        Called with each message as it is added.
+
+    Examples
+    --------
+    >>> warnings = Warnings()
+    >>> warnings.add("2 duplicate seeds: the smallest label has the region")
+    >>> warnings.messages
+    ['2 duplicate seeds: the smallest label has the region']
+    """
+
+    def __init__(self, emit: object = None) -> None:
+        self.messages: list[str] = []
+        self._emit = emit
+
+    def add(self, message: str) -> None:
+        """Keep ``message`` (one line, what was done and how often) and pass it on."""
+        self.messages.append(message)
+        if callable(self._emit):
+            self._emit(message)

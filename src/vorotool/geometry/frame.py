@@ -1,0 +1,51 @@
+"""The rectangle of pixels that a digital diagram covers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from vorotool.errors import InputError
+
+
+@dataclass(frozen=True)
+class Frame:
+    """A window of pixels: pixel (0, 0) of the image has its centre at (``x``, ``y``).
+
+    Parameters
+    ----------
+    x, y : int
+        Coordinates of the centre of the first pixel.
+    width, height : int
+        Size in pixels, each at least 1.
+
+    Raises
+    ------
+    InputError
+        If the frame is empty.
+
+    Examples
+    --------
+    >>> Frame(0, 0, 640, 480).shape
+    (480, 640)
+    """
+
+    x: int
+    y: int
+    width: int
+    height: int
+
+    def __post_init__(self) -> None:
+        if self.width < 1 or self.height < 1:
+            raise InputError(
+                f"the frame is {self.width} x {self.height} pixels: it needs at least 1 x 1, use --size WxH"
+            )
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns, as NumPy orders them."""
+        return (self.height, self.width)
+
+    @property
+    def pixels(self) -> int:
+        """Number of pixels."""
+        return self.width * self.height

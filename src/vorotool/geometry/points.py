@@ -1,0 +1,84 @@
+"""Points as they were read: coordinates and what the file said of each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+
+
+@dataclass(frozen=True)
+class PointSet:
+    """A list of points in the order of the input.
+
+    Parameters
+    ----------
+    xy : (n, 2) float64 array
+        Coordinates in the units of the input; finite.
+    labels : (n,) int64 array, optional
+        The input's own labels (each at least 1). Without them point i has label i + 1.
+    properties : dict of str to sequence, optional
+        Further columns of the input, each of length n, copied to outputs that have one row or feature a point.
+    y_up : bool
+        Pictures of this input are drawn y upwards (GeoJSON and WKT).
+    crs : object, optional
+        The ``crs`` member of a GeoJSON input, copied to GeoJSON outputs.
+
+    Raises
+    ------
+    InputError
+        If the shape is not (n, 2), a coordinate is not finite or a label is below 1; the row is named.
+
+    Examples
+    --------
+    >>> PointSet([[2, 1], [7, 5]]).label_array
+    array([1, 2])
+    """
+
+    xy: NDArray[np.float64]
+    labels: NDArray[np.int64] | None = None
+    properties: dict[str, Any] = field(default_factory=dict)
+    y_up: bool = False
+    crs: Any = None
+
+    def __post_init__(self) -> None:
+        xy = np.ascontiguousarray(self.xy, dtype=np.float64)
+        if xy.size == 0:
+            xy = xy.reshape(0, 2)
+        if xy.ndim != 2 or xy.shape[1] != 2:
+            raise InputError(f"points must have shape (n, 2), but have shape {xy.shape}")
+        bad = np.flatnonzero(~np.isfinite(xy).all(axis=1))
+        if bad.size:
+            row = int(bad[0])
+            raise InputError(
+                f"point {row + 1} is ({xy[row, 0]}, {xy[row, 1]}): coordinates must be finite; "
+                f"remove or repair it ({bad.size} such points)"
+            )
+        object.__setattr__(self, "xy", xy)
+        if self.labels is not None:
+            object.__setattr__(self, "labels", _checked_labels(self.labels, len(xy)))
+
+    def __len__(self) -> int:
+        return len(self.xy)
+
+    @property
+    def label_array(self) -> NDArray[np.int64]:
+        """(n,) labels: the input's own, else 1 to n."""
+        if self.labels is not None:
+            return self.labels
+        return np.arange(1, len(self.xy) + 1, dtype=np.int64)
+
+
+def _checked_labels(labels: Any, count: int) -> NDArray[np.int64]:
+    array = np.ascontiguousarray(labels, dtype=np.int64)
+    if array.shape != (count,):
+        raise InputError(f"labels must have shape ({count},), but have shape {array.shape}")
+    bad = np.flatnonzero((array < 1) | (array > 0xFFFFFFFF))
+    if bad.size:
+        row = int(bad[0])
+        raise InputError(f"point {row + 1} has label {array[row]}: labels must be from 1 to 4294967295")
+    return array

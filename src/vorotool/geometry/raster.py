@@ -1,0 +1,55 @@
+"""An image as it was read: the stored values, palette indices kept."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+
+
+@dataclass(frozen=True)
+class Raster:
+    """A single-channel image, or a colour image that still has to be thresholded.
+
+    Parameters
+    ----------
+    values : (H, W) or (H, W, C) array
+        bool, integer or float. PBM: 1 is foreground. Palette images: the indices.
+    resolution : tuple of (float, float, str), optional
+        Pixels a unit in x and y, and the unit, where the file says so.
+
+    Raises
+    ------
+    InputError
+        If the array has another number of axes, or no pixels.
+
+    Examples
+    --------
+    >>> Raster(np.eye(3, dtype=np.uint8)).is_colour
+    False
+    """
+
+    values: NDArray[Any]
+    resolution: tuple[float, float, str] | None = None
+
+    def __post_init__(self) -> None:
+        values = np.asarray(self.values)
+        if values.ndim not in (2, 3):
+            raise InputError(f"an image must have shape (H, W) or (H, W, C), but has shape {values.shape}")
+        if values.size == 0:
+            raise InputError(f"the image is empty: its shape is {values.shape}")
+        object.__setattr__(self, "values", values)
+
+    @property
+    def is_colour(self) -> bool:
+        """Whether the image has channels."""
+        return self.values.ndim == 3
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns."""
+        return (self.values.shape[0], self.values.shape[1])

@@ -1,0 +1,52 @@
+"""Tables: named columns of one length, one row an object."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from vorotool.errors import InputError
+
+
+class Table(Mapping[str, Any]):
+    """Columns by name, in order; a masked array or None marks fields that do not exist.
+
+    Parameters
+    ----------
+    columns : mapping of str to 1-D array or list
+        Columns of one length. Fields masked in a ``numpy.ma`` array, and None in a list, are written empty.
+
+    Raises
+    ------
+    InputError
+        If the lengths differ.
+
+    Examples
+    --------
+    >>> table = Table({"label": np.array([1, 2]), "area": np.array([12, 9])})
+    >>> len(table), table.rows
+    (2, 2)
+    """
+
+    def __init__(self, columns: Mapping[str, Any]) -> None:
+        self._columns = dict(columns)
+        lengths = {name: len(column) for name, column in self._columns.items()}
+        if len(set(lengths.values())) > 1:
+            raise InputError(f"columns must have one length, but have {lengths}")
+        self.rows = next(iter(lengths.values()), 0)
+
+    def __getitem__(self, name: str) -> Any:
+        return self._columns[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+    def with_properties(self, properties: Mapping[str, Any]) -> Table:
+        """Add the input's own columns; on a clash of names ours take the prefix ``voro_``."""
+        columns = {(f"voro_{name}" if name in properties else name): c for name, c in self._columns.items()}
+        return Table({**columns, **{name: np.asarray(c, dtype=object) for name, c in properties.items()}})
