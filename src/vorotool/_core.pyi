@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-# ---- text (bind_text.cpp): a delimiter is one of "," ";" "\t" " " ---------------------------------------------
+# ---- text (bind_text.cpp): a delimiter is one of "," ";" "\t" " " --------------------------------
 
 class TextError(ValueError):
     """Args: kind (not_number, not_finite, field_count, open_quote), line, column, text, found, expected."""
