@@ -29,7 +29,8 @@ def open_output(
 
     A regular file is written beside its place under a temporary name and renamed at the end; on any
     exception, an interrupt too, the temporary file is removed and the older file is as it was. Pipes and
-    devices are written directly. The body should do nothing but write: its ``OSError`` is taken for one of the output.
+    devices are written directly. The body should do nothing but write: its ``OSError`` is taken for one of
+    the output.
 
     Parameters
     ----------

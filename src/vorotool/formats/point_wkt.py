@@ -23,7 +23,8 @@ def read_wkt(source: Source, options: PointOptions) -> PointSet:
 
     check_nesting(source.data, name=source.name)
     texts, lines = _geometry_texts(source)
-    geometries = shapely.from_wkt(np.array(texts, dtype=object), on_invalid="ignore")
+    with np.errstate(all="ignore"):  # numbers beyond the largest double are found below
+        geometries = shapely.from_wkt(np.array(texts, dtype=object), on_invalid="ignore")
     for geometry, text, line in zip(geometries, texts, lines, strict=True):
         _check_geometry(geometry, text, f"{source.name}, line {line}")
     points, owners = _single_points(geometries)

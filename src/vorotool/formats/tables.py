@@ -79,7 +79,7 @@ class _Column:
         mask = np.ma.getmaskarray(column) if isinstance(column, np.ma.MaskedArray) else None
         array = _as_array(np.ma.getdata(column) if mask is not None else column)
         if array is None or array.dtype.kind not in "biuf":
-            values = list(column) if array is None else array.tolist()
+            values = column.tolist() if isinstance(column, np.ndarray) else list(column)
             absent = np.array([_is_absent(value) for value in values], dtype=bool)
             return _Column(name, values, absent if mask is None else absent | mask)
         array = np.ascontiguousarray(array, dtype=_WIDE.get(array.dtype.kind))
