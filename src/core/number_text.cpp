@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <iomanip>
 #include <locale>
 #include <sstream>
 #include <version>
+
+// Some libraries lack the conversions of doubles; slower ones by streams then give the same texts and values.
+#if defined(__cpp_lib_to_chars) && !defined(VOROTOOL_STREAM_NUMBERS)
+#define VOROTOOL_EXACT_CHARS
+#endif
 
 namespace vorotool::core {
 namespace {
@@ -45,12 +49,36 @@ NumberStatus parse_by_stream(std::string_view text, double& value) {
                                                                                   : NumberStatus::good;
 }
 
+#if !defined(VOROTOOL_EXACT_CHARS)
+std::string streamed(double value, std::ios_base::fmtflags form, int precision) {
+  std::ostringstream stream;
+  stream.imbue(std::locale::classic());
+  stream.setf(form, std::ios_base::floatfield);
+  stream << std::setprecision(precision) << value;
+  return stream.str();
+}
+
+// The fewest digits that read back the same; 17 always do.
+std::string shortest_by_stream(double value, bool plain) {
+  std::string text;
+  int decimals = -1;
+  double back = 0.0;
+  do {
+    text = streamed(value, std::ios_base::scientific, ++decimals);
+    parse_number(text, back);
+  } while (back != value && decimals + 1 < kMostDigits);
+  if (!plain) return text;
+  const int exponent = std::stoi(text.substr(text.find('e') + 1));
+  return streamed(value, std::ios_base::fixed, std::max(0, decimals - exponent));
+}
+#endif
+
 }  // namespace
 
 NumberStatus parse_number(std::string_view text, double& value) {
-  std::string_view digits = text;
-  if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
-#if defined(__cpp_lib_to_chars)
+  std::string_view digits = text;  // from_chars takes no plus sign
+  if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-' && digits[1] != '+') digits.remove_prefix(1);
+#if defined(VOROTOOL_EXACT_CHARS)
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc{} && end == digits.data() + digits.size() && std::isfinite(value)) {
     return NumberStatus::good;
@@ -64,28 +92,18 @@ NumberStatus parse_number(std::string_view text, double& value) {
 
 void append_number(std::string& out, double value, int precision) {
   precision = std::min(precision, kMostDigits);
-#if defined(__cpp_lib_to_chars)
-  char buffer[kNumberSize];
-  char* const end = buffer + kNumberSize;
   const double size = std::abs(value);
   const bool plain = size == 0.0 || (size >= 1e-5 && size < 1e16);
-  const auto result = precision > 0
-                          ? std::to_chars(buffer, end, value, std::chars_format::general, precision)
-                          : std::to_chars(buffer, end, value,
-                                          plain ? std::chars_format::fixed : std::chars_format::scientific);
+#if defined(VOROTOOL_EXACT_CHARS)
+  char buffer[kNumberSize];
+  char* const end = buffer + kNumberSize;
+  const auto form = plain ? std::chars_format::fixed : std::chars_format::scientific;
+  const auto result = precision > 0 ? std::to_chars(buffer, end, value, std::chars_format::general, precision)
+                                    : std::to_chars(buffer, end, value, form);
   out.append(buffer, result.ptr);
 #else
-  for (int digits = precision > 0 ? precision : 15; digits <= kMostDigits; ++digits) {
-    std::ostringstream stream;
-    stream.imbue(std::locale::classic());
-    stream << std::setprecision(digits) << value;
-    double back = 0.0;
-    const bool exact = parse_number(stream.str(), back) == NumberStatus::good && back == value;
-    if (precision > 0 || exact || digits == kMostDigits) {
-      out += stream.str();
-      return;
-    }
-  }
+  out += precision > 0 ? streamed(value, std::ios_base::fmtflags{}, precision)
+                       : shortest_by_stream(value, plain);
 #endif
 }
 

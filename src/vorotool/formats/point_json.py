@@ -83,7 +83,7 @@ def _read_document(name: str, document: Mapping[str, Any], options: PointOptions
     collected = _Collected()
     for index, feature in enumerate(features):
         _collect(collected, index, feature, place(index))
-        options.check_sites(name, len(collected.positions))
+    options.check_sites(name, len(collected.positions))
     xy = position_array(collected.positions, lambda i: place(collected.features[i]))
     if collected.without_geometry:
         options.note(f"{name}: {collected.without_geometry} features without a geometry are left out")

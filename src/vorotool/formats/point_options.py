@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -64,11 +65,13 @@ def position_array(positions: list[Any], place: Callable[[int], str]) -> NDArray
     InputError
         If one is not a list of at least two finite numbers.
     """
-    pairs = [p[:2] if type(p) is list else None for p in positions]
-    good = all(p is not None and len(p) == 2 for p in pairs)
-    if not good or not {type(v) for p in pairs if p for v in p} <= {int, float}:
+    pairs = positions
+    if set(map(type, positions)) <= {list} and max(map(len, positions), default=2) > 2:
+        pairs = [position[:2] for position in positions]
+    good = set(map(type, pairs)) <= {list} and set(map(len, pairs)) <= {2}
+    if not good or not set(map(type, chain.from_iterable(pairs))) <= {int, float}:
         _refuse_first(positions, place)
-    xy = np.array(pairs, dtype=np.float64).reshape(-1, 2)
+    xy = np.fromiter(chain.from_iterable(pairs), np.float64, 2 * len(pairs)).reshape(-1, 2)
     bad = np.flatnonzero(~np.isfinite(xy).all(axis=1))
     if bad.size:
         raise _position_error(place(int(bad[0])), positions[int(bad[0])])

@@ -13,7 +13,7 @@ from vorotool.formats.point_options import PointOptions, no_points, shortened
 from vorotool.formats.sources import Source, check_nesting
 from vorotool.geometry.points import PointSet
 
-_SRID = re.compile(r"SRID\s*=\s*\d+\s*;\s*", re.IGNORECASE)
+_SRID = re.compile(r"\ASRID\s*=\s*\d+\s*;\s*", re.IGNORECASE)
 _POINT, _MULTIPOINT, _COLLECTION = 0, 4, 7  # type numbers of GEOS
 
 
@@ -25,8 +25,8 @@ def read_wkt(source: Source, options: PointOptions) -> PointSet:
     texts, lines = _geometry_texts(source)
     with np.errstate(all="ignore"):  # numbers beyond the largest double are found below
         geometries = shapely.from_wkt(np.array(texts, dtype=object), on_invalid="ignore")
-    for geometry, text, line in zip(geometries, texts, lines, strict=True):
-        _check_geometry(geometry, text, f"{source.name}, line {line}")
+    for index in np.flatnonzero(shapely.get_type_id(geometries) != _POINT):
+        _check_geometry(geometries[index], texts[index], f"{source.name}, line {lines[index]}")
     points, owners = _single_points(geometries)
     options.check_sites(source.name, len(points))
     if not len(points):
