@@ -71,7 +71,9 @@ struct ScalarLanes {
     return exact && quotient >= 0 && quotient <= last;
   }
 
-  static void stream(void* target, const void* source, std::size_t bytes) { std::memcpy(target, source, bytes); }
+  static void stream(void* target, const void* source, std::size_t bytes) {
+    std::memcpy(target, source, bytes);
+  }
   static void fence() {}
 };
 

@@ -11,7 +11,8 @@ struct KeyedIndex {
   std::uint32_t index;
 };
 
-// Sorts by the lowest `bits` bits of the key; equal keys keep their order. Time linear in the number of items.
+// Sorts by the lowest `bits` bits of the key; equal keys keep their order. Time linear in the number of
+// items.
 void radix_sort(std::vector<KeyedIndex>& items, int bits);
 
 }  // namespace vorotool::core

@@ -1,7 +1,8 @@
 // The inner loops of the row sweep: one table of functions for each instruction set and number system.
 //
 // The row kernel files are compiled for wider instruction sets than the rest. They take raw pointers and call
-// nothing from the standard library, so that no inline function compiled for a wide machine is linked elsewhere.
+// nothing from the standard library, so that no inline function compiled for a wide machine is linked
+// elsewhere.
 #pragma once
 
 #include <cstddef>
@@ -19,15 +20,15 @@ inline constexpr std::int32_t kernel_padding = 64;
 // A column is a distinct x coordinate of the seeds; columns are in increasing x.
 template <class Arithmetic>
 struct Columns {
-  std::int32_t count;                      // columns
-  std::int32_t words;                      // 64-bit words of each bit set, ceil(count / 64)
-  const typename Arithmetic::Value* x;     // [count] increasing
+  std::int32_t count;                        // columns
+  std::int32_t words;                        // 64-bit words of each bit set, ceil(count / 64)
+  const typename Arithmetic::Value* x;       // [count] increasing
   typename Arithmetic::Coordinate* above_y;  // [count] valid where the bit in `above` is set; y <= row
   typename Arithmetic::Coordinate* below_y;  // [count] valid where the bit in `below` is set; y > row
-  std::uint32_t* above_label;              // [count]
-  std::uint32_t* below_label;              // [count]
-  std::uint64_t* above;                    // [words] bit c % 64 of word c / 64: column c has a live seed above
-  std::uint64_t* below;                    // [words]
+  std::uint32_t* above_label;                // [count]
+  std::uint32_t* below_label;                // [count]
+  std::uint64_t* above;  // [words] bit c % 64 of word c / 64: column c has a live seed above
+  std::uint64_t* below;  // [words]
 };
 
 // Seeds whose parabolas (x - x_i)^2 + dy_i^2 may be lowest somewhere on the row, in increasing x.
@@ -47,8 +48,9 @@ struct PixelRow {
   bool products_exact;  // equal rounded products are equal products (see arithmetic.hpp)
 };
 
-// The lower envelope of a row. Candidate i is nearest on pixels end[i - 1] + 1 ... end[i]; an integer boundary
-// (two candidates at the same distance from a pixel) ends the left one there and is listed in `ties`.
+// The lower envelope of a row. Candidate i is nearest on pixels end[i - 1] + 1 ... end[i]; an integer
+// boundary (two candidates at the same distance from a pixel) ends the left one there and is listed in
+// `ties`.
 template <class Arithmetic>
 struct Envelope {
   std::int32_t count;
@@ -65,7 +67,8 @@ template <class Arithmetic>
 struct RowKernel {
   // Collects the nearer seed of each column, then drops those that are nowhere nearest on the row.
   // Clears `above` bits of seeds that a nearer seed below hides for good.
-  void (*prune)(Columns<Arithmetic>&, typename Arithmetic::Coordinate row, const PixelRow&, Envelope<Arithmetic>&);
+  void (*prune)(Columns<Arithmetic>&, typename Arithmetic::Coordinate row, const PixelRow&,
+                Envelope<Arithmetic>&);
   // Fills end and ties of a pruned envelope.
   void (*bound)(const PixelRow&, Envelope<Arithmetic>&);
   // Writes labels over a row; up to 64 bytes behind its end are overwritten.

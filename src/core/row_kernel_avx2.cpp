@@ -8,7 +8,8 @@
 namespace vorotool::core {
 namespace {
 
-// Byte shuffles that move the chosen 32-bit elements of 128 bits to the front; for doubles, the same on pairs.
+// Byte shuffles that move the chosen 32-bit elements of 128 bits to the front; for doubles, the same on
+// pairs.
 struct CompressTables {
   alignas(16) std::uint8_t index[16][16];
   alignas(32) std::uint32_t pair[16][8];
@@ -62,10 +63,13 @@ struct Avx2Lanes {
     _mm256_storeu_ps(reinterpret_cast<float*>(out), _mm256_permutevar8x32_ps(_mm256_castpd_ps(v), order));
   }
 
-  static __m128i load_index(const std::uint32_t* p) { return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p)); }
+  static __m128i load_index(const std::uint32_t* p) {
+    return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
+  }
   static __m128i choose_index(Mask second, __m128i a, __m128i b) {
     const __m128i lane = _mm_setr_epi32(1, 2, 4, 8);
-    const __m128i chosen = _mm_cmpeq_epi32(_mm_and_si128(_mm_set1_epi32(static_cast<int>(second)), lane), lane);
+    const __m128i chosen =
+        _mm_cmpeq_epi32(_mm_and_si128(_mm_set1_epi32(static_cast<int>(second)), lane), lane);
     return _mm_blendv_epi8(a, b, chosen);
   }
   static __m128i min_index(__m128i a, __m128i b) { return _mm_min_epu32(a, b); }

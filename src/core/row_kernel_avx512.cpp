@@ -64,7 +64,8 @@ struct Avx512Lanes {
         _mm512_cmp_pd_mask(remainder, zero, _CMP_EQ_OQ) | _mm512_cmp_pd_mask(remainder, run, _CMP_EQ_OQ);
     const __m512d pixel = _mm512_add_pd(quotient, _mm512_set1_pd(pixels.middle));
     const __m512d last = _mm512_set1_pd(pixels.width - 1);
-    const __mmask8 inside = _mm512_cmp_pd_mask(pixel, zero, _CMP_GE_OQ) & _mm512_cmp_pd_mask(pixel, last, _CMP_LE_OQ);
+    const __mmask8 inside =
+        _mm512_cmp_pd_mask(pixel, zero, _CMP_GE_OQ) & _mm512_cmp_pd_mask(pixel, last, _CMP_LE_OQ);
     const __m512d clamped = _mm512_min_pd(_mm512_max_pd(pixel, _mm512_set1_pd(-1.0)), last);
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(end), _mm512_cvttpd_epi32(clamped));
     return exact & inside;

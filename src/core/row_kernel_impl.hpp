@@ -1,5 +1,6 @@
-// The row kernel, written once over a type of lanes (lanes_*.hpp): its width, loads, comparisons and compression.
-// Everything is a template over Lanes, and each Lanes type lives in one file, so no two files share an instance.
+// The row kernel, written once over a type of lanes (lanes_*.hpp): its width, loads, comparisons and
+// compression. Everything is a template over Lanes, and each Lanes type lives in one file, so no two files
+// share an instance.
 #pragma once
 
 #include "core/row_kernel.hpp"
@@ -15,12 +16,15 @@ struct RowKernelOn {
   static constexpr std::int32_t width = Lanes::width;
   static constexpr Mask all = (width == 32) ? ~Mask{0} : (Mask{1} << width) - 1;
 
-  // Pruning in rounds ends soon on almost every row; a chain of rounds longer than this is cut by one stack scan.
+  // Pruning in rounds ends soon on almost every row; a chain of rounds longer than this is cut by one stack
+  // scan.
   static constexpr int most_rounds = 8;
 
-  // ---- collecting ----------------------------------------------------------------------------------------------
+  // ---- collecting
+  // ----------------------------------------------------------------------------------------------
 
-  static std::int32_t collect(Columns<Arithmetic>& columns, Coordinate row, const Candidates<Arithmetic>& out) {
+  static std::int32_t collect(Columns<Arithmetic>& columns, Coordinate row,
+                              const Candidates<Arithmetic>& out) {
     std::int32_t n = 0;
     for (std::int32_t w = 0; w < columns.words; ++w) {
       const std::uint64_t above = columns.above[w];
@@ -39,10 +43,10 @@ struct RowKernelOn {
     return n;
   }
 
-  // Appends the nearer seed of each column of a group; returns the columns whose seed above is hidden by the one
-  // below. At equal distance both have the same parabola, and the smaller label stands for both.
-  static Mask collect_group(const Columns<Arithmetic>& columns, std::int32_t first, Mask a, Mask b, Coordinate row,
-                            const Candidates<Arithmetic>& out, std::int32_t n) {
+  // Appends the nearer seed of each column of a group; returns the columns whose seed above is hidden by the
+  // one below. At equal distance both have the same parabola, and the smaller label stands for both.
+  static Mask collect_group(const Columns<Arithmetic>& columns, std::int32_t first, Mask a, Mask b,
+                            Coordinate row, const Candidates<Arithmetic>& out, std::int32_t n) {
     const auto da = Lanes::distance(row, columns.above_y + first);
     const auto db = Lanes::distance(row, columns.below_y + first);
     const auto square_a = Lanes::mul(da, da);
@@ -64,11 +68,14 @@ struct RowKernelOn {
     return hidden;
   }
 
-  // ---- pruning -------------------------------------------------------------------------------------------------
+  // ---- pruning
+  // -------------------------------------------------------------------------------------------------
 
-  // Candidate i is strictly above the lower envelope of its neighbours a and b everywhere, hence nowhere nearest,
-  // when its boundary with b lies left of its boundary with a. A tie keeps it: its label may be the smallest.
-  static bool hidden_exactly(const Candidates<Arithmetic>& c, std::int32_t a, std::int32_t i, std::int32_t b) {
+  // Candidate i is strictly above the lower envelope of its neighbours a and b everywhere, hence nowhere
+  // nearest, when its boundary with b lies left of its boundary with a. A tie keeps it: its label may be the
+  // smallest.
+  static bool hidden_exactly(const Candidates<Arithmetic>& c, std::int32_t a, std::int32_t i,
+                             std::int32_t b) {
     const auto whole = [](Value v) { return static_cast<int128>(v); };
     return (whole(c.value[b]) - whole(c.value[i])) * (whole(c.x[i]) - whole(c.x[a])) <
            (whole(c.value[i]) - whole(c.value[a])) * (whole(c.x[b]) - whole(c.x[i]));
@@ -91,8 +98,8 @@ struct RowKernelOn {
     return hidden;
   }
 
-  // One round: copies the candidates that are not hidden by their neighbours. All hidden ones may go at once: what
-  // hides a candidate at some x is lower there, and the lowest is hidden by nothing.
+  // One round: copies the candidates that are not hidden by their neighbours. All hidden ones may go at once:
+  // what hides a candidate at some x is lower there, and the lowest is hidden by nothing.
   static std::int32_t prune_round(const Candidates<Arithmetic>& from, std::int32_t n, bool products_exact,
                                   const Candidates<Arithmetic>& to, Envelope<Arithmetic>& envelope) {
     copy_one(from, 0, to, 0);
@@ -109,7 +116,8 @@ struct RowKernelOn {
       Lanes::compress_index(reinterpret_cast<std::uint32_t*>(to.column + kept), keep, column);
       kept += __builtin_popcount(keep);
       if (hidden != 0) {
-        Lanes::compress_index(reinterpret_cast<std::uint32_t*>(envelope.dead + envelope.dead_count), hidden, column);
+        Lanes::compress_index(reinterpret_cast<std::uint32_t*>(envelope.dead + envelope.dead_count), hidden,
+                              column);
         envelope.dead_count += __builtin_popcount(hidden);
       }
     }
@@ -161,7 +169,8 @@ struct RowKernelOn {
     envelope.count = n;
   }
 
-  // ---- boundaries ----------------------------------------------------------------------------------------------
+  // ---- boundaries
+  // ----------------------------------------------------------------------------------------------
 
   static void bound(const PixelRow& pixels, Envelope<Arithmetic>& envelope) {
     const Candidates<Arithmetic>& c = envelope.candidates;
@@ -184,7 +193,8 @@ struct RowKernelOn {
     if (n > 0) envelope.end[n - 1] = pixels.width - 1;
   }
 
-  // ---- filling -------------------------------------------------------------------------------------------------
+  // ---- filling
+  // -------------------------------------------------------------------------------------------------
 
   // Spans are written in whole vectors from left to right: each overwrites what the one before wrote too far.
   template <class Label>
@@ -202,13 +212,8 @@ struct RowKernelOn {
   }
 
   static RowKernel<Arithmetic> table() {
-    return {prune,
-            bound,
-            fill<std::uint8_t>,
-            fill<std::uint16_t>,
-            fill<std::uint32_t>,
-            Lanes::stream,
-            Lanes::fence};
+    return {prune,         bound,       fill<std::uint8_t>, fill<std::uint16_t>, fill<std::uint32_t>,
+            Lanes::stream, Lanes::fence};
   }
 };
 

@@ -60,7 +60,8 @@ std::vector<std::uint32_t> sweep_order(const Relative& seeds) {
       items[i] = {x_bits == 64 ? dx : dy << x_bits | dx, static_cast<std::uint32_t>(i)};
     }
     radix_sort(items, x_bits + y_bits);
-    std::transform(items.begin(), items.end(), order.begin(), [](const KeyedIndex& item) { return item.index; });
+    std::transform(items.begin(), items.end(), order.begin(),
+                   [](const KeyedIndex& item) { return item.index; });
   } else {
     std::iota(order.begin(), order.end(), std::uint32_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -127,9 +128,9 @@ Sites prepare_sites(std::span<const std::int64_t> x, std::span<const std::int64_
   sites.duplicates = x.size() - count;
   kept.resize(count);
   sites.column_x = number_columns(seeds, kept, sites.column);
-  sites.largest_coordinate =
-      std::max({-seeds.least_x, seeds.most_x, -seeds.least_y, seeds.most_y,
-                std::int64_t{frame.steps} * (frame.middle_column() + 1), std::int64_t{frame.steps} * (frame.middle_row() + 1)});
+  sites.largest_coordinate = std::max({-seeds.least_x, seeds.most_x, -seeds.least_y, seeds.most_y,
+                                       std::int64_t{frame.steps} * (frame.middle_column() + 1),
+                                       std::int64_t{frame.steps} * (frame.middle_row() + 1)});
   return sites;
 }
 

@@ -6,8 +6,8 @@ namespace vorotool::core {
 
 namespace {
 
-// Births are learnt every so many rows. A seed that is born too early is only pruned again on those rows, so the
-// step changes the time and never the result; 8 balances the two sweeps (measured for n = 10^4 and 10^6).
+// Births are learnt every so many rows. A seed that is born too early is only pruned again on those rows, so
+// the step changes the time and never the result; 8 balances the two sweeps (measured for n = 10^4 and 10^6).
 constexpr std::int32_t birth_step = 8;
 
 void set_bit(std::vector<std::uint64_t>& bits, std::int32_t i) {
@@ -28,7 +28,8 @@ Sweep<Arithmetic>::Sweep(const Sites& sites, const FrameOnLattice& frame, const 
   const std::size_t count = sites.column_x.size();
   const std::size_t padded = count + kernel_padding;
   const std::size_t words = (count + 63) / 64;
-  pixels_ = {frame.width, frame.middle_column(), frame.steps, sites.largest_coordinate <= exact_product_bound};
+  pixels_ = {frame.width, frame.middle_column(), frame.steps,
+             sites.largest_coordinate <= exact_product_bound};
   column_x_.resize(padded);
   std::transform(sites.column_x.begin(), sites.column_x.end(), column_x_.begin(),
                  [](std::int64_t x) { return static_cast<Value>(x); });
@@ -39,17 +40,23 @@ Sweep<Arithmetic>::Sweep(const Sites& sites, const FrameOnLattice& frame, const 
   below_site_.resize(padded);
   above_.resize(words);
   below_.resize(words);
-  columns_ = {static_cast<std::int32_t>(count), static_cast<std::int32_t>(words), column_x_.data(),
-              above_y_.data(),                  below_y_.data(),                  above_label_.data(),
-              below_label_.data(),              above_.data(),                    below_.data()};
-  values_.resize(4 * padded);
-  labels_.resize(2 * padded);
-  indices_.resize(5 * padded);
-  Value* v = values_.data();
-  std::int32_t* i = indices_.data();
+  columns_ = {static_cast<std::int32_t>(count),
+              static_cast<std::int32_t>(words),
+              column_x_.data(),
+              above_y_.data(),
+              below_y_.data(),
+              above_label_.data(),
+              below_label_.data(),
+              above_.data(),
+              below_.data()};
+  values_ = std::make_unique_for_overwrite<Value[]>(4 * padded);
+  labels_ = std::make_unique_for_overwrite<std::uint32_t[]>(2 * padded);
+  indices_ = std::make_unique_for_overwrite<std::int32_t[]>(5 * padded);
+  Value* v = values_.get();
+  std::int32_t* i = indices_.get();
   envelope_ = {};
-  envelope_.candidates = {v, v + padded, labels_.data(), i};
-  envelope_.spare = {v + 2 * padded, v + 3 * padded, labels_.data() + padded, i + padded};
+  envelope_.candidates = {v, v + padded, labels_.get(), i};
+  envelope_.spare = {v + 2 * padded, v + 3 * padded, labels_.get() + padded, i + padded};
   envelope_.end = i + 2 * padded;
   envelope_.ties = i + 3 * padded;
   envelope_.dead = i + 4 * padded;
@@ -58,7 +65,8 @@ Sweep<Arithmetic>::Sweep(const Sites& sites, const FrameOnLattice& frame, const 
 template <class Arithmetic>
 void Sweep<Arithmetic>::start(std::int32_t first, std::int32_t last) {
   const auto count_to = [&](std::int64_t line) {  // seeds at or above a line
-    return static_cast<std::int32_t>(std::upper_bound(sites_.y.begin(), sites_.y.end(), line) - sites_.y.begin());
+    return static_cast<std::int32_t>(std::upper_bound(sites_.y.begin(), sites_.y.end(), line) -
+                                     sites_.y.begin());
   };
   clear_columns();
   births_.clear();
@@ -90,7 +98,8 @@ void Sweep<Arithmetic>::set_below(std::int32_t column, std::int32_t site) {
 // The nearest seed at or above a line in each column: the first one met going up.
 template <class Arithmetic>
 void Sweep<Arithmetic>::collect_nearest_above(std::int64_t line) {
-  auto s = static_cast<std::size_t>(std::upper_bound(sites_.y.begin(), sites_.y.end(), line) - sites_.y.begin());
+  auto s =
+      static_cast<std::size_t>(std::upper_bound(sites_.y.begin(), sites_.y.end(), line) - sites_.y.begin());
   for (std::int32_t missing = columns_.count; s > 0 && missing > 0;) {
     --s;
     const std::int32_t c = sites_.column[s];
@@ -105,7 +114,8 @@ void Sweep<Arithmetic>::collect_nearest_above(std::int64_t line) {
 // The nearest seed below a line in each column: the first one met going down.
 template <class Arithmetic>
 void Sweep<Arithmetic>::collect_nearest_below(std::int64_t line) {
-  auto s = static_cast<std::size_t>(std::upper_bound(sites_.y.begin(), sites_.y.end(), line) - sites_.y.begin());
+  auto s =
+      static_cast<std::size_t>(std::upper_bound(sites_.y.begin(), sites_.y.end(), line) - sites_.y.begin());
   for (std::int32_t missing = columns_.count; s < sites_.size() && missing > 0; ++s) {
     if (has_bit(below_, sites_.column[s])) continue;
     set_below(sites_.column[s], static_cast<std::int32_t>(s));
@@ -113,15 +123,17 @@ void Sweep<Arithmetic>::collect_nearest_below(std::int64_t line) {
   }
 }
 
-// Sweeps up from the last row with the seeds below only. Where a seed's cell no longer meets a row, the seed is
-// born on the row after it; where a nearer seed of the same column takes over, it is linked behind that one.
+// Sweeps up from the last row with the seeds below only. Where a seed's cell no longer meets a row, the seed
+// is born on the row after it; where a nearer seed of the same column takes over, it is linked behind that
+// one.
 template <class Arithmetic>
 void Sweep<Arithmetic>::learn_births(std::int32_t first, std::int32_t last) {
   auto site = offset_ + static_cast<std::int32_t>(next_below_.size());
   drop_dead_below(last);
   for (std::int32_t row = last; row > first;) {
     row = std::max(first, row - birth_step);
-    for (const std::int64_t line = frame_.row_y(row); site > 0 && sites_.y[static_cast<std::size_t>(site - 1)] > line;) {
+    for (const std::int64_t line = frame_.row_y(row);
+         site > 0 && sites_.y[static_cast<std::size_t>(site - 1)] > line;) {
       --site;
       const std::int32_t column = sites_.column[static_cast<std::size_t>(site)];
       if (has_bit(below_, column)) {

@@ -1,13 +1,14 @@
 // The row sweep over a band of rows: which seeds are nearest on each row, and where they meet.
 //
-// A Voronoi cell is convex and contains its site. Going down the rows, once the cell of a seed above the current
-// row no longer meets the row, it meets no later row and the seed is dropped for good; likewise going up for the
-// seeds below. So a row sees only the seeds whose cells meet it, about 1.6 sqrt(n) of n uniform seeds, and a band
-// of rows can start anywhere from two lists: the nearest seed above and below in each column.
+// A Voronoi cell is convex and contains its site. Going down the rows, once the cell of a seed above the
+// current row no longer meets the row, it meets no later row and the seed is dropped for good; likewise going
+// up for the seeds below. So a row sees only the seeds whose cells meet it, about 1.6 sqrt(n) of n uniform
+// seeds, and a band of rows can start anywhere from two lists: the nearest seed above and below in each
+// column.
 #pragma once
 
 #include <cstdint>
-#include <span>
+#include <memory>
 #include <vector>
 
 #include "core/row_kernel.hpp"
@@ -60,12 +61,14 @@ class Sweep {
   std::vector<std::int32_t> below_site_;
   Columns<Arithmetic> columns_;
 
-  std::vector<Value> values_;
-  std::vector<std::uint32_t> labels_;
-  std::vector<std::int32_t> indices_;
+  // Room for the envelope: as many elements as there are columns, of which few are ever touched.
+  std::unique_ptr<Value[]> values_;
+  std::unique_ptr<std::uint32_t[]> labels_;
+  std::unique_ptr<std::int32_t[]> indices_;
   Envelope<Arithmetic> envelope_;
 
-  std::vector<std::int32_t> next_below_;  // site - offset_ -> the seed that is live below it in its column, or none
+  std::vector<std::int32_t>
+      next_below_;  // site - offset_ -> the seed that is live below it in its column, or none
   std::vector<Birth> births_;
   std::int32_t offset_ = 0;
   std::int32_t next_site_ = 0;

@@ -39,9 +39,7 @@ class LabelImage:
     def __post_init__(self) -> None:
         labels = np.asarray(self.labels)
         if labels.ndim != 2 or labels.dtype.kind not in "ui":
-            raise InputError(
-                f"labels must be a 2-D integer array, but are {labels.ndim}-D of type {labels.dtype}"
-            )
+            raise InputError(f"labels must be a 2-D integer array, but are {labels.ndim}-D of type {labels.dtype}")
         object.__setattr__(self, "labels", labels)
         if self.frame is None:
             object.__setattr__(self, "frame", Frame(0, 0, labels.shape[1], labels.shape[0]))
