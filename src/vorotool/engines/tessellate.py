@@ -42,6 +42,10 @@ class Tessellator:
         Pixels farther than this from every seed get label 0.
     threads : int
         0 uses all.
+    strict : bool
+        Refuse several seeds at one place.
+    progress : callable, optional
+        Called now and then with the fraction done of the rows asked for.
 
     Raises
     ------
@@ -72,26 +76,21 @@ class Tessellator:
         *,
         max_distance: float | Fraction | None = None,
         threads: int = 0,
+        strict: bool = False,
         progress: Progress | None = None,
     ) -> None:
-        if len(seeds) == 0:
-            raise InputError("there are no seeds, so nothing could be labelled: give at least one point")
+        require_seeds(seeds)
         self.seeds = seeds
         self.frame = frame or default_frame(seeds)
         if max(self.frame.shape) > MAX_SIDE:
             raise LimitError(f"the frame is {self.frame.width} x {self.frame.height}: a side has at most 2^30 pixels")
         self.simd = simd_level()
-        self._most_squared = squared_limit(max_distance, seeds.scale)
+        self.most_squared = squared_limit(max_distance, seeds.scale)
         self._threads = checked_threads(threads)
         self._progress = progress
         self._core = self._prepare()
         self.duplicates: int = self._core.duplicates
-        if self.duplicates:
-            warnings.warn(
-                f"{self.duplicates} of {len(seeds)} seeds lie on another seed: the smallest label has the region",
-                VorotoolWarning,
-                stacklevel=3,
-            )
+        report_duplicates(self.duplicates, len(seeds), strict=strict)
 
     def _prepare(self) -> _core.Tessellation:
         seeds, frame = self.seeds, self.frame
@@ -146,7 +145,7 @@ class Tessellator:
         """
         kind = label_dtype(self.seeds.largest_label, out.dtype if out is not None else dtype)
         array = self._output(first, rows, kind, out)
-        limit = None if self._most_squared is None else divmod(self._most_squared, 2**64)
+        limit = None if self.most_squared is None else divmod(self.most_squared, 2**64)
         self._core.labels(array, first, limit, self._threads, self._progress)
         return array
 
@@ -184,12 +183,6 @@ class Tessellator:
         if largest >= 2**64:
             raise LimitError("squared distances of this frame may exceed 64 bits: use --what distance")
         return np.dtype(np.uint32 if largest < 2**32 else np.uint64)
-
-    def bands(self, rows_of: Callable[[int, int], NDArray[Any]]) -> Iterator[NDArray[Any]]:
-        """Give all rows in bands: ``rows_of(first, rows)`` for one band after the other."""
-        height = max(1, BAND_PIXELS // self.frame.width)
-        for first in range(0, self.frame.height, height):
-            yield rows_of(first, min(height, self.frame.height - first))
 
     def _output(self, first: int, rows: int | None, dtype: np.dtype[Any], out: NDArray[Any] | None) -> NDArray[Any]:
         rows = self.frame.height - first if rows is None else rows
@@ -315,8 +308,7 @@ def propagate(
     """
     if passes not in (1, 2):
         raise UsageError(f"passes is {passes}: it must be 1 or 2")
-    if len(seeds) == 0:
-        raise InputError("there are no seeds, so nothing could be labelled: give at least one point")
+    require_seeds(seeds)
     frame = frame or default_frame(seeds)
     if seeds.scale != 1:
         raise InputError("the paper's propagation starts from pixels: round the seeds, or use --method exact")
@@ -335,6 +327,152 @@ def propagate(
         return LabelImage(labels.astype(kind, copy=False), frame, seeds)
     out[...] = labels
     return LabelImage(out, frame, seeds)
+
+
+class PropagatedRows:
+    """The paper's tessellation, held in memory, with the interface of `Tessellator` for its rows.
+
+    Parameters
+    ----------
+    seeds, frame, passes, progress
+        As for `propagate`.
+    max_pixels : int
+        Larger frames are refused before memory is taken.
+
+    Examples
+    --------
+    >>> seeds = seeds_from_points(PointSet([[2, 0], [1, 2], [0, 6]]))
+    >>> PropagatedRows(seeds, Frame(0, 0, 14, 8)).compare_with_exact()["wrong_pixels"]
+    1
+    """
+
+    def __init__(
+        self,
+        seeds: SeedSet,
+        frame: Frame | None = None,
+        *,
+        passes: int = 2,
+        max_pixels: int = MAX_PIXELS,
+        progress: Progress | None = None,
+    ) -> None:
+        require_seeds(seeds)
+        self.seeds = seeds
+        self.frame = frame or default_frame(seeds)
+        require_memory(self.frame, max_pixels)
+        self._labels = propagate(seeds, self.frame, passes=passes, progress=progress).labels
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            self._exact = Tessellator(seeds, self.frame)
+        self.duplicates = self._exact.duplicates
+        report_duplicates(self.duplicates, len(seeds), strict=False)
+
+    def labels(self, first: int = 0, rows: int | None = None, *, dtype: Any = None) -> NDArray[Any]:
+        """Labels of some rows, as `Tessellator.labels` gives them."""
+        rows = self.frame.height - first if rows is None else rows
+        kind = label_dtype(self.seeds.largest_label, dtype)
+        return self._labels[first : first + rows].astype(kind, copy=False)
+
+    def compare_with_exact(self) -> dict[str, Any]:
+        """Count the pixels that differ from the exact tessellation, and name the first in raster order.
+
+        Returns
+        -------
+        dict
+            ``wrong_pixels``, and ``first_wrong``: None, or ``x``, ``y``, ``label`` and ``exact_label``.
+        """
+        count, first = 0, None
+        for start, rows in band_limits(self.frame):
+            found, exact = self.labels(start, rows), self._exact.labels(start, rows)
+            wrong = found != exact
+            count += int(wrong.sum())
+            if first is None and wrong.any():
+                row, column = (int(v) for v in np.unravel_index(int(wrong.argmax()), wrong.shape))
+                first = {
+                    "x": self.frame.x + column,
+                    "y": self.frame.y + start + row,
+                    "label": int(found[row, column]),
+                    "exact_label": int(exact[row, column]),
+                }
+        return {"wrong_pixels": count, "first_wrong": first}
+
+
+def band_limits(frame: Frame) -> Iterator[tuple[int, int]]:
+    """First row and number of rows of the bands in which a frame is streamed."""
+    height = max(1, BAND_PIXELS // frame.width)
+    for first in range(0, frame.height, height):
+        yield first, min(height, frame.height - first)
+
+
+def verify_rows(rows: Tessellator | PropagatedRows, *, threads: int = 0) -> None:
+    """Check every label against an independent exact nearest-seed search, band by band.
+
+    Raises
+    ------
+    VerificationError
+        If a label is wrong; the first such pixel is named.
+
+    Examples
+    --------
+    >>> verify_rows(Tessellator(seeds_from_points(PointSet([[0, 0], [4, 0]])), Frame(0, 0, 5, 3)))
+    """
+    from vorotool.engines.regions import verify_label_image
+
+    for first, count in band_limits(rows.frame):
+        frame = Frame(rows.frame.x, rows.frame.y + first, rows.frame.width, count)
+        limit = rows.most_squared if isinstance(rows, Tessellator) else None
+        verify_label_image(rows.labels(first, count), rows.seeds, frame, max_distance2=limit, threads=threads)
+
+
+def verify_tessellation(image: LabelImage, *, max_distance: float | Fraction | None = None, threads: int = 0) -> None:
+    """Check that every pixel of a tessellation has the smallest label of its nearest seeds.
+
+    Parameters
+    ----------
+    image : LabelImage
+        With its seeds, as `tessellate` gives it.
+    max_distance : float or Fraction, optional
+        The limit that the tessellation was made with.
+    threads : int
+        0 uses all.
+
+    Raises
+    ------
+    VerificationError
+        If a label is wrong; the first such pixel is named.
+    UsageError
+        If the image carries no seeds.
+
+    Examples
+    --------
+    >>> verify_tessellation(tessellate([[0, 0], [2, 1]], shape=(2, 3)))
+    """
+    from vorotool.engines.regions import verify_label_image
+
+    if image.seeds is None or image.frame is None:
+        raise UsageError("the label image carries no seeds: make it with vorotool.tessellate")
+    limit = squared_limit(max_distance, image.seeds.scale)
+    verify_label_image(image.labels, image.seeds, image.frame, max_distance2=limit, threads=threads)
+
+
+def require_seeds(seeds: SeedSet) -> None:
+    """Refuse an empty list: nothing could be labelled."""
+    if len(seeds) == 0:
+        raise InputError("there are no seeds, so nothing could be labelled: give at least one point")
+
+
+def report_duplicates(duplicates: int, seeds: int, *, strict: bool) -> None:
+    """Warn of several seeds at one place, or refuse them."""
+    if not duplicates:
+        return
+    if strict:
+        raise InputError(
+            f"{duplicates} of {seeds} seeds lie on another seed: remove the duplicates, or leave out --strict"
+        )
+    warnings.warn(
+        f"{duplicates} of {seeds} seeds lie on another seed: the smallest label has the region",
+        VorotoolWarning,
+        stacklevel=4,
+    )
 
 
 def as_seeds(source: Any) -> SeedSet:
