@@ -10,8 +10,9 @@
 // product is
 //   rounded once. Rounding is monotone: fl(p) < fl(p') implies p < p'. Only fl(p) == fl(p') leaves a doubt,
 //   and no doubt is left while 10 N^3 <= 2^53, that is N <= 2^16 (products exact); beyond, equal products are
-//   compared again in 128 bits, where 10 N^3 <= 2^79.
-// Wide: F is a 128-bit integer and so are the products: 10 N^3 < 2^127 holds for N <= 2^41.
+//   compared again in 128 bits, where 10 N^3 < 2^79.
+// Wide: F is a 128-bit integer and so are the products: 10 N^3 < 2^124 for N <= 2^40, the bound set here: it leaves
+//   room for the k-d tree of the checker, which squares differences of absolute coordinates.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +24,7 @@ __extension__ typedef unsigned __int128 uint128;
 
 inline constexpr std::int64_t exact_product_bound = std::int64_t{1} << 16;
 inline constexpr std::int64_t narrow_bound = std::int64_t{1} << 25;
-inline constexpr std::int64_t wide_bound = std::int64_t{1} << 41;
+inline constexpr std::int64_t wide_bound = std::int64_t{1} << 40;
 
 struct Narrow {
   using Coordinate = std::int32_t;

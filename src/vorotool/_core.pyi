@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
 class SeedTooFarError(ValueError): ...
@@ -53,9 +54,6 @@ def propagate(
 ) -> None: ...
 def stream_fill(out: NDArray[Any], threads: int) -> None: ...
 def widest_simd() -> str: ...
-
-import numpy as np
-from numpy.typing import NDArray
 
 _Progress = Callable[[float], object] | None
 

@@ -56,8 +56,8 @@ class Threshold(click.ParamType[float | str]):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float | str:
         """Parse the number."""
-        if value == "otsu" or isinstance(value, float):
-            return value
+        if value == "otsu":
+            return "otsu"
         try:
             return float(value)
         except ValueError:

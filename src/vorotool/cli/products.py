@@ -12,7 +12,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.cli.targets import Target
-from vorotool.engines.tessellate import PropagatedRows, Tessellator, band_limits, label_dtype, require_memory
+from vorotool.engines.regions import (
+    RegionMeasures,
+    colour_regions,
+    measure_regions,
+    neighbour_table,
+    region_table,
+    voronoi_diagram,
+)
+from vorotool.engines.tessellate import (
+    PropagatedRows,
+    Tessellator,
+    band_limits,
+    label_dtype,
+    require_memory,
+    verify_rows,
+)
 from vorotool.geometry.label_image import LabelImage
 
 DARK_LABELS = 1024
@@ -45,11 +60,14 @@ class Products:
         return LabelImage(self.rows.labels(dtype=self.dtype), self.rows.frame, self.rows.seeds)
 
     @cached_property
+    def measures(self) -> RegionMeasures:
+        """Areas, borders and boxes of the regions: one pass that tables and colours share."""
+        return measure_regions(self.image, threads=self.options.threads)
+
+    @cached_property
     def colours(self) -> NDArray[Any]:
         """Colour class of each label."""
-        from vorotool.engines.regions import colour_regions
-
-        return colour_regions(self.image, threads=self.options.threads)
+        return colour_regions(self.image, measures=self.measures)
 
     def write(self, target: Target, *, inputs: Sequence[str]) -> None:
         """Write one result."""
@@ -72,15 +90,12 @@ class Products:
         )
 
     def _write_diagram(self, out: BinaryIO, fmt: str) -> None:
-        from vorotool.engines.regions import voronoi_diagram
         from vorotool.render.palettes import PAPER
 
-        height = self.rows.frame.height
-
         def rows_of(first: int, rows: int) -> NDArray[Any]:
-            above, below = min(1, first), min(1, height - first - rows)
+            above, below = min(1, first), min(1, self.rows.frame.height - first - rows)
             labels = self.rows.labels(first - above, rows + above + below, dtype=self.dtype)
-            return voronoi_diagram(LabelImage(labels), threads=self.options.threads)[above : above + rows]
+            return voronoi_diagram(labels, threads=self.options.threads)[above : above + rows]
 
         self._write_rows(out, fmt, rows_of, np.dtype(np.uint8), 1, palette=PAPER, bit_depth=1)
 
@@ -100,15 +115,12 @@ class Products:
         self._write_rows(out, fmt, rows.squared_distances, rows.square_dtype, int(np.iinfo(rows.square_dtype).max))
 
     def _write_table(self, out: BinaryIO, fmt: str) -> None:
-        from vorotool.engines.regions import region_table
-
         squares = self.rows.squared_distances() if isinstance(self.rows, Tessellator) else None
-        self._write_columns(out, fmt, region_table(self.image, distance2=squares, threads=self.options.threads))
+        table = region_table(self.image, distance2=squares, measures=self.measures, threads=self.options.threads)
+        self._write_columns(out, fmt, table)
 
     def _write_neighbours(self, out: BinaryIO, fmt: str) -> None:
-        from vorotool.engines.regions import neighbour_table
-
-        self._write_columns(out, fmt, neighbour_table(self.image, threads=self.options.threads))
+        self._write_columns(out, fmt, neighbour_table(self.image, measures=self.measures))
 
     def _write_columns(self, out: BinaryIO, fmt: str, table: Any) -> None:
         from vorotool.formats.tables import write_table
@@ -157,8 +169,6 @@ class Products:
 
     def verify(self) -> None:
         """Check the labels of every band against an independent nearest-seed search."""
-        from vorotool.engines.tessellate import verify_rows
-
         verify_rows(self.rows, threads=self.options.threads)
 
     def stats(self) -> dict[str, Any]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, Literal
@@ -13,7 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.engines.label_arrays import Progress, checked_threads
 from vorotool.engines.seeding import seeds_from_points, seeds_from_raster
+from vorotool.engines.verification import verify_label_image
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
 from vorotool.geometry.frame import MAX_PIXELS, MAX_SIDE, Frame
 from vorotool.geometry.label_image import LabelImage
@@ -21,7 +23,6 @@ from vorotool.geometry.points import PointSet
 from vorotool.geometry.raster import Raster
 from vorotool.geometry.seeds import SeedSet
 
-Progress = Callable[[float], object]
 Method = Literal["exact", "propagation"]
 
 SIMD_LEVELS = ("portable", "avx2", "avx512")
@@ -77,7 +78,7 @@ class Tessellator:
         max_distance: float | Fraction | None = None,
         threads: int = 0,
         strict: bool = False,
-        progress: Progress | None = None,
+        progress: Progress = None,
     ) -> None:
         require_seeds(seeds)
         self.seeds = seeds
@@ -109,7 +110,7 @@ class Tessellator:
         except _core.SeedTooFarError as error:
             raise InputError(
                 f"{error} for exact arithmetic: coordinates relative to the middle of the frame must be at most "
-                f"2^41 lattice steps ({2**41 // seeds.scale} pixels for these seeds); use a nearer --window"
+                f"2^40 lattice steps ({2**40 // seeds.scale} pixels for these seeds); use a nearer --window"
             ) from None
 
     @property
@@ -210,7 +211,7 @@ def tessellate(
     out: NDArray[Any] | None = None,
     threads: int = 0,
     max_pixels: int = MAX_PIXELS,
-    progress: Progress | None = None,
+    progress: Progress = None,
 ) -> LabelImage:
     """Label every pixel with its nearest seed; ties go to the smallest label.
 
@@ -280,7 +281,7 @@ def propagate(
     passes: int = 2,
     dtype: Any = None,
     out: NDArray[Any] | None = None,
-    progress: Progress | None = None,
+    progress: Progress = None,
 ) -> LabelImage:
     """Run the paper's two passes to the letter (section 2.2), with an implicit frame of zero labels.
 
@@ -353,7 +354,7 @@ class PropagatedRows:
         *,
         passes: int = 2,
         max_pixels: int = MAX_PIXELS,
-        progress: Progress | None = None,
+        progress: Progress = None,
     ) -> None:
         require_seeds(seeds)
         self.seeds = seeds
@@ -415,8 +416,6 @@ def verify_rows(rows: Tessellator | PropagatedRows, *, threads: int = 0) -> None
     --------
     >>> verify_rows(Tessellator(seeds_from_points(PointSet([[0, 0], [4, 0]])), Frame(0, 0, 5, 3)))
     """
-    from vorotool.engines.regions import verify_label_image
-
     for first, count in band_limits(rows.frame):
         frame = Frame(rows.frame.x, rows.frame.y + first, rows.frame.width, count)
         limit = rows.most_squared if isinstance(rows, Tessellator) else None
@@ -446,8 +445,6 @@ def verify_tessellation(image: LabelImage, *, max_distance: float | Fraction | N
     --------
     >>> verify_tessellation(tessellate([[0, 0], [2, 1]], shape=(2, 3)))
     """
-    from vorotool.engines.regions import verify_label_image
-
     if image.seeds is None or image.frame is None:
         raise UsageError("the label image carries no seeds: make it with vorotool.tessellate")
     limit = squared_limit(max_distance, image.seeds.scale)
@@ -544,13 +541,6 @@ def squared_limit(max_distance: float | Fraction | None, scale: int) -> int | No
     if not max_distance >= 0 or max_distance == float("inf"):
         raise UsageError(f"max_distance is {max_distance}: it must be 0 or larger, and finite")
     return int(min((Fraction(max_distance) * scale) ** 2, Fraction(2**127)))
-
-
-def checked_threads(threads: int) -> int:
-    """Refuse negative numbers of threads."""
-    if threads < 0:
-        raise UsageError(f"threads is {threads}: it must be 0 (all) or larger")
-    return threads
 
 
 def simd_level() -> str:
