@@ -123,9 +123,7 @@ def main() -> None:
             parts, seconds = measure(image, compress, options.threads)
             whole = zlib.decompressobj(-15).decompress(b"".join(parts))
             correct = zlib.adler32(whole) == zlib.adler32(filtered(image, 0, len(image)))
-            cells.append(
-                f"{sum(map(len, parts)) / 1e6:9.2f} MB {seconds:6.3f} s {'' if correct else 'WRONG'}"
-            )
+            cells.append(f"{sum(map(len, parts)) / 1e6:9.2f} MB {seconds:6.3f} s {'' if correct else 'WRONG'}")
         print(f"{name:34}" + "".join(f"{cell:>24}" for cell in cells))
     sizes = [written(image, options.threads) for image in images.values()]
     print(f"{'write_png, into a file':34}" + "".join(f"{b / 1e6:12.2f} MB {s:6.3f} s " for b, s in sizes))

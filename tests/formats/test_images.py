@@ -28,9 +28,7 @@ def chunk(kind: bytes, body: bytes) -> bytes:
     return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
 
 
-def plain_png(
-    rows: NDArray[np.generic], depth: int, colour_type: int, width: int, filter_type: int = 0
-) -> bytes:
+def plain_png(rows: NDArray[np.generic], depth: int, colour_type: int, width: int, filter_type: int = 0) -> bytes:
     """A PNG from rows of packed bytes, unfiltered or with filter Sub."""
     data = np.ascontiguousarray(rows).view(np.uint8).reshape(len(rows), -1)
     if filter_type == 1:
@@ -112,9 +110,7 @@ def test_png_16_bit_grey_as_rgb_is_reduced_exactly() -> None:
 def test_png_bomb_is_a_limit_at_once() -> None:
     header = chunk(b"IHDR", struct.pack(">IIBBBBB", 60_000, 60_000, 16, 2, 0, 0, 0))
     begin = time.perf_counter()
-    with pytest.raises(
-        LimitError, match=r"bomb.png is 60000 x 60000 = 3600000000 pixels.*--max-pixels 2147483648"
-    ):
+    with pytest.raises(LimitError, match=r"bomb.png is 60000 x 60000 = 3600000000 pixels.*--max-pixels 2147483648"):
         read("bomb.png", b"\x89PNG\r\n\x1a\n" + header + chunk(b"IDAT", b"x"), max_pixels=2**31)
     assert time.perf_counter() - begin < 0.5
 
@@ -235,9 +231,7 @@ def test_npy(dtype: str) -> None:
     np.testing.assert_array_equal(read("a.npy", out.getvalue()), values)
 
 
-@pytest.mark.parametrize(
-    ("shape", "message"), [((4,), r"\(4,\)"), ((2, 2, 5), "C from 1 to 4"), ((0, 3), "3 x 0")]
-)
+@pytest.mark.parametrize(("shape", "message"), [((4,), r"\(4,\)"), ((2, 2, 5), "C from 1 to 4"), ((0, 3), "3 x 0")])
 def test_npy_of_other_shapes(shape: tuple[int, ...], message: str) -> None:
     out = io.BytesIO()
     np.save(out, np.zeros(shape))
@@ -302,9 +296,7 @@ def test_tiff_pages() -> None:
 
 
 def test_tiff_resolution() -> None:
-    raster = read_image(
-        source("a.tif", tiff(GREY, resolution=(300, 150), resolutionunit="INCH")), max_pixels=LIMIT
-    )
+    raster = read_image(source("a.tif", tiff(GREY, resolution=(300, 150), resolutionunit="INCH")), max_pixels=LIMIT)
     assert raster.resolution == (300.0, 150.0, "inch")
     out = io.BytesIO()
     tifffile.imwrite(out, GREY, imagej=True, resolution=(4, 5), metadata={"unit": "um"})
@@ -369,9 +361,7 @@ def test_is_image(name: str, data: bytes, expected: bool) -> None:
     assert is_image(source(name, data)) is expected
 
 
-@pytest.mark.parametrize(
-    ("shape", "expected"), [((9, 2), False), ((9, 7), True), ((9, 7, 3), True), ((9,), False)]
-)
+@pytest.mark.parametrize(("shape", "expected"), [((9, 2), False), ((9, 7), True), ((9, 7, 3), True), ((9,), False)])
 def test_is_image_of_npy(shape: tuple[int, ...], expected: bool) -> None:
     out = io.BytesIO()
     np.save(out, np.zeros(shape))

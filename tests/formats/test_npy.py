@@ -16,9 +16,7 @@ def saved(array: object, **options: object) -> SimpleNamespace:
 
 def header_only(text: str) -> SimpleNamespace:
     text = text.ljust(117) + "\n"
-    return SimpleNamespace(
-        name="a.npy", data=b"\x93NUMPY\x01\x00" + len(text).to_bytes(2, "little") + text.encode()
-    )
+    return SimpleNamespace(name="a.npy", data=b"\x93NUMPY\x01\x00" + len(text).to_bytes(2, "little") + text.encode())
 
 
 @pytest.mark.parametrize("dtype", ["u1", "u2", "u4", "u8", "i4", "f4", "?"])

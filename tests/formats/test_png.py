@@ -55,9 +55,7 @@ def test_palette_is_read_back_by_pillow(shape: tuple[int, int], bit_depth: int, 
 def test_every_integer_type_is_taken(dtype: type) -> None:
     values = np.array([[0, 1], [1, 1], [1, 0]]).astype(dtype)
     for bit_depth in (1, 2, 4, 8, 16):
-        assert (read_back(png([values], (3, 2), bit_depth=bit_depth)) != 0).tolist() == values.astype(
-            bool
-        ).tolist()
+        assert (read_back(png([values], (3, 2), bit_depth=bit_depth)) != 0).tolist() == values.astype(bool).tolist()
 
 
 def test_bytes_depend_on_pixels_alone() -> None:
@@ -102,9 +100,7 @@ def test_the_container_is_sound() -> None:
 def test_joined_adler32(sizes: tuple[int, int]) -> None:
     for fill in (b"\xff", b"\x00", b"a"):
         first, second = (fill * size for size in sizes)
-        assert joined_adler32(zlib.adler32(first), zlib.adler32(second), len(second)) == zlib.adler32(
-            first + second
-        )
+        assert joined_adler32(zlib.adler32(first), zlib.adler32(second), len(second)) == zlib.adler32(first + second)
 
 
 @pytest.mark.parametrize(

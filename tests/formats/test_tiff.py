@@ -27,9 +27,7 @@ def values_of(dtype: str, shape: tuple[int, int]) -> NDArray[np.generic]:
 @pytest.mark.parametrize("dtype", ["u1", "u2", "u4", "i4", "u8", "f4"])
 @pytest.mark.parametrize("shape", [(1, 1), (1, 9), (8, 1), (33, 21)])
 def test_read_back_by_tifffile(dtype: str, shape: tuple[int, int]) -> None:
-    values = (
-        np.abs(values_of(dtype, shape)) if dtype != "i4" else values_of("u4", shape).astype("i4") & 0x7FFFFFFF
-    )
+    values = np.abs(values_of(dtype, shape)) if dtype != "i4" else values_of("u4", shape).astype("i4") & 0x7FFFFFFF
     np.testing.assert_array_equal(tifffile.imread(io.BytesIO(written([values], shape, dtype=dtype))), values)
 
 

@@ -44,9 +44,7 @@ def checked(bands: Iterable[NDArray[Any]], shape: tuple[int, int]) -> Iterator[N
             break
         yield band
     if seen != height:
-        raise ValueError(
-            f"the bands have {'more than ' * (seen > height)}{min(seen, height)} rows, not {height}"
-        )
+        raise ValueError(f"the bands have {'more than ' * (seen > height)}{min(seen, height)} rows, not {height}")
 
 
 def check_fits(band: NDArray[Any], largest: int, target: str) -> None:

@@ -95,14 +95,10 @@ def image_format(source: SourceLike, input_format: str | None = None) -> str:
     other = other or _OTHER_EXTENSIONS.get(_extension(source))
     if other:
         raise InputError(f"{source.name} is a {other} image, which is not read: convert it to PNG or TIFF")
-    raise InputError(
-        f"{source.name} is no image that is read (PNG, TIFF, PGM, PBM, NPY): name it with --input-format"
-    )
+    raise InputError(f"{source.name} is no image that is read (PNG, TIFF, PGM, PBM, NPY): name it with --input-format")
 
 
-def image_size(
-    source: SourceLike, *, input_format: str | None = None, page: int | None = None
-) -> tuple[int, int]:
+def image_size(source: SourceLike, *, input_format: str | None = None, page: int | None = None) -> tuple[int, int]:
     """Read width and height from the header alone.
 
     Raises
@@ -206,9 +202,7 @@ def _npy_shape(source: SourceLike) -> tuple[int, ...]:
     """Shape of an NPY image: (H, W), or (H, W, C) with at most 4 channels."""
     shape = npy.npy_header(source).shape
     if len(shape) not in (2, 3) or (len(shape) == 3 and not 1 <= shape[2] <= 4):
-        raise InputError(
-            f"{source.name} has the shape {shape}: an image is (H, W), or (H, W, C) with C from 1 to 4"
-        )
+        raise InputError(f"{source.name} has the shape {shape}: an image is (H, W), or (H, W, C) with C from 1 to 4")
     return shape
 
 

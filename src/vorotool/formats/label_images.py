@@ -146,7 +146,6 @@ def _as_labels(values: NDArray[Any], name: str) -> NDArray[Any]:
     if outside.any():
         row, column = np.unravel_index(int(np.argmax(outside)), values.shape)
         raise InputError(
-            f"{name} has {values[row, column]} in row {row}, column {column}: "
-            f"labels are from 0 to {_LARGEST_LABEL}"
+            f"{name} has {values[row, column]} in row {row}, column {column}: labels are from 0 to {_LARGEST_LABEL}"
         )
     return values.astype(np.uint32)

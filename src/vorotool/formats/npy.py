@@ -17,9 +17,7 @@ from vorotool.formats.limits import SourceLike
 MAGIC = b"\x93NUMPY"
 
 
-def write_npy(
-    out: BinaryIO, bands: Iterable[NDArray[Any]], shape: tuple[int, int], *, dtype: DTypeLike
-) -> None:
+def write_npy(out: BinaryIO, bands: Iterable[NDArray[Any]], shape: tuple[int, int], *, dtype: DTypeLike) -> None:
     """Write an array from bands of rows: the header first, then each band as it comes.
 
     Parameters
@@ -89,9 +87,7 @@ def npy_header(source: SourceLike) -> NpyHeader:
         reason = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise InputError(f"{source.name} is not an NPY file of version 1 or 2: {reason}") from error
     if dtype.hasobject:
-        raise InputError(
-            f"{source.name} holds pickled objects, which are never loaded: save it with a number dtype"
-        )
+        raise InputError(f"{source.name} holds pickled objects, which are never loaded: save it with a number dtype")
     if dtype.kind not in "buif":
         raise InputError(f"{source.name} holds {dtype}: save it as integers or floating-point numbers")
     if any(side < 0 for side in shape):
@@ -121,15 +117,12 @@ def read_npy(source: SourceLike, *, max_items: int, option: str) -> NDArray[Any]
     header = npy_header(source)
     items = prod(header.shape)
     if items > max_items:
-        raise LimitError(
-            f"{source.name} has {items} items, shape {header.shape}: more than {option} {max_items}"
-        )
+        raise LimitError(f"{source.name} has {items} items, shape {header.shape}: more than {option} {max_items}")
     needed = items * header.dtype.itemsize
     present = len(source.data) - header.offset
     if present < needed:
         raise InputError(
-            f"{source.name} is cut off: shape {header.shape} of {header.dtype} needs {needed} bytes, "
-            f"it has {present}"
+            f"{source.name} is cut off: shape {header.shape} of {header.dtype} needs {needed} bytes, it has {present}"
         )
     flat = np.frombuffer(source.data, header.dtype, items, header.offset)
     array = flat.reshape(header.shape, order="F" if header.fortran_order else "C")

@@ -72,9 +72,7 @@ def write_png(
     """
     height, width = shape
     if max(shape) > LARGEST_SIDE:
-        raise LimitError(
-            f"a PNG has at most {LARGEST_SIDE} pixels a side, not {width} x {height}: use .tif or .npy"
-        )
+        raise LimitError(f"a PNG has at most {LARGEST_SIDE} pixels a side, not {width} x {height}: use .tif or .npy")
     _check_kind(bit_depth, palette)
     out.write(SIGNATURE)
     colour_type = _GREY if palette is None else _PALETTE
@@ -125,9 +123,7 @@ def _check_kind(bit_depth: int, palette: NDArray[np.uint8] | None) -> None:
         raise ValueError(f"{len(palette)} colours do not make a palette of {bit_depth} bits")
 
 
-def _encoder(
-    bit_depth: int, palette: NDArray[np.uint8] | None
-) -> Callable[[NDArray[Any], NDArray[Any]], None]:
+def _encoder(bit_depth: int, palette: NDArray[np.uint8] | None) -> Callable[[NDArray[Any], NDArray[Any]], None]:
     """Return what checks rows and packs them: big-endian, several pixels a byte below 8 bits."""
     if palette is None:
         largest, target = (1 << bit_depth) - 1, f"a {bit_depth}-bit PNG"

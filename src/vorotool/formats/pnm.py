@@ -93,18 +93,14 @@ def _binary(source: SourceLike, header: PnmHeader, needed: int) -> NDArray[Any]:
 def _raw(source: SourceLike, header: PnmHeader, dtype: np.dtype[Any], items: int) -> NDArray[Any]:
     present = len(source.data) - header.offset
     if present < items * dtype.itemsize:
-        raise InputError(
-            f"{source.name} is cut off: its pixels need {items * dtype.itemsize} bytes, it has {present}"
-        )
+        raise InputError(f"{source.name} is cut off: its pixels need {items * dtype.itemsize} bytes, it has {present}")
     return np.frombuffer(source.data, dtype, items, header.offset)
 
 
 def _text(source: SourceLike, header: PnmHeader, needed: int) -> NDArray[Any]:
     body = _COMMENT.sub(b" ", source.data[header.offset :])
     if header.kind == 1:  # digits of PBM need no space between them
-        values: NDArray[Any] = np.frombuffer(body.translate(None, b" \t\n\v\f\r"), np.uint8) - np.uint8(
-            ord("0")
-        )
+        values: NDArray[Any] = np.frombuffer(body.translate(None, b" \t\n\v\f\r"), np.uint8) - np.uint8(ord("0"))
     else:
         values = _numbers(source.name, body)
     if len(values) < needed:
@@ -116,7 +112,5 @@ def _numbers(name: str, body: bytes) -> NDArray[np.int64]:
     words = body.split()
     bad = next((place for place, word in enumerate(words) if not word.isdigit() or len(word) > 18), None)
     if bad is not None:
-        raise InputError(
-            f"{name} has {words[bad][:40].decode('latin-1')!r} as value {bad + 1}: it must be an integer"
-        )
+        raise InputError(f"{name} has {words[bad][:40].decode('latin-1')!r} as value {bad + 1}: it must be an integer")
     return np.array(words, dtype="S18").astype(np.int64)

@@ -24,9 +24,7 @@ def tiff_size(source: SourceLike, page: int | None) -> tuple[int, int]:
         return int(chosen.imagewidth), int(chosen.imagelength)
 
 
-def read_tiff(
-    source: SourceLike, *, page: int | None, max_pixels: int
-) -> tuple[NDArray[Any], Resolution | None]:
+def read_tiff(source: SourceLike, *, page: int | None, max_pixels: int) -> tuple[NDArray[Any], Resolution | None]:
     """Return the stored values, (H, W) or (H, W, C), and pixels a unit, where the file states them."""
     with _opened(source) as file:
         chosen = _page(file, source.name, page)
@@ -67,9 +65,7 @@ def _page(file: Any, name: str, page: int | None) -> Any:
             return file.pages[page or 0]
     if page is None and count > 1:
         raise InputError(f"{name} has {count} pages: choose one with --page 0 to --page {count - 1}")
-    raise InputError(
-        f"{name} has {count} page{'s' * (count != 1)}, counted from 0: there is no --page {page or 0}"
-    )
+    raise InputError(f"{name} has {count} page{'s' * (count != 1)}, counted from 0: there is no --page {page or 0}")
 
 
 def _check_segments(source: SourceLike, page: Any) -> None:
