@@ -1,8 +1,8 @@
 """Colours of pictures: light cells that people with any colour vision tell apart, dark lines and seeds.
 
-The first six cell colours are from Paul Tol's "light" scheme. The others were each chosen farthest in
-CIEDE2000 from white, black and all before it, in the least favourable of normal vision and simulated
-protanopia, deuteranopia and tritanopia (Machado et al. 2009); a test computes the distances again.
+The cell colours begin with four of Paul Tol's "light" scheme and a paler pink. The others were each chosen
+farthest in CIEDE2000 from white, black and all before it, in the least favourable of normal vision and
+simulated protanopia, deuteranopia and tritanopia (Machado et al. 2009); a test computes the distances again.
 """
 
 from __future__ import annotations
@@ -26,15 +26,15 @@ CELLS = (
     "#77aadd",
     "#ee8866",
     "#eedd88",
-    "#ffaabb",
+    "#e6acbc",
     "#99ddff",
-    "#44bb99",
+    "#cfeec2",
     "#b578a1",
     "#938f0c",
     "#7882ea",
-    "#369c80",
-    "#cfeec2",
-    "#ec5779",
+    "#4d9980",
+    "#91bf91",
+    "#e65e6f",
 )
 """Cell colours in the order in which they are used: few classes get the most distinct ones."""
 
@@ -45,7 +45,7 @@ _GOLDEN_ANGLE = 0.381966011250105  # of a turn: successive hues never come close
 
 
 class PicturePalette(NamedTuple):
-    """Colours of a palette picture: index 0 is white for no label, c is colour class c, then line and seed."""
+    """Colours of a palette picture: 0 is white for no label, c is colour class c, then line and seed."""
 
     colours: NDArray[np.uint8]
     line: int
