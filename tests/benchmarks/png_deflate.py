@@ -1,10 +1,11 @@
 """Purpose: choose the deflate of the PNG writer, on the images it is for: 8192 x 8192 labels of 16 bits.
 
-Filter (Up, as `formats/png.py` does it), checksum and deflate of fixed blocks of rows are timed together, then
-the writer itself, into a file. Run: python tests/benchmarks/png_deflate.py [--size 8192] [--threads 2]; isal and
-zlib-ng are measured where they are installed (pip install isal zlib-ng). Every result is decompressed and
-compared. The `deflate` wheel (libdeflate) has no sync flush, so that blocks cannot be joined to one stream: it is
-no candidate. Chosen: zlib's run-length strategy, whose bytes do not depend on the build of zlib.
+Filter (Up, as `formats/png.py` does it), checksum and deflate of fixed blocks of rows are timed together;
+then the writer itself, into a file. Run: python tests/benchmarks/png_deflate.py [--size 8192] [--threads 2].
+isal and zlib-ng are measured where they are installed (pip install isal zlib-ng). Every result is
+decompressed and compared. The `deflate` wheel (libdeflate) has no sync flush, so that blocks cannot be
+joined to one stream: it is no candidate. Chosen: zlib's run-length strategy, whose bytes do not depend on
+the build of zlib.
 """
 
 from __future__ import annotations
