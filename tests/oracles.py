@@ -11,10 +11,11 @@ def nearest_labels(x, y, labels, frame, scale=1, most_squared=None):
     order = np.argsort(labels, kind="stable")
     x, y, labels = x[order], y[order], labels[order]
     fx, fy, width, height = frame
-    columns = (fx + np.arange(width, dtype=np.int64)) * scale
+    across = ((fx + np.arange(width, dtype=np.int64))[:, None] * scale - x) ** 2
+    squares = np.empty_like(across)
     out = np.empty((height, width), dtype=np.uint32)
     for row in range(height):
-        squares = (columns[:, None] - x) ** 2 + ((fy + row) * scale - y) ** 2
+        np.add(across, ((fy + row) * scale - y) ** 2, out=squares)
         nearest = squares.argmin(axis=1)  # the first of equal ones, hence the smallest label
         out[row] = labels[nearest]
         if most_squared is not None:

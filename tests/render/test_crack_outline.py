@@ -19,9 +19,7 @@ def filled(shape: tuple[int, int], loops: list[list[tuple[int, int]]]) -> np.nda
     return mask
 
 
-@given(
-    hnp.arrays(np.uint16, hnp.array_shapes(min_dims=2, max_dims=2, max_side=9), elements=st.integers(0, 3))
-)
+@given(hnp.arrays(np.uint16, hnp.array_shapes(min_dims=2, max_dims=2, max_side=9), elements=st.integers(0, 3)))
 def test_filled_outlines_are_the_labels(labels: np.ndarray) -> None:
     found = dict(crack_loops(labels))
     assert list(found) == sorted(set(labels.ravel().tolist()) - {0})

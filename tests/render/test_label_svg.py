@@ -59,9 +59,7 @@ def test_cells_are_paths_that_fill_the_labels() -> None:
 
 def test_numbers_mark_the_seeds() -> None:
     found = groups(drawn())
-    assert sorted(text.text for text in found["labels"]) == sorted(
-        ["0", "1", "1", "12", "2", "2", "3", "3", "3"]
-    )
+    assert sorted(text.text for text in found["labels"]) == sorted(["0", "1", "1", "12", "2", "2", "3", "3", "3"])
     assert [(text.text, text.attrib["text-decoration"]) for text in found["seeds"]] == [
         ("1", "underline"),
         ("2", "underline"),

@@ -68,9 +68,7 @@ def _partners(owner: NDArray[np.int64], line: NDArray[np.int64], along: NDArray[
     return partner.tolist()
 
 
-def _loop(
-    start: int, places: list[tuple[int, int]], beside: list[int], below: list[int], used: bytearray
-) -> Loop:
+def _loop(start: int, places: list[tuple[int, int]], beside: list[int], below: list[int], used: bytearray) -> Loop:
     loop, corner = Loop(), start
     while not used[corner]:
         other = beside[corner]

@@ -63,8 +63,7 @@ def write_label_svg(
     """
     if image.labels.size > MOST_PIXELS:
         raise LimitError(
-            f"{image.shape[1]} x {image.shape[0]} pixels are too many for SVG, at most {MOST_PIXELS}: "
-            "use -f png"
+            f"{image.shape[1]} x {image.shape[0]} pixels are too many for SVG, at most {MOST_PIXELS}: use -f png"
         )
     wanted = checked_layers(layers, LAYERS)
     page = _Page(image, width)

@@ -86,9 +86,7 @@ def picture_palette(classes: int) -> PicturePalette:
     ((15, 3), 13, 14, 4)
     """
     if classes > MOST_CLASSES:
-        raise LimitError(
-            f"{classes} colour classes: a palette picture has at most {MOST_CLASSES}, use -f svg"
-        )
+        raise LimitError(f"{classes} colour classes: a palette picture has at most {MOST_CLASSES}, use -f svg")
     count = max(classes, len(CELLS))
     names = [*(cell_colour(c) for c in range(count + 1)), LINE, SEED]
     colours = np.array([list(bytes.fromhex(name[1:])) for name in names], dtype=np.uint8)
