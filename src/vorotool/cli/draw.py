@@ -32,11 +32,11 @@ def command(**options: Any) -> None:
     source = single_input(o.inputs)
     (target,) = plan_targets(FORMATS, ["picture"], output=o.output, fmt=o.format, out_dir=o.out_dir, source=source)
     with Run("draw", quiet=o.quiet, verbose=o.verbose, stats=o.stats) as run:
+        from vorotool.cli.pictures import write_label_picture
         from vorotool.engines.regions import colour_regions
         from vorotool.formats.label_images import read_label_image
         from vorotool.formats.outputs import open_output
         from vorotool.formats.sources import read_source
-        from vorotool.render.label_picture import write_label_picture
 
         with run.phase("read"):
             image = read_label_image(

@@ -11,6 +11,7 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
 from vorotool.engines.regions import (
     RegionMeasures,
@@ -43,21 +44,23 @@ class Products:
         Gives any rows of labels.
     options : namespace
         Options of the command line.
-    note : callable
-        Says something useful to the user.
+    run : Run
+        Takes notes and seconds.
     """
 
-    def __init__(
-        self, rows: Tessellator | PropagatedRows, options: SimpleNamespace, note: Callable[[str], None]
-    ) -> None:
-        self.rows, self.options, self.note = rows, options, note
+    def __init__(self, rows: Tessellator | PropagatedRows, options: SimpleNamespace, run: Run) -> None:
+        self.rows, self.options, self.run = rows, options, run
         self.dtype = label_dtype(rows.seeds.largest_label, options.dtype)
 
     @cached_property
     def image(self) -> LabelImage:
         """The whole label image, in memory."""
         require_memory(self.rows.frame, self.options.max_pixels)
-        return LabelImage(self.rows.labels(dtype=self.dtype), self.rows.frame, self.rows.seeds)
+        return LabelImage(self._labels(), self.rows.frame, self.rows.seeds)
+
+    def _labels(self, first: int = 0, rows: int | None = None) -> NDArray[Any]:
+        with self.run.phase("tessellate"):
+            return self.rows.labels(first, rows, dtype=self.dtype)
 
     @cached_property
     def measures(self) -> RegionMeasures:
@@ -84,20 +87,22 @@ class Products:
             return
         largest = self.rows.seeds.largest_label
         if fmt == "png" and largest < DARK_LABELS and sys.stderr.isatty():
-            self.note(f"labels up to {largest} look black in a 16-bit PNG: --what colour draws a picture")
-        self._write_rows(
-            out, fmt, lambda first, rows: self.rows.labels(first, rows, dtype=self.dtype), self.dtype, largest
-        )
+            self.run.note(f"labels up to {largest} look black in a 16-bit PNG: --what colour draws a picture")
+        self._write_rows(out, fmt, self._labels, self.dtype, largest)
 
     def _write_diagram(self, out: BinaryIO, fmt: str) -> None:
-        from vorotool.render.palettes import PAPER
+        from vorotool.render.palettes import LINE_ON_PAPER
+
+        if self.options.layers:
+            self._write_picture(out, fmt, self.options.layers)
+            return
 
         def rows_of(first: int, rows: int) -> NDArray[Any]:
             above, below = min(1, first), min(1, self.rows.frame.height - first - rows)
-            labels = self.rows.labels(first - above, rows + above + below, dtype=self.dtype)
+            labels = self._labels(first - above, rows + above + below)
             return voronoi_diagram(labels, threads=self.options.threads)[above : above + rows]
 
-        self._write_rows(out, fmt, rows_of, np.dtype(np.uint8), 1, palette=PAPER, bit_depth=1)
+        self._write_rows(out, fmt, rows_of, np.dtype(np.uint8), 1, palette=LINE_ON_PAPER, bit_depth=1)
 
     def _write_colour(self, out: BinaryIO, fmt: str) -> None:
         self._write_picture(out, fmt, ("cells", "seeds"))
@@ -109,7 +114,7 @@ class Products:
     def _write_distance2(self, out: BinaryIO, fmt: str) -> None:
         rows = self._exact_rows()
         if rows.seeds.scale > 1:
-            self.note(
+            self.run.note(
                 f"squared distances are in units of 1/{rows.seeds.scale}² square pixels: seeds lie between pixels"
             )
         self._write_rows(out, fmt, rows.squared_distances, rows.square_dtype, int(np.iinfo(rows.square_dtype).max))
@@ -128,7 +133,7 @@ class Products:
         write_table(out, table, fmt, precision=self.options.precision, threads=self.options.threads)
 
     def _write_picture(self, out: BinaryIO, fmt: str, layers: tuple[str, ...]) -> None:
-        from vorotool.render.label_picture import write_label_picture
+        from vorotool.cli.pictures import write_label_picture
 
         write_label_picture(
             out,
@@ -144,7 +149,7 @@ class Products:
     def _write_rows(
         self,
         out: BinaryIO,
-        fmt: str,
+        fmt: Any,
         rows_of: Callable[[int, int], NDArray[Any]],
         dtype: np.dtype[Any],
         largest: int,

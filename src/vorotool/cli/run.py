@@ -36,6 +36,7 @@ class Run:
         self._quiet, self._verbose, self._target = quiet, verbose, stats
         self._warnings: list[str] = []
         self._seconds: dict[str, float] = {}
+        self._inner: list[float] = []
         self._stack = ExitStack()
         self.stats: dict[str, Any] = {"command": command, "version": __version__}
 
@@ -51,6 +52,9 @@ class Run:
     ) -> None:
         """Write the statistics of a run that went well."""
         self._stack.close()
+        if self._verbose:
+            for name, seconds in self._seconds.items():
+                click.echo(f"{name}: {seconds:.3f} s", err=True)
         if kind is None and self._target is not None:
             self._write_stats(self._target)
 
@@ -61,14 +65,16 @@ class Run:
 
     @contextmanager
     def phase(self, name: str) -> Iterator[None]:
-        """Measure a part of the run."""
+        """Measure a part of the run; time spent in a part of this part counts there only."""
         start = time.perf_counter()
+        self._inner.append(0.0)
         try:
             yield
         finally:
-            self._seconds[name] = self._seconds.get(name, 0.0) + time.perf_counter() - start
-        if self._verbose:
-            click.echo(f"{name}: {self._seconds[name]:.3f} s", err=True)
+            elapsed = time.perf_counter() - start
+            self._seconds[name] = self._seconds.get(name, 0.0) + elapsed - self._inner.pop()
+            if self._inner:
+                self._inner[-1] += elapsed
 
     def progress(self, label: str) -> Callable[[float], None] | None:
         """Make a callback that shows a bar on a terminal, once the work has taken a second."""

@@ -150,8 +150,9 @@ def _prepare(run: Run, o: SimpleNamespace, seeds: SeedSet) -> Products:
             seeds, frame, max_distance=o.max_distance, threads=o.threads, strict=o.strict, progress=progress
         )
     else:
-        rows = PropagatedRows(seeds, frame, passes=o.passes, max_pixels=o.max_pixels, progress=progress)
-    return Products(rows, o, run.note)
+        with run.phase("tessellate"):
+            rows = PropagatedRows(seeds, frame, passes=o.passes, max_pixels=o.max_pixels, progress=progress)
+    return Products(rows, o, run)
 
 
 def _fill_stats(run: Run, o: SimpleNamespace, products: Products) -> None:

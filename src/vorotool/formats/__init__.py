@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from vorotool.geometry.frame import MAX_PIXELS
 
+IMAGE_FORMATS = ("png", "tiff", "pnm", "pgm", "pbm")
+
 if TYPE_CHECKING:
     from vorotool.geometry.points import PointSet
     from vorotool.geometry.raster import Raster
@@ -68,7 +70,8 @@ def read(
     from vorotool.formats.sources import read_source
 
     source = read_source(fspath(path))
-    if is_image(source, input_format=input_format, columns=columns):
+    named_image = input_format in IMAGE_FORMATS
+    if named_image or (input_format in (None, "npy") and columns is None and is_image(source)):
         return read_image(source, input_format=input_format, page=page, max_pixels=max_pixels)
     return read_points(
         source,

@@ -8,6 +8,7 @@ simulated protanopia, deuteranopia and tritanopia (Machado et al. 2009); a test 
 from __future__ import annotations
 
 import colorsys
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -42,6 +43,14 @@ MOST_CLASSES = 253
 """Colour classes that fit in a byte beside none, line and seed."""
 
 _GOLDEN_ANGLE = 0.381966011250105  # of a turn: successive hues never come close soon
+
+
+def _triples(names: Iterable[str]) -> NDArray[np.uint8]:
+    return np.array([list(bytes.fromhex(name[1:])) for name in names], dtype=np.uint8)
+
+
+LINE_ON_PAPER = _triples([WHITE, LINE])
+"""Palette of the diagram: an image of 0 and 1 that looks like ink on paper."""
 
 
 class PicturePalette(NamedTuple):
@@ -89,5 +98,4 @@ def picture_palette(classes: int) -> PicturePalette:
         raise LimitError(f"{classes} colour classes: a palette picture has at most {MOST_CLASSES}, use -f svg")
     count = max(classes, len(CELLS))
     names = [*(cell_colour(c) for c in range(count + 1)), LINE, SEED]
-    colours = np.array([list(bytes.fromhex(name[1:])) for name in names], dtype=np.uint8)
-    return PicturePalette(colours, count + 1, count + 2, 4 if len(names) <= 16 else 8)
+    return PicturePalette(_triples(names), count + 1, count + 2, 4 if len(names) <= 16 else 8)
