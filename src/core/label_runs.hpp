@@ -50,9 +50,10 @@ class RunStarts {
   std::size_t count_ = 0;
 };
 
-// Rows a piece of parallel work: about 2^21 pixels take a few milliseconds, short enough to interrupt.
+// Rows a piece of parallel work: about 2^19 pixels take a few milliseconds, of noise a tenth of
+// a second: short enough to interrupt.
 constexpr std::size_t rows_per_piece(std::size_t width) {
-  constexpr std::size_t kPixels = std::size_t{1} << 21;
+  constexpr std::size_t kPixels = std::size_t{1} << 19;
   return std::max<std::size_t>(1, kPixels / std::max<std::size_t>(1, width));
 }
 

@@ -16,8 +16,7 @@ struct NearestOther {
 
 // The nearest other site of each site by Euclidean distance, ties (of the squared distances in double) to the
 // smallest label; another site at the same place is at distance 0. Coordinates are finite and at most 2^500
-// in magnitude; labels differ from each other and from 2^32 - 1 only by what ties need: equal labels tie to
-// any of them.
+// in magnitude.
 std::vector<NearestOther> nearest_other_sites(std::span<const double> x, std::span<const double> y,
                                               std::span<const std::uint32_t> labels, unsigned threads,
                                               const Monitor& monitor);

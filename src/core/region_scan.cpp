@@ -81,8 +81,7 @@ void BandScan::cut(std::span<const Label> row) {
   runs_[count] = {starts_[count], 0, 0, kNoComponent};
 }
 
-// The same label on both sides of `length` pixel sides: they are no boundary, and the runs are of one
-// component.
+// The same label on both sides of `length` pixel sides: these are no boundary, and connect the two runs.
 void BandScan::join(const Run& above, Run& below, std::uint32_t length) {
   if (above.label == 0) return;
   Region& region = regions[above.region];

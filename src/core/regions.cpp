@@ -11,10 +11,6 @@
 namespace vorotool::core {
 namespace {
 
-void poll(const Monitor& monitor, double fraction) {
-  if (monitor && !monitor(fraction)) throw Interrupted();
-}
-
 template <class Label>
 std::unique_ptr<BandScan> scan_band(std::span<const Label> image, std::size_t width, std::size_t first,
                                     std::size_t last) {
@@ -46,7 +42,7 @@ void absorb(Region& into, const Region& part) {
 // Joins bands from the top. Only sums, minima and maxima of integers: how the rows were cut leaves no trace.
 class BandJoiner {
  public:
-  explicit BandJoiner(std::vector<std::uint32_t> labels) {
+  BandJoiner(std::vector<std::uint32_t> labels, const Monitor& monitor) : monitor_(monitor) {
     result_.labels = std::move(labels);
     result_.regions.resize(result_.labels.size());
   }
@@ -81,7 +77,16 @@ class BandJoiner {
     }
   }
 
+  // Called for the borders done, of which noise has millions.
+  void poll(std::size_t steps = 1) {
+    steps_ += steps;
+    if (steps_ < (1U << 16)) return;
+    steps_ = 0;
+    if (monitor_ && !monitor_(1.0)) throw Interrupted();
+  }
+
   void put(std::uint32_t one, std::uint32_t other, std::int64_t length) {
+    poll();
     borders_.push_back({std::min(one, other), std::max(one, other), length});
   }
 
@@ -101,19 +106,23 @@ class BandJoiner {
     }
   }
 
-  // Buckets by a, then each bucket, which is short as a rule, by b; equal pairs of several bands are added
-  // up.
+  // Buckets by a, then each bucket, which is short as a rule, by b; adds up pairs that several bands have.
   void sort_borders() {
     std::vector<std::size_t> start(result_.labels.size() + 2, 0);
     for (const Border& border : borders_) ++start[border.a + 2];
     for (std::size_t a = 2; a < start.size(); ++a) start[a] += start[a - 1];
     std::vector<Border> sorted(borders_.size());
-    for (const Border& border : borders_) sorted[start[border.a + 1]++] = border;
+    for (const Border& border : borders_) {
+      poll();
+      sorted[start[border.a + 1]++] = border;
+    }
     auto by_b = [](const Border& p, const Border& q) { return p.b < q.b; };
     for (std::size_t a = 0; a < result_.labels.size(); ++a) {
+      poll(start[a + 1] - start[a]);
       std::sort(sorted.data() + start[a], sorted.data() + start[a + 1], by_b);
     }
     for (const Border& border : sorted) {
+      poll();
       auto& kept = result_.borders;
       if (!kept.empty() && kept.back().a == border.a && kept.back().b == border.b) {
         kept.back().length += border.length;
@@ -123,6 +132,8 @@ class BandJoiner {
     }
   }
 
+  const Monitor& monitor_;
+  std::size_t steps_ = 0;  // since the monitor was asked
   Regions result_;
   std::vector<Border> borders_;  // in no order, a pair several times
   ComponentSets components_;
@@ -144,8 +155,7 @@ std::vector<std::uint32_t> positions(std::span<const std::uint32_t> labels, cons
 template <class Label>
 Regions measure_regions(std::span<const Label> image, std::size_t width, std::size_t height, unsigned threads,
                         const Monitor& monitor) {
-  if (std::max(width, height) >= UINT32_MAX)
-    throw std::length_error("a side of the image exceeds 2^32 - 2 pixels");
+  if (std::max(width, height) >= UINT32_MAX) throw std::length_error("a side exceeds 2^32 - 2 pixels");
   if (image.empty()) return {};
   const std::size_t rows = rows_per_piece(width);
   std::vector<std::unique_ptr<BandScan>> bands(piece_count(height, rows));
@@ -154,13 +164,12 @@ Regions measure_regions(std::span<const Label> image, std::size_t width, std::si
       [&](std::size_t k) { bands[k] = scan_band(image, width, k * rows, std::min(height, (k + 1) * rows)); },
       monitor);
 
-  BandJoiner joiner(distinct_labels(bands));
+  BandJoiner joiner(distinct_labels(bands), monitor);
   std::vector<std::vector<std::uint32_t>> index(bands.size());
   parallel_for(
       bands.size(), threads, [&](std::size_t k) { index[k] = positions(joiner.labels(), *bands[k]); },
       monitor);
   for (std::size_t k = 0; k < bands.size(); ++k) {
-    poll(monitor, 1.0);
     joiner.add(*bands[k], index[k]);
     bands[k].reset();
   }

@@ -1,5 +1,4 @@
-// What follows from a label image: the measures of its regions and which of them are neighbours
-// (section 2.1).
+// What follows from a label image (section 2.1): the measures of its regions, and which are neighbours.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +9,7 @@
 
 namespace vorotool::core {
 
-// All pixels of one label; they need not be connected. Lengths in pixels, columns and rows from the image's
-// corner.
+// All pixels of one label, connected or not. Columns and rows are counted from the corner of the image.
 struct Region {
   std::int64_t area = 0;
   std::int64_t perimeter =

@@ -17,13 +17,11 @@ namespace vorotool::core {
 __extension__ typedef unsigned __int128 Wide;
 
 // Coordinates and squared distances of a SiteTree, with their bounds:
-// - std::int64_t, std::uint64_t: exact while differences of coordinates are at most 2^31, since 2 * 2^62 <
-// 2^64;
-// - std::int64_t, Wide: exact while coordinates are at most 2^62, since 2 * (2^63)^2 < 2^128;
-// - double, double: squared distances are rounded, and the answer is the minimum of these rounded values. The
-// search
-//   itself adds no error: rounding is monotonic, so the rounded distance to a box never exceeds that to a
-//   point in it. Exact where the sums of squares have at most 53 bits.
+// - std::int64_t, std::uint64_t: exact while coordinates differ by at most 2^31: 2 * (2^31)^2 < 2^64;
+// - std::int64_t, Wide: exact while coordinates are at most 2^62: 2 * (2^63)^2 < 2^128;
+// - double, double: the minimum of squared distances as they are rounded, exact where they need at most 53
+//   bits. The search adds no error of its own: rounding is monotonic, so the rounded distance to a box never
+//   exceeds that to a point in it.
 template <class Coordinate, class Distance>
 class SiteTree {
  public:

@@ -39,8 +39,8 @@ constexpr std::int64_t kLatticeLimit = std::int64_t{1} << 40;
 
 // Compares every pixel with the label of the lexicographic minimum of (squared distance, label) over all
 // seeds; with `limit`, a pixel whose squared lattice distance exceeds it must be 0. Exact: squared distances
-// are below 2^83, and are computed in 64 bits where they are below 2^64, else in 128. Throws
-// std::out_of_range beyond kLatticeLimit.
+// are at most 2^83, and are computed in 64 bits where coordinates differ by at most 2^31, else in 128.
+// Throws std::out_of_range beyond kLatticeLimit.
 template <class Label>
 WrongPixels verify_labels(std::span<const Label> image, const PixelFrame& frame, const LatticeSeeds& seeds,
                           std::optional<Wide> limit, unsigned threads, const Monitor& monitor);

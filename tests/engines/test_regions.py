@@ -155,7 +155,7 @@ def test_single_pixel():
 
 @pytest.mark.parametrize("threads", [1, 2, 3, 4, 5])
 def test_bands_leave_no_trace(threads):
-    """Rows of 2^19 pixels make pieces of four rows; spirals and stripes run through all of them."""
+    """Rows of 2^19 pixels make pieces of one row; regions run through many of them."""
     labels = np.random.default_rng(1).integers(0, 3, (37, 64)).astype(np.uint8).repeat(8192, axis=1)
     whole = regions.measure_regions(LabelImage(labels), threads=threads)
     small = labels[:, ::8192]

@@ -84,6 +84,12 @@ def test_far_seeds(reach):
     check_both_ways(SeedSet(-x[:1], y[:1], np.array([1])), Frame(-9, -9, 5, 5), limit=(reach + 7) ** 2)
 
 
+@pytest.mark.parametrize("far", [(2**32, 0), (0, 2**32), (2**32, 2**32), (-(2**32), 2**32)])
+def test_distances_that_would_wrap_around_in_64_bits(far):
+    seeds = SeedSet(np.array([far[0], 5]), np.array([far[1], 2]), np.array([1, 2]))
+    check_both_ways(seeds, Frame(0, 0, 8, 6))
+
+
 def test_many_duplicates():
     count = 5000
     labels = np.random.default_rng(0).permutation(count) + 1
