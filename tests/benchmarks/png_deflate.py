@@ -4,8 +4,8 @@ Filter (Up, as `formats/png.py` does it), checksum and deflate of fixed blocks o
 then the writer itself, into a file. Run: python tests/benchmarks/png_deflate.py [--size 8192] [--threads 2].
 isal and zlib-ng are measured where they are installed (pip install isal zlib-ng). Every result is
 decompressed and compared. The `deflate` wheel (libdeflate) has no sync flush, so that blocks cannot be
-joined to one stream: it is no candidate. Chosen: zlib's run-length strategy, whose bytes do not depend on
-the build of zlib.
+joined to one stream: it is no candidate. Chosen: zlib's run-length strategy, which uses no hash table,
+where builds of zlib differ.
 """
 
 from __future__ import annotations

@@ -1,8 +1,9 @@
 """Colours of pictures: light cells that people with any colour vision tell apart, dark lines and seeds.
 
-The cell colours begin with four of Paul Tol's "light" scheme and a paler pink. The others were each chosen
-farthest in CIEDE2000 from white, black and all before it, in the least favourable of normal vision and
-simulated protanopia, deuteranopia and tritanopia (Machado et al. 2009); a test computes the distances again.
+Four of the first five cell colours are from Paul Tol's "light" scheme. The others come from greedy searches
+for the colour farthest in CIEDE2000 from white, black and those before it, in the least favourable of normal
+vision and simulated protanopia, deuteranopia and tritanopia (Machado et al. 2009); the limits of the searches
+and the order were set by hand. A test computes the distances again.
 """
 
 from __future__ import annotations
