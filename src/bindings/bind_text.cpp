@@ -1,7 +1,227 @@
+// Text columns: parsing, formatting, and the count of nesting.
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "bindings.hpp"
+#include "core/format_columns.hpp"
+#include "core/nesting.hpp"
+#include "core/text_columns.hpp"
+#include "interrupts.hpp"
 
 namespace vorotool::bindings {
+namespace {
 
-void bind_text(nanobind::module_&) {}
+namespace nb = nanobind;
+
+template <class T>
+using InputArray = nb::ndarray<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+
+std::string_view view_of(const nb::bytes& text) { return {text.c_str(), text.size()}; }
+
+core::Delimiter delimiter_of(const std::string& name) {
+  if (name == ",") return core::Delimiter::comma;
+  if (name == ";") return core::Delimiter::semicolon;
+  if (name == "\t") return core::Delimiter::tab;
+  if (name == " ") return core::Delimiter::whitespace;
+  throw nb::value_error("the delimiter must be one of ',' ';' '\\t' ' '");
+}
+
+// Bytes that are not UTF-8 become replacement characters: the text goes into messages and names.
+nb::object decoded(std::string_view text) {
+  return nb::steal(PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace"));
+}
+
+const char* name_of(core::TextError::Kind kind) {
+  switch (kind) {
+    case core::TextError::Kind::not_number:
+      return "not_number";
+    case core::TextError::Kind::not_finite:
+      return "not_finite";
+    case core::TextError::Kind::field_count:
+      return "field_count";
+    case core::TextError::Kind::open_quote:
+      break;
+  }
+  return "open_quote";
+}
+
+// core::TextError as _core.TextError(kind, line, column, text, found, expected).
+void bind_text_error(nb::module_& module) {
+  PyObject* const type = PyErr_NewException("vorotool._core.TextError", PyExc_ValueError, nullptr);
+  module.attr("TextError") = nb::borrow(type);
+  nb::register_exception_translator(
+      [](const std::exception_ptr& failure, void* payload) {
+        try {
+          std::rethrow_exception(failure);
+        } catch (const core::TextError& e) {
+          const nb::tuple arguments =
+              nb::make_tuple(name_of(e.kind), e.line, e.column, decoded(e.text), e.found, e.expected);
+          PyErr_SetObject(static_cast<PyObject*>(payload), arguments.ptr());
+        }
+      },
+      type);
+}
+
+auto parse_numbers(const nb::bytes& text, const std::string& delimiter, std::vector<std::size_t> columns,
+                   std::size_t header_records, std::size_t fields, unsigned threads) {
+  const std::string_view view = view_of(text);
+  const core::TextLayout layout{delimiter_of(delimiter), header_records, std::move(columns), fields};
+  core::NumberTable table = run_interruptible(nb::none(), [&](const core::Monitor& monitor) {
+    return core::parse_numbers(view, layout, threads, monitor);
+  });
+  double* const values = table.values.release();
+  const nb::capsule owner(values, [](void* p) noexcept { delete[] static_cast<double*>(p); });
+  return nb::ndarray<nb::numpy, double, nb::ndim<2>>(values, {table.rows, table.columns}, owner);
+}
+
+nb::list parse_fields(const nb::bytes& text, const std::string& delimiter, std::vector<std::size_t> columns,
+                      std::size_t header_records, std::size_t fields, unsigned threads) {
+  const std::string_view view = view_of(text);
+  const core::TextLayout layout{delimiter_of(delimiter), header_records, std::move(columns), fields};
+  const core::FieldTable table = run_interruptible(nb::none(), [&](const core::Monitor& monitor) {
+    return core::parse_fields(view, layout, threads, monitor);
+  });
+  nb::list result;
+  for (std::size_t column = 0; column < table.columns; ++column) {
+    const nb::object values = nb::steal(PyList_New(static_cast<Py_ssize_t>(table.rows)));
+    for (std::size_t row = 0; row < table.rows; ++row) {
+      const core::Field& field = table.fields[row * table.columns + column];
+      nb::object value = decoded(field.quoted ? core::field_value(field) : field.text);
+      PyList_SET_ITEM(values.ptr(), static_cast<Py_ssize_t>(row), value.release().ptr());
+    }
+    result.append(values);
+  }
+  return result;
+}
+
+std::size_t count_rows(const nb::bytes& text, const std::string& delimiter, std::size_t header_records,
+                       unsigned threads) {
+  const std::string_view view = view_of(text);
+  const core::TextLayout layout{delimiter_of(delimiter), header_records, {}, 0};
+  return run_interruptible(nb::none(), [&](const core::Monitor& monitor) {
+    return core::count_rows(view, layout, threads, monitor);
+  });
+}
+
+std::size_t line_of_row(const nb::bytes& text, const std::string& delimiter, std::size_t header_records,
+                        std::size_t row) {
+  const std::string_view view = view_of(text);
+  const core::TextLayout layout{delimiter_of(delimiter), header_records, {}, 0};
+  const nb::gil_scoped_release no_gil;
+  return core::line_of_row(view, layout, row);
+}
+
+nb::object first_record(const nb::bytes& text, const std::string& delimiter) {
+  core::RecordReader reader(view_of(text), delimiter_of(delimiter));
+  core::Record record;
+  if (!reader.next(record)) return nb::none();
+  nb::list fields;
+  for (const core::Field& field : core::split_fields(record.text, delimiter_of(delimiter))) {
+    fields.append(decoded(core::field_value(field)));
+  }
+  return nb::make_tuple(record.first_line, decoded(record.text), fields);
+}
+
+nb::object find_too_deep(const nb::bytes& text, std::size_t limit) {
+  const std::string_view view = view_of(text);
+  std::size_t found = 0;
+  {
+    const nb::gil_scoped_release no_gil;
+    found = core::find_too_deep(view, limit);
+  }
+  if (found == std::string_view::npos) return nb::none();
+  return nb::int_(found);
+}
+
+// Holds what the columns of one call point into.
+struct ColumnStore {
+  std::vector<core::TextColumn> columns;
+  std::vector<std::vector<std::string_view>> texts;
+  std::vector<nb::object> owners;
+
+  std::string_view utf8(nb::handle value) {
+    Py_ssize_t size = 0;
+    if (const char* data = PyUnicode_AsUTF8AndSize(value.ptr(), &size)) {
+      return {data, static_cast<std::size_t>(size)};
+    }
+    PyErr_Clear();  // surrogates of undecodable bytes go out as the bytes they came from
+    PyObject* const encoded = PyUnicode_AsEncodedString(value.ptr(), "utf-8", "surrogateescape");
+    if (encoded == nullptr) throw nb::python_error();
+    owners.push_back(nb::steal(encoded));
+    return {PyBytes_AS_STRING(encoded), static_cast<std::size_t>(PyBytes_GET_SIZE(encoded))};
+  }
+
+  template <class T>
+  bool add_array(nb::handle values) {
+    InputArray<T> array;
+    if (!nb::try_cast(values, array, false)) return false;
+    columns.push_back({std::span<const T>(array.data(), array.size()), {}});
+    owners.push_back(nb::borrow(values));
+    return true;
+  }
+
+  void add_texts(const nb::list& values) {
+    std::vector<std::string_view> views;
+    views.reserve(values.size());
+    for (const nb::handle value : values) views.push_back(utf8(value));
+    columns.push_back({std::span<const std::string_view>(views), {}});
+    texts.push_back(std::move(views));  // moving a vector leaves its elements where they are
+    owners.push_back(values);
+  }
+
+  void add(nb::handle values, const std::optional<InputArray<bool>>& missing) {
+    if (nb::isinstance<nb::list>(values)) {
+      add_texts(nb::borrow<nb::list>(values));
+    } else if (!add_array<double>(values) && !add_array<std::int64_t>(values) &&
+               !add_array<std::uint64_t>(values)) {
+      throw nb::type_error("a column must be a float64, int64 or uint64 array, or a list of str");
+    }
+    const std::size_t rows = std::visit([](const auto& v) { return v.size(); }, columns.back().values);
+    const std::size_t first = std::visit([](const auto& v) { return v.size(); }, columns.front().values);
+    if (rows != first || (missing && missing->size() != rows)) {
+      throw nb::value_error("columns and masks must have one length");
+    }
+    if (missing) {
+      columns.back().missing = {reinterpret_cast<const std::uint8_t*>(missing->data()), rows};
+    }
+  }
+};
+
+nb::list format_columns(const nb::list& values, const std::vector<std::optional<InputArray<bool>>>& missing,
+                        int precision, unsigned threads) {
+  if (values.size() != missing.size()) throw nb::value_error("one mask, or None, a column");
+  ColumnStore store;
+  for (std::size_t i = 0; i < missing.size(); ++i) store.add(values[i], missing[i]);
+  const std::vector<std::string> blocks = run_interruptible(nb::none(), [&](const core::Monitor& monitor) {
+    return core::format_columns(store.columns, precision, threads, monitor);
+  });
+  nb::list result;
+  for (const std::string& block : blocks) result.append(nb::bytes(block.data(), block.size()));
+  return result;
+}
+
+}  // namespace
+
+void bind_text(nb::module_& module) {
+  using nb::literals::operator""_a;
+  bind_text_error(module);
+  module.def("parse_numbers", &parse_numbers, "text"_a, "delimiter"_a, "columns"_a, "header_records"_a = 0,
+             "fields"_a = 0, "threads"_a = 0);
+  module.def("parse_fields", &parse_fields, "text"_a, "delimiter"_a, "columns"_a, "header_records"_a = 0,
+             "fields"_a = 0, "threads"_a = 0);
+  module.def("count_rows", &count_rows, "text"_a, "delimiter"_a, "header_records"_a = 0, "threads"_a = 0);
+  module.def("line_of_row", &line_of_row, "text"_a, "delimiter"_a, "header_records"_a, "row"_a);
+  module.def("first_record", &first_record, "text"_a, "delimiter"_a);
+  module.def("find_too_deep", &find_too_deep, "text"_a, "limit"_a);
+  module.def("format_columns", &format_columns, "values"_a, "missing"_a, "precision"_a = 0, "threads"_a = 0);
+}
 
 }  // namespace vorotool::bindings
