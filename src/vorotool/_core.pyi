@@ -97,6 +97,7 @@ def nearest_other_sites(
 def colour_graph(
     vertices: int, a: NDArray[np.uint32], b: NDArray[np.uint32], progress: _Progress
 ) -> NDArray[np.uint32]: ...
+
 # ---- text (bind_text.cpp): a delimiter is one of "," ";" "\t" " " ---------------------------------------------
 
 class TextError(ValueError):

@@ -25,7 +25,9 @@ from vorotool.engines.tessellate import Tessellator
 from vorotool.geometry.frame import Frame
 
 PEERS: dict[str, Callable[[np.ndarray], object]] = {
-    "scipy": lambda image: image[tuple(distance_transform_edt(image == 0, return_distances=False, return_indices=True))],
+    "scipy": lambda image: image[
+        tuple(distance_transform_edt(image == 0, return_distances=False, return_indices=True))
+    ],
     "skimage": lambda image: expand_labels(image, distance=1e9),
     "opencv": lambda image: cv2.distanceTransformWithLabels(
         (image == 0).astype(np.uint8), cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL
