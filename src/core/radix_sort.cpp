@@ -10,22 +10,22 @@ namespace {
 constexpr int digit_bits = 11;
 constexpr std::size_t digits = std::size_t{1} << digit_bits;
 
-void sort_by_digit(const std::vector<KeyedIndex>& from, std::vector<KeyedIndex>& to, int shift) {
+void sort_by_digit(const std::vector<Keyed>& from, std::vector<Keyed>& to, int shift) {
   std::array<std::size_t, digits> start{};
-  for (const KeyedIndex& item : from) ++start[item.key >> shift & (digits - 1)];
+  for (const Keyed& item : from) ++start[item.key >> shift & (digits - 1)];
   std::size_t sum = 0;
   for (std::size_t& count : start) {
     const std::size_t here = count;
     count = sum;
     sum += here;
   }
-  for (const KeyedIndex& item : from) to[start[item.key >> shift & (digits - 1)]++] = item;
+  for (const Keyed& item : from) to[start[item.key >> shift & (digits - 1)]++] = item;
 }
 
 }  // namespace
 
-void radix_sort(std::vector<KeyedIndex>& items, int bits) {
-  std::vector<KeyedIndex> other(items.size());
+void radix_sort(std::vector<Keyed>& items, int bits) {
+  std::vector<Keyed> other(items.size());
   for (int shift = 0; shift < bits; shift += digit_bits) {
     sort_by_digit(items, other, shift);
     items.swap(other);

@@ -1,4 +1,4 @@
-// Stable least-significant-digit radix sort of keys with an index each.
+// Stable least-significant-digit radix sort of keys with a number each.
 #pragma once
 
 #include <cstdint>
@@ -6,13 +6,13 @@
 
 namespace vorotool::core {
 
-struct KeyedIndex {
+struct Keyed {
   std::uint64_t key;
-  std::uint32_t index;
+  std::uint32_t value;  // goes with the key: an index, a label
 };
 
 // Sorts by the lowest `bits` bits of the key; equal keys keep their order. Time linear in the number of
 // items.
-void radix_sort(std::vector<KeyedIndex>& items, int bits);
+void radix_sort(std::vector<Keyed>& items, int bits);
 
 }  // namespace vorotool::core

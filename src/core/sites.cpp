@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
-#include <numeric>
 #include <string>
 
 #include "core/arithmetic.hpp"
@@ -18,87 +17,112 @@ SeedTooFar::SeedTooFar(std::size_t index_, std::int64_t bound_)
 
 namespace {
 
-// Coordinates of the seeds relative to the middle of the frame, and their bounds.
-struct Relative {
-  std::vector<std::int64_t> x, y;
-  std::int64_t least_x, most_x, least_y, most_y;
+// A seed relative to the middle of the frame.
+struct Seed {
+  std::int64_t y, x;
+  std::uint32_t label;
+
+  bool operator<(const Seed& other) const { return y != other.y ? y < other.y : x < other.x; }
 };
 
-Relative relative_to_middle(std::span<const std::int64_t> x, std::span<const std::int64_t> y,
-                            const FrameOnLattice& frame) {
-  const std::int64_t middle_x = frame.steps * (frame.x + frame.middle_column());
-  const std::int64_t middle_y = frame.steps * (frame.y + frame.middle_row());
-  Relative seeds{std::vector<std::int64_t>(x.size()), std::vector<std::int64_t>(x.size()), 0, 0, 0, 0};
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    std::int64_t dx = 0;
-    std::int64_t dy = 0;
-    if (__builtin_sub_overflow(x[i], middle_x, &dx) || __builtin_sub_overflow(y[i], middle_y, &dy) ||
-        dx > wide_bound || dx < -wide_bound || dy > wide_bound || dy < -wide_bound) {
-      throw SeedTooFar(i, wide_bound);
+// The seeds as they were given, seen from the middle of the frame, and their bounds.
+class RelativeSeeds {
+ public:
+  RelativeSeeds(std::span<const std::int64_t> x, std::span<const std::int64_t> y,
+                std::span<const std::uint32_t> label, const FrameOnLattice& frame)
+      : x_(x),
+        y_(y),
+        label_(label),
+        middle_x_(frame.steps * (frame.x + frame.middle_column())),
+        middle_y_(frame.steps * (frame.y + frame.middle_row())) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const Bounds seed{relative(x[i], middle_x_, i), relative(y[i], middle_y_, i)};
+      least_ = {std::min(least_.x, seed.x), std::min(least_.y, seed.y)};
+      most_ = {std::max(most_.x, seed.x), std::max(most_.y, seed.y)};
     }
-    seeds.x[i] = dx;
-    seeds.y[i] = dy;
-    seeds.least_x = std::min(seeds.least_x, dx);
-    seeds.most_x = std::max(seeds.most_x, dx);
-    seeds.least_y = std::min(seeds.least_y, dy);
-    seeds.most_y = std::max(seeds.most_y, dy);
   }
-  return seeds;
+
+  std::size_t size() const { return x_.size(); }
+  std::int64_t least_x() const { return least_.x; }
+  std::int64_t least_y() const { return least_.y; }
+  std::uint64_t x_range() const { return static_cast<std::uint64_t>(most_.x - least_.x); }
+  std::uint64_t y_range() const { return static_cast<std::uint64_t>(most_.y - least_.y); }
+  std::int64_t largest_coordinate() const { return std::max({-least_.x, most_.x, -least_.y, most_.y}); }
+  Seed operator[](std::size_t i) const { return {y_[i] - middle_y_, x_[i] - middle_x_, label_[i]}; }
+
+ private:
+  struct Bounds {
+    std::int64_t x, y;
+  };
+
+  static std::int64_t relative(std::int64_t coordinate, std::int64_t middle, std::size_t index) {
+    std::int64_t difference = 0;
+    if (__builtin_sub_overflow(coordinate, middle, &difference) || difference > wide_bound ||
+        difference < -wide_bound) {
+      throw SeedTooFar(index, wide_bound);
+    }
+    return difference;
+  }
+
+  std::span<const std::int64_t> x_, y_;
+  std::span<const std::uint32_t> label_;
+  std::int64_t middle_x_, middle_y_;
+  Bounds least_{0, 0}, most_{0, 0};  // the middle of the frame is within the bounds
+};
+
+// Calls take(seed) for the seeds in order of (y, x). Where the ranges of both fit one key, a radix sort moves
+// the labels along with the keys, and no seed is looked up out of order.
+template <class Take>
+void for_each_in_sweep_order(const RelativeSeeds& seeds, Take take) {
+  const int x_bits = std::bit_width(seeds.x_range());
+  const int y_bits = std::bit_width(seeds.y_range());
+  if (x_bits + y_bits > 63) {
+    std::vector<Seed> sorted(seeds.size());
+    for (std::size_t i = 0; i < seeds.size(); ++i) sorted[i] = seeds[i];
+    std::sort(sorted.begin(), sorted.end());
+    std::for_each(sorted.begin(), sorted.end(), take);
+    return;
+  }
+  std::vector<Keyed> items(seeds.size());
+  for (std::size_t i = 0; i < seeds.size(); ++i) {
+    const Seed seed = seeds[i];
+    const auto above = static_cast<std::uint64_t>(seed.y - seeds.least_y());
+    items[i] = {above << x_bits | static_cast<std::uint64_t>(seed.x - seeds.least_x()), seed.label};
+  }
+  radix_sort(items, x_bits + y_bits);
+  for (const Keyed& item : items) {
+    const std::uint64_t x = item.key & ((std::uint64_t{1} << x_bits) - 1);
+    take(Seed{seeds.least_y() + static_cast<std::int64_t>(item.key >> x_bits),
+              seeds.least_x() + static_cast<std::int64_t>(x), item.value});
+  }
 }
 
-// Order of the seeds by (y, x); seeds at one place stay in the order of the input.
-std::vector<std::uint32_t> sweep_order(const Relative& seeds) {
-  const std::size_t n = seeds.x.size();
-  const int x_bits = std::bit_width(static_cast<std::uint64_t>(seeds.most_x - seeds.least_x));
-  const int y_bits = std::bit_width(static_cast<std::uint64_t>(seeds.most_y - seeds.least_y));
-  std::vector<std::uint32_t> order(n);
-  if (x_bits + y_bits <= 64) {
-    std::vector<KeyedIndex> items(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      const auto dx = static_cast<std::uint64_t>(seeds.x[i] - seeds.least_x);
-      const auto dy = static_cast<std::uint64_t>(seeds.y[i] - seeds.least_y);
-      items[i] = {x_bits == 64 ? dx : dy << x_bits | dx, static_cast<std::uint32_t>(i)};
-    }
-    radix_sort(items, x_bits + y_bits);
-    std::transform(items.begin(), items.end(), order.begin(),
-                   [](const KeyedIndex& item) { return item.index; });
-  } else {
-    std::iota(order.begin(), order.end(), std::uint32_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return seeds.y[a] != seeds.y[b] ? seeds.y[a] < seeds.y[b] : seeds.x[a] < seeds.x[b];
-    });
-  }
-  return order;
-}
-
-// Numbers the distinct x coordinates in increasing order: by a table over their range where that is small.
-std::vector<std::int64_t> number_columns(const Relative& seeds, const std::vector<std::uint32_t>& kept,
-                                         std::vector<std::int32_t>& column) {
+// Numbers distinct x coordinates (given as offsets from the least) by a table over their range.
+std::vector<std::int64_t> number_by_table(const std::vector<std::uint64_t>& x, std::uint64_t range,
+                                          std::vector<std::int32_t>& column) {
   std::vector<std::int64_t> distinct;
-  column.resize(kept.size());
-  const auto range = static_cast<std::uint64_t>(seeds.most_x - seeds.least_x) + 1;
-  if (range <= 4 * kept.size() + 65536) {
-    std::vector<std::int32_t> number(range, 0);
-    for (const std::uint32_t i : kept) number[static_cast<std::size_t>(seeds.x[i] - seeds.least_x)] = 1;
-    for (std::size_t k = 0; k < range; ++k) {
-      if (number[k] == 0) continue;
-      number[k] = static_cast<std::int32_t>(distinct.size());
-      distinct.push_back(seeds.least_x + static_cast<std::int64_t>(k));
-    }
-    for (std::size_t k = 0; k < kept.size(); ++k) {
-      column[k] = number[static_cast<std::size_t>(seeds.x[kept[k]] - seeds.least_x)];
-    }
-    return distinct;
+  std::vector<std::int32_t> number(range + 1, 0);
+  for (const std::uint64_t offset : x) number[offset] = 1;
+  for (std::size_t offset = 0; offset <= range; ++offset) {
+    if (number[offset] == 0) continue;
+    number[offset] = static_cast<std::int32_t>(distinct.size());
+    distinct.push_back(static_cast<std::int64_t>(offset));
   }
-  std::vector<KeyedIndex> items(kept.size());
-  for (std::size_t k = 0; k < kept.size(); ++k) {
-    items[k] = {static_cast<std::uint64_t>(seeds.x[kept[k]] - seeds.least_x), static_cast<std::uint32_t>(k)};
-  }
+  std::transform(x.begin(), x.end(), column.begin(), [&](std::uint64_t offset) { return number[offset]; });
+  return distinct;
+}
+
+// The same by sorting, where the range is wide.
+std::vector<std::int64_t> number_by_sorting(const std::vector<std::uint64_t>& x, std::uint64_t range,
+                                            std::vector<std::int32_t>& column) {
+  std::vector<std::int64_t> distinct;
+  std::vector<Keyed> items(x.size());
+  for (std::size_t k = 0; k < x.size(); ++k) items[k] = {x[k], static_cast<std::uint32_t>(k)};
   radix_sort(items, std::bit_width(range));
-  for (const KeyedIndex& item : items) {
-    const std::int64_t x = seeds.least_x + static_cast<std::int64_t>(item.key);
-    if (distinct.empty() || distinct.back() != x) distinct.push_back(x);
-    column[item.index] = static_cast<std::int32_t>(distinct.size() - 1);
+  for (const Keyed& item : items) {
+    const auto offset = static_cast<std::int64_t>(item.key);
+    if (distinct.empty() || distinct.back() != offset) distinct.push_back(offset);
+    column[item.value] = static_cast<std::int32_t>(distinct.size() - 1);
   }
   return distinct;
 }
@@ -110,27 +134,30 @@ Sites prepare_sites(std::span<const std::int64_t> x, std::span<const std::int64_
   if (x.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
     throw std::length_error("more than 2147483647 seeds");
   }
-  const Relative seeds = relative_to_middle(x, y, frame);
-  std::vector<std::uint32_t> kept = sweep_order(seeds);
+  const RelativeSeeds seeds(x, y, label, frame);
   Sites sites;
+  std::vector<std::uint64_t> offsets;  // x of each site from the least
   sites.y.reserve(x.size());
   sites.label.reserve(x.size());
-  std::size_t count = 0;
-  for (const std::uint32_t i : kept) {
-    if (count > 0 && seeds.y[i] == seeds.y[kept[count - 1]] && seeds.x[i] == seeds.x[kept[count - 1]]) {
-      sites.label.back() = std::min(sites.label.back(), label[i]);
-      continue;
+  offsets.reserve(x.size());
+  for_each_in_sweep_order(seeds, [&](const Seed& seed) {
+    const auto offset = static_cast<std::uint64_t>(seed.x - seeds.least_x());
+    if (!offsets.empty() && sites.y.back() == seed.y && offsets.back() == offset) {
+      sites.label.back() = std::min(sites.label.back(), seed.label);
+      return;
     }
-    kept[count++] = i;
-    sites.y.push_back(seeds.y[i]);
-    sites.label.push_back(label[i]);
-  }
-  sites.duplicates = x.size() - count;
-  kept.resize(count);
-  sites.column_x = number_columns(seeds, kept, sites.column);
-  sites.largest_coordinate = std::max({-seeds.least_x, seeds.most_x, -seeds.least_y, seeds.most_y,
-                                       std::int64_t{frame.steps} * (frame.middle_column() + 1),
-                                       std::int64_t{frame.steps} * (frame.middle_row() + 1)});
+    sites.y.push_back(seed.y);
+    sites.label.push_back(seed.label);
+    offsets.push_back(offset);
+  });
+  sites.duplicates = x.size() - sites.size();
+  sites.column.resize(sites.size());
+  const bool table = seeds.x_range() <= 4 * sites.size() + 65536;
+  sites.column_x = (table ? number_by_table : number_by_sorting)(offsets, seeds.x_range(), sites.column);
+  for (std::int64_t& column : sites.column_x) column += seeds.least_x();
+  sites.largest_coordinate =
+      std::max({seeds.largest_coordinate(), std::int64_t{frame.steps} * (frame.middle_column() + 1),
+                std::int64_t{frame.steps} * (frame.middle_row() + 1)});
   return sites;
 }
 
