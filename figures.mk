@@ -30,11 +30,11 @@ $(FIGURES)/figure-03a.png: data/dots.csv $(BUILD)/.installed | $(FIGURES)
 # Purpose: seconds against the size of the image: the paper's, its algorithm here, and the exact engine.
 # The 53 seeds of Figure 3 are scaled to each size.
 $(FIGURES)/table-1.md: data/dots.csv docs/table_1.py $(BUILD)/.installed | $(FIGURES)
-	mkdir -p $(FIGURES)/table-1
+	mkdir -p $(BUILD)/table-1
 	for m in $(TABLE_1_SIZES); do for method in propagation exact; do \
 	    awk -F, -v m=$$m 'NR == 1 { print; next } { print int($$1 * m / 512) "," int($$2 * m / 512) }' $< \
-	    | $(VOROTOOL) tessellate - --size $${m}x$${m} --method $$method --threads 1 -q -o $(FIGURES)/table-1/labels.npy \
-	      --stats $(FIGURES)/table-1/$$method-$$m.json || exit 1; \
+	    | $(VOROTOOL) tessellate - --size $${m}x$${m} --method $$method --threads 1 -q -o $(BUILD)/table-1/labels.npy \
+	      --stats $(BUILD)/table-1/$$method-$$m.json || exit 1; \
 	done; done
-	$(RUN) docs/table_1.py $(FIGURES)/table-1 $(TABLE_1_SIZES) > $@
+	$(RUN) docs/table_1.py $(BUILD)/table-1 $(TABLE_1_SIZES) > $@
 	cat $@

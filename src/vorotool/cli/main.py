@@ -23,8 +23,25 @@ COMMANDS = {
 EXIT_DEFECT, EXIT_LIMIT, EXIT_INTERRUPTED, EXIT_TERMINATED, EXIT_BROKEN_PIPE = 1, 5, 130, 143, 141
 
 
+class SignalledError(Exception):
+    """A run that a signal or a closed pipe ended; carries the exit code."""
+
+    def __init__(self, code: int) -> None:
+        super().__init__(code)
+        self.code = code
+
+
 class LazyGroup(click.Group):
     """A group whose commands are imported only when they are used."""
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run a command; what ends it from outside is kept from click, which would print or exit itself."""
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt:
+            raise SignalledError(EXIT_INTERRUPTED) from None
+        except BrokenPipeError:
+            raise SignalledError(EXIT_BROKEN_PIPE) from None
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Names in the order of the registry."""
@@ -57,15 +74,15 @@ def vorotool() -> None:
 def main(arguments: list[str] | None = None) -> NoReturn:
     """Run the command line and leave with its exit code."""
     signal.signal(signal.SIGTERM, _terminate)
+    code = _run(arguments)
     try:
-        code = _run(arguments)
         sys.stdout.flush()
     except BrokenPipeError:
-        # Nobody reads any more: leave quietly, and let the interpreter's last flush go nowhere.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         code = EXIT_BROKEN_PIPE
     except OSError as error:
         code = _fail(f"standard output cannot be written: {error.strerror or error}", 4)
+    if code in (EXIT_BROKEN_PIPE, 4):
+        # The interpreter flushes once more when it ends: let that go nowhere.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     sys.exit(code)
 
@@ -79,10 +96,8 @@ def _run(arguments: list[str] | None) -> int:
     except click.ClickException as error:
         error.show()
         return error.exit_code
-    except (KeyboardInterrupt, click.Abort):
-        return EXIT_INTERRUPTED
-    except BrokenPipeError:
-        raise
+    except SignalledError as error:
+        return error.code
     except MemoryError:
         return _fail("there is not enough memory: use a smaller frame, or an output that is streamed", EXIT_LIMIT)
     except Exception as error:  # a defect of ours: say so, with what is needed to mend it

@@ -120,8 +120,9 @@ class Products:
         self._write_rows(out, fmt, rows.squared_distances, rows.square_dtype, int(np.iinfo(rows.square_dtype).max))
 
     def _write_table(self, out: BinaryIO, fmt: str) -> None:
+        image, measures = self.image, self.measures  # refuses a frame that is too large, before distances are taken
         squares = self.rows.squared_distances() if isinstance(self.rows, Tessellator) else None
-        table = region_table(self.image, distance2=squares, measures=self.measures, threads=self.options.threads)
+        table = region_table(image, distance2=squares, measures=measures, threads=self.options.threads)
         self._write_columns(out, fmt, table)
 
     def _write_neighbours(self, out: BinaryIO, fmt: str) -> None:

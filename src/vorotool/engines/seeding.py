@@ -77,7 +77,6 @@ def seeds_from_points(points: PointSet, *, strict: bool = False) -> SeedSet:
         lattice[:, 1],
         labels,
         scale=scale,
-        properties=points.properties,
         snapped=snapped,
         largest_move=largest_move,
         **_sites_of_points(lattice / scale, labels, points),
@@ -87,7 +86,7 @@ def seeds_from_points(points: PointSet, *, strict: bool = False) -> SeedSet:
 def _sites_of_points(xy: NDArray[np.float64], labels: NDArray[np.uint32], points: PointSet) -> dict[str, Any]:
     """Sites in increasing label order; points that share a label leave the choice to SeedSet."""
     if points.labels is None:
-        return {"sites": xy, "site_labels": labels}
+        return {"sites": xy, "site_labels": labels, "properties": points.properties}
     order = np.argsort(labels, kind="stable")
     if len(labels) and (np.diff(labels[order].astype(np.int64)) == 0).any():
         if points.properties:

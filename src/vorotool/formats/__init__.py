@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from vorotool.geometry.frame import MAX_PIXELS
 
+NPY_MAGIC = b"\x93NUMPY"
 IMAGE_FORMATS = ("png", "tiff", "pnm", "pgm", "pbm")
 
 if TYPE_CHECKING:
@@ -70,8 +71,8 @@ def read(
     from vorotool.formats.sources import read_source
 
     source = read_source(fspath(path))
-    named_image = input_format in IMAGE_FORMATS
-    if named_image or (input_format in (None, "npy") and columns is None and is_image(source)):
+    is_points = columns is not None and source.data.startswith(NPY_MAGIC)  # the one format that holds either
+    if input_format in IMAGE_FORMATS or (input_format in (None, "npy") and not is_points and is_image(source)):
         return read_image(source, input_format=input_format, page=page, max_pixels=max_pixels)
     return read_points(
         source,
