@@ -99,6 +99,7 @@ def colour_graph(
 ) -> NDArray[np.uint32]: ...
 
 # ---- text (bind_text.cpp): a delimiter is one of "," ";" "\t" " " ---------------------------------------------
+# ---- text (bind_text.cpp): a delimiter is one of "," ";" "\t" " " --------------------------------
 
 class TextError(ValueError):
     """Args: kind (not_number, not_finite, field_count, open_quote), line, column, text, found, expected."""

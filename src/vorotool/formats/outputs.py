@@ -1,0 +1,199 @@
+"""Outputs that appear whole or not at all."""
+
+from __future__ import annotations
+
+import errno
+import os
+import secrets
+import stat
+import sys
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import BinaryIO
+
+from vorotool.errors import OutputError, UsageError, VorotoolError
+
+STANDARD_OUTPUT = "standard output"
+
+
+@contextmanager
+def open_output(
+    path: str | os.PathLike[str],
+    *,
+    binary: bool = False,
+    no_clobber: bool = False,
+    inputs: Iterable[str | os.PathLike[str]] = (),
+) -> Iterator[BinaryIO]:
+    """Open an output that replaces an older file only when all of it has been written.
+
+    A regular file is written beside its place under a temporary name and renamed at the end; on any
+    exception, an interrupt too, the temporary file is removed and the older file is as it was. Pipes and
+    devices are written directly. The body should do nothing but write: its ``OSError`` is taken for one of the output.
+
+    Parameters
+    ----------
+    path : str or path
+        Where to write; ``-`` is standard output.
+    binary : bool
+        The output is not text: it is never sent to a terminal.
+    no_clobber : bool
+        Refuse to replace an existing file.
+    inputs : iterable of paths
+        Files that must not be replaced because they are being read.
+
+    Yields
+    ------
+    binary file object
+        Regular files can be written at any position; pipes only in order.
+
+    Raises
+    ------
+    UsageError
+        If the output is one of the inputs, or binary on a terminal.
+    OutputError
+        If it cannot be written; the message names the path and the reason.
+    BrokenPipeError
+        If the reader of a pipe has gone; for the caller to end quietly.
+
+    Examples
+    --------
+    >>> with open_output("/dev/null") as out:
+    ...     out.write(b"label,x,y")
+    9
+    """
+    name = os.fspath(path)
+    if name == "-":
+        with _standard_output(binary) as out:
+            yield out
+        return
+    target = _checked_target(name, no_clobber, inputs)
+    writer = _replacing(name, target, no_clobber) if _is_regular(target) else _direct(name, target)
+    with writer as out:
+        yield out
+
+
+@contextmanager
+def _standard_output(binary: bool) -> Iterator[BinaryIO]:
+    if binary and sys.stdout.isatty():
+        raise UsageError(
+            "binary output is not written to a terminal: name a file with -o, or a text format with -f"
+        )
+    out: BinaryIO = sys.stdout.buffer
+    try:
+        sys.stdout.flush()
+        yield out
+        out.flush()
+    except (BrokenPipeError, VorotoolError):
+        raise
+    except OSError as error:
+        _abandon_standard_output()
+        raise _failure(STANDARD_OUTPUT, error) from error
+
+
+def _abandon_standard_output() -> None:
+    """Let what is still in the buffer go nowhere, or the interpreter fails on it again when it ends."""
+    with suppress(OSError, ValueError):
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())
+        os.close(nowhere)
+
+
+def _checked_target(name: str, no_clobber: bool, inputs: Iterable[str | os.PathLike[str]]) -> Path:
+    """Follow links, so that the file is replaced and not the link to it."""
+    try:
+        target = Path(os.path.realpath(name))
+        exists = target.exists()
+    except (OSError, ValueError) as error:
+        raise OutputError(f"{name!r} cannot be written: {error}; choose another name") from None
+    if not name or target.is_dir() or name.endswith(os.sep):
+        raise OutputError(f"{name!r} is a directory: name a file in it")
+    if not exists or not _is_regular(target):
+        return target
+    for each in inputs:
+        if _is_same_file(target, os.fspath(each)):
+            raise UsageError(f"{name} is also an input, which is never replaced: choose another name with -o")
+    if no_clobber:
+        raise _clobber_error(name)
+    if not os.access(target, os.W_OK):
+        raise OutputError(f"{name} cannot be written: it is write-protected; choose another name with -o")
+    return target
+
+
+def _clobber_error(name: str) -> OutputError:
+    return OutputError(f"{name} exists already and --no-clobber is given: choose another name with -o")
+
+
+def _is_regular(target: Path) -> bool:
+    """Whether ``target`` is, or will be, an ordinary file; links have been followed."""
+    try:
+        return stat.S_ISREG(target.stat().st_mode)
+    except OSError:
+        return True
+
+
+def _is_same_file(target: Path, source: str) -> bool:
+    try:
+        if source == "-":
+            return os.path.samestat(target.stat(), os.fstat(sys.stdin.fileno()))
+        return target.samefile(source)
+    except (OSError, ValueError, AttributeError):  # an input that is not there, or no file, is no output
+        return False
+
+
+@contextmanager
+def _direct(name: str, target: Path) -> Iterator[BinaryIO]:
+    """Write to a pipe or a device."""
+    with _explained(name), target.open("wb") as out:
+        yield out
+
+
+@contextmanager
+def _replacing(name: str, target: Path, no_clobber: bool) -> Iterator[BinaryIO]:
+    # A name of 64 random bits is nobody else's: whatever happens, it is ours to remove.
+    temporary = target.with_name(f".vorotool-{secrets.token_hex(8)}.tmp")
+    try:
+        with _explained(name):
+            with _create(temporary, target) as out:
+                yield out
+            if no_clobber and target.exists():
+                raise _clobber_error(name)
+            temporary.replace(target)
+    except BaseException:
+        with suppress(OSError):
+            temporary.unlink()
+        raise
+
+
+def _create(temporary: Path, target: Path) -> BinaryIO:
+    """Create the temporary file with the permissions of the older file, else those of the umask."""
+    descriptor = os.open(temporary, os.O_RDWR | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o666)
+    with suppress(OSError):  # no older file, or a file system without permissions
+        temporary.chmod(stat.S_IMODE(target.stat().st_mode))
+    return os.fdopen(descriptor, "w+b")
+
+
+@contextmanager
+def _explained(name: str) -> Iterator[None]:
+    try:
+        yield
+    except (BrokenPipeError, VorotoolError):
+        raise
+    except OSError as error:
+        raise _failure(name, error) from error
+
+
+def _failure(name: str, error: OSError) -> OutputError:
+    advice = {
+        "ENOENT": "create the directory first",
+        "ENOTDIR": "create the directory first",
+        "ENOSPC": "free some space, or write elsewhere with -o",
+        "EDQUOT": "free some space, or write elsewhere with -o",
+    }
+    code = _error_name(error)
+    reason = "the directory does not exist" if code == "ENOENT" else error.strerror or error
+    return OutputError(f"{name} cannot be written: {reason}; {advice.get(code, 'write elsewhere with -o')}")
+
+
+def _error_name(error: OSError) -> str:
+    return errno.errorcode.get(error.errno or 0, "")

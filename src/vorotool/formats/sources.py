@@ -1,0 +1,119 @@
+"""Bytes of an input, and what is checked before a parser sees them."""
+
+from __future__ import annotations
+
+import os
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+from vorotool import _core
+from vorotool.errors import InputError
+
+STANDARD_INPUT = "standard input"
+NESTING_LIMIT = 100
+"""Levels of brackets; no file of points or polygons has ten."""
+
+
+@dataclass(frozen=True)
+class Source:
+    """The content of one input.
+
+    Parameters
+    ----------
+    name : str
+        The path as the user wrote it, or ``standard input``: what messages say.
+    data : bytes
+        The whole content.
+
+    Examples
+    --------
+    >>> Source("seeds.CSV", b"1,2").suffix
+    '.csv'
+    """
+
+    name: str
+    data: bytes
+
+    @property
+    def suffix(self) -> str:
+        """Extension of the name in lower case, with its dot; empty for standard input."""
+        return Path(self.name).suffix.lower()
+
+    def line_at(self, offset: int) -> int:
+        """1-based line of the byte at ``offset``."""
+        return self.data.count(b"\n", 0, offset) + 1
+
+
+def read_source(path: str | os.PathLike[str]) -> Source:
+    """Read a whole file, or standard input for ``-``.
+
+    Raises
+    ------
+    InputError
+        If there is no such file, it is a directory, or it cannot be read.
+    """
+    name = os.fspath(path)
+    if name == "-":
+        return Source(STANDARD_INPUT, _read_standard_input())
+    try:
+        return Source(name, Path(name).read_bytes())
+    except FileNotFoundError:
+        raise InputError(f"{name}: there is no such file; check the path ({_place(name)})") from None
+    except IsADirectoryError:
+        raise InputError(f"{name} is a directory: name the files in it, for example {name}/*") from None
+    except PermissionError:
+        raise InputError(f"{name} cannot be read: permission denied; check who owns it") from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise InputError(f"{name!r} cannot be read: {reason}; check the path") from None
+
+
+def _read_standard_input() -> bytes:
+    try:
+        return sys.stdin.buffer.read()
+    except (AttributeError, ValueError):  # None or closed, as under a daemon
+        raise InputError("standard input is closed: name a file instead of -") from None
+    except OSError as error:
+        raise InputError(
+            f"standard input cannot be read: {error.strerror}; name a file instead of -"
+        ) from None
+
+
+def _place(name: str) -> str:
+    parent = Path(name).parent
+    return f"looked in {parent.resolve()}" if parent.is_dir() else f"nor is there a directory {parent}"
+
+
+def check_nesting(text: str | bytes, limit: int = NESTING_LIMIT, name: str = "the text") -> None:
+    """Refuse brackets nested beyond ``limit`` before a recursive parser sees them.
+
+    Parameters
+    ----------
+    text : str or bytes
+        JSON or WKT; brackets inside JSON strings do not count.
+    limit : int
+        Levels that are accepted.
+    name : str
+        What the message calls the text.
+
+    Raises
+    ------
+    InputError
+        If a bracket opens a level beyond ``limit``; the line is named.
+
+    Examples
+    --------
+    >>> check_nesting(b"[[1, 2], [3, 4]]")
+    >>> check_nesting("(" * 500, name="deep.wkt")
+    Traceback (most recent call last):
+        ...
+    vorotool.errors.InputError: deep.wkt, line 1: brackets are nested more than 100 deep; check the brackets
+    """
+    data = text.encode("utf-8", "replace") if isinstance(text, str) else text
+    offset = _core.find_too_deep(data, limit)
+    if offset is not None:
+        line = data.count(b"\n", 0, offset) + 1
+        raise InputError(
+            f"{name}, line {line}: brackets are nested more than {limit} deep; check the brackets"
+        )
