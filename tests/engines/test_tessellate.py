@@ -1,7 +1,10 @@
 """The exact engine against brute force, and the relations that any tessellation must satisfy."""
 
+import subprocess
+import sys
 import warnings
 from fractions import Fraction
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -287,3 +290,12 @@ def test_a_progress_callback_that_raises_stops_the_kernel():
         sweep = Tessellator(points, Frame(0, 0, 20000, 20000), threads=1, progress=progress)
     with pytest.raises(StopNowError):
         sweep.labels(0, 8000)
+
+
+def test_the_fuzzer_runs():
+    script = Path(__file__).parents[1] / "fuzz" / "tessellate.py"
+    done = subprocess.run(
+        [sys.executable, script, "--pixels", "400000", "--seed", "7"], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert ", 0 wrong, " in done.stdout
