@@ -1,1 +1,40 @@
-# One rule a figure of the paper; its body is a vorotool pipeline.
+# Figures and tables of the paper: one rule each, its body a vorotool pipeline.
+# `make figures` draws all, `make figure-01` one; they go to build/figures.
+VOROTOOL := $(BIN)/vorotool
+FIGURES  := $(BUILD)/figures
+TABLE_1_SIZES := 64 128 256 512
+
+.PHONY: figures figure-01 figure-02 figure-03a table-1
+figures: figure-01 figure-02 figure-03a table-1 ## draw the figures and tables of the paper into build/figures
+	@echo "figures are in $(FIGURES):" && ls $(FIGURES)
+figure-01: $(FIGURES)/figure-01.svg
+figure-02: $(FIGURES)/figure-02.svg
+figure-03a: $(FIGURES)/figure-03a.png
+table-1: $(FIGURES)/table-1.md
+
+$(FIGURES):
+	mkdir -p $@
+
+# Purpose: the matrix V of six seeds after the first passes of section 2.2.
+$(FIGURES)/figure-01.svg: data/six-seeds.csv $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) tessellate $< --size 16x16 --method propagation --passes 1 -o $@
+
+# Purpose: the digital Voronoi tessellation of the same seeds, after the second passes.
+$(FIGURES)/figure-02.svg: data/six-seeds.csv $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) tessellate $< --size 16x16 --method propagation -o $@
+
+# Purpose: the digital Voronoi diagram of 53 random seeds.
+$(FIGURES)/figure-03a.png: data/dots.csv $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) tessellate $< --size 512x512 --what diagram --layers diagram,seeds -o $@
+
+# Purpose: seconds against the size of the image: the paper's, its algorithm here, and the exact engine.
+# The 53 seeds of Figure 3 are scaled to each size.
+$(FIGURES)/table-1.md: data/dots.csv docs/table_1.py $(BUILD)/.installed | $(FIGURES)
+	mkdir -p $(BUILD)/table-1
+	for m in $(TABLE_1_SIZES); do for method in propagation exact; do \
+	    awk -F, -v m=$$m 'NR == 1 { print; next } { print int($$1 * m / 512) "," int($$2 * m / 512) }' $< \
+	    | $(VOROTOOL) tessellate - --size $${m}x$${m} --method $$method --threads 1 -q -o $(BUILD)/table-1/labels.npy \
+	      --stats $(BUILD)/table-1/$$method-$$m.json || exit 1; \
+	done; done
+	$(RUN) docs/table_1.py $(BUILD)/table-1 $(TABLE_1_SIZES) > $@
+	cat $@

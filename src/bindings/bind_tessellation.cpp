@@ -1,7 +1,155 @@
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
 #include "bindings.hpp"
+#include "core/propagation.hpp"
+#include "core/stream_fill.hpp"
+#include "core/tessellation.hpp"
+#include "interrupts.hpp"
+
+namespace nb = nanobind;
 
 namespace vorotool::bindings {
 
-void bind_tessellation(nanobind::module_&) {}
+namespace {
+
+using core::FrameOnLattice;
+using core::Monitor;
+using core::Simd;
+using core::Tessellation;
+using Integers = nb::ndarray<const std::int64_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Labels = nb::ndarray<const std::uint32_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Image = nb::ndarray<nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using Label32Image = nb::ndarray<std::uint32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using Halves = std::pair<std::uint64_t, std::uint64_t>;  // upper and lower 64 bits
+
+template <class T, class Array>
+std::span<const T> view(const Array& array) {
+  return {array.data(), array.size()};
+}
+
+Simd simd_level(std::string_view name) {
+  for (const Simd level : {Simd::portable, Simd::avx2, Simd::avx512}) {
+    if (name == core::name_of(level)) {
+      if (core::supports(level)) return level;
+      throw std::invalid_argument(std::string(name) + " is not supported by this machine");
+    }
+  }
+  throw std::invalid_argument("unknown instruction set " + std::string(name));
+}
+
+Tessellation make_tessellation(const Integers& x, const Integers& y, const Labels& labels,
+                               std::int64_t frame_x, std::int64_t frame_y, std::int32_t width,
+                               std::int32_t height, std::int32_t steps, std::string_view simd) {
+  const FrameOnLattice frame{frame_x, frame_y, width, height, steps};
+  const Simd level = simd_level(simd);
+  const nb::gil_scoped_release no_gil;
+  return {view<std::int64_t>(x), view<std::int64_t>(y), view<std::uint32_t>(labels), frame, level};
+}
+
+// Rows of an output image, checked against the frame.
+std::int32_t rows_of(const Tessellation& tessellation, const Image& out, std::int32_t first) {
+  const auto& frame = tessellation.frame();
+  const auto rows = static_cast<std::int64_t>(out.shape(0));
+  if (static_cast<std::int64_t>(out.shape(1)) != frame.width || first < 0 || first + rows > frame.height) {
+    throw std::invalid_argument("the output does not fit the frame");
+  }
+  return static_cast<std::int32_t>(rows);
+}
+
+// Calls body(pointer) with the element type of `out`, one of Types.
+template <class... Types, class Body>
+void with_type(const Image& out, Body body) {
+  const bool known =
+      ((out.dtype() == nb::dtype<Types>() && (body(static_cast<Types*>(out.data())), true)) || ...);
+  if (!known) throw std::invalid_argument("the output has an element type that this function does not write");
+}
+
+void write_labels(const Tessellation& tessellation, const Image& out, std::int32_t first,
+                  std::optional<Halves> most_squared, unsigned threads, nb::handle progress) {
+  const std::int32_t rows = rows_of(tessellation, out, first);
+  std::optional<core::uint128> limit;
+  if (most_squared) limit = core::uint128{most_squared->first} << 64 | most_squared->second;
+  const auto write = [&](auto* pixels) {
+    run_interruptible(progress, [&](const Monitor& monitor) {
+      tessellation.labels(first, rows, pixels, limit, threads, monitor);
+    });
+  };
+  if (out.dtype() == nb::dtype<std::int32_t>()) {  // labels are below 2^31: the bits are those of uint32
+    write(static_cast<std::uint32_t*>(out.data()));
+  } else {
+    with_type<std::uint8_t, std::uint16_t, std::uint32_t>(out, write);
+  }
+}
+
+void write_squared_distances(const Tessellation& tessellation, const Image& out, std::int32_t first,
+                             unsigned threads, nb::handle progress) {
+  const std::int32_t rows = rows_of(tessellation, out, first);
+  with_type<std::uint32_t, std::uint64_t>(out, [&](auto* pixels) {
+    run_interruptible(progress, [&](const Monitor& monitor) {
+      tessellation.squared_distances(first, rows, pixels, threads, monitor);
+    });
+  });
+}
+
+void write_distances(const Tessellation& tessellation, const Image& out, std::int32_t first, unsigned threads,
+                     nb::handle progress) {
+  const std::int32_t rows = rows_of(tessellation, out, first);
+  with_type<float>(out, [&](float* pixels) {
+    run_interruptible(progress, [&](const Monitor& monitor) {
+      tessellation.distances(first, rows, pixels, threads, monitor);
+    });
+  });
+}
+
+void propagate(const Integers& x, const Integers& y, const Labels& labels, int passes,
+               const Label32Image& out, nb::handle progress) {
+  run_interruptible(progress, [&](const Monitor& monitor) {
+    core::propagate(view<std::int64_t>(x), view<std::int64_t>(y), view<std::uint32_t>(labels),
+                    static_cast<std::int32_t>(out.shape(1)), static_cast<std::int32_t>(out.shape(0)), passes,
+                    out.data(), monitor);
+  });
+}
+
+// Fills an array past the caches: the floor of `make bench`.
+void stream_fill(const Image& out, unsigned threads) {
+  core::stream_fill(static_cast<char*>(out.data()), out.nbytes(), threads);
+}
+
+}  // namespace
+
+void bind_tessellation(nb::module_& module) {
+  nb::exception<core::SeedTooFar>(module, "SeedTooFarError", PyExc_ValueError);
+  nb::class_<Tessellation>(module, "Tessellation")
+      .def("__init__",
+           [](Tessellation* self, const Integers& x, const Integers& y, const Labels& labels,
+              std::int64_t frame_x, std::int64_t frame_y, std::int32_t width, std::int32_t height,
+              std::int32_t steps, std::string_view simd) {
+             new (self)
+                 Tessellation(make_tessellation(x, y, labels, frame_x, frame_y, width, height, steps, simd));
+           })
+      .def_prop_ro("duplicates", &Tessellation::duplicates)
+      .def_prop_ro("columns", &Tessellation::columns)
+      .def_prop_ro("is_wide", &Tessellation::is_wide)
+      .def_prop_ro("products_exact", &Tessellation::products_exact)
+      .def("labels", &write_labels, nb::arg("out"), nb::arg("first"), nb::arg("most_squared").none(),
+           nb::arg("threads"), nb::arg("progress").none())
+      .def("squared_distances", &write_squared_distances, nb::arg("out"), nb::arg("first"),
+           nb::arg("threads"), nb::arg("progress").none())
+      .def("distances", &write_distances, nb::arg("out"), nb::arg("first"), nb::arg("threads"),
+           nb::arg("progress").none());
+  module.def("propagate", &propagate, nb::arg("x"), nb::arg("y"), nb::arg("labels"), nb::arg("passes"),
+             nb::arg("out"), nb::arg("progress").none());
+  module.def("stream_fill", &stream_fill, nb::arg("out"), nb::arg("threads"));
+  module.def("widest_simd", [] { return std::string(core::name_of(core::widest_simd())); });
+}
 
 }  // namespace vorotool::bindings

@@ -18,8 +18,8 @@ unsigned resolve_threads(unsigned threads);
 // and, while it waits for the others, every 20 ms, with the fraction of pieces done; so pieces should take
 // some milliseconds, not more. When the monitor returns false no further piece is started and Interrupted is
 // thrown once the running ones have ended. When pieces throw, no further piece is started and the exception
-// of the smallest index is rethrown: since smaller indices have been started before, it is the same one
-// whatever the threads.
+// of the smallest index is rethrown: smaller indices have been started before, so it is
+// always the same one.
 void parallel_for(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& body,
                   const Monitor& monitor = {});
 

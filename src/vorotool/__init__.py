@@ -17,6 +17,7 @@ _HOME = {
     "UsageError": "vorotool.errors",
     "VerificationError": "vorotool.errors",
     "VorotoolError": "vorotool.errors",
+    "VorotoolWarning": "vorotool.errors",
     "Frame": "vorotool.geometry.frame",
     "LabelImage": "vorotool.geometry.label_image",
     "PointSet": "vorotool.geometry.points",
@@ -35,7 +36,7 @@ _HOME = {
     "colour_regions": "vorotool.engines.regions",
 }
 
-__all__ = ["__version__", *_HOME]
+__all__ = ["__version__", *_HOME]  # noqa: PLE0604 - the keys are strings
 
 
 def __getattr__(name: str) -> Any:

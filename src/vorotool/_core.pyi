@@ -1,10 +1,104 @@
 """Types of the compiled core (private)."""
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+class SeedTooFarError(ValueError): ...
+
+class Tessellation:
+    def __init__(
+        self,
+        x: NDArray[Any],
+        y: NDArray[Any],
+        labels: NDArray[Any],
+        frame_x: int,
+        frame_y: int,
+        width: int,
+        height: int,
+        steps: int,
+        simd: str,
+    ) -> None: ...
+    @property
+    def duplicates(self) -> int: ...
+    @property
+    def columns(self) -> int: ...
+    @property
+    def is_wide(self) -> bool: ...
+    @property
+    def products_exact(self) -> bool: ...
+    def labels(
+        self,
+        out: NDArray[Any],
+        first: int,
+        most_squared: tuple[int, int] | None,
+        threads: int,
+        progress: Callable[[float], object] | None,
+    ) -> None: ...
+    def squared_distances(
+        self, out: NDArray[Any], first: int, threads: int, progress: Callable[[float], object] | None
+    ) -> None: ...
+    def distances(
+        self, out: NDArray[Any], first: int, threads: int, progress: Callable[[float], object] | None
+    ) -> None: ...
+
+def propagate(
+    x: NDArray[Any],
+    y: NDArray[Any],
+    labels: NDArray[Any],
+    passes: int,
+    out: NDArray[Any],
+    progress: Callable[[float], object] | None,
+) -> None: ...
+def stream_fill(out: NDArray[Any], threads: int) -> None: ...
+def widest_simd() -> str: ...
+
+_Progress = Callable[[float], object] | None
+
+# regions: labels are C-contiguous uint8, uint16 or uint32
+def measure_regions(labels: NDArray[Any], threads: int, progress: _Progress) -> dict[str, NDArray[Any]]: ...
+def max_by_label(
+    labels: NDArray[Any],
+    values: NDArray[Any],
+    wanted: NDArray[np.uint32],
+    threads: int,
+    progress: _Progress,
+) -> NDArray[np.uint64]: ...
+def mark_diagram(
+    labels: NDArray[Any],
+    above: NDArray[Any] | None,
+    below: NDArray[Any] | None,
+    out: NDArray[np.uint8],
+    threads: int,
+    progress: _Progress,
+) -> None: ...
+def verify_labels(
+    labels: NDArray[Any],
+    x: int,
+    y: int,
+    seed_x: NDArray[np.int64],
+    seed_y: NDArray[np.int64],
+    seed_labels: NDArray[np.uint32],
+    scale: int,
+    limit_high: int | None,
+    limit_low: int,
+    threads: int,
+    progress: _Progress,
+) -> tuple[int, int, int, int, int]: ...
+def nearest_other_sites(
+    x: NDArray[np.float64],
+    y: NDArray[np.float64],
+    labels: NDArray[np.uint32],
+    threads: int,
+    progress: _Progress,
+) -> tuple[NDArray[np.int64], NDArray[np.float64]]: ...
+def colour_graph(
+    vertices: int, a: NDArray[np.uint32], b: NDArray[np.uint32], progress: _Progress
+) -> NDArray[np.uint32]: ...
+
+# ---- text (bind_text.cpp): a delimiter is one of "," ";" "\t" " " ---------------------------------------------
 # ---- text (bind_text.cpp): a delimiter is one of "," ";" "\t" " " --------------------------------
 
 class TextError(ValueError):

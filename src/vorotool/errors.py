@@ -37,28 +37,5 @@ class LimitError(VorotoolError):
     exit_code = 5
 
 
-class Warnings:
-    """Collects what was repaired, snapped or guessed, for standard error and ``--stats``.
-
-    Parameters
-    ----------
-    emit : callable, optional
-        Called with each message as it is added.
-
-    Examples
-    --------
-    >>> warnings = Warnings()
-    >>> warnings.add("2 duplicate seeds: the smallest label has the region")
-    >>> warnings.messages
-    ['2 duplicate seeds: the smallest label has the region']
-    """
-
-    def __init__(self, emit: object = None) -> None:
-        self.messages: list[str] = []
-        self._emit = emit
-
-    def add(self, message: str) -> None:
-        """Keep ``message`` (one line, what was done and how often) and pass it on."""
-        self.messages.append(message)
-        if callable(self._emit):
-            self._emit(message)
+class VorotoolWarning(UserWarning):
+    """Something was repaired, snapped or guessed; one line that counts what was done."""

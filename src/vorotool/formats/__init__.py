@@ -1,1 +1,138 @@
 """Reading and writing files."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from vorotool.geometry.frame import MAX_PIXELS
+
+NPY_MAGIC = b"\x93NUMPY"
+IMAGE_FORMATS = ("png", "tiff", "pnm", "pgm", "pbm")
+
+if TYPE_CHECKING:
+    from vorotool.geometry.points import PointSet
+    from vorotool.geometry.raster import Raster
+
+
+def read(
+    path: str | PathLike[str],
+    *,
+    input_format: str | None = None,
+    columns: str | None = None,
+    page: int | None = None,
+    max_pixels: int = MAX_PIXELS,
+    max_sites: int | None = None,
+    properties: bool = True,
+    threads: int = 0,
+    note: Callable[[str], None] | None = None,
+) -> PointSet | Raster:
+    """Read points or an image.
+
+    Parameters
+    ----------
+    path : str or path
+        The file; ``-`` is standard input.
+    input_format : str, optional
+        csv, node, npy, geojson, wkt, json, png, tiff or pnm, where extension and content leave it unclear.
+    columns : str, optional
+        ``X,Y[,LABEL]`` of a point list, by name or number from 1.
+    page : int, optional
+        Page of an image stack, from 0.
+    max_pixels, max_sites : int
+        Larger inputs are refused before memory is taken.
+    properties : bool
+        Keep the further columns of a point list.
+    threads : int
+        0 uses all.
+    note : callable, optional
+        Told in words what was recognised.
+
+    Returns
+    -------
+    PointSet or Raster
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read; the message names the place and what to do.
+    LimitError
+        If it is too large.
+
+    Examples
+    --------
+    >>> len(read("data/dots.csv"))
+    53
+    """
+    from vorotool.formats.images import is_image, read_image
+    from vorotool.formats.points import read_points
+    from vorotool.formats.sources import read_source
+
+    source = read_source(fspath(path))
+    is_points = columns is not None and source.data.startswith(NPY_MAGIC)  # the one format that holds either
+    if input_format in IMAGE_FORMATS or (input_format in (None, "npy") and not is_points and is_image(source)):
+        return read_image(source, input_format=input_format, page=page, max_pixels=max_pixels)
+    return read_points(
+        source,
+        input_format=input_format,
+        columns=columns,
+        properties=properties,
+        max_sites=max_sites,
+        threads=threads,
+        note=note,
+    )
+
+
+def write(value: Any, path: str | PathLike[str], *, fmt: str | None = None, threads: int = 0) -> None:
+    """Write a label image (PNG, TIFF, NPY, text) or a table (CSV, JSON, NPZ).
+
+    Parameters
+    ----------
+    value : LabelImage or Table
+        What to write.
+    path : str or path
+        The file, replaced atomically.
+    fmt : str, optional
+        Format; by default that of the extension.
+    threads : int
+        0 uses all.
+
+    Raises
+    ------
+    OutputError
+        If the file cannot be written; an older one is untouched.
+    UsageError
+        If the value cannot be written in this format.
+
+    Examples
+    --------
+    >>> import vorotool
+    >>> write(vorotool.tessellate([[1, 1], [5, 3]], shape=(4, 6)), "build/labels.png")
+    """
+    from vorotool.errors import UsageError
+    from vorotool.formats.label_images import write_label_image
+    from vorotool.formats.outputs import open_output
+    from vorotool.formats.tables import write_table
+    from vorotool.geometry.label_image import LabelImage
+    from vorotool.geometry.table import Table
+
+    extension = Path(path).suffix.lower().lstrip(".")
+    chosen: Any = fmt or {"tif": "tiff", "txt": "text"}.get(extension, extension)
+    if isinstance(value, LabelImage):
+        with open_output(fspath(path), binary=chosen != "text") as out:
+            write_label_image(
+                out,
+                [value.labels],
+                shape=value.shape,
+                dtype=value.labels.dtype,
+                fmt=chosen,
+                largest_label=int(value.labels.max()),
+                threads=threads,
+            )
+    elif isinstance(value, Table):
+        with open_output(fspath(path), binary=chosen == "npz") as out:
+            write_table(out, value, chosen, threads=threads)
+    else:
+        raise UsageError(f"a {type(value).__name__} cannot be written: give a LabelImage or a Table")

@@ -77,9 +77,7 @@ def open_output(
 @contextmanager
 def _standard_output(binary: bool) -> Iterator[BinaryIO]:
     if binary and sys.stdout.isatty():
-        raise UsageError(
-            "binary output is not written to a terminal: name a file with -o, or a text format with -f"
-        )
+        raise UsageError("binary output is not written to a terminal: name a file with -o, or a text format with -f")
     out: BinaryIO = sys.stdout.buffer
     try:
         sys.stdout.flush()

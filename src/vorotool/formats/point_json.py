@@ -32,8 +32,7 @@ def parse_json(source: Source) -> Any:
         return orjson.loads(source.data)
     except orjson.JSONDecodeError as error:
         raise InputError(
-            f"{source.name}, line {error.lineno}, column {error.colno}: "
-            f"this is not JSON ({error.msg}); correct it"
+            f"{source.name}, line {error.lineno}, column {error.colno}: this is not JSON ({error.msg}); correct it"
         ) from None
 
 
@@ -57,9 +56,7 @@ def read_geojson(source: Source, options: PointOptions) -> PointSet:
     """Read the points of a GeoJSON document with their ``id`` and properties."""
     document = parse_json(source)
     if not isinstance(document, dict):
-        raise InputError(
-            f"{source.name}: GeoJSON is an object with a type; use --input-format json for [[x, y], …]"
-        )
+        raise InputError(f"{source.name}: GeoJSON is an object with a type; use --input-format json for [[x, y], …]")
     return _read_document(source.name, document, options)
 
 
@@ -114,9 +111,7 @@ def _collect(collected: _Collected, index: int, feature: Any, place: str) -> Non
     if not isinstance(feature, dict) or feature.get("type") != "Feature":
         raise InputError(f'{place}: {shortened(feature)} is no Feature; give it "type": "Feature"')
     if not isinstance(feature.get("properties"), dict | None):
-        raise InputError(
-            f"{place}: properties are {shortened(feature['properties'])}; write an object or null"
-        )
+        raise InputError(f"{place}: properties are {shortened(feature['properties'])}; write an object or null")
     positions = _positions(feature.get("geometry"), place)
     if not positions:
         collected.without_geometry += 1
@@ -130,9 +125,7 @@ def _positions(geometry: Any, place: str) -> list[Any]:
     if geometry is None:
         return []
     if not isinstance(geometry, dict):
-        raise InputError(
-            f"{place}: the geometry is {shortened(geometry)}; write an object with type and coordinates"
-        )
+        raise InputError(f"{place}: the geometry is {shortened(geometry)}; write an object with type and coordinates")
     kind = geometry.get("type")
     if kind == "GeometryCollection":
         return [p for each in _list_of(geometry, "geometries", place) for p in _positions(each, place)]

@@ -59,8 +59,7 @@ def _read_header(name: str, first: tuple[int, str, list[str]]) -> _Header:
         raise InputError(f"{name}, line {line}: the vertices have {dimension} dimensions; only 2 are read")
     if markers > 1 or attributes > 1000:
         raise InputError(
-            f"{name}, line {line}: {attributes} attributes and {markers} boundary markers a vertex; "
-            f"write {_FORM}"
+            f"{name}, line {line}: {attributes} attributes and {markers} boundary markers a vertex; write {_FORM}"
         )
     return _Header(line, vertices, attributes, markers)
 

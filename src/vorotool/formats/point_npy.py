@@ -41,9 +41,7 @@ def _read_header(source: Source) -> tuple[tuple[int, ...], bool, np.dtype[np.gen
         version = np.lib.format.read_magic(stream)
         if version not in ((1, 0), (2, 0)):  # later ones only serve structured arrays
             raise InputError(f"{source.name}: version {version} of the NPY format is not read; {_ADVICE}")
-        read = (
-            np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
-        )
+        read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
         with warnings.catch_warnings():  # a header written by Python 2
             warnings.simplefilter("ignore")
             shape, fortran_order, dtype = read(stream)

@@ -120,7 +120,8 @@ def _recognise(name: str, fields: list[str], options: PointOptions) -> tuple[boo
                 chosen.append(lower.index("label"))
                 used.append(fields[lower.index("label")])
             meanings = "x, y, label" if len(chosen) == 3 else "x, y"
-            options.note(f"{name}: columns {', '.join(used)} are read as {meanings}")
+            if pair != ("x", "y") or len(chosen) == 3:  # plain x, y need no word
+                options.note(f"{name}: columns {', '.join(used)} are read as {meanings}")
             return True, chosen
     header = not any(_looks_numeric(field) for field in fields) and any(fields)
     if not header and len(fields) == 2:
@@ -159,15 +160,9 @@ def _unknown_columns(name: str, fields: list[str], header: bool) -> InputError:
             f"{name}: the first line has one column, {fields[0][:40]!r}; give x and y, separated by "
             "a comma, a semicolon, a tab or blanks"
         )
-    what = (
-        "the header names no known pair of coordinates"
-        if header
-        else f"{len(fields)} columns without a header"
-    )
+    what = "the header names no known pair of coordinates" if header else f"{len(fields)} columns without a header"
     example = ",".join(fields[:2]) if header and all(fields[:2]) else "1,2"
-    return InputError(
-        f"{name}: {what}; say which are x and y, for example --columns {example} ({_listing(fields)})"
-    )
+    return InputError(f"{name}: {what}; say which are x and y, for example --columns {example} ({_listing(fields)})")
 
 
 def _listing(fields: list[str]) -> str:

@@ -35,9 +35,7 @@ def read_wkt(source: Source, options: PointOptions) -> PointSet:
     bad = np.flatnonzero(~np.isfinite(xy).all(axis=1))
     if bad.size:
         owner = int(owners[bad[0]])
-        raise InputError(
-            f"{source.name}, line {lines[owner]}: {texts[owner][:40]!r} is not finite; correct it"
-        )
+        raise InputError(f"{source.name}, line {lines[owner]}: {texts[owner][:40]!r} is not finite; correct it")
     if shapely.has_z(points).any():
         options.note(f"{source.name}: only x and y are used, heights are left out")
     parts = _part_numbers(owners)

@@ -133,9 +133,7 @@ def read_points(
         raise UsageError(f"--input-format {input_format!r} is no format of points: use {', '.join(_READERS)}")
     chosen = input_format or detect_point_format(source)
     if columns is not None and chosen != "csv":
-        raise UsageError(
-            f"--columns is for delimited text, but {source.name} is read as {chosen}: leave it out"
-        )
+        raise UsageError(f"--columns is for delimited text, but {source.name} is read as {chosen}: leave it out")
     if chosen != "npy":
         source = _text_source(source)
     options = PointOptions(columns, properties, max_sites, threads, note or no_note)

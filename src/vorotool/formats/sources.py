@@ -75,9 +75,7 @@ def _read_standard_input() -> bytes:
     except (AttributeError, ValueError):  # None or closed, as under a daemon
         raise InputError("standard input is closed: name a file instead of -") from None
     except OSError as error:
-        raise InputError(
-            f"standard input cannot be read: {error.strerror}; name a file instead of -"
-        ) from None
+        raise InputError(f"standard input cannot be read: {error.strerror}; name a file instead of -") from None
 
 
 def _place(name: str) -> str:
@@ -114,6 +112,4 @@ def check_nesting(text: str | bytes, limit: int = NESTING_LIMIT, name: str = "th
     offset = _core.find_too_deep(data, limit)
     if offset is not None:
         line = data.count(b"\n", 0, offset) + 1
-        raise InputError(
-            f"{name}, line {line}: brackets are nested more than {limit} deep; check the brackets"
-        )
+        raise InputError(f"{name}, line {line}: brackets are nested more than {limit} deep; check the brackets")

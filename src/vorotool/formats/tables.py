@@ -18,9 +18,7 @@ TABLE_FORMATS = ("csv", "json", "npz")
 _SLICE_ROWS = 1 << 17  # text of so many rows is held in memory at a time
 
 
-def write_table(
-    out: BinaryIO, table: Table, fmt: str, *, precision: int | None = None, threads: int = 0
-) -> None:
+def write_table(out: BinaryIO, table: Table, fmt: str, *, precision: int | None = None, threads: int = 0) -> None:
     r"""Write a table; the bytes depend on nothing but the table, the format and the precision.
 
     What does not exist (masked, ``None``, or a number that is not finite) is an empty field in CSV, ``null``

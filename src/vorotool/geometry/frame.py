@@ -49,3 +49,10 @@ class Frame:
     def pixels(self) -> int:
         """Number of pixels."""
         return self.width * self.height
+
+
+MAX_PIXELS = 2**31
+"""Pixels held in memory at most, unless told otherwise (``--max-pixels``)."""
+
+MAX_SIDE = 2**30
+"""Pixels a side at most: rows and columns are counted in 32-bit integers."""

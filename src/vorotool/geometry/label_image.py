@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -39,9 +39,7 @@ class LabelImage:
     def __post_init__(self) -> None:
         labels = np.asarray(self.labels)
         if labels.ndim != 2 or labels.dtype.kind not in "ui":
-            raise InputError(
-                f"labels must be a 2-D integer array, but are {labels.ndim}-D of type {labels.dtype}"
-            )
+            raise InputError(f"labels must be a 2-D integer array, but are {labels.ndim}-D of type {labels.dtype}")
         object.__setattr__(self, "labels", labels)
         if self.frame is None:
             object.__setattr__(self, "frame", Frame(0, 0, labels.shape[1], labels.shape[0]))
@@ -52,3 +50,17 @@ class LabelImage:
     def shape(self) -> tuple[int, int]:
         """Rows and columns."""
         return (self.labels.shape[0], self.labels.shape[1])
+
+    def flipped(self) -> LabelImage:
+        """The image with its rows in reverse order, for pictures with y upwards; its seeds move along.
+
+        Examples
+        --------
+        >>> LabelImage(np.array([[1, 1], [2, 2]], dtype=np.uint16)).flipped().labels.tolist()
+        [[2, 2], [1, 1]]
+        """
+        seeds, frame = self.seeds, self.frame
+        if seeds is not None and frame is not None:
+            last = 2 * frame.y + frame.height - 1  # y of a seed becomes last - y
+            seeds = replace(seeds, y=last * seeds.scale - seeds.y)
+        return LabelImage(self.labels[::-1], frame, seeds)

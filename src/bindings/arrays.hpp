@@ -1,0 +1,46 @@
+// NumPy arrays in and out of the core: views of what comes in, owners of what goes out.
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace vorotool::bindings {
+
+// C-contiguous arrays of exactly this type: bind them with noconvert(), so that nothing is copied unseen.
+template <class T>
+using Vector = nanobind::ndarray<T, nanobind::ndim<1>, nanobind::c_contig, nanobind::device::cpu>;
+template <class T>
+using Matrix = nanobind::ndarray<T, nanobind::ndim<2>, nanobind::c_contig, nanobind::device::cpu>;
+
+template <class Array>
+auto view(const Array& array) {
+  return std::span(array.data(), array.size());
+}
+
+// A 1-D NumPy array that takes over the values.
+template <class T>
+nanobind::object to_numpy(std::vector<T>&& values) {
+  auto kept = std::make_unique<std::vector<T>>(std::move(values));
+  T* data = kept->data();
+  const std::size_t size = kept->size();
+  const nanobind::capsule owner(kept.release(),
+                                [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
+  return nanobind::cast(nanobind::ndarray<nanobind::numpy, T, nanobind::ndim<1>>(data, {size}, owner));
+}
+
+// A 1-D NumPy array of `field(item)` for every item.
+template <class T, class Items, class Field>
+nanobind::object column(const Items& items, Field field) {
+  std::vector<T> values;
+  values.reserve(items.size());
+  for (const auto& item : items) values.push_back(static_cast<T>(field(item)));
+  return to_numpy(std::move(values));
+}
+
+}  // namespace vorotool::bindings

@@ -1,0 +1,220 @@
+// The row kernel, written once over a type of lanes (lanes_*.hpp): its width, loads, comparisons and
+// compression. Everything is a template over Lanes, and each Lanes type lives in one file, so no two files
+// share an instance.
+#pragma once
+
+#include "core/row_kernel.hpp"
+
+namespace vorotool::core {
+
+template <class Lanes>
+struct RowKernelOn {
+  using Arithmetic = typename Lanes::Arithmetic;
+  using Value = typename Arithmetic::Value;
+  using Coordinate = typename Arithmetic::Coordinate;
+  using Mask = std::uint32_t;
+  static constexpr std::int32_t width = Lanes::width;
+  static constexpr Mask all = (width == 32) ? ~Mask{0} : (Mask{1} << width) - 1;
+
+  // Pruning in rounds ends soon on almost every row; a chain of rounds longer than this is cut by one stack
+  // scan.
+  static constexpr int most_rounds = 8;
+
+  // ---- collecting
+  // ----------------------------------------------------------------------------------------------
+
+  static std::int32_t collect(Columns<Arithmetic>& columns, Coordinate row,
+                              const Candidates<Arithmetic>& out) {
+    std::int32_t n = 0;
+    for (std::int32_t w = 0; w < columns.words; ++w) {
+      const std::uint64_t above = columns.above[w];
+      const std::uint64_t below = columns.below[w];
+      std::uint64_t hidden = 0;
+      for (std::uint64_t left = above | below; left != 0;) {
+        const int shift = __builtin_ctzll(left) / width * width;
+        const Mask a = static_cast<Mask>(above >> shift) & all;
+        const Mask b = static_cast<Mask>(below >> shift) & all;
+        left &= ~(std::uint64_t{all} << shift);
+        hidden |= std::uint64_t{collect_group(columns, w * 64 + shift, a, b, row, out, n)} << shift;
+        n += __builtin_popcount(a | b);
+      }
+      columns.above[w] = above & ~hidden;
+    }
+    return n;
+  }
+
+  // Appends the nearer seed of each column of a group; returns the columns whose seed above is hidden by the
+  // one below. At equal distance both have the same parabola, and the smaller label stands for both.
+  static Mask collect_group(const Columns<Arithmetic>& columns, std::int32_t first, Mask a, Mask b,
+                            Coordinate row, const Candidates<Arithmetic>& out, std::int32_t n) {
+    const auto da = Lanes::distance(row, columns.above_y + first);
+    const auto db = Lanes::distance(row, columns.below_y + first);
+    const auto square_a = Lanes::mul(da, da);
+    const auto square_b = Lanes::mul(db, db);
+    const Mask hidden = Lanes::less(square_b, square_a) & a & b;
+    const Mask tied = Lanes::equal(square_a, square_b) & a & b;
+    const Mask from_below = (b & ~a) | hidden;
+    const auto x = Lanes::load(columns.x + first);
+    const auto value = Lanes::add(Lanes::mul(x, x), Lanes::choose(from_below, square_a, square_b));
+    const auto label_a = Lanes::load_index(columns.above_label + first);
+    const auto label_b = Lanes::load_index(columns.below_label + first);
+    auto label = Lanes::choose_index(from_below, label_a, label_b);
+    label = Lanes::choose_index(tied, label, Lanes::min_index(label_a, label_b));
+    const Mask any = a | b;
+    Lanes::compress(out.x + n, any, x);
+    Lanes::compress(out.value + n, any, value);
+    Lanes::compress_index(out.label + n, any, label);
+    Lanes::compress_index(reinterpret_cast<std::uint32_t*>(out.column + n), any, Lanes::count_from(first));
+    return hidden;
+  }
+
+  // ---- pruning
+  // -------------------------------------------------------------------------------------------------
+
+  // Candidate i is strictly above the lower envelope of its neighbours a and b everywhere, hence nowhere
+  // nearest, when its boundary with b lies left of its boundary with a. A tie keeps it: its label may be the
+  // smallest.
+  static bool hidden_exactly(const Candidates<Arithmetic>& c, std::int32_t a, std::int32_t i,
+                             std::int32_t b) {
+    const auto whole = [](Value v) { return static_cast<int128>(v); };
+    return (whole(c.value[b]) - whole(c.value[i])) * (whole(c.x[i]) - whole(c.x[a])) <
+           (whole(c.value[i]) - whole(c.value[a])) * (whole(c.x[b]) - whole(c.x[i]));
+  }
+
+  static Mask hidden_lanes(const Candidates<Arithmetic>& c, std::int32_t i, Mask valid, bool products_exact) {
+    const auto x = Lanes::load(c.x + i);
+    const auto value = Lanes::load(c.value + i);
+    const auto left =
+        Lanes::mul(Lanes::sub(Lanes::load(c.value + i + 1), value), Lanes::sub(x, Lanes::load(c.x + i - 1)));
+    const auto right =
+        Lanes::mul(Lanes::sub(value, Lanes::load(c.value + i - 1)), Lanes::sub(Lanes::load(c.x + i + 1), x));
+    Mask hidden = Lanes::less(left, right) & valid;
+    if (!products_exact) {
+      for (Mask doubt = Lanes::equal(left, right) & valid; doubt != 0; doubt &= doubt - 1) {
+        const std::int32_t lane = __builtin_ctz(doubt);
+        if (hidden_exactly(c, i + lane - 1, i + lane, i + lane + 1)) hidden |= Mask{1} << lane;
+      }
+    }
+    return hidden;
+  }
+
+  // One round: copies the candidates that are not hidden by their neighbours. All hidden ones may go at once:
+  // what hides a candidate at some x is lower there, and the lowest is hidden by nothing.
+  static std::int32_t prune_round(const Candidates<Arithmetic>& from, std::int32_t n, bool products_exact,
+                                  const Candidates<Arithmetic>& to, Envelope<Arithmetic>& envelope) {
+    copy_one(from, 0, to, 0);
+    std::int32_t kept = 1;
+    for (std::int32_t i = 1; i < n - 1; i += width) {
+      const std::int32_t left = n - 1 - i;
+      const Mask valid = left >= width ? all : (Mask{1} << left) - 1;
+      const Mask hidden = hidden_lanes(from, i, valid, products_exact);
+      const Mask keep = valid & ~hidden;
+      const auto column = Lanes::load_index(reinterpret_cast<const std::uint32_t*>(from.column + i));
+      Lanes::compress(to.x + kept, keep, Lanes::load(from.x + i));
+      Lanes::compress(to.value + kept, keep, Lanes::load(from.value + i));
+      Lanes::compress_index(to.label + kept, keep, Lanes::load_index(from.label + i));
+      Lanes::compress_index(reinterpret_cast<std::uint32_t*>(to.column + kept), keep, column);
+      kept += __builtin_popcount(keep);
+      if (hidden != 0) {
+        Lanes::compress_index(reinterpret_cast<std::uint32_t*>(envelope.dead + envelope.dead_count), hidden,
+                              column);
+        envelope.dead_count += __builtin_popcount(hidden);
+      }
+    }
+    copy_one(from, n - 1, to, kept);
+    return kept + 1;
+  }
+
+  static void copy_one(const Candidates<Arithmetic>& from, std::int32_t i, const Candidates<Arithmetic>& to,
+                       std::int32_t j) {
+    to.x[j] = from.x[i];
+    to.value[j] = from.value[i];
+    to.label[j] = from.label[i];
+    to.column[j] = from.column[i];
+  }
+
+  // The whole envelope in one pass: time linear in the candidates, whatever they are.
+  static std::int32_t prune_by_stack(const Candidates<Arithmetic>& c, std::int32_t n,
+                                     Envelope<Arithmetic>& envelope) {
+    std::int32_t kept = 0;
+    for (std::int32_t i = 0; i < n; ++i) {
+      copy_one(c, i, c, kept);
+      while (kept >= 2 && hidden_exactly(c, kept - 2, kept - 1, kept)) {
+        envelope.dead[envelope.dead_count++] = c.column[kept - 1];
+        copy_one(c, kept, c, kept - 1);
+        --kept;
+      }
+      ++kept;
+    }
+    return kept;
+  }
+
+  static void prune(Columns<Arithmetic>& columns, Coordinate row, const PixelRow& pixels,
+                    Envelope<Arithmetic>& envelope) {
+    std::int32_t n = collect(columns, row, envelope.candidates);
+    envelope.dead_count = 0;
+    for (int round = 0; n > 2; ++round) {
+      if (round == most_rounds) {
+        n = prune_by_stack(envelope.candidates, n, envelope);
+        break;
+      }
+      const std::int32_t kept =
+          prune_round(envelope.candidates, n, pixels.products_exact, envelope.spare, envelope);
+      if (kept == n) break;
+      const Candidates<Arithmetic> pruned = envelope.spare;
+      envelope.spare = envelope.candidates;
+      envelope.candidates = pruned;
+      n = kept;
+    }
+    envelope.count = n;
+  }
+
+  // ---- boundaries
+  // ----------------------------------------------------------------------------------------------
+
+  static void bound(const PixelRow& pixels, Envelope<Arithmetic>& envelope) {
+    const Candidates<Arithmetic>& c = envelope.candidates;
+    const std::int32_t n = envelope.count;
+    envelope.tie_count = 0;
+    for (std::int32_t i = 0; i < n - 1; i += width) {
+      const std::int32_t left = n - 1 - i;
+      const Mask valid = left >= width ? all : (Mask{1} << left) - 1;
+      const auto rise = Lanes::sub(Lanes::load(c.value + i + 1), Lanes::load(c.value + i));
+      const auto run = Lanes::sub(Lanes::load(c.x + i + 1), Lanes::load(c.x + i));
+      // Behind the last boundary a lane may hold anything; its result is overwritten or never read.
+      const Mask ties =
+          Lanes::divide(rise, Lanes::scale(run, 2 * pixels.steps), valid, pixels, envelope.end + i) & valid;
+      if (ties != 0) {
+        Lanes::compress_index(reinterpret_cast<std::uint32_t*>(envelope.ties + envelope.tie_count), ties,
+                              Lanes::count_from(i));
+        envelope.tie_count += __builtin_popcount(ties);
+      }
+    }
+    if (n > 0) envelope.end[n - 1] = pixels.width - 1;
+  }
+
+  // ---- filling
+  // -------------------------------------------------------------------------------------------------
+
+  // Spans are written in whole vectors from left to right: each overwrites what the one before wrote too far.
+  template <class Label>
+  static void fill(const Envelope<Arithmetic>& envelope, Label* row) {
+    typedef Label Block __attribute__((vector_size(Lanes::bytes), aligned(sizeof(Label)), may_alias));
+    constexpr std::int32_t step = Lanes::bytes / static_cast<std::int32_t>(sizeof(Label));
+    std::int32_t start = 0;
+    for (std::int32_t i = 0; i < envelope.count; ++i) {
+      const std::int32_t end = envelope.end[i];
+      const Block block = static_cast<Label>(envelope.candidates.label[i]) - Block{};
+      *reinterpret_cast<Block*>(row + start) = block;
+      for (std::int32_t p = start + step; p <= end; p += step) *reinterpret_cast<Block*>(row + p) = block;
+      start = end + 1;
+    }
+  }
+
+  static RowKernel<Arithmetic> table() {
+    return {prune,         bound,       fill<std::uint8_t>, fill<std::uint16_t>, fill<std::uint32_t>,
+            Lanes::stream, Lanes::fence};
+  }
+};
+
+}  // namespace vorotool::core

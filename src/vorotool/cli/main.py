@@ -1,0 +1,114 @@
+"""Entry point: finds the command, and turns every outcome into an exit code (DESIGN: errors, limits, signals)."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import traceback
+from importlib import import_module
+from typing import Any, NoReturn
+
+import click
+
+from vorotool import __version__
+from vorotool.errors import VorotoolError
+
+COMMANDS = {
+    "tessellate": "Digital Voronoi tessellation of points or of an image.",
+    "draw": "Draw a label image again, without computing it again.",
+}
+"""Commands and what they do; the module of a command is imported when it is called."""
+
+EXIT_DEFECT, EXIT_LIMIT, EXIT_INTERRUPTED, EXIT_TERMINATED, EXIT_BROKEN_PIPE = 1, 5, 130, 143, 141
+
+
+class SignalledError(Exception):
+    """A run that a signal or a closed pipe ended; carries the exit code."""
+
+    def __init__(self, code: int) -> None:
+        super().__init__(code)
+        self.code = code
+
+
+class LazyGroup(click.Group):
+    """A group whose commands are imported only when they are used."""
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run a command; what ends it from outside is kept from click, which would print or exit itself."""
+        try:
+            return super().invoke(ctx)
+        except KeyboardInterrupt:
+            raise SignalledError(EXIT_INTERRUPTED) from None
+        except BrokenPipeError:
+            raise SignalledError(EXIT_BROKEN_PIPE) from None
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Names in the order of the registry."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Import a command."""
+        if cmd_name not in COMMANDS:
+            return None
+        command: click.Command = import_module(f"vorotool.cli.{cmd_name}").command
+        return command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """List the commands without importing them."""
+        with formatter.section("Commands"):
+            formatter.write_dl(list(COMMANDS.items()))
+
+
+@click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, prog_name="vorotool")
+def vorotool() -> None:
+    """Exact Voronoi diagrams of images, points and polygons.
+
+    \b
+    Example:
+      vorotool tessellate data/dots.csv --size 512x512 --what colour -o cells.png
+    """
+
+
+def main(arguments: list[str] | None = None) -> NoReturn:
+    """Run the command line and leave with its exit code."""
+    signal.signal(signal.SIGTERM, _terminate)
+    code = _run(arguments)
+    try:
+        sys.stdout.flush()
+    except BrokenPipeError:
+        code = EXIT_BROKEN_PIPE
+    except OSError as error:
+        code = _fail(f"standard output cannot be written: {error.strerror or error}", 4)
+    if code in (EXIT_BROKEN_PIPE, 4):
+        # The interpreter flushes once more when it ends: let that go nowhere.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    sys.exit(code)
+
+
+def _run(arguments: list[str] | None) -> int:
+    try:
+        result: Any = vorotool.main(args=arguments, prog_name="vorotool", standalone_mode=False)
+        return result if isinstance(result, int) else 0
+    except VorotoolError as error:
+        return _fail(str(error), error.exit_code)
+    except click.ClickException as error:
+        error.show()
+        return error.exit_code
+    except SignalledError as error:
+        return error.code
+    except MemoryError:
+        return _fail("there is not enough memory: use a smaller frame, or an output that is streamed", EXIT_LIMIT)
+    except Exception as error:  # a defect of ours: say so, with what is needed to mend it
+        traceback.print_exc()
+        return _fail(f"a defect of vorotool, please report it with the lines above: {error}", EXIT_DEFECT)
+
+
+def _fail(message: str, code: int) -> int:
+    click.echo(f"error: {message}", err=True)
+    return code
+
+
+def _terminate(_signal: int, _frame: object) -> NoReturn:
+    sys.exit(EXIT_TERMINATED)

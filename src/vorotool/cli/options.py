@@ -1,0 +1,181 @@
+"""The one registry of options that commands share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any
+
+import click
+
+Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
+
+SPELLINGS = {"color": "colour", "neighbors": "neighbours", "centreline": "centerline"}
+"""American and British spellings are both accepted."""
+
+
+class Size(click.ParamType[tuple[int, int]]):
+    """``WxH`` in pixels."""
+
+    name = "WxH"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[int, int]:
+        """Parse width and height."""
+        if isinstance(value, tuple):
+            return value
+        parts = value.lower().replace("×", "x").split("x")
+        if len(parts) != 2 or not all(part.isascii() and part.isdigit() and int(part) > 0 for part in parts):
+            self.fail(f"{value!r} is no size: give width and height in pixels, such as 640x480", param, ctx)
+        return (int(parts[0]), int(parts[1]))
+
+
+class Window(click.ParamType[tuple[int, int, int, int]]):
+    """``X,Y,W,H`` in pixels."""
+
+    name = "X,Y,W,H"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[int, int, int, int]:
+        """Parse four integers of which the last two are positive."""
+        if isinstance(value, tuple):
+            return value
+        try:
+            x, y, w, h = (int(part) for part in value.split(","))
+        except ValueError:
+            self.fail(f"{value!r} is no window: give four integers X,Y,W,H, such as -10,-10,640,480", param, ctx)
+        if w < 1 or h < 1:
+            self.fail(f"{value!r} is an empty window: W and H must be at least 1", param, ctx)
+        return (x, y, w, h)
+
+
+class Threshold(click.ParamType[float | str]):
+    """A number, or ``otsu``."""
+
+    name = "T|otsu"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float | str:
+        """Parse the number."""
+        if value == "otsu":
+            return "otsu"
+        try:
+            return float(value)
+        except ValueError:
+            self.fail(f"{value!r} is no threshold: give a number or otsu", param, ctx)
+
+
+class Decimal(click.ParamType[Fraction]):
+    """A decimal number, kept exactly."""
+
+    name = "D"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Fraction:
+        """Parse the number."""
+        if isinstance(value, Fraction):
+            return value
+        try:
+            return Fraction(value)
+        except (ValueError, ZeroDivisionError):
+            self.fail(f"{value!r} is no number: give a decimal such as 12.5", param, ctx)
+
+
+class Names(click.ParamType[tuple[str, ...]]):
+    """Names from a list, separated by commas."""
+
+    name = "A[,B…]"
+
+    def __init__(self, choices: tuple[str, ...]) -> None:
+        self.choices = choices
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[str, ...]:
+        """Split, accept both spellings, refuse what is not in the list."""
+        if isinstance(value, tuple):
+            return value
+        names = tuple(SPELLINGS.get(name.strip(), name.strip()) for name in value.split(","))
+        for name in names:
+            if name not in self.choices:
+                self.fail(f"{name!r} is not one of {', '.join(self.choices)}", param, ctx)
+        return tuple(dict.fromkeys(names))
+
+
+OPTIONS: dict[str, Decorator] = {
+    "output": click.option("-o", "--output", metavar="FILE", help="Where to write; - is standard output."),
+    "format": click.option("-f", "--format", metavar="FORMAT", help="Format of the output; by default its extension."),
+    "input-format": click.option("--input-format", metavar="FORMAT", help="Format of the input, where it is unclear."),
+    "out-dir": click.option("--out-dir", metavar="DIR", help="Folder for outputs named after the input."),
+    "threads": click.option(
+        "--threads", type=click.IntRange(min=0), default=0, show_default=True, help="Threads; 0 uses all."
+    ),
+    "quiet": click.option("-q", "--quiet", is_flag=True, help="No notes, warnings or progress."),
+    "verbose": click.option("-v", "--verbose", is_flag=True, help="Say what takes how long."),
+    "stats": click.option("--stats", metavar="FILE|-", help="Write counts, sizes, seconds and warnings as JSON."),
+    "verify": click.option("--verify", is_flag=True, help="Check the result independently; exit 1 if it is wrong."),
+    "strict": click.option("--strict", is_flag=True, help="Refuse what would be repaired or snapped."),
+    "precision": click.option(
+        "--precision", type=click.IntRange(1, 17), help="Significant digits; by default the shortest that round-trips."
+    ),
+    "max-pixels": click.option(
+        "--max-pixels", type=click.IntRange(min=1), default=2**31, show_default=True, help="Most pixels in memory."
+    ),
+    "max-sites": click.option(
+        "--max-sites", type=click.IntRange(min=1), default=2**31 - 1, show_default=True, help="Most seeds."
+    ),
+    "no-clobber": click.option("--no-clobber", is_flag=True, help="Refuse to replace an existing file."),
+    "no-properties": click.option("--no-properties", is_flag=True, help="Do not copy the input's further columns."),
+    "columns": click.option(
+        "--columns", metavar="X,Y[,LABEL]", help="Columns of a point list, by name or number (from 1)."
+    ),
+    "page": click.option("--page", type=click.IntRange(min=0), metavar="N", help="Page of an image stack, from 0."),
+    "seeds": click.option(
+        "--seeds",
+        type=click.Choice(["pixels", "components", "labels", "centroids"]),
+        help="What an image's seeds are; by default components of two values, labels of more.",
+    ),
+    "connectivity": click.option(
+        "--connectivity", type=click.Choice(["8", "4"]), default="8", show_default=True, help="Of components."
+    ),
+    "threshold": click.option("--threshold", type=Threshold(), help="Foreground is what is brighter than this."),
+    "invert": click.option("--invert", is_flag=True, help="Exchange foreground and background."),
+    "size": click.option("--size", type=Size(), help="Frame of W x H pixels from pixel (0, 0)."),
+    "window": click.option("--window", type=Window(), help="Frame whose first pixel is (X, Y)."),
+    "width": click.option(
+        "--width", type=click.IntRange(min=16), default=1000, show_default=True, help="Pixels across an SVG picture."
+    ),
+    "y-up": click.option("--y-up/--y-down", default=None, help="Draw pictures with y upwards or downwards."),
+}
+
+
+def shared(*names: str) -> Decorator:
+    """Add options of the registry to a command, in this order."""
+
+    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
+        for name in reversed(names):
+            function = OPTIONS[name](function)
+        return function
+
+    return decorate
+
+
+def what_option(choices: tuple[str, ...]) -> Decorator:
+    """Add ``--what``; the first choice is the default."""
+    return click.option(
+        "--what",
+        type=Names(choices),
+        default=choices[0],
+        show_default=True,
+        help=f"What to write: {', '.join(choices)}; several separated by commas.",
+    )
+
+
+def layers_option(choices: tuple[str, ...]) -> Decorator:
+    """Add ``--layers`` of pictures."""
+    return click.option("--layers", type=Names(choices), help=f"Layers of pictures: {', '.join(choices)}.")
+
+
+def single_input(inputs: tuple[str, ...]) -> str:
+    """Give the one input of a command that takes one."""
+    if len(inputs) != 1:
+        raise click.UsageError(
+            f"{len(inputs)} inputs are given: this command takes one input at a time (- is standard input)"
+        )
+    return inputs[0]

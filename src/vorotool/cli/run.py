@@ -1,0 +1,111 @@
+"""One run of a command: notes, warnings, progress, seconds, and the statistics it leaves behind."""
+
+from __future__ import annotations
+
+import sys
+import time
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from types import TracebackType
+from typing import Any
+
+import click
+
+from vorotool import __version__
+from vorotool.errors import VorotoolWarning
+
+PROGRESS_AFTER = 1.0
+"""Seconds before a progress bar appears on a terminal."""
+
+
+class Run:
+    """What a command says besides its result.
+
+    Parameters
+    ----------
+    command : str
+        Its name.
+    quiet, verbose : bool
+        Say nothing but errors; say what takes how long.
+    stats : str, optional
+        File for the statistics, ``-`` for standard output.
+    """
+
+    def __init__(self, command: str, *, quiet: bool, verbose: bool, stats: str | None) -> None:
+        self._quiet, self._verbose, self._target = quiet, verbose, stats
+        self._warnings: list[str] = []
+        self._seconds: dict[str, float] = {}
+        self._inner: list[float] = []
+        self._stack = ExitStack()
+        self.stats: dict[str, Any] = {"command": command, "version": __version__}
+
+    def __enter__(self) -> Run:
+        """Collect warnings from here on."""
+        self._stack.enter_context(warnings.catch_warnings())
+        warnings.simplefilter("always", VorotoolWarning)
+        warnings.showwarning = self._show_warning
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Write the statistics of a run that went well."""
+        self._stack.close()
+        if self._verbose:
+            for name, seconds in self._seconds.items():
+                click.echo(f"{name}: {seconds:.3f} s", err=True)
+        if kind is None and self._target is not None:
+            self._write_stats(self._target)
+
+    def note(self, message: str) -> None:
+        """Say something useful on standard error."""
+        if not self._quiet:
+            click.echo(f"note: {message}", err=True)
+
+    @contextmanager
+    def phase(self, name: str) -> Iterator[None]:
+        """Measure a part of the run; time spent in a part of this part counts there only."""
+        start = time.perf_counter()
+        self._inner.append(0.0)
+        try:
+            yield
+        finally:
+            elapsed = time.perf_counter() - start
+            self._seconds[name] = self._seconds.get(name, 0.0) + elapsed - self._inner.pop()
+            if self._inner:
+                self._inner[-1] += elapsed
+
+    def progress(self, label: str) -> Callable[[float], None] | None:
+        """Make a callback that shows a bar on a terminal, once the work has taken a second."""
+        if self._quiet or not sys.stderr.isatty():
+            return None
+        start = time.monotonic()
+        bar: list[Any] = []
+
+        def show(fraction: float) -> None:
+            if not bar:
+                if time.monotonic() - start < PROGRESS_AFTER:
+                    return
+                bar.append(self._stack.enter_context(click.progressbar(length=1000, label=label, file=sys.stderr)))
+            bar[0].update(int(1000 * fraction) - bar[0].pos)
+
+        return show
+
+    def _show_warning(self, message: Warning | str, category: type[Warning], *_: Any, **__: Any) -> None:
+        text = str(message)
+        if not issubclass(category, VorotoolWarning):
+            return  # a library's own remark says nothing about the user's data
+        self._warnings.append(text)
+        if not self._quiet:
+            click.echo(f"warning: {text}", err=True)
+
+    def _write_stats(self, target: str) -> None:
+        import orjson
+
+        from vorotool.formats.outputs import open_output
+
+        self.stats["seconds"] = {name: round(value, 6) for name, value in self._seconds.items()}
+        self.stats["warnings"] = self._warnings
+        with open_output(target) as out:
+            out.write(orjson.dumps(self.stats, option=orjson.OPT_INDENT_2 | orjson.OPT_APPEND_NEWLINE))

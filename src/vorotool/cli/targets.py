@@ -1,0 +1,130 @@
+"""Which outputs a command writes, where, and in which format."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import click
+
+EXTENSIONS = {
+    ".png": "png",
+    ".tif": "tiff",
+    ".tiff": "tiff",
+    ".npy": "npy",
+    ".txt": "text",
+    ".svg": "svg",
+    ".csv": "csv",
+    ".json": "json",
+    ".npz": "npz",
+}
+FORMATS = tuple(dict.fromkeys(EXTENSIONS.values()))
+TEXT_FORMATS = frozenset({"text", "svg", "csv", "json"})
+_EXTENSION_OF = {"tiff": "tif", "text": "txt"}
+
+
+@dataclass(frozen=True)
+class Target:
+    """One output: ``path`` is a file's name, or ``-`` for standard output."""
+
+    what: str
+    path: str
+    fmt: str
+
+    @property
+    def is_binary(self) -> bool:
+        """Whether it must not go to a terminal."""
+        return self.fmt not in TEXT_FORMATS
+
+
+def plan_targets(
+    formats: Mapping[str, Sequence[str]],
+    what: Sequence[str],
+    *,
+    output: str | None,
+    fmt: str | None,
+    out_dir: str | None,
+    source: str,
+) -> list[Target]:
+    """Lay out the outputs of one input.
+
+    Parameters
+    ----------
+    formats : mapping of str to sequence of str
+        Formats of each kind of result; the first is its default.
+    what : sequence of str
+        The results wanted.
+    output, fmt, out_dir : str, optional
+        As given on the command line.
+    source : str
+        The input, which names outputs in ``out_dir``.
+
+    Raises
+    ------
+    click.UsageError
+        If a result cannot be written in a format, or would go unnamed.
+    """
+    if output is not None and out_dir is not None:
+        raise click.UsageError("give -o or --out-dir, not both")
+    fmt = _known_format(fmt)
+    several = len(what) > 1
+    if out_dir is not None:
+        stem = Path(out_dir) / ("stdin" if source == "-" else Path(source).stem)
+        chosen = {name: _chosen(formats[name], name, fmt, None) for name in what}
+        return [Target(name, _named(stem, name if several else None, chosen[name]), chosen[name]) for name in what]
+    if several:
+        if output is None or output == "-":
+            raise click.UsageError("several results need -o STEM (files STEM.<what>.<ext>) or --out-dir DIR")
+        given = EXTENSIONS.get(Path(output).suffix.lower())
+        stem = Path(output).with_suffix("") if given else Path(output)
+        chosen = {name: _several_format(formats[name], name, fmt, given) for name in what}
+        return [Target(name, _named(stem, name, chosen[name]), chosen[name]) for name in what]
+    name = what[0]
+    path = "-" if output is None else output
+    chosen_format = _chosen(formats[name], name, fmt, None if path == "-" else Path(path).suffix.lower())
+    target = Target(name, path, chosen_format)
+    if output is None and fmt is None and target.is_binary:
+        raise click.UsageError(
+            f"{name} are binary: name a file with -o, or a text format with -f {_text(formats[name])}"
+        )
+    return [target]
+
+
+def _known_format(fmt: str | None) -> str | None:
+    if fmt is None:
+        return None
+    known = {**{name: name for name in FORMATS}, **{ext[1:]: name for ext, name in EXTENSIONS.items()}}
+    if fmt.lower() not in known:
+        raise click.UsageError(f"-f {fmt} is no format: use one of {', '.join(FORMATS)}")
+    return known[fmt.lower()]
+
+
+def _chosen(possible: Sequence[str], what: str, fmt: str | None, extension: str | None) -> str:
+    chosen = fmt
+    if chosen is None and extension:
+        chosen = EXTENSIONS.get(extension)
+        if chosen is None:
+            raise click.UsageError(
+                f"the extension {extension} names no format: use one of {', '.join(possible)}, or -f"
+            )
+    chosen = chosen or possible[0]
+    if chosen not in possible:
+        raise click.UsageError(f"{what} cannot be written as {chosen}: use one of {', '.join(possible)}")
+    return chosen
+
+
+def _several_format(possible: Sequence[str], what: str, fmt: str | None, given: str | None) -> str:
+    """With several results the extension of -o holds for those that can be written so."""
+    if fmt is None and given in possible:
+        return str(given)
+    return _chosen(possible, what, fmt, None)
+
+
+def _named(stem: Path, what: str | None, fmt: str) -> str:
+    middle = f".{what}" if what else ""
+    return f"{stem}{middle}.{_EXTENSION_OF.get(fmt, fmt)}"
+
+
+def _text(possible: Sequence[str]) -> str:
+    return next((fmt for fmt in possible if fmt in TEXT_FORMATS), possible[0])

@@ -1,0 +1,161 @@
+"""``vorotool tessellate``."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from vorotool.cli.options import Decimal, layers_option, shared, single_input, what_option
+from vorotool.cli.run import Run
+from vorotool.cli.targets import Target, plan_targets
+
+if TYPE_CHECKING:
+    from vorotool.cli.products import Products
+    from vorotool.geometry.frame import Frame
+    from vorotool.geometry.seeds import SeedSet
+
+_IMAGES = ("png", "tiff", "npy", "text")
+_TABLES = ("csv", "json", "npz")
+FORMATS = {
+    "labels": (*_IMAGES, "svg"),
+    "diagram": _IMAGES,
+    "colour": ("png", "svg"),
+    "distance": ("tiff", "npy"),
+    "distance2": ("tiff", "npy", "text"),
+    "table": _TABLES,
+    "neighbours": _TABLES,
+}
+
+
+@click.command("tessellate")
+@click.argument("inputs", metavar="INPUT", nargs=-1)
+@shared("output", "format")
+@what_option(tuple(FORMATS))
+@click.option(
+    "--method",
+    type=click.Choice(["exact", "propagation"]),
+    default="exact",
+    show_default=True,
+    help="propagation: the paper's two passes to the letter, nearly exact.",
+)
+@click.option("--passes", type=click.IntRange(1, 2), default=2, show_default=True, help="Passes of the propagation.")
+@click.option("--max-distance", type=Decimal(), help="Label pixels up to this distance from a seed; beyond: 0.")
+@click.option(
+    "--dtype", type=click.Choice(["uint8", "uint16", "uint32", "int32"]), help="Type of labels in TIFF and NPY."
+)
+@shared("size", "window", "columns", "input-format", "page", "seeds", "connectivity", "threshold", "invert")
+@layers_option(("cells", "diagram", "seeds", "labels"))
+@shared("width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels", "max-sites")
+@shared("no-clobber", "no-properties", "quiet", "verbose")
+def command(**options: Any) -> None:
+    """Label every pixel with its nearest seed, exactly; ties go to the smallest label.
+
+    \b
+    Example:
+      vorotool tessellate data/dots.csv --size 512x512 -o labels.png
+
+    INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, PBM,
+    NPY); - is standard input. Label i is the i-th point; an image's own labels are kept.
+    """
+    o = SimpleNamespace(**options)
+    source = single_input(o.inputs)
+    targets = plan_targets(FORMATS, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=source)
+    _check_options(o, targets)
+    with Run("tessellate", quiet=o.quiet, verbose=o.verbose, stats=o.stats) as run:
+        with run.phase("read"):
+            seeds = _read_seeds(run, o, source)
+        with run.phase("prepare"):
+            products = _prepare(run, o, seeds)
+        if o.verify:
+            with run.phase("verify"):
+                products.verify()
+        for target in targets:
+            with run.phase(f"write {target.what}"):
+                products.write(target, inputs=() if source == "-" else (source,))
+        _fill_stats(run, o, products)
+
+
+def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
+    if o.size is not None and o.window is not None:
+        raise click.UsageError("give --size or --window, not both")
+    if o.method == "propagation" and o.max_distance is not None:
+        raise click.UsageError("--max-distance needs --method exact")
+    if o.method == "exact" and o.passes != 2:
+        raise click.UsageError("--passes needs --method propagation")
+    if o.method == "propagation" and {"distance", "distance2"} & {target.what for target in targets}:
+        raise click.UsageError("distances are those of the exact tessellation: leave out --method propagation")
+    if o.stats == "-" and any(target.path == "-" for target in targets):
+        raise click.UsageError("--stats - needs -o FILE: standard output holds the result")
+
+
+def _read_seeds(run: Run, o: SimpleNamespace, source: str) -> SeedSet:
+    from vorotool.engines.seeding import seeds_from_points, seeds_from_raster
+    from vorotool.formats import read
+    from vorotool.geometry.points import PointSet
+
+    value = read(
+        source,
+        input_format=o.input_format,
+        columns=o.columns,
+        page=o.page,
+        max_pixels=o.max_pixels,
+        max_sites=o.max_sites,
+        properties="table" in o.what and not o.no_properties,
+        threads=o.threads,
+        note=run.note,
+    )
+    if isinstance(value, PointSet):
+        _refuse(o, ("page", "seeds", "threshold", "invert"), "is for images, but the input is a list of points")
+        o.y_up = value.y_up if o.y_up is None else o.y_up
+        return seeds_from_points(value, strict=o.strict)
+    _refuse(o, ("columns", "size", "window"), "is for lists of points, but the input is an image, which brings its own")
+    return seeds_from_raster(
+        value,
+        mode=o.seeds,
+        connectivity=int(o.connectivity),
+        threshold=o.threshold,
+        invert=o.invert,
+        strict=o.strict,
+    )
+
+
+def _refuse(o: SimpleNamespace, names: tuple[str, ...], reason: str) -> None:
+    for name in names:
+        if getattr(o, name) not in (None, False):
+            raise click.UsageError(f"--{name} {reason}")
+
+
+def _frame(o: SimpleNamespace) -> Frame | None:
+    from vorotool.geometry.frame import Frame
+
+    if o.window is not None:
+        return Frame(*o.window)
+    return None if o.size is None else Frame(0, 0, *o.size)
+
+
+def _prepare(run: Run, o: SimpleNamespace, seeds: SeedSet) -> Products:
+    from vorotool.cli.products import Products
+    from vorotool.engines.tessellate import PropagatedRows, Tessellator
+    from vorotool.errors import LimitError
+
+    if len(seeds) > o.max_sites:
+        raise LimitError(f"there are {len(seeds)} seeds, more than --max-sites {o.max_sites}")
+    frame = _frame(o)
+    progress = run.progress("tessellating")
+    rows: Tessellator | PropagatedRows
+    if o.method == "exact":
+        rows = Tessellator(
+            seeds, frame, max_distance=o.max_distance, threads=o.threads, strict=o.strict, progress=progress
+        )
+    else:
+        with run.phase("tessellate"):
+            rows = PropagatedRows(seeds, frame, passes=o.passes, max_pixels=o.max_pixels, progress=progress)
+    return Products(rows, o, run)
+
+
+def _fill_stats(run: Run, o: SimpleNamespace, products: Products) -> None:
+    if o.stats is not None:
+        with run.phase("count"):
+            run.stats.update(products.stats())

@@ -1,0 +1,154 @@
+"""Images that pass by as bands of rows: checking, regrouping, and working on blocks in parallel."""
+
+from __future__ import annotations
+
+import os
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+from vorotool.errors import LimitError
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
+
+BLOCK_BYTES = 1 << 20
+"""Bytes of a block: its own code tables cost nothing, and it stays in the cache."""
+
+
+def checked(bands: Iterable[NDArray[Any]], shape: tuple[int, int]) -> Iterator[NDArray[Any]]:
+    """Pass on bands of shape (rows, W), and see that they are H rows together.
+
+    Raises
+    ------
+    ValueError
+        If they are not: a defect of the caller.
+
+    Examples
+    --------
+    >>> [band.shape for band in checked([np.zeros((2, 5)), np.ones((1, 5))], (3, 5))]
+    [(2, 5), (1, 5)]
+    """
+    height, width = shape
+    seen = 0
+    for item in bands:
+        band = np.asarray(item)
+        if band.ndim != 2 or band.shape[1] != width:
+            raise ValueError(f"a band has shape {band.shape}: it must be (rows, {width})")
+        seen += len(band)
+        if seen > height:
+            break
+        yield band
+    if seen != height:
+        raise ValueError(f"the bands have {'more than ' * (seen > height)}{min(seen, height)} rows, not {height}")
+
+
+def check_fits(band: NDArray[Any], largest: int, target: str) -> None:
+    """Refuse values that ``target`` cannot hold: nothing is ever wrapped.
+
+    Raises
+    ------
+    LimitError
+        If a value is negative or above ``largest``; it is named.
+
+    Examples
+    --------
+    >>> check_fits(np.array([[0, 255]], dtype=np.uint16), 255, "an 8-bit PNG")
+    """
+    if band.size == 0 or band.dtype.kind == "b":
+        return
+    if np.iinfo(band.dtype).max > largest and (top := int(band.max())) > largest:
+        raise LimitError(
+            f"the value {top} does not fit in {target}, which ends at {largest}: use -o labels.tif or .npy"
+        )
+    if band.dtype.kind == "i" and (low := int(band.min())) < 0:
+        raise LimitError(f"the value {low} does not fit in {target}, which begins at 0: use -o labels.npy")
+
+
+def blocks(
+    bands: Iterable[NDArray[Any]],
+    shape: tuple[int, int],
+    *,
+    columns: int,
+    dtype: DTypeLike,
+    encode: Callable[[NDArray[Any], NDArray[Any]], None],
+) -> Iterator[NDArray[Any]]:
+    """Regroup bands into blocks whose limits depend on the shape alone, so that the bytes written do too.
+
+    Parameters
+    ----------
+    bands, shape
+        The image.
+    columns, dtype
+        Items of an encoded row, and their type.
+    encode : callable
+        ``encode(rows, out)`` writes rows in their file form; the bands may be reused after that.
+
+    Yields
+    ------
+    (1 + k, columns) array
+        The row before the block (zeros before the first), and the k rows of the block; each block is a new
+        array.
+    """
+    row_bytes = max(1, columns * np.dtype(dtype).itemsize)
+    rows = max(1, min(shape[0], BLOCK_BYTES // row_bytes))
+    block, filled = np.zeros((1 + rows, columns), dtype), 1
+    for band in checked(bands, shape):
+        start = 0
+        while start < len(band):
+            take = min(1 + rows - filled, len(band) - start)
+            encode(band[start : start + take], block[filled : filled + take])
+            start, filled = start + take, filled + take
+            if filled > rows:
+                last = block[-1]
+                yield block
+                block, filled = np.empty_like(block), 1
+                block[0] = last
+    if filled > 1:
+        yield block[:filled]
+
+
+def in_order(function: Callable[[Item], Result], items: Iterable[Item], threads: int) -> Iterator[Result]:
+    """Map in parallel, in order, with only a few items under way, whatever their number.
+
+    Parameters
+    ----------
+    function : callable
+        Called in several threads at once.
+    items : iterable
+        Taken in this thread, as results are.
+    threads : int
+        0 for as many as there are processors for this process.
+
+    Examples
+    --------
+    >>> list(in_order(abs, [-1, 2, -3], threads=2))
+    [1, 2, 3]
+    """
+    count = threads or available_threads()
+    if count == 1:
+        yield from map(function, items)
+        return
+    pending: deque[Future[Result]] = deque()
+    with ThreadPoolExecutor(count) as pool:
+        try:
+            for item in items:
+                pending.append(pool.submit(function, item))
+                if len(pending) > 2 * count:
+                    yield pending.popleft().result()
+            while pending:
+                yield pending.popleft().result()
+        finally:
+            for future in pending:
+                future.cancel()
+
+
+def available_threads() -> int:
+    """Processors that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1

@@ -1,0 +1,102 @@
+"""Colours of pictures: light cells that people with any colour vision tell apart, dark lines and seeds.
+
+Four of the first five cell colours are from Paul Tol's "light" scheme. The others come from greedy searches
+for the colour farthest in CIEDE2000 from white, black and those before it, in the least favourable of normal
+vision and simulated protanopia, deuteranopia and tritanopia (Machado et al. 2009); the limits of the searches
+and the order were set by hand. A test computes the distances again.
+"""
+
+from __future__ import annotations
+
+import colorsys
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import LimitError
+
+WHITE = "#ffffff"
+LINE = "#000000"
+SEED = "#332288"
+INK = "#222222"
+EDGE = "#ffffff"
+FAINT = "#999999"
+
+CELLS = (
+    "#77aadd",
+    "#ee8866",
+    "#eedd88",
+    "#e6acbc",
+    "#99ddff",
+    "#cfeec2",
+    "#b578a1",
+    "#938f0c",
+    "#7882ea",
+    "#4d9980",
+    "#91bf91",
+    "#e65e6f",
+)
+"""Cell colours in the order in which they are used: few classes get the most distinct ones."""
+
+MOST_CLASSES = 253
+"""Colour classes that fit in a byte beside none, line and seed."""
+
+_GOLDEN_ANGLE = 0.381966011250105  # of a turn: successive hues never come close soon
+
+
+def _triples(names: Iterable[str]) -> NDArray[np.uint8]:
+    return np.array([list(bytes.fromhex(name[1:])) for name in names], dtype=np.uint8)
+
+
+LINE_ON_PAPER = _triples([WHITE, LINE])
+"""Palette of the diagram: an image of 0 and 1 that looks like ink on paper."""
+
+
+class PicturePalette(NamedTuple):
+    """Colours of a palette picture: 0 is white for no label, c is colour class c, then line and seed."""
+
+    colours: NDArray[np.uint8]
+    line: int
+    seed: int
+    bit_depth: int
+
+
+def cell_colour(colour_class: int) -> str:
+    """Colour of a class as ``#rrggbb``: 0 is white, and from the 13th class on hues are generated.
+
+    Examples
+    --------
+    >>> cell_colour(1), cell_colour(0)
+    ('#77aadd', '#ffffff')
+    """
+    if colour_class < 1:
+        return WHITE
+    if colour_class <= len(CELLS):
+        return CELLS[colour_class - 1]
+    number = colour_class - len(CELLS)
+    lightness = (0.72, 0.60, 0.84)[number % 3]
+    rgb = colorsys.hls_to_rgb(number * _GOLDEN_ANGLE % 1.0, lightness, 0.55)
+    return "#" + "".join(f"{round(255 * channel):02x}" for channel in rgb)
+
+
+def picture_palette(classes: int) -> PicturePalette:
+    """Palette for pictures with colour classes 1 to ``classes``; the same for all that need at most 12.
+
+    Raises
+    ------
+    LimitError
+        If there are more than 253 classes.
+
+    Examples
+    --------
+    >>> palette = picture_palette(5)
+    >>> palette.colours.shape, palette.line, palette.seed, palette.bit_depth
+    ((15, 3), 13, 14, 4)
+    """
+    if classes > MOST_CLASSES:
+        raise LimitError(f"{classes} colour classes: a palette picture has at most {MOST_CLASSES}, use -f svg")
+    count = max(classes, len(CELLS))
+    names = [*(cell_colour(c) for c in range(count + 1)), LINE, SEED]
+    return PicturePalette(_triples(names), count + 1, count + 2, 4 if len(names) <= 16 else 8)

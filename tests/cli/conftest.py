@@ -1,0 +1,62 @@
+"""Running the command line inside the test, and as a process of its own."""
+
+import os
+import subprocess
+import sys
+from dataclasses import dataclass
+
+import pytest
+
+from vorotool.cli.main import main
+
+
+@dataclass
+class Outcome:
+    code: int
+    out: str
+    err: str
+
+
+@pytest.fixture
+def run(tmp_path, monkeypatch, capfd):
+    """Run a command in an empty folder; a traceback fails the test whatever the command was."""
+    monkeypatch.chdir(tmp_path)
+
+    def call(*arguments):
+        with pytest.raises(SystemExit) as end:
+            main([str(argument) for argument in arguments])
+        out, err = capfd.readouterr()
+        assert "Traceback" not in err
+        return Outcome(end.value.code, out, err)
+
+    return call
+
+
+@pytest.fixture
+def process(tmp_path):
+    """Start a command as a process in the empty folder."""
+
+    def start(*arguments, **options):
+        return subprocess.Popen(
+            [sys.executable, "-m", "vorotool", *map(str, arguments)],
+            cwd=tmp_path,
+            env={**os.environ, "PYTHONUNBUFFERED": "1"},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            **options,
+        )
+
+    return start
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """The folder that commands run in, with a list of points and a mask."""
+    (tmp_path / "dots.csv").write_text("x,y,name\n2,1,a\n7,5,b\n1,6,c\n")
+    (tmp_path / "mask.pbm").write_text("P1\n8 4\n1 1 0 0 0 0 0 0\n0 0 0 0 0 0 1 0\n0 0 0 0 0 1 0 0\n0 0 0 0 0 0 0 0\n")
+    return tmp_path
+
+
+def leftovers(folder):
+    """Names of temporary files that should not be there."""
+    return [path.name for path in folder.rglob("*") if path.name.startswith(".")]

@@ -1,0 +1,65 @@
+"""Compare the exact engine with brute force for a number of pixels: `make fuzz PIXELS=100000000 SEED=1`.
+
+Every configuration is checked on each instruction set of this machine, with 1 to 5 threads and two types of label;
+a pixel counts once a configuration.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import time
+import warnings
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from families import random_case
+from oracles import nearest_labels
+from vorotool import _core
+from vorotool.engines.tessellate import SIMD_LEVELS, Tessellator
+from vorotool.geometry.frame import Frame
+from vorotool.geometry.seeds import SeedSet
+
+
+def check(rng: np.random.Generator, side: int) -> tuple[str, int, int]:
+    """Check one configuration; give its family, its pixels, and how many of them are wrong anywhere."""
+    name, x, y, labels, scale, frame = random_case(rng, side)
+    right = nearest_labels(x, y, labels, frame, scale)
+    wrong = np.zeros(right.shape, dtype=bool)
+    for level in SIMD_LEVELS[: SIMD_LEVELS.index(_core.widest_simd()) + 1]:
+        os.environ["VOROTOOL_SIMD"] = level
+        sweep = Tessellator(SeedSet(x, y, labels, scale=scale), Frame(*frame), threads=int(rng.integers(1, 6)))
+        for dtype in (None, np.int32):
+            wrong |= sweep.labels(dtype=dtype) != right
+    return name, right.size, int(wrong.sum())
+
+
+def main() -> int:
+    """Run until enough pixels were compared; exit 1 if any was wrong."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--pixels", type=int, default=10**8)
+    parser.add_argument("--seed", type=int, default=1)
+    arguments = parser.parse_args()
+    warnings.simplefilter("ignore")
+    compared: Counter[str] = Counter()
+    wrong, case, start = 0, 0, time.monotonic()
+    while compared.total() < arguments.pixels:
+        rng = np.random.default_rng([arguments.seed, case])
+        name, pixels, bad = check(rng, side=1000 if case % 8 == 0 else 40)
+        compared[name] += pixels
+        wrong += bad
+        if bad:
+            print(f"wrong: seed {arguments.seed}, case {case}, {name}: {bad} pixels")
+        case += 1
+    for name, pixels in sorted(compared.items()):
+        print(f"{name:14} {pixels:12,} pixels")
+    print(f"{case} configurations, {compared.total():,} pixels, {wrong} wrong, {time.monotonic() - start:.0f} s")
+    return int(wrong > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,63 @@
+"""Slow and obvious answers to compare with. They share no code with the package."""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def nearest_labels(x, y, labels, frame, scale=1, most_squared=None):
+    """Label every pixel by looking at every seed: smallest squared distance, then smallest label."""
+    x, y, labels = (np.asarray(v, dtype=np.int64) for v in (x, y, labels))
+    order = np.argsort(labels, kind="stable")
+    x, y, labels = x[order], y[order], labels[order]
+    fx, fy, width, height = frame
+    across = ((fx + np.arange(width, dtype=np.int64))[:, None] * scale - x) ** 2
+    squares = np.empty_like(across)
+    out = np.empty((height, width), dtype=np.uint32)
+    for row in range(height):
+        np.add(across, ((fy + row) * scale - y) ** 2, out=squares)
+        nearest = squares.argmin(axis=1)  # the first of equal ones, hence the smallest label
+        out[row] = labels[nearest]
+        if most_squared is not None:
+            out[row][squares[np.arange(width), nearest] > most_squared] = 0
+    return out
+
+
+def nearest_squares(x, y, frame, scale=1):
+    """Squared lattice distance of every pixel to the nearest seed."""
+    fx, fy, width, height = frame
+    rows, columns = np.mgrid[0:height, 0:width].astype(np.int64)
+    columns, rows = (fx + columns) * scale, (fy + rows) * scale
+    squares = [(columns - int(a)) ** 2 + (rows - int(b)) ** 2 for a, b in zip(x, y, strict=True)]
+    return np.min(squares, axis=0)
+
+
+def paper_passes(seeds, m_columns, m_rows, passes=2):
+    """Section 2.2 to the letter, with loops over 2 … m - 1 of an image that has a frame of zeros.
+
+    ``seeds`` maps a label to its (i, j), counted from 1 inside the frame's border at 1.
+    """
+    v = np.zeros((m_columns + 2, m_rows + 2), dtype=np.int64)
+    for label in sorted(seeds, reverse=True):
+        v[seeds[label]] = label
+
+    def distance(i, j, k):
+        return (i - seeds[k][0]) ** 2 + (j - seeds[k][1]) ** 2
+
+    def sweep(j, other):
+        for i in range(1, m_columns + 1):
+            around = [v[i, j], v[i - 1, other], v[i, other], v[i + 1, other], v[i - 1, j]]
+            around = [int(k) for k in around if k != 0]
+            if around:
+                v[i, j] = min(around, key=lambda k: (distance(i, j, k), k))
+        for i in range(m_columns, 0, -1):
+            k0, k5 = int(v[i, j]), int(v[i + 1, j])
+            if k5 > 0 and (k0 == 0 or (distance(i, j, k5), k5) < (distance(i, j, k0), k0)):
+                v[i, j] = k5
+
+    for j in range(1, m_rows + 1):
+        sweep(j, j - 1)
+    for j in range(m_rows, 0, -1):
+        if passes == 2:
+            sweep(j, j + 1)
+    return v[1:-1, 1:-1].T

@@ -1,0 +1,70 @@
+"""Every block of the README and of the documents does what it says."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+DOCUMENTS = ["README.md", "docs/errata.md"]
+FENCE = re.compile(r"^```(\w+)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+
+
+def blocks(language):
+    for name in DOCUMENTS:
+        for number, match in enumerate(FENCE.finditer((ROOT / name).read_text(encoding="utf-8"))):
+            if match[1] == language:
+                yield pytest.param(match[2], id=f"{name}-{number}")
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """A folder like the root of the repository, to write into."""
+    shutil.copytree(ROOT / "data", tmp_path / "data")
+    return tmp_path
+
+
+def run(command, folder):
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    return subprocess.run(
+        ["bash", "-o", "pipefail", "-c", command],
+        cwd=folder,
+        env={**os.environ, "PATH": path},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+@pytest.mark.parametrize("block", list(blocks("console")))
+def test_console_block(block, folder):
+    for part in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:
+        command, _, expected = part.partition("\n")
+        done = run(command, folder)
+        assert done.returncode == 0, f"{command}\n{done.stderr}"
+        assert done.stderr == ""
+        assert done.stdout == expected, command
+
+
+@pytest.mark.parametrize("block", list(blocks("python")))
+def test_python_block(block, folder):
+    done = subprocess.run([sys.executable, "-c", block], cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+def test_the_reference_is_true():
+    done = subprocess.run([sys.executable, ROOT / "docs/cli_reference.py"], capture_output=True, text=True, check=True)
+    assert done.stdout == (ROOT / "docs/cli.md").read_text(encoding="utf-8"), "run docs/cli_reference.py > docs/cli.md"
+
+
+@pytest.mark.parametrize("arguments", [[], ["tessellate"], ["draw"]])
+def test_the_example_of_the_help_runs(arguments, folder):
+    text = run(f"vorotool {' '.join(arguments)} --help", folder).stdout
+    example = re.search(r"Example:\s*\n\s*(vorotool .*)", text)
+    assert example, "the help opens with an example"
+    done = run(example[1], folder)
+    assert (done.returncode, done.stderr) == (0, ""), example[1]
