@@ -75,9 +75,7 @@ NOT_FINITE = ["nan", "NaN", "-nan", "inf", "-Inf", "Infinity", "+inf", "1e309", 
 
 
 def parse(text, delimiter=",", columns=(0, 1), **options):
-    return _core.parse_numbers(
-        text.encode() if isinstance(text, str) else text, delimiter, list(columns), **options
-    )
+    return _core.parse_numbers(text.encode() if isinstance(text, str) else text, delimiter, list(columns), **options)
 
 
 def error_of(text, *arguments, **options):
@@ -180,9 +178,7 @@ def test_quoted_text_reads_as_the_csv_module_reads_it(rows):
     out = io.StringIO()
     csv.writer(out, quoting=csv.QUOTE_ALL, lineterminator="\n").writerows(rows)
     read = _core.parse_fields(out.getvalue().encode("utf-8", "replace"), ",", [0, 1, 2])
-    expected = [
-        [text.encode("utf-8", "replace").decode() for text in column] for column in zip(*rows, strict=True)
-    ]
+    expected = [[text.encode("utf-8", "replace").decode() for text in column] for column in zip(*rows, strict=True)]
     assert read == expected
 
 
@@ -256,10 +252,7 @@ def test_format_of_each_type():
             ["a,b", 'say "é"'],
         ]
     )
-    assert (
-        text
-        == '-9223372036854775808,0,100000,"a,b"\n9223372036854775807,18446744073709551615,0.1,"say ""é"""\n'
-    )
+    assert text == '-9223372036854775808,0,100000,"a,b"\n9223372036854775807,18446744073709551615,0.1,"say ""é"""\n'
 
 
 def test_format_of_missing_fields():

@@ -79,6 +79,9 @@ def test_recognised_headers(header, used, point):
     text = f"{header}\n" + ",".join(str(i + 1) for i in range(header.count(",") + 1))
     assert rows(text) == [point]
     notes = notes_of(text)
+    if used.lower() == "x, y":  # needs no word
+        assert notes == []
+        return
     assert notes[0] == f"seeds.csv: columns {used} are read as x, y"
     degrees = "seeds.csv: longitude and latitude are treated as planar, lengths are in degrees"
     assert notes[1:] == ([degrees] if used.lower().startswith("lon") else [])
@@ -135,8 +138,7 @@ def test_no_points(text):
     [
         (
             "x,y\n1,2\n# c\n\n3,abc\n",
-            "line 5: 'abc' in column 2 (y) is not a number; correct it, or choose other columns "
-            "with --columns",
+            "line 5: 'abc' in column 2 (y) is not a number; correct it, or choose other columns with --columns",
         ),
         ("1,2\n3,\n", "line 2: column 2 is empty; fill in a number, or remove the line"),
         ("1,2\nNaN,3\n", "line 2: 'NaN' in column 1 is not a finite number; correct it, or remove the line"),
@@ -156,8 +158,7 @@ def test_no_points(text):
         ),
         (
             '1,2\n3,"4\n5,6\n',
-            "line 2: the quote that opens column 2 is not closed before the next delimiter; "
-            "close it, or remove it",
+            "line 2: the quote that opens column 2 is not closed before the next delimiter; close it, or remove it",
         ),
         (
             "x,y,label\n1,2,3\n\n4,5,0\n",
@@ -173,8 +174,7 @@ def test_no_points(text):
         ),
         (
             "x,y,label\n1,2,b\n",
-            "line 2: 'b' in column 3 (label) is not a number; correct it, or choose other columns "
-            "with --columns",
+            "line 2: 'b' in column 3 (label) is not a number; correct it, or choose other columns with --columns",
         ),
     ],
 )
@@ -206,8 +206,7 @@ def test_bad_lines(text, message):
         ),
         (
             "1|2\n",
-            "the first line has one column, '1|2'; give x and y, separated by a comma, a "
-            "semicolon, a tab or blanks",
+            "the first line has one column, '1|2'; give x and y, separated by a comma, a semicolon, a tab or blanks",
         ),
     ],
 )
@@ -240,9 +239,7 @@ def test_other_encodings():
     assert "is UTF-16 text; save it as UTF-8" in error_of("1,2\n".encode("utf-16"))
     assert "is binary, not a list of points" in error_of(b"\x89PNG\r\n\0\0")
     message = error_of("x,y,name\n1,2,a\n3,4,é\n".encode("latin-1"))
-    assert message == (
-        "seeds.csv, line 3: the byte 0xe9 is not UTF-8; save the file as UTF-8, or use --no-properties"
-    )
+    assert message == ("seeds.csv, line 3: the byte 0xe9 is not UTF-8; save the file as UTF-8, or use --no-properties")
     assert len(read("x,y,name\n1,2,é\n".encode("latin-1"), properties=False)) == 1
 
 
@@ -250,9 +247,7 @@ def test_the_limit_of_text():
     text = "# c\nx,y\n\n1,2\n3,4\n5,6\n"
     assert len(read(text, max_sites=3)) == 3
     message = error_of(text, kind=LimitError, max_sites=2)
-    assert (
-        message == "seeds.csv holds 3 points, more than the limit of 2: raise --max-sites or split the file"
-    )
+    assert message == "seeds.csv holds 3 points, more than the limit of 2: raise --max-sites or split the file"
 
 
 # ---- formats ---------------------------------------------------------------------------------------
@@ -278,10 +273,7 @@ def test_the_limit_of_text():
     ],
 )
 def test_detection(name, content, expected):
-    assert (
-        detect_point_format(Source(name, content if isinstance(content, bytes) else content.encode()))
-        == expected
-    )
+    assert detect_point_format(Source(name, content if isinstance(content, bytes) else content.encode())) == expected
 
 
 @pytest.mark.parametrize("suffix", [".shp", ".gpkg", ".dxf"])
@@ -296,17 +288,13 @@ def test_files_to_convert(suffix):
 def test_options_that_do_not_fit():
     assert "use csv, node, npy" in error_of("", kind=UsageError, input_format="xyz")
     for fmt in POINT_FORMATS[1:]:
-        assert "--columns is for delimited text" in error_of(
-            "", kind=UsageError, input_format=fmt, columns="1,2"
-        )
+        assert "--columns is for delimited text" in error_of("", kind=UsageError, input_format=fmt, columns="1,2")
 
 
 # ---- Triangle --------------------------------------------------------------------------------------
 @pytest.mark.parametrize("base", [0, 1])
 def test_node(base):
-    text = (
-        f"# box\n3 2 1 1 # header\n{base} 0 0 1.50 1\n{base + 1} 4 0.5 2 0\n\n{base + 2} -4 1e1 x 7 # last\n"
-    )
+    text = f"# box\n3 2 1 1 # header\n{base} 0 0 1.50 1\n{base + 1} 4 0.5 2 0\n\n{base + 2} -4 1e1 x 7 # last\n"
     points = read(text, "box.node")
     assert points.xy.tolist() == [[0, 0], [4, 0.5], [-4, 10]]
     assert points.labels is None
@@ -324,13 +312,11 @@ def test_node_with_a_short_header():
     [
         (
             "",
-            ": the file is empty; a .node file begins with <vertices> 2 <attributes> <0 or 1 "
-            "boundary markers>",
+            ": the file is empty; a .node file begins with <vertices> 2 <attributes> <0 or 1 boundary markers>",
         ),
         (
             "1.5 2\n",
-            ", line 1: '1.5 2' is no header of a .node file; write <vertices> 2 <attributes> <0 "
-            "or 1 boundary markers>",
+            ", line 1: '1.5 2' is no header of a .node file; write <vertices> 2 <attributes> <0 or 1 boundary markers>",
         ),
         ("#\n1 3 0 0\n1 0 0 0\n", ", line 2: the vertices have 3 dimensions; only 2 are read"),
         (
@@ -433,9 +419,7 @@ def test_bad_npy(data, message):
 
 def test_the_limit_of_npy():
     data = header(SHAPE.format("(100000000000, 2)"))
-    assert "holds 100000000000 points, more than the limit of 4294967295" in error_of(
-        data, "a.npy", LimitError
-    )
+    assert "holds 100000000000 points, more than the limit of 4294967295" in error_of(data, "a.npy", LimitError)
     assert "more than the limit of 5: raise --max-sites" in error_of(
         npy(np.zeros((6, 2))), "a.npy", LimitError, max_sites=5
     )
@@ -691,8 +675,6 @@ def test_any_bytes_give_points_or_a_reason(fmt, data):
 
 
 @settings(deadline=None, max_examples=300)
-@given(
-    st.sampled_from(["csv", "node", "wkt", "json"]), st.text('0123.,;-e \n"#()[]{}POINTMUL:x\t', max_size=60)
-)
+@given(st.sampled_from(["csv", "node", "wkt", "json"]), st.text('0123.,;-e \n"#()[]{}POINTMUL:x\t', max_size=60))
 def test_any_text_gives_points_or_a_reason(fmt, text):
     assert reason_against(text, fmt).startswith("any")

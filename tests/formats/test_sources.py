@@ -36,9 +36,7 @@ def test_closed_standard_input(monkeypatch):
 
 def test_a_missing_file(tmp_path):
     name = str(tmp_path / "seeds.csv")
-    assert (
-        error_of(read_source, name) == f"{name}: there is no such file; check the path (looked in {tmp_path})"
-    )
+    assert error_of(read_source, name) == f"{name}: there is no such file; check the path (looked in {tmp_path})"
     name = str(tmp_path / "gone" / "seeds.csv")
     assert f"nor is there a directory {tmp_path / 'gone'}" in error_of(read_source, name)
 
