@@ -15,7 +15,9 @@ import vorotool
 from families import FAMILIES, random_case
 from oracles import nearest_labels, nearest_squares
 from vorotool import _core
-from vorotool.engines.tessellate import SIMD_LEVELS, Tessellator, default_frame, verify_rows
+from vorotool.engines.digital import SIMD_LEVELS, default_frame
+from vorotool.engines.sweep import Tessellator
+from vorotool.engines.tessellate import verify_rows
 from vorotool.errors import InputError, LimitError, UsageError, VerificationError, VorotoolWarning
 from vorotool.geometry.frame import Frame
 from vorotool.geometry.seeds import SeedSet

@@ -137,7 +137,8 @@ def _frame(o: SimpleNamespace) -> Frame | None:
 
 def _prepare(run: Run, o: SimpleNamespace, seeds: SeedSet) -> Products:
     from vorotool.cli.products import Products
-    from vorotool.engines.tessellate import PropagatedRows, Tessellator
+    from vorotool.engines.propagation import PropagatedRows
+    from vorotool.engines.sweep import Tessellator
     from vorotool.errors import LimitError
 
     if len(seeds) > o.max_sites:
