@@ -270,3 +270,31 @@ def test_version(run):
 def test_stats_are_one_json_object(run, folder):
     run("tessellate", "dots.csv", "-o", "a.png", "--stats", "s.json")
     assert json.loads((folder / "s.json").read_text())["command"] == "tessellate"
+
+
+@pytest.mark.parametrize("command", [["tessellate", "dots.csv", "-f", "npy"], ["draw", "mask.pbm", "-f", "png"]])
+def test_statistics_replace_neither_input_nor_output(run, folder, command):
+    source = folder / command[1]
+    before = source.read_bytes()
+    os.link(source, folder / "same")
+    for name in (source.name, "same", "out", "./out"):
+        done = run(*command, "-o", "out", "--stats", name)
+        assert done.code == 2
+        assert name in done.err
+        assert not (folder / "out").exists()
+    assert source.read_bytes() == before
+    (folder / "old.json").write_text("old")
+    done = run(*command, "-o", "out", "--stats", "old.json", "--no-clobber")
+    assert done.code == 4
+    assert (folder / "old.json").read_text() == "old"
+    assert run(*command, "-o", os.devnull, "--stats", os.devnull).code == 0
+
+
+def test_standard_input_is_not_replaced_either(process, folder):
+    before = (folder / "dots.csv").read_bytes()
+    with (folder / "dots.csv").open("rb") as stdin:
+        done = process("tessellate", "-", "-o", "dots.csv", "-f", "npy", stdin=stdin)
+        _, err = done.communicate(timeout=30)
+    assert done.returncode == 2
+    assert b"also an input" in err
+    assert (folder / "dots.csv").read_bytes() == before

@@ -9,7 +9,7 @@ import click
 
 from vorotool.cli.options import Decimal, layers_option, shared, single_input, what_option
 from vorotool.cli.run import Run
-from vorotool.cli.targets import Target, plan_targets
+from vorotool.cli.targets import Target, check_stats, plan_targets
 
 if TYPE_CHECKING:
     from vorotool.cli.products import Products
@@ -62,8 +62,9 @@ def command(**options: Any) -> None:
     o = SimpleNamespace(**options)
     source = single_input(o.inputs)
     targets = plan_targets(FORMATS, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=source)
+    check_stats(o.stats, targets, source)
     _check_options(o, targets)
-    with Run("tessellate", quiet=o.quiet, verbose=o.verbose, stats=o.stats) as run:
+    with Run("tessellate", quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber) as run:
         with run.phase("read"):
             seeds = _read_seeds(run, o, source)
         with run.phase("prepare"):
@@ -73,7 +74,7 @@ def command(**options: Any) -> None:
                 products.verify()
         for target in targets:
             with run.phase(f"write {target.what}"):
-                products.write(target, inputs=() if source == "-" else (source,))
+                products.write(target, inputs=(source,))
         _fill_stats(run, o, products)
 
 
@@ -86,8 +87,6 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
         raise click.UsageError("--passes needs --method propagation")
     if o.method == "propagation" and {"distance", "distance2"} & {target.what for target in targets}:
         raise click.UsageError("distances are those of the exact tessellation: leave out --method propagation")
-    if o.stats == "-" and any(target.path == "-" for target in targets):
-        raise click.UsageError("--stats - needs -o FILE: standard output holds the result")
 
 
 def _read_seeds(run: Run, o: SimpleNamespace, source: str) -> SeedSet:
