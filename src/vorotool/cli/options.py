@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from math import isfinite, nan
 from typing import Any
 
 import click
@@ -59,9 +60,12 @@ class Threshold(click.ParamType[float | str]):
         if value == "otsu":
             return "otsu"
         try:
-            return float(value)
+            number = float(value)
         except ValueError:
+            number = nan
+        if not isfinite(number):
             self.fail(f"{value!r} is no threshold: give a number or otsu", param, ctx)
+        return number
 
 
 class Decimal(click.ParamType[Fraction]):

@@ -122,7 +122,7 @@ def _read_seeds(run: Run, o: SimpleNamespace, source: str) -> SeedSet:
 
 def _refuse(o: SimpleNamespace, names: tuple[str, ...], reason: str) -> None:
     for name in names:
-        if getattr(o, name) not in (None, False):
+        if getattr(o, name) is not None and getattr(o, name) is not False:  # 0 is given, too
             raise click.UsageError(f"--{name} {reason}")
 
 

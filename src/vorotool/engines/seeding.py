@@ -180,19 +180,31 @@ def seeds_from_raster(
 def _foreground_values(raster: Raster, threshold: Any, *, invert: bool) -> NDArray[Any]:
     values = raster.values
     if threshold is not None:
-        grey = values @ np.array(_LUMINANCE) if raster.is_colour else values
-        if threshold == "otsu":
-            from skimage.filters import threshold_otsu
-
-            if grey.min() == grey.max():
-                raise InputError(f"all pixels have the value {grey.flat[0]}: --threshold otsu needs two values")
-            threshold = threshold_otsu(grey)
-        values = grey > threshold
+        grey = _grey(raster)
+        values = grey > (_otsu(grey) if threshold == "otsu" else threshold)
     elif raster.is_colour:
         raise InputError("a colour image holds no seeds by itself: use --threshold T or --threshold otsu")
     if values.dtype.kind == "f" and not np.isfinite(values).all():
-        raise InputError("the image holds NaN or infinite values: use --threshold T after repairing them")
+        raise InputError("the image holds NaN or infinite values: use --threshold T, a number, or repair them")
     return values == 0 if invert else values
+
+
+def _grey(raster: Raster) -> NDArray[Any]:
+    """Luminance of a colour image; transparency does not count."""
+    values = raster.values
+    if not raster.is_colour:
+        return values
+    return values[:, :, :3] @ np.array(_LUMINANCE) if values.shape[2] > 2 else values[:, :, 0]
+
+
+def _otsu(grey: NDArray[Any]) -> float:
+    from skimage.filters import threshold_otsu
+
+    if grey.dtype.kind == "f" and not np.isfinite(grey).all():
+        raise InputError("the image holds NaN or infinite values: use --threshold T, a number, or repair them")
+    if grey.min() == grey.max():
+        raise InputError(f"all pixels have the value {grey.flat[0]}: --threshold otsu needs two values")
+    return float(threshold_otsu(grey))
 
 
 def _default_mode(values: NDArray[Any]) -> SeedMode:
