@@ -248,7 +248,7 @@ def test_broken_pipe_is_quiet(folder):
     assert "Traceback" not in done.stderr
 
 
-@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)])
 def test_interrupt_in_the_kernel(process, folder, number, code):
     np.savetxt(folder / "many.csv", np.random.default_rng(0).integers(0, 60000, (20000, 2)), fmt="%d", delimiter=",")
     (folder / "out.npy").write_text("old")
@@ -305,3 +305,32 @@ def test_standard_input_is_not_replaced_either(process, folder):
     assert done.returncode == 2
     assert b"also an input" in err
     assert (folder / "dots.csv").read_bytes() == before
+
+
+@pytest.mark.parametrize(
+    ("command", "code", "message"),
+    [
+        ("tessellate dots.csv -o out.png >&-", 0, ""),
+        ("tessellate dots.csv -o out.png 2>&-", 0, ""),
+        ("tessellate dots.csv -o out.png <&- >&- 2>&-", 0, ""),
+        ("tessellate missing.csv -o out.png >&- 2>&-", 3, ""),
+        ("tessellate missing.csv -o out.png 2>/dev/full", 3, ""),
+        ("paint 2>/dev/full", 2, ""),
+        ("tessellate dots.csv --what table >&-", 4, "error: standard output cannot be written: Bad file descriptor"),
+        ("tessellate - -o out.png <&-", 3, "error: standard input is closed"),
+        ("--help >&-", 4, "Bad file descriptor"),
+        ("--version >/dev/full", 4, "No space left on device"),
+        ("tessellate --help >/dev/full", 4, "No space left on device"),
+        ("--help | true; exit ${PIPESTATUS[0]}", 141, ""),
+        ("tessellate --help | true; exit ${PIPESTATUS[0]}", 141, ""),
+    ],
+)
+def test_closed_and_full_streams(folder, command, code, message):
+    script = f"{sys.executable} -m vorotool {command}"
+    done = subprocess.run(["bash", "-c", script], cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == code, done.stderr
+    assert done.stdout == ""
+    assert message in done.stderr
+    assert len(done.stderr.splitlines()) == bool(message)
+    if code == 0:
+        assert (folder / "out.png").read_bytes().startswith(b"\x89PNG")
