@@ -132,6 +132,8 @@ def test_a_photograph_is_not_taken_for_labels(run, folder):
         (["tessellate", "dots.csv", "-f", "text", "--stats", "-"], ["--stats -"]),
         (["tessellate", "dots.csv", "-o", "dots.csv", "-f", "text"], ["dots.csv", "input"]),
         (["tessellate", "dots.csv", "-o", "a.png", "--layers", "roads"], ["'roads'"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--layers", "cells"], ["--layers is for pictures"]),
+        (["tessellate", "dots.csv", "-o", "a.npy", "--what", "diagram", "--layers", "cells"], ["--layers is for"]),
         (["tessellate", "dots.csv", "-o", "a.png", "--threads", "-1"], ["-1"]),
         (["tessellate", "dots.csv", "-o", "a.png", "--threads", "1025"], ["1025"]),
         (["tessellate", "dots.csv", "-o", "a.png", "--size", "9" * 5000 + "x1"], ["is no size"]),
@@ -149,6 +151,7 @@ def test_usage(run, folder, arguments, words):
 
 
 def test_missing_input(run):
+    assert "name of the input is empty" in run("tessellate", "", "-o", "a.png").err
     done = run("tessellate", "nowhere.csv", "-o", "a.png")
     assert done.code == 3
     assert "nowhere.csv" in done.err
@@ -168,6 +171,7 @@ def test_limits_are_known_before_memory_is_taken(run, folder):
 
 
 def test_outputs_that_cannot_be_written(run, folder):
+    assert "'' is no name: name a file" in run("tessellate", "dots.csv", "-f", "png", "-o", "").err
     assert run("tessellate", "dots.csv", "-o", "no/such/a.png").code == 4
     assert run("tessellate", "dots.csv", "-o", "/dev/full", "-f", "npy").code == 4
     assert run("tessellate", "dots.csv", "-o", "a.png", "--stats", "no/such/s.json").code == 4

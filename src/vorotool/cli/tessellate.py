@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from vorotool.geometry.seeds import SeedSet
 
 _IMAGES = ("png", "tiff", "npy", "text")
+_PICTURES = {("labels", "svg"), ("diagram", "png"), ("colour", "png"), ("colour", "svg")}
 _TABLES = ("csv", "json", "npz")
 FORMATS = {
     "labels": (*_IMAGES, "svg"),
@@ -87,6 +88,8 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
         raise click.UsageError("--passes needs --method propagation")
     if o.method == "propagation" and {"distance", "distance2"} & {target.what for target in targets}:
         raise click.UsageError("distances are those of the exact tessellation: leave out --method propagation")
+    if o.layers is not None and not _PICTURES & {(target.what, target.fmt) for target in targets}:
+        raise click.UsageError("--layers is for pictures: --what colour, labels as SVG, or the diagram as PNG")
 
 
 def _read_seeds(run: Run, o: SimpleNamespace, source: str) -> SeedSet:
