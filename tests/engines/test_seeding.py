@@ -27,3 +27,15 @@ def test_nan_is_background_of_a_threshold_and_refused_by_otsu():
     for threshold in (None, "otsu"):
         with pytest.raises(InputError, match="NaN"):
             seeds_from_raster(Raster(values), threshold=threshold)
+
+
+@pytest.mark.parametrize("factor", [1, 10**6])
+def test_objects_are_counted_alike_for_dense_and_sparse_labels(factor):
+    labels = np.random.default_rng(0).integers(0, 40, (30, 50)) * factor
+    seeds = seeds_from_raster(Raster(labels), mode="labels")
+    expected, area = np.unique(labels[labels > 0], return_counts=True)
+    np.testing.assert_array_equal(seeds.site_labels, expected)
+    np.testing.assert_array_equal(seeds.object_area, area)
+    np.testing.assert_array_equal(seeds.labels, labels[labels > 0])
+    for site, label in zip(seeds.sites, expected, strict=True):
+        np.testing.assert_allclose(site, np.argwhere(labels == label)[:, ::-1].mean(axis=0))

@@ -252,11 +252,20 @@ def _require_foreground(count: int) -> None:
         raise InputError("the image has no foreground, so nothing could be labelled: use --invert or --threshold")
 
 
+def _counted(values: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    """Distinct labels, the index of each pixel's, and the pixels of each: by a table unless labels are sparse."""
+    if values.max() > 4 * values.size + 65536:
+        return np.unique(values, return_inverse=True, return_counts=True)
+    counts = np.bincount(values)
+    labels = np.flatnonzero(counts)
+    return labels, (np.cumsum(counts > 0) - 1)[values], counts[labels]
+
+
 def _seeds_of_objects(objects: NDArray[np.int64], frame: Frame, *, centroids_only: bool, strict: bool) -> SeedSet:
     """Seeds of a label image: all pixels of each label, or its centroid."""
     y, x = np.nonzero(objects)
     _require_foreground(len(x))
-    labels, index, area = np.unique(objects[y, x], return_inverse=True, return_counts=True)
+    labels, index, area = _counted(objects[y, x])
     # Sums of coordinates stay below 2^53, so the centroid is the rounded quotient of two exact integers.
     sites = np.stack([np.bincount(index, weights=x) / area, np.bincount(index, weights=y) / area], axis=1)
     site_labels = labels.astype(np.uint32)
