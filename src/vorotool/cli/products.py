@@ -89,7 +89,7 @@ class Products:
     def _write_diagram(self, out: BinaryIO, fmt: str) -> None:
         from vorotool.render.palettes import LINE_ON_PAPER
 
-        if self.options.layers:
+        if self.options.layers and fmt == "png":
             self._write_picture(out, fmt, self.options.layers)
             return
 
