@@ -40,11 +40,6 @@ def near_degenerate(rng, k, n):
     return by_ulps(rng, degenerate(rng, k, n))
 
 
-def offset(rng, k, n):
-    """The same far from the origin, where coordinates have few bits left."""
-    return by_ulps(rng, degenerate(rng, k, n) + 10.0 ** rng.integers(0, 15, (k, 1, 2)), steps=1)
-
-
 def lattice(rng, k, n):
     """Integers up to 2, 2^5, 2^10, 2^20 or 2^31: tuples exactly on a line or circle, some a step beside."""
     side = 2 ** rng.choice([1, 5, 10, 20, 30], (k, 1))
@@ -56,6 +51,13 @@ def lattice(rng, k, n):
         along = np.stack([0 * v, v, v + w, w], axis=1)
     beside = rng.integers(-1, 2, (k, n, 2)) * (rng.random((k, n, 1)) < 0.2)
     return (start[:, None] + along + beside).astype(np.float64)
+
+
+def offset(rng, k, n):
+    """Lattices and circles far from the origin, where coordinates have few bits left for the differences."""
+    far = rng.choice([1.0, -1.0], (k, 1, 2)) * np.rint(10.0 ** rng.integers(0, 15, (k, 1, 2)))
+    beside = by_ulps(rng, degenerate(rng, k, n) * 1e6 + far, steps=1)
+    return np.where(rng.random((k, 1, 1)) < 0.7, lattice(rng, k, n) + far, beside)
 
 
 def fine_lattice(rng, k, n):
