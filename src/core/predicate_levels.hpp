@@ -12,8 +12,8 @@ namespace vorotool::core {
 int orient2d_integers(const Point& a, const Point& b, const Point& c);
 int incircle_integers(const Point& a, const Point& b, const Point& c, const Point& d);
 
-// Sums of doubles that keep every rounding error; coordinates whose magnitudes span less than 2^984
-// (orient2d) or 2^465 (incircle).
+// Sums of doubles that keep every rounding error; coordinates whose magnitudes span at most 2^983
+// (orient2d) or 2^464 (incircle).
 int orient2d_expansions(const Point& a, const Point& b, const Point& c);
 int incircle_expansions(const Point& a, const Point& b, const Point& c, const Point& d);
 
