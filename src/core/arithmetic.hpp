@@ -29,12 +29,14 @@ inline constexpr std::int64_t wide_bound = std::int64_t{1} << 40;
 
 struct Narrow {
   using Coordinate = std::int32_t;
-  using Value = double;          // x and F of a candidate
-  using Integer = std::int64_t;  // holds any F
+  static constexpr Coordinate far = Coordinate{1} << 30;  // beyond every seed; a row can still be subtracted
+  using Value = double;                                   // x and F of a candidate
+  using Integer = std::int64_t;                           // holds any F
 };
 
 struct Wide {
   using Coordinate = std::int64_t;
+  static constexpr Coordinate far = Coordinate{1} << 61;
   using Value = int128;
   using Integer = int128;
 };

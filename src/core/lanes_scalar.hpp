@@ -36,14 +36,18 @@ template <class ArithmeticOfLane>
 struct ScalarLanes {
   using Arithmetic = ArithmeticOfLane;
   using Value = typename Arithmetic::Value;
+  using Coordinate = typename Arithmetic::Coordinate;
   using Mask = std::uint32_t;
   static constexpr std::int32_t width = 1;
   static constexpr int bytes = 16;
 
   static Value load(const Value* p) { return *p; }
-  static Value distance(typename Arithmetic::Coordinate row, const typename Arithmetic::Coordinate* y) {
-    return static_cast<Value>(row - *y);
+  static Value above(Coordinate row, const Coordinate* y) { return static_cast<Value>(row - *y); }
+  static Value below(Coordinate row, const Coordinate* y) { return static_cast<Value>(*y - row); }
+  static void set_coordinates(Coordinate* y, Mask which, Coordinate v) {
+    if (which) *y = v;
   }
+  static Value broadcast(Coordinate v) { return static_cast<Value>(v); }
   static Value add(Value a, Value b) { return a + b; }
   static Value sub(Value a, Value b) { return a - b; }
   static Value mul(Value a, Value b) { return a * b; }
@@ -55,6 +59,7 @@ struct ScalarLanes {
     if (keep) *out = v;
   }
 
+  static void store_index(std::uint32_t* out, std::uint32_t v) { *out = v; }
   static std::uint32_t load_index(const std::uint32_t* p) { return *p; }
   static std::uint32_t choose_index(Mask second, std::uint32_t a, std::uint32_t b) { return second ? b : a; }
   static std::uint32_t min_index(std::uint32_t a, std::uint32_t b) { return a < b ? a : b; }

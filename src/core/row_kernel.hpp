@@ -16,19 +16,18 @@ namespace vorotool::core {
 // Arrays that the kernels read in whole vectors have this many spare elements behind their end.
 inline constexpr std::int32_t kernel_padding = 64;
 
-// The live seeds of a sweep: at most one at or above the current row and one below it in each column.
-// A column is a distinct x coordinate of the seeds; columns are in increasing x.
+// The live seeds of a sweep: in each column at most one at or above the current row and one below it. A
+// column is a distinct x coordinate of the seeds. The list has an entry for every column with a live seed, in
+// increasing x, and may have entries that have lost theirs.
 template <class Arithmetic>
-struct Columns {
-  std::int32_t count;                        // columns
-  std::int32_t words;                        // 64-bit words of each bit set, ceil(count / 64)
-  const typename Arithmetic::Value* x;       // [count] increasing
-  typename Arithmetic::Coordinate* above_y;  // [count] valid where the bit in `above` is set; y <= row
-  typename Arithmetic::Coordinate* below_y;  // [count] valid where the bit in `below` is set; y > row
+struct LiveColumns {
+  std::int32_t count;                        // entries
+  typename Arithmetic::Value* x;             // [count]
+  typename Arithmetic::Coordinate* above_y;  // [count] at most the row; -far: none
+  typename Arithmetic::Coordinate* below_y;  // [count] more than the row; far: none
   std::uint32_t* above_label;                // [count]
   std::uint32_t* below_label;                // [count]
-  std::uint64_t* above;  // [words] bit c % 64 of word c / 64: column c has a live seed above
-  std::uint64_t* below;  // [words]
+  std::uint32_t* nearer_label;               // [count] of the nearer one on the row that was collected last
 };
 
 // Seeds whose parabolas (x - x_i)^2 + dy_i^2 may be lowest somewhere on the row, in increasing x.
@@ -36,8 +35,7 @@ template <class Arithmetic>
 struct Candidates {
   typename Arithmetic::Value* x;
   typename Arithmetic::Value* value;  // F = x^2 + dy^2
-  std::uint32_t* label;
-  std::int32_t* column;
+  std::uint32_t* entry;               // of the live columns
 };
 
 // How pixels lie on the lattice: pixel p of a row is at x = steps * (p - middle).
@@ -59,15 +57,19 @@ struct Envelope {
   std::int32_t* end;             // [count] -1 ... width - 1, not decreasing; the last is width - 1
   std::int32_t* ties;            // [tie_count] i: candidates i and i + 1 are equally near to pixel end[i]
   std::int32_t tie_count;
-  std::int32_t* dead;  // [dead_count] columns whose candidate is nowhere nearest on this row
+  std::uint32_t* dead;  // [dead_count] entries whose candidate is nowhere nearest on this row
   std::int32_t dead_count;
+  std::int32_t collected;             // entries that had a seed
+  const std::uint32_t* nearer_label;  // [entries]
+
+  std::uint32_t label_of(std::int32_t i) const { return nearer_label[candidates.entry[i]]; }
 };
 
 template <class Arithmetic>
 struct RowKernel {
   // Collects the nearer seed of each column, then drops those that are nowhere nearest on the row.
-  // Clears `above` bits of seeds that a nearer seed below hides for good.
-  void (*prune)(Columns<Arithmetic>&, typename Arithmetic::Coordinate row, const PixelRow&,
+  // Takes out the seeds above that a nearer seed below hides for good.
+  void (*prune)(const LiveColumns<Arithmetic>&, typename Arithmetic::Coordinate row, const PixelRow&,
                 Envelope<Arithmetic>&);
   // Fills end and ties of a pruned envelope.
   void (*bound)(const PixelRow&, Envelope<Arithmetic>&);

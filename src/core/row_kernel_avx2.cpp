@@ -41,11 +41,19 @@ struct Avx2Lanes {
   static constexpr int bytes = 32;
 
   static __m256d load(const double* p) { return _mm256_loadu_pd(p); }
-  static __m256d distance(std::int32_t row, const std::int32_t* y) {
-    const __m128i delta =
-        _mm_sub_epi32(_mm_set1_epi32(row), _mm_loadu_si128(reinterpret_cast<const __m128i*>(y)));
-    return _mm256_cvtepi32_pd(delta);
+  static __m128i coordinates(const std::int32_t* y) {
+    return _mm_loadu_si128(reinterpret_cast<const __m128i*>(y));
   }
+  static __m256d above(std::int32_t row, const std::int32_t* y) {
+    return _mm256_cvtepi32_pd(_mm_sub_epi32(_mm_set1_epi32(row), coordinates(y)));
+  }
+  static __m256d below(std::int32_t row, const std::int32_t* y) {
+    return _mm256_cvtepi32_pd(_mm_sub_epi32(coordinates(y), _mm_set1_epi32(row)));
+  }
+  static void set_coordinates(std::int32_t* y, Mask which, std::int32_t v) {
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(y), choose_index(which, coordinates(y), _mm_set1_epi32(v)));
+  }
+  static __m256d broadcast(std::int32_t v) { return _mm256_set1_pd(v); }
   static __m256d add(__m256d a, __m256d b) { return _mm256_add_pd(a, b); }
   static __m256d sub(__m256d a, __m256d b) { return _mm256_sub_pd(a, b); }
   static __m256d mul(__m256d a, __m256d b) { return _mm256_mul_pd(a, b); }
@@ -63,6 +71,9 @@ struct Avx2Lanes {
     _mm256_storeu_ps(reinterpret_cast<float*>(out), _mm256_permutevar8x32_ps(_mm256_castpd_ps(v), order));
   }
 
+  static void store_index(std::uint32_t* out, __m128i v) {
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(out), v);
+  }
   static __m128i load_index(const std::uint32_t* p) {
     return _mm_loadu_si128(reinterpret_cast<const __m128i*>(p));
   }

@@ -15,11 +15,20 @@ struct Avx512Lanes {
   static constexpr int bytes = 64;
 
   static __m512d load(const double* p) { return _mm512_loadu_pd(p); }
-  static __m512d distance(std::int32_t row, const std::int32_t* y) {
-    const __m256i delta =
-        _mm256_sub_epi32(_mm256_set1_epi32(row), _mm256_loadu_si256(reinterpret_cast<const __m256i*>(y)));
-    return _mm512_cvtepi32_pd(delta);
+  static __m256i coordinates(const std::int32_t* y) {
+    return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(y));
   }
+  static __m512d above(std::int32_t row, const std::int32_t* y) {
+    return _mm512_cvtepi32_pd(_mm256_sub_epi32(_mm256_set1_epi32(row), coordinates(y)));
+  }
+  static __m512d below(std::int32_t row, const std::int32_t* y) {
+    return _mm512_cvtepi32_pd(_mm256_sub_epi32(coordinates(y), _mm256_set1_epi32(row)));
+  }
+  static void set_coordinates(std::int32_t* y, Mask which, std::int32_t v) {
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(y),
+                        choose_index(which, coordinates(y), _mm256_set1_epi32(v)));
+  }
+  static __m512d broadcast(std::int32_t v) { return _mm512_set1_pd(v); }
   static __m512d add(__m512d a, __m512d b) { return _mm512_add_pd(a, b); }
   static __m512d sub(__m512d a, __m512d b) { return _mm512_sub_pd(a, b); }
   static __m512d mul(__m512d a, __m512d b) { return _mm512_mul_pd(a, b); }
@@ -34,6 +43,9 @@ struct Avx512Lanes {
     _mm512_storeu_pd(out, _mm512_maskz_compress_pd(static_cast<__mmask8>(keep), v));
   }
 
+  static void store_index(std::uint32_t* out, __m256i v) {
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(out), v);
+  }
   static __m256i load_index(const std::uint32_t* p) {
     return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
   }

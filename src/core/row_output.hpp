@@ -31,7 +31,7 @@ template <class Arithmetic, class Label>
 void settle_ties(const Envelope<Arithmetic>& envelope, Label* row) {
   for (std::int32_t t = 0; t < envelope.tie_count; ++t) {
     const std::int32_t i = envelope.ties[t];
-    const std::uint32_t smaller = std::min(envelope.candidates.label[i], envelope.candidates.label[i + 1]);
+    const std::uint32_t smaller = std::min(envelope.label_of(i), envelope.label_of(i + 1));
     Label& pixel = row[envelope.end[i]];
     pixel = std::min(pixel, static_cast<Label>(smaller));
   }

@@ -70,6 +70,41 @@ class RelativeSeeds {
   Bounds least_{0, 0}, most_{0, 0};  // the middle of the frame is within the bounds
 };
 
+// Squared distance from a seed to the nearest or the farthest point of the frame; below 2^83 by wide_bound.
+class FrameDistance {
+ public:
+  explicit FrameDistance(const FrameOnLattice& frame)
+      : left_(-std::int64_t{frame.steps} * frame.middle_column()),
+        right_(left_ + std::int64_t{frame.steps} * (frame.width - 1)),
+        top_(frame.row_y(0)),
+        bottom_(frame.row_y(frame.height - 1)) {}
+
+  bool is_inside(const Seed& seed) const {
+    return seed.x >= left_ && seed.x <= right_ && seed.y >= top_ && seed.y <= bottom_;
+  }
+  int128 least(const Seed& seed) const {
+    return sum_of_squares(seed.x - std::clamp(seed.x, left_, right_),
+                          seed.y - std::clamp(seed.y, top_, bottom_));
+  }
+  int128 most(const Seed& seed) const {
+    return sum_of_squares(std::max(std::abs(seed.x - left_), std::abs(seed.x - right_)),
+                          std::max(std::abs(seed.y - top_), std::abs(seed.y - bottom_)));
+  }
+
+ private:
+  static int128 sum_of_squares(std::int64_t dx, std::int64_t dy) { return int128{dx} * dx + int128{dy} * dy; }
+
+  std::int64_t left_, right_, top_, bottom_;
+};
+
+// A seed that is farther from every pixel than some other seed from all of them is nearest nowhere, and only
+// costs time. This is the distance that such a seed exceeds: the least of the farthest distances.
+int128 farthest_useful(const RelativeSeeds& seeds, const FrameDistance& distance) {
+  int128 limit = distance.most(seeds[0]);
+  for (std::size_t i = 1; i < seeds.size(); ++i) limit = std::min(limit, distance.most(seeds[i]));
+  return limit;
+}
+
 // Calls take(seed) for the seeds in order of (y, x). Where the ranges of both fit one key, a radix sort moves
 // the labels along with the keys, and no seed is looked up out of order.
 template <class Take>
@@ -140,7 +175,14 @@ Sites prepare_sites(std::span<const std::int64_t> x, std::span<const std::int64_
   sites.y.reserve(x.size());
   sites.label.reserve(x.size());
   offsets.reserve(x.size());
+  const FrameDistance distance(frame);
+  const int128 limit = seeds.size() == 0 ? 0 : farthest_useful(seeds, distance);
+  std::size_t useless = 0;
   for_each_in_sweep_order(seeds, [&](const Seed& seed) {
+    if (!distance.is_inside(seed) && distance.least(seed) > limit) {
+      ++useless;
+      return;
+    }
     const auto offset = static_cast<std::uint64_t>(seed.x - seeds.least_x());
     if (!offsets.empty() && sites.y.back() == seed.y && offsets.back() == offset) {
       sites.label.back() = std::min(sites.label.back(), seed.label);
@@ -150,7 +192,7 @@ Sites prepare_sites(std::span<const std::int64_t> x, std::span<const std::int64_
     sites.label.push_back(seed.label);
     offsets.push_back(offset);
   });
-  sites.duplicates = x.size() - sites.size();
+  sites.duplicates = x.size() - sites.size() - useless;
   sites.column.resize(sites.size());
   const bool table = seeds.x_range() <= 4 * sites.size() + 65536;
   sites.column_x = (table ? number_by_table : number_by_sorting)(offsets, seeds.x_range(), sites.column);

@@ -1,6 +1,7 @@
 // The seeds of a tessellation in the order of the sweep, relative to the middle of the frame.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <stdexcept>
@@ -28,7 +29,8 @@ struct SeedTooFar : std::range_error {
   std::int64_t bound;
 };
 
-// Distinct seeds sorted by (y, x); of seeds at one place the smallest label stays.
+// Distinct seeds sorted by (y, x); of seeds at one place the smallest label stays. Seeds outside the frame
+// that are nearest to no pixel may be left out.
 struct Sites {
   std::vector<std::int64_t> y;       // [n] relative to the middle of the frame, not decreasing
   std::vector<std::int32_t> column;  // [n] index into column_x; increasing where y is equal
@@ -39,6 +41,10 @@ struct Sites {
   std::size_t duplicates;           // seeds that were left out
 
   std::size_t size() const { return y.size(); }
+  // Number of seeds at or above a line.
+  std::int32_t count_to(std::int64_t line) const {
+    return static_cast<std::int32_t>(std::upper_bound(y.begin(), y.end(), line) - y.begin());
+  }
 };
 
 // Throws SeedTooFar when arithmetic.hpp's wide bound does not hold, std::length_error for more than 2^31 - 1

@@ -11,6 +11,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/live_list.hpp"
 #include "core/row_kernel.hpp"
 #include "core/sites.hpp"
 
@@ -32,7 +33,6 @@ class Sweep {
  private:
   using Coordinate = typename Arithmetic::Coordinate;
   using Value = typename Arithmetic::Value;
-  static constexpr std::int32_t none = -1;
 
   // A seed below becomes live on a row; met in order of decreasing row, used in order of increasing row.
   struct Birth {
@@ -40,35 +40,32 @@ class Sweep {
     std::int32_t site;
   };
 
-  void clear_columns();
-  void collect_nearest_above(std::int64_t line);
-  void collect_nearest_below(std::int64_t line);
+  void make_envelope();
+  void put_nearest_above(std::int64_t line);
+  void put_nearest_below(std::int64_t line);
+  template <class Put>
+  void put_nearest(Put put);
   void learn_births(std::int32_t first, std::int32_t last);
   void drop_dead_below(std::int32_t row);
-  void arrive(std::int32_t site, bool on_first_row);
-  void set_below(std::int32_t column, std::int32_t site);
-  Coordinate row_y(std::int32_t row) const { return static_cast<Coordinate>(frame_.row_y(row)); }
+  void prune(std::int32_t row);
+  std::int32_t column_of(std::int32_t site) const { return sites_.column[static_cast<std::size_t>(site)]; }
+  std::int64_t y_of(std::int32_t site) const { return sites_.y[static_cast<std::size_t>(site)]; }
 
   const Sites& sites_;
   const FrameOnLattice frame_;
   const RowKernel<Arithmetic> kernel_;
   PixelRow pixels_;
-
-  std::vector<Value> column_x_;
-  std::vector<Coordinate> above_y_, below_y_;
-  std::vector<std::uint32_t> above_label_, below_label_;
-  std::vector<std::uint64_t> above_, below_;
-  std::vector<std::int32_t> below_site_;
-  Columns<Arithmetic> columns_;
+  LiveList<Arithmetic> live_;
 
   // Room for the envelope: as many elements as there are columns, of which few are ever touched.
   std::unique_ptr<Value[]> values_;
-  std::unique_ptr<std::uint32_t[]> labels_;
+  std::unique_ptr<std::uint32_t[]> numbers_;
   std::unique_ptr<std::int32_t[]> indices_;
   Envelope<Arithmetic> envelope_;
 
+  std::vector<std::int32_t> nearest_;  // [columns] the nearest site of a column, while a band starts
   std::vector<std::int32_t>
-      next_below_;  // site - offset_ -> the seed that is live below it in its column, or none
+      follows_;  // site - offset_ -> the seed that is live below it in its column, or gone
   std::vector<Birth> births_;
   std::int32_t offset_ = 0;
   std::int32_t next_site_ = 0;

@@ -1,7 +1,9 @@
 #include "core/tessellation.hpp"
 
+#include <atomic>
 #include <memory>
 #include <mutex>
+#include <thread>
 #include <vector>
 
 #include "core/parallel.hpp"
@@ -60,6 +62,39 @@ class SweepPool {
   std::vector<std::unique_ptr<Sweep<Arithmetic>>> idle_;
 };
 
+// Lets an interrupt end a band before it is complete: the calling thread asks the monitor between rows, the
+// others look whether it has said no.
+class Watch {
+ public:
+  explicit Watch(const Monitor& monitor) : monitor_(monitor), caller_(std::this_thread::get_id()) {}
+
+  // What parallel_for asks between bands.
+  Monitor monitor() {
+    if (!monitor_) return {};
+    return [this](double fraction) { return ask(fraction); };
+  }
+
+  void after_row(std::int32_t row) {
+    if (!monitor_ || row % rows_between != 0) return;
+    if (stopped_.load(std::memory_order_relaxed)) throw Interrupted();
+    if (std::this_thread::get_id() == caller_ && !ask(fraction_)) throw Interrupted();
+  }
+
+ private:
+  static constexpr std::int32_t rows_between = 16;
+
+  bool ask(double fraction) {
+    fraction_ = fraction;
+    if (!stopped_ && !monitor_(fraction)) stopped_ = true;  // a monitor that has said no is not asked again
+    return !stopped_;
+  }
+
+  const Monitor& monitor_;
+  const std::thread::id caller_;
+  double fraction_ = 0.0;  // of the calling thread only
+  std::atomic<bool> stopped_{false};
+};
+
 // Calls emit(envelope, pixels, row buffer) for each row and copies the buffer to its place in `out`.
 template <class Arithmetic, class Pixel, class Emit>
 void write_rows(const Sites& sites, const FrameOnLattice& frame, const RowKernel<Arithmetic>& kernel,
@@ -70,6 +105,7 @@ void write_rows(const Sites& sites, const FrameOnLattice& frame, const RowKernel
   const bool stream = row_bytes * static_cast<std::size_t>(rows) > streamed_bytes;
   const std::int64_t height = rows_of_band(frame, sites.column_x.size(), rows, resolve_threads(threads));
   SweepPool<Arithmetic> pool(sites, frame, kernel);
+  Watch watch(monitor);
   const auto write_band = [&](std::size_t band) {
     const auto from = static_cast<std::int32_t>(static_cast<std::int64_t>(band) * height);
     const auto to = static_cast<std::int32_t>(std::min<std::int64_t>(rows, from + height));
@@ -84,12 +120,13 @@ void write_rows(const Sites& sites, const FrameOnLattice& frame, const RowKernel
       } else {
         std::copy_n(buffer.data(), width, target);
       }
+      watch.after_row(row);
     }
     if (stream) kernel.fence();
     pool.give_back(std::move(sweep));
   };
   const auto bands = static_cast<std::size_t>((rows + height - 1) / height);
-  parallel_for(bands, threads, write_band, monitor);
+  parallel_for(bands, threads, write_band, watch.monitor());
 }
 
 // Calls body(kernel) with the kernel of the arithmetic that these sites need.

@@ -305,3 +305,29 @@ def test_the_fuzzer_runs():
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert ", 0 wrong, " in done.stdout
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_seeds_that_are_nearest_nowhere_change_nothing(simd, seed):
+    """Far seeds around the frame are left out unseen; those that tie at the rim are not."""
+    rng = np.random.default_rng(seed)
+    frame = (-5, 7, 33, 21)
+    x, y = rng.integers(-200, 200, (2, 500))
+    x, y = np.append(x, [-5 - 40, 27 + 40]), np.append(y, [7, 27])
+    labels = rng.permutation(len(x)).astype(np.uint32) + 1
+    np.testing.assert_array_equal(sweep_of(x, y, labels, frame).labels(), nearest_labels(x, y, labels, frame))
+    single = sweep_of([-5, -5], [7, 27], [2, 1], (-5, 7, 1, 11))  # both 10 away from the last pixel
+    assert single.labels()[:, 0].tolist() == [2] * 10 + [1]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_many_rows_of_many_columns(simd, seed):
+    """Long sweeps: entries come, wait, go and come back, with several seeds a column and between pixels."""
+    rng = np.random.default_rng(seed)
+    scale = (1, 4)[seed % 2]
+    x, y = rng.integers(0, 60 * scale, 4000), rng.integers(0, 900 * scale, 4000)
+    labels = rng.permutation(4000).astype(np.uint32) + 1
+    frame = (0, 0, 60, 900)
+    np.testing.assert_array_equal(
+        sweep_of(x, y, labels, frame, scale).labels(), nearest_labels(x, y, labels, frame, scale)
+    )
