@@ -14,7 +14,7 @@
 namespace vorotool::core {
 
 // Arrays that the kernels read in whole vectors have this many spare elements behind their end.
-inline constexpr std::int32_t kernel_padding = 64;
+inline constexpr std::int32_t kernel_padding = 256;
 
 // The live seeds of a sweep: in each column at most one at or above the current row and one below it. A
 // column is a distinct x coordinate of the seeds. The list has an entry for every column with a live seed, in
@@ -73,7 +73,7 @@ struct RowKernel {
                 Envelope<Arithmetic>&);
   // Fills end and ties of a pruned envelope.
   void (*bound)(const PixelRow&, Envelope<Arithmetic>&);
-  // Writes labels over a row; up to 64 bytes behind its end are overwritten.
+  // Writes labels over a row; up to 192 bytes behind its end are overwritten.
   void (*fill8)(const Envelope<Arithmetic>&, std::uint8_t* row);
   void (*fill16)(const Envelope<Arithmetic>&, std::uint16_t* row);
   void (*fill32)(const Envelope<Arithmetic>&, std::uint32_t* row);

@@ -182,8 +182,10 @@ struct RowKernelOn {
   // -------------------------------------------------------------------------------------------------
 
   // Spans are written in whole vectors from left to right: each overwrites what the one before wrote too far.
-  template <class Label>
-  static void fill(const Envelope<Arithmetic>& envelope, Label* row) {
+  // The first `ahead` vectors of a span are written without asking, which spares it a branch that cannot be
+  // foreseen.
+  template <int ahead, class Label>
+  static void fill_spans(const Envelope<Arithmetic>& envelope, Label* row) {
     typedef Label Block __attribute__((vector_size(Lanes::bytes), aligned(sizeof(Label)), may_alias));
     constexpr std::int32_t step = Lanes::bytes / static_cast<std::int32_t>(sizeof(Label));
     const std::uint32_t* const labels = envelope.nearer_label;
@@ -193,9 +195,22 @@ struct RowKernelOn {
     for (std::int32_t i = 0, count = envelope.count; i < count; ++i) {
       const std::int32_t end = ends[i];
       const Block block = static_cast<Label>(labels[entries[i]]) - Block{};
-      *reinterpret_cast<Block*>(row + start) = block;
-      for (std::int32_t p = start + step; p <= end; p += step) *reinterpret_cast<Block*>(row + p) = block;
+      for (int k = 0; k < ahead; ++k) *reinterpret_cast<Block*>(row + start + k * step) = block;
+      for (std::int32_t p = start + ahead * step; p <= end; p += step)
+        *reinterpret_cast<Block*>(row + p) = block;
       start = end + 1;
+    }
+  }
+
+  // Writing ahead pays where spans are longer than a vector on the average.
+  template <class Label>
+  static void fill(const Envelope<Arithmetic>& envelope, Label* row) {
+    constexpr std::int32_t step = Lanes::bytes / static_cast<std::int32_t>(sizeof(Label));
+    const std::int32_t pixels = envelope.end[envelope.count - 1] + 1;
+    if (pixels / envelope.count > step) {
+      fill_spans<3>(envelope, row);
+    } else {
+      fill_spans<1>(envelope, row);
     }
   }
 
