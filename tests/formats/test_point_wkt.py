@@ -54,3 +54,7 @@ def test_bad_wkt(text, message):
 
 def test_the_limit_of_wkt():
     assert "holds 2 points" in error_of("MULTIPOINT (1 2, 3 4)", "a.wkt", LimitError, max_sites=1)
+
+
+def test_brackets_in_a_comment_do_not_count():
+    assert read("# (a remark\nPOINT (3 4)\n", "a.wkt").xy.tolist() == [[3, 4]]
