@@ -120,6 +120,7 @@ def _read_seeds(run: Run, o: SimpleNamespace, source: str) -> SeedSet:
         threshold=o.threshold,
         invert=o.invert,
         strict=o.strict,
+        max_sites=o.max_sites,
     )
 
 

@@ -50,9 +50,11 @@ def _geometry_texts(source: Source) -> tuple[list[str], list[int]]:
     depth = 0
     for number, line in enumerate(source.data.decode("utf-8", "replace").splitlines(), 1):
         text = line.strip()
+        if text.startswith("#") and depth == 0:
+            continue
         if depth > 0 or (texts and text.startswith("(")):
             texts[-1] += " " + text
-        elif text and not text.startswith("#"):
+        elif text:
             texts.append(_SRID.sub("", text, count=1))
             lines.append(number)
         depth = max(0, depth + text.count("(") - text.count(")"))
