@@ -61,10 +61,7 @@ def write_label_svg(
     >>> out.getvalue().decode().count("<path")
     2
     """
-    if image.labels.size > MOST_PIXELS:
-        raise LimitError(
-            f"{image.shape[1]} x {image.shape[0]} pixels are too many for SVG, at most {MOST_PIXELS}: use -f png"
-        )
+    check_size(image.shape)
     wanted = checked_layers(layers, LAYERS)
     page = _Page(image, width)
     numbered = "labels" in wanted and max(image.shape) <= MOST_NUMBERED
@@ -78,6 +75,22 @@ def write_label_svg(
     if "seeds" in wanted and image.seeds is not None and not numbered:
         parts += _discs(page)
     out.write(("\n".join([*parts, "</svg>"]) + "\n").encode())
+
+
+def check_size(shape: tuple[int, int]) -> None:
+    """Refuse an image that is too large for a picture with a path a label.
+
+    Raises
+    ------
+    LimitError
+        If it has more than 10^6 pixels.
+
+    Examples
+    --------
+    >>> check_size((1000, 1000))
+    """
+    if shape[0] * shape[1] > MOST_PIXELS:
+        raise LimitError(f"{shape[1]} x {shape[0]} pixels are too many for SVG, at most {MOST_PIXELS}: use -f png")
 
 
 class _Page:
