@@ -125,7 +125,7 @@ def _coarsest_scale(lattice: NDArray[np.int64]) -> int:
 
 
 def seeds_from_raster(
-    raster: Raster,
+    raster: Raster | NDArray[Any],
     *,
     mode: SeedMode | None = None,
     connectivity: int = 8,
@@ -138,7 +138,7 @@ def seeds_from_raster(
 
     Parameters
     ----------
-    raster : Raster
+    raster : Raster or (H, W) array
         Nonzero pixels are foreground.
     mode : {"pixels", "components", "labels", "centroids"}, optional
         What shares a label: nothing, a connected component, or all pixels of one value; or one seed at the
@@ -176,6 +176,7 @@ def seeds_from_raster(
     """
     if connectivity not in (4, 8):
         raise UsageError(f"connectivity is {connectivity}: it must be 4 or 8")
+    raster = raster if isinstance(raster, Raster) else Raster(raster)
     values = _foreground_values(raster, threshold, invert=invert)
     mode = mode or _default_mode(values)
     if mode not in get_args(SeedMode):

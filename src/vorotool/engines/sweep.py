@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.digital import (
+    check_out,
     default_frame,
     label_dtype,
     report_duplicates,
@@ -18,9 +19,10 @@ from vorotool.engines.digital import (
     simd_level,
     squared_limit,
 )
-from vorotool.engines.label_arrays import Progress, checked_threads
+from vorotool.engines.label_arrays import Progress
 from vorotool.engines.surrounded_seeds import needed_seeds, paint_seeds
 from vorotool.errors import InputError, LimitError, UsageError
+from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.frame import MAX_SIDE, Frame
 from vorotool.geometry.seeds import SeedSet
 
@@ -158,7 +160,7 @@ class Tessellator:
         UsageError
             If the labels do not fit the type, or `out` has another shape or layout.
         """
-        kind = label_dtype(self.seeds.largest_label, out.dtype if out is not None else dtype)
+        kind = label_dtype(self.seeds.largest_label, getattr(out, "dtype", dtype))
         array = self._output(first, rows, kind, out)
         limit = None if self.most_squared is None else divmod(self.most_squared, 2**64)
         self._core.labels(array, first, limit, self._threads, self._progress)
@@ -208,9 +210,5 @@ class Tessellator:
             raise UsageError(f"rows {first} to {first + rows - 1} are not all in a frame of {self.frame.height} rows")
         if out is None:
             return np.empty((rows, self.frame.width), dtype)
-        if out.shape != (rows, self.frame.width) or not out.flags.c_contiguous or not out.flags.writeable:
-            raise UsageError(
-                f"out must be a writeable C-contiguous array of shape {(rows, self.frame.width)}, "
-                f"but has shape {out.shape}"
-            )
+        check_out(out, (rows, self.frame.width))
         return out

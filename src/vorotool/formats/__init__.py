@@ -7,6 +7,7 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.frame import MAX_PIXELS
 
 NPY_MAGIC = b"\x93NUMPY"
@@ -74,6 +75,7 @@ def read(
     from vorotool.formats.sources import read_source
 
     input_format = known_input_format(input_format)
+    threads = checked_threads(threads)
     source = read_source(fspath(path))
     is_points = columns is not None and source.data.startswith(NPY_MAGIC)  # the one format that holds either
     if input_format in ("png", "tiff", "pnm") or (input_format in (None, "npy") and not is_points and is_image(source)):
@@ -99,7 +101,7 @@ def write(value: Any, path: str | PathLike[str], *, fmt: str | None = None, thre
     path : str or path
         The file, replaced atomically.
     fmt : str, optional
-        Format; by default that of the extension.
+        Format, or a usual extension of it; by default that of the path.
     threads : int
         0 uses all.
 
@@ -122,8 +124,11 @@ def write(value: Any, path: str | PathLike[str], *, fmt: str | None = None, thre
     from vorotool.geometry.label_image import LabelImage
     from vorotool.geometry.table import Table
 
-    extension = Path(path).suffix.lower().lstrip(".")
-    chosen: Any = fmt or {"tif": "tiff", "txt": "text"}.get(extension, extension)
+    name = (fmt or Path(path).suffix).lower().lstrip(".")
+    chosen: Any = {"tif": "tiff", "txt": "text"}.get(name, name)
+    threads = checked_threads(threads)
+    if isinstance(value, LabelImage) and chosen == "svg":
+        raise UsageError("an SVG is a picture: write the labels as PNG or NPY, and draw them with vorotool draw")
     if isinstance(value, LabelImage):
         with open_output(fspath(path), binary=chosen != "text") as out:
             write_label_image(
