@@ -37,7 +37,7 @@ def command(**options: Any) -> None:
     check_picture_options(o, [target.fmt], LAYERS)
     with Run("draw", quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber) as run:
         from vorotool.cli.pictures import write_label_picture
-        from vorotool.engines.regions import colour_regions
+        from vorotool.engines.regions import region_colours
         from vorotool.formats.label_images import read_label_image
         from vorotool.formats.outputs import make_folder, open_output
         from vorotool.formats.sources import read_source
@@ -48,7 +48,7 @@ def command(**options: Any) -> None:
                 read_source(source), input_format=o.input_format, page=o.page, max_pixels=o.max_pixels
             )
         with run.phase("colour"):
-            colours = colour_regions(image, threads=o.threads)
+            colours = region_colours(image, threads=o.threads)
         if o.out_dir is not None:
             make_folder(o.out_dir)
         with (
@@ -66,4 +66,4 @@ def command(**options: Any) -> None:
                 y_up=bool(o.y_up),
                 threads=o.threads,
             )
-        run.stats.update({"shape": image.shape, "colours": int(colours.max(initial=0))})
+        run.stats.update({"shape": image.shape, "colours": int(colours[1].max(initial=0))})

@@ -17,9 +17,9 @@ from vorotool.engines.digital import band_limits, label_dtype, require_memory
 from vorotool.engines.propagation import PropagatedRows
 from vorotool.engines.regions import (
     RegionMeasures,
-    colour_regions,
     measure_regions,
     neighbour_table,
+    region_colours,
     region_table,
     voronoi_diagram,
 )
@@ -64,9 +64,9 @@ class Products:
         return measure_regions(self.image, threads=self.options.threads)
 
     @cached_property
-    def colours(self) -> NDArray[Any]:
-        """Colour class of each label."""
-        return colour_regions(self.image, measures=self.measures)
+    def colours(self) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
+        """Labels, and the colour class of each."""
+        return region_colours(self.image, measures=self.measures)
 
     def check(self, target: Target) -> None:
         """Refuse what cannot be written in the format of a target, before anything is."""
