@@ -1,6 +1,9 @@
 """``vorotool draw``."""
 
+import re
+
 import numpy as np
+import pytest
 from PIL import Image
 
 
@@ -26,3 +29,17 @@ def test_what_is_no_label_image_is_refused(run, folder):
     assert done.code == 3
     assert "dots.csv" in done.err
     assert run("draw", "labels.png").code == 2
+
+
+@pytest.mark.parametrize("extension", ["png", "svg"])
+def test_sparse_labels_have_the_colours_of_dense_ones(run, folder, extension):
+    dense = np.kron(np.arange(12, dtype=np.uint32).reshape(3, 4), np.ones((20, 30), np.uint32))
+    np.save(folder / "dense.npy", dense)
+    np.save(folder / "sparse.npy", dense * np.uint32(390_000_000))
+    for name in ("dense", "sparse"):
+        done = run("draw", f"{name}.npy", "-o", f"{name}.{extension}", "--layers", "cells")
+        assert done.code == 0, done.err
+    drawn = [(folder / f"{name}.{extension}").read_text("latin-1") for name in ("dense", "sparse")]
+    assert re.sub('id="cell-[0-9]+"', "", drawn[0]) == re.sub('id="cell-[0-9]+"', "", drawn[1])
+    done = run("tessellate", "sparse.npy", "--seeds", "labels", "--what", "colour", "-o", f"c.{extension}")
+    assert done.code == 0, done.err

@@ -45,6 +45,13 @@ BAD_INPUTS = {
     "three.csv": (b"1,2,3\n4,5,6\n", 3, ["--columns"]),
     "negative.csv": (b"-3,1\n12,2\n", 3, ["points span x -3..12", "--window", "delaunay --what cells"]),
     "huge.csv": (b"1e300,0\n", 3, ["2^44"]),
+    "no-name.csv": (b"x,y\n", 3, ["no-name.csv: there are no seeds"]),
+    "label.npy": (
+        npy_header("{'descr': '<i2', 'fortran_order': False, 'shape': (2, 3), }\n")
+        + struct.pack("<6h", 1, 2, 2, 0, 3, -7),
+        3,
+        ["label.npy: the image holds the value -7 in row 1, column 2"],
+    ),
     "label.csv": (b"x,y,label\n1,2,0\n", 3, ["label", "0"]),
     "deep.json": (b"[" * 100_000, 3, ["nested"]),
     "deep.wkt": (b"GEOMETRYCOLLECTION(" * 5000, 3, ["nested"]),
@@ -139,6 +146,36 @@ def test_a_photograph_is_not_taken_for_labels(run, folder):
         (["tessellate", "dots.csv", "-o", "a.png", "--size", "9" * 5000 + "x1"], ["is no size"]),
         (["tessellate", "dots.csv", "-o", "a.png", "--window", "9" * 5000 + ",1,1,1"], ["is no window"]),
         (["tessellate", "dots.csv", "-o", "a.png", "--max-distance", "1e999999999"], ["is no number"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--connectivity", "8"], ["--connectivity is for images"]),
+        (["tessellate", "mask.pbm", "-o", "a.png", "--connectivity", "4", "--seeds", "pixels"], ["for components"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--passes", "2"], ["--method propagation"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--dtype", "uint32"], ["--dtype is for labels in TIFF and NPY"]),
+        (["tessellate", "dots.csv", "-o", "a.tif", "--what", "diagram", "--dtype", "uint8"], ["--dtype is for labels"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--what", "colour", "--width", "99"], ["--width is for SVG"]),
+        (["tessellate", "dots.csv", "-o", "a.npy", "--width", "99"], ["--width is for SVG"]),
+        (["draw", "mask.pbm", "-o", "a.png", "--width", "99"], ["--width is for SVG"]),
+        (["tessellate", "dots.csv", "-o", "a.npy", "--precision", "3"], ["--precision is for tables"]),
+        (["tessellate", "dots.csv", "--what", "table", "-f", "npz", "-o", "a", "--precision", "3"], ["--precision"]),
+        (
+            ["tessellate", "missing.csv", "-o", "a.svg", "--layers", "diagram"],
+            ["--layers diagram: a picture in SVG has cells, labels, seeds"],
+        ),
+        (
+            ["tessellate", "missing.csv", "-o", "a.png", "--what", "colour", "--layers", "cells,labels"],
+            ["--layers labels: a picture in PNG has cells, diagram, seeds"],
+        ),
+        (
+            ["draw", "missing.png", "-o", "a.png", "--layers", "labels"],
+            ["--layers labels: a picture in PNG has cells, diagram"],
+        ),
+        (
+            ["tessellate", "dots.csv", "-o", "a.png", "--input-format", "xyz"],
+            ["'xyz' is no format of inputs: use one of csv, tsv, txt, node, npy, geojson, wkt, json, png, tiff, tif"],
+        ),
+        (
+            ["draw", "mask.pbm", "-o", "a.png", "--input-format", "xyz"],
+            ["'xyz' is no format of images: use one of png, tiff, tif, pnm, pbm, pgm, ppm, npy"],
+        ),
         (["paint"], ["paint"]),
         (["--colour"], ["--colour"]),
     ],
@@ -338,3 +375,73 @@ def test_closed_and_full_streams(folder, command, code, message):
     assert len(done.stderr.splitlines()) == bool(message)
     if code == 0:
         assert (folder / "out.png").read_bytes().startswith(b"\x89PNG")
+
+
+def write_labels(folder, largest):
+    image = np.ones((40, 50), np.uint32)
+    image[:, 25:] = largest
+    np.save(folder / "labels.npy", image)
+
+
+def test_failures_are_known_before_the_first_output(run, folder):
+    write_labels(folder, 70_000)
+    (folder / "b.labels.png").write_text("old")
+    (folder / "plain").write_text("a file")
+    for arguments, code, words in [
+        (["labels.npy", "--what", "table,labels", "-o", "a"], 5, "do not fit in a 16-bit PNG"),
+        (["dots.csv", "--size", "1001x1000", "--what", "table,labels", "-o", "a", "-f", "svg"], 2, "table"),
+        (["dots.csv", "--what", "table,labels", "-o", "b", "--no-clobber"], 4, "b.labels.png exists already"),
+        (["dots.csv", "--what", "table", "-o", "a.csv", "--stats", "no/such/s.json"], 4, "no/such/s.json"),
+        (["dots.csv", "--what", "table", "-o", "a.csv", "--stats", "plain/s.json"], 4, "plain/s.json"),
+        (["dots.csv", "--what", "table,labels", "--out-dir", "plain/in"], 4, "plain/in"),
+        (["missing.csv", "--what", "table,labels", "--out-dir", "new"], 3, "missing.csv"),
+    ]:
+        done = run("tessellate", *arguments)
+        assert done.code == code, done.err
+        assert words in done.err
+        assert {path.name for path in folder.iterdir()} == {
+            *("dots.csv", "mask.pbm", "labels.npy", "b.labels.png", "plain")
+        }
+    assert run("draw", "mask.pbm", "-o", "a.png", "--stats", "no/such/s.json").code == 4
+    assert not (folder / "a.png").exists()
+
+
+def test_the_folder_of_outputs_is_made(run, folder):
+    done = run("tessellate", "dots.csv", "--out-dir", "new/deep", "--what", "table", "--stats", "new/deep/s.json")
+    assert done.code == 0, done.err
+    assert {path.name for path in (folder / "new/deep").iterdir()} == {"dots.csv", "s.json"}
+    assert run("draw", "mask.pbm", "--out-dir", "other/deep").code == 0
+    assert (folder / "other/deep/mask.png").exists()
+
+
+def test_a_folder_without_permission(run, folder, monkeypatch):
+    (folder / "locked").mkdir()
+    monkeypatch.setattr("os.access", lambda path, mode, **_: "locked" not in str(path))  # root writes anywhere
+    for options in (["-o", "locked/a.png"], ["--out-dir", "locked/in"], ["-o", "a.png", "--stats", "locked/s.json"]):
+        done = run("tessellate", "dots.csv", *options)
+        assert done.code == 4
+        assert not (folder / "a.png").exists()
+
+
+def test_quiet_wins(run, folder):
+    assert run("tessellate", "mask.pbm", "-o", "a.png", "-q", "-v").err == ""
+    assert run("tessellate", "mask.pbm", "-o", "a.png", "-v").err != ""
+
+
+@pytest.mark.parametrize("name", ["tif", "TIFF", "pgm", "ppm"])
+def test_names_of_formats(run, folder, name):
+    from PIL import Image
+
+    kind = "TIFF" if name[0] in "tT" else "PPM"
+    Image.fromarray(np.eye(4, dtype=np.uint8)).save(folder / "image", format=kind)
+    assert run("tessellate", "image", "--input-format", name, "-o", "a.png").code == 0
+    assert run("draw", "image", "--input-format", name, "-o", "a.svg").code == 0
+
+
+def test_layers_are_those_that_are_drawn():
+    from vorotool.cli.targets import PICTURE_LAYERS
+    from vorotool.render import label_png, label_svg
+
+    assert {"png": set(label_png.LAYERS), "svg": set(label_svg.LAYERS)} == {
+        fmt: set(layers) for fmt, layers in PICTURE_LAYERS.items()
+    }

@@ -245,7 +245,7 @@ def test_duplicates_warn_or_are_refused():
         (lambda: vorotool.tessellate([[0, 0]], shape=(0, 4)), InputError, "at least 1 x 1"),
         (lambda: vorotool.tessellate([[0, 1 / 256]], window=(2**56, 0, 4, 4)), InputError, "nearer --window"),
         (lambda: vorotool.tessellate([[0, 0]], window=(0, -(10**30), 4, 4)), InputError, "nearer --window"),
-        (lambda: vorotool.tessellate([[0, 0]], window=(0.5, 0, 4, 4)), TypeError, "as an integer"),
+        (lambda: vorotool.tessellate([[0, 0]], window=(0.5, 0, 4, 4)), UsageError, "four integers"),
         (lambda: vorotool.tessellate([[0, 0]], shape=np.full(2, 60000, np.uint16)), LimitError, "3600000000 pixels"),
         (lambda: vorotool.tessellate([[0, 0]], shape=(4, 4), window=(0, 0, 4, 4)), UsageError, "not both"),
         (lambda: vorotool.tessellate([[0, 0]], shape=(10**6, 10**6)), LimitError, "--max-pixels"),

@@ -10,7 +10,7 @@ import tifffile
 from numpy.typing import NDArray
 from PIL import Image
 
-from vorotool.errors import InputError, LimitError
+from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.images import image_format, image_size, is_image, read_image
 
 LIMIT = 10**7
@@ -387,7 +387,7 @@ def test_input_format_overrides_the_extension() -> None:
     data = saved(Image.fromarray(GREY), "PNG")
     assert image_format(source("a.dat", data), "png") == "png"
     np.testing.assert_array_equal(read("a.tif", data, input_format="png"), GREY)
-    with pytest.raises(InputError, match="'bmp' is no image format"):
+    with pytest.raises(UsageError, match="'bmp' is no format of images: use one of png, tiff, tif"):
         read("a.tif", data, input_format="bmp")
 
 

@@ -49,7 +49,7 @@ def test_files_to_convert(suffix):
 
 
 def test_options_that_do_not_fit():
-    assert "use csv, node, npy" in error_of("", kind=UsageError, input_format="xyz")
+    assert "use one of csv, tsv, txt, node, npy" in error_of("", kind=UsageError, input_format="xyz")
     for fmt in POINT_FORMATS[1:]:
         assert "--columns is for delimited text" in error_of("", kind=UsageError, input_format=fmt, columns="1,2")
 

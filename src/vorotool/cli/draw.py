@@ -9,9 +9,11 @@ import click
 
 from vorotool.cli.options import layers_option, shared, single_input
 from vorotool.cli.run import Run
-from vorotool.cli.targets import check_stats, plan_targets
+from vorotool.cli.targets import check_picture_options, check_stats, check_targets, plan_targets
 
 FORMATS = {"picture": ("png", "svg")}
+LAYERS = {"png": ("cells", "diagram"), "svg": ("cells", "labels")}
+"""A label image from a file has no seeds."""
 
 
 @click.command("draw")
@@ -32,19 +34,23 @@ def command(**options: Any) -> None:
     source = single_input(o.inputs)
     (target,) = plan_targets(FORMATS, ["picture"], output=o.output, fmt=o.format, out_dir=o.out_dir, source=source)
     check_stats(o.stats, [target], source)
+    check_picture_options(o, [target.fmt], LAYERS)
     with Run("draw", quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber) as run:
         from vorotool.cli.pictures import write_label_picture
-        from vorotool.engines.regions import colour_regions
+        from vorotool.engines.regions import region_colours
         from vorotool.formats.label_images import read_label_image
-        from vorotool.formats.outputs import open_output
+        from vorotool.formats.outputs import make_folder, open_output
         from vorotool.formats.sources import read_source
 
+        check_targets(o, [target], source)
         with run.phase("read"):
             image = read_label_image(
                 read_source(source), input_format=o.input_format, page=o.page, max_pixels=o.max_pixels
             )
         with run.phase("colour"):
-            colours = colour_regions(image, threads=o.threads)
+            colours = region_colours(image, threads=o.threads)
+        if o.out_dir is not None:
+            make_folder(o.out_dir)
         with (
             run.phase("write"),
             open_output(target.path, binary=target.is_binary, no_clobber=o.no_clobber, inputs=(source,)) as out,
@@ -56,8 +62,8 @@ def command(**options: Any) -> None:
                 colours,
                 fmt=target.fmt,
                 layers=layers,
-                width=o.width,
+                width=o.width or 1000,
                 y_up=bool(o.y_up),
                 threads=o.threads,
             )
-        run.stats.update({"shape": image.shape, "colours": int(colours.max(initial=0))})
+        run.stats.update({"shape": image.shape, "colours": int(colours[1].max(initial=0))})

@@ -143,14 +143,14 @@ OPTIONS: dict[str, Decorator] = {
         help="What an image's seeds are; by default components of two values, labels of more.",
     ),
     "connectivity": click.option(
-        "--connectivity", type=click.Choice(["8", "4"]), default="8", show_default=True, help="Of components."
+        "--connectivity", type=click.Choice(["8", "4"]), help="Of the components of an image; by default 8."
     ),
     "threshold": click.option("--threshold", type=Threshold(), help="Foreground is what is brighter than this."),
     "invert": click.option("--invert", is_flag=True, help="Exchange foreground and background."),
     "size": click.option("--size", type=Size(), help="Frame of W x H pixels from pixel (0, 0)."),
     "window": click.option("--window", type=Window(), help="Frame whose first pixel is (X, Y)."),
     "width": click.option(
-        "--width", type=click.IntRange(min=16), default=1000, show_default=True, help="Pixels across an SVG picture."
+        "--width", type=click.IntRange(min=16), help="Pixels across an SVG picture; by default 1000."
     ),
     "y-up": click.option("--y-up/--y-down", default=None, help="Draw pictures with y upwards or downwards."),
 }

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, BinaryIO
 
+import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.label_image import LabelImage
@@ -12,11 +13,14 @@ from vorotool.geometry.label_image import LabelImage
 BAND_ROWS = 256
 """Rows of a picture that are composed at a time."""
 
+LARGEST_TABLE = 1 << 20
+"""Entries that a table of colours by label may have in any case; beyond, it must be mostly used."""
+
 
 def write_label_picture(
     out: BinaryIO,
     image: LabelImage,
-    colours: NDArray[Any],
+    colours: tuple[NDArray[Any], NDArray[Any]],
     *,
     fmt: str,
     layers: Sequence[str],
@@ -32,8 +36,8 @@ def write_label_picture(
         Where to write.
     image : LabelImage
         With seeds, if these are drawn.
-    colours : integer array
-        Colour class of each label, 0 for none.
+    colours : pair of (k,) integer arrays
+        The labels that occur, increasing, and the colour class of each: what `region_colours` gives.
     fmt : {"png", "svg"}
         Kind of picture.
     layers : sequence of str
@@ -50,28 +54,49 @@ def write_label_picture(
     if fmt == "svg":
         from vorotool.render.label_svg import write_label_svg
 
-        write_label_svg(out, image, colour_of_label=colours, width=width, layers=layers)
+        by_label = dict(zip(colours[0].tolist(), colours[1].tolist(), strict=True))
+        write_label_svg(out, image, colour_of_label=by_label, width=width, layers=layers)
     else:
         _write_png(out, image, colours, layers, threads)
 
 
-def _write_png(out: BinaryIO, image: LabelImage, colours: NDArray[Any], layers: Sequence[str], threads: int) -> None:
+def _write_png(
+    out: BinaryIO,
+    image: LabelImage,
+    colours: tuple[NDArray[Any], NDArray[Any]],
+    layers: Sequence[str],
+    threads: int,
+) -> None:
     from vorotool.engines.regions import voronoi_diagram
     from vorotool.formats.png import write_png
     from vorotool.render.label_png import picture_bands
     from vorotool.render.palettes import picture_palette
 
-    palette = picture_palette(int(colours.max(initial=0)))
+    palette = picture_palette(int(colours[1].max(initial=0)))
     starts = range(0, image.shape[0], BAND_ROWS)
     diagram = voronoi_diagram(image, threads=threads).view(bool) if "diagram" in layers else None
+    number, colour_of_number = _numbering(*colours)
     bands = picture_bands(
-        (image.labels[row : row + BAND_ROWS] for row in starts),
+        (number(image.labels[row : row + BAND_ROWS]) for row in starts),
         shape=image.shape,
         palette=palette,
-        colour_of_label=colours,
+        colour_of_label=colour_of_number,
         diagram=None if diagram is None else (diagram[row : row + BAND_ROWS] for row in starts),
         seeds=image.seeds,
         frame=image.frame,
         layers=layers,
     )
     write_png(out, bands, image.shape, bit_depth=palette.bit_depth, palette=palette.colours, threads=threads)
+
+
+def _numbering(
+    labels: NDArray[Any], classes: NDArray[Any]
+) -> tuple[Callable[[NDArray[Any]], NDArray[Any]], NDArray[Any]]:
+    """Numbers that a table of colours is indexed by: the labels, or their ranks from 1 where labels are sparse."""
+    largest = int(labels.max(initial=0))
+    if largest > 4 * len(labels) + LARGEST_TABLE:
+        known = np.append(0, labels)
+        return lambda band: np.searchsorted(known, band), np.append(0, classes)
+    by_label = np.zeros(largest + 1, classes.dtype)
+    by_label[labels] = classes
+    return np.asarray, by_label

@@ -17,9 +17,9 @@ from vorotool.engines.digital import band_limits, label_dtype, require_memory
 from vorotool.engines.propagation import PropagatedRows
 from vorotool.engines.regions import (
     RegionMeasures,
-    colour_regions,
     measure_regions,
     neighbour_table,
+    region_colours,
     region_table,
     voronoi_diagram,
 )
@@ -64,9 +64,24 @@ class Products:
         return measure_regions(self.image, threads=self.options.threads)
 
     @cached_property
-    def colours(self) -> NDArray[Any]:
-        """Colour class of each label."""
-        return colour_regions(self.image, measures=self.measures)
+    def colours(self) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
+        """Labels, and the colour class of each."""
+        return region_colours(self.image, measures=self.measures)
+
+    def check(self, target: Target) -> None:
+        """Refuse what cannot be written in the format of a target, before anything is."""
+        from vorotool.formats.label_images import check_png
+        from vorotool.render.label_svg import check_size
+
+        what, fmt = target.what, target.fmt
+        if fmt == "svg":
+            check_size(self.rows.frame.shape)
+        elif what == "labels" and fmt == "png":
+            check_png(self.dtype, self.rows.seeds.largest_label)
+        elif what == "distance2":
+            _ = self._exact_rows().square_dtype
+        if what in ("colour", "table", "neighbours") or fmt == "svg" or (what == "diagram" and self.options.layers):
+            require_memory(self.rows.frame, self.options.max_pixels)
 
     def write(self, target: Target, *, inputs: Sequence[str]) -> None:
         """Write one result."""
@@ -138,7 +153,7 @@ class Products:
             self.colours,
             fmt=fmt,
             layers=self.options.layers or layers,
-            width=self.options.width,
+            width=self.options.width or 1000,
             y_up=bool(self.options.y_up),
             threads=self.options.threads,
         )
@@ -190,4 +205,4 @@ class Products:
         }
         if isinstance(rows, Tessellator):
             return {**counts, "arithmetic": rows.arithmetic, "simd": rows.simd}
-        return {**counts, "passes": self.options.passes, **rows.compare_with_exact()}
+        return {**counts, "passes": self.options.passes or 2, **rows.compare_with_exact()}

@@ -27,7 +27,7 @@ class Run:
     command : str
         Its name.
     quiet, verbose : bool
-        Say nothing but errors; say what takes how long.
+        Say nothing but errors, whatever else is asked for; say what takes how long.
     stats : str, optional
         File for the statistics, ``-`` for standard output.
     no_clobber : bool
@@ -37,7 +37,8 @@ class Run:
     def __init__(
         self, command: str, *, quiet: bool, verbose: bool, stats: str | None, no_clobber: bool = False
     ) -> None:
-        self._quiet, self._verbose, self._target, self._no_clobber = quiet, verbose, stats, no_clobber
+        self._quiet, self._verbose = quiet, verbose and not quiet
+        self._target, self._no_clobber = stats, no_clobber
         self._warnings: list[str] = []
         self._seconds: dict[str, float] = {}
         self._inner: list[float] = []

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -22,6 +23,10 @@ EXTENSIONS = {
 FORMATS = tuple(dict.fromkeys(EXTENSIONS.values()))
 TEXT_FORMATS = frozenset({"text", "svg", "csv", "json"})
 _EXTENSION_OF = {"tiff": "tif", "text": "txt"}
+
+
+PICTURE_LAYERS = {"png": ("cells", "diagram", "seeds"), "svg": ("cells", "labels", "seeds")}
+"""Layers of pictures by format, as `vorotool.render` draws them."""
 
 
 @dataclass(frozen=True)
@@ -108,6 +113,64 @@ def check_stats(stats: str | None, targets: Sequence[Target], source: str) -> No
     for target in targets:
         if _is_same_file(stats, target.path):
             raise click.UsageError(f"--stats {stats} is also the output of {target.what}: choose another name")
+
+
+def check_picture_options(
+    options: Any, pictures: Sequence[str], layers: Mapping[str, Sequence[str]] = PICTURE_LAYERS
+) -> None:
+    """Refuse layers and a width that no picture would show.
+
+    Parameters
+    ----------
+    options : namespace
+        With ``layers`` and ``width`` as given, or None.
+    pictures : sequence of str
+        Formats of the pictures that are to be written.
+    layers : mapping of str to sequence of str
+        Layers of each format.
+
+    Raises
+    ------
+    click.UsageError
+        If a layer is none of a picture's format, or the width is for SVG only.
+    """
+    if options.width is not None and "svg" not in pictures:
+        raise click.UsageError(
+            "--width is for SVG pictures: a PNG has the size of the image; use -f svg, or leave it out"
+        )
+    for fmt in pictures:
+        for layer in options.layers or ():
+            if layer not in layers[fmt]:
+                raise click.UsageError(
+                    f"--layers {layer}: a picture in {fmt.upper()} has {', '.join(layers[fmt])}; choose of these"
+                )
+
+
+def check_targets(options: Any, targets: Sequence[Target], source: str) -> None:
+    """Find out before any work whether the outputs and the statistics can be written.
+
+    Parameters
+    ----------
+    options : namespace
+        With ``stats``, ``out_dir`` and ``no_clobber``.
+    targets : sequence of Target
+        The outputs.
+    source : str
+        The input, which is never replaced.
+    """
+    from vorotool.formats.outputs import check_output
+
+    for target in targets:
+        check_output(
+            target.path,
+            binary=target.is_binary,
+            no_clobber=options.no_clobber,
+            inputs=(source,),
+            makes_folder=options.out_dir is not None,
+        )
+    if options.stats is not None:
+        in_out_dir = options.out_dir is not None and Path(options.stats).parent == Path(options.out_dir)
+        check_output(options.stats, no_clobber=options.no_clobber, makes_folder=in_out_dir)
 
 
 def _is_same_file(one: str, other: str) -> bool:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
@@ -9,7 +11,8 @@ import click
 
 from vorotool.cli.options import Decimal, layers_option, shared, single_input, what_option
 from vorotool.cli.run import Run
-from vorotool.cli.targets import Target, check_stats, plan_targets
+from vorotool.cli.targets import Target, check_picture_options, check_stats, check_targets, plan_targets
+from vorotool.errors import InputError
 
 if TYPE_CHECKING:
     from vorotool.cli.products import Products
@@ -41,8 +44,12 @@ FORMATS = {
     show_default=True,
     help="propagation: the paper's two passes to the letter, nearly exact.",
 )
-@click.option("--passes", type=click.IntRange(1, 2), default=2, show_default=True, help="Passes of the propagation.")
-@click.option("--max-distance", type=Decimal(), help="Label pixels up to this distance from a seed; beyond: 0.")
+@click.option("--passes", type=click.IntRange(1, 2), help="Passes of the propagation; by default 2.")
+@click.option(
+    "--max-distance",
+    type=Decimal(),
+    help="Label pixels up to this distance from a seed; beyond: 0. Distances stay whole.",
+)
 @click.option(
     "--dtype", type=click.Choice(["uint8", "uint16", "uint32", "int32"]), help="Type of labels in TIFF and NPY."
 )
@@ -66,13 +73,20 @@ def command(**options: Any) -> None:
     check_stats(o.stats, targets, source)
     _check_options(o, targets)
     with Run("tessellate", quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber) as run:
-        with run.phase("read"):
+        from vorotool.formats.outputs import make_folder
+
+        check_targets(o, targets, source)
+        with _naming(source), run.phase("read"):
             seeds = _read_seeds(run, o, source)
-        with run.phase("prepare"):
+        with _naming(source), run.phase("prepare"):
             products = _prepare(run, o, seeds)
+        for target in targets:
+            products.check(target)
         if o.verify:
             with run.phase("verify"):
                 products.verify()
+        if o.out_dir is not None:
+            make_folder(o.out_dir)
         for target in targets:
             with run.phase(f"write {target.what}"):
                 products.write(target, inputs=(source,))
@@ -84,12 +98,26 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
         raise click.UsageError("give --size or --window, not both")
     if o.method == "propagation" and o.max_distance is not None:
         raise click.UsageError("--max-distance needs --method exact")
-    if o.method == "exact" and o.passes != 2:
+    if o.method == "exact" and o.passes is not None:
         raise click.UsageError("--passes needs --method propagation")
     if o.method == "propagation" and {"distance", "distance2"} & {target.what for target in targets}:
         raise click.UsageError("distances are those of the exact tessellation: leave out --method propagation")
-    if o.layers is not None and not _PICTURES & {(target.what, target.fmt) for target in targets}:
+    if o.connectivity is not None and o.seeds in ("pixels", "labels"):
+        raise click.UsageError(f"--connectivity is for components: leave it out with --seeds {o.seeds}")
+    _check_output_options(o, {(target.what, target.fmt) for target in targets})
+
+
+def _check_output_options(o: SimpleNamespace, outputs: set[tuple[str, str]]) -> None:
+    """Refuse options that no output would show."""
+    if o.dtype is not None and not outputs & {("labels", "tiff"), ("labels", "npy")}:
+        raise click.UsageError("--dtype is for labels in TIFF and NPY: use -f tiff or -f npy, or leave it out")
+    tables = {(what, fmt) for what in ("table", "neighbours") for fmt in ("csv", "json")}
+    if o.precision is not None and not outputs & tables:
+        raise click.UsageError("--precision is for tables in CSV and JSON: use --what table, or leave it out")
+    if o.layers is not None and not outputs & _PICTURES:
         raise click.UsageError("--layers is for pictures: --what colour, labels as SVG, or the diagram as PNG")
+    pictures = sorted(outputs & _PICTURES - ({("diagram", "png")} if o.layers is None else set()))
+    check_picture_options(o, [fmt for _, fmt in pictures])
 
 
 def _read_seeds(run: Run, o: SimpleNamespace, source: str) -> SeedSet:
@@ -109,17 +137,22 @@ def _read_seeds(run: Run, o: SimpleNamespace, source: str) -> SeedSet:
         note=run.note,
     )
     if isinstance(value, PointSet):
-        _refuse(o, ("page", "seeds", "threshold", "invert"), "is for images, but the input is a list of points")
+        _refuse(
+            o,
+            ("page", "seeds", "connectivity", "threshold", "invert"),
+            "is for images, but the input is a list of points",
+        )
         o.y_up = value.y_up if o.y_up is None else o.y_up
         return seeds_from_points(value, strict=o.strict)
     _refuse(o, ("columns", "size", "window"), "is for lists of points, but the input is an image, which brings its own")
     return seeds_from_raster(
         value,
         mode=o.seeds,
-        connectivity=int(o.connectivity),
+        connectivity=int(o.connectivity or 8),
         threshold=o.threshold,
         invert=o.invert,
         strict=o.strict,
+        max_sites=o.max_sites,
     )
 
 
@@ -127,6 +160,18 @@ def _refuse(o: SimpleNamespace, names: tuple[str, ...], reason: str) -> None:
     for name in names:
         if getattr(o, name) is not None and getattr(o, name) is not False:  # 0 is given, too
             raise click.UsageError(f"--{name} {reason}")
+
+
+@contextmanager
+def _naming(source: str) -> Iterator[None]:
+    """Let messages about the content of the input begin with its name."""
+    try:
+        yield
+    except InputError as error:
+        name = "standard input" if source == "-" else source
+        if str(error).startswith((name, repr(name))):
+            raise
+        raise InputError(f"{name}: {error}") from error
 
 
 def _frame(o: SimpleNamespace) -> Frame | None:
@@ -154,7 +199,7 @@ def _prepare(run: Run, o: SimpleNamespace, seeds: SeedSet) -> Products:
         )
     else:
         with run.phase("tessellate"):
-            rows = PropagatedRows(seeds, frame, passes=o.passes, max_pixels=o.max_pixels, progress=progress)
+            rows = PropagatedRows(seeds, frame, passes=o.passes or 2, max_pixels=o.max_pixels, progress=progress)
     return Products(rows, o, run)
 
 

@@ -6,11 +6,13 @@ import os
 import warnings
 from collections.abc import Iterator
 from fractions import Fraction
+from numbers import Rational, Real
 from typing import Any
 
 import numpy as np
 
 from vorotool import _core
+from vorotool.engines.label_arrays import described
 from vorotool.engines.seeding import seeds_from_points, seeds_from_raster
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
 from vorotool.geometry.frame import Frame
@@ -31,15 +33,29 @@ def as_seeds(source: Any) -> SeedSet:
         return seeds_from_raster(source)
     if isinstance(source, PointSet):
         return seeds_from_points(source)
-    if hasattr(source, "geom_type"):
-        from shapely import get_coordinates
-
-        return seeds_from_points(PointSet(get_coordinates(source)))
+    if getattr(source, "geom_type", "") == "MultiPoint":
+        source = source.geoms
+    elif hasattr(source, "geom_type"):
+        source = [] if source.is_empty and source.geom_type == "Point" else [source]
     try:
-        xy = np.asarray([(p.x, p.y) if hasattr(p, "geom_type") else p for p in source], dtype=np.float64)
-    except (TypeError, ValueError):
+        xy = np.asarray([_position(p, i) for i, p in enumerate(source)], dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        if isinstance(error, InputError):
+            raise
         raise InputError("seeds must be an (n, 2) array of numbers, shapely points, or an image") from None
     return seeds_from_points(PointSet(xy))
+
+
+def _position(point: Any, index: int) -> Any:
+    """Coordinates of a point; of geometry only single points have them."""
+    if not hasattr(point, "geom_type"):
+        return point
+    if point.geom_type != "Point" or point.is_empty:
+        raise InputError(
+            f"seed {index + 1} is {'an empty' if point.is_empty else 'a'} {point.geom_type}: give points; of a polygon "
+            "or line its centroid or its vertices"
+        )
+    return point.x, point.y
 
 
 def require_seeds(seeds: SeedSet) -> None:
@@ -105,7 +121,10 @@ def label_dtype(largest: int, dtype: Any = None) -> np.dtype[Any]:
     """Check or choose the type of labels up to `largest`."""
     if dtype is None:
         return np.dtype(np.uint16 if largest <= 0xFFFF else np.uint32)
-    kind: np.dtype[Any] = np.dtype(dtype)
+    try:
+        kind: np.dtype[Any] = np.dtype(dtype)
+    except TypeError:
+        raise UsageError(f"dtype is {dtype!r}: use uint8, uint16, uint32 or int32") from None
     if kind not in (np.uint8, np.uint16, np.uint32, np.int32):
         raise UsageError(f"labels cannot have type {kind}: use uint8, uint16, uint32 or int32")
     if largest > np.iinfo(kind).max:
@@ -117,9 +136,17 @@ def squared_limit(max_distance: float | Fraction | None, scale: int) -> int | No
     """The largest squared distance in lattice steps that is within `max_distance` pixels."""
     if max_distance is None:
         return None
-    if not max_distance >= 0 or max_distance == float("inf"):
-        raise UsageError(f"max_distance is {max_distance}: it must be 0 or larger, and finite")
-    return int(min((Fraction(max_distance) * scale) ** 2, Fraction(2**127)))
+    if not isinstance(max_distance, Real) or not 0 <= max_distance < float("inf"):
+        raise UsageError(f"max_distance is {max_distance!s}: it must be a number, 0 or larger, and finite")
+    exact = Fraction(max_distance) if isinstance(max_distance, Rational) else Fraction(float(max_distance))
+    return int(min((exact * scale) ** 2, Fraction(2**127)))
+
+
+def check_out(out: Any, shape: tuple[int, int]) -> None:
+    """Refuse what is no array to write an image of this shape to."""
+    usable = isinstance(out, np.ndarray) and out.shape == shape and out.flags.c_contiguous and out.flags.writeable
+    if not usable:
+        raise UsageError(f"out must be a writeable C-contiguous array of shape {shape}, but is {described(out)}")
 
 
 def simd_level() -> str:

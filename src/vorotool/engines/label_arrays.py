@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError, UsageError
+from vorotool.errors import InputError
+from vorotool.geometry.label_image import LabelImage
 
 Progress = Callable[[float], object] | None
 """Called now and then with the fraction done; what it raises stops the work."""
@@ -39,8 +40,11 @@ def next_row(row: NDArray[Any] | None, name: str, labels: NDArray[Any]) -> NDArr
     return row.astype(labels.dtype, copy=False)
 
 
-def checked_threads(threads: int) -> int:
-    """Return a number of threads that the core takes; more than 1024 help nothing."""
-    if threads < 0:
-        raise UsageError(f"threads is {threads}: it must be at least 1, or 0 for all")
-    return min(threads, 1024)
+def as_label_image(image: Any) -> LabelImage:
+    """Return a label image as it is; a 2-D integer array becomes one."""
+    return image if isinstance(image, LabelImage) else LabelImage(image)
+
+
+def described(array: Any) -> str:
+    """Name the type and shape of what was given as an array."""
+    return f"{array.dtype} of shape {array.shape}" if isinstance(array, np.ndarray) else f"a {type(array).__name__}"

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.digital import (
     band_limits,
+    check_out,
     default_frame,
     label_dtype,
     report_duplicates,
@@ -72,7 +73,9 @@ def propagate(
             f"seed {i + 1} at ({seeds.x[i]}, {seeds.y[i]}) is outside the frame, and the paper's propagation starts "
             f"from its pixels: use a larger --size or --window, or --method exact"
         )
-    kind = label_dtype(seeds.largest_label, out.dtype if out is not None else dtype)
+    if out is not None:
+        check_out(out, frame.shape)
+    kind = label_dtype(seeds.largest_label, dtype if out is None else out.dtype)
     labels = np.empty(frame.shape, np.uint32)
     _core.propagate(x, y, seeds.labels, passes, labels, progress)
     if out is None:

@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.label_arrays import Progress, checked_threads, label_array, next_row
+from vorotool.engines.label_arrays import Progress, as_label_image, described, label_array, next_row
 from vorotool.errors import InputError, LimitError
+from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.label_image import LabelImage
 from vorotool.geometry.seeds import SeedSet
 from vorotool.geometry.table import Table
@@ -42,14 +43,14 @@ class RegionMeasures:
     border_length: NDArray[np.int64]
 
 
-def measure_regions(image: LabelImage, *, threads: int = 0, progress: Progress = None) -> RegionMeasures:
+def measure_regions(image: LabelImage | NDArray[Any], *, threads: int = 0, progress: Progress = None) -> RegionMeasures:
     """Measure all regions of a label image in one pass.
 
     The tables and the colouring take the result as ``measures``, so that several of them cost one pass.
 
     Parameters
     ----------
-    image : LabelImage
+    image : LabelImage or (H, W) integer array
         Label 0 is background and no region.
     threads : int
         0 for all; the result is the same for any number.
@@ -72,6 +73,7 @@ def measure_regions(image: LabelImage, *, threads: int = 0, progress: Progress =
     >>> measures.columns["area"].tolist(), measures.border_length.tolist()
     ([3, 3], [3])
     """
+    image = as_label_image(image)
     found = _core.measure_regions(label_array(image.labels), checked_threads(threads), progress)
     labels = found.pop("labels")
     _refuse_negative(image, int(labels.max(initial=0)))
@@ -81,7 +83,7 @@ def measure_regions(image: LabelImage, *, threads: int = 0, progress: Progress =
 
 
 def region_table(
-    image: LabelImage,
+    image: LabelImage | NDArray[Any],
     *,
     distance2: NDArray[Any] | None = None,
     distance_scale: int | None = None,
@@ -94,7 +96,7 @@ def region_table(
 
     Parameters
     ----------
-    image : LabelImage
+    image : LabelImage or (H, W) integer array
         With ``seeds``, every site has a row, also one without pixels (a duplicate, or a seed far outside the
         frame): its area is 0, and its bounding box, ``touches_frame`` and ``max_distance`` do not exist.
         Without ``seeds`` every label that occurs has a row, and the centroid of its region is its site.
@@ -133,6 +135,7 @@ def region_table(
     >>> table["perimeter"].tolist(), table["nearest_label"].tolist()
     ([8, 8], [2, 1])
     """
+    image = as_label_image(image)
     threads = checked_threads(threads)
     measures = measures or measure_regions(image, threads=threads, progress=progress)
     labels, sites = _sites(image, measures)
@@ -162,13 +165,17 @@ def region_table(
 
 
 def neighbour_table(
-    image: LabelImage, *, measures: RegionMeasures | None = None, threads: int = 0, progress: Progress = None
+    image: LabelImage | NDArray[Any],
+    *,
+    measures: RegionMeasures | None = None,
+    threads: int = 0,
+    progress: Progress = None,
 ) -> Table:
     """Tabulate the neighbouring regions: one row a pair of labels that share a pixel side (section 2.1).
 
     Parameters
     ----------
-    image : LabelImage
+    image : LabelImage or (H, W) integer array
         Label 0 is no region.
     measures : RegionMeasures, optional
         The result of `measure_regions` for this image.
@@ -196,6 +203,7 @@ def neighbour_table(
     >>> list(zip(*(table[name].tolist() for name in ("label_a", "label_b", "border_length"))))
     [(1, 2, 1), (1, 3, 2), (2, 3, 1)]
     """
+    image = as_label_image(image)
     measures = measures or measure_regions(image, threads=threads, progress=progress)
     labels, sites = _sites(image, measures)
     position = sites[_rows_of(measures.labels, labels, image)]
@@ -251,26 +259,28 @@ def voronoi_diagram(
     array([[1, 1, 1, 0],
            [0, 0, 0, 0]], dtype=uint8)
     """
-    labels = label_array(image.labels if isinstance(image, LabelImage) else LabelImage(image).labels)
+    labels = label_array(as_label_image(image).labels)
     if out is None:
         out = np.empty(labels.shape, dtype=np.uint8)
-    elif out.shape != labels.shape or out.dtype != np.uint8 or not out.flags.c_contiguous:
-        raise InputError(
-            f"out must be a C-contiguous uint8 array of shape {labels.shape}, but is {out.dtype} of shape {out.shape}"
-        )
+    elif described(out) != f"uint8 of shape {labels.shape}" or not out.flags.c_contiguous:
+        raise InputError(f"out must be a C-contiguous uint8 array of shape {labels.shape}, but is {described(out)}")
     rows = [next_row(row, name, labels) for row, name in ((above, "above"), (below, "below"))]
     _core.mark_diagram(labels, rows[0], rows[1], out, checked_threads(threads), progress)
     return out
 
 
 def region_colours(
-    image: LabelImage, *, measures: RegionMeasures | None = None, threads: int = 0, progress: Progress = None
+    image: LabelImage | NDArray[Any],
+    *,
+    measures: RegionMeasures | None = None,
+    threads: int = 0,
+    progress: Progress = None,
 ) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
     """Colour the regions so that neighbours never share a colour.
 
     Parameters
     ----------
-    image : LabelImage
+    image : LabelImage or (H, W) integer array
         Label 0 is no region.
     measures : RegionMeasures, optional
         The result of `measure_regions` for this image.
@@ -299,13 +309,17 @@ def region_colours(
 
 
 def colour_regions(
-    image: LabelImage, *, measures: RegionMeasures | None = None, threads: int = 0, progress: Progress = None
+    image: LabelImage | NDArray[Any],
+    *,
+    measures: RegionMeasures | None = None,
+    threads: int = 0,
+    progress: Progress = None,
 ) -> NDArray[Any]:
     """Colour the regions, as an array to index by label: ``colours[image.labels]``.
 
     Parameters
     ----------
-    image : LabelImage
+    image : LabelImage or (H, W) integer array
         Label 0 is no region.
     measures : RegionMeasures, optional
         The result of `measure_regions` for this image.

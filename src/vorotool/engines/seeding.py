@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import warnings
-from typing import Any, Literal
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError, UsageError, VorotoolWarning
+from vorotool import _core
+from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
 from vorotool.geometry.frame import Frame
 from vorotool.geometry.points import PointSet
 from vorotool.geometry.raster import Raster
@@ -18,6 +21,10 @@ SeedMode = Literal["pixels", "components", "labels", "centroids"]
 
 LARGEST_COORDINATE = float(2**44)
 """Coordinates up to here, times 256, are exact in a double."""
+
+LARGEST_LABEL = 0xFFFFFFFF
+CHUNK = 1 << 22
+"""Pixels that are counted at a time."""
 
 _LUMINANCE = (0.2125, 0.7154, 0.0721)
 """Weights of red, green and blue (ITU-R BT.709, as scikit-image has them)."""
@@ -118,19 +125,20 @@ def _coarsest_scale(lattice: NDArray[np.int64]) -> int:
 
 
 def seeds_from_raster(
-    raster: Raster,
+    raster: Raster | NDArray[Any],
     *,
     mode: SeedMode | None = None,
     connectivity: int = 8,
     threshold: float | Literal["otsu"] | None = None,
     invert: bool = False,
     strict: bool = False,
+    max_sites: int = LARGEST_LABEL,
 ) -> SeedSet:
     """Take seeds from an image.
 
     Parameters
     ----------
-    raster : Raster
+    raster : Raster or (H, W) array
         Nonzero pixels are foreground.
     mode : {"pixels", "components", "labels", "centroids"}, optional
         What shares a label: nothing, a connected component, or all pixels of one value; or one seed at the
@@ -143,6 +151,9 @@ def seeds_from_raster(
         Exchange foreground and background.
     strict : bool
         Refuse centroids that would have to move to the lattice of 1/256 pixel.
+    max_sites : int
+        More seeds, which are the foreground pixels unless centroids are taken, are refused before memory is
+        taken for them.
 
     Returns
     -------
@@ -153,6 +164,8 @@ def seeds_from_raster(
     ------
     InputError
         If there is no foreground, or the image looks like a photograph and no threshold is given.
+    LimitError
+        If there are more seeds than `max_sites`.
     UsageError
         If options do not go together.
 
@@ -163,18 +176,20 @@ def seeds_from_raster(
     """
     if connectivity not in (4, 8):
         raise UsageError(f"connectivity is {connectivity}: it must be 4 or 8")
+    raster = raster if isinstance(raster, Raster) else Raster(raster)
     values = _foreground_values(raster, threshold, invert=invert)
     mode = mode or _default_mode(values)
+    if mode not in get_args(SeedMode):
+        raise UsageError(f"mode is {mode!r}: it must be one of {', '.join(get_args(SeedMode))}")
     frame = Frame(0, 0, values.shape[1], values.shape[0])
     if mode == "pixels":
-        y, x = np.nonzero(values)
-        _require_foreground(len(x))
+        x, y = _foreground(values, max_sites)
         labels = np.arange(1, len(x) + 1, dtype=np.uint32)
         sites = np.stack([x, y], axis=1).astype(np.float64)
         return SeedSet(x, y, labels, frame=frame, sites=sites, site_labels=labels)
     by_value = mode == "labels" or (mode == "centroids" and _default_mode(values) == "labels")
     objects = _checked_label_values(values) if by_value else _components(values, connectivity)
-    return _seeds_of_objects(objects, frame, centroids_only=mode == "centroids", strict=strict)
+    return _seeds_of_objects(objects, frame, centroids_only=mode == "centroids", max_sites=max_sites, strict=strict)
 
 
 def _foreground_values(raster: Raster, threshold: Any, *, invert: bool) -> NDArray[Any]:
@@ -220,11 +235,8 @@ def _default_mode(values: NDArray[Any]) -> SeedMode:
 
 def _refuse_photograph(values: NDArray[Any]) -> None:
     """A label image has about as many fragments as labels; a photograph falls into far more."""
-    from skimage.measure import label
-
-    distinct = len(np.unique(values))
     fractional = values.dtype.kind == "f" and bool((values != np.floor(values)).any())
-    fragments = distinct if fractional else int(label(values.astype(np.int64), connectivity=1).max())
+    distinct, fragments = (len(np.unique(values)),) * 2 if fractional else _fragments(_checked_label_values(values))
     if fractional or (fragments > 4 * distinct and fragments > 256):
         raise InputError(
             f"the image holds {distinct} values in {fragments} fragments: a photograph? use --threshold otsu, "
@@ -232,64 +244,103 @@ def _refuse_photograph(values: NDArray[Any]) -> None:
         )
 
 
-def _checked_label_values(values: NDArray[Any]) -> NDArray[np.int64]:
-    labels = values.astype(np.int64)
-    if (labels != values).any() or labels.min() < 0 or labels.max() > 0xFFFFFFFF:
-        bad = values[(labels != values) | (labels < 0) | (labels > 0xFFFFFFFF)].flat[0]
-        raise InputError(f"the image holds the value {bad}: labels must be integers from 0 to 4294967295")
-    return labels
-
-
-def _components(values: NDArray[Any], connectivity: int) -> NDArray[np.int64]:
+def _fragments(labels: NDArray[Any]) -> tuple[int, int]:
+    """Count the values of an image, and the 4-connected pieces of those that are not 0."""
+    steps = sum(int(np.count_nonzero(row[1:] != row[:-1])) for row in labels)
+    if 8 * steps < labels.size:  # the borders between the regions of noise would take more memory than labels do
+        found = _core.measure_regions(np.ascontiguousarray(labels), 0, None)
+        return len(found["labels"]) + bool((labels == 0).any()), int(found["components"].sum())
     from skimage.measure import label
 
-    components: NDArray[np.int64] = label(values != 0, connectivity=2 if connectivity == 8 else 1)
+    return len(np.unique(labels)), int(label(labels.astype(np.int64), connectivity=1).max())
+
+
+def _checked_label_values(values: NDArray[Any]) -> NDArray[Any]:
+    """Give labels in an unsigned type; the first value that is none is named with its place."""
+    if values.dtype in (np.bool_, np.uint8, np.uint16, np.uint32):
+        return values
+    bad = (values < 0) | (values > LARGEST_LABEL)
+    if values.dtype.kind == "f":
+        bad |= values != np.floor(values)
+    if bad.any():
+        row, column = np.unravel_index(int(bad.argmax()), bad.shape)
+        raise InputError(
+            f"the image holds the value {values[row, column]} in row {row}, column {column}: labels must be "
+            f"integers from 0 to {LARGEST_LABEL}; use --threshold T for a mask"
+        )
+    return values.astype(np.uint32)
+
+
+def _components(values: NDArray[Any], connectivity: int) -> NDArray[Any]:
+    from skimage.measure import label
+
+    components: NDArray[Any] = label(values != 0, connectivity=2 if connectivity == 8 else 1)
     return components
 
 
-def _require_foreground(count: int) -> None:
+def _foreground(objects: NDArray[Any], most: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Columns and rows of the nonzero pixels, in raster order; counted before memory is taken for them."""
+    count = int(np.count_nonzero(objects))
     if count == 0:
         raise InputError("the image has no foreground, so nothing could be labelled: use --invert or --threshold")
-
-
-def _counted(values: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
-    """Distinct labels, the index of each pixel's, and the pixels of each: by a table unless labels are sparse."""
-    if values.max() > 4 * values.size + 65536:
-        return np.unique(values, return_inverse=True, return_counts=True)
-    counts = np.bincount(values)
-    labels = np.flatnonzero(counts)
-    return labels, (np.cumsum(counts > 0) - 1)[values], counts[labels]
-
-
-def _seeds_of_objects(objects: NDArray[np.int64], frame: Frame, *, centroids_only: bool, strict: bool) -> SeedSet:
-    """Seeds of a label image: all pixels of each label, or its centroid."""
-    y, x = np.nonzero(objects)
-    _require_foreground(len(x))
-    labels, index, area = _counted(objects[y, x])
-    # Sums of coordinates stay below 2^53, so the centroid is the rounded quotient of two exact integers.
-    sites = np.stack([np.bincount(index, weights=x) / area, np.bincount(index, weights=y) / area], axis=1)
-    site_labels = labels.astype(np.uint32)
-    area = area.astype(np.int64)
-    if not centroids_only:
-        return SeedSet(
-            x,
-            y,
-            site_labels[index],
-            frame=frame,
-            sites=sites,
-            site_labels=site_labels,
-            object_area=area,
+    if count > most:
+        raise LimitError(
+            f"the image has {count} foreground pixels, more than --max-sites {most}: use --seeds centroids, or a "
+            "larger limit"
         )
-    seeds = seeds_from_points(PointSet(sites, labels), strict=strict)
-    return SeedSet(
-        seeds.x,
-        seeds.y,
-        seeds.labels,
-        scale=seeds.scale,
-        frame=frame,
-        sites=sites,
-        site_labels=site_labels,
-        object_area=area,
-        snapped=seeds.snapped,
-        largest_move=seeds.largest_move,
-    )
+    x = np.flatnonzero(objects)
+    width = objects.shape[1]
+    y = x // width
+    x -= y * width
+    return x, y
+
+
+def _numbered(labels: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Distinct labels, and the index of each seed's: by a table unless the labels are sparse."""
+    largest = int(labels.max())
+    if largest > 4 * labels.size + 65536:
+        return np.unique(labels, return_inverse=True)
+    present = np.zeros(largest + 1, bool)
+    for part in _parts(len(labels), CHUNK):
+        present[labels[part]] = True
+    distinct = np.flatnonzero(present)
+    if len(distinct) == largest:
+        return distinct, labels - labels.dtype.type(1)  # labels 1 to n: the commonest
+    return distinct, (np.cumsum(present, dtype=np.uint32) - np.uint32(1))[labels]
+
+
+def _parts(count: int, size: int) -> Iterator[slice]:
+    for start in range(0, count, size):
+        yield slice(start, start + size)
+
+
+def _sums(index: NDArray[Any], kinds: int, weights: NDArray[Any] | None = None) -> NDArray[Any]:
+    """Sums of weights by index, part by part: NumPy would copy all of both to 64 bits."""
+    sums = np.zeros(kinds, np.int64 if weights is None else np.float64)
+    for part in _parts(len(index), max(CHUNK, kinds)):
+        sums += np.bincount(index[part], None if weights is None else weights[part], minlength=kinds)
+    return sums
+
+
+def _seeds_of_objects(
+    objects: NDArray[Any], frame: Frame, *, centroids_only: bool, max_sites: int, strict: bool
+) -> SeedSet:
+    """Seeds of a label image: all pixels of each label, or its centroid."""
+    x, y = _foreground(objects, objects.size if centroids_only else max_sites)
+    labels = objects[y, x].astype(np.uint32, copy=False)
+    distinct, index = _numbered(labels)
+    area = _sums(index, len(distinct))
+    # Sums of coordinates stay below 2^53, so the centroid is the rounded quotient of two exact integers.
+    sites = np.stack([_sums(index, len(distinct), weights) / area for weights in (x, y)], axis=1)
+    known: dict[str, Any] = {
+        "frame": frame,
+        "sites": sites,
+        "site_labels": distinct.astype(np.uint32),
+        "object_area": area,
+    }
+    if not centroids_only:
+        return SeedSet(x, y, labels, **known)
+    if len(distinct) > max_sites:
+        raise LimitError(f"the image has {len(distinct)} objects, more than --max-sites {max_sites}")
+    seeds = seeds_from_points(PointSet(sites, distinct), strict=strict)
+    return replace(seeds, properties={}, **known)

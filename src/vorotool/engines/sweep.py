@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.digital import (
+    check_out,
     default_frame,
     label_dtype,
     report_duplicates,
@@ -18,8 +19,10 @@ from vorotool.engines.digital import (
     simd_level,
     squared_limit,
 )
-from vorotool.engines.label_arrays import Progress, checked_threads
+from vorotool.engines.label_arrays import Progress
+from vorotool.engines.surrounded_seeds import needed_seeds, paint_seeds
 from vorotool.errors import InputError, LimitError, UsageError
+from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.frame import MAX_SIDE, Frame
 from vorotool.geometry.seeds import SeedSet
 
@@ -55,7 +58,8 @@ class Tessellator:
     Notes
     -----
     A row sweep with dead seeds dropped for good: memory grows with the seeds and the width, not with the
-    frame. Every row is the same whatever the band it is computed in, the threads and the instruction set.
+    frame. Of the pixels of large objects only the outer ones take part, see `needed_seeds`. Every row is the
+    same whatever the band it is computed in, the threads and the instruction set.
 
     Examples
     --------
@@ -91,11 +95,14 @@ class Tessellator:
 
     def _prepare(self) -> _core.Tessellation:
         seeds, frame = self.seeds, self.frame
+        needed = needed_seeds(seeds)
+        self._paints = needed is not None
+        chosen = slice(None) if needed is None else needed
         try:
             return _core.Tessellation(
-                seeds.x,
-                seeds.y,
-                seeds.labels,
+                seeds.x[chosen],
+                seeds.y[chosen],
+                seeds.labels[chosen],
                 frame.x,
                 frame.y,
                 frame.width,
@@ -104,10 +111,23 @@ class Tessellator:
                 self.simd,
             )
         except _core.SeedTooFarError as error:
-            raise InputError(
-                f"{error} for exact arithmetic: coordinates relative to the middle of the frame must be at most "
-                f"2^40 lattice steps ({2**40 // seeds.scale} pixels for these seeds); use a nearer --window"
-            ) from None
+            index = int(str(error).split()[1])  # the core counts from 0 the seeds that it was given
+            raise self._too_far(index if needed is None else int(needed[index])) from None
+
+    def _too_far(self, index: int) -> InputError:
+        seeds, frame = self.seeds, self.frame
+        x, y = (int(values[index]) / seeds.scale for values in (seeds.x, seeds.y))
+        return InputError(
+            f"seed {index + 1} at ({x:.17g}, {y:.17g}) is too far from the frame, which begins at ({frame.x}, "
+            f"{frame.y}), for exact arithmetic: coordinates relative to the middle of the frame must be at most "
+            f"2^40 lattice steps ({2**40 // seeds.scale} pixels for these seeds); use a nearer --window"
+        )
+
+    def _paint(self, rows: NDArray[Any], first: int, value: int | None = None) -> None:
+        """Put the seeds on their pixels, where those that only matter there were left out."""
+        if self._paints:
+            place = Frame(self.frame.x, self.frame.y + first, self.frame.width, len(rows))
+            paint_seeds(rows, self.seeds, place, value)
 
     @property
     def arithmetic(self) -> str:
@@ -140,10 +160,11 @@ class Tessellator:
         UsageError
             If the labels do not fit the type, or `out` has another shape or layout.
         """
-        kind = label_dtype(self.seeds.largest_label, out.dtype if out is not None else dtype)
+        kind = label_dtype(self.seeds.largest_label, getattr(out, "dtype", dtype))
         array = self._output(first, rows, kind, out)
         limit = None if self.most_squared is None else divmod(self.most_squared, 2**64)
         self._core.labels(array, first, limit, self._threads, self._progress)
+        self._paint(array, first)
         return array
 
     def squared_distances(self, first: int = 0, rows: int | None = None) -> NDArray[Any]:
@@ -161,12 +182,14 @@ class Tessellator:
         """
         array = self._output(first, rows, self.square_dtype, None)
         self._core.squared_distances(array, first, self._threads, self._progress)
+        self._paint(array, first, 0)
         return array
 
     def distances(self, first: int = 0, rows: int | None = None) -> NDArray[np.float32]:
         """Distances to the nearest seed in pixels, rounded once from double precision."""
         array = self._output(first, rows, np.dtype(np.float32), None)
         self._core.distances(array, first, self._threads, self._progress)
+        self._paint(array, first, 0)
         return array
 
     @cached_property
@@ -187,9 +210,5 @@ class Tessellator:
             raise UsageError(f"rows {first} to {first + rows - 1} are not all in a frame of {self.frame.height} rows")
         if out is None:
             return np.empty((rows, self.frame.width), dtype)
-        if out.shape != (rows, self.frame.width) or not out.flags.c_contiguous or not out.flags.writeable:
-            raise UsageError(
-                f"out must be a writeable C-contiguous array of shape {(rows, self.frame.width)}, "
-                f"but has shape {out.shape}"
-            )
+        check_out(out, (rows, self.frame.width))
         return out

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from operator import index
 from typing import Any, Literal
 
 from numpy.typing import NDArray
@@ -81,7 +82,7 @@ def tessellate(
     seed_set = as_seeds(seeds)
     if shape is not None and window is not None:
         raise UsageError("give shape or window, not both")
-    frame = Frame(*window) if window is not None else Frame(0, 0, shape[1], shape[0]) if shape is not None else None
+    frame = _frame(shape, window)
     if len(seed_set):
         require_memory(frame or default_frame(seed_set), max_pixels)
     if method == "propagation":
@@ -90,8 +91,25 @@ def tessellate(
         return propagate(seed_set, frame, passes=passes, dtype=dtype, out=out, progress=progress)
     if method != "exact":
         raise UsageError(f"method is {method!r}: it must be 'exact' or 'propagation'")
+    if passes != 2:
+        raise UsageError(f"passes is {passes}, which needs method='propagation'")
     sweep = Tessellator(seed_set, frame, max_distance=max_distance, threads=threads, progress=progress)
     return LabelImage(sweep.labels(dtype=dtype, out=out), sweep.frame, seed_set)
+
+
+def _frame(shape: Any, window: Any) -> Frame | None:
+    """Give the frame that is asked for, if one is."""
+    given, size = (window, 4) if window is not None else (shape, 2)
+    if given is None:
+        return None
+    try:
+        numbers = [index(number) for number in given]
+    except TypeError:
+        numbers = []
+    if len(numbers) != size:
+        form = "window must be four integers (x, y, w, h)" if size == 4 else "shape must be two integers (H, W)"
+        raise UsageError(f"{form}, but is {given!r}")
+    return Frame(*numbers) if size == 4 else Frame(0, 0, numbers[1], numbers[0])
 
 
 def verify_rows(rows: Tessellator | PropagatedRows, *, threads: int = 0) -> None:
@@ -135,7 +153,7 @@ def verify_tessellation(image: LabelImage, *, max_distance: float | Fraction | N
     --------
     >>> verify_tessellation(tessellate([[0, 0], [2, 1]], shape=(2, 3)))
     """
-    if image.seeds is None or image.frame is None:
+    if not isinstance(image, LabelImage) or image.seeds is None or image.frame is None:
         raise UsageError("the label image carries no seeds: make it with vorotool.tessellate")
     limit = squared_limit(max_distance, image.seeds.scale)
     verify_label_image(image.labels, image.seeds, image.frame, max_distance2=limit, threads=threads)

@@ -7,8 +7,9 @@ from typing import Any
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.label_arrays import Progress, checked_threads, label_array
+from vorotool.engines.label_arrays import Progress, label_array
 from vorotool.errors import InputError, UsageError, VerificationError
+from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.frame import Frame
 from vorotool.geometry.label_image import LabelImage
 from vorotool.geometry.seeds import SeedSet

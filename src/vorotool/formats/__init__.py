@@ -7,10 +7,10 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.frame import MAX_PIXELS
 
 NPY_MAGIC = b"\x93NUMPY"
-IMAGE_FORMATS = ("png", "tiff", "pnm", "pgm", "pbm")
 
 if TYPE_CHECKING:
     from vorotool.geometry.points import PointSet
@@ -36,7 +36,8 @@ def read(
     path : str or path
         The file; ``-`` is standard input.
     input_format : str, optional
-        csv, node, npy, geojson, wkt, json, png, tiff or pnm, where extension and content leave it unclear.
+        csv, node, npy, geojson, wkt, json, png, tiff or pnm (or another usual extension of one of these), where
+        extension and content leave it unclear.
     columns : str, optional
         ``X,Y[,LABEL]`` of a point list, by name or number from 1.
     page : int, optional
@@ -60,6 +61,8 @@ def read(
         If the file cannot be read; the message names the place and what to do.
     LimitError
         If it is too large.
+    UsageError
+        If an option is malformed, or does not fit the input.
 
     Examples
     --------
@@ -67,12 +70,15 @@ def read(
     53
     """
     from vorotool.formats.images import is_image, read_image
+    from vorotool.formats.input_formats import known_input_format
     from vorotool.formats.points import read_points
     from vorotool.formats.sources import read_source
 
+    input_format = known_input_format(input_format)
+    threads = checked_threads(threads)
     source = read_source(fspath(path))
     is_points = columns is not None and source.data.startswith(NPY_MAGIC)  # the one format that holds either
-    if input_format in IMAGE_FORMATS or (input_format in (None, "npy") and not is_points and is_image(source)):
+    if input_format in ("png", "tiff", "pnm") or (input_format in (None, "npy") and not is_points and is_image(source)):
         return read_image(source, input_format=input_format, page=page, max_pixels=max_pixels)
     return read_points(
         source,
@@ -95,7 +101,7 @@ def write(value: Any, path: str | PathLike[str], *, fmt: str | None = None, thre
     path : str or path
         The file, replaced atomically.
     fmt : str, optional
-        Format; by default that of the extension.
+        Format, or a usual extension of it; by default that of the path.
     threads : int
         0 uses all.
 
@@ -118,8 +124,11 @@ def write(value: Any, path: str | PathLike[str], *, fmt: str | None = None, thre
     from vorotool.geometry.label_image import LabelImage
     from vorotool.geometry.table import Table
 
-    extension = Path(path).suffix.lower().lstrip(".")
-    chosen: Any = fmt or {"tif": "tiff", "txt": "text"}.get(extension, extension)
+    name = (fmt or Path(path).suffix).lower().lstrip(".")
+    chosen: Any = {"tif": "tiff", "txt": "text"}.get(name, name)
+    threads = checked_threads(threads)
+    if isinstance(value, LabelImage) and chosen == "svg":
+        raise UsageError("an SVG is a picture: write the labels as PNG or NPY, and draw them with vorotool draw")
     if isinstance(value, LabelImage):
         with open_output(fspath(path), binary=chosen != "text") as out:
             write_label_image(

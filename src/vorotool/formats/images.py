@@ -11,29 +11,11 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.formats import npy, png_reader, pnm, tiff_reader
+from vorotool.formats.input_formats import IMAGE_NAMES, known_input_format
 from vorotool.formats.limits import DEFAULT_MAX_PIXELS, SourceLike, check_pixels
 from vorotool.geometry.raster import Raster
 
-_EXTENSIONS = {
-    ".png": "png",
-    ".tif": "tiff",
-    ".tiff": "tiff",
-    ".pbm": "pnm",
-    ".pgm": "pnm",
-    ".ppm": "pnm",
-    ".pnm": "pnm",
-    ".npy": "npy",
-}
-_NAMES = {
-    "png": "png",
-    "tif": "tiff",
-    "tiff": "tiff",
-    "pnm": "pnm",
-    "pgm": "pnm",
-    "pbm": "pnm",
-    "ppm": "pnm",
-    "npy": "npy",
-}
+_EXTENSIONS = {f".{name}": kind for name, kind in IMAGE_NAMES.items()}
 _MAGIC = (
     (b"\x89PNG", "png"),
     (b"II*\x00", "tiff"),
@@ -77,14 +59,11 @@ def image_format(source: SourceLike, input_format: str | None = None) -> str:
     ------
     InputError
         If it is none of them, or the content is plainly another.
+    UsageError
+        If what the caller says is none of them.
     """
     found = _by_content(source.data)
-    if input_format is not None:
-        if input_format not in _NAMES:
-            raise InputError(f"{input_format!r} is no image format: use {', '.join(_NAMES)}")
-        said = _NAMES[input_format]
-    else:
-        said = _EXTENSIONS.get(_extension(source)) or found or ""
+    said = known_input_format(input_format, IMAGE_NAMES) or _EXTENSIONS.get(_extension(source)) or found or ""
     if not source.data:
         raise InputError(f"{source.name} is empty: an image was expected")
     if said and found and found != said:
@@ -144,7 +123,7 @@ def read_image(
     source : SourceLike
         Name and content of the file.
     input_format : str, optional
-        png, tiff, pgm, pbm, ppm, pnm or npy; by default the extension decides, else the content.
+        A name in `IMAGE_NAMES`; by default the extension decides, else the content.
     page : int, optional
         Which page of a TIFF, from 0; needed if it has several.
     max_pixels : int

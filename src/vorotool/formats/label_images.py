@@ -80,7 +80,7 @@ def write_label_image(
         raise UsageError(f"{kind} values cannot be written as {fmt}: use -o image.tif or image.npy")
     if fmt == "png":
         depth = bit_depth or (16 if palette is None else 8)
-        _check_png(kind, largest_label, depth)
+        check_png(kind, largest_label, depth)
         write_png(out, bands, shape, bit_depth=depth, palette=palette, threads=threads)
     elif fmt == "tiff":
         write_tiff(out, bands, shape, dtype=kind, palette=palette, threads=threads)
@@ -92,7 +92,20 @@ def write_label_image(
         raise UsageError(f"{fmt!r} is no format of label images: use png, tiff, npy or text")
 
 
-def _check_png(kind: np.dtype[Any], largest: int, depth: int) -> None:
+def check_png(kind: np.dtype[Any], largest: int, depth: int = 16) -> None:
+    """Refuse values that a PNG does not hold.
+
+    Raises
+    ------
+    UsageError
+        If the type is wider than 32 bits.
+    LimitError
+        If the largest value needs more bits a pixel.
+
+    Examples
+    --------
+    >>> check_png(np.dtype(np.uint32), 65535)
+    """
     if kind.itemsize > 4:
         raise UsageError(f"{kind} values cannot be written as png: use -o image.tif or image.npy")
     if largest >= 1 << depth:

@@ -74,10 +74,77 @@ def open_output(
         yield out
 
 
-@contextmanager
-def _standard_output(binary: bool) -> Iterator[BinaryIO]:
+def check_output(
+    path: str | os.PathLike[str],
+    *,
+    binary: bool = False,
+    no_clobber: bool = False,
+    inputs: Iterable[str | os.PathLike[str]] = (),
+    makes_folder: bool = False,
+) -> None:
+    """Find out before any work whether `open_output` would refuse an output.
+
+    Parameters
+    ----------
+    path, binary, no_clobber, inputs
+        As for `open_output`.
+    makes_folder : bool
+        The folder of the file is yet to be made.
+
+    Raises
+    ------
+    UsageError
+        If the output is one of the inputs, or binary on a terminal.
+    OutputError
+        If it cannot be written; the message names the path and the reason.
+
+    Examples
+    --------
+    >>> check_output("/dev/null")
+    """
+    name = os.fspath(path)
+    if name == "-":
+        _refuse_terminal(binary)
+        return
+    target = _checked_target(name, no_clobber, inputs)
+    if not _is_regular(target):
+        return
+    folder = target.parent
+    while makes_folder and not folder.exists():
+        folder = folder.parent
+    if not folder.is_dir():
+        raise _failure(name, OSError(errno.ENOTDIR if folder.exists() else errno.ENOENT, "not a directory"))
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise _failure(name, OSError(errno.EACCES, f"no permission to write in {folder}"))
+
+
+def make_folder(path: str | os.PathLike[str]) -> None:
+    """Make a folder for outputs and those above it, where they are not there yet.
+
+    Raises
+    ------
+    OutputError
+        If it cannot be made.
+
+    Examples
+    --------
+    >>> make_folder("build")
+    """
+    try:
+        Path(path).mkdir(parents=True, exist_ok=True)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise OutputError(f"the folder {os.fspath(path)!r} cannot be made: {reason}; name another") from error
+
+
+def _refuse_terminal(binary: bool) -> None:
     if binary and sys.stdout.isatty():
         raise UsageError("binary output is not written to a terminal: name a file with -o, or a text format with -f")
+
+
+@contextmanager
+def _standard_output(binary: bool) -> Iterator[BinaryIO]:
+    _refuse_terminal(binary)
     out: BinaryIO = sys.stdout.buffer
     try:
         sys.stdout.flush()

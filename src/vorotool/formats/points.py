@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from vorotool.errors import InputError, UsageError
+from vorotool.formats.input_formats import POINT_NAMES, known_input_format
 from vorotool.formats.point_json import read_geojson, read_json
 from vorotool.formats.point_node import read_node
 from vorotool.formats.point_npy import read_npy
@@ -25,7 +26,7 @@ _READERS: dict[str, Callable[[Source, PointOptions], PointSet]] = {
     "json": read_json,
 }
 POINT_FORMATS = tuple(_READERS)
-"""Names for ``input_format``; ``csv`` stands for all delimited text."""
+"""Formats that have a reader; ``csv`` stands for all delimited text."""
 
 _BY_SUFFIX = {
     ".csv": "csv",
@@ -98,7 +99,7 @@ def read_points(
     source : Source
         What was read.
     input_format : str, optional
-        One of ``POINT_FORMATS``; by default the extension decides, else the content.
+        A name in `POINT_NAMES`; by default the extension decides, else the content.
     columns : str, optional
         ``X,Y`` or ``X,Y,LABEL``, each by name or by number from 1; for delimited text.
     properties : bool
@@ -129,9 +130,7 @@ def read_points(
     >>> read_points(Source("seeds.csv", b"x,y,label\n2,1,7\n5.5,3,9\n")).labels
     array([7, 9])
     """
-    if input_format is not None and input_format not in _READERS:
-        raise UsageError(f"--input-format {input_format!r} is no format of points: use {', '.join(_READERS)}")
-    chosen = input_format or detect_point_format(source)
+    chosen = known_input_format(input_format, POINT_NAMES) or detect_point_format(source)
     if columns is not None and chosen != "csv":
         raise UsageError(f"--columns is for delimited text, but {source.name} is read as {chosen}: leave it out")
     if chosen != "npy":

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.geometry.checks import whole_numbers
 
 
 @dataclass(frozen=True)
@@ -46,7 +47,10 @@ class PointSet:
     crs: Any = None
 
     def __post_init__(self) -> None:
-        xy = np.ascontiguousarray(self.xy, dtype=np.float64)
+        try:
+            xy = np.ascontiguousarray(self.xy, dtype=np.float64)
+        except (TypeError, ValueError) as error:
+            raise InputError(f"points must be an (n, 2) array of numbers: {error}") from None
         if xy.size == 0:
             xy = xy.reshape(0, 2)
         if xy.ndim != 2 or xy.shape[1] != 2:
@@ -74,7 +78,7 @@ class PointSet:
 
 
 def _checked_labels(labels: Any, count: int) -> NDArray[np.int64]:
-    array = np.ascontiguousarray(labels, dtype=np.int64)
+    array = whole_numbers(labels, "label of point", np.int64)
     if array.shape != (count,):
         raise InputError(f"labels must have shape ({count},), but have shape {array.shape}")
     bad = np.flatnonzero((array < 1) | (array > 0xFFFFFFFF))

@@ -25,7 +25,7 @@ class Raster:
     Raises
     ------
     InputError
-        If the array has another number of axes, or no pixels.
+        If the array has another number of axes, no pixels, or no numbers.
 
     Examples
     --------
@@ -40,6 +40,8 @@ class Raster:
         values = np.asarray(self.values)
         if values.ndim not in (2, 3):
             raise InputError(f"an image must have shape (H, W) or (H, W, C), but has shape {values.shape}")
+        if values.dtype.kind not in "biuf":
+            raise InputError(f"an image must hold numbers, but has type {values.dtype}")
         if values.size == 0:
             raise InputError(f"the image is empty: its shape is {values.shape}")
         object.__setattr__(self, "values", values)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.geometry.checks import whole_numbers
 from vorotool.geometry.frame import Frame
 
 FINEST_SCALE = 256
@@ -42,6 +43,11 @@ class SeedSet:
     largest_move : float
         The largest of these moves, in pixels.
 
+    Raises
+    ------
+    InputError
+        If the shapes differ, a coordinate is no integer, or a label none from 1 to 4294967295.
+
     Examples
     --------
     >>> seeds = SeedSet(np.array([0, 5]), np.array([0, 1]), np.array([1, 2]))
@@ -62,9 +68,9 @@ class SeedSet:
     largest_move: float = 0.0
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "x", np.ascontiguousarray(self.x, dtype=np.int64))
-        object.__setattr__(self, "y", np.ascontiguousarray(self.y, dtype=np.int64))
-        object.__setattr__(self, "labels", np.ascontiguousarray(self.labels, dtype=np.uint32))
+        object.__setattr__(self, "x", whole_numbers(self.x, "x of seed", np.int64))
+        object.__setattr__(self, "y", whole_numbers(self.y, "y of seed", np.int64))
+        object.__setattr__(self, "labels", whole_numbers(self.labels, "label of seed", np.uint32, 1))
         if not (self.x.shape == self.y.shape == self.labels.shape and self.x.ndim == 1):
             raise InputError(
                 f"x, y and labels must be 1-D of one length, but have shapes {self.x.shape}, {self.y.shape}, "

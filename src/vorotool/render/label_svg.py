@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -24,7 +24,7 @@ def write_label_svg(
     out: BinaryIO,
     image: LabelImage,
     *,
-    colour_of_label: NDArray[Any],
+    colour_of_label: NDArray[Any] | Mapping[int, int],
     width: int = 1000,
     layers: Iterable[str] = LAYERS,
 ) -> None:
@@ -39,8 +39,8 @@ def write_label_svg(
         Receives UTF-8.
     image : LabelImage
         Labels, frame, and seeds if there are any.
-    colour_of_label : integer array
-        Colour class by label; entry 0, for no label, is 0.
+    colour_of_label : integer array or mapping
+        Colour class by label; an array's entry 0, for no label, is 0.
     width : int
         Width of the picture in px.
     layers : iterable of str
@@ -61,10 +61,7 @@ def write_label_svg(
     >>> out.getvalue().decode().count("<path")
     2
     """
-    if image.labels.size > MOST_PIXELS:
-        raise LimitError(
-            f"{image.shape[1]} x {image.shape[0]} pixels are too many for SVG, at most {MOST_PIXELS}: use -f png"
-        )
+    check_size(image.shape)
     wanted = checked_layers(layers, LAYERS)
     page = _Page(image, width)
     numbered = "labels" in wanted and max(image.shape) <= MOST_NUMBERED
@@ -78,6 +75,22 @@ def write_label_svg(
     if "seeds" in wanted and image.seeds is not None and not numbered:
         parts += _discs(page)
     out.write(("\n".join([*parts, "</svg>"]) + "\n").encode())
+
+
+def check_size(shape: tuple[int, int]) -> None:
+    """Refuse an image that is too large for a picture with a path a label.
+
+    Raises
+    ------
+    LimitError
+        If it has more than 10^6 pixels.
+
+    Examples
+    --------
+    >>> check_size((1000, 1000))
+    """
+    if shape[0] * shape[1] > MOST_PIXELS:
+        raise LimitError(f"{shape[1]} x {shape[0]} pixels are too many for SVG, at most {MOST_PIXELS}: use -f png")
 
 
 class _Page:
@@ -114,7 +127,7 @@ def _short(value: float) -> str:
     return f"{value:.2f}".rstrip("0").rstrip(".")
 
 
-def _cells(page: _Page, colour_of_label: NDArray[Any]) -> Iterator[str]:
+def _cells(page: _Page, colour_of_label: NDArray[Any] | Mapping[int, int]) -> Iterator[str]:
     # page coordinates, not a transform: not every renderer knows strokes that do not scale
     corners = [page.corner(index) for index in range(max(page.image.shape) + 1)]
     yield f'<g id="cells" fill-rule="evenodd" stroke="{EDGE}" stroke-width="1.5" stroke-linejoin="round">'

@@ -1,0 +1,137 @@
+"""What the library is given by mistake: every outcome is one of its own errors, in words."""
+
+import numpy as np
+import pytest
+import shapely
+
+import vorotool
+from vorotool.errors import InputError, UsageError
+
+POINTS = [[1, 1], [5, 3]]
+SHAPE = (4, 6)
+LINE = shapely.LineString([(0, 0), (1, 1)])
+
+
+@pytest.mark.parametrize("method", ["exact", "propagation"])
+@pytest.mark.parametrize("out", [[[0] * 6] * 4, np.zeros((4, 5), np.uint16), np.zeros((6, 4), np.uint16).T])
+def test_out(method, out):
+    with pytest.raises(UsageError, match="out must be a writeable C-contiguous array of shape"):
+        vorotool.tessellate(POINTS, shape=SHAPE, method=method, out=out)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"max_distance": "3"}, "max_distance is 3"),
+        ({"max_distance": float("nan")}, "max_distance is nan"),
+        ({"threads": None}, "threads is None"),
+        ({"threads": 1.5}, "threads is 1.5"),
+        ({"threads": -1}, "threads is -1"),
+        ({"shape": 3}, "shape must be two integers"),
+        ({"shape": (3, 4, 5)}, "shape must be two integers"),
+        ({"shape": (3.5, 4)}, "shape must be two integers"),
+        ({"shape": None, "window": (3, 4, 5)}, "window must be four integers"),
+        ({"dtype": "foo"}, "dtype is 'foo'"),
+        ({"passes": 1}, "passes is 1, which needs method='propagation'"),
+    ],
+)
+def test_options(options, message):
+    with pytest.raises(UsageError, match=message):
+        vorotool.tessellate(POINTS, **{"shape": SHAPE, **options})
+
+
+@pytest.mark.parametrize("kind", [np.float32, np.float64, np.int64, int])
+def test_numbers_of_any_kind_limit_the_distance(kind):
+    found = vorotool.tessellate(POINTS, shape=SHAPE, max_distance=kind(2)).labels
+    np.testing.assert_array_equal(found, vorotool.tessellate(POINTS, shape=SHAPE, max_distance=2.0).labels)
+
+
+@pytest.mark.parametrize(
+    ("geometry", "message"),
+    [
+        ([shapely.Point(1, 1), shapely.Point()], "seed 2 is an empty Point"),
+        ([LINE], "seed 1 is a LineString"),
+        ([shapely.MultiPoint(POINTS)], "seed 1 is a MultiPoint"),
+        (LINE, "seed 1 is a LineString"),
+        (shapely.Point(), "no seeds"),
+        ("seeds.csv", "must be an"),
+        (5, "must be an"),
+    ],
+)
+def test_geometry_that_is_no_point(geometry, message):
+    with pytest.raises(InputError, match=message):
+        vorotool.tessellate(geometry, shape=SHAPE)
+
+
+def test_points_of_shapely():
+    expected = vorotool.tessellate(POINTS, shape=SHAPE).labels
+    for points in (shapely.MultiPoint(POINTS), [shapely.Point(p) for p in POINTS]):
+        np.testing.assert_array_equal(vorotool.tessellate(points, shape=SHAPE).labels, expected)
+    assert (vorotool.tessellate(shapely.Point(1, 1), shape=SHAPE).labels == 1).all()
+
+
+def test_arrays_are_taken_for_images():
+    image = np.array([[1, 0, 1], [0, 0, 1]])
+    seeds = vorotool.seeds_from_raster(image)
+    assert seeds.labels.tolist() == vorotool.seeds_from_raster(vorotool.Raster(image)).labels.tolist() == [1, 2, 2]
+    assert vorotool.region_table(image)["area"].tolist() == [3]
+    assert vorotool.neighbour_table(image).rows == 0
+    assert vorotool.colour_regions(image).tolist() == [0, 1]
+    for function in (vorotool.region_table, vorotool.neighbour_table, vorotool.colour_regions):
+        with pytest.raises(InputError, match="2-D integer array"):
+            function(np.ones((2, 2)))
+    with pytest.raises(InputError, match="numbers"):
+        vorotool.seeds_from_raster([["a", "b"]])
+    with pytest.raises(UsageError, match="no seeds"):
+        vorotool.verify_tessellation(image)
+    with pytest.raises(InputError, match="is a list"):
+        vorotool.voronoi_diagram(image, out=[[0] * 3] * 2)
+
+
+@pytest.mark.parametrize(
+    ("x", "labels", "message"),
+    [
+        ([1, 2], [0, 1], "label of seed 1 is 0: it must be an integer from 1 to 4294967295"),
+        ([1, 2], [1, -1], "label of seed 2 is -1"),
+        ([1, 2], [1, 2**32], "label of seed 2 is 4294967296"),
+        ([1, 2], [1, 2**70], "label of seed 2 is"),
+        ([1, 2], [1, 1.5], "label of seed 2 is 1.5"),
+        ([1, 2.5], [1, 2], "x of seed 2 is 2.5"),
+        ([1, np.nan], [1, 2], "x of seed 2 is nan"),
+        ([1, 2.0**63], [1, 2], "x of seed 2 is 9.2"),
+        ([-(2**70), 1], [1, 2], "x of seed 1 is -1180591620717411303424"),
+        (["a", "b"], [1, 2], "each x of seed must be an integer"),
+        ([[1], [2, 3]], [1, 2], "each x of seed must be an integer"),
+    ],
+)
+def test_seeds_that_are_no_integers(x, labels, message):
+    with pytest.raises(InputError, match=message):
+        vorotool.SeedSet(x, [1, 2], labels)
+
+
+def test_whole_floats_are_integers():
+    seeds = vorotool.SeedSet([1.0, -2.0], np.array([1, 2], np.uint8), [3.0, 2.0**32 - 1])
+    assert (seeds.x.tolist(), seeds.labels.tolist()) == ([1, -2], [3, 2**32 - 1])
+
+
+def test_points_that_are_none():
+    with pytest.raises(InputError, match="array of numbers"):
+        vorotool.PointSet([["a", "b"]])
+    with pytest.raises(InputError, match=r"label of point 1 is 1\.5"):
+        vorotool.PointSet(POINTS, labels=[1.5, 2])
+
+
+def test_reading_and_writing(tmp_path):
+    (tmp_path / "a.csv").write_text("1,2\n")
+    for threads in (-1, None):
+        with pytest.raises(UsageError, match="threads is"):
+            vorotool.read(tmp_path / "a.csv", threads=threads)
+    image = vorotool.tessellate(POINTS, shape=SHAPE)
+    for target in ({"path": tmp_path / "a.svg"}, {"path": tmp_path / "a", "fmt": "svg"}):
+        with pytest.raises(UsageError, match="vorotool draw"):
+            vorotool.write(image, **target)
+    for fmt in ("tif", "TIFF", ".tif"):
+        vorotool.write(image, tmp_path / "labels", fmt=fmt)
+        assert (tmp_path / "labels").read_bytes().startswith(b"II*\0")
+    vorotool.write(image, tmp_path / "labels", fmt="txt")
+    np.testing.assert_array_equal(np.loadtxt(tmp_path / "labels", dtype=int), image.labels)
