@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.formats import npy, png_reader, pnm, tiff_reader
 from vorotool.formats.input_formats import IMAGE_NAMES, known_input_format
-from vorotool.formats.limits import DEFAULT_MAX_PIXELS, SourceLike, check_pixels
+from vorotool.formats.limits import SourceLike, check_pixels
+from vorotool.geometry.frame import MAX_PIXELS
 from vorotool.geometry.raster import Raster
 
 _EXTENSIONS = {f".{name}": kind for name, kind in IMAGE_NAMES.items()}
@@ -111,7 +112,7 @@ def read_image(
     *,
     input_format: str | None = None,
     page: int | None = None,
-    max_pixels: int = DEFAULT_MAX_PIXELS,
+    max_pixels: int = MAX_PIXELS,
 ) -> Raster:
     """Read the values of an image as they are stored: palette indices, labels, grey values are not rescaled.
 

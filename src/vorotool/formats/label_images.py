@@ -11,10 +11,11 @@ from numpy.typing import DTypeLike, NDArray
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.images import read_image
 from vorotool.formats.label_text import write_label_text
-from vorotool.formats.limits import DEFAULT_MAX_PIXELS, SourceLike
+from vorotool.formats.limits import SourceLike
 from vorotool.formats.npy import write_npy
 from vorotool.formats.png import write_png
 from vorotool.formats.tiff import write_tiff
+from vorotool.geometry.frame import MAX_PIXELS
 from vorotool.geometry.label_image import LabelImage
 
 LabelFormat = Literal["png", "tiff", "npy", "text"]
@@ -120,7 +121,7 @@ def read_label_image(
     *,
     input_format: str | None = None,
     page: int | None = None,
-    max_pixels: int = DEFAULT_MAX_PIXELS,
+    max_pixels: int = MAX_PIXELS,
 ) -> LabelImage:
     """Read an image whose values are labels.
 

@@ -9,9 +9,6 @@ from typing import Protocol
 
 from vorotool.errors import InputError, LimitError, VorotoolError
 
-DEFAULT_MAX_PIXELS = 2**31
-"""Pixels held in memory unless ``--max-pixels`` says otherwise."""
-
 
 class SourceLike(Protocol):
     """A file's name, for messages, and its bytes."""
