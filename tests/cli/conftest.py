@@ -1,6 +1,5 @@
 """Running the command line inside the test, and as a process of its own."""
 
-import os
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -40,7 +39,6 @@ def process(tmp_path):
         return subprocess.Popen(
             [sys.executable, "-m", "vorotool", *map(str, arguments)],
             cwd=tmp_path,
-            env={**os.environ, "PYTHONUNBUFFERED": "1"},
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             **options,

@@ -8,7 +8,7 @@ import sys
 import traceback
 from contextlib import suppress
 from importlib import import_module
-from typing import Any, NoReturn
+from typing import Any, NoReturn, TextIO
 
 import click
 
@@ -94,9 +94,17 @@ def main(arguments: list[str] | None = None) -> NoReturn:
         if code != EXIT_OUTPUT:  # which has been reported
             code = _fail(f"standard output cannot be written: {error.strerror or error}", EXIT_OUTPUT)
     if code in (EXIT_BROKEN_PIPE, EXIT_OUTPUT):
-        # The interpreter flushes once more when it ends: let that go nowhere.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _abandon(sys.stdout)
+    try:
+        sys.stderr.flush()
+    except OSError:  # nobody hears what is wrong; the exit code remains
+        _abandon(sys.stderr)
     sys.exit(code)
+
+
+def _abandon(stream: TextIO) -> None:
+    """Let what is left in a stream's buffer go nowhere: the interpreter flushes it once more when it ends."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 def _replace_closed_streams() -> None:
