@@ -20,7 +20,7 @@ struct OrderedPoints {
 // A Delaunay triangulation of the points. Vertices are positions in `points`; edges of fewer than three or of
 // collinear points are a chain. Which diagonals are taken among cocircular points is left open.
 struct Subdivision {
-  HalfEdges edges;
+  HalfEdges edges{0};
   HalfEdge hull = no_edge;  // leaves its origin counter-clockwise along the hull; none for fewer than two points
 
   // Whether any predicate was zero. If none was, no four points of two neighbouring triangles are cocircular:

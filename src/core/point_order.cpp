@@ -52,28 +52,33 @@ Bounds bounds_of(std::span<const Point> points) {
   return bounds;
 }
 
+// A word holds the code of a point above its index.
+std::uint32_t code_of(std::uint64_t word) { return static_cast<std::uint32_t>(word >> 32); }
+std::uint32_t index_of(std::uint64_t word) { return static_cast<std::uint32_t>(word); }
+
 bool same_place(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y; }
 
 // Appends the points of one cell, sorted by place and then index, without those at a place that is already there.
-void append_cell(std::span<const Point> points, std::span<Keyed> cell, std::span<std::int32_t> first,
+void append_cell(std::span<const Point> points, std::span<std::uint64_t> cell, std::span<std::int32_t> first,
                  MortonOrder& order) {
   if (cell.size() > 1) {
-    std::sort(cell.begin(), cell.end(), [&](const Keyed& a, const Keyed& b) {
-      const Point& p = points[a.value];
-      const Point& q = points[b.value];
+    std::sort(cell.begin(), cell.end(), [&](std::uint64_t a, std::uint64_t b) {
+      const Point& p = points[index_of(a)];
+      const Point& q = points[index_of(b)];
       if (p.x != q.x) return p.x < q.x;
-      return p.y != q.y ? p.y < q.y : a.value < b.value;
+      return p.y != q.y ? p.y < q.y : a < b;
     });
   }
   for (std::size_t i = 0; i < cell.size(); ++i) {
-    const Point& p = points[cell[i].value];
+    const std::uint32_t index = index_of(cell[i]);
+    const Point& p = points[index];
     const bool repeated = i > 0 && same_place(p, order.points.back());
     if (!repeated) {
       order.points.push_back(p);
-      order.index.push_back(cell[i].value);
-      order.code.push_back(static_cast<std::uint32_t>(cell[i].key));
+      order.index.push_back(index);
+      order.code.push_back(code_of(cell[i]));
     }
-    first[cell[i].value] = static_cast<std::int32_t>(order.index.back());
+    first[index] = static_cast<std::int32_t>(order.index.back());
   }
 }
 
@@ -86,19 +91,19 @@ MortonOrder morton_order(std::span<const Point> points, std::span<std::int32_t> 
   const double half_range = std::max(bounds.most.x / 2 - bounds.least.x / 2, bounds.most.y / 2 - bounds.least.y / 2);
   const Cells column(bounds.least.x, half_range);
   const Cells row(bounds.least.y, half_range);
-  std::vector<Keyed> items(points.size());
+  std::vector<std::uint64_t> words(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::uint32_t code = spread(column(points[i].x)) << 1 | spread(row(points[i].y));
-    items[i] = {code, static_cast<std::uint32_t>(i)};
+    words[i] = std::uint64_t{code} << 32 | i;
   }
-  radix_sort(items, 2 * cell_bits);
+  radix_sort(words, 32, 32 + 2 * cell_bits);
   order.points.reserve(points.size());
   order.index.reserve(points.size());
   order.code.reserve(points.size());
-  for (std::size_t begin = 0; begin < items.size();) {
+  for (std::size_t begin = 0; begin < words.size();) {
     std::size_t end = begin + 1;
-    while (end < items.size() && items[end].key == items[begin].key) ++end;
-    append_cell(points, std::span(items).subspan(begin, end - begin), first, order);
+    while (end < words.size() && code_of(words[end]) == code_of(words[begin])) ++end;
+    append_cell(points, std::span(words).subspan(begin, end - begin), first, order);
     begin = end;
   }
   return order;
