@@ -6,4 +6,5 @@ NB_MODULE(_core, module) {
   vorotool::bindings::bind_text(module);
   vorotool::bindings::bind_tessellation(module);
   vorotool::bindings::bind_regions(module);
+  vorotool::bindings::bind_predicates(module);
 }

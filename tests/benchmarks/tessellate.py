@@ -21,7 +21,7 @@ from skimage.segmentation import expand_labels
 
 import vorotool
 from vorotool import _core
-from vorotool.engines.tessellate import Tessellator
+from vorotool.engines.sweep import Tessellator
 from vorotool.geometry.frame import Frame
 
 PEERS: dict[str, Callable[[np.ndarray], object]] = {

@@ -124,12 +124,21 @@ def test_a_photograph_is_not_taken_for_labels(run, folder):
         (["tessellate", "dots.csv", "-o", "a.png", "--method", "propagation", "--max-distance", "3"], ["exact"]),
         (["tessellate", "dots.csv", "--method", "propagation", "--what", "distance", "-o", "a.tif"], ["exact"]),
         (["tessellate", "dots.csv", "-o", "a.png", "--seeds", "pixels"], ["--seeds is for images"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--page", "0"], ["--page is for images"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--threshold", "0"], ["--threshold is for images"]),
+        (["tessellate", "mask.pbm", "-o", "a.png", "--threshold", "nan"], ["'nan' is no threshold"]),
         (["tessellate", "mask.pbm", "-o", "a.png", "--columns", "1,2"], ["--columns"]),
         (["tessellate", "mask.pbm", "-o", "a.png", "--size", "4x4"], ["--size"]),
         (["tessellate", "dots.csv", "-f", "text", "--stats", "-"], ["--stats -"]),
         (["tessellate", "dots.csv", "-o", "dots.csv", "-f", "text"], ["dots.csv", "input"]),
         (["tessellate", "dots.csv", "-o", "a.png", "--layers", "roads"], ["'roads'"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--layers", "cells"], ["--layers is for pictures"]),
+        (["tessellate", "dots.csv", "-o", "a.npy", "--what", "diagram", "--layers", "cells"], ["--layers is for"]),
         (["tessellate", "dots.csv", "-o", "a.png", "--threads", "-1"], ["-1"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--threads", "1025"], ["1025"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--size", "9" * 5000 + "x1"], ["is no size"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--window", "9" * 5000 + ",1,1,1"], ["is no window"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--max-distance", "1e999999999"], ["is no number"]),
         (["paint"], ["paint"]),
         (["--colour"], ["--colour"]),
     ],
@@ -142,6 +151,7 @@ def test_usage(run, folder, arguments, words):
 
 
 def test_missing_input(run):
+    assert "name of the input is empty" in run("tessellate", "", "-o", "a.png").err
     done = run("tessellate", "nowhere.csv", "-o", "a.png")
     assert done.code == 3
     assert "nowhere.csv" in done.err
@@ -161,6 +171,7 @@ def test_limits_are_known_before_memory_is_taken(run, folder):
 
 
 def test_outputs_that_cannot_be_written(run, folder):
+    assert "'' is no name: name a file" in run("tessellate", "dots.csv", "-f", "png", "-o", "").err
     assert run("tessellate", "dots.csv", "-o", "no/such/a.png").code == 4
     assert run("tessellate", "dots.csv", "-o", "/dev/full", "-f", "npy").code == 4
     assert run("tessellate", "dots.csv", "-o", "a.png", "--stats", "no/such/s.json").code == 4
@@ -241,7 +252,7 @@ def test_broken_pipe_is_quiet(folder):
     assert "Traceback" not in done.stderr
 
 
-@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)])
 def test_interrupt_in_the_kernel(process, folder, number, code):
     np.savetxt(folder / "many.csv", np.random.default_rng(0).integers(0, 60000, (20000, 2)), fmt="%d", delimiter=",")
     (folder / "out.npy").write_text("old")
@@ -270,3 +281,60 @@ def test_version(run):
 def test_stats_are_one_json_object(run, folder):
     run("tessellate", "dots.csv", "-o", "a.png", "--stats", "s.json")
     assert json.loads((folder / "s.json").read_text())["command"] == "tessellate"
+
+
+@pytest.mark.parametrize("command", [["tessellate", "dots.csv", "-f", "npy"], ["draw", "mask.pbm", "-f", "png"]])
+def test_statistics_replace_neither_input_nor_output(run, folder, command):
+    source = folder / command[1]
+    before = source.read_bytes()
+    os.link(source, folder / "same")
+    for name in (source.name, "same", "out", "./out"):
+        done = run(*command, "-o", "out", "--stats", name)
+        assert done.code == 2
+        assert name in done.err
+        assert not (folder / "out").exists()
+    assert source.read_bytes() == before
+    (folder / "old.json").write_text("old")
+    done = run(*command, "-o", "out", "--stats", "old.json", "--no-clobber")
+    assert done.code == 4
+    assert (folder / "old.json").read_text() == "old"
+    assert run(*command, "-o", os.devnull, "--stats", os.devnull).code == 0
+
+
+def test_standard_input_is_not_replaced_either(process, folder):
+    before = (folder / "dots.csv").read_bytes()
+    with (folder / "dots.csv").open("rb") as stdin:
+        done = process("tessellate", "-", "-o", "dots.csv", "-f", "npy", stdin=stdin)
+        _, err = done.communicate(timeout=30)
+    assert done.returncode == 2
+    assert b"also an input" in err
+    assert (folder / "dots.csv").read_bytes() == before
+
+
+@pytest.mark.parametrize(
+    ("command", "code", "message"),
+    [
+        ("tessellate dots.csv -o out.png >&-", 0, ""),
+        ("tessellate dots.csv -o out.png 2>&-", 0, ""),
+        ("tessellate dots.csv -o out.png <&- >&- 2>&-", 0, ""),
+        ("tessellate missing.csv -o out.png >&- 2>&-", 3, ""),
+        ("tessellate missing.csv -o out.png 2>/dev/full", 3, ""),
+        ("paint 2>/dev/full", 2, ""),
+        ("tessellate dots.csv --what table >&-", 4, "error: standard output cannot be written: Bad file descriptor"),
+        ("tessellate - -o out.png <&-", 3, "error: standard input is closed"),
+        ("--help >&-", 4, "Bad file descriptor"),
+        ("--version >/dev/full", 4, "No space left on device"),
+        ("tessellate --help >/dev/full", 4, "No space left on device"),
+        ("--help | true; exit ${PIPESTATUS[0]}", 141, ""),
+        ("tessellate --help | true; exit ${PIPESTATUS[0]}", 141, ""),
+    ],
+)
+def test_closed_and_full_streams(folder, command, code, message):
+    script = f"{sys.executable} -m vorotool {command}"
+    done = subprocess.run(["bash", "-c", script], cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == code, done.stderr
+    assert done.stdout == ""
+    assert message in done.stderr
+    assert len(done.stderr.splitlines()) == bool(message)
+    if code == 0:
+        assert (folder / "out.png").read_bytes().startswith(b"\x89PNG")

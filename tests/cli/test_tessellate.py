@@ -52,7 +52,7 @@ def test_diagram(run, folder, extension):
 
 def test_diagram_in_bands_is_that_of_the_whole(run, folder, monkeypatch):
     run("tessellate", "dots.csv", "--size", "40x50", "--what", "diagram", "-o", "whole.npy")
-    monkeypatch.setattr("vorotool.engines.tessellate.BAND_PIXELS", 40 * 7)
+    monkeypatch.setattr("vorotool.engines.digital.BAND_PIXELS", 40 * 7)
     run("tessellate", "dots.csv", "--size", "40x50", "--what", "diagram", "-o", "bands.npy")
     assert (folder / "bands.npy").read_bytes() == (folder / "whole.npy").read_bytes()
 

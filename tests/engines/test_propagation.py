@@ -5,7 +5,7 @@ import pytest
 
 import vorotool
 from oracles import nearest_labels, paper_passes
-from vorotool.engines.tessellate import PropagatedRows, propagate
+from vorotool.engines.propagation import PropagatedRows, propagate
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
 from vorotool.geometry.frame import Frame
 from vorotool.geometry.seeds import SeedSet

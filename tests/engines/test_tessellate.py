@@ -15,7 +15,9 @@ import vorotool
 from families import FAMILIES, random_case
 from oracles import nearest_labels, nearest_squares
 from vorotool import _core
-from vorotool.engines.tessellate import SIMD_LEVELS, Tessellator, default_frame, verify_rows
+from vorotool.engines.digital import SIMD_LEVELS, default_frame
+from vorotool.engines.sweep import Tessellator
+from vorotool.engines.tessellate import verify_rows
 from vorotool.errors import InputError, LimitError, UsageError, VerificationError, VorotoolWarning
 from vorotool.geometry.frame import Frame
 from vorotool.geometry.seeds import SeedSet
@@ -241,6 +243,10 @@ def test_duplicates_warn_or_are_refused():
         (lambda: vorotool.tessellate([[1e300, 0]], shape=(4, 4)), InputError, r"at most 2\^44"),
         (lambda: vorotool.tessellate([[2.0**43, 0]], shape=(4, 4)), InputError, "too far from the frame"),
         (lambda: vorotool.tessellate([[0, 0]], shape=(0, 4)), InputError, "at least 1 x 1"),
+        (lambda: vorotool.tessellate([[0, 1 / 256]], window=(2**56, 0, 4, 4)), InputError, "nearer --window"),
+        (lambda: vorotool.tessellate([[0, 0]], window=(0, -(10**30), 4, 4)), InputError, "nearer --window"),
+        (lambda: vorotool.tessellate([[0, 0]], window=(0.5, 0, 4, 4)), TypeError, "as an integer"),
+        (lambda: vorotool.tessellate([[0, 0]], shape=np.full(2, 60000, np.uint16)), LimitError, "3600000000 pixels"),
         (lambda: vorotool.tessellate([[0, 0]], shape=(4, 4), window=(0, 0, 4, 4)), UsageError, "not both"),
         (lambda: vorotool.tessellate([[0, 0]], shape=(10**6, 10**6)), LimitError, "--max-pixels"),
         (lambda: vorotool.tessellate([[0, 0]], shape=(1, 2**31), max_pixels=2**40), LimitError, "a side has at most"),

@@ -20,7 +20,8 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from families import random_case
 from oracles import nearest_labels
 from vorotool import _core
-from vorotool.engines.tessellate import SIMD_LEVELS, Tessellator
+from vorotool.engines.digital import SIMD_LEVELS
+from vorotool.engines.sweep import Tessellator
 from vorotool.geometry.frame import Frame
 from vorotool.geometry.seeds import SeedSet
 

@@ -9,7 +9,7 @@ import click
 
 from vorotool.cli.options import layers_option, shared, single_input
 from vorotool.cli.run import Run
-from vorotool.cli.targets import plan_targets
+from vorotool.cli.targets import check_stats, plan_targets
 
 FORMATS = {"picture": ("png", "svg")}
 
@@ -31,7 +31,8 @@ def command(**options: Any) -> None:
     o = SimpleNamespace(**options)
     source = single_input(o.inputs)
     (target,) = plan_targets(FORMATS, ["picture"], output=o.output, fmt=o.format, out_dir=o.out_dir, source=source)
-    with Run("draw", quiet=o.quiet, verbose=o.verbose, stats=o.stats) as run:
+    check_stats(o.stats, [target], source)
+    with Run("draw", quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber) as run:
         from vorotool.cli.pictures import write_label_picture
         from vorotool.engines.regions import colour_regions
         from vorotool.formats.label_images import read_label_image
@@ -44,10 +45,9 @@ def command(**options: Any) -> None:
             )
         with run.phase("colour"):
             colours = colour_regions(image, threads=o.threads)
-        inputs = () if source == "-" else (source,)
         with (
             run.phase("write"),
-            open_output(target.path, binary=target.is_binary, no_clobber=o.no_clobber, inputs=inputs) as out,
+            open_output(target.path, binary=target.is_binary, no_clobber=o.no_clobber, inputs=(source,)) as out,
         ):
             layers = o.layers or (("cells", "labels") if target.fmt == "svg" else ("cells",))
             write_label_picture(

@@ -6,6 +6,7 @@ import os
 import signal
 import sys
 import traceback
+from contextlib import suppress
 from importlib import import_module
 from typing import Any, NoReturn
 
@@ -20,7 +21,7 @@ COMMANDS = {
 }
 """Commands and what they do; the module of a command is imported when it is called."""
 
-EXIT_DEFECT, EXIT_LIMIT, EXIT_INTERRUPTED, EXIT_TERMINATED, EXIT_BROKEN_PIPE = 1, 5, 130, 143, 141
+EXIT_DEFECT, EXIT_OUTPUT, EXIT_LIMIT, EXIT_INTERRUPTED, EXIT_BROKEN_PIPE = 1, 4, 5, 130, 141
 
 
 class SignalledError(Exception):
@@ -40,6 +41,13 @@ class LazyGroup(click.Group):
             return super().invoke(ctx)
         except KeyboardInterrupt:
             raise SignalledError(EXIT_INTERRUPTED) from None
+        except BrokenPipeError:
+            raise SignalledError(EXIT_BROKEN_PIPE) from None
+
+    def make_context(self, *arguments: Any, **options: Any) -> click.Context:
+        """Parse the arguments, which may print the help."""
+        try:
+            return super().make_context(*arguments, **options)
         except BrokenPipeError:
             raise SignalledError(EXIT_BROKEN_PIPE) from None
 
@@ -73,18 +81,36 @@ def vorotool() -> None:
 
 def main(arguments: list[str] | None = None) -> NoReturn:
     """Run the command line and leave with its exit code."""
-    signal.signal(signal.SIGTERM, _terminate)
+    _replace_closed_streams()
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) is not signal.SIG_IGN:  # under nohup a hang-up ends nothing
+            signal.signal(number, _terminate)
     code = _run(arguments)
     try:
         sys.stdout.flush()
     except BrokenPipeError:
         code = EXIT_BROKEN_PIPE
     except OSError as error:
-        code = _fail(f"standard output cannot be written: {error.strerror or error}", 4)
-    if code in (EXIT_BROKEN_PIPE, 4):
+        if code != EXIT_OUTPUT:  # which has been reported
+            code = _fail(f"standard output cannot be written: {error.strerror or error}", EXIT_OUTPUT)
+    if code in (EXIT_BROKEN_PIPE, EXIT_OUTPUT):
         # The interpreter flushes once more when it ends: let that go nowhere.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     sys.exit(code)
+
+
+def _replace_closed_streams() -> None:
+    """Put something in the place of closed streams, or the next file that is opened takes their number.
+
+    Messages then go nowhere; what is written to standard output fails, as it should.
+    """
+    for number, name, flags in ((1, "stdout", os.O_RDONLY), (2, "stderr", os.O_WRONLY)):
+        if getattr(sys, name) is None:
+            opened = os.open(os.devnull, flags)
+            os.dup2(opened, number)
+            if opened != number:
+                os.close(opened)
+            setattr(sys, name, os.fdopen(number, "w", encoding="utf-8", closefd=False))
 
 
 def _run(arguments: list[str] | None) -> int:
@@ -94,21 +120,31 @@ def _run(arguments: list[str] | None) -> int:
     except VorotoolError as error:
         return _fail(str(error), error.exit_code)
     except click.ClickException as error:
-        error.show()
+        with suppress(OSError):
+            error.show()
         return error.exit_code
     except SignalledError as error:
         return error.code
-    except MemoryError:
+    except Exception as error:
+        return _unforeseen(error)
+
+
+def _unforeseen(error: Exception) -> int:
+    """Report what no command has words of its own for."""
+    if isinstance(error, MemoryError):
         return _fail("there is not enough memory: use a smaller frame, or an output that is streamed", EXIT_LIMIT)
-    except Exception as error:  # a defect of ours: say so, with what is needed to mend it
-        traceback.print_exc()
-        return _fail(f"a defect of vorotool, please report it with the lines above: {error}", EXIT_DEFECT)
+    if isinstance(error, OSError):  # files have their own message: this is the help, or a warning
+        stream = "standard output or standard error cannot be written"
+        return _fail(f"{stream}: {error.strerror or error}; redirect it elsewhere", EXIT_OUTPUT)
+    traceback.print_exception(error)  # a defect of ours: say so, with what is needed to mend it
+    return _fail(f"a defect of vorotool, please report it with the lines above: {error}", EXIT_DEFECT)
 
 
 def _fail(message: str, code: int) -> int:
-    click.echo(f"error: {message}", err=True)
+    with suppress(OSError):  # the exit code remains
+        click.echo(f"error: {message}", err=True)
     return code
 
 
-def _terminate(_signal: int, _frame: object) -> NoReturn:
-    sys.exit(EXIT_TERMINATED)
+def _terminate(number: int, _frame: object) -> NoReturn:
+    sys.exit(128 + number)

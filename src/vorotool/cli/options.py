@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from fractions import Fraction
+from math import isfinite, nan
 from typing import Any
 
 import click
@@ -12,6 +14,10 @@ Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 
 SPELLINGS = {"color": "colour", "neighbors": "neighbours", "centreline": "centerline"}
 """American and British spellings are both accepted."""
+
+
+LARGEST_EXPONENT = 400
+"""Of decimal numbers: an exact power of ten beyond any float's takes time and memory, and means nothing."""
 
 
 class Size(click.ParamType[tuple[int, int]]):
@@ -24,7 +30,7 @@ class Size(click.ParamType[tuple[int, int]]):
         if isinstance(value, tuple):
             return value
         parts = value.lower().replace("×", "x").split("x")
-        if len(parts) != 2 or not all(part.isascii() and part.isdigit() and int(part) > 0 for part in parts):
+        if len(parts) != 2 or not all(re.fullmatch("0*[1-9][0-9]{0,17}", part) for part in parts):
             self.fail(f"{value!r} is no size: give width and height in pixels, such as 640x480", param, ctx)
         return (int(parts[0]), int(parts[1]))
 
@@ -59,9 +65,12 @@ class Threshold(click.ParamType[float | str]):
         if value == "otsu":
             return "otsu"
         try:
-            return float(value)
+            number = float(value)
         except ValueError:
+            number = nan
+        if not isfinite(number):
             self.fail(f"{value!r} is no threshold: give a number or otsu", param, ctx)
+        return number
 
 
 class Decimal(click.ParamType[Fraction]):
@@ -74,6 +83,8 @@ class Decimal(click.ParamType[Fraction]):
         if isinstance(value, Fraction):
             return value
         try:
+            if abs(int(value.lower().partition("e")[2] or 0)) > LARGEST_EXPONENT:
+                raise ValueError
             return Fraction(value)
         except (ValueError, ZeroDivisionError):
             self.fail(f"{value!r} is no number: give a decimal such as 12.5", param, ctx)
@@ -104,7 +115,7 @@ OPTIONS: dict[str, Decorator] = {
     "input-format": click.option("--input-format", metavar="FORMAT", help="Format of the input, where it is unclear."),
     "out-dir": click.option("--out-dir", metavar="DIR", help="Folder for outputs named after the input."),
     "threads": click.option(
-        "--threads", type=click.IntRange(min=0), default=0, show_default=True, help="Threads; 0 uses all."
+        "--threads", type=click.IntRange(0, 1024), default=0, show_default=True, help="Threads; 0 uses all."
     ),
     "quiet": click.option("-q", "--quiet", is_flag=True, help="No notes, warnings or progress."),
     "verbose": click.option("-v", "--verbose", is_flag=True, help="Say what takes how long."),

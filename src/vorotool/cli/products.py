@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
+from vorotool.engines.digital import band_limits, label_dtype, require_memory
+from vorotool.engines.propagation import PropagatedRows
 from vorotool.engines.regions import (
     RegionMeasures,
     colour_regions,
@@ -21,14 +23,8 @@ from vorotool.engines.regions import (
     region_table,
     voronoi_diagram,
 )
-from vorotool.engines.tessellate import (
-    PropagatedRows,
-    Tessellator,
-    band_limits,
-    label_dtype,
-    require_memory,
-    verify_rows,
-)
+from vorotool.engines.sweep import Tessellator
+from vorotool.engines.tessellate import verify_rows
 from vorotool.geometry.label_image import LabelImage
 
 DARK_LABELS = 1024
@@ -93,7 +89,7 @@ class Products:
     def _write_diagram(self, out: BinaryIO, fmt: str) -> None:
         from vorotool.render.palettes import LINE_ON_PAPER
 
-        if self.options.layers:
+        if self.options.layers and fmt == "png":
             self._write_picture(out, fmt, self.options.layers)
             return
 

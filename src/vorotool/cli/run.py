@@ -30,10 +30,14 @@ class Run:
         Say nothing but errors; say what takes how long.
     stats : str, optional
         File for the statistics, ``-`` for standard output.
+    no_clobber : bool
+        Refuse to replace that file.
     """
 
-    def __init__(self, command: str, *, quiet: bool, verbose: bool, stats: str | None) -> None:
-        self._quiet, self._verbose, self._target = quiet, verbose, stats
+    def __init__(
+        self, command: str, *, quiet: bool, verbose: bool, stats: str | None, no_clobber: bool = False
+    ) -> None:
+        self._quiet, self._verbose, self._target, self._no_clobber = quiet, verbose, stats, no_clobber
         self._warnings: list[str] = []
         self._seconds: dict[str, float] = {}
         self._inner: list[float] = []
@@ -107,5 +111,5 @@ class Run:
 
         self.stats["seconds"] = {name: round(value, 6) for name, value in self._seconds.items()}
         self.stats["warnings"] = self._warnings
-        with open_output(target) as out:
+        with open_output(target, no_clobber=self._no_clobber) as out:
             out.write(orjson.dumps(self.stats, option=orjson.OPT_INDENT_2 | orjson.OPT_APPEND_NEWLINE))

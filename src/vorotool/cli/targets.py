@@ -86,9 +86,38 @@ def plan_targets(
     target = Target(name, path, chosen_format)
     if output is None and fmt is None and target.is_binary:
         raise click.UsageError(
-            f"{name} are binary: name a file with -o, or a text format with -f {_text(formats[name])}"
+            f"{name} output is binary: name a file with -o, or a text format with -f {_text(formats[name])}"
         )
     return [target]
+
+
+def check_stats(stats: str | None, targets: Sequence[Target], source: str) -> None:
+    """Refuse statistics that would go where the input or a result is.
+
+    Raises
+    ------
+    click.UsageError
+        If they would.
+    """
+    if stats == "-" and any(target.path == "-" for target in targets):
+        raise click.UsageError("--stats - needs -o FILE: standard output holds the result")
+    if stats in (None, "-"):
+        return
+    if _is_same_file(stats, source):
+        raise click.UsageError(f"--stats {stats} is also the input, which is never replaced: choose another name")
+    for target in targets:
+        if _is_same_file(stats, target.path):
+            raise click.UsageError(f"--stats {stats} is also the output of {target.what}: choose another name")
+
+
+def _is_same_file(one: str, other: str) -> bool:
+    """Whether two names are one ordinary file, there already or yet to be written."""
+    if other == "-":
+        return False
+    a, b = Path(one), Path(other)
+    if not (a.exists() and b.exists()):
+        return a.resolve() == b.resolve()
+    return a.is_file() and a.samefile(b)
 
 
 def _known_format(fmt: str | None) -> str | None:

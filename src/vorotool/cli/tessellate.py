@@ -9,7 +9,7 @@ import click
 
 from vorotool.cli.options import Decimal, layers_option, shared, single_input, what_option
 from vorotool.cli.run import Run
-from vorotool.cli.targets import Target, plan_targets
+from vorotool.cli.targets import Target, check_stats, plan_targets
 
 if TYPE_CHECKING:
     from vorotool.cli.products import Products
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from vorotool.geometry.seeds import SeedSet
 
 _IMAGES = ("png", "tiff", "npy", "text")
+_PICTURES = {("labels", "svg"), ("diagram", "png"), ("colour", "png"), ("colour", "svg")}
 _TABLES = ("csv", "json", "npz")
 FORMATS = {
     "labels": (*_IMAGES, "svg"),
@@ -62,8 +63,9 @@ def command(**options: Any) -> None:
     o = SimpleNamespace(**options)
     source = single_input(o.inputs)
     targets = plan_targets(FORMATS, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=source)
+    check_stats(o.stats, targets, source)
     _check_options(o, targets)
-    with Run("tessellate", quiet=o.quiet, verbose=o.verbose, stats=o.stats) as run:
+    with Run("tessellate", quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber) as run:
         with run.phase("read"):
             seeds = _read_seeds(run, o, source)
         with run.phase("prepare"):
@@ -73,7 +75,7 @@ def command(**options: Any) -> None:
                 products.verify()
         for target in targets:
             with run.phase(f"write {target.what}"):
-                products.write(target, inputs=() if source == "-" else (source,))
+                products.write(target, inputs=(source,))
         _fill_stats(run, o, products)
 
 
@@ -86,8 +88,8 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
         raise click.UsageError("--passes needs --method propagation")
     if o.method == "propagation" and {"distance", "distance2"} & {target.what for target in targets}:
         raise click.UsageError("distances are those of the exact tessellation: leave out --method propagation")
-    if o.stats == "-" and any(target.path == "-" for target in targets):
-        raise click.UsageError("--stats - needs -o FILE: standard output holds the result")
+    if o.layers is not None and not _PICTURES & {(target.what, target.fmt) for target in targets}:
+        raise click.UsageError("--layers is for pictures: --what colour, labels as SVG, or the diagram as PNG")
 
 
 def _read_seeds(run: Run, o: SimpleNamespace, source: str) -> SeedSet:
@@ -123,7 +125,7 @@ def _read_seeds(run: Run, o: SimpleNamespace, source: str) -> SeedSet:
 
 def _refuse(o: SimpleNamespace, names: tuple[str, ...], reason: str) -> None:
     for name in names:
-        if getattr(o, name) not in (None, False):
+        if getattr(o, name) is not None and getattr(o, name) is not False:  # 0 is given, too
             raise click.UsageError(f"--{name} {reason}")
 
 
@@ -137,7 +139,8 @@ def _frame(o: SimpleNamespace) -> Frame | None:
 
 def _prepare(run: Run, o: SimpleNamespace, seeds: SeedSet) -> Products:
     from vorotool.cli.products import Products
-    from vorotool.engines.tessellate import PropagatedRows, Tessellator
+    from vorotool.engines.propagation import PropagatedRows
+    from vorotool.engines.sweep import Tessellator
     from vorotool.errors import LimitError
 
     if len(seeds) > o.max_sites:

@@ -180,19 +180,31 @@ def seeds_from_raster(
 def _foreground_values(raster: Raster, threshold: Any, *, invert: bool) -> NDArray[Any]:
     values = raster.values
     if threshold is not None:
-        grey = values @ np.array(_LUMINANCE) if raster.is_colour else values
-        if threshold == "otsu":
-            from skimage.filters import threshold_otsu
-
-            if grey.min() == grey.max():
-                raise InputError(f"all pixels have the value {grey.flat[0]}: --threshold otsu needs two values")
-            threshold = threshold_otsu(grey)
-        values = grey > threshold
+        grey = _grey(raster)
+        values = grey > (_otsu(grey) if threshold == "otsu" else threshold)
     elif raster.is_colour:
         raise InputError("a colour image holds no seeds by itself: use --threshold T or --threshold otsu")
     if values.dtype.kind == "f" and not np.isfinite(values).all():
-        raise InputError("the image holds NaN or infinite values: use --threshold T after repairing them")
+        raise InputError("the image holds NaN or infinite values: use --threshold T, a number, or repair them")
     return values == 0 if invert else values
+
+
+def _grey(raster: Raster) -> NDArray[Any]:
+    """Luminance of a colour image; transparency does not count."""
+    values = raster.values
+    if not raster.is_colour:
+        return values
+    return values[:, :, :3] @ np.array(_LUMINANCE) if values.shape[2] > 2 else values[:, :, 0]
+
+
+def _otsu(grey: NDArray[Any]) -> float:
+    from skimage.filters import threshold_otsu
+
+    if grey.dtype.kind == "f" and not np.isfinite(grey).all():
+        raise InputError("the image holds NaN or infinite values: use --threshold T, a number, or repair them")
+    if grey.min() == grey.max():
+        raise InputError(f"all pixels have the value {grey.flat[0]}: --threshold otsu needs two values")
+    return float(threshold_otsu(grey))
 
 
 def _default_mode(values: NDArray[Any]) -> SeedMode:
@@ -240,11 +252,20 @@ def _require_foreground(count: int) -> None:
         raise InputError("the image has no foreground, so nothing could be labelled: use --invert or --threshold")
 
 
+def _counted(values: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    """Distinct labels, the index of each pixel's, and the pixels of each: by a table unless labels are sparse."""
+    if values.max() > 4 * values.size + 65536:
+        return np.unique(values, return_inverse=True, return_counts=True)
+    counts = np.bincount(values)
+    labels = np.flatnonzero(counts)
+    return labels, (np.cumsum(counts > 0) - 1)[values], counts[labels]
+
+
 def _seeds_of_objects(objects: NDArray[np.int64], frame: Frame, *, centroids_only: bool, strict: bool) -> SeedSet:
     """Seeds of a label image: all pixels of each label, or its centroid."""
     y, x = np.nonzero(objects)
     _require_foreground(len(x))
-    labels, index, area = np.unique(objects[y, x], return_inverse=True, return_counts=True)
+    labels, index, area = _counted(objects[y, x])
     # Sums of coordinates stay below 2^53, so the centroid is the rounded quotient of two exact integers.
     sites = np.stack([np.bincount(index, weights=x) / area, np.bincount(index, weights=y) / area], axis=1)
     site_labels = labels.astype(np.uint32)

@@ -106,7 +106,7 @@ def _checked_target(name: str, no_clobber: bool, inputs: Iterable[str | os.PathL
     except (OSError, ValueError) as error:
         raise OutputError(f"{name!r} cannot be written: {error}; choose another name") from None
     if not name or target.is_dir() or name.endswith(os.sep):
-        raise OutputError(f"{name!r} is a directory: name a file in it")
+        raise OutputError(f"{name!r} is {'a directory' if name else 'no name'}: name a file{' in it' * bool(name)}")
     if not exists or not _is_regular(target):
         return target
     for each in inputs:

@@ -56,6 +56,8 @@ def read_source(path: str | os.PathLike[str]) -> Source:
     name = os.fspath(path)
     if name == "-":
         return Source(STANDARD_INPUT, _read_standard_input())
+    if not name:
+        raise InputError("the name of the input is empty: name a file, or - for standard input")
     try:
         return Source(name, Path(name).read_bytes())
     except FileNotFoundError:

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from operator import index
 
 from vorotool.errors import InputError
+
+FARTHEST = 2**44
+"""No seed lies farther from the origin (in pixels); in steps of 1/256 pixel this is far from the end of 64 bits."""
 
 
 @dataclass(frozen=True)
@@ -21,7 +25,7 @@ class Frame:
     Raises
     ------
     InputError
-        If the frame is empty.
+        If the frame is empty, or begins farther than 2^44 pixels from the origin.
 
     Examples
     --------
@@ -35,6 +39,12 @@ class Frame:
     height: int
 
     def __post_init__(self) -> None:
+        for name in ("x", "y", "width", "height"):  # NumPy's integers would wrap around in what follows
+            object.__setattr__(self, name, index(getattr(self, name)))
+        if max(abs(self.x), abs(self.y)) > FARTHEST:
+            raise InputError(
+                f"the frame begins at ({self.x}, {self.y}): its coordinates must be at most 2^44; use a nearer --window"
+            )
         if self.width < 1 or self.height < 1:
             raise InputError(
                 f"the frame is {self.width} x {self.height} pixels: it needs at least 1 x 1, use --size WxH"

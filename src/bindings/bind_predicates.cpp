@@ -1,0 +1,84 @@
+// The exact predicates, and each of their levels alone, for the tests.
+#include <nanobind/stl/string.h>
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "core/predicate_levels.hpp"
+#include "core/predicates.hpp"
+
+namespace vorotool::bindings {
+namespace {
+
+namespace nb = nanobind;
+using namespace nb::literals;
+using core::Point;
+
+template <std::size_t n>
+using PointTuples = nb::ndarray<const double, nb::shape<-1, n, 2>, nb::c_contig, nb::device::cpu>;
+
+template <class Predicate>
+struct Level {
+  const char* name;
+  Predicate predicate;
+};
+
+template <class Predicate, std::size_t n>
+Predicate find_level(const Level<Predicate> (&levels)[n], const std::string& name) {
+  for (const Level<Predicate>& level : levels) {
+    if (level.name == name) return level.predicate;
+  }
+  throw std::invalid_argument("no level of the predicates is called '" + name + "'");
+}
+
+// sign(p) for the first of each tuple's points.
+template <std::size_t n, class Sign>
+nb::object signs(const PointTuples<n>& tuples, Sign sign) {
+  std::vector<std::int8_t> result(tuples.shape(0));
+  {
+    const nb::gil_scoped_release released;
+    std::vector<Point> p(n);
+    for (std::size_t k = 0; k < result.size(); ++k) {
+      const double* values = tuples.data() + 2 * n * k;
+      for (std::size_t i = 0; i < n; ++i) p[i] = {values[2 * i], values[2 * i + 1]};
+      result[k] = static_cast<std::int8_t>(sign(p));
+    }
+  }
+  return to_numpy(std::move(result));
+}
+
+nb::object orient2d(PointTuples<3> points, const std::string& name) {
+  using Predicate = int (*)(const Point&, const Point&, const Point&);
+  static constexpr Level<Predicate> levels[] = {{"auto", core::orient2d},
+                                                {"filter", core::orient2d_filter},
+                                                {"integers", core::orient2d_integers},
+                                                {"expansions", core::orient2d_expansions},
+                                                {"wide", core::orient2d_wide}};
+  const Predicate predicate = find_level(levels, name);
+  return signs<3>(points, [&](const std::vector<Point>& p) { return predicate(p[0], p[1], p[2]); });
+}
+
+nb::object incircle(PointTuples<4> points, const std::string& name) {
+  using Predicate = int (*)(const Point&, const Point&, const Point&, const Point&);
+  static constexpr Level<Predicate> levels[] = {{"auto", core::incircle},
+                                                {"filter", core::incircle_filter},
+                                                {"integers", core::incircle_integers},
+                                                {"expansions", core::incircle_expansions},
+                                                {"wide", core::incircle_wide}};
+  const Predicate predicate = find_level(levels, name);
+  return signs<4>(points, [&](const std::vector<Point>& p) { return predicate(p[0], p[1], p[2], p[3]); });
+}
+
+}  // namespace
+
+void bind_predicates(nb::module_& module) {
+  module.def("orient2d", &orient2d, "points"_a.noconvert(), "level"_a = "auto");
+  module.def("incircle", &incircle, "points"_a.noconvert(), "level"_a = "auto");
+}
+
+}  // namespace vorotool::bindings

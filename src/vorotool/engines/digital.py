@@ -1,0 +1,132 @@
+"""What digital diagrams share: seeds from anything, frames, types of labels, limits."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Iterator
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from vorotool import _core
+from vorotool.engines.seeding import seeds_from_points, seeds_from_raster
+from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
+from vorotool.geometry.frame import Frame
+from vorotool.geometry.points import PointSet
+from vorotool.geometry.raster import Raster
+from vorotool.geometry.seeds import SeedSet
+
+SIMD_LEVELS = ("portable", "avx2", "avx512")
+BAND_PIXELS = 2**24
+"""Pixels of a band when rows are streamed: large enough to keep all threads busy."""
+
+
+def as_seeds(source: Any) -> SeedSet:
+    """Seeds from whatever `tessellate` accepts."""
+    if isinstance(source, SeedSet):
+        return source
+    if isinstance(source, Raster):
+        return seeds_from_raster(source)
+    if isinstance(source, PointSet):
+        return seeds_from_points(source)
+    if hasattr(source, "geom_type"):
+        from shapely import get_coordinates
+
+        return seeds_from_points(PointSet(get_coordinates(source)))
+    try:
+        xy = np.asarray([(p.x, p.y) if hasattr(p, "geom_type") else p for p in source], dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError("seeds must be an (n, 2) array of numbers, shapely points, or an image") from None
+    return seeds_from_points(PointSet(xy))
+
+
+def require_seeds(seeds: SeedSet) -> None:
+    """Refuse an empty list: nothing could be labelled."""
+    if len(seeds) == 0:
+        raise InputError("there are no seeds, so nothing could be labelled: give at least one point")
+
+
+def report_duplicates(duplicates: int, seeds: int, *, strict: bool) -> None:
+    """Warn of several seeds at one place, or refuse them."""
+    if not duplicates:
+        return
+    if strict:
+        raise InputError(
+            f"{duplicates} of {seeds} seeds lie on another seed: remove the duplicates, or leave out --strict"
+        )
+    warnings.warn(
+        f"{duplicates} of {seeds} seeds lie on another seed: the smallest label has the region",
+        VorotoolWarning,
+        stacklevel=4,
+    )
+
+
+def default_frame(seeds: SeedSet) -> Frame:
+    """Give the frame that the input brings, else the smallest at the origin that holds the points.
+
+    Raises
+    ------
+    InputError
+        If a coordinate is negative: such points need a window.
+
+    Examples
+    --------
+    >>> default_frame(seeds_from_points(PointSet([[2, 1], [7.25, 5.5]]))).shape
+    (7, 8)
+    """
+    if seeds.frame is not None:
+        return seeds.frame
+    for name, values in (("x", seeds.x), ("y", seeds.y)):
+        if values.min() < 0:
+            low, high = values.min() / seeds.scale, values.max() / seeds.scale
+            raise InputError(f"points span {name} {low:g}..{high:g}: use --window X,Y,W,H, or delaunay --what cells")
+    nearest = [int((2 * v.max() + seeds.scale) // (2 * seeds.scale)) + 1 for v in (seeds.x, seeds.y)]
+    return Frame(0, 0, nearest[0], nearest[1])
+
+
+def require_memory(frame: Frame, max_pixels: int) -> None:
+    """Refuse a frame that is too large to be held in memory."""
+    if frame.pixels > max_pixels:
+        raise LimitError(
+            f"the frame has {frame.width} x {frame.height} = {frame.pixels} pixels, more than --max-pixels {max_pixels}"
+        )
+
+
+def band_limits(frame: Frame) -> Iterator[tuple[int, int]]:
+    """First row and number of rows of the bands in which a frame is streamed."""
+    height = max(1, BAND_PIXELS // frame.width)
+    for first in range(0, frame.height, height):
+        yield first, min(height, frame.height - first)
+
+
+def label_dtype(largest: int, dtype: Any = None) -> np.dtype[Any]:
+    """Check or choose the type of labels up to `largest`."""
+    if dtype is None:
+        return np.dtype(np.uint16 if largest <= 0xFFFF else np.uint32)
+    kind: np.dtype[Any] = np.dtype(dtype)
+    if kind not in (np.uint8, np.uint16, np.uint32, np.int32):
+        raise UsageError(f"labels cannot have type {kind}: use uint8, uint16, uint32 or int32")
+    if largest > np.iinfo(kind).max:
+        raise UsageError(f"labels up to {largest} do not fit {kind}: use --dtype uint32")
+    return kind
+
+
+def squared_limit(max_distance: float | Fraction | None, scale: int) -> int | None:
+    """The largest squared distance in lattice steps that is within `max_distance` pixels."""
+    if max_distance is None:
+        return None
+    if not max_distance >= 0 or max_distance == float("inf"):
+        raise UsageError(f"max_distance is {max_distance}: it must be 0 or larger, and finite")
+    return int(min((Fraction(max_distance) * scale) ** 2, Fraction(2**127)))
+
+
+def simd_level() -> str:
+    """Name the instruction set of the kernels: the widest of this machine, or ``VOROTOOL_SIMD``."""
+    widest: str = _core.widest_simd()
+    wanted = os.environ.get("VOROTOOL_SIMD") or widest
+    available = SIMD_LEVELS[: SIMD_LEVELS.index(widest) + 1]
+    if wanted not in available:
+        raise UsageError(f"VOROTOOL_SIMD is {wanted!r}: this machine has {', '.join(available)}")
+    return wanted
