@@ -15,7 +15,8 @@ class FanMaker {
   FanMaker(HalfEdges& edges, std::span<const Point> points)
       : edges_(edges), points_(points), diagonal_(static_cast<std::size_t>(edges.size()) / 2, 0) {}
 
-  // An edge is a diagonal of a cocircular polygon when the apexes of its two triangles and its ends are cocircular.
+  // An edge is a diagonal of a cocircular polygon when the apexes of its two triangles and its ends are
+  // cocircular.
   void find_diagonals(const std::vector<bool>& outer, unsigned threads, const Monitor& monitor) {
     const auto find = [&](std::size_t piece) {
       const std::size_t end = std::min(diagonal_.size(), (piece + 1) * edges_a_piece);
@@ -62,11 +63,12 @@ class FanMaker {
     return best;
   }
 
-  // Turns from the side around its origin; in each triangle on the way the side opposite to the origin is flipped until
-  // it is a side of the polygon.
+  // Turns from the side around its origin; in each triangle on the way the side opposite to the origin is
+  // flipped until it is a side of the polygon.
   void make_fan(HalfEdge spoke) {
     for (;;) {
-      for (HalfEdge far = edges_.next_left(spoke); diagonal(far) != no; far = edges_.next_left(spoke)) flip(far);
+      for (HalfEdge far = edges_.next_left(spoke); diagonal(far) != no; far = edges_.next_left(spoke))
+        flip(far);
       spoke = edges_.next_around(spoke);
       if (diagonal(spoke) == no) return;
       diagonal(spoke) = done;
@@ -93,8 +95,8 @@ class FanMaker {
 
 }  // namespace
 
-void make_fans(HalfEdges& edges, const std::vector<bool>& outer, std::span<const Point> points, unsigned threads,
-               const Monitor& monitor) {
+void make_fans(HalfEdges& edges, const std::vector<bool>& outer, std::span<const Point> points,
+               unsigned threads, const Monitor& monitor) {
   FanMaker maker(edges, points);
   maker.find_diagonals(outer, threads, monitor);
   maker.make_all();

@@ -12,7 +12,7 @@ namespace vorotool::core {
 namespace {
 
 constexpr std::size_t most_points = std::size_t{1} << 28;  // six half-edges a point are counted in 32 bits
-constexpr int piece_bits = 14;                             // vertices of a piece of output, some 0.5 ms of work
+constexpr int piece_bits = 14;  // vertices of a piece of output, some 0.5 ms of work
 constexpr std::size_t piece_size = std::size_t{1} << piece_bits;
 
 }  // namespace
@@ -33,21 +33,25 @@ void DelaunayMesh::walk_hull() {
   outer_.assign(static_cast<std::size_t>(edges.size()), false);
   if (order_.points.size() == 1) hull_ = {given(0)};
   if (mesh_.hull == no_edge) return;
-  const HalfEdge start = HalfEdges::twin(mesh_.hull);  // the unbounded face is on its left, gone round clockwise
+  const HalfEdge start =
+      HalfEdges::twin(mesh_.hull);  // the unbounded face is on its left, gone round clockwise
   HalfEdge e = start;
   do {
     outer_[static_cast<std::size_t>(e)] = true;
     hull_.push_back(given(edges.origin(e)));
     e = edges.next_left(e);
   } while (e != start);
+  // The walk began at the vertex after the first one.
   std::reverse(hull_.begin(), hull_.end());
+  std::rotate(hull_.begin(), hull_.end() - 2, hull_.end());
   // A chain is gone along both ways, from one end; one way is enough.
   const bool chain = hull_.size() == 2 * (order_.points.size() - 1);
   if (chain) hull_.resize(order_.points.size());
 }
 
 // Triangles and edges are written vertex by vertex, each at the vertex that comes first on the curve, in
-// counter-clockwise order from the half-edge to the earliest neighbour: an order that depends on the points alone.
+// counter-clockwise order from the half-edge to the earliest neighbour: an order that depends on the points
+// alone.
 void DelaunayMesh::choose_starts() {
   const HalfEdges& edges = mesh_.edges;
   const std::size_t vertices = order_.points.size();
@@ -75,8 +79,8 @@ void DelaunayMesh::choose_starts() {
   edge_count_ = before_.back().edges;
 }
 
-// Calls visit(half-edge, whether the triangle on its left is written here) for the half-edges that leave the vertices
-// of a piece towards later ones.
+// Calls visit(half-edge, whether the triangle on its left is written here) for the half-edges that leave the
+// vertices of a piece towards later ones.
 template <class Visit>
 void DelaunayMesh::visit_piece(std::size_t piece, Visit visit) const {
   const HalfEdges& edges = mesh_.edges;
@@ -104,8 +108,9 @@ void DelaunayMesh::write_edges(std::int32_t* out, unsigned threads, const Monito
       [&](std::size_t piece) {
         std::int32_t* next = out + 2 * before_[piece].edges;
         visit_piece(piece, [&](HalfEdge e, bool) {
-          *next++ = given(edges.origin(e));
-          *next++ = given(edges.target(e));
+          const auto [smaller, larger] = std::minmax({given(edges.origin(e)), given(edges.target(e))});
+          *next++ = smaller;
+          *next++ = larger;
         });
       },
       monitor);
@@ -115,7 +120,8 @@ void DelaunayMesh::write_triangles(std::int32_t* triangles, std::int32_t* neighb
                                    const Monitor& monitor) const {
   const HalfEdges& edges = mesh_.edges;
   const bool link = neighbours != nullptr;
-  std::vector<HalfEdge> corners(link ? triangle_count() : 0);  // the half-edge that leaves a triangle's first vertex
+  std::vector<HalfEdge> corners(link ? triangle_count()
+                                     : 0);  // the half-edge that leaves a triangle's first vertex
   const auto triangle_of = std::make_unique_for_overwrite<std::int32_t[]>(link ? edges.size() : 0);
   parallel_for(
       before_.size() - 1, threads,
@@ -143,9 +149,11 @@ void DelaunayMesh::link_triangles(const std::vector<HalfEdge>& corners, const st
         const std::size_t end = std::min(corners.size(), (piece + 1) << piece_bits);
         for (std::size_t t = piece << piece_bits; t < end; ++t) {
           HalfEdge e = corners[t];
-          for (const std::size_t opposite : {2U, 0U, 1U}) {  // the first side lies opposite to the last vertex
+          for (const std::size_t opposite :
+               {2U, 0U, 1U}) {  // the first side lies opposite to the last vertex
             const HalfEdge across = HalfEdges::twin(e);
-            neighbours[3 * t + opposite] = is_outer(across) ? -1 : triangle_of[static_cast<std::size_t>(across)];
+            neighbours[3 * t + opposite] =
+                is_outer(across) ? -1 : triangle_of[static_cast<std::size_t>(across)];
             e = mesh_.edges.next_left(e);
           }
         }

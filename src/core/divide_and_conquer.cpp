@@ -13,8 +13,8 @@ namespace {
 bool less_by_x(const Point& a, const Point& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
 bool less_by_y(const Point& a, const Point& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; }
 
-// An extreme vertex of the hull of a part, and the half-edge that leaves it counter-clockwise along the hull; a part of
-// one point has no edge.
+// An extreme vertex of the hull of a part, and the half-edge that leaves it counter-clockwise along the hull;
+// a part of one point has no edge.
 struct Extreme {
   Vertex vertex = -1;
   HalfEdge edge = no_edge;
@@ -25,8 +25,8 @@ struct Hull {
   Extreme least_x, most_x, least_y, most_y;
 };
 
-// What a thread owns while it works on a part: edges that may be made, and whether any predicate was zero. A part of
-// k points has at most 3 k edges, so each part owns the numbers 3 first ... 3 last.
+// What a thread owns while it works on a part: edges that may be made, and whether any predicate was zero. A
+// part of k points has at most 3 k edges, so each part owns the numbers 3 first ... 3 last.
 class Workshop {
  public:
   // Notes a sign that is zero.
@@ -86,7 +86,8 @@ class Builder {
     const auto end = code.begin() + last;
     const std::uint32_t difference = *begin ^ *(end - 1);
     if (difference == 0) return cut_by_median(first, last, by_x);
-    // The highest bit in which the codes differ separates the points: those with the bit lie beyond the others.
+    // The highest bit in which the codes differ separates the points: those with the bit lie beyond the
+    // others.
     const int bit = std::bit_width(difference) - 1;
     by_x = bit % 2 == 1;
     const std::uint32_t threshold = (*(end - 1) >> bit) << bit;
@@ -182,8 +183,8 @@ class Builder {
     return base;
   }
 
-  // Goes up from the lower tangent, taking out edges of both parts that are not Delaunay and adding those between
-  // them. Returns the upper tangent, from the right part to the left one.
+  // Goes up from the lower tangent, taking out edges of both parts that are not Delaunay and adding those
+  // between them. Returns the upper tangent, from the right part to the left one.
   HalfEdge zip(HalfEdge base, Workshop& shop) {
     for (;;) {
       const Vertex left = edges_.target(base);
@@ -208,8 +209,8 @@ class Builder {
     }
   }
 
-  // Takes out the candidates whose circle with the base holds the candidate after them, turning away from the base;
-  // returns the one that stays. `end` is the far end of the base.
+  // Takes out the candidates whose circle with the base holds the candidate after them, turning away from the
+  // base; returns the one that stays. `end` is the far end of the base.
   template <HalfEdge (HalfEdges::*turned)(HalfEdge) const>
   HalfEdge clear_candidates(HalfEdge candidate, Vertex left, Vertex right, Vertex end, Workshop& shop) {
     for (;;) {
@@ -246,8 +247,8 @@ class Builder {
   HalfEdges& edges_;
 };
 
-// Cuts the points into parts for the threads: small enough to share evenly and to feel an interrupt, large enough
-// that what is left to merge at the end costs nothing. Children come after their parent.
+// Cuts the points into parts for the threads: small enough to share evenly and to feel an interrupt, large
+// enough that what is left to merge at the end costs nothing. Children come after their parent.
 std::vector<Part> plan_parts(Builder& builder, std::int32_t count, unsigned threads) {
   constexpr std::int32_t least = 1024;
   constexpr std::int32_t most = 65536;

@@ -1,7 +1,8 @@
 // A planar subdivision as half-edges in one flat array.
 //
-// Half-edges 2k and 2k + 1 are the two directions of edge k, so twins need no storage. Around a vertex the half-edges
-// that leave it form a ring; `next` is the following one counter-clockwise, `previous` the one before.
+// Half-edges 2k and 2k + 1 are the two directions of edge k, so twins need no storage. Around a vertex the
+// half-edges that leave it form a ring; `next` is the following one counter-clockwise, `previous` the one
+// before.
 #pragma once
 
 #include <cstdint>
@@ -60,7 +61,8 @@ class HalfEdges {
     at(e).origin = at(twin(e)).origin = -1;
   }
 
-  // Makes edge `e` from the target of `a` to the origin of `b`, so that a, e, b follow each other on one left face.
+  // Makes edge `e` from the target of `a` to the origin of `b`, so that a, e, b follow each other on one left
+  // face.
   void connect(HalfEdge e, HalfEdge a, HalfEdge b) {
     make(e, target(a), origin(b));
     splice(e, next_left(a));

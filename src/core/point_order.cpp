@@ -20,8 +20,9 @@ std::uint32_t spread(std::uint32_t v) {
   return (v | v << 1) & 0x55555555U;
 }
 
-// Numbers the cells of one coordinate; both coordinates have cells of one size. Every step rounds monotonically, so a
-// smaller cell means a smaller coordinate. Halves keep the range of the largest doubles finite.
+// Numbers the cells of one coordinate; both coordinates have cells of one size. Every step rounds
+// monotonically, so a smaller cell means a smaller coordinate. Halves keep the range of the largest doubles
+// finite.
 class Cells {
  public:
   Cells(double least, double half_range) : least_(least / 2) {
@@ -58,7 +59,8 @@ std::uint32_t index_of(std::uint64_t word) { return static_cast<std::uint32_t>(w
 
 bool same_place(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y; }
 
-// Appends the points of one cell, sorted by place and then index, without those at a place that is already there.
+// Appends the points of one cell, sorted by place and then index, without those at a place that is already
+// there.
 void append_cell(std::span<const Point> points, std::span<std::uint64_t> cell, std::span<std::int32_t> first,
                  MortonOrder& order) {
   if (cell.size() > 1) {
@@ -88,7 +90,8 @@ MortonOrder morton_order(std::span<const Point> points, std::span<std::int32_t> 
   MortonOrder order;
   if (points.empty()) return order;
   const Bounds bounds = bounds_of(points);
-  const double half_range = std::max(bounds.most.x / 2 - bounds.least.x / 2, bounds.most.y / 2 - bounds.least.y / 2);
+  const double half_range =
+      std::max(bounds.most.x / 2 - bounds.least.x / 2, bounds.most.y / 2 - bounds.least.y / 2);
   const Cells column(bounds.least.x, half_range);
   const Cells row(bounds.least.y, half_range);
   std::vector<std::uint64_t> words(points.size());

@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 
 from vorotool import _core
+from vorotool.engines.point_input import as_points
 from vorotool.engines.seeding import seeds_from_points, seeds_from_raster
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
 from vorotool.geometry.frame import Frame
-from vorotool.geometry.points import PointSet
 from vorotool.geometry.raster import Raster
 from vorotool.geometry.seeds import SeedSet
 
@@ -29,17 +29,8 @@ def as_seeds(source: Any) -> SeedSet:
         return source
     if isinstance(source, Raster):
         return seeds_from_raster(source)
-    if isinstance(source, PointSet):
-        return seeds_from_points(source)
-    if hasattr(source, "geom_type"):
-        from shapely import get_coordinates
-
-        return seeds_from_points(PointSet(get_coordinates(source)))
-    try:
-        xy = np.asarray([(p.x, p.y) if hasattr(p, "geom_type") else p for p in source], dtype=np.float64)
-    except (TypeError, ValueError):
-        raise InputError("seeds must be an (n, 2) array of numbers, shapely points, or an image") from None
-    return seeds_from_points(PointSet(xy))
+    expected = "seeds must be an (n, 2) array of numbers, shapely points, or an image"
+    return seeds_from_points(as_points(source, expected=expected))
 
 
 def require_seeds(seeds: SeedSet) -> None:
@@ -73,7 +64,7 @@ def default_frame(seeds: SeedSet) -> Frame:
 
     Examples
     --------
-    >>> default_frame(seeds_from_points(PointSet([[2, 1], [7.25, 5.5]]))).shape
+    >>> default_frame(as_seeds([[2, 1], [7.25, 5.5]])).shape
     (7, 8)
     """
     if seeds.frame is not None:
