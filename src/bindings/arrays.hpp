@@ -5,6 +5,7 @@
 #include <nanobind/ndarray.h>
 
 #include <cstddef>
+#include <initializer_list>
 #include <memory>
 #include <span>
 #include <utility>
@@ -32,6 +33,14 @@ nanobind::object to_numpy(std::vector<T>&& values) {
   const nanobind::capsule owner(kept.release(),
                                 [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
   return nanobind::cast(nanobind::ndarray<nanobind::numpy, T, nanobind::ndim<1>>(data, {size}, owner));
+}
+
+// A NumPy array of the given shape that takes over the values.
+template <class T>
+nanobind::object to_numpy(std::unique_ptr<T[]>&& values, std::initializer_list<std::size_t> shape) {
+  T* data = values.get();
+  const nanobind::capsule owner(values.release(), [](void* p) noexcept { delete[] static_cast<T*>(p); });
+  return nanobind::cast(nanobind::ndarray<nanobind::numpy, T>(data, shape, owner));
 }
 
 // A 1-D NumPy array of `field(item)` for every item.

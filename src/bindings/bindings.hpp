@@ -9,5 +9,6 @@ void bind_text(nanobind::module_& module);
 void bind_tessellation(nanobind::module_& module);
 void bind_regions(nanobind::module_& module);
 void bind_predicates(nanobind::module_& module);
+void bind_delaunay(nanobind::module_& module);
 
 }  // namespace vorotool::bindings

@@ -7,4 +7,5 @@ NB_MODULE(_core, module) {
   vorotool::bindings::bind_tessellation(module);
   vorotool::bindings::bind_regions(module);
   vorotool::bindings::bind_predicates(module);
+  vorotool::bindings::bind_delaunay(module);
 }

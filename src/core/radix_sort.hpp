@@ -1,4 +1,4 @@
-// Stable least-significant-digit radix sort of keys with a number each.
+// Stable least-significant-digit radix sort.
 #pragma once
 
 #include <cstdint>
@@ -6,13 +6,18 @@
 
 namespace vorotool::core {
 
+// A key and a number that goes with it: an index, a label.
 struct Keyed {
   std::uint64_t key;
-  std::uint32_t value;  // goes with the key: an index, a label
+  std::uint32_t value;
 };
 
 // Sorts by the lowest `bits` bits of the key; equal keys keep their order. Time linear in the number of
 // items.
 void radix_sort(std::vector<Keyed>& items, int bits);
+
+// Sorts words by their bits low ... high - 1 alone; the others go along. Half the memory of Keyed, where all
+// fits.
+void radix_sort(std::vector<std::uint64_t>& words, int low, int high);
 
 }  // namespace vorotool::core

@@ -118,18 +118,26 @@ void for_each_in_sweep_order(const RelativeSeeds& seeds, Take take) {
     std::for_each(sorted.begin(), sorted.end(), take);
     return;
   }
-  std::vector<Keyed> items(seeds.size());
-  for (std::size_t i = 0; i < seeds.size(); ++i) {
-    const Seed seed = seeds[i];
+  const auto take_key = [&](std::uint64_t key, std::uint32_t label) {
+    const std::uint64_t x = key & ((std::uint64_t{1} << x_bits) - 1);
+    take(Seed{seeds.least_y() + static_cast<std::int64_t>(key >> x_bits),
+              seeds.least_x() + static_cast<std::int64_t>(x), label});
+  };
+  const auto key_of = [&](const Seed& seed) {
     const auto above = static_cast<std::uint64_t>(seed.y - seeds.least_y());
-    items[i] = {above << x_bits | static_cast<std::uint64_t>(seed.x - seeds.least_x()), seed.label};
+    return above << x_bits | static_cast<std::uint64_t>(seed.x - seeds.least_x());
+  };
+  if (x_bits + y_bits <= 32) {  // key and label fit one word
+    std::vector<std::uint64_t> words(seeds.size());
+    for (std::size_t i = 0; i < seeds.size(); ++i) words[i] = key_of(seeds[i]) << 32 | seeds[i].label;
+    radix_sort(words, 32, 32 + x_bits + y_bits);
+    for (const std::uint64_t word : words) take_key(word >> 32, static_cast<std::uint32_t>(word));
+    return;
   }
+  std::vector<Keyed> items(seeds.size());
+  for (std::size_t i = 0; i < seeds.size(); ++i) items[i] = {key_of(seeds[i]), seeds[i].label};
   radix_sort(items, x_bits + y_bits);
-  for (const Keyed& item : items) {
-    const std::uint64_t x = item.key & ((std::uint64_t{1} << x_bits) - 1);
-    take(Seed{seeds.least_y() + static_cast<std::int64_t>(item.key >> x_bits),
-              seeds.least_x() + static_cast<std::int64_t>(x), item.value});
-  }
+  for (const Keyed& item : items) take_key(item.key, item.value);
 }
 
 // Numbers distinct x coordinates (given as offsets from the least) by a table over their range.

@@ -24,6 +24,7 @@ _HOME = {
     "Raster": "vorotool.geometry.raster",
     "SeedSet": "vorotool.geometry.seeds",
     "Table": "vorotool.geometry.table",
+    "Triangulation": "vorotool.geometry.triangulation",
     "read": "vorotool.formats",
     "write": "vorotool.formats",
     "seeds_from_points": "vorotool.engines.seeding",
@@ -33,6 +34,8 @@ _HOME = {
     "region_table": "vorotool.engines.regions",
     "neighbour_table": "vorotool.engines.regions",
     "voronoi_diagram": "vorotool.engines.regions",
+    "delaunay": "vorotool.engines.delaunay",
+    "verify_triangulation": "vorotool.engines.delaunay",
     "colour_regions": "vorotool.engines.regions",
 }
 

@@ -13,10 +13,10 @@ import numpy as np
 
 from vorotool import _core
 from vorotool.engines.label_arrays import described
+from vorotool.engines.point_input import as_points
 from vorotool.engines.seeding import seeds_from_points, seeds_from_raster
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
 from vorotool.geometry.frame import Frame
-from vorotool.geometry.points import PointSet
 from vorotool.geometry.raster import Raster
 from vorotool.geometry.seeds import SeedSet
 
@@ -31,31 +31,8 @@ def as_seeds(source: Any) -> SeedSet:
         return source
     if isinstance(source, Raster):
         return seeds_from_raster(source)
-    if isinstance(source, PointSet):
-        return seeds_from_points(source)
-    if getattr(source, "geom_type", "") == "MultiPoint":
-        source = source.geoms
-    elif hasattr(source, "geom_type"):
-        source = [] if source.is_empty and source.geom_type == "Point" else [source]
-    try:
-        xy = np.asarray([_position(p, i) for i, p in enumerate(source)], dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        if isinstance(error, InputError):
-            raise
-        raise InputError("seeds must be an (n, 2) array of numbers, shapely points, or an image") from None
-    return seeds_from_points(PointSet(xy))
-
-
-def _position(point: Any, index: int) -> Any:
-    """Coordinates of a point; of geometry only single points have them."""
-    if not hasattr(point, "geom_type"):
-        return point
-    if point.geom_type != "Point" or point.is_empty:
-        raise InputError(
-            f"seed {index + 1} is {'an empty' if point.is_empty else 'a'} {point.geom_type}: give points; of a polygon "
-            "or line its centroid or its vertices"
-        )
-    return point.x, point.y
+    expected = "seeds must be an (n, 2) array of numbers, shapely points, or an image"
+    return seeds_from_points(as_points(source, expected=expected, noun="seed"))
 
 
 def require_seeds(seeds: SeedSet) -> None:
@@ -89,7 +66,7 @@ def default_frame(seeds: SeedSet) -> Frame:
 
     Examples
     --------
-    >>> default_frame(seeds_from_points(PointSet([[2, 1], [7.25, 5.5]]))).shape
+    >>> default_frame(as_seeds([[2, 1], [7.25, 5.5]])).shape
     (7, 8)
     """
     if seeds.frame is not None:

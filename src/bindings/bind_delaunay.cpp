@@ -1,0 +1,100 @@
+// Delaunay triangulation and its check.
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "core/delaunay_mesh.hpp"
+#include "core/verify_triangulation.hpp"
+#include "interrupts.hpp"
+
+namespace vorotool::bindings {
+namespace {
+
+namespace nb = nanobind;
+using namespace nb::literals;
+using core::DelaunayMesh;
+using core::Monitor;
+using core::Point;
+using Indices = Vector<const std::int32_t>;
+using IndexRows = Matrix<const std::int32_t>;
+
+std::span<const Point> as_points(const Matrix<const double>& array) {
+  if (array.shape(1) != 2) throw std::invalid_argument("points must have two columns");
+  static_assert(sizeof(Point) == 2 * sizeof(double));
+  return {reinterpret_cast<const Point*>(array.data()), array.shape(0)};
+}
+
+std::span<const std::int32_t> rows_of(const IndexRows& array, std::size_t columns) {
+  if (array.shape(1) != columns)
+    throw std::invalid_argument("an array of indices has a wrong number of columns");
+  return view(array);
+}
+
+nb::object copied(std::span<const std::int32_t> values) {
+  auto kept = std::make_unique_for_overwrite<std::int32_t[]>(values.size());
+  std::copy(values.begin(), values.end(), kept.get());
+  return to_numpy(std::move(kept), {values.size()});
+}
+
+void make_mesh(DelaunayMesh* self, const Matrix<const double>& array, unsigned threads, nb::handle progress) {
+  const std::span<const Point> points = as_points(array);
+  run_interruptible(progress,
+                    [&](const Monitor& monitor) { new (self) DelaunayMesh(points, threads, monitor); });
+}
+
+nb::object edges_of(const DelaunayMesh& mesh, unsigned threads, nb::handle progress) {
+  auto edges = std::make_unique_for_overwrite<std::int32_t[]>(2 * mesh.edge_count());
+  run_interruptible(progress,
+                    [&](const Monitor& monitor) { mesh.write_edges(edges.get(), threads, monitor); });
+  return to_numpy(std::move(edges), {mesh.edge_count(), 2});
+}
+
+nb::tuple triangles_of(const DelaunayMesh& mesh, unsigned threads, nb::handle progress) {
+  const std::size_t count = mesh.triangle_count();
+  auto triangles = std::make_unique_for_overwrite<std::int32_t[]>(3 * count);
+  auto neighbours = std::make_unique_for_overwrite<std::int32_t[]>(3 * count);
+  run_interruptible(progress, [&](const Monitor& monitor) {
+    mesh.write_triangles(triangles.get(), neighbours.get(), threads, monitor);
+  });
+  return nb::make_tuple(to_numpy(std::move(triangles), {count, 3}),
+                        to_numpy(std::move(neighbours), {count, 3}));
+}
+
+std::optional<std::string> triangulation_fault(const Matrix<const double>& points, const IndexRows& triangles,
+                                               const IndexRows& neighbours, const IndexRows& edges,
+                                               const Indices& hull, const Indices& first, unsigned threads,
+                                               nb::handle progress) {
+  const core::TriangulationArrays arrays{
+      as_points(points), rows_of(triangles, 3), rows_of(neighbours, 3), rows_of(edges, 2), view(hull),
+      view(first)};
+  if (arrays.first.size() != arrays.points.size() || arrays.neighbours.size() != arrays.triangles.size()) {
+    throw std::invalid_argument("the arrays of a triangulation have lengths that do not go together");
+  }
+  return run_interruptible(
+      progress, [&](const Monitor& monitor) { return core::find_fault(arrays, threads, monitor); });
+}
+
+}  // namespace
+
+void bind_delaunay(nb::module_& module) {
+  nb::class_<DelaunayMesh>(module, "DelaunayMesh")
+      .def("__init__", &make_mesh, "points"_a.noconvert(), "threads"_a, "progress"_a.none())
+      .def_prop_ro("first", [](const DelaunayMesh& mesh) { return copied(mesh.first()); })
+      .def_prop_ro("hull", [](const DelaunayMesh& mesh) { return copied(mesh.hull()); })
+      .def("edges", &edges_of, "threads"_a, "progress"_a.none())
+      .def("triangles", &triangles_of, "threads"_a, "progress"_a.none());
+  module.def("triangulation_fault", &triangulation_fault, "points"_a.noconvert(), "triangles"_a.noconvert(),
+             "neighbours"_a.noconvert(), "edges"_a.noconvert(), "hull"_a.noconvert(), "first"_a.noconvert(),
+             "threads"_a, "progress"_a.none());
+}
+
+}  // namespace vorotool::bindings
