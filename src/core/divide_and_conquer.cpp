@@ -50,6 +50,14 @@ class Workshop {
 
   void give_back(HalfEdge e) { free_.push_back(e & ~1); }
 
+  // Calls visit(edge) for the numbers that were never taken.
+  template <class Visit>
+  void for_untaken(Visit visit) const {
+    for (const Range& range : ranges_) {
+      for (std::int32_t k = range.first; k < range.last; ++k) visit(2 * k);
+    }
+  }
+
   void absorb(Workshop& other) {
     degenerate_ |= other.degenerate_;
     free_.insert(free_.end(), other.free_.begin(), other.free_.end());
@@ -301,6 +309,7 @@ Subdivision divide_and_conquer(const OrderedPoints& ordered, unsigned threads, c
     part.shop.absorb(right.shop);
     part.hull = builder.merge(left.hull, right.hull, part.by_x, part.shop);
   }
+  parts[0].shop.for_untaken([&](HalfEdge e) { result.edges.clear(e); });
   result.hull = parts[0].hull.least_x.edge;
   result.degenerate = parts[0].shop.degenerate();
   return result;
