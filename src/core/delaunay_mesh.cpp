@@ -36,8 +36,9 @@ void for_all(std::size_t count, unsigned threads, const Monitor& monitor, Body b
 DelaunayMesh::DelaunayMesh(std::span<const Point> points, unsigned threads, const Monitor& monitor)
     : first_(points.size()) {
   if (points.size() > most_points) throw std::length_error("more than 268435456 points");
-  MortonOrder order = morton_order(points, first_);
-  Subdivision mesh = divide_and_conquer({order.points, order.index, order.code}, threads, monitor);
+  MortonOrder order = morton_order(points, first_, threads, monitor);
+  Subdivision mesh =
+      divide_and_conquer({order.points, order.index, order.code, order.fine}, threads, monitor);
   index_ = std::move(order.index);
   const std::vector<bool> outer = walk_hull(mesh);
   if (mesh.degenerate) make_fans(mesh.edges, outer, order.points, threads, monitor);
