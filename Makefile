@@ -51,6 +51,7 @@ bench: build ## measure beside the peers, in one run
 	$(BIN)/pip install --quiet --disable-pip-version-check \
 	    $$($(PYTHON) -c 'import tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["bench"])')
 	$(RUN) tests/benchmarks/tessellate.py
+	$(RUN) tests/benchmarks/delaunay.py
 
 .PHONY: fuzz
 fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CASES=..., SEED=...)

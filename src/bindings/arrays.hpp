@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/large_array.hpp"
+
 namespace vorotool::bindings {
 
 // C-contiguous arrays of exactly this type: bind them with noconvert(), so that nothing is copied unseen.
@@ -37,9 +39,10 @@ nanobind::object to_numpy(std::vector<T>&& values) {
 
 // A NumPy array of the given shape that takes over the values.
 template <class T>
-nanobind::object to_numpy(std::unique_ptr<T[]>&& values, std::initializer_list<std::size_t> shape) {
-  T* data = values.get();
-  const nanobind::capsule owner(values.release(), [](void* p) noexcept { delete[] static_cast<T*>(p); });
+nanobind::object to_numpy(core::LargeArray<T>&& values, std::initializer_list<std::size_t> shape) {
+  T* data = values.release();
+  const nanobind::capsule owner(data,
+                                [](void* p) noexcept { core::LargeArray<T>::free(static_cast<T*>(p)); });
   return nanobind::cast(nanobind::ndarray<nanobind::numpy, T>(data, shape, owner));
 }
 

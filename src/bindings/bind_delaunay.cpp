@@ -3,7 +3,6 @@
 #include <nanobind/stl/string.h>
 
 #include <algorithm>
-#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -13,6 +12,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "core/delaunay_mesh.hpp"
+#include "core/large_array.hpp"
 #include "core/verify_triangulation.hpp"
 #include "interrupts.hpp"
 
@@ -40,8 +40,8 @@ std::span<const std::int32_t> rows_of(const IndexRows& array, std::size_t column
 }
 
 nb::object copied(std::span<const std::int32_t> values) {
-  auto kept = std::make_unique_for_overwrite<std::int32_t[]>(values.size());
-  std::copy(values.begin(), values.end(), kept.get());
+  core::LargeArray<std::int32_t> kept(values.size());
+  std::copy(values.begin(), values.end(), kept.data());
   return to_numpy(std::move(kept), {values.size()});
 }
 
@@ -51,22 +51,15 @@ void make_mesh(DelaunayMesh* self, const Matrix<const double>& array, unsigned t
                     [&](const Monitor& monitor) { new (self) DelaunayMesh(points, threads, monitor); });
 }
 
-nb::object edges_of(const DelaunayMesh& mesh, unsigned threads, nb::handle progress) {
-  auto edges = std::make_unique_for_overwrite<std::int32_t[]>(2 * mesh.edge_count());
-  run_interruptible(progress,
-                    [&](const Monitor& monitor) { mesh.write_edges(edges.get(), threads, monitor); });
-  return to_numpy(std::move(edges), {mesh.edge_count(), 2});
-}
-
-nb::tuple triangles_of(const DelaunayMesh& mesh, unsigned threads, nb::handle progress) {
-  const std::size_t count = mesh.triangle_count();
-  auto triangles = std::make_unique_for_overwrite<std::int32_t[]>(3 * count);
-  auto neighbours = std::make_unique_for_overwrite<std::int32_t[]>(3 * count);
+// Triangles, their neighbours, and edges.
+nb::tuple arrays_of(const DelaunayMesh& mesh, unsigned threads, nb::handle progress) {
+  const std::size_t rows = mesh.triangle_count();
+  core::LargeArray<std::int32_t> triangles(3 * rows), neighbours(3 * rows), edges(2 * mesh.edge_count());
   run_interruptible(progress, [&](const Monitor& monitor) {
-    mesh.write_triangles(triangles.get(), neighbours.get(), threads, monitor);
+    mesh.write({triangles.data(), neighbours.data(), edges.data()}, threads, monitor);
   });
-  return nb::make_tuple(to_numpy(std::move(triangles), {count, 3}),
-                        to_numpy(std::move(neighbours), {count, 3}));
+  return nb::make_tuple(to_numpy(std::move(triangles), {rows, 3}), to_numpy(std::move(neighbours), {rows, 3}),
+                        to_numpy(std::move(edges), {mesh.edge_count(), 2}));
 }
 
 std::optional<std::string> triangulation_fault(const Matrix<const double>& points, const IndexRows& triangles,
@@ -90,8 +83,7 @@ void bind_delaunay(nb::module_& module) {
       .def("__init__", &make_mesh, "points"_a.noconvert(), "threads"_a, "progress"_a.none())
       .def_prop_ro("first", [](const DelaunayMesh& mesh) { return copied(mesh.first()); })
       .def_prop_ro("hull", [](const DelaunayMesh& mesh) { return copied(mesh.hull()); })
-      .def("edges", &edges_of, "threads"_a, "progress"_a.none())
-      .def("triangles", &triangles_of, "threads"_a, "progress"_a.none());
+      .def("arrays", &arrays_of, "threads"_a, "progress"_a.none());
   module.def("triangulation_fault", &triangulation_fault, "points"_a.noconvert(), "triangles"_a.noconvert(),
              "neighbours"_a.noconvert(), "edges"_a.noconvert(), "hull"_a.noconvert(), "first"_a.noconvert(),
              "threads"_a, "progress"_a.none());

@@ -1,10 +1,12 @@
 #include "core/delaunay_mesh.hpp"
 
 #include <algorithm>
-#include <memory>
+#include <atomic>
 #include <stdexcept>
+#include <utility>
 
 #include "core/cocircular_fans.hpp"
+#include "core/large_array.hpp"
 #include "core/parallel.hpp"
 
 namespace vorotool::core {
@@ -12,32 +14,48 @@ namespace vorotool::core {
 namespace {
 
 constexpr std::size_t most_points = std::size_t{1} << 28;  // six half-edges a point are counted in 32 bits
-constexpr int piece_bits = 14;  // vertices of a piece of output, some 0.5 ms of work
+constexpr int piece_bits = 14;                             // vertices of a piece, some 0.5 ms of work
 constexpr std::size_t piece_size = std::size_t{1} << piece_bits;
+constexpr std::size_t ahead = 256;             // vertices: how early half-edges are called for
+constexpr std::uint32_t no_slot = 0xffffffff;  // fewer than 2^29 triangles, times four, stay below
+
+Vertex neighbour(Vertex entry) { return entry < 0 ? ~entry : entry; }
+
+// Calls body(item) for all items, those of a piece one after the other.
+template <class Body>
+void for_all(std::size_t count, unsigned threads, const Monitor& monitor, Body body) {
+  const auto run = [&](std::size_t piece) {
+    const std::size_t end = std::min(count, (piece + 1) << piece_bits);
+    for (std::size_t i = piece << piece_bits; i < end; ++i) body(i);
+  };
+  parallel_for(piece_count(count, piece_size), threads, run, monitor);
+}
 
 }  // namespace
 
 DelaunayMesh::DelaunayMesh(std::span<const Point> points, unsigned threads, const Monitor& monitor)
     : first_(points.size()) {
   if (points.size() > most_points) throw std::length_error("more than 268435456 points");
-  order_ = morton_order(points, first_);
-  mesh_ = divide_and_conquer({order_.points, order_.index, order_.code}, threads, monitor);
-  order_.code = {};
-  walk_hull();
-  if (mesh_.degenerate) make_fans(mesh_.edges, outer_, order_.points, threads, monitor);
-  choose_starts();
+  MortonOrder order = morton_order(points, first_, threads, monitor);
+  Subdivision mesh =
+      divide_and_conquer({order.points, order.index, order.code, order.fine}, threads, monitor);
+  index_ = std::move(order.index);
+  const std::vector<bool> outer = walk_hull(mesh);
+  if (mesh.degenerate) make_fans(mesh.edges, outer, order.points, threads, monitor);
+  gather_rings(mesh, outer, threads, monitor);
 }
 
-void DelaunayMesh::walk_hull() {
-  const HalfEdges& edges = mesh_.edges;
-  outer_.assign(static_cast<std::size_t>(edges.size()), false);
-  if (order_.points.size() == 1) hull_ = {given(0)};
-  if (mesh_.hull == no_edge) return;
+// Tells which half-edges have the unbounded face on their left.
+std::vector<bool> DelaunayMesh::walk_hull(const Subdivision& mesh) {
+  const HalfEdges& edges = mesh.edges;
+  std::vector<bool> outer(static_cast<std::size_t>(edges.size()), false);
+  if (index_.size() == 1) hull_ = {given(0)};
+  if (mesh.hull == no_edge) return outer;
   const HalfEdge start =
-      HalfEdges::twin(mesh_.hull);  // the unbounded face is on its left, gone round clockwise
+      HalfEdges::twin(mesh.hull);  // the unbounded face is on its left, gone round clockwise
   HalfEdge e = start;
   do {
-    outer_[static_cast<std::size_t>(e)] = true;
+    outer[static_cast<std::size_t>(e)] = true;
     hull_.push_back(given(edges.origin(e)));
     e = edges.next_left(e);
   } while (e != start);
@@ -45,120 +63,187 @@ void DelaunayMesh::walk_hull() {
   std::reverse(hull_.begin(), hull_.end());
   std::rotate(hull_.begin(), hull_.end() - 2, hull_.end());
   // A chain is gone along both ways, from one end; one way is enough.
-  const bool chain = hull_.size() == 2 * (order_.points.size() - 1);
-  if (chain) hull_.resize(order_.points.size());
+  const bool chain = hull_.size() == 2 * (index_.size() - 1);
+  if (chain) hull_.resize(index_.size());
+  return outer;
 }
 
-// Triangles and edges are written vertex by vertex, each at the vertex that comes first on the curve, in
-// counter-clockwise order from the half-edge to the earliest neighbour: an order that depends on the points
-// alone.
-void DelaunayMesh::choose_starts() {
-  const HalfEdges& edges = mesh_.edges;
-  const std::size_t vertices = order_.points.size();
-  start_.assign(vertices, no_edge);
-  std::vector<Vertex> earliest(vertices);
-  before_.assign(piece_count(vertices, piece_size) + 1, {});
-  for (HalfEdge e = 0; e < edges.size(); ++e) {
-    if (!edges.exists(e)) continue;
-    const Vertex v = edges.origin(e);
-    const Vertex w = edges.target(e);
-    const auto place = static_cast<std::size_t>(v);
-    if (start_[place] == no_edge || w < earliest[place]) {
-      start_[place] = e;
-      earliest[place] = w;
-    }
-    if (w < v) continue;
-    Counts& counts = before_[(place >> piece_bits) + 1];
-    ++counts.edges;
-    counts.triangles += !is_outer(e) && edges.target(edges.next_around(e)) > v;
+void DelaunayMesh::gather_rings(const Subdivision& mesh, const std::vector<bool>& outer, unsigned threads,
+                                const Monitor& monitor) {
+  const HalfEdges& edges = mesh.edges;
+  const std::size_t vertices = index_.size();
+  ring_end_.resize(vertices);
+  edge_start_.resize(vertices);
+  pieces_.resize(piece_count(vertices, piece_size) + 1);
+  if (mesh.hull == no_edge) return;
+  // Which of its half-edges a vertex gets depends on the threads; the ring made from it does not.
+  std::vector<HalfEdge> leaving(vertices);
+  for_all(static_cast<std::size_t>(edges.size()), threads, monitor, [&](std::size_t i) {
+    const auto e = static_cast<HalfEdge>(i);
+    if (!edges.exists(e)) return;
+    std::atomic_ref(leaving[static_cast<std::size_t>(edges.origin(e))]).store(e, std::memory_order_relaxed);
+  });
+  const auto gather = [&](std::size_t piece) { pieces_[piece] = gather_piece(piece, edges, outer, leaving); };
+  parallel_for(pieces_.size() - 1, threads, gather, monitor);
+  std::size_t triangles = 0;
+  for (Piece& piece : pieces_) {
+    edge_count_ += std::exchange(piece.edges, edge_count_);
+    triangles += std::exchange(piece.triangles, triangles);
   }
-  for (std::size_t i = 1; i < before_.size(); ++i) {
-    before_[i].edges += before_[i - 1].edges;
-    before_[i].triangles += before_[i - 1].triangles;
-  }
-  edge_count_ = before_.back().edges;
 }
 
-// Calls visit(half-edge, whether the triangle on its left is written here) for the half-edges that leave the
-// vertices of a piece towards later ones.
-template <class Visit>
-void DelaunayMesh::visit_piece(std::size_t piece, Visit visit) const {
-  const HalfEdges& edges = mesh_.edges;
-  const std::size_t end = std::min(start_.size(), (piece + 1) << piece_bits);
-  for (std::size_t place = piece << piece_bits; place < end; ++place) {
-    const HalfEdge start = start_[place];
-    if (start == no_edge) return;  // the only vertex
+DelaunayMesh::Piece DelaunayMesh::gather_piece(std::size_t number, const HalfEdges& edges,
+                                               const std::vector<bool>& outer,
+                                               std::span<const HalfEdge> leaving) {
+  Piece piece;
+  piece.rings.reserve(6 * piece_size);
+  std::vector<Vertex> ring(64);
+  const std::size_t end = std::min(index_.size(), (number + 1) << piece_bits);
+  for (std::size_t place = number << piece_bits; place < end; ++place) {
     const auto v = static_cast<Vertex>(place);
-    HalfEdge e = start;
-    Vertex w = edges.target(e);
+    // Edges are numbered much as vertices are, three for each.
+    edges.prefetch(6 * (place + ahead));
+    edges.prefetch(6 * (place + ahead) + 5);
+    std::size_t degree = 0;
+    HalfEdge e = leaving[place];
     do {
-      const HalfEdge following = edges.next_around(e);
-      const Vertex u = edges.target(following);
-      if (w > v) visit(e, u > v && !is_outer(e));
-      e = following;
-      w = u;
-    } while (e != start);
+      if (degree == ring.size()) ring.resize(2 * degree);
+      const Vertex w = edges.target(e);
+      ring[degree++] = outer[static_cast<std::size_t>(e)] ? ~w : w;
+      e = edges.next_around(e);
+    } while (e != leaving[place]);
+    std::size_t from = 0;
+    for (std::size_t k = 1; k < degree; ++k) from = neighbour(ring[k]) < neighbour(ring[from]) ? k : from;
+    edge_start_[place] = static_cast<std::uint32_t>(piece.edges);
+    for (std::size_t k = 0; k < degree; ++k) {
+      const Vertex entry = ring[from];
+      from = from + 1 == degree ? 0 : from + 1;
+      const Vertex w = neighbour(entry);
+      piece.rings.push_back(entry);
+      piece.edges += w > v;
+      piece.triangles += (w > v) & (neighbour(ring[from]) > v) & (entry >= 0);
+    }
+    ring_end_[place] = static_cast<std::uint32_t>(piece.rings.size());
+  }
+  return piece;
+}
+
+std::span<const Vertex> DelaunayMesh::ring(Vertex v) const {
+  const auto place = static_cast<std::size_t>(v);
+  const std::size_t begin = place % piece_size == 0 ? 0 : ring_end_[place - 1];
+  return std::span(pieces_[place >> piece_bits].rings).subspan(begin, ring_end_[place] - begin);
+}
+
+// A triangle is written at its earliest vertex v: what links it to its neighbours.
+struct DelaunayMesh::Lead {
+  Vertex w, u;                   // the others
+  std::uint32_t edge_w, edge_u;  // numbers of the edges to them
+};
+
+// Triangles and edges are written vertex by vertex, each at its earliest vertex, in the order of the ring: an
+// order that depends on the points alone. Calls visit(v, w, u, the edge from v to w, that to u, whether the
+// edge to w is written here, whether the triangle v, w, u is).
+template <class Visit>
+void DelaunayMesh::visit_spokes(std::size_t piece, Visit visit) const {
+  const std::size_t end = std::min(index_.size(), (piece + 1) << piece_bits);
+  for (std::size_t place = piece << piece_bits; place < end; ++place) {
+    const auto v = static_cast<Vertex>(place);
+    const std::span<const Vertex> spokes = ring(v);
+    const auto first = static_cast<std::uint32_t>(first_edge(v));
+    std::uint32_t edge = first;
+    Vertex entry = spokes[0];
+    for (std::size_t k = 0; k < spokes.size(); ++k) {
+      const bool last = k + 1 == spokes.size();
+      const Vertex following = spokes[last ? 0 : k + 1];
+      const Vertex w = neighbour(entry);
+      const Vertex u = neighbour(following);
+      const std::uint32_t next_edge = last ? first : edge + (w > v);
+      visit(v, w, u, edge, next_edge, w > v, (w > v) & (u > v) & (entry >= 0));
+      entry = following;
+      edge = next_edge;
+    }
   }
 }
 
-void DelaunayMesh::write_edges(std::int32_t* out, unsigned threads, const Monitor& monitor) const {
-  const HalfEdges& edges = mesh_.edges;
-  parallel_for(
-      before_.size() - 1, threads,
-      [&](std::size_t piece) {
-        std::int32_t* next = out + 2 * before_[piece].edges;
-        visit_piece(piece, [&](HalfEdge e, bool) {
-          const auto [smaller, larger] = std::minmax({given(edges.origin(e)), given(edges.target(e))});
-          *next++ = smaller;
-          *next++ = larger;
-        });
-      },
-      monitor);
+void DelaunayMesh::write(const MeshArrays& out, unsigned threads, const Monitor& monitor) const {
+  if (edge_count_ == 0) return;
+  const bool link = out.neighbours != nullptr;
+  LargeArray<std::uint32_t> slots(link ? 2 * edge_count_ : 0);
+  if (link) for_all(2 * edge_count_, threads, monitor, [&](std::size_t i) { slots[i] = no_slot; });
+  const auto write_piece = [&](std::size_t piece) {
+    if (out.triangles) write_triangles(piece, out.triangles, link ? slots.data() : nullptr);
+    if (out.edges) write_edges(piece, out.edges);
+  };
+  parallel_for(pieces_.size() - 1, threads, write_piece, monitor);
+  if (!link) return;
+  const auto put = [&](std::uint32_t slot, std::uint32_t across) {
+    if (slot == no_slot) return;
+    out.neighbours[3 * std::size_t{slot / 4} + slot % 4] =
+        across == no_slot ? -1 : static_cast<std::int32_t>(across / 4);
+  };
+  for_all(edge_count_, threads, monitor, [&](std::size_t edge) {
+    put(slots[2 * edge], slots[2 * edge + 1]);
+    put(slots[2 * edge + 1], slots[2 * edge]);
+  });
 }
 
-void DelaunayMesh::write_triangles(std::int32_t* triangles, std::int32_t* neighbours, unsigned threads,
-                                   const Monitor& monitor) const {
-  const HalfEdges& edges = mesh_.edges;
-  const bool link = neighbours != nullptr;
-  std::vector<HalfEdge> corners(link ? triangle_count()
-                                     : 0);  // the half-edge that leaves a triangle's first vertex
-  const auto triangle_of = std::make_unique_for_overwrite<std::int32_t[]>(link ? edges.size() : 0);
-  parallel_for(
-      before_.size() - 1, threads,
-      [&](std::size_t piece) {
-        std::size_t t = before_[piece].triangles;
-        visit_piece(piece, [&](HalfEdge e, bool triangle) {
-          if (!triangle) return;
-          if (link) corners[t] = e;
-          for (int k = 0; k < 3; ++k, e = edges.next_left(e)) {
-            triangles[3 * t + static_cast<std::size_t>(k)] = given(edges.origin(e));
-            if (link) triangle_of[static_cast<std::size_t>(e)] = static_cast<std::int32_t>(t);
-          }
-          ++t;
-        });
-      },
-      monitor);
-  if (link) link_triangles(corners, triangle_of.get(), neighbours, threads, monitor);
+// Here and in write_triangles every candidate is written, and the next one over it unless it counts: faster
+// than a branch that cannot be foretold. At the end of a piece nothing more is written.
+void DelaunayMesh::write_edges(std::size_t piece, std::int32_t* edges) const {
+  std::int32_t* next = edges + 2 * pieces_[piece].edges;
+  const std::int32_t* last = edges + 2 * pieces_[piece + 1].edges;
+  visit_spokes(piece, [&](Vertex v, Vertex w, Vertex, std::uint32_t, std::uint32_t, bool edge, bool) {
+    if (next == last) return;
+    const std::int32_t a = given(v), b = given(w);
+    next[0] = std::min(a, b);
+    next[1] = std::max(a, b);
+    next += edge ? 2 : 0;
+  });
 }
 
-void DelaunayMesh::link_triangles(const std::vector<HalfEdge>& corners, const std::int32_t* triangle_of,
-                                  std::int32_t* neighbours, unsigned threads, const Monitor& monitor) const {
-  parallel_for(
-      piece_count(corners.size(), piece_size), threads,
-      [&](std::size_t piece) {
-        const std::size_t end = std::min(corners.size(), (piece + 1) << piece_bits);
-        for (std::size_t t = piece << piece_bits; t < end; ++t) {
-          HalfEdge e = corners[t];
-          for (const std::size_t opposite :
-               {2U, 0U, 1U}) {  // the first side lies opposite to the last vertex
-            const HalfEdge across = HalfEdges::twin(e);
-            neighbours[3 * t + opposite] =
-                is_outer(across) ? -1 : triangle_of[static_cast<std::size_t>(across)];
-            e = mesh_.edges.next_left(e);
-          }
-        }
-      },
-      monitor);
+void DelaunayMesh::write_triangles(std::size_t piece, std::int32_t* triangles, std::uint32_t* slots) const {
+  const std::size_t first = pieces_[piece].triangles;
+  std::vector<Lead> leads(pieces_[piece + 1].triangles - first);
+  std::size_t count = 0;
+  visit_spokes(piece, [&](Vertex v, Vertex w, Vertex u, std::uint32_t edge_w, std::uint32_t edge_u, bool,
+                          bool triangle) {
+    if (count == leads.size()) return;
+    std::int32_t* corners = triangles + 3 * (first + count);
+    corners[0] = given(v);
+    corners[1] = given(w);
+    corners[2] = given(u);
+    leads[count] = {w, u, edge_w, edge_u};
+    count += triangle;
+  });
+  if (slots) fill_slots(leads, first, slots);
+}
+
+// The slot of a side is where the neighbour across it belongs: the triangle on its left, times four, and the
+// corner opposite to it. An edge has two: first that of its direction from the earlier vertex.
+void DelaunayMesh::fill_slots(const std::vector<Lead>& leads, std::size_t first, std::uint32_t* slots) const {
+  for (std::size_t i = 0; i < leads.size(); ++i) {
+    const auto [w, u, edge_w, edge_u] = leads[i];
+    const auto slot = static_cast<std::uint32_t>(4 * (first + i));
+    slots[2 * std::size_t{edge_w}] = slot + 2;
+    slots[2 * std::size_t{edge_u} + 1] = slot + 1;
+    slots[2 * edge_between(std::min(w, u), std::max(w, u)) + (u < w)] = slot;
+  }
+}
+
+std::size_t DelaunayMesh::first_edge(Vertex v) const {
+  const auto place = static_cast<std::size_t>(v);
+  return pieces_[place >> piece_bits].edges + edge_start_[place];
+}
+
+// The number of an edge: it is written at its earlier vertex.
+std::size_t DelaunayMesh::edge_between(Vertex earlier, Vertex later) const {
+  std::size_t edge = first_edge(earlier);
+  for (const Vertex entry : ring(earlier)) {
+    const Vertex w = neighbour(entry);
+    if (w == later) break;
+    edge += w > earlier;
+  }
+  return edge;
 }
 
 }  // namespace vorotool::core

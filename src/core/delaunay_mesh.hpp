@@ -16,6 +16,15 @@
 
 namespace vorotool::core {
 
+// Where to write a mesh; null what is not wanted, neighbours only along with triangles.
+struct MeshArrays {
+  std::int32_t* triangles = nullptr;  // [3 triangle_count] points, counter-clockwise
+  std::int32_t* neighbours =
+      nullptr;  // [3 triangle_count] the triangle across the side opposite to each; or -1
+  std::int32_t* edges =
+      nullptr;  // [2 edge_count] ends, the smaller index first; of collinear points, a chain
+};
+
 class DelaunayMesh {
  public:
   // Finite points. Throws std::length_error for more than 2^28 of them.
@@ -28,39 +37,44 @@ class DelaunayMesh {
   std::span<const std::int32_t> hull() const { return hull_; }
   std::size_t edge_count() const { return edge_count_; }
   // By Euler's relation for a connected planar graph.
-  std::size_t triangle_count() const { return edge_count_ == 0 ? 0 : edge_count_ + 1 - order_.points.size(); }
+  std::size_t triangle_count() const { return edge_count_ == 0 ? 0 : edge_count_ + 1 - index_.size(); }
 
-  // [2 edge_count] ends of each edge, the smaller index first; of fewer than three or collinear points, of a
-  // chain.
-  void write_edges(std::int32_t* edges, unsigned threads, const Monitor& monitor) const;
-  // [3 triangle_count] points of each triangle, counter-clockwise; and, unless null, the triangle across the
-  // side opposite to each of them, -1 on the hull.
-  void write_triangles(std::int32_t* triangles, std::int32_t* neighbours, unsigned threads,
-                       const Monitor& monitor) const;
+  void write(const MeshArrays& out, unsigned threads, const Monitor& monitor) const;
 
  private:
-  struct Counts {
-    std::size_t triangles = 0, edges = 0;
+  // Vertices are numbered along the curve, and a piece of them is worked on at a time. The neighbours of
+  // each, its ring, go counter-clockwise from the earliest one; ~w instead of w where the unbounded face
+  // follows.
+  struct Piece {
+    std::vector<Vertex> rings;
+    std::size_t edges = 0, triangles = 0;  // of the piece; once all are made, of those before it
   };
+  struct Lead;
 
-  void walk_hull();
-  void choose_starts();
-  bool is_outer(HalfEdge e) const { return outer_[static_cast<std::size_t>(e)]; }
+  std::vector<bool> walk_hull(const Subdivision& mesh);
+  void gather_rings(const Subdivision& mesh, const std::vector<bool>& outer, unsigned threads,
+                    const Monitor& monitor);
+  Piece gather_piece(std::size_t piece, const HalfEdges& edges, const std::vector<bool>& outer,
+                     std::span<const HalfEdge> leaving);
+
   std::int32_t given(Vertex v) const {
-    return static_cast<std::int32_t>(order_.index[static_cast<std::size_t>(v)]);
+    return static_cast<std::int32_t>(index_[static_cast<std::size_t>(v)]);
   }
+  std::span<const Vertex> ring(Vertex v) const;
   template <class Visit>
-  void visit_piece(std::size_t piece, Visit visit) const;
-  void link_triangles(const std::vector<HalfEdge>& corners, const std::int32_t* triangle_of,
-                      std::int32_t* neighbours, unsigned threads, const Monitor& monitor) const;
+  void visit_spokes(std::size_t piece, Visit visit) const;
+  void write_edges(std::size_t piece, std::int32_t* edges) const;
+  void write_triangles(std::size_t piece, std::int32_t* triangles, std::uint32_t* slots) const;
+  void fill_slots(const std::vector<Lead>& leads, std::size_t first, std::uint32_t* slots) const;
+  std::size_t first_edge(Vertex v) const;
+  std::size_t edge_between(Vertex a, Vertex b) const;
 
-  MortonOrder order_;
-  Subdivision mesh_;
+  std::vector<std::uint32_t> index_;  // [vertices] of the points given
   std::vector<std::int32_t> first_;
   std::vector<std::int32_t> hull_;
-  std::vector<bool> outer_;      // [half-edges] the unbounded face is on its left
-  std::vector<HalfEdge> start_;  // [vertices] the half-edge that leaves towards the earliest neighbour
-  std::vector<Counts> before_;   // [pieces] what belongs to the vertices before each piece
+  std::vector<Piece> pieces_;              // one more than there are, with the totals
+  std::vector<std::uint32_t> ring_end_;    // [vertices] in the rings of its piece
+  std::vector<std::uint32_t> edge_start_;  // [vertices] edges of its piece before the first one written at it
   std::size_t edge_count_ = 0;
 };
 

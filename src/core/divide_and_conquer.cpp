@@ -50,6 +50,14 @@ class Workshop {
 
   void give_back(HalfEdge e) { free_.push_back(e & ~1); }
 
+  // Calls visit(edge) for the numbers that were never taken.
+  template <class Visit>
+  void for_untaken(Visit visit) const {
+    for (const Range& range : ranges_) {
+      for (std::int32_t k = range.first; k < range.last; ++k) visit(2 * k);
+    }
+  }
+
   void absorb(Workshop& other) {
     degenerate_ |= other.degenerate_;
     free_.insert(free_.end(), other.free_.begin(), other.free_.end());
@@ -81,17 +89,20 @@ class Builder {
 
   // Position of the cut of points first ... last - 1, at least two, and whether it separates by x.
   std::int32_t cut(std::int32_t first, std::int32_t last, bool& by_x) {
-    const auto code = ordered_.code;
-    const auto begin = code.begin() + first;
-    const auto end = code.begin() + last;
-    const std::uint32_t difference = *begin ^ *(end - 1);
-    if (difference == 0) return cut_by_median(first, last, by_x);
-    // The highest bit in which the codes differ separates the points: those with the bit lie beyond the
-    // others.
-    const int bit = std::bit_width(difference) - 1;
-    by_x = bit % 2 == 1;
-    const std::uint32_t threshold = (*(end - 1) >> bit) << bit;
-    return static_cast<std::int32_t>(std::lower_bound(begin, end, threshold) - code.begin());
+    for (const std::span<const std::uint32_t> code : {ordered_.code, ordered_.fine}) {
+      if (code.empty()) continue;
+      const auto begin = code.begin() + first;
+      const auto end = code.begin() + last;
+      const std::uint32_t difference = *begin ^ *(end - 1);
+      if (difference == 0) continue;
+      // The highest bit in which the codes differ separates the points: those with the bit lie beyond the
+      // others.
+      const int bit = std::bit_width(difference) - 1;
+      by_x = bit % 2 == 1;
+      const std::uint32_t threshold = (*(end - 1) >> bit) << bit;
+      return static_cast<std::int32_t>(std::lower_bound(begin, end, threshold) - code.begin());
+    }
+    return cut_by_median(first, last, by_x);
   }
 
   Hull build(std::int32_t first, std::int32_t last, Workshop& shop) {
@@ -141,8 +152,8 @@ class Builder {
     by_x = most.x / 2 - least.x / 2 >= most.y / 2 - least.y / 2;
     const auto less = by_x ? less_by_x : less_by_y;
     const std::int32_t half = (last - first) / 2;
-    std::nth_element(items.begin(), items.begin() + half, items.end(),
-                     [&](const Item& a, const Item& b) { return less(a.point, b.point); });
+    std::sort(items.begin(), items.end(),
+              [&](const Item& a, const Item& b) { return less(a.point, b.point); });
     for (std::int32_t i = first; i < last; ++i) {
       points_[static_cast<std::size_t>(i)] = items[static_cast<std::size_t>(i - first)].point;
       ordered_.index[static_cast<std::size_t>(i)] = items[static_cast<std::size_t>(i - first)].index;
@@ -301,6 +312,7 @@ Subdivision divide_and_conquer(const OrderedPoints& ordered, unsigned threads, c
     part.shop.absorb(right.shop);
     part.hull = builder.merge(left.hull, right.hull, part.by_x, part.shop);
   }
+  parts[0].shop.for_untaken([&](HalfEdge e) { result.edges.clear(e); });
   result.hull = parts[0].hull.least_x.edge;
   result.degenerate = parts[0].shop.degenerate();
   return result;

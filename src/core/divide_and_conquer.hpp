@@ -10,11 +10,12 @@
 
 namespace vorotool::core {
 
-// Points in Morton order with the code of each; points of equal code are together, in any order.
+// Points in Morton order with the code of each; points of equal codes are together, in any order.
 struct OrderedPoints {
   std::span<Point> points;              // [n] distinct; may be permuted within equal codes
   std::span<std::uint32_t> index;       // [n] permuted along
   std::span<const std::uint32_t> code;  // [n] not decreasing: bits of x and y in turn, x the higher of two
+  std::span<const std::uint32_t> fine;  // [n] the same among points of equal code; or empty
 };
 
 // A Delaunay triangulation of the points. Vertices are positions in `points`; edges of fewer than three or of

@@ -7,7 +7,8 @@
 
 #include <cstdint>
 #include <utility>
-#include <vector>
+
+#include "core/large_array.hpp"
 
 namespace vorotool::core {
 
@@ -24,7 +25,8 @@ class HalfEdges {
     HalfEdge previous;  // clockwise around the origin
   };
 
-  explicit HalfEdges(std::size_t edges) : records_(2 * edges, Record{-1, no_edge, no_edge}) {}
+  // The edges are indeterminate until they are made or cleared.
+  explicit HalfEdges(std::size_t edges) : records_(2 * edges) {}
 
   static HalfEdge twin(HalfEdge e) { return e ^ 1; }
   std::int32_t size() const { return static_cast<std::int32_t>(records_.size()); }
@@ -54,11 +56,14 @@ class HalfEdges {
     at(a_next).previous = b;
   }
 
+  // Makes edge `e` one that does not exist.
+  void clear(HalfEdge e) { at(e).origin = at(twin(e)).origin = -1; }
+
   // Takes an edge out of the rings of its ends.
   void remove(HalfEdge e) {
     splice(e, at(e).previous);
     splice(twin(e), at(twin(e)).previous);
-    at(e).origin = at(twin(e)).origin = -1;
+    clear(e);
   }
 
   // Makes edge `e` from the target of `a` to the origin of `b`, so that a, e, b follow each other on one left
@@ -69,11 +74,16 @@ class HalfEdges {
     splice(twin(e), b);
   }
 
+  // Tells the processor that a half-edge, if there is one of this number, will be looked at soon.
+  void prefetch(std::size_t e) const {
+    if (e < records_.size()) __builtin_prefetch(&records_[e]);
+  }
+
  private:
   Record& at(HalfEdge e) { return records_[static_cast<std::size_t>(e)]; }
   const Record& at(HalfEdge e) const { return records_[static_cast<std::size_t>(e)]; }
 
-  std::vector<Record> records_;
+  LargeArray<Record> records_;
 };
 
 }  // namespace vorotool::core

@@ -1,8 +1,10 @@
 #include "core/point_order.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <atomic>
+#include <cstddef>
 
+#include "core/parallel.hpp"
 #include "core/radix_sort.hpp"
 
 namespace vorotool::core {
@@ -40,18 +42,8 @@ class Cells {
   double least_, blow_up_, factor_;
 };
 
-struct Bounds {
-  Point least, most;
-};
-
-Bounds bounds_of(std::span<const Point> points) {
-  Bounds bounds{points.front(), points.front()};
-  for (const Point& p : points) {
-    bounds.least = {std::min(bounds.least.x, p.x), std::min(bounds.least.y, p.y)};
-    bounds.most = {std::max(bounds.most.x, p.x), std::max(bounds.most.y, p.y)};
-  }
-  return bounds;
-}
+constexpr std::size_t piece_size = std::size_t{1} << 14;  // words of a piece of work
+constexpr std::size_t crowd = 64;                         // points of a cell that get a finer curve
 
 // A word holds the code of a point above its index.
 std::uint32_t code_of(std::uint64_t word) { return static_cast<std::uint32_t>(word >> 32); }
@@ -59,57 +51,158 @@ std::uint32_t index_of(std::uint64_t word) { return static_cast<std::uint32_t>(w
 
 bool same_place(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y; }
 
-// Appends the points of one cell, sorted by place and then index, without those at a place that is already
-// there.
-void append_cell(std::span<const Point> points, std::span<std::uint64_t> cell, std::span<std::int32_t> first,
-                 MortonOrder& order) {
-  if (cell.size() > 1) {
-    std::sort(cell.begin(), cell.end(), [&](std::uint64_t a, std::uint64_t b) {
-      const Point& p = points[index_of(a)];
-      const Point& q = points[index_of(b)];
-      if (p.x != q.x) return p.x < q.x;
-      return p.y != q.y ? p.y < q.y : a < b;
+class Orderer {
+ public:
+  Orderer(std::span<const Point> points, std::span<std::int32_t> first, unsigned threads,
+          const Monitor& monitor)
+      : points_(points), first_(first), threads_(threads), monitor_(monitor) {}
+
+  MortonOrder run() {
+    const std::size_t count = points_.size();
+    std::vector<std::uint64_t> words(count);
+    for (std::size_t i = 0; i < count; ++i) words[i] = i;
+    sort_along_curve(words);
+    order_.points.resize(count);
+    order_.index.resize(count);
+    order_.code.resize(count);
+    repeated_.resize(count);
+    crowds_.resize(piece_count(count, piece_size));
+    parallel_for(crowds_.size(), threads_, [&](std::size_t piece) { put_cells(words, piece); }, monitor_);
+    put_crowds(words);
+    if (any_repeated_) drop_repeated();
+    return std::move(order_);
+  }
+
+ private:
+  struct Range {
+    std::size_t begin, end;
+  };
+
+  // Sorts words by their place on the curve through a grid over their points, and then by index.
+  void sort_along_curve(std::vector<std::uint64_t>& words) const {
+    if (words.empty()) return;
+    Point least = points_[index_of(words[0])];
+    Point most = least;
+    for (const std::uint64_t word : words) {
+      const Point& p = points_[index_of(word)];
+      least = {std::min(least.x, p.x), std::min(least.y, p.y)};
+      most = {std::max(most.x, p.x), std::max(most.y, p.y)};
+    }
+    const double half_range = std::max(most.x / 2 - least.x / 2, most.y / 2 - least.y / 2);
+    const Cells column(least.x, half_range);
+    const Cells row(least.y, half_range);
+    for (std::uint64_t& word : words) {
+      const std::uint32_t index = index_of(word);
+      const std::uint32_t code = spread(column(points_[index].x)) << 1 | spread(row(points_[index].y));
+      word = std::uint64_t{code} << 32 | index;
+    }
+    if (words.size() < 4096) {
+      std::sort(words.begin(), words.end());
+    } else {
+      radix_sort(words, 32, 32 + 2 * cell_bits);
+    }
+  }
+
+  // Calls visit(range) for the cells that begin in a range of sorted words.
+  template <class Visit>
+  static void for_cells(std::span<const std::uint64_t> words, Range within, Visit visit) {
+    std::size_t begin = within.begin;
+    while (begin > 0 && begin < within.end && code_of(words[begin]) == code_of(words[begin - 1])) ++begin;
+    while (begin < within.end) {
+      std::size_t end = begin + 1;
+      while (end < words.size() && code_of(words[end]) == code_of(words[begin])) ++end;
+      visit(Range{begin, end});
+      begin = end;
+    }
+  }
+
+  void put_cells(std::vector<std::uint64_t>& words, std::size_t piece) {
+    const Range within{piece * piece_size, std::min(words.size(), (piece + 1) * piece_size)};
+    for_cells(words, within, [&](Range cell) {
+      std::fill(order_.code.begin() + offset(cell.begin), order_.code.begin() + offset(cell.end),
+                code_of(words[cell.begin]));
+      if (cell.end - cell.begin > crowd) {
+        crowds_[piece].push_back(cell);
+      } else {
+        put_cell(std::span(words).subspan(cell.begin, cell.end - cell.begin), cell.begin);
+      }
     });
   }
-  for (std::size_t i = 0; i < cell.size(); ++i) {
-    const std::uint32_t index = index_of(cell[i]);
-    const Point& p = points[index];
-    const bool repeated = i > 0 && same_place(p, order.points.back());
-    if (!repeated) {
-      order.points.push_back(p);
-      order.index.push_back(index);
-      order.code.push_back(code_of(cell[i]));
-    }
-    first[index] = static_cast<std::int32_t>(order.index.back());
+
+  void put_crowds(const std::vector<std::uint64_t>& words) {
+    std::vector<Range> crowds;
+    for (const std::vector<Range>& some : crowds_) crowds.insert(crowds.end(), some.begin(), some.end());
+    if (crowds.empty()) return;
+    order_.fine.resize(words.size());
+    const auto put = [&](std::size_t k) {
+      const auto [begin, end] = crowds[k];
+      std::vector<std::uint64_t> finer(words.begin() + offset(begin), words.begin() + offset(end));
+      sort_along_curve(finer);
+      for_cells(finer, {0, finer.size()}, [&, begin = begin](Range cell) {
+        std::fill(order_.fine.begin() + offset(begin + cell.begin),
+                  order_.fine.begin() + offset(begin + cell.end), code_of(finer[cell.begin]));
+        put_cell(std::span(finer).subspan(cell.begin, cell.end - cell.begin), begin + cell.begin);
+      });
+    };
+    parallel_for(crowds.size(), threads_, put, monitor_);
   }
-}
+
+  // Puts the points of a cell in their places, from `place` on, sorted by (x, y) and then index.
+  void put_cell(std::span<std::uint64_t> cell, std::size_t place) {
+    if (cell.size() > 1) {
+      std::sort(cell.begin(), cell.end(), [&](std::uint64_t a, std::uint64_t b) {
+        const Point& p = points_[index_of(a)];
+        const Point& q = points_[index_of(b)];
+        if (p.x != q.x) return p.x < q.x;
+        return p.y != q.y ? p.y < q.y : a < b;
+      });
+    }
+    std::size_t original = place;
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+      const std::size_t here = place + i;
+      order_.index[here] = index_of(cell[i]);
+      order_.points[here] = points_[index_of(cell[i])];
+      const bool repeated = i > 0 && same_place(order_.points[here], order_.points[original]);
+      if (repeated) any_repeated_.store(true, std::memory_order_relaxed);
+      if (!repeated) original = here;
+      repeated_[here] = repeated;
+      first_[index_of(cell[i])] = static_cast<std::int32_t>(order_.index[original]);
+    }
+  }
+
+  void drop_repeated() {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < repeated_.size(); ++i) {
+      if (repeated_[i]) continue;
+      order_.points[kept] = order_.points[i];
+      order_.index[kept] = order_.index[i];
+      order_.code[kept] = order_.code[i];
+      if (!order_.fine.empty()) order_.fine[kept] = order_.fine[i];
+      ++kept;
+    }
+    order_.points.resize(kept);
+    order_.index.resize(kept);
+    order_.code.resize(kept);
+    if (!order_.fine.empty()) order_.fine.resize(kept);
+  }
+
+  static std::ptrdiff_t offset(std::size_t i) { return static_cast<std::ptrdiff_t>(i); }
+
+  std::span<const Point> points_;
+  std::span<std::int32_t> first_;
+  unsigned threads_;
+  const Monitor& monitor_;
+  MortonOrder order_;
+  std::vector<std::uint8_t> repeated_;      // [points in order] whether the one before is at the same place
+  std::vector<std::vector<Range>> crowds_;  // [pieces] the cells with many points that begin there
+  std::atomic<bool> any_repeated_{false};
+};
 
 }  // namespace
 
-MortonOrder morton_order(std::span<const Point> points, std::span<std::int32_t> first) {
-  MortonOrder order;
-  if (points.empty()) return order;
-  const Bounds bounds = bounds_of(points);
-  const double half_range =
-      std::max(bounds.most.x / 2 - bounds.least.x / 2, bounds.most.y / 2 - bounds.least.y / 2);
-  const Cells column(bounds.least.x, half_range);
-  const Cells row(bounds.least.y, half_range);
-  std::vector<std::uint64_t> words(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const std::uint32_t code = spread(column(points[i].x)) << 1 | spread(row(points[i].y));
-    words[i] = std::uint64_t{code} << 32 | i;
-  }
-  radix_sort(words, 32, 32 + 2 * cell_bits);
-  order.points.reserve(points.size());
-  order.index.reserve(points.size());
-  order.code.reserve(points.size());
-  for (std::size_t begin = 0; begin < words.size();) {
-    std::size_t end = begin + 1;
-    while (end < words.size() && code_of(words[end]) == code_of(words[begin])) ++end;
-    append_cell(points, std::span(words).subspan(begin, end - begin), first, order);
-    begin = end;
-  }
-  return order;
+MortonOrder morton_order(std::span<const Point> points, std::span<std::int32_t> first, unsigned threads,
+                         const Monitor& monitor) {
+  return Orderer(points, first, threads, monitor).run();
 }
 
 }  // namespace vorotool::core

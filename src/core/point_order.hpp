@@ -5,18 +5,23 @@
 #include <span>
 #include <vector>
 
+#include "core/monitor.hpp"
 #include "core/predicates.hpp"
 
 namespace vorotool::core {
 
-// Distinct points along a Morton curve; points that share a cell of it are sorted by (x, y).
+// Distinct points along a Morton curve through the cells of a grid. In a cell with many points they follow a
+// finer curve; points that share a cell of that, or one with few points, are sorted by (x, y).
 struct MortonOrder {
   std::vector<Point> points;
   std::vector<std::uint32_t> index;  // of each point among those given; of equal points, the smallest
   std::vector<std::uint32_t> code;   // not decreasing; bits of x and y in turn, x the higher of two
+  std::vector<std::uint32_t>
+      fine;  // the same on the finer curve, 0 in cells without; empty if there are none
 };
 
 // `first` receives for each point given the smallest index at the same place.
-MortonOrder morton_order(std::span<const Point> points, std::span<std::int32_t> first);
+MortonOrder morton_order(std::span<const Point> points, std::span<std::int32_t> first, unsigned threads,
+                         const Monitor& monitor);
 
 }  // namespace vorotool::core

@@ -69,12 +69,12 @@ def delaunay(points: Any, *, strict: bool = False, threads: int = 0, progress: P
         raise LimitError(f"there are {len(given)} points, more than {MOST_POINTS}: triangulate them in parts")
     threads = checked_threads(threads)
     core = _core.DelaunayMesh(given.xy, threads, progress)
-    triangles, neighbours = core.triangles(threads, progress)
+    triangles, neighbours, edges = core.arrays(threads, progress)
     mesh = Triangulation(
         given.xy,
         triangles,
         neighbours,
-        core.edges(threads, progress),
+        edges,
         core.hull,
         core.first,
         labels=given.labels,

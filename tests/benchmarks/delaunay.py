@@ -1,0 +1,112 @@
+"""Measure the triangulation beside its peers, in one run: `make bench`.
+
+Nanoseconds a point, the least of several runs; ratios are what to compare, since machines differ. `mesh` makes the
+structure, `arrays` writes triangles, neighbours and edges from it; `delaunay` is the function of the library, which
+checks its input too. Peers give triangles: scipy (Qhull) with neighbours, shapely (GEOS) and `triangle` (Shewchuk).
+A peer that is not installed is left out.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Callable
+from importlib.util import find_spec
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+import point_families
+import vorotool
+from vorotool import _core
+
+
+def grid(rng: np.random.Generator, n: int) -> np.ndarray:
+    """A square grid in order, as rasters give it."""
+    side = round(n**0.5)
+    return np.stack(np.meshgrid(np.arange(side), np.arange(side)), axis=-1).reshape(-1, 2).astype(np.float64)
+
+
+INPUTS: dict[str, Callable[[np.random.Generator, int], np.ndarray]] = {
+    "uniform": point_families.uniform,
+    "grid": grid,
+    "clustered": point_families.clustered,
+    "far outlier": lambda rng, n: np.concatenate([rng.random((n - 1, 2)), [[1e7, 1e7]]]),
+}
+
+
+def scipy_triangles(points: np.ndarray) -> object:
+    """Qhull, by scipy."""
+    from scipy.spatial import Delaunay
+
+    return Delaunay(points).simplices
+
+
+def shapely_triangles(points: np.ndarray) -> object:
+    """GEOS, by shapely."""
+    import shapely
+
+    return shapely.delaunay_triangles(shapely.multipoints(points))
+
+
+def triangle_triangles(points: np.ndarray) -> object:
+    """Triangle, by its Python package; without checks of the input."""
+    import triangle
+
+    return triangle.triangulate({"vertices": points}, "Q")["triangles"]
+
+
+PEERS = {"scipy": scipy_triangles, "shapely": shapely_triangles, "triangle": triangle_triangles}
+
+
+def best(function: Callable[[], object], n: int, runs: int) -> float:
+    """Least nanoseconds a point of several runs."""
+    times = []
+    for _ in range(runs):
+        start = time.perf_counter()
+        result = function()
+        times.append(time.perf_counter() - start)
+        del result
+    return 1e9 * min(times) / n
+
+
+def measure(name: str, n: int, threads: int, runs: int, peers: list[str]) -> str:
+    """One row of the table."""
+    points = np.ascontiguousarray(INPUTS[name](np.random.default_rng(n), n))
+    n = len(points)
+    row = f"| {name} | {n:,} |"
+    for count in sorted({1, threads}):
+        mesh = _core.DelaunayMesh(points, count, None)
+        made = best(lambda count=count: _core.DelaunayMesh(points, count, None), n, runs)
+        written = best(lambda mesh=mesh, count=count: mesh.arrays(count, None), n, runs)
+        whole = best(lambda count=count: vorotool.delaunay(points, threads=count), n, runs)
+        row += f" {made:.0f} + {written:.0f} | {whole:.0f} |"
+    for peer in peers:
+        taken = best(lambda peer=peer: PEERS[peer](points), n, 1 if n >= 10**6 else 2)
+        row += f" {taken:,.0f} ({taken / whole:,.1f} ×) |"
+    return row
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--points", type=int, nargs="+", default=[10_000, 100_000, 1_000_000])
+    parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--runs", type=int, default=5)
+    parser.add_argument("--no-peers", action="store_true")
+    arguments = parser.parse_args()
+    peers = [] if arguments.no_peers else [name for name in PEERS if find_spec(name)]
+    threads = sorted({1, arguments.threads})
+    print("nanoseconds a point; in brackets: how many times ours on the most threads\n")
+    print("| points | n |" + "".join(f" mesh + arrays, {t} threads | delaunay, {t} threads |" for t in threads), end="")
+    print("".join(f" {name} |" for name in peers))
+    print("|---" * (2 + 2 * len(threads) + len(peers)) + "|")
+    for n in arguments.points:
+        for name in INPUTS:
+            print(measure(name, n, arguments.threads, arguments.runs, peers), flush=True)
+
+
+if __name__ == "__main__":
+    main()
