@@ -45,6 +45,9 @@ class RelativeSeeds {
   std::size_t size() const { return x_.size(); }
   std::int64_t least_x() const { return least_.x; }
   std::int64_t least_y() const { return least_.y; }
+  // Corners of the box that holds the seeds and the middle of the frame.
+  Seed least() const { return {least_.y, least_.x, 0}; }
+  Seed most() const { return {most_.y, most_.x, 0}; }
   std::uint64_t x_range() const { return static_cast<std::uint64_t>(most_.x - least_.x); }
   std::uint64_t y_range() const { return static_cast<std::uint64_t>(most_.y - least_.y); }
   std::int64_t largest_coordinate() const { return std::max({-least_.x, most_.x, -least_.y, most_.y}); }
@@ -184,10 +187,11 @@ Sites prepare_sites(std::span<const std::int64_t> x, std::span<const std::int64_
   sites.label.reserve(x.size());
   offsets.reserve(x.size());
   const FrameDistance distance(frame);
-  const int128 limit = seeds.size() == 0 ? 0 : farthest_useful(seeds, distance);
+  const bool all_inside = distance.is_inside(seeds.least()) && distance.is_inside(seeds.most());
+  const int128 limit = all_inside ? 0 : farthest_useful(seeds, distance);
   std::size_t useless = 0;
   for_each_in_sweep_order(seeds, [&](const Seed& seed) {
-    if (!distance.is_inside(seed) && distance.least(seed) > limit) {
+    if (!all_inside && distance.least(seed) > limit) {
       ++useless;
       return;
     }
