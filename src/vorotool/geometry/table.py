@@ -3,11 +3,43 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+
+
+@dataclass(frozen=True, eq=False)
+class Lookup:
+    """A column that shows the values of other objects: row i holds ``values[index[i]]``.
+
+    Nothing is gathered until the rows are asked for, and a writer turns each value into text once.
+
+    Parameters
+    ----------
+    values : (m,) int64 or float64 array
+        Contiguous.
+    index : (n,) int32 array
+        0-based; it may be a column of a matrix.
+
+    Examples
+    --------
+    >>> Lookup(np.array([1.5, 2.5]), np.array([1, 0, 1], dtype=np.int32))[1:].tolist()
+    [1.5, 2.5]
+    """
+
+    values: NDArray[Any]
+    index: NDArray[np.int32]
+
+    def __len__(self) -> int:
+        return len(self.index)
+
+    def __getitem__(self, rows: slice) -> NDArray[Any]:
+        found: NDArray[Any] = self.values[self.index[rows]]
+        return found
 
 
 class Table(Mapping[str, Any]):
@@ -15,7 +47,7 @@ class Table(Mapping[str, Any]):
 
     Parameters
     ----------
-    columns : mapping of str to 1-D array or list
+    columns : mapping of str to 1-D array, list or Lookup
         Columns of one length. Fields masked in a ``numpy.ma`` array, and None in a list, are written empty.
 
     Raises
@@ -38,13 +70,18 @@ class Table(Mapping[str, Any]):
         self.rows = next(iter(lengths.values()), 0)
 
     def __getitem__(self, name: str) -> Any:
-        return self._columns[name]
+        column = self._columns[name]
+        return column[:] if isinstance(column, Lookup) else column
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._columns)
 
     def __len__(self) -> int:
         return len(self._columns)
+
+    def stored(self) -> dict[str, Any]:
+        """Columns as they were given: a `Lookup` is not carried out."""
+        return dict(self._columns)
 
     def with_properties(self, properties: Mapping[str, Any]) -> Table:
         """Add the input's own columns; on a clash of names ours take the prefix ``voro_``."""
