@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import zipfile
-from collections.abc import Iterator
 from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
-from vorotool.formats.text_rows import SLICE_ROWS, Column, RowShape, check_precision, slices, write_rows
-from vorotool.geometry.table import Lookup, Table
+from vorotool.formats.bands import in_order
+from vorotool.formats.text_rows import Column, RowShape, check_precision, slices, write_rows
+from vorotool.geometry.table import Computed, Lookup, Table
 
 TABLE_FORMATS = ("csv", "json", "npz")
 _SLICE_VALUES = 1 << 16  # numbers of an array that are gathered and written at a time
@@ -57,7 +57,7 @@ def write_table(out: BinaryIO, table: Table, fmt: str, *, precision: int | None 
     elif fmt == "json":
         _write_json(out, columns, precision, threads)
     elif fmt == "npz":
-        _write_npz(out, columns)
+        _write_npz(out, columns, threads)
     else:
         raise UsageError(f"-f {fmt!r} is no format of tables: use {', '.join(TABLE_FORMATS)}")
 
@@ -92,7 +92,9 @@ def _write_json(out: BinaryIO, columns: list[Column], precision: int | None, thr
     out.write(b"[")
     if columns and len(columns[0].values):
         out.write(b"\n")
-        write_rows(out, [json_column(column, precision) for column in columns], shape, precision=precision, threads=threads)
+        write_rows(
+            out, [json_column(column, precision) for column in columns], shape, precision=precision, threads=threads
+        )
         out.write(b"\n")
     out.write(b"]\n")
 
@@ -108,7 +110,7 @@ def object_shape(names: list[str], before: str = "", after: str = "") -> RowShap
 def json_column(column: Column, precision: int | None = None) -> Column:
     """The column with what is no number as JSON text."""
     values = column.values
-    if isinstance(values, Lookup) or (not isinstance(values, list) and values.dtype.kind != "b"):
+    if isinstance(values, Lookup | Computed) or (not isinstance(values, list) and values.dtype.kind != "b"):
         return column
     plain = values if isinstance(values, list) else values.tolist()
     if precision:
@@ -137,19 +139,19 @@ class _Stream:
         self._out.flush()
 
 
-def _write_npz(out: BinaryIO, columns: list[Column]) -> None:
+def _write_npz(out: BinaryIO, columns: list[Column], threads: int) -> None:
     with zipfile.ZipFile(_Stream(out), "w", zipfile.ZIP_STORED) as archive:  # type: ignore[call-overload]
         for column in columns:
-            _write_array(archive, column.name, _npz_values(column))
+            _write_array(archive, column.name, _npz_values(column), threads)
             if column.missing is not None:
-                _write_array(archive, f"{column.name}_missing", column.missing)
+                _write_array(archive, f"{column.name}_missing", column.missing, threads)
 
 
-def _npz_values(column: Column) -> NDArray[Any] | Lookup:
-    """Give an array without objects; what is missing is zero or empty."""
+def _npz_values(column: Column) -> NDArray[Any] | Lookup | Computed:
+    """Give values without objects; what is missing is zero or empty."""
     values, missing = column.values, column.missing
     if not isinstance(values, list):
-        if missing is None or isinstance(values, Lookup):
+        if missing is None or isinstance(values, Lookup | Computed):
             return values
         return np.where(missing, np.zeros((), values.dtype), values)
     absent = [False] * len(values) if missing is None else missing.tolist()
@@ -157,21 +159,19 @@ def _npz_values(column: Column) -> NDArray[Any] | Lookup:
     return np.array(["" if none else _text_of(value, 0) for value, none in pairs], dtype=np.str_)
 
 
-def _write_array(archive: zipfile.ZipFile, name: str, values: NDArray[Any] | Lookup) -> None:
+def _write_array(archive: zipfile.ZipFile, name: str, values: NDArray[Any] | Lookup | Computed, threads: int) -> None:
+    """Write an array part by part: the next ones are gathered while one is summed and written."""
     entry = zipfile.ZipInfo(f"{name}.npy", date_time=(1980, 1, 1, 0, 0, 0))
     entry.create_system = 3  # what the file says of the machine that wrote it: always the same
     entry.external_attr = 0o644 << 16
-    kind = values.values.dtype if isinstance(values, Lookup) else values.dtype
-    header = {
-        "descr": np.lib.format.dtype_to_descr(kind.newbyteorder("<")),
-        "fortran_order": False,
-        "shape": (len(values),),
-    }
+    kind = values[:0].dtype.newbyteorder("<")
+    header = {"descr": np.lib.format.dtype_to_descr(kind), "fortran_order": False, "shape": (len(values),)}
+
+    def gathered(rows: slice) -> NDArray[np.uint8]:
+        return np.ascontiguousarray(values[rows], dtype=kind).view(np.uint8)
+
+    parts = slices(len(values), _SLICE_VALUES)
     with archive.open(entry, "w", force_zip64=True) as member:
         np.lib.format.write_array_header_1_0(member, header)
-        for part in _array_parts(values):
-            member.write(np.ascontiguousarray(part, dtype=kind.newbyteorder("<")).view(np.uint8).data)
-
-
-def _array_parts(values: NDArray[Any] | Lookup) -> Iterator[NDArray[Any]]:
-    return (values[rows] for rows in slices(len(values), _SLICE_VALUES))
+        for part in in_order(gathered, parts, threads if len(parts) > 1 else 1):
+            member.write(part.data)

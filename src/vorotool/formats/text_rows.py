@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.errors import UsageError
 from vorotool.formats.bands import in_order
-from vorotool.geometry.table import Lookup
+from vorotool.geometry.table import Computed, Lookup
 
 SLICE_ROWS = 1 << 14
 """Rows whose text is made at a time: some 2 MB."""
@@ -32,10 +32,10 @@ class RowShape(NamedTuple):
 
 @dataclass(frozen=True)
 class Column:
-    """Values (an array of bool, int64, uint64 or float64, a list, or a lookup), and which of them are missing."""
+    """Values (an array of bool, int64, uint64 or float64, or a list; or lazy), and which of them are missing."""
 
     name: str
-    values: NDArray[Any] | list[Any] | Lookup
+    values: NDArray[Any] | list[Any] | Lookup | Computed
     missing: NDArray[np.bool_] | None = None
 
     @staticmethod
@@ -43,6 +43,8 @@ class Column:
         """Widen an array, find out what is missing, and take for a list what no array holds."""
         if isinstance(column, Lookup):
             return Column(name, Lookup(_widened(column.values), column.index))
+        if isinstance(column, Computed):
+            return Column(name, column)
         mask = np.ma.getmaskarray(column) if isinstance(column, np.ma.MaskedArray) else None
         array = _as_array(np.ma.getdata(column) if mask is not None else column)
         values: NDArray[Any] | list[Any]
@@ -56,10 +58,11 @@ class Column:
         return Column(name, values, absent if absent.any() else None)
 
     def part(self, rows: slice) -> Column:
-        """Give some of the rows; of a lookup, not yet looked up."""
+        """Give some of the rows; of a lookup, not yet looked up; others are computed now."""
         if isinstance(self.values, Lookup):
             return Column(self.name, Lookup(self.values.values, self.values.index[rows]))
-        return Column(self.name, self.values[rows], None if self.missing is None else self.missing[rows])
+        values = self.values[rows]
+        return Column(self.name, values, None if self.missing is None else self.missing[rows])
 
 
 def _widened(array: NDArray[Any]) -> NDArray[Any]:
@@ -157,15 +160,13 @@ def slices(rows: int, size: int) -> list[slice]:
 def _lookup_texts(columns: Sequence[Column], digits: int, threads: int) -> dict[int, _core.NumberTexts]:
     """Texts of the numbers that lookups show, by the identity of their arrays: each array once."""
     arrays = {id(c.values.values): c.values.values for c in columns if isinstance(c.values, Lookup)}
-    return {
-        key: _core.NumberTexts(array, digits, threads) for key, array in arrays.items() if array.dtype.kind == "f"
-    }
+    return {key: _core.NumberTexts(array, digits, threads) for key, array in arrays.items() if array.dtype.kind == "f"}
 
 
 def _core_values(column: Column, texts: dict[int, _core.NumberTexts]) -> Any:
     values = column.values
     if isinstance(values, Lookup):
         return (texts.get(id(values.values), values.values), values.index)
-    if isinstance(values, list):
-        return values
+    if isinstance(values, list | Computed):
+        return values[:]
     return values.astype(np.int64) if values.dtype.kind == "b" else values

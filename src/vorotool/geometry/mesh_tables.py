@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.table import Lookup, Table
+from vorotool.geometry.table import Computed, Lookup, Table
 from vorotool.geometry.triangulation import Triangulation
 
 
@@ -40,7 +40,7 @@ def edge_table(mesh: Triangulation) -> Table:
             "y_a": Lookup(y, a),
             "x_b": Lookup(x, b),
             "y_b": Lookup(y, b),
-            "length": mesh.edge_lengths(),
+            "length": Computed(mesh.edge_lengths, len(mesh.edges)),
         }
     )
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -38,8 +38,35 @@ class Lookup:
         return len(self.index)
 
     def __getitem__(self, rows: slice) -> NDArray[Any]:
-        found: NDArray[Any] = self.values[self.index[rows]]
+        found: NDArray[Any] = self.values.take(self.index[rows])
         return found
+
+
+@dataclass(frozen=True, eq=False)
+class Computed:
+    """A column of numbers that are computed when its rows are asked for.
+
+    Parameters
+    ----------
+    function : callable
+        ``function(rows)`` gives the float64 values of a slice; called in several threads at once.
+    size : int
+        Number of rows.
+
+    Examples
+    --------
+    >>> Computed(lambda rows: np.sqrt(np.arange(10.0)[rows]), 10)[4:5].tolist()
+    [2.0]
+    """
+
+    function: Callable[[slice], NDArray[np.float64]]
+    size: int
+
+    def __len__(self) -> int:
+        return self.size
+
+    def __getitem__(self, rows: slice) -> NDArray[np.float64]:
+        return self.function(rows)
 
 
 class Table(Mapping[str, Any]):
@@ -47,7 +74,7 @@ class Table(Mapping[str, Any]):
 
     Parameters
     ----------
-    columns : mapping of str to 1-D array, list or Lookup
+    columns : mapping of str to 1-D array, list, Lookup or Computed
         Columns of one length. Fields masked in a ``numpy.ma`` array, and None in a list, are written empty.
 
     Raises
@@ -71,7 +98,7 @@ class Table(Mapping[str, Any]):
 
     def __getitem__(self, name: str) -> Any:
         column = self._columns[name]
-        return column[:] if isinstance(column, Lookup) else column
+        return column[:] if isinstance(column, Lookup | Computed) else column
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._columns)
@@ -80,7 +107,7 @@ class Table(Mapping[str, Any]):
         return len(self._columns)
 
     def stored(self) -> dict[str, Any]:
-        """Columns as they were given: a `Lookup` is not carried out."""
+        """Columns as they were given: what is looked up or computed is not so yet."""
         return dict(self._columns)
 
     def with_properties(self, properties: Mapping[str, Any]) -> Table:
