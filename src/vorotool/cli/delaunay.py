@@ -50,7 +50,7 @@ def command(**options: Any) -> None:
 
     INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, PBM,
     NPY), whose components or labels count as points at their centroids; - is standard input. Label i is the i-th
-    point; labels of the input are kept. Files for Triangle (.edge, .ele, .node) and OBJ number the points from 1.
+    point; labels of the input are kept. OBJ and files for Triangle (.edge, .ele, .node) number the points instead.
     """
     o = SimpleNamespace(**options)
     source = single_input(o.inputs)

@@ -82,6 +82,9 @@ class MeshProducts:
     def _write_triangles(self, out: BinaryIO, fmt: str) -> None:
         self._write_mesh(out, fmt, "triangles")
 
+    def _write_table(self, out: BinaryIO, fmt: str) -> None:
+        self._write_mesh(out, fmt, "table")
+
     def _write_mesh(self, out: BinaryIO, fmt: str, what: str) -> None:
         from vorotool.formats.mesh_files import write_mesh
 

@@ -82,7 +82,8 @@ def plan_targets(
     several = len(what) > 1
     if out_dir is not None:
         stem = Path(out_dir) / ("stdin" if source == "-" else Path(source).stem)
-        chosen = {name: _chosen(formats, name, fmt, None) for name in what}
+        choose = _several_format if several else _chosen
+        chosen = {name: choose(formats, name, fmt, None) for name in what}
         return [Target(name, _named(stem, name if several else None, chosen[name]), chosen[name]) for name in what]
     if several:
         if output is None or output == "-":

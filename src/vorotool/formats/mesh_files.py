@@ -1,4 +1,4 @@
-"""Writing the edges and triangles of a triangulation, in every format that has a place for them."""
+"""Writing the edges, triangles and points of a triangulation, in every format that has a place for them."""
 
 from __future__ import annotations
 
@@ -11,13 +11,19 @@ from numpy.typing import NDArray
 from vorotool.errors import UsageError
 from vorotool.formats.tables import TABLE_FORMATS, json_text, object_shape, write_table
 from vorotool.formats.text_rows import Column, RowShape, write_rows
-from vorotool.geometry.mesh_tables import edge_table, triangle_table
-from vorotool.geometry.table import Lookup
+from vorotool.geometry.mesh_tables import edge_table, point_table, triangle_table
+from vorotool.geometry.table import Lookup, Table
 from vorotool.geometry.triangulation import Triangulation
 
 EDGE_FORMATS = ("csv", "json", "geojson", "npz", "edge", "obj")
 TRIANGLE_FORMATS = ("csv", "json", "geojson", "npz", "ele", "obj")
-_FORMATS = {"edges": EDGE_FORMATS, "triangles": TRIANGLE_FORMATS}
+POINT_FORMATS = (*TABLE_FORMATS, "node")
+_FORMATS = {"edges": EDGE_FORMATS, "triangles": TRIANGLE_FORMATS, "table": POINT_FORMATS}
+_TABLES: dict[str, Callable[[Triangulation], Table]] = {
+    "edges": edge_table,
+    "triangles": triangle_table,
+    "table": point_table,
+}
 
 
 def write_mesh(
@@ -29,11 +35,12 @@ def write_mesh(
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    r"""Write edges or triangles; the bytes depend on nothing but the mesh, the format and the precision.
+    r"""Write edges, triangles or points; the bytes depend on nothing but the mesh, the format and the precision.
 
-    Tables (CSV, JSON, NPZ) and GeoJSON tell the labels of the vertices. The others number the points from 1 in the
-    order of the input, duplicates included: OBJ holds them, and an ``.edge`` or ``.ele`` file of Triangle belongs to
-    the ``.node`` file with the same points, numbered from 1. The marker of an edge is 1 on the hull, else 0.
+    Tables (CSV, JSON, NPZ) and GeoJSON tell the labels of the vertices. The others number the points in the order of
+    the input, duplicates included. OBJ holds them. An ``.edge`` or ``.ele`` file of Triangle belongs to a ``.node``
+    file: the one that was read, whose numbering from 0 or 1 is kept, or the one that the table is written as. The
+    marker of an edge or node is 1 on the hull, else 0.
 
     Parameters
     ----------
@@ -41,10 +48,10 @@ def write_mesh(
         Need not be seekable.
     mesh : Triangulation
         Rows are in the order of its arrays.
-    fmt : {"csv", "json", "geojson", "npz", "edge", "ele", "obj"}
+    fmt : {"csv", "json", "geojson", "npz", "edge", "ele", "node", "obj"}
         Edges are LineStrings in GeoJSON and lines in OBJ, triangles are Polygons and faces.
-    what : {"edges", "triangles"}
-        What to write.
+    what : {"edges", "triangles", "table"}
+        What to write; the table has one row a point.
     precision : int, optional
         Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
     threads : int
@@ -53,7 +60,7 @@ def write_mesh(
     Raises
     ------
     UsageError
-        If there is no such format of edges or triangles.
+        If there is no such format of them.
 
     Examples
     --------
@@ -65,11 +72,12 @@ def write_mesh(
     """
     if what not in _FORMATS:
         raise UsageError(f"{what!r} is nothing that a triangulation is written as: use {' or '.join(_FORMATS)}")
+    if fmt in ("svg", "png"):
+        raise UsageError(f"{fmt.upper()} is for pictures: draw it with vorotool delaunay -o picture.{fmt}")
     if fmt not in _FORMATS[what]:
         raise UsageError(f"{what} cannot be written as {fmt!r}: use one of {', '.join(_FORMATS[what])}")
     if fmt in TABLE_FORMATS:
-        table = edge_table(mesh) if what == "edges" else triangle_table(mesh)
-        write_table(out, table, fmt, precision=precision, threads=threads)
+        write_table(out, _TABLES[what](mesh), fmt, precision=precision, threads=threads)
     else:
         _WRITERS[fmt](out, mesh, what, precision, threads)
 
@@ -81,8 +89,7 @@ def _write_geojson(out: BinaryIO, mesh: Triangulation, what: str, precision: int
     x, y = np.ascontiguousarray(mesh.points.T)
     ring = [*rows.T, *([] if what == "edges" else [rows[:, 0]])]
     corners = [Column("", Lookup(values, index)) for index in ring for values in (x, y)]
-    table = edge_table(mesh) if what == "edges" else triangle_table(mesh)
-    stored = table.stored()
+    stored = _TABLES[what](mesh).stored()
     names = [name for name in stored if name.startswith("label") or name == "length"]
     columns = [Column.of("id", np.arange(1, len(rows) + 1)), *(Column.of(name, stored[name]) for name in names)]
     out.write(b'{"type":"FeatureCollection",')
@@ -118,28 +125,35 @@ def _write_obj(out: BinaryIO, mesh: Triangulation, what: str, precision: int | N
 def _write_edge(out: BinaryIO, mesh: Triangulation, _what: str, _precision: int | None, threads: int) -> None:
     """``<edges> <markers>``, then ``<number> <end> <end> <marker>``."""
     out.write(f"{len(mesh.edges)} 1\n".encode())
-    columns = [
-        _counted(len(mesh.edges)),
-        *_numbers(mesh, mesh.edges),
-        Column.of("", mesh.hull_edges().astype(np.int64)),
-    ]
+    ends = _numbers(mesh, mesh.edges, mesh.first_number)
+    columns = [_counted(mesh, len(mesh.edges)), *ends, Column.of("", mesh.hull_edges().astype(np.int64))]
     write_rows(out, columns, RowShape(("", " ", " ", " ", "\n")), threads=threads)
 
 
 def _write_ele(out: BinaryIO, mesh: Triangulation, _what: str, _precision: int | None, threads: int) -> None:
     """``<triangles> <nodes a triangle> <attributes>``, then ``<number> <node> <node> <node>``."""
     out.write(f"{len(mesh.triangles)} 3 0\n".encode())
-    columns = [_counted(len(mesh.triangles)), *_numbers(mesh, mesh.triangles)]
+    columns = [_counted(mesh, len(mesh.triangles)), *_numbers(mesh, mesh.triangles, mesh.first_number)]
     write_rows(out, columns, RowShape(("", " ", " ", " ", "\n")), threads=threads)
 
 
-def _counted(rows: int) -> Column:
-    return Column("", np.arange(1, rows + 1, dtype=np.int64))
+def _write_node(out: BinaryIO, mesh: Triangulation, _what: str, precision: int | None, threads: int) -> None:
+    """``<vertices> <dimension> <attributes> <markers>``, then ``<number> <x> <y> <marker>``."""
+    out.write(f"{len(mesh.points)} 2 0 1\n".encode())
+    x, y = (Column("", values) for values in np.ascontiguousarray(mesh.points.T))
+    on_hull = np.zeros(len(mesh.points), dtype=np.int64)
+    on_hull[mesh.hull] = 1
+    columns = [_counted(mesh, len(mesh.points)), x, y, Column("", on_hull)]
+    write_rows(out, columns, RowShape(("", " ", " ", " ", "\n")), precision=precision, threads=threads)
 
 
-def _numbers(mesh: Triangulation, rows: NDArray[np.int32]) -> list[Column]:
-    """Columns of vertices, numbered from 1."""
-    numbers = np.arange(1, len(mesh.points) + 1, dtype=np.int64)
+def _counted(mesh: Triangulation, rows: int) -> Column:
+    return Column("", np.arange(rows, dtype=np.int64) + mesh.first_number)
+
+
+def _numbers(mesh: Triangulation, rows: NDArray[np.int32], first: int = 1) -> list[Column]:
+    """Columns of vertices by their numbers, the first of which is given."""
+    numbers = np.arange(len(mesh.points), dtype=np.int64) + first
     return [Column("", Lookup(numbers, index)) for index in rows.T]
 
 
@@ -148,4 +162,5 @@ _WRITERS: dict[str, Callable[[BinaryIO, Triangulation, str, int | None, int], No
     "obj": _write_obj,
     "edge": _write_edge,
     "ele": _write_ele,
+    "node": _write_node,
 }

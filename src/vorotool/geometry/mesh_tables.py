@@ -1,4 +1,4 @@
-"""Tables of a triangulation: its edges and triangles, in labels."""
+"""Tables of a triangulation: its edges, triangles and points, in labels."""
 
 from __future__ import annotations
 
@@ -66,6 +66,45 @@ def triangle_table(mesh: Triangulation) -> Table:
     """
     labels = mesh.label_array
     return Table({f"label_{name}": Lookup(labels, mesh.triangles[:, k]) for k, name in enumerate("abc")})
+
+
+def point_table(mesh: Triangulation) -> Table:
+    """Give one row a point, in the order of the input.
+
+    Parameters
+    ----------
+    mesh : Triangulation
+        Its properties are the further columns.
+
+    Returns
+    -------
+    Table
+        ``label, x, y, neighbours, on_hull, duplicate_of_label``: edges that end at the point, whether it is on the
+        hull, and the label of the first point of the same place. Of a point that lies on an earlier one the second
+        and third do not exist, of the others the last.
+
+    Examples
+    --------
+    >>> from vorotool import delaunay
+    >>> point_table(delaunay([[0, 0], [4, 0], [0, 3], [1, 1]]))["neighbours"].tolist()
+    [3, 3, 3, 3]
+    """
+    count = len(mesh.points)
+    is_duplicate = mesh.first != np.arange(count)
+    on_hull = np.zeros(count, dtype=bool)
+    on_hull[mesh.hull] = True
+    labels = mesh.label_array
+    table = Table(
+        {
+            "label": labels,
+            "x": mesh.points[:, 0],
+            "y": mesh.points[:, 1],
+            "neighbours": np.ma.array(np.bincount(mesh.edges.reshape(-1), minlength=count), mask=is_duplicate),
+            "on_hull": np.ma.array(on_hull, mask=is_duplicate),
+            "duplicate_of_label": np.ma.array(labels[mesh.first], mask=~is_duplicate),
+        }
+    )
+    return table.with_properties(mesh.properties)
 
 
 def _columns(points: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -54,6 +54,8 @@ class Triangulation:
         Pictures of this input are drawn y upwards.
     crs : object, optional
         The ``crs`` member of a GeoJSON input.
+    first_number : {1, 0}
+        Number of the first point in files of Triangle: that in the ``.node`` file that the points come from.
 
     Raises
     ------
@@ -82,6 +84,7 @@ class Triangulation:
     properties: dict[str, Any] = field(default_factory=dict)
     y_up: bool = False
     crs: Any = None
+    first_number: int = 1
 
     def __post_init__(self) -> None:
         columns = {"points": 2, "triangles": 3, "neighbours": 3, "edges": 2, "hull": 0, "first": 0}

@@ -64,7 +64,7 @@ class Polygons:
     colour_of : (p,) integer array, optional
         Index of each polygon's fill; by default all have the first.
     ids : sequence of str, optional
-        Id of each polygon in SVG: each is a path of its own then.
+        Id of each polygon in SVG: each is a path of its own then, unless they are too many.
     edge : str, optional
         Colour of the outlines.
     width : float

@@ -16,6 +16,9 @@ from vorotool.render.palettes import WHITE
 PATH_ROWS = 4096
 """Lines or polygons of one path: viewers slow down with longer ones, and with many elements."""
 
+MOST_ELEMENTS = 100_000
+"""Elements of a layer: resvg refuses files of 10^6, browsers become slow before. More share paths."""
+
 SLICE_ROWS = 1 << 17
 DECIMALS = 2
 
@@ -101,15 +104,16 @@ def _openings(layer: Polygons) -> tuple[list[str], NDArray[np.int32]]:
     is_first = np.ones(len(drawn), dtype=bool)
     is_first[1:] = polygon[1:] != polygon[:-1]
     colour = np.zeros(len(layer.ring_limits) - 1, np.int64) if layer.colour_of is None else layer.colour_of
+    ids = None if len(colour) > MOST_ELEMENTS else layer.ids
     texts = ["L", "ZM"]
     before = np.zeros(len(layer.corners), dtype=np.int32)
     opens = is_first.copy()
-    if layer.ids is None:  # polygons of one colour that follow each other share a path
+    if ids is None:  # polygons of one colour that follow each other share a path
         order = np.cumsum(is_first) - 1
         fills = colour[polygon]
         opens &= (order % PATH_ROWS == 0) | np.append(True, fills[1:] != fills[:-1])
     for number, of in enumerate(polygon[opens].tolist()):
-        name = "" if layer.ids is None else f' id="{escape(layer.ids[of])}"'
+        name = "" if ids is None else f' id="{escape(ids[of])}"'
         fill = layer.colours[int(colour[of])]
         end = 'Z"/>\n' if number else ""
         texts.append(f'{end}<path{name} {_UNSCALED} fill="{fill}" d="M')
@@ -118,18 +122,32 @@ def _openings(layer: Polygons) -> tuple[list[str], NDArray[np.int32]]:
 
 
 def _points(layer: Points, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
+    if len(x) > MOST_ELEMENTS:
+        yield from _dots(layer, x, y, threads)
+        return
     yield f'<g id="{escape(layer.name)}" fill="{layer.colour}">\n'.encode()
     radius = f'" r="{layer.radius:.2f}"/>\n'
-    for rows in _chunks(len(x), SLICE_ROWS):
-        yield from _rows([x[rows], y[rows]], ('<circle cx="', '" cy="', radius), threads)
+    yield from _rows([x, y], ('<circle cx="', '" cy="', radius), threads)
+    yield b"</g>\n"
+
+
+def _dots(layer: Points, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
+    """Lines of no length with round ends are discs."""
+    yield f'<g id="{escape(layer.name)}" fill="none" {_stroke(layer.colour, 2 * layer.radius)}>\n'.encode()
+    for rows in _chunks(len(x), PATH_ROWS):
+        yield f"<path {_UNSCALED} d=".encode() + b'"'
+        yield from _rows([x[rows], y[rows]], ("M", " ", "h0"), threads)
+        yield b'"/>\n'
     yield b"</g>\n"
 
 
 def _texts(layer: Texts, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
-    style = f'font-family="Helvetica, Arial, sans-serif" font-size="{layer.size:g}" fill="{layer.colour}"'
-    yield f'<g id="{escape(layer.name)}" {style}>\n'.encode()
+    """Above the points in the lower half of the page, below them in the upper one, where the margin is narrow."""
+    font = f'font-family="Helvetica, Arial, sans-serif" font-size="{layer.size:g}"'
+    yield f'<g id="{escape(layer.name)}" text-anchor="middle" {font} fill="{layer.colour}">\n'.encode()
     texts = [escape(text) for text in layer.texts]
-    x, y = np.round(x + 0.35 * layer.size, DECIMALS), np.round(y - 0.35 * layer.size, DECIMALS)
+    below = y < (y.min(initial=0.0) + y.max(initial=0.0)) / 2
+    y = np.round(y + layer.size * np.where(below, 1.1, -0.5), DECIMALS)
     for rows in _chunks(len(x), SLICE_ROWS):
         yield from _rows([x[rows], y[rows], texts[rows]], ('<text x="', '" y="', '">', "</text>\n"), threads)
     yield b"</g>\n"
