@@ -129,7 +129,7 @@ def write_rows(
     --------
     >>> import io
     >>> out = io.BytesIO()
-    >>> write_rows(out, [Column.of("a", [1, 2]), Column.of("b", [0.5, 3])], RowShape(("l ", " ", "\n")))
+    >>> write_rows(out, [Column.of("a", [1, 2]), Column.of("b", [0.5, 3.0])], RowShape(("l ", " ", "\n")))
     >>> out.getvalue()
     b'l 1 0.5\nl 2 3\n'
     """

@@ -27,7 +27,7 @@ def edge_table(mesh: Triangulation) -> Table:
     >>> from vorotool import delaunay
     >>> table = edge_table(delaunay([[0, 0], [4, 0], [0, 3]]))
     >>> table["label_a"].tolist(), table["label_b"].tolist(), table["length"].tolist()
-    ([1, 1, 2], [2, 3, 3], [4.0, 3.0, 5.0])
+    ([1, 1, 2], [3, 2, 3], [3.0, 4.0, 5.0])
     """
     a, b = mesh.edges.T
     x, y = _columns(mesh.points)

@@ -126,7 +126,7 @@ def _points(layer: Points, x: NDArray[Any], y: NDArray[Any], threads: int) -> It
         yield from _dots(layer, x, y, threads)
         return
     yield f'<g id="{escape(layer.name)}" fill="{layer.colour}">\n'.encode()
-    radius = f'" r="{layer.radius:.2f}"/>\n'
+    radius = f'" r="{layer.radius:.3g}"/>\n'
     yield from _rows([x, y], ('<circle cx="', '" cy="', radius), threads)
     yield b"</g>\n"
 
@@ -157,4 +157,4 @@ _UNSCALED = 'vector-effect="non-scaling-stroke"'
 
 
 def _stroke(colour: str, width: float) -> str:
-    return f'stroke="{colour}" stroke-width="{width:.2f}" stroke-linejoin="round" stroke-linecap="round"'
+    return f'stroke="{colour}" stroke-width="{width:.3g}" stroke-linejoin="round" stroke-linecap="round"'
