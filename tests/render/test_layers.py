@@ -174,7 +174,9 @@ def test_lines_are_as_thick_as_told(angle):
 
 
 def test_discs_are_round():
-    image = picture(Points("p", np.array([[5.0, 5.0], [50, 50]]), "#000000", radius=8.0), width=300, bounds=(0, 0, 100, 100))
+    image = picture(
+        Points("p", np.array([[5.0, 5.0], [50, 50]]), "#000000", radius=8.0), width=300, bounds=(0, 0, 100, 100)
+    )
     dark = (1 - image[:, :, 0] / 255).sum()
     assert dark == pytest.approx(2 * np.pi * 64, rel=0.02)
 

@@ -15,7 +15,6 @@ from vorotool.engines.delaunay import delaunay, verify_triangulation
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.points import PointSet
 from vorotool.geometry.seeds import SeedSet
-from vorotool.geometry.triangulation import Triangulation
 
 if TYPE_CHECKING:
     from vorotool.render.layers import Page
@@ -25,7 +24,7 @@ DEFAULT_LAYERS = {"edges": ("edges", "points"), "triangles": ("triangles", "edge
 
 
 class MeshProducts:
-    """Results of one triangulation, which is made when the first of them needs it.
+    """Results of one triangulation.
 
     Parameters
     ----------
@@ -38,18 +37,10 @@ class MeshProducts:
     """
 
     def __init__(self, points: PointSet | SeedSet, options: SimpleNamespace, run: Run) -> None:
-        self.points, self.options, self.run = points, options, run
-
-    @cached_property
-    def mesh(self) -> Triangulation:
-        """The triangulation."""
-        with self.run.phase("triangulate"):
-            return delaunay(
-                self.points,
-                strict=self.options.strict,
-                threads=self.options.threads,
-                progress=self.run.progress("triangulating"),
-            )
+        self.options, self.run = options, run
+        progress = run.progress("triangulating")
+        with run.phase("triangulate"):
+            self.mesh = delaunay(points, strict=options.strict, threads=options.threads, progress=progress)
 
     def check(self, target: Target) -> None:
         """Refuse what cannot be written, and say what will be empty, before anything is written."""
