@@ -124,9 +124,11 @@ def _read_seeds(run: Run, o: SimpleNamespace, source: str) -> SeedSet:
     from vorotool.engines.seeding import seeds_from_points, seeds_from_raster
     from vorotool.formats import read
     from vorotool.geometry.points import PointSet
+    from vorotool.geometry.raster import Raster
 
     value = read(
         source,
+        geometry="points",
         input_format=o.input_format,
         columns=o.columns,
         page=o.page,
@@ -144,6 +146,7 @@ def _read_seeds(run: Run, o: SimpleNamespace, source: str) -> SeedSet:
         )
         o.y_up = value.y_up if o.y_up is None else o.y_up
         return seeds_from_points(value, strict=o.strict)
+    assert isinstance(value, Raster)
     _refuse(o, ("columns", "size", "window"), "is for lists of points, but the input is an image, which brings its own")
     return seeds_from_raster(
         value,

@@ -7,6 +7,7 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from vorotool.errors import UsageError
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.frame import MAX_PIXELS
 
@@ -14,12 +15,14 @@ NPY_MAGIC = b"\x93NUMPY"
 
 if TYPE_CHECKING:
     from vorotool.geometry.points import PointSet
+    from vorotool.geometry.polygons import PolygonSet
     from vorotool.geometry.raster import Raster
 
 
 def read(
     path: str | PathLike[str],
     *,
+    geometry: str | None = None,
     input_format: str | None = None,
     columns: str | None = None,
     page: int | None = None,
@@ -28,15 +31,20 @@ def read(
     properties: bool = True,
     threads: int = 0,
     note: Callable[[str], None] | None = None,
-) -> PointSet | Raster:
-    """Read points or an image.
+) -> PointSet | PolygonSet | Raster:
+    """Read points, polygons and lines, or an image.
+
+    A plain JSON list of pairs holds points, unless ``geometry`` is polygons. GeoJSON and WKT hold either points or
+    polygons and lines: what their first geometry is.
 
     Parameters
     ----------
     path : str or path
         The file; ``-`` is standard input.
+    geometry : {"points", "polygons"}, optional
+        What must be in a file that is no image; by default its content tells.
     input_format : str, optional
-        csv, node, npy, geojson, wkt, json, png, tiff or pnm (or another usual extension of one of these), where
+        csv, node, npy, geojson, wkt, json, poly, png, tiff or pnm (or another usual extension of one of these), where
         extension and content leave it unclear.
     columns : str, optional
         ``X,Y[,LABEL]`` of a point list, by name or number from 1.
@@ -45,7 +53,7 @@ def read(
     max_pixels, max_sites : int
         Larger inputs are refused before memory is taken.
     properties : bool
-        Keep the further columns of a point list.
+        Keep the further columns of a point list, and the properties of polygons.
     threads : int
         0 uses all.
     note : callable, optional
@@ -53,7 +61,7 @@ def read(
 
     Returns
     -------
-    PointSet or Raster
+    PointSet, PolygonSet or Raster
 
     Raises
     ------
@@ -72,14 +80,22 @@ def read(
     from vorotool.formats.images import is_image, read_image
     from vorotool.formats.input_formats import known_input_format
     from vorotool.formats.points import read_points
+    from vorotool.formats.polygons import read_polygons, with_shapes
     from vorotool.formats.sources import read_source
 
+    if geometry not in (None, "points", "polygons"):
+        raise UsageError(f"geometry is {geometry!r}: use points or polygons, or leave it out")
     input_format = known_input_format(input_format)
     threads = checked_threads(threads)
     source = read_source(fspath(path))
     is_points = columns is not None and source.data.startswith(NPY_MAGIC)  # the one format that holds either
     if input_format in ("png", "tiff", "pnm") or (input_format in (None, "npy") and not is_points and is_image(source)):
         return read_image(source, input_format=input_format, page=page, max_pixels=max_pixels)
+    shapes = source if geometry == "polygons" else None if geometry else with_shapes(source, input_format)
+    if shapes is not None:
+        return read_polygons(
+            shapes, input_format=input_format, properties=properties, max_sites=max_sites, threads=threads, note=note
+        )
     return read_points(
         source,
         input_format=input_format,
@@ -92,11 +108,11 @@ def read(
 
 
 def write(value: Any, path: str | PathLike[str], *, fmt: str | None = None, threads: int = 0) -> None:
-    """Write a label image (PNG, TIFF, NPY, text) or a table (CSV, JSON, NPZ).
+    """Write a label image (PNG, TIFF, NPY, text), a table (CSV, JSON, NPZ) or polygons (JSON, GeoJSON, WKT, .poly).
 
     Parameters
     ----------
-    value : LabelImage or Table
+    value : LabelImage, Table or PolygonSet
         What to write.
     path : str or path
         The file, replaced atomically.
@@ -117,11 +133,12 @@ def write(value: Any, path: str | PathLike[str], *, fmt: str | None = None, thre
     >>> import vorotool
     >>> write(vorotool.tessellate([[1, 1], [5, 3]], shape=(4, 6)), "build/labels.png")
     """
-    from vorotool.errors import UsageError
     from vorotool.formats.label_images import write_label_image
     from vorotool.formats.outputs import open_output
+    from vorotool.formats.polygons import write_polygons
     from vorotool.formats.tables import write_table
     from vorotool.geometry.label_image import LabelImage
+    from vorotool.geometry.polygons import PolygonSet
     from vorotool.geometry.table import Table
 
     name = (fmt or Path(path).suffix).lower().lstrip(".")
@@ -143,5 +160,8 @@ def write(value: Any, path: str | PathLike[str], *, fmt: str | None = None, thre
     elif isinstance(value, Table):
         with open_output(fspath(path), binary=chosen == "npz") as out:
             write_table(out, value, chosen, threads=threads)
+    elif isinstance(value, PolygonSet):
+        with open_output(fspath(path)) as out:
+            write_polygons(out, value, chosen)
     else:
-        raise UsageError(f"a {type(value).__name__} cannot be written: give a LabelImage or a Table")
+        raise UsageError(f"a {type(value).__name__} cannot be written: give a LabelImage, a Table or a PolygonSet")
