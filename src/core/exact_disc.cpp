@@ -28,7 +28,7 @@ struct Ray {
   Ray reversed() const { return {origin, -along}; }
   // The length of `along` times the signed distance of p, positive to the left.
   std::int64_t height(const LatticePoint& p) const { return cross(along, p - origin); }
-  LatticeVector normal() const { return along.left(); }
+  LatticeVector normal() const { return left_of(along); }
 };
 
 Ray ray_of(const LatticeSite& segment) { return {segment.a, segment.b - segment.a}; }
@@ -96,12 +96,12 @@ Found touching_at_either(const LatticePoint& p, const LatticeVector& normal, con
 
 // A segment, its end p, then the third: the disc is to the right of p -> segment.
 Found segment_before_its_end(const LatticeSite& segment, const LatticePoint& p, const LatticeSite& third) {
-  return touching_at_either(p, -direction_from(p, segment).left(), third);
+  return touching_at_either(p, -left_of(direction_from(p, segment)), third);
 }
 
 // The end p, its segment, then the third: the disc is to the left.
 Found end_before_its_segment(const LatticePoint& p, const LatticeSite& segment, const LatticeSite& third) {
-  return touching_at_either(p, direction_from(p, segment).left(), third);
+  return touching_at_either(p, left_of(direction_from(p, segment)), third);
 }
 
 // ---- three points ----
@@ -189,7 +189,7 @@ Found point_and_lines(const LatticePoint& p, const Ray& first, const Ray& second
   const RootNumber q = -tower->adjoin_root(big(2) * big(h1) * big(h2) * l1 * m);
   const RootNumber r = (l1 * big(h2) + k * big(h1)) * m + big(d) * q;
   const RootNumber across = r - big(h1) * square(m), along = (big(h1) * big(d) + q) * m;
-  const LatticeVector u = n1.left();
+  const LatticeVector u = left_of(n1);
   return ExactDisc{tower,
                    p,
                    across * big(n1.x) + along * big(u.x),
@@ -315,7 +315,7 @@ bool touches(const ExactDisc& disc, const LatticeSite& site) {
   const LatticeVector shift = disc.origin - site.a;  // the centre seen from a, times w
   const RootNumber x = disc.x + disc.w * big(shift.x), y = disc.y + disc.w * big(shift.y);
   if (site.is_point()) return (square(x) + square(y) - disc.z).sign() == 0;
-  const LatticeVector u = site.b - site.a, n = u.left();
+  const LatticeVector u = site.b - site.a, n = left_of(u);
   const RootNumber along = x * big(u.x) + y * big(u.y), across = x * big(n.x) + y * big(n.y);
   return along.sign() >= 0 && (along - disc.w * big(norm2(u))).sign() <= 0 &&
          (square(across) - disc.z * big(norm2(u))).sign() == 0;

@@ -1,4 +1,4 @@
-// Differences of lattice points, with exact products.
+// Differences of lattice points, and their products: exact in 64 bits (core/lattice.hpp).
 #pragma once
 
 #include <cstdint>
@@ -7,20 +7,20 @@
 
 namespace vorotool::core {
 
-// Coordinates are at most 2^31 - 2 in magnitude, so that products of two vectors fit (core/lattice.hpp).
 struct LatticeVector {
   std::int64_t x, y;
-
-  LatticeVector operator-() const { return {-x, -y}; }
-  LatticeVector left() const { return {-y, x}; }  // turned by 90 degrees, counter-clockwise
 };
 
 inline LatticeVector operator-(const LatticePoint& a, const LatticePoint& b) {
   return {std::int64_t{a.x} - b.x, std::int64_t{a.y} - b.y};
 }
-inline std::int64_t dot(const LatticeVector& a, const LatticeVector& b) { return a.x * b.x + a.y * b.y; }
-inline std::int64_t cross(const LatticeVector& a, const LatticeVector& b) { return a.x * b.y - a.y * b.x; }
-inline std::int64_t norm2(const LatticeVector& a) { return dot(a, a); }
+inline LatticeVector operator-(const LatticeVector& v) { return {-v.x, -v.y}; }
+
+inline std::int64_t cross(const LatticeVector& v, const LatticeVector& w) { return v.x * w.y - v.y * w.x; }
+inline std::int64_t dot(const LatticeVector& v, const LatticeVector& w) { return v.x * w.x + v.y * w.y; }
+inline std::int64_t norm2(const LatticeVector& v) { return dot(v, v); }
+// Turned by 90 degrees, counter-clockwise.
+inline LatticeVector left_of(const LatticeVector& v) { return {-v.y, v.x}; }
 inline int sign_of(std::int64_t value) { return (value > 0) - (value < 0); }
 
 }  // namespace vorotool::core

@@ -42,7 +42,7 @@ int clearance_sign(const ExactDisc& disc, const LatticeSite& query) {
   const RootNumber along = centre.along(u);
   if (query.is_point() || along.sign() <= 0) return clearance_sign(disc, query.a);
   if ((along - disc.w * big(norm2(u))).sign() >= 0) return clearance_sign(disc, query.b);
-  return (square(centre.along(u.left())) - disc.z * big(norm2(u))).sign();
+  return (square(centre.along(left_of(u))) - disc.z * big(norm2(u))).sign();
 }
 
 // ---- the middle of an edge ----
@@ -65,10 +65,10 @@ bool between(int first, int second) { return first * second < 0; }
 // query: two discs touch p, q and the line then, and none else.
 int middle_of_points(const LatticePoint& p, const LatticePoint& q, const ExactDisc& first,
                      const ExactDisc& second, const LatticeSite& query) {
-  const LatticeVector u = query.b - query.a, e = (q - p).left();
+  const LatticeVector u = query.b - query.a, e = left_of(q - p);
   const int p_side = sign_of(cross(u, p - query.a)), q_side = sign_of(cross(u, q - query.a));
   if (p_side == 0 || p_side != q_side) return -1;
-  const LatticeVector n = p_side > 0 ? u.left() : -u.left();
+  const LatticeVector n = p_side > 0 ? left_of(u) : -left_of(u);
   const std::int64_t turn = cross(n, e) < 0 ? -cross(n, e) : cross(n, e);
   if (turn == 0) return -1;  // the query is parallel to p q: g only grows along the edge
   auto side = [&](const ExactDisc& disc) {
@@ -87,7 +87,7 @@ int middle_of_points(const LatticePoint& p, const LatticePoint& q, const ExactDi
 int middle_of_parabola(const LatticePoint& p, const LatticeSite& segment, const ExactDisc& first,
                        const ExactDisc& second, const LatticeSite& query) {
   auto normal_towards_p = [&p](const LatticeSite& line) {
-    const LatticeVector n = (line.b - line.a).left();
+    const LatticeVector n = left_of(line.b - line.a);
     return dot(n, p - line.a) < 0 ? -n : n;
   };
   const LatticeVector n1 = normal_towards_p(segment), n2 = normal_towards_p(query);
@@ -97,7 +97,7 @@ int middle_of_parabola(const LatticePoint& p, const LatticeSite& segment, const 
     RootTower tower;
     const std::size_t lifted = tower.adjoin_all(*disc.tower);
     const RootNumber m = tower.adjoin_root(big(norm2(n1)) * big(norm2(n2))) - big(dot(n1, n2));
-    const RootNumber along = tower.lift(CentreSeen(disc, p).along(n1.left()), lifted);
+    const RootNumber along = tower.lift(CentreSeen(disc, p).along(left_of(n1)), lifted);
     return (m * along - big(h1) * big(cross(n1, n2)) * tower.lift(disc.w, lifted)).sign();
   };
   return between(side(first), side(second)) ? 1 : -1;
@@ -108,12 +108,12 @@ int middle_of_parabola(const LatticePoint& p, const LatticeSite& segment, const 
 // p would have: N1.left() v = -H1 (N1.left() u) / (N1 u). Else it is largest at an end.
 int middle_behind_end(const LatticePoint& p, const LatticeSite& segment, const ExactDisc& first,
                       const ExactDisc& second, const LatticeVector& u) {
-  const LatticeVector raw = (segment.b - segment.a).left();
+  const LatticeVector raw = left_of(segment.b - segment.a);
   const LatticeVector n1 = dot(raw, p - segment.a) < 0 ? -raw : raw;
   if (dot(n1, u) <= 0) return -1;
   auto side = [&](const ExactDisc& disc) {
-    const RootNumber along = CentreSeen(disc, p).along(n1.left());
-    return (along * big(dot(n1, u)) + disc.w * big(dot(n1, p - segment.a)) * big(dot(n1.left(), u))).sign();
+    const RootNumber along = CentreSeen(disc, p).along(left_of(n1));
+    return (along * big(dot(n1, u)) + disc.w * big(dot(n1, p - segment.a)) * big(dot(left_of(n1), u))).sign();
   };
   return between(side(first), side(second)) ? 1 : -1;
 }
@@ -124,7 +124,7 @@ bool is_end(const LatticePoint& p, const LatticeSite& site) { return p == site.a
 // side of p the clearance is convex: largest at an end, or at p, where it is positive.
 int middle_across_end(const LatticePoint& p, const LatticeSite& segment, const ExactDisc& first,
                       const ExactDisc& second) {
-  const LatticeVector across = (segment.b - segment.a).left();
+  const LatticeVector across = left_of(segment.b - segment.a);
   auto side = [&](const ExactDisc& disc) { return CentreSeen(disc, p).along(across).sign(); };
   return between(side(first), side(second)) ? 1 : -1;
 }
