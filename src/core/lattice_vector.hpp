@@ -1,0 +1,22 @@
+// Differences of lattice points, and their products: exact in 64 bits (core/lattice.hpp).
+#pragma once
+
+#include <cstdint>
+
+#include "core/lattice.hpp"
+
+namespace vorotool::core {
+
+struct LatticeVector {
+  std::int64_t x, y;
+};
+
+inline LatticeVector operator-(const LatticePoint& a, const LatticePoint& b) {
+  return {std::int64_t{a.x} - b.x, std::int64_t{a.y} - b.y};
+}
+inline LatticeVector operator-(const LatticeVector& v) { return {-v.x, -v.y}; }
+
+inline std::int64_t cross(const LatticeVector& v, const LatticeVector& w) { return v.x * w.y - v.y * w.x; }
+inline std::int64_t dot(const LatticeVector& v, const LatticeVector& w) { return v.x * w.x + v.y * w.y; }
+
+}  // namespace vorotool::core
