@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <optional>
-#include <stdexcept>
 
 #include "core/dyadic_disc.hpp"
 #include "core/predicates.hpp"
+#include "core/segment_exact.hpp"
 
 namespace vorotool::core {
 namespace {
@@ -156,7 +156,7 @@ int SegmentPredicates::sign_beyond_filter(const VoronoiRecord& v, const SegmentQ
     return sign;
   }
   ++counts_.exact;
-  throw std::logic_error("a decision of the segment Voronoi diagram needs the exact level");
+  return exact_clearance_sign(sites_.triple(v.sites), sites_.lattice_site(query.site));
 }
 
 // Where the edge passes from u to w, `point` being one of its sites: the shadow of the point is the ray from it
@@ -190,7 +190,9 @@ bool SegmentPredicates::has_shadow_on(const VoronoiRecord& u, int i, const Voron
                                              : shadow_on_parabola(arc, query);
   if (crossed != undecided) return crossed > 0;
   ++counts_.exact;
-  throw std::logic_error("an edge of the segment Voronoi diagram needs the exact level");
+  return exact_edge_clearance_sign(sites_.lattice_site(left), sites_.lattice_site(right),
+                                   sites_.triple(u.sites), sites_.triple(w.sites),
+                                   sites_.lattice_site(query.site)) > 0;
 }
 
 // The bisector of two points, seen from one of them over less than 180 degrees: along the segment, it goes from

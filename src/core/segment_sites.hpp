@@ -54,6 +54,15 @@ class SegmentSites {
     return s.ends[0] == end ? s.direction() : -s.direction();
   }
 
+  // A point or segment as the exact level wants it.
+  LatticeSite lattice_site(SiteIndex site) const {
+    if (is_point(site)) return {point(site), point(site)};
+    return {segment(site).a, segment(site).b};
+  }
+  std::array<LatticeSite, 3> triple(const std::array<SiteIndex, 3>& sites) const {
+    return {lattice_site(sites[0]), lattice_site(sites[1]), lattice_site(sites[2])};
+  }
+
  private:
   std::vector<LatticePoint> points_;
   std::vector<SegmentSite> segments_;
