@@ -167,3 +167,18 @@ def triangulation_fault(
     threads: int,
     progress: _Progress,
 ) -> str | None: ...
+
+# ---- exact signs of segment Voronoi diagrams (bind_segment_exact.cpp), for tests: a site is a row x, y, x, y of int32,
+# ---- a disc three sites in counter-clockwise order of contact; the sign is 2 where they have no disc ----------------
+
+def segment_clearance_signs(sites: NDArray[np.int32]) -> NDArray[np.int8]:
+    """(k, 4, 4): a disc, and the query."""
+
+def segment_same_centre(sites: NDArray[np.int32]) -> NDArray[np.int8]:
+    """(k, 6, 4): two discs."""
+
+def segment_edge_clearance_signs(sites: NDArray[np.int32]) -> NDArray[np.int8]:
+    """(k, 9, 4): the edge's two sites, two discs, and the query."""
+
+def segment_discs(sites: NDArray[np.int32]) -> NDArray[np.float64]:
+    """(k, 3) x, y and radius of (k, 3, 4) discs; NaN where there is none."""

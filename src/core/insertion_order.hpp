@@ -1,0 +1,14 @@
+// The order in which segments are inserted.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace vorotool::core {
+
+// A biased randomized order (Amenta, Choi and Rote 2003) of `count` items that are numbered along a curve: in
+// rounds, each of three quarters of what the later ones leave, and along the curve within a round. The choice
+// is a fixed hash of the number: it repeats.
+std::vector<std::int32_t> insertion_order(std::size_t count);
+
+}  // namespace vorotool::core

@@ -1,0 +1,109 @@
+#include "core/segment_voronoi.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "core/divide_and_conquer.hpp"
+#include "core/insertion_order.hpp"
+#include "core/point_order.hpp"
+#include "core/point_voronoi.hpp"
+
+namespace vorotool::core {
+namespace {
+
+// Of n sites there are at most 2 n - 2 vertices, each with four corner numbers in 31 bits.
+constexpr std::size_t most_sites = (std::size_t{1} << 28) - 1;
+
+using Segment = std::array<std::int32_t, 2>;
+
+void check(const PlanarGraph& graph) {
+  const std::size_t points = graph.points.size();
+  if (points + graph.segments.size() > most_sites) throw std::length_error("more than 268435455 sites");
+  for (std::size_t j = 0; j < graph.segments.size(); ++j) {
+    for (const std::int32_t end : graph.segments[j]) {
+      if (end < 0 || static_cast<std::size_t>(end) >= points) {
+        throw std::invalid_argument("segment " + std::to_string(j) + " ends at point " + std::to_string(end) +
+                                    ", but there are " + std::to_string(points) + " points");
+      }
+    }
+    if (graph.segments[j][0] == graph.segments[j][1]) {
+      throw std::invalid_argument("both ends of segment " + std::to_string(j) + " are the same point");
+    }
+  }
+}
+
+MortonOrder ordered(std::span<const LatticePoint> points, unsigned threads, const Monitor& monitor) {
+  std::vector<Point> places;
+  places.reserve(points.size());
+  for (const LatticePoint& p : points) places.push_back({static_cast<double>(p.x), static_cast<double>(p.y)});
+  std::vector<std::int32_t> first(points.size());
+  MortonOrder order = morton_order(places, first, threads, monitor);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (static_cast<std::size_t>(first[i]) == i) continue;
+    throw std::invalid_argument("points " + std::to_string(first[i]) + " and " + std::to_string(i) +
+                                " are at one place");
+  }
+  return order;
+}
+
+// Segments by their end that comes first, in the numbers of the sites; segments of one such end as given.
+std::vector<std::uint32_t> along_points(std::span<const Segment> segments, std::span<const std::int32_t> rank) {
+  const auto key = [&](const Segment& s) {
+    return static_cast<std::size_t>(
+        std::min(rank[static_cast<std::size_t>(s[0])], rank[static_cast<std::size_t>(s[1])]));
+  };
+  std::vector<std::uint32_t> begin(rank.size() + 1), order(segments.size());
+  for (const Segment& s : segments) ++begin[key(s) + 1];
+  for (std::size_t i = 0; i < rank.size(); ++i) begin[i + 1] += begin[i];
+  for (std::size_t j = 0; j < segments.size(); ++j) {
+    order[begin[key(segments[j])]++] = static_cast<std::uint32_t>(j);
+  }
+  return order;
+}
+
+}  // namespace
+
+SegmentVoronoi::SegmentVoronoi(const PlanarGraph& graph, unsigned threads, const Monitor& monitor) {
+  check(graph);
+  const std::size_t points = graph.points.size(), segments = graph.segments.size();
+  MortonOrder order = ordered(graph.points, threads, monitor);
+  const Subdivision mesh =
+      divide_and_conquer({order.points, order.index, order.code, order.fine}, threads, monitor);
+  std::vector<std::int32_t> rank(points);
+  given_.resize(points + segments);
+  std::vector<LatticePoint> places(points);
+  for (std::size_t i = 0; i < points; ++i) {
+    rank[order.index[i]] = static_cast<std::int32_t>(i);
+    given_[i] = static_cast<std::int32_t>(order.index[i]);
+    places[i] = graph.points[order.index[i]];
+  }
+  order = {};
+  std::vector<Segment> ends(segments);
+  const std::vector<std::uint32_t> along = along_points(graph.segments, rank);
+  for (std::size_t j = 0; j < segments; ++j) {
+    const Segment& s = graph.segments[along[j]];
+    ends[j] = {rank[static_cast<std::size_t>(s[0])], rank[static_cast<std::size_t>(s[1])]};
+    given_[points + j] = static_cast<std::int32_t>(points + along[j]);
+  }
+  sites_ = SegmentSites(std::move(places), ends);
+  records_ = point_voronoi(sites_, mesh, 2 * (points + segments), threads, monitor);
+  insert_segments(monitor);
+}
+
+void SegmentVoronoi::insert_segments(const Monitor& monitor) {
+  constexpr std::size_t often = 256;  // insertions between two looks at the monitor: some 0.5 ms
+  const std::vector<std::int32_t> order = insertion_order(sites_.segment_count());
+  SegmentInsertion insertion(sites_, records_);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    if (k % often == 0 && monitor &&
+        !monitor(static_cast<double>(k) / static_cast<double>(order.size()))) {
+      throw Interrupted();
+    }
+    insertion.insert(static_cast<SiteIndex>(sites_.point_count()) + order[k]);
+  }
+  counts_ = {insertion.visited(), insertion.cyclic(), insertion.escalations()};
+}
+
+}  // namespace vorotool::core

@@ -1,0 +1,48 @@
+// The Voronoi diagram of points and open line segments (paper, section 3.2).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/lattice.hpp"
+#include "core/monitor.hpp"
+#include "core/segment_insertion.hpp"
+#include "core/segment_sites.hpp"
+
+namespace vorotool::core {
+
+// A planar straight-line graph: distinct points; segments between them that meet at their ends only, no two
+// alike and none of length zero.
+struct PlanarGraph {
+  std::span<const LatticePoint> points;
+  std::span<const std::array<std::int32_t, 2>> segments;
+};
+
+struct SegmentVoronoiCounts {
+  std::int64_t visited = 0;  // vertices tested while segments were inserted
+  std::int64_t cyclic = 0;   // segments whose vertices in conflict closed a cycle
+  EscalationCounts escalations;
+};
+
+class SegmentVoronoi {
+ public:
+  // Throws std::length_error for more than 2^28 - 1 sites, and std::invalid_argument for an index that is out
+  // of range, a segment of length zero and two points at one place.
+  SegmentVoronoi(const PlanarGraph& graph, unsigned threads, const Monitor& monitor);
+
+  const SegmentVoronoiCounts& counts() const { return counts_; }
+  const SegmentSites& sites() const { return sites_; }
+  const VoronoiRecords& records() const { return records_; }
+
+ private:
+  void insert_segments(const Monitor& monitor);
+
+  SegmentSites sites_;
+  std::vector<std::int32_t> given_;  // [sites] the number of each site in the input
+  VoronoiRecords records_{0, 0};
+  SegmentVoronoiCounts counts_;
+};
+
+}  // namespace vorotool::core
