@@ -182,3 +182,36 @@ def segment_edge_clearance_signs(sites: NDArray[np.int32]) -> NDArray[np.int8]:
 
 def segment_discs(sites: NDArray[np.int32]) -> NDArray[np.float64]:
     """(k, 3) x, y and radius of (k, 3, 4) discs; NaN where there is none."""
+
+# ---- skeletons (bind_skeleton.cpp): the first six arguments are the arrays of a segment Voronoi diagram -------------
+
+def skeleton_edges(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    vertices: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    edges: NDArray[np.int32],
+    edge_sites: NDArray[np.int32],
+    segment_faces: NDArray[np.int32],
+    threads: int,
+    progress: _Progress,
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Edges that are not deleted, and the face that each lies in."""
+
+def extract_skeleton(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    vertices: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    edges: NDArray[np.int32],
+    edge_sites: NDArray[np.int32],
+    kept: NDArray[np.int32],
+    groups: NDArray[np.int32],
+    clipped: tuple[int, tuple[float, float, float, float]] | None,
+    origin_x: float,
+    origin_y: float,
+    scale: float,
+    threads: int,
+    progress: _Progress,
+) -> dict[str, NDArray[Any]]:
+    """Frames are (least x, most x, least y, most y) on the lattice."""
