@@ -46,12 +46,12 @@ nb::object pairs(const std::vector<LatticePoint>& points) {
 }
 
 // Lattice points, origin, exponent and the largest move.
-nb::tuple place_on_lattice(const Matrix<const double>& array) {
+nb::tuple place_on_lattice(const Matrix<const double>& array, unsigned threads, nb::handle progress) {
   if (array.shape(1) != 2) throw std::invalid_argument("points must have two columns");
   const std::span<const core::Point> points{reinterpret_cast<const core::Point*>(array.data()),
                                             array.shape(0)};
-  const core::Placement placed =
-      run_interruptible(nb::none(), [&](const Monitor&) { return core::place_on_lattice(points); });
+  const core::Placement placed = run_interruptible(
+      progress, [&](const Monitor& monitor) { return core::place_on_lattice(points, threads, monitor); });
   return nb::make_tuple(pairs(placed.points), nb::make_tuple(placed.origin_x, placed.origin_y),
                         placed.exponent, placed.largest_move);
 }
@@ -100,7 +100,7 @@ std::optional<std::string> planar_graph_fault(const IndexRows& points, const Ind
 void bind_planar_graph(nb::module_& module) {
   nb::exception<core::TooManyCrossings>(module, "TooManyCrossingsError", PyExc_ValueError);
   nb::exception<core::TooManyOverlaps>(module, "TooManyOverlapsError", PyExc_ValueError);
-  module.def("place_on_lattice", &place_on_lattice, "points"_a.noconvert());
+  module.def("place_on_lattice", &place_on_lattice, "points"_a.noconvert(), "threads"_a, "progress"_a.none());
   module.def("make_planar_graph", &make_planar_graph, "vertices"_a.noconvert(), "ring_start"_a.noconvert(),
              "ring_kind"_a.noconvert(), "ring_polygon"_a.noconvert(), "progress"_a.none());
   module.def("planar_graph_fault", &planar_graph_fault, "points"_a.noconvert(), "segments"_a.noconvert(),

@@ -4,9 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "core/parallel.hpp"
+
 namespace vorotool::core {
 namespace {
 
+constexpr std::size_t points_per_piece = std::size_t{1} << 16;  // about a millisecond
 constexpr int finest_exponent = -1074;  // every finite double is a multiple of this power of two
 
 struct Range {
@@ -18,9 +21,30 @@ struct Range {
     high = std::max(high, value);
   }
 
+  void include(const Range& other) {
+    include(other.low);
+    include(other.high);
+  }
+
   // Halves first: the sum or difference of two doubles may be beyond the largest.
   double middle() const { return low / 2 + high / 2; }
   double half_width() const { return high / 2 - low / 2; }
+};
+
+struct Bounds {
+  Range x, y;
+
+  void include(std::span<const Point> points) {
+    for (const Point& point : points) {
+      x.include(point.x);
+      y.include(point.y);
+    }
+  }
+
+  void include(const Bounds& other) {
+    x.include(other.x);
+    y.include(other.y);
+  }
 };
 
 // The multiple of 2^exponent nearest to a double. One of 2^53 steps or more is a multiple already.
@@ -76,37 +100,51 @@ double length_above(double x, double y) {
   return std::sqrt(x * x + y * y) * (1 + 0x1p-50);
 }
 
+void choose_lattice(const Bounds& bounds, Placement& lattice) {
+  // half the extent is below 2^k: below 2^30 steps of 2^(k - 30); rounding may make that 2^30, and steps
+  // twice as long are enough then
+  int k = 0;
+  const double half = std::max(bounds.x.half_width(), bounds.y.half_width());
+  std::frexp(half, &k);
+  for (int exponent = half == 0 ? finest_exponent : std::max(k - 30, finest_exponent);; ++exponent) {
+    lattice.exponent = exponent;
+    lattice.origin_x = nearest_multiple(bounds.x.middle(), exponent);
+    lattice.origin_y = nearest_multiple(bounds.y.middle(), exponent);
+    if (fits({lattice.origin_x, exponent}, bounds.x) && fits({lattice.origin_y, exponent}, bounds.y)) return;
+  }
+}
+
 }  // namespace
 
-Placement place_on_lattice(std::span<const Point> points) {
+Placement place_on_lattice(std::span<const Point> points, unsigned threads, const Monitor& monitor) {
   Placement result;
   if (points.empty()) return result;
-  Range x, y;
-  for (const Point& point : points) {
-    x.include(point.x);
-    y.include(point.y);
-  }
-  // half the extent is below 2^k: below 2^30 steps of 2^(k - 30); rounding may make that 2^30, and one step
-  // twice as long is enough then
-  int k = 0;
-  std::frexp(std::max(x.half_width(), y.half_width()), &k);
-  const bool is_point = x.low == x.high && y.low == y.high;
-  for (int exponent = is_point ? finest_exponent : std::max(k - 30, finest_exponent);; ++exponent) {
-    result.exponent = exponent;
-    result.origin_x = nearest_multiple(x.middle(), exponent);
-    result.origin_y = nearest_multiple(y.middle(), exponent);
-    if (fits({result.origin_x, exponent}, x) && fits({result.origin_y, exponent}, y)) break;
-  }
+  const std::size_t pieces = piece_count(points.size(), points_per_piece);
+  const auto piece_of = [&](std::size_t piece) {
+    const std::size_t begin = piece * points_per_piece;
+    return points.subspan(begin, std::min(points_per_piece, points.size() - begin));
+  };
+  std::vector<Bounds> bounds(pieces);
+  parallel_for(pieces, threads, [&](std::size_t i) { bounds[i].include(piece_of(i)); }, monitor);
+  for (const Bounds& each : bounds) bounds[0].include(each);
+  choose_lattice(bounds[0], result);
   const Axis along_x(result.origin_x, result.exponent), along_y(result.origin_y, result.exponent);
-  result.points.reserve(points.size());
-  double most = 0;
-  for (const Point& point : points) {
-    const Placed px = along_x.place(point.x), py = along_y.place(point.y);
-    result.points.push_back({static_cast<std::int32_t>(px.steps), static_cast<std::int32_t>(py.steps)});
-    most = std::max(most, length_above(px.move, py.move));
-  }
-  result.largest_move = std::ldexp(most, result.exponent);
-  if (most > 0) {  // ldexp rounds where the result is subnormal
+  result.points.resize(points.size());
+  std::vector<double> most(pieces, 0);
+  parallel_for(
+      pieces, threads,
+      [&](std::size_t i) {
+        LatticePoint* placed = result.points.data() + i * points_per_piece;
+        for (const Point& point : piece_of(i)) {
+          const Placed px = along_x.place(point.x), py = along_y.place(point.y);
+          *placed++ = {static_cast<std::int32_t>(px.steps), static_cast<std::int32_t>(py.steps)};
+          most[i] = std::max(most[i], length_above(px.move, py.move));
+        }
+      },
+      monitor);
+  const double steps = *std::max_element(most.begin(), most.end());
+  result.largest_move = std::ldexp(steps, result.exponent);
+  if (steps > 0) {  // ldexp rounds where the result is subnormal
     result.largest_move = std::nextafter(result.largest_move, std::numeric_limits<double>::infinity());
   }
   return result;

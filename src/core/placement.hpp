@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/lattice.hpp"
+#include "core/monitor.hpp"
 #include "core/predicates.hpp"
 
 namespace vorotool::core {
@@ -22,7 +23,7 @@ struct Placement {
   double largest_move = 0;  // of a point, in input units: 0 where none moved, else rounded up by a few ulp
 };
 
-// The points must be finite.
-Placement place_on_lattice(std::span<const Point> points);
+// The points must be finite. The result does not depend on the number of threads.
+Placement place_on_lattice(std::span<const Point> points, unsigned threads, const Monitor& monitor);
 
 }  // namespace vorotool::core

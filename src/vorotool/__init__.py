@@ -20,6 +20,7 @@ _HOME = {
     "VorotoolWarning": "vorotool.errors",
     "Frame": "vorotool.geometry.frame",
     "LabelImage": "vorotool.geometry.label_image",
+    "PlanarGraph": "vorotool.geometry.planar_graph",
     "PointSet": "vorotool.geometry.points",
     "PolygonSet": "vorotool.geometry.polygons",
     "Raster": "vorotool.geometry.raster",
@@ -40,6 +41,8 @@ _HOME = {
     "triangle_table": "vorotool.geometry.mesh_tables",
     "point_table": "vorotool.geometry.mesh_tables",
     "verify_triangulation": "vorotool.engines.delaunay",
+    "planar_graph": "vorotool.engines.planar_graph",
+    "verify_planar_graph": "vorotool.engines.planar_graph",
     "colour_regions": "vorotool.engines.regions",
 }
 
