@@ -96,3 +96,21 @@ def case(rng, count=4):
 def cases(seed, number, count=4):
     rng = random.Random(seed)
     return [case(rng, count) for _ in range(number)]
+
+
+def random_graph(rng, points, segments, size):
+    """Points and segments that meet at ends only; small sizes give many ties."""
+    chosen = []
+    while len(chosen) < points:
+        p = random_point(rng, size)
+        if p not in chosen:
+            chosen.append(p)
+    sites = [Site(p, p) for p in chosen]
+    edges = []
+    for _ in range(4 * segments):
+        i, j = sorted(rng.sample(range(points), 2))
+        new = Site(chosen[i], chosen[j])
+        if len(edges) < segments and not any(crosses(new, s) for s in sites):
+            sites.append(new)
+            edges.append((i, j))
+    return chosen, edges

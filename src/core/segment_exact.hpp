@@ -26,9 +26,10 @@ bool exact_same_centre(SiteTriple first, SiteTriple second);
 //
 // The edge between the cells of `left` and `right` runs between the centres of two discs that touch both and
 // that the query segment enters; its ends are sites already, and enter none of the discs along the edge.
-// Gives the sign of the largest clearance along the edge: 1 if it is positive somewhere, 0 if the query
-// touches at most, -1 if it enters every disc. Where an end p of the query is one of the two sites, the
-// clearance is 0 all the way behind p: there the sign of the largest of (p - centre) * direction counts.
+// Gives the sign of the largest clearance along the edge: 1 if it is positive somewhere, -1 if the query
+// enters every disc; it is never 0, as then a point site would be inside the query. Where an end p of the
+// query is one of the two sites, the clearance is 0 all the way behind p: there the sign of the largest of
+// (p - centre) * direction counts.
 int exact_edge_clearance_sign(const LatticeSite& left, const LatticeSite& right, SiteTriple first,
                               SiteTriple second, const LatticeSite& query);
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import segment_cases
+import segment_oracle
 from segment_oracle import Site, certain, clearance, counter_clockwise, sign, tangent_circles, touches
 from vorotool import _core
 
@@ -143,3 +144,67 @@ def test_the_same_centre():
             assert _core.segment_same_centre(rows(first + second)).tolist() == [int(right)], (first, second)
             equal += right
     assert equal > 10
+
+
+# ---- the middle of an edge, against the diagrams before and after ----
+
+
+def corner_order(ring, sites, chosen):
+    """Three sites of a ring, in its order, that have one disc: not only two collinear segments and their end."""
+    for triple in itertools.combinations(ring, 3):
+        if set(chosen) <= set(triple) and not np.isnan(_core.segment_discs(rows([sites[k] for k in triple]))).any():
+            return [sites[k] for k in triple]
+    return None
+
+
+def inserted(points, edges):
+    """The diagram without the last segment and with it, as (sites, vertices, edges) and (vertices, edges)."""
+    sites = segment_oracle.sites_of(points, edges)
+    old, new = (segment_oracle.find_vertices(s) for s in (sites[:-1], sites))
+    return sites, old, segment_oracle.find_edges(sites[:-1], old), new, segment_oracle.find_edges(sites, new)
+
+
+def survivors(sites, left, right, first, second, new, new_edges):
+    """1 if a piece between the two vertices is left."""
+
+    def place(vertex):
+        return segment_oracle.place_on_bisector(sites[left], sites[right], vertex.disc, (vertex.disc.x, vertex.disc.y))
+
+    query = len(sites) - 1
+    branch, start = place(first)
+    _, stop = place(second)
+    places = [
+        place(new[v])
+        for *ends, a, b in new_edges
+        if (a, b) == (left, right)
+        for v in ends
+        if v >= 0 and query in new[v].ring
+    ]
+    if any(start < at < stop and side == branch for side, at in places):
+        return 1
+    return -1
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_middle_of_edges_against_diagrams(seed):
+    rng = random.Random(seed)
+    seen = {1: 0, -1: 0}
+    for _ in range(40):
+        points, edges = segment_cases.random_graph(rng, 6, rng.choice([1, 3, 5]), rng.choice([3, 5, 8, 1000, 2**29]))
+        if not edges:
+            continue
+        sites, old, old_edges, new, new_edges = inserted(points, edges)
+        for v, w, left, right in old_edges:
+            if min(v, w) < 0:
+                continue
+            chosen = [corner_order(old[k].ring, sites, (left, right)) for k in (v, w)]
+            if None in chosen or any(old[k].disc.r == 0 for k in (v, w)):
+                continue
+            if _core.segment_clearance_signs(rows(*([*case, sites[-1]] for case in chosen))).tolist() != [-1, -1]:
+                continue
+            case = [sites[left], sites[right], *chosen[0], *chosen[1], sites[-1]]
+            right_sign = survivors(sites, left, right, old[v], old[w], new, new_edges)
+            assert _core.segment_edge_clearance_signs(rows(case)).tolist() == [right_sign], (points, edges, v, w)
+            seen[right_sign] += 1
+    assert seen[-1] > 10
+    assert seen[1] > 0
