@@ -175,7 +175,7 @@ def segment_edge_clearance_signs(sites: NDArray[np.int32]) -> NDArray[np.int8]:
 def segment_discs(sites: NDArray[np.int32]) -> NDArray[np.float64]:
     """(k, 3) x, y and radius of (k, 3, 4) discs; NaN where there is none."""
 
-# ---- the check of segment Voronoi diagrams (bind_segment_verification.cpp): arrays as in SegmentVoronoi ------------
+# ---- the check of segment Voronoi diagrams (bind_segment_verification.cpp): arrays as in SegmentVoronoiDiagram ----
 
 def segment_voronoi_fault(
     points: NDArray[np.int32],
@@ -189,3 +189,23 @@ def segment_voronoi_fault(
     threads: int,
     progress: _Progress,
 ) -> str | None: ...
+
+# ---- segment Voronoi diagrams (bind_segment_voronoi.cpp): arrays of int32, C-contiguous, two columns -----------------
+
+class SegmentVoronoi:
+    def __init__(
+        self, points: NDArray[np.int32], segments: NDArray[np.int32], threads: int, progress: _Progress
+    ) -> None: ...
+    @property
+    def counts(self) -> dict[str, int]: ...
+    def arrays(
+        self, threads: int, progress: _Progress
+    ) -> tuple[
+        NDArray[np.float64],
+        NDArray[np.float64],
+        NDArray[np.int32],
+        NDArray[np.int32],
+        NDArray[np.int32],
+        NDArray[np.int32],
+    ]:
+        """Vertices, radii, where the sites of each begin, these, edges, and the sites beside them."""
