@@ -58,6 +58,10 @@ bool is_well_conditioned(const SegmentSites& sites, const VoronoiRecord& v) {
 
 }  // namespace
 
+double DyadicDisc::x() const { return static_cast<double>(x_) / scale; }
+double DyadicDisc::y() const { return static_cast<double>(y_) / scale; }
+double DyadicDisc::radius() const { return std::sqrt(static_cast<double>(square_)) / scale; }
+
 int128 DyadicDisc::square_distance(const LatticePoint& p) const {
   const int128 dx = x_ - scale * p.x, dy = y_ - scale * p.y;
   return dx * dx + dy * dy;

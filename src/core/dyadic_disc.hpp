@@ -16,6 +16,13 @@ class DyadicDisc {
   // As SegmentPredicates::sign; undecided where the integers would not fit.
   int sign(const SegmentSite& query) const;
 
+  bool same_centre(const DyadicDisc& other) const { return x_ == other.x_ && y_ == other.y_; }
+  // Exact.
+  double x() const;
+  double y() const;
+  // Rounded.
+  double radius() const;
+
  private:
   friend std::optional<DyadicDisc> dyadic_disc(const SegmentSites& sites, const VoronoiRecord& vertex);
 

@@ -16,10 +16,10 @@ float rounded_up(double bound) { return static_cast<float>(bound * (1 + 0x1p-22)
 
 template <class Real>
 void put_disc(const TangentDisc<Real>& disc, VoronoiRecord& record) {
-  record.x = disc.anchor.x + static_cast<double>(disc.x);
-  record.y = disc.anchor.y + static_cast<double>(disc.y);
+  record.x = static_cast<double>(Real(static_cast<double>(disc.anchor.x)) + disc.x);
+  record.y = static_cast<double>(Real(static_cast<double>(disc.anchor.y)) + disc.y);
   record.radius = static_cast<double>(disc.radius);
-  // The sums round once; a number of 106 bits is rounded besides.
+  // Every number is rounded once.
   const double size = std::abs(record.x) + std::abs(record.y) + record.radius;
   record.position_error = rounded_up(disc.position_error + 2 * unit_roundoff * size);
   record.radius_error = rounded_up(disc.radius_error + unit_roundoff * record.radius);

@@ -35,12 +35,14 @@ class SegmentVoronoi {
   const SegmentVoronoiCounts& counts() const { return counts_; }
   const SegmentSites& sites() const { return sites_; }
   const VoronoiRecords& records() const { return records_; }
+  // [sites] the number of each site in the input: points, then segments.
+  std::span<const std::int32_t> given() const { return given_; }
 
  private:
   void insert_segments(const Monitor& monitor);
 
   SegmentSites sites_;
-  std::vector<std::int32_t> given_;  // [sites] the number of each site in the input
+  std::vector<std::int32_t> given_;
   VoronoiRecords records_{0, 0};
   SegmentVoronoiCounts counts_;
 };

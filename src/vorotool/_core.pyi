@@ -186,6 +186,10 @@ def segment_discs(sites: NDArray[np.int32]) -> NDArray[np.float64]:
 # ---- skeletons (bind_skeleton.cpp): the first six arguments are the arrays of a segment Voronoi diagram -------------
 
 def skeleton_edges(
+
+# ---- the check of segment Voronoi diagrams (bind_segment_verification.cpp): arrays as in SegmentVoronoiDiagram ----
+
+def segment_voronoi_fault(
     points: NDArray[np.int32],
     segments: NDArray[np.int32],
     vertices: NDArray[np.float64],
@@ -238,3 +242,31 @@ def make_planar_graph(
 def planar_graph_fault(
     points: NDArray[np.int32], segments: NDArray[np.int32], faces: NDArray[np.int32] | None, progress: _Progress
 ) -> str | None: ...
+
+    vertex_start: NDArray[np.int32],
+    vertex_sites: NDArray[np.int32],
+    edges: NDArray[np.int32],
+    edge_sites: NDArray[np.int32],
+    threads: int,
+    progress: _Progress,
+) -> str | None: ...
+
+# ---- segment Voronoi diagrams (bind_segment_voronoi.cpp): arrays of int32, C-contiguous, two columns -----------------
+
+class SegmentVoronoi:
+    def __init__(
+        self, points: NDArray[np.int32], segments: NDArray[np.int32], threads: int, progress: _Progress
+    ) -> None: ...
+    @property
+    def counts(self) -> dict[str, int]: ...
+    def arrays(
+        self, threads: int, progress: _Progress
+    ) -> tuple[
+        NDArray[np.float64],
+        NDArray[np.float64],
+        NDArray[np.int32],
+        NDArray[np.int32],
+        NDArray[np.int32],
+        NDArray[np.int32],
+    ]:
+        """Vertices, radii, where the sites of each begin, these, edges, and the sites beside them."""
