@@ -99,6 +99,7 @@ def colour_graph(
 ) -> NDArray[np.uint32]: ...
 
 # ---- text (bind_text.cpp): a delimiter is one of "," ";" "\t" " " ---------------------------------------------
+
 # ---- text (bind_text.cpp): a delimiter is one of "," ";" "\t" " " --------------------------------
 
 class TextError(ValueError):
@@ -139,6 +140,7 @@ class NumberTexts:
     def __len__(self) -> int: ...
 
 # ---- predicates (bind_predicates.cpp): a level is "auto", "filter", "integers", "expansions" or "wide"; the sign
+
 # ---- is 2 where a level other than "auto" and "wide" cannot tell. The points must be finite. -----------------------
 
 def orient2d(points: NDArray[np.float64], level: str = "auto") -> NDArray[np.int8]: ...
@@ -169,6 +171,7 @@ def triangulation_fault(
 ) -> str | None: ...
 
 # ---- exact signs of segment Voronoi diagrams (bind_segment_exact.cpp), for tests: a site is a row x, y, x, y of int32,
+
 # ---- a disc three sites in counter-clockwise order of contact; the sign is 2 where they have no disc ----------------
 
 def segment_clearance_signs(sites: NDArray[np.int32]) -> NDArray[np.int8]:
@@ -186,10 +189,6 @@ def segment_discs(sites: NDArray[np.int32]) -> NDArray[np.float64]:
 # ---- skeletons (bind_skeleton.cpp): the first six arguments are the arrays of a segment Voronoi diagram -------------
 
 def skeleton_edges(
-
-# ---- the check of segment Voronoi diagrams (bind_segment_verification.cpp): arrays as in SegmentVoronoiDiagram ----
-
-def segment_voronoi_fault(
     points: NDArray[np.int32],
     segments: NDArray[np.int32],
     vertices: NDArray[np.float64],
@@ -243,6 +242,13 @@ def planar_graph_fault(
     points: NDArray[np.int32], segments: NDArray[np.int32], faces: NDArray[np.int32] | None, progress: _Progress
 ) -> str | None: ...
 
+# ---- the check of segment Voronoi diagrams (bind_segment_verification.cpp): arrays as in SegmentVoronoiDiagram ----
+
+def segment_voronoi_fault(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    vertices: NDArray[np.float64],
+    radius: NDArray[np.float64],
     vertex_start: NDArray[np.int32],
     vertex_sites: NDArray[np.int32],
     edges: NDArray[np.int32],
