@@ -25,6 +25,7 @@ _HOME = {
     "PolygonSet": "vorotool.geometry.polygons",
     "Raster": "vorotool.geometry.raster",
     "SeedSet": "vorotool.geometry.seeds",
+    "Skeleton": "vorotool.geometry.skeleton",
     "Table": "vorotool.geometry.table",
     "Triangulation": "vorotool.geometry.triangulation",
     "read": "vorotool.formats",
@@ -43,6 +44,7 @@ _HOME = {
     "verify_triangulation": "vorotool.engines.delaunay",
     "planar_graph": "vorotool.engines.planar_graph",
     "verify_planar_graph": "vorotool.engines.planar_graph",
+    "skeleton_exact": "vorotool.engines.skeleton_exact",
     "colour_regions": "vorotool.engines.regions",
 }
 

@@ -100,8 +100,6 @@ def colour_graph(
 
 # ---- text (bind_text.cpp): a delimiter is one of "," ";" "\t" " " ---------------------------------------------
 
-# ---- text (bind_text.cpp): a delimiter is one of "," ";" "\t" " " --------------------------------
-
 class TextError(ValueError):
     """Args: kind (not_number, not_finite, field_count, open_quote), line, column, text, found, expected."""
 
