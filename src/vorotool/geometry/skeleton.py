@@ -179,14 +179,19 @@ class Skeleton:
 
     @cached_property
     def site_ends(self) -> NDArray[np.float64]:
-        """(s, 2, 2) the ends of each site; a vertex has one place twice."""
+        """(s, 2, 2) the ends of each site, with a gap those of the shortened edges; a vertex has one place twice."""
         table, polygons = self.site_table, self.polygons
         ring = polygons.polygon_start[table.polygon] + table.ring
         start, stop = polygons.ring_start[ring], polygons.ring_start[ring + 1]
         first = start + table.index
         following = np.where(first + 1 < stop, first + 1, start)
         last = np.where(table.kind == EDGE, following, first)
-        return np.stack([polygons.xy[first], polygons.xy[last]], axis=1)
+        a, b = polygons.xy[first], polygons.xy[last]
+        if self.gap:
+            length = np.sqrt(((b - a) ** 2).sum(axis=1, keepdims=True))
+            way = np.divide(self.gap * (b - a), length, out=np.zeros_like(a), where=length > 0)
+            a, b = a + way, b - way
+        return np.stack([a, b], axis=1)
 
     def flattened(self, tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """Arcs as polylines, parabolas divided evenly in their parameter.

@@ -23,6 +23,8 @@ SEED = "#332288"
 INK = "#222222"
 EDGE = "#ffffff"
 FAINT = "#999999"
+LIGHT = "#e4e4e4"
+RESULT = "#aa3344"
 
 CELLS = (
     "#77aadd",
