@@ -323,9 +323,11 @@ def gap_deviation(skeleton: Skeleton, exact: Skeleton) -> float:
     return float(distance.max())
 
 
-def exact_for(elements: ElementDiagram, side: str, *, threads: int = 0) -> Skeleton:
+def exact_for(
+    elements: ElementDiagram, side: str, *, frame: Frame | None = None, threads: int = 0
+) -> Skeleton:
     """Compute the exact skeleton of the shapes that were decomposed."""
     shapes = elements.shapes
     diagram = segment_voronoi(shapes.points, shapes.segments, threads=threads)
     whole = ShapeDiagram(shapes, diagram, elements.polygons, elements.sites)
-    return skeleton_of(whole, side=side, threads=threads)
+    return skeleton_of(whole, side=side, frame=frame, threads=threads)

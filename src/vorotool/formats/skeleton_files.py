@@ -13,11 +13,16 @@ from vorotool.formats.skeleton_json import write_json
 from vorotool.formats.tables import TABLE_FORMATS, json_text, write_arrays, write_table
 from vorotool.formats.text_rows import Column, RowShape, write_rows
 from vorotool.geometry.skeleton import SIDES, Skeleton
-from vorotool.geometry.skeleton_tables import arc_table, branch_table, polygon_table
-from vorotool.geometry.table import Lookup
+from vorotool.geometry.skeleton_tables import arc_table, branch_table, element_table, polygon_table
+from vorotool.geometry.table import Lookup, Table
 
 SKELETON_FORMATS = ("json", "csv", "geojson", "npz", "wkt")
-FORMATS = {"skeleton": SKELETON_FORMATS, "branches": TABLE_FORMATS, "table": TABLE_FORMATS}
+_TABLES: dict[str, Callable[[Skeleton], Table]] = {
+    "elements": element_table,
+    "branches": branch_table,
+    "table": polygon_table,
+}
+FORMATS = {"skeleton": SKELETON_FORMATS, **dict.fromkeys(_TABLES, TABLE_FORMATS)}
 FLATTEN = 2.0**-12
 """Of the larger side of the bounds: how far polylines are from parabolas where nothing else is asked for."""
 
@@ -44,8 +49,8 @@ def write_skeleton(
     skeleton : Skeleton
         What to write, in its order.
     fmt : {"json", "csv", "geojson", "npz", "wkt"}
-        The format; branches and table are written as CSV, JSON or NPZ.
-    what : {"skeleton", "branches", "table"}
+        The format; the others are written as CSV, JSON or NPZ.
+    what : {"skeleton", "elements", "branches", "table"}
         What to write.
     flatten : float, optional
         How far a polyline may be from its parabola, in input units; by default 1/4096 of the larger side of the bounds.
@@ -74,8 +79,7 @@ def write_skeleton(
     if fmt not in FORMATS[what]:
         raise UsageError(f"{what} cannot be written as {fmt!r}: use one of {', '.join(FORMATS[what])}")
     if what != "skeleton":
-        table = branch_table(skeleton) if what == "branches" else polygon_table(skeleton)
-        write_table(out, table, fmt, precision=precision, threads=threads)
+        write_table(out, _TABLES[what](skeleton), fmt, precision=precision, threads=threads)
     elif fmt == "csv":
         write_table(out, arc_table(skeleton), fmt, precision=precision, threads=threads)
     elif fmt == "json":

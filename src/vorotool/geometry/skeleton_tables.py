@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -62,6 +63,71 @@ def arc_table(skeleton: Skeleton) -> Table:
             "branch": skeleton.branch,
         }
     )
+
+
+def element_table(skeleton: Skeleton) -> Table:
+    """Give one row a site: vertices and edges, as the paper decomposes shapes (Figure 10).
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Rows are in the order of its sites. With a gap, edges are as they were shortened.
+
+    Returns
+    -------
+    Table
+        ``element, kind, polygon, id, ring, vertex_index, x0, y0, x1, y1, label_a, label_b``: a vertex has no second place. The
+        labels are the paper's, numbers of edges from 1: an edge has its own, a vertex those of its edges (the first two of
+        more), and bisectors between elements with a label in common are deleted.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> table = element_table(skeleton_exact([[0, 0], [4, 0], [0, 3]]))
+    >>> table["label_a"].tolist(), table["label_b"].tolist()
+    ([1, 1, 2, 1, 2, 3], [3, 2, 3, None, None, None])
+    """
+    sites = skeleton.site_table
+    is_edge = sites.kind == EDGE
+    ends = skeleton.site_ends
+    labels = _labels(skeleton)
+    return Table(
+        {
+            "element": np.arange(len(sites)),
+            "kind": Lookup(["vertex", "edge"], sites.kind.astype(np.int32)),
+            "polygon": sites.polygon,
+            "id": ids_of(skeleton.polygons, sites.polygon),
+            "ring": sites.ring,
+            "vertex_index": sites.index,
+            "x0": ends[:, 0, 0],
+            "y0": ends[:, 0, 1],
+            "x1": np.ma.array(ends[:, 1, 0], mask=~is_edge),
+            "y1": np.ma.array(ends[:, 1, 1], mask=~is_edge),
+            "label_a": np.ma.array(labels[:, 0], mask=labels[:, 0] == 0),
+            "label_b": np.ma.array(labels[:, 1], mask=labels[:, 1] == 0),
+        }
+    )
+
+
+def _labels(skeleton: Skeleton) -> NDArray[np.int64]:
+    """(s, 2) the first two labels of each site; 0 for none."""
+    is_edge = skeleton.site_table.kind == EDGE
+    points, edges = np.flatnonzero(~is_edge), np.flatnonzero(is_edge)
+    labels = np.zeros((len(is_edge), 2), dtype=np.int64)
+    labels[edges, 0] = np.arange(1, len(edges) + 1)
+    ends = replace(skeleton, gap=0.0).site_ends
+    places = np.concatenate([ends[points, 0], ends[edges].reshape(-1, 2)])
+    _, place = np.unique(places, axis=0, return_inverse=True)
+    place = place.reshape(-1)
+    owner = np.zeros(int(place.max(initial=-1)) + 1, dtype=np.int64)
+    owner[place[: len(points)]] = points
+    at = owner[place[len(points) :]]
+    label = np.repeat(np.arange(1, len(edges) + 1), 2)
+    order = np.argsort(at, kind="stable")
+    at, label = at[order], label[order]
+    nth = np.arange(len(at)) - np.searchsorted(at, at)
+    labels[at[nth < 2], nth[nth < 2]] = label[nth < 2]  # noqa: PLR2004
+    return labels
 
 
 def ids_of(polygons: PolygonSet, polygon: NDArray[np.int32]) -> Lookup:

@@ -11,7 +11,7 @@ from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.skeleton import EDGE, Skeleton
 from vorotool.render.label_png import checked_layers
 from vorotool.render.layers import Curves, Layer, Lines, Page, Points, Polygons, bounds_of
-from vorotool.render.palettes import INK, LIGHT, RESULT
+from vorotool.render.palettes import FAINT, INK, LIGHT, RESULT, SEED
 
 LAYERS = ("polygons", "elements", "points", "skeleton", "nodes")
 """From below."""
@@ -57,6 +57,13 @@ def skeleton_layers(
         "nodes": lambda: [Points("nodes", skeleton.vertices, colour=colour, radius=radius)],
     }
     return [layer for layer_name in LAYERS if layer_name in wanted for layer in make[layer_name]()]
+
+
+def picture_layers(skeleton: Skeleton, page: Page, layers: Iterable[str], *, what: str = "skeleton") -> list[Layer]:
+    """Make the layers of the picture of a skeleton, or of a whole diagram, which is another layer in another colour."""
+    if what == "diagram":
+        return skeleton_layers(skeleton, page, layers, name="diagram", colour=SEED)
+    return skeleton_layers(skeleton, page, layers)
 
 
 def skeleton_page(
@@ -105,7 +112,7 @@ def _polygon_layers(polygons: PolygonSet, width: float) -> list[Layer]:
     first = np.flatnonzero(~corner_is_closed)
     last = np.isin(first, polygons.ring_start[1:] - 1)
     pairs = np.stack([first[~last], first[~last] + 1], axis=1).astype(np.int32)
-    lines = Lines("lines", polygons.xy, pairs, INK, width)
+    lines = Lines("lines", polygons.xy, pairs, FAINT, width)
     return [filled, lines] if len(pairs) else [filled]
 
 
