@@ -11,6 +11,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "core/clearance.hpp"
 #include "core/parallel.hpp"
 #include "core/skeleton_edges.hpp"
 #include "core/skeleton_extraction.hpp"
@@ -140,6 +141,31 @@ nb::dict extract_skeleton(const IndexRows& points, const IndexRows& segments, co
   return result;
 }
 
+// Distances of places on the lattice from the nearest of points and segments.
+nb::object clearances(const IndexRows& points, const IndexRows& segments, const Places& places,
+                      const Vector<const double>& reach, unsigned threads, nb::handle progress) {
+  const std::span<const LatticePoint> all = rows<LatticePoint>(points);
+  const std::span<const Pair> ends = rows<Pair>(segments);
+  if (places.shape(0) != reach.size()) throw std::invalid_argument("each place must have one reach");
+  for (const Pair& pair : ends) {
+    for (const std::int32_t end : pair) {
+      if (end < 0 || static_cast<std::size_t>(end) >= all.size()) {
+        throw std::invalid_argument("an end of a segment is out of range");
+      }
+    }
+  }
+  std::vector<double> found = run_interruptible(progress, [&](const Monitor& monitor) {
+    std::vector<core::LatticeSite> sites;
+    sites.reserve(all.size() + ends.size());
+    for (const LatticePoint& point : all) sites.push_back({point, point});
+    for (const auto& [a, b] : ends) {
+      sites.push_back({all[static_cast<std::size_t>(a)], all[static_cast<std::size_t>(b)]});
+    }
+    return core::clearances(sites, rows<Place>(places), view(reach), core::resolve_threads(threads), monitor);
+  });
+  return to_numpy(std::move(found));
+}
+
 }  // namespace
 
 void bind_skeleton(nb::module_& module) {
@@ -150,6 +176,8 @@ void bind_skeleton(nb::module_& module) {
              "vertices"_a.noconvert(), "radius"_a.noconvert(), "edges"_a.noconvert(),
              "edge_sites"_a.noconvert(), "kept"_a.noconvert(), "groups"_a.noconvert(), "clipped"_a.none(),
              "origin_x"_a, "origin_y"_a, "scale"_a, "threads"_a, "progress"_a.none());
+  module.def("clearances", &clearances, "points"_a.noconvert(), "segments"_a.noconvert(), "places"_a.noconvert(),
+             "reach"_a.noconvert(), "threads"_a, "progress"_a.none());
 }
 
 }  // namespace vorotool::bindings

@@ -55,14 +55,19 @@ class Clipper {
            (!bisector.is_parabola || frame_.holds(control_point(bisector.parabola, source, target)));
   }
 
-  // Only the bisector of two points is unbounded: across the way between them, the left one to its left.
+  // Only the bisectors of two points, and of a segment and its end, are unbounded: across the way between them, the
+  // left site to the left.
   Line line_of(const GraphArc& arc) const {
     if (arc.source >= 0 && arc.target >= 0) {
       const Place a = graph_.end(arc.source).place, b = graph_.end(arc.target).place;
       return {a, {b[0] - a[0], b[1] - a[1]}, 0, 1};
     }
-    const LatticePoint p = graph_.diagram().point(arc.left), q = graph_.diagram().point(arc.right);
-    const LatticeVector across = p - q;
+    const LatticeSite left = graph_.diagram().site(arc.left), right = graph_.diagram().site(arc.right);
+    const LatticePoint p = left.is_point() ? left.a : right.a, q = right.is_point() ? right.a : left.a;
+    const auto middle_of = [](const LatticeSite& s) {
+      return LatticeVector{std::int64_t{s.a.x} + s.b.x, std::int64_t{s.a.y} + s.b.y};
+    };
+    const LatticeVector across{middle_of(left).x - middle_of(right).x, middle_of(left).y - middle_of(right).y};
     const Place way{static_cast<double>(across.y), -static_cast<double>(across.x)};
     if (arc.source >= 0) return {graph_.end(arc.source).place, way, 0, infinity};
     if (arc.target >= 0) return {graph_.end(arc.target).place, way, -infinity, 0};

@@ -274,3 +274,15 @@ class SegmentVoronoi:
         NDArray[np.int32],
     ]:
         """Vertices, radii, where the sites of each begin, these, edges, and the sites beside them."""
+
+# ---- distances from sites (bind_skeleton.cpp) --------------------------------------------------------------------
+
+def clearances(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    places: NDArray[np.float64],
+    reach: NDArray[np.float64],
+    threads: int,
+    progress: _Progress,
+) -> NDArray[np.float64]:
+    """Of the nearest site within reach; infinite where there is none."""

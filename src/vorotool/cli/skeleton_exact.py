@@ -62,9 +62,7 @@ class Length(click.ParamType[float]):
     show_default=True,
     help="Inside polygons, outside all of them, or both.",
 )
-@click.option(
-    "--frame", type=Rectangle(), help="Cuts what is outside; by default the bounds and a tenth around them."
-)
+@click.option("--frame", type=Rectangle(), help="Cuts what is outside; by default the bounds and a tenth around them.")
 @click.option(
     "--gap",
     type=Length(zero=True),

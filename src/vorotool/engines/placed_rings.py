@@ -113,7 +113,15 @@ def _table(
 
 def _with_rings(given: PolygonSet, xy: NDArray[np.float64], starts: NDArray[np.int64]) -> PolygonSet:
     return PolygonSet(
-        xy, starts, given.ring_kind, given.ring_polygon, given.ids, given.feature, given.properties, given.y_up, given.crs
+        xy,
+        starts,
+        given.ring_kind,
+        given.ring_polygon,
+        given.ids,
+        given.feature,
+        given.properties,
+        given.y_up,
+        given.crs,
     )
 
 

@@ -220,9 +220,7 @@ def _in_shapes(elements: ElementDiagram, places: NDArray[np.float64]) -> NDArray
     return back
 
 
-def _sector_faces(
-    shapes: PlanarGraph, vertex: NDArray[np.int64], place: NDArray[np.float64]
-) -> NDArray[np.int32]:
+def _sector_faces(shapes: PlanarGraph, vertex: NDArray[np.int64], place: NDArray[np.float64]) -> NDArray[np.int32]:
     """The faces in which places lie as seen from vertices; face 0 where a vertex has no edges."""
     at = np.concatenate([shapes.segments[:, 0], shapes.segments[:, 1]]).astype(np.int64)
     to = np.concatenate([shapes.segments[:, 1], shapes.segments[:, 0]])
@@ -323,9 +321,7 @@ def gap_deviation(skeleton: Skeleton, exact: Skeleton) -> float:
     return float(distance.max())
 
 
-def exact_for(
-    elements: ElementDiagram, side: str, *, frame: Frame | None = None, threads: int = 0
-) -> Skeleton:
+def exact_for(elements: ElementDiagram, side: str, *, frame: Frame | None = None, threads: int = 0) -> Skeleton:
     """Compute the exact skeleton of the shapes that were decomposed."""
     shapes = elements.shapes
     diagram = segment_voronoi(shapes.points, shapes.segments, threads=threads)

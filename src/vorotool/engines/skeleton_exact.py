@@ -137,9 +137,7 @@ class ShapeDiagram:
     sites: SiteTable
 
 
-def shape_diagram(
-    polygons: Any, *, strict: bool = False, threads: int = 0, progress: Progress = None
-) -> ShapeDiagram:
+def shape_diagram(polygons: Any, *, strict: bool = False, threads: int = 0, progress: Progress = None) -> ShapeDiagram:
     """Place polygons and compute their segment Voronoi diagram; arguments and errors as of `skeleton_exact`.
 
     Examples

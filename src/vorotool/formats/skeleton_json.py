@@ -91,7 +91,10 @@ def _write_arcs(out: BinaryIO, skeleton: Skeleton, precision: int | None, thread
         *(_integers(values) for values in skeleton.sites.T),
         _choice(['"interior"', '"exterior"', "null"], np.where(skeleton.side < 0, 2, skeleton.side)),
         bounds,
-        Column("", Lookup([*map(str, range(len(skeleton.polygons))), "null"], skeleton.polygon % (len(skeleton.polygons) + 1))),
+        Column(
+            "",
+            Lookup([*map(str, range(len(skeleton.polygons))), "null"], skeleton.polygon % (len(skeleton.polygons) + 1)),
+        ),
         _integers(skeleton.branch),
         Column("", skeleton.length),
     ]
@@ -216,9 +219,7 @@ class _Rows:
             raise InputError(f"{self.name}: the gap is {shortened(value)}; write a length")
         return float(value)
 
-    def indices(
-        self, member: str, rows: list[Any], name: str, limit: int, default: Any = None
-    ) -> NDArray[np.int32]:
+    def indices(self, member: str, rows: list[Any], name: str, limit: int, default: Any = None) -> NDArray[np.int32]:
         """Integers from 0 to below a limit; None becomes -1 where it is the default."""
 
         def is_right(value: Any) -> bool:
@@ -295,7 +296,9 @@ def _read_arcs(
     pair = rows.pairs("arcs", items, "sites", optional=False)
     bad = np.flatnonzero(((pair < 0) | (pair >= len(sites)) | (pair % 1 != 0)).any(axis=1))
     if bad.size:
-        raise InputError(f"{rows.name}, arcs {bad[0]}: sites are {items[bad[0]]['sites']}; there are {len(sites)} sites")
+        raise InputError(
+            f"{rows.name}, arcs {bad[0]}: sites are {items[bad[0]]['sites']}; there are {len(sites)} sites"
+        )
     side = rows.choices("arcs", items, "side", (*SIDES, None))
     side[side == len(SIDES)] = -1
     branch = rows.indices("arcs", items, "branch", 2**31 - 1, default=-1)
