@@ -1,6 +1,9 @@
 """Planar graphs of lattice rings beside the definition, by brute force in rationals."""
 
 import re
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -39,12 +42,29 @@ def described(graph):
     return found
 
 
+def assert_pieces_follow_their_edges(graph, vertices, rings):
+    """Segments come edge by edge, directed and in order along the first edge that each is part of."""
+    before = (-1, None)
+    for k, (i, j) in enumerate(graph["segments"].tolist()):
+        edge = int(graph["source_edge"][graph["source_start"][k]])
+        begin, end, _, _ = rings[oracle.ring_of(rings, edge)]
+        a, b = vertices[edge].tolist(), vertices[begin if edge + 1 == end else edge + 1].tolist()
+        start, stop = (
+            [(p - q) * (r - q) for p, q, r in zip(graph["points"][e].tolist(), a, b, strict=True)] for e in (i, j)
+        )
+        assert all(x <= y for x, y in zip(start, stop, strict=True))
+        assert start != stop
+        assert edge > before[0] or (edge == before[0] and all(x <= y for x, y in zip(before[1], start, strict=True)))
+        before = (edge, stop)
+
+
 def check(vertices, rings):
     """Compare with the definition; small inputs only."""
     graph = make(vertices, rings)
     assert fault(graph) is None
     points = [tuple(p) for p in graph["points"].tolist()]
     assert oracle.fault(points, graph["segments"].tolist()) is None
+    assert_pieces_follow_their_edges(graph, vertices, rings)
     expected, moved = oracle.planar_graph(vertices.tolist(), rings)
     assert described(graph) == expected
     assert graph["repairs"][3][0] == moved
@@ -180,6 +200,13 @@ def test_the_checker_finds_faults(change, message):
     assert re.search(message, _core.planar_graph_fault(points, segments, faces, None))
 
 
+def test_the_checker_compares_new_neighbours():
+    """Two segments cross above the end of a third one between them, and nothing else happens."""
+    points = np.array([[0, 0], [10, 10], [10, 0], [0, 10], [5, 0], [5, 2]], dtype=np.int32)
+    segments = np.array([[0, 1], [2, 3], [4, 5]], dtype=np.int32)
+    assert "segments 0 and 1 cross" in _core.planar_graph_fault(points, segments, None, None)
+
+
 def test_the_checker_agrees_with_brute_force():
     """On graphs that are made wrong at random."""
     seen = {True: 0, False: 0}
@@ -195,3 +222,12 @@ def test_the_checker_agrees_with_brute_force():
         assert (ours is None) == (theirs is None), (points, chosen, ours, theirs)
         seen[ours is None] += 1
     assert min(seen.values()) > 50
+
+
+def test_the_fuzz_target_runs():
+    script = Path(__file__).parents[1] / "fuzz" / "planar_graph.py"
+    done = subprocess.run(
+        [sys.executable, script, "--cases", "63", "--seed", "5"], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "63 cases, 0 failures" in done.stdout

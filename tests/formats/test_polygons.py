@@ -55,6 +55,22 @@ def test_the_caller_knows(tmp_path):
         vorotool.read(path, geometry="points")
     with pytest.raises(UsageError, match="geometry is 'lines'"):
         vorotool.read(path, geometry="lines")
+    with pytest.raises(UsageError, match="--columns is for lists of points"):
+        vorotool.read(path, geometry="polygons", columns="1,2")
+    with pytest.raises(UsageError, match="--columns is for delimited text"):
+        vorotool.read(path, columns="1,2")
+
+
+def test_json_is_parsed_once(tmp_path, monkeypatch):
+    import orjson
+
+    calls = []
+    parse = orjson.loads
+    monkeypatch.setattr(orjson, "loads", lambda data: calls.append(1) or parse(data))
+    for text in (POLYGON, POINT, collected(POINT, POINT)):
+        (tmp_path / "a.geojson").write_text(text)
+        vorotool.read(tmp_path / "a.geojson")
+    assert len(calls) == 3
 
 
 @pytest.mark.parametrize(
