@@ -11,6 +11,7 @@ void bind_regions(nanobind::module_& module);
 void bind_predicates(nanobind::module_& module);
 void bind_delaunay(nanobind::module_& module);
 void bind_segment_exact(nanobind::module_& module);
+void bind_segment_verification(nanobind::module_& module);
 void bind_segment_voronoi(nanobind::module_& module);
 
 }  // namespace vorotool::bindings

@@ -9,5 +9,6 @@ NB_MODULE(_core, module) {
   vorotool::bindings::bind_predicates(module);
   vorotool::bindings::bind_delaunay(module);
   vorotool::bindings::bind_segment_exact(module);
+  vorotool::bindings::bind_segment_verification(module);
   vorotool::bindings::bind_segment_voronoi(module);
 }

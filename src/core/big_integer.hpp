@@ -11,8 +11,8 @@ namespace vorotool::core {
 
 class BigInteger {
  public:
-  // Enough for every caller (segment_exact.cpp derives 6 720 bits); beyond it std::length_error is thrown.
-  static constexpr std::size_t capacity = 108;
+  // Enough for every caller (segment_exact.cpp derives 7 264 bits); beyond it std::length_error is thrown.
+  static constexpr std::size_t capacity = 116;
 
   BigInteger() {}  // zero; limbs beyond the size have no value
   BigInteger(std::int64_t value);

@@ -1,9 +1,9 @@
 // The largest integers, after nested_roots.hpp and the sizes in exact_disc.cpp (x <= 2^226 from any lattice
 // point, w <= 2^191, two roots a disc):
 //  - clearance from a segment: (N c)^2 <= (2 2^31 2^226)^2 = 2^516, two roots, so 4 516 = 2 064 bits;
-//  - the same centre: x w' - x' w <= 2^418, four roots, so 16 418 = 6 688 bits;
+//  - two centres along a direction: 2^32 (x w' - x' w) <= 2^450, four roots, so 16 450 = 7 200 bits;
 //  - along a parabola: M (N.left() v) <= 2^64 2^258, three roots, so 8 323 = 2 584 bits.
-// A sum of two of a size is a bit longer: 6 720 bits, 105 limbs, are enough for all.
+// A sum of two of a size is a bit longer: 7 264 bits are enough for all.
 #include "core/segment_exact.hpp"
 
 #include <cstdint>
@@ -34,15 +34,6 @@ struct CentreSeen {
 
 int clearance_sign(const ExactDisc& disc, const LatticePoint& query) {
   return (CentreSeen(disc, query).length2() - disc.z).sign();
-}
-
-int clearance_sign(const ExactDisc& disc, const LatticeSite& query) {
-  const LatticeVector u = query.b - query.a;
-  const CentreSeen centre(disc, query.a);
-  const RootNumber along = centre.along(u);
-  if (query.is_point() || along.sign() <= 0) return clearance_sign(disc, query.a);
-  if ((along - disc.w * big(norm2(u))).sign() >= 0) return clearance_sign(disc, query.b);
-  return (square(centre.along(left_of(u))) - disc.z * big(norm2(u))).sign();
 }
 
 // ---- the middle of an edge ----
@@ -139,12 +130,36 @@ int middle_of_point_and_segment(const LatticePoint& p, const LatticeSite& segmen
   return middle_behind_end(p, segment, first, second, u);
 }
 
-double rounded(const RootNumber& number, const RootMagnitude& divisor) {
+double quotient(const RootNumber& number, const RootMagnitude& divisor) {
   const int sign = number.sign();
   return sign == 0 ? 0 : sign * (magnitude(number) / divisor).rounded();
 }
 
 }  // namespace
+
+int clearance_sign(const ExactDisc& disc, const LatticeSite& query) {
+  const LatticeVector u = query.b - query.a;
+  const CentreSeen centre(disc, query.a);
+  const RootNumber along = centre.along(u);
+  if (query.is_point() || along.sign() <= 0) return clearance_sign(disc, query.a);
+  if ((along - disc.w * big(norm2(u))).sign() >= 0) return clearance_sign(disc, query.b);
+  return (square(centre.along(left_of(u))) - disc.z * big(norm2(u))).sign();
+}
+
+int compare_along(const ExactDisc& first, const ExactDisc& second, const LatticeVector& direction) {
+  RootTower tower;
+  const std::size_t lifted_first = tower.adjoin_all(*first.tower), lifted_second = tower.adjoin_all(*second.tower);
+  const RootNumber a = tower.lift(CentreSeen(first, first.origin).along(direction), lifted_first);
+  const RootNumber b = tower.lift(CentreSeen(second, first.origin).along(direction), lifted_second);
+  return (a * tower.lift(second.w, lifted_second) - b * tower.lift(first.w, lifted_first)).sign();
+}
+
+RoundedDisc rounded(const ExactDisc& disc) {
+  const RootMagnitude w = magnitude(disc.w);
+  const CentreSeen centre(disc, {0, 0});
+  const double radius = disc.z.sign() == 0 ? 0 : (square_root(magnitude(disc.z)) / w).rounded();
+  return {quotient(centre.x, w), quotient(centre.y, w), radius};
+}
 
 int exact_clearance_sign(SiteTriple sites, const LatticeSite& query) {
   return clearance_sign(disc_of(sites), query);
@@ -152,14 +167,7 @@ int exact_clearance_sign(SiteTriple sites, const LatticeSite& query) {
 
 bool exact_same_centre(SiteTriple first, SiteTriple second) {
   const ExactDisc a = disc_of(first), b = disc_of(second);
-  const CentreSeen from_a(b, a.origin);  // both centres seen from the first disc's origin
-  RootTower tower;
-  const std::size_t a_first = tower.adjoin_all(*a.tower), b_first = tower.adjoin_all(*b.tower);
-  const RootNumber aw = tower.lift(a.w, a_first), bw = tower.lift(b.w, b_first);
-  auto differ = [&](const RootNumber& a_value, const RootNumber& b_value) {
-    return (tower.lift(a_value, a_first) * bw - tower.lift(b_value, b_first) * aw).sign() != 0;
-  };
-  return !differ(a.x, from_a.x) && !differ(a.y, from_a.y);
+  return compare_along(a, b, {1, 0}) == 0 && compare_along(a, b, {0, 1}) == 0;
 }
 
 int exact_edge_clearance_sign(const LatticeSite& left, const LatticeSite& right, SiteTriple first,
@@ -174,12 +182,6 @@ int exact_edge_clearance_sign(const LatticeSite& left, const LatticeSite& right,
   return -1;  // r is linear and the clearance convex: largest at an end
 }
 
-RoundedDisc exact_disc_rounded(SiteTriple sites) {
-  const ExactDisc disc = disc_of(sites);
-  const RootMagnitude w = magnitude(disc.w);
-  const CentreSeen centre(disc, {0, 0});
-  const double radius = disc.z.sign() == 0 ? 0 : (square_root(magnitude(disc.z)) / w).rounded();
-  return {rounded(centre.x, w), rounded(centre.y, w), radius};
-}
+RoundedDisc exact_disc_rounded(SiteTriple sites) { return rounded(disc_of(sites)); }
 
 }  // namespace vorotool::core

@@ -8,12 +8,28 @@
 #include <stdexcept>
 
 #include "core/exact_disc.hpp"
+#include "core/lattice_vector.hpp"
 
 namespace vorotool::core {
 
 struct NoDisc : std::invalid_argument {
   NoDisc() : std::invalid_argument("no single disc touches the three sites in the order given") {}
 };
+
+// ---- of a disc that is at hand ----
+
+// See exact_clearance_sign.
+int clearance_sign(const ExactDisc& disc, const LatticeSite& query);
+// The sign of (centre of first - centre of second) * direction.
+int compare_along(const ExactDisc& first, const ExactDisc& second, const LatticeVector& direction);
+
+// The disc's centre on the lattice and its radius: each with a relative error of at most 2^-52.
+struct RoundedDisc {
+  double x, y, radius;
+};
+RoundedDisc rounded(const ExactDisc& disc);
+
+// ---- of discs given by their sites ----
 
 // The sign of the distance from the disc's centre to the query, as a closed set, less the radius: -1 if the
 // query enters the disc, 0 if it only touches, 1 if it stays clear.
@@ -33,10 +49,6 @@ bool exact_same_centre(SiteTriple first, SiteTriple second);
 int exact_edge_clearance_sign(const LatticeSite& left, const LatticeSite& right, SiteTriple first,
                               SiteTriple second, const LatticeSite& query);
 
-// The disc's centre on the lattice and its radius: each with a relative error of at most 2^-52.
-struct RoundedDisc {
-  double x, y, radius;
-};
 RoundedDisc exact_disc_rounded(SiteTriple sites);
 
 }  // namespace vorotool::core

@@ -175,6 +175,21 @@ def segment_edge_clearance_signs(sites: NDArray[np.int32]) -> NDArray[np.int8]:
 def segment_discs(sites: NDArray[np.int32]) -> NDArray[np.float64]:
     """(k, 3) x, y and radius of (k, 3, 4) discs; NaN where there is none."""
 
+# ---- the check of segment Voronoi diagrams (bind_segment_verification.cpp): arrays as in SegmentVoronoiDiagram ----
+
+def segment_voronoi_fault(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    vertices: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    vertex_start: NDArray[np.int32],
+    vertex_sites: NDArray[np.int32],
+    edges: NDArray[np.int32],
+    edge_sites: NDArray[np.int32],
+    threads: int,
+    progress: _Progress,
+) -> str | None: ...
+
 # ---- segment Voronoi diagrams (bind_segment_voronoi.cpp): arrays of int32, C-contiguous, two columns -----------------
 
 class SegmentVoronoi:
