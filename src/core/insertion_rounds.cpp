@@ -37,18 +37,20 @@ void InsertionRounds::run(const Monitor& monitor) {
   records_.size += 2 * static_cast<std::int32_t>(order_.items.size());
 }
 
-bool InsertionRounds::insert(SegmentInsertion& worker, std::size_t place) const {
+// There are at most two attempts for each place: their numbers, and the stamps made of them, fit in 31 bits.
+bool InsertionRounds::insert(SegmentInsertion& worker, std::int32_t place) const {
   const auto first_segment = static_cast<SiteIndex>(sites_.point_count());
-  return worker.insert(first_segment + order_.items[place], static_cast<std::int32_t>(place),
-                       first_fresh_ + 2 * static_cast<std::int32_t>(place));
+  const auto count = static_cast<std::int32_t>(order_.items.size());
+  const std::int32_t number = 1 + place + (&worker == &alone_ ? count : 0);
+  return worker.insert(first_segment + order_.items[static_cast<std::size_t>(place)], number,
+                       first_fresh_ + 2 * place);
 }
 
 void InsertionRounds::insert_alone(const Places& places, const Monitor& monitor) {
   for (std::size_t k = 0; k < places.size(); ++k) {
-    const auto place = static_cast<std::size_t>(places[k]);
-    const double done = static_cast<double>(place) / static_cast<double>(order_.items.size());
+    const double done = static_cast<double>(places[k]) / static_cast<double>(order_.items.size());
     if (k % (piece_size / 2) == 0 && monitor && !monitor(done)) throw Interrupted();
-    insert(alone_, place);
+    insert(alone_, places[k]);
   }
 }
 
@@ -58,8 +60,9 @@ void InsertionRounds::insert_together(std::size_t begin, std::size_t end, const 
   const auto insert_piece = [&](std::size_t piece) {
     SegmentInsertion& worker = take_worker();
     const std::size_t first = begin + piece * piece_size;
-    for (std::size_t place = first; place < std::min(end, first + piece_size); ++place) {
-      if (!insert(worker, place)) left[piece].push_back(static_cast<std::int32_t>(place));
+    for (std::size_t k = first; k < std::min(end, first + piece_size); ++k) {
+      const auto place = static_cast<std::int32_t>(k);
+      if (!insert(worker, place)) left[piece].push_back(place);
     }
     const std::lock_guard lock(mutex_);
     idle_.push_back(&worker);

@@ -31,7 +31,7 @@ class InsertionRounds {
  private:
   using Places = std::vector<std::int32_t>;
 
-  bool insert(SegmentInsertion& worker, std::size_t place) const;
+  bool insert(SegmentInsertion& worker, std::int32_t place) const;
   void insert_alone(const Places& places, const Monitor& monitor);
   void insert_together(std::size_t begin, std::size_t end, const Monitor& monitor);
   SegmentInsertion& take_worker();

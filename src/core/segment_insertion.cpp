@@ -237,9 +237,9 @@ void SegmentInsertion::write(std::size_t k, SiteIndex segment, bool is_left) {
   }
 }
 
-bool SegmentInsertion::insert(SiteIndex segment, std::int32_t place, std::int32_t fresh) {
+bool SegmentInsertion::insert(SiteIndex segment, std::int32_t number, std::int32_t fresh) {
   const SegmentQuery query(sites_, segment);
-  number_ = place + 1;
+  number_ = number;
   fresh_ = fresh;
   hindered_ = false;
   const std::int32_t first = find_first(query);

@@ -46,9 +46,9 @@ class SegmentInsertion {
   SegmentInsertion(const SegmentSites& sites, VoronoiRecords& records, std::uint16_t worker = 0)
       : sites_(sites), records_(records), predicates_(sites), worker_(worker) {}
 
-  // Inserts the segment that comes at a place in the order of all, from 0: two records from `fresh` on are its own.
-  // Returns false, with nothing changed, if another thread is in the way.
-  bool insert(SiteIndex segment, std::int32_t place, std::int32_t fresh);
+  // Every attempt has a number of its own, from 1; two records from `fresh` on are those of the segment. Returns
+  // false, with nothing changed, if another thread is in the way.
+  bool insert(SiteIndex segment, std::int32_t number, std::int32_t fresh);
 
   std::int64_t visited() const { return visited_; }
   std::int64_t cyclic() const { return cyclic_; }
@@ -86,7 +86,7 @@ class SegmentInsertion {
   VoronoiRecords& records_;
   SegmentPredicates predicates_;
   std::uint16_t worker_;
-  std::int32_t number_ = 0;          // of the insertion: 1 + its place in the order
+  std::int32_t number_ = 0;          // of the attempt
   std::int32_t fresh_ = 0;           // the first of two records that it may begin
   bool hindered_ = false;            // by another thread
   std::vector<std::int32_t> taken_;  // records that others may not look at
