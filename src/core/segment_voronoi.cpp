@@ -49,7 +49,8 @@ MortonOrder ordered(std::span<const LatticePoint> points, unsigned threads, cons
 }
 
 // Segments by their end that comes first, in the numbers of the sites; segments of one such end as given.
-std::vector<std::uint32_t> along_points(std::span<const Segment> segments, std::span<const std::int32_t> rank) {
+std::vector<std::uint32_t> along_points(std::span<const Segment> segments,
+                                        std::span<const std::int32_t> rank) {
   const auto key = [&](const Segment& s) {
     return static_cast<std::size_t>(
         std::min(rank[static_cast<std::size_t>(s[0])], rank[static_cast<std::size_t>(s[1])]));
@@ -97,8 +98,7 @@ void SegmentVoronoi::insert_segments(const Monitor& monitor) {
   const std::vector<std::int32_t> order = insertion_order(sites_.segment_count());
   SegmentInsertion insertion(sites_, records_);
   for (std::size_t k = 0; k < order.size(); ++k) {
-    if (k % often == 0 && monitor &&
-        !monitor(static_cast<double>(k) / static_cast<double>(order.size()))) {
+    if (k % often == 0 && monitor && !monitor(static_cast<double>(k) / static_cast<double>(order.size()))) {
       throw Interrupted();
     }
     insertion.insert(static_cast<SiteIndex>(sites_.point_count()) + order[k]);

@@ -19,9 +19,7 @@ template <class Body>
 void for_pieces(std::size_t count, unsigned threads, const Monitor& monitor, Body body) {
   parallel_for(
       piece_count(count, piece_size), threads,
-      [&](std::size_t piece) {
-        body(piece, piece * piece_size, std::min(count, (piece + 1) * piece_size));
-      },
+      [&](std::size_t piece) { body(piece, piece * piece_size, std::min(count, (piece + 1) * piece_size)); },
       monitor);
 }
 
@@ -82,8 +80,7 @@ Corner VoronoiExtraction::next_spoke(Corner corner) const {
   const std::int32_t place = vertex_of_[static_cast<std::size_t>(record_of(corner))];
   for (;;) {
     corner = corner_of(record_of(corner), following(place_of(corner)));
-    const Corner twin =
-        records_[record_of(corner)].twins[static_cast<std::size_t>(place_of(corner))];
+    const Corner twin = records_[record_of(corner)].twins[static_cast<std::size_t>(place_of(corner))];
     if (vertex_of_[static_cast<std::size_t>(record_of(twin))] != place) return corner;
     corner = twin;
   }

@@ -1,5 +1,5 @@
-// A segment Voronoi diagram as flat arrays: coincident vertices merged, everything in an order that depends on the
-// input only.
+// A segment Voronoi diagram as flat arrays: coincident vertices merged, everything in an order that depends
+// on the input only.
 #pragma once
 
 #include <cstddef>
@@ -19,11 +19,12 @@ struct DiagramArrays {
   double* vertices;            // [2 vertex_count] in the order of the lists of their sites
   double* radius;              // [vertex_count]
   std::int32_t* vertex_start;  // [vertex_count + 1] where the sites of each vertex begin
-  // [ring_size] the sites that the disc of a vertex touches and whose cells meet there, counter-clockwise from
-  // the smallest number.
+  // [ring_size] the sites that the disc of a vertex touches and whose cells meet there, counter-clockwise
+  // from the smallest number.
   std::int32_t* vertex_sites;
-  std::int32_t* edges;       // [2 edge_count] source and target, -1 at infinity, in the order of all four numbers
-  std::int32_t* edge_sites;  // [2 edge_count] on the left and on the right; that on the left is the smaller one
+  std::int32_t* edges;  // [2 edge_count] source and target, -1 at infinity, in the order of all four numbers
+  std::int32_t*
+      edge_sites;  // [2 edge_count] on the left and on the right; that on the left is the smaller one
 };
 
 class VoronoiExtraction {
@@ -68,7 +69,8 @@ class VoronoiExtraction {
   const SegmentSites& sites_;
   const VoronoiRecords& records_;
   std::span<const std::int32_t> given_;
-  // [records] a record at the same place, itself for one of each place; later the number of the vertex, -1 at infinity
+  // [records] a record at the same place, itself for one of each place; later the number of the vertex, -1 at
+  // infinity
   std::vector<std::int32_t> vertex_of_;
   std::vector<std::int32_t> order_;  // [vertices] a record of each
   std::vector<bool> merged_;         // [records] whether it shares its place with others
