@@ -348,3 +348,12 @@ def symmetries(points):
     for turned in (points, points[:, ::-1]):
         for signs in ((1, 1), (-1, 1), (1, -1), (-1, -1)):
             yield np.ascontiguousarray(turned * np.array(signs, np.int32))
+
+
+def renumbered(points, segments, rng):
+    """The same graph with other numbers and turned segments; and the new number of each site."""
+    order, segment_order = rng.permutation(len(points)), rng.permutation(len(segments))
+    number = np.concatenate([np.argsort(order), len(points) + np.argsort(segment_order)])
+    new = number[: len(points)][segments[segment_order]]
+    new = np.where(rng.random((len(new), 1)) < 0.5, new, new[:, ::-1])  # noqa: PLR2004
+    return np.ascontiguousarray(points[order]), np.ascontiguousarray(new, dtype=np.int32), number

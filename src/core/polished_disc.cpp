@@ -12,15 +12,17 @@
 namespace vorotool::core {
 namespace {
 
-// 64 roundings: the closed forms without cancellation stay below (core/tangent_disc.cpp), and mostly err by a
-// few.
-constexpr double sharp = 0x1p-47;
+// 64 roundings of the radius: the closed forms without cancellation stay below (core/tangent_disc.cpp), and
+// mostly err by a few.
+constexpr double sharp = 64 * unit_roundoff;
+// A centre far from the origin is rounded there, which put_disc() counts with 2 roundings of the coordinates.
+constexpr double rounded = 4 * unit_roundoff;
 // Numbers of 106 bits that are known as well as this round as if they were exact, but for one in 2^7.
 constexpr double nearly_exact = 0x1p-60;
 
 bool is_sharp(const VoronoiRecord& v) {
-  const double size = std::abs(v.x) + std::abs(v.y) + v.radius;
-  return static_cast<double>(v.position_error) <= sharp * size &&
+  const double size = std::abs(v.x) + std::abs(v.y);
+  return static_cast<double>(v.position_error) <= rounded * size + sharp * v.radius &&
          static_cast<double>(v.radius_error) <= sharp * v.radius;
 }
 

@@ -48,18 +48,22 @@ MortonOrder ordered(std::span<const LatticePoint> points, unsigned threads, cons
   return order;
 }
 
-// Segments by their end that comes first, in the numbers of the sites; segments of one such end as given.
-std::vector<std::uint32_t> along_points(std::span<const Segment> segments,
-                                        std::span<const std::int32_t> rank) {
-  const auto key = [&](const Segment& s) {
-    return static_cast<std::size_t>(
-        std::min(rank[static_cast<std::size_t>(s[0])], rank[static_cast<std::size_t>(s[1])]));
+// The segments by their ends in the numbers of the sites, the first of the two ends first.
+std::vector<std::uint32_t> along_points(std::span<const Segment> segments, std::span<const std::int32_t> rank) {
+  const auto ends = [&](std::size_t j) {
+    const std::int32_t a = rank[static_cast<std::size_t>(segments[j][0])];
+    const std::int32_t b = rank[static_cast<std::size_t>(segments[j][1])];
+    return std::pair(static_cast<std::size_t>(std::min(a, b)), std::max(a, b));
   };
-  std::vector<std::uint32_t> begin(rank.size() + 1), order(segments.size());
-  for (const Segment& s : segments) ++begin[key(s) + 1];
-  for (std::size_t i = 0; i < rank.size(); ++i) begin[i + 1] += begin[i];
+  std::vector<std::uint32_t> begin(rank.size() + 2), order(segments.size());
+  for (std::size_t j = 0; j < segments.size(); ++j) ++begin[ends(j).first + 2];
+  for (std::size_t i = 0; i < rank.size(); ++i) begin[i + 2] += begin[i + 1];
   for (std::size_t j = 0; j < segments.size(); ++j) {
-    order[begin[key(segments[j])]++] = static_cast<std::uint32_t>(j);
+    order[begin[ends(j).first + 1]++] = static_cast<std::uint32_t>(j);
+  }
+  for (std::size_t i = 0; i < rank.size(); ++i) {
+    std::sort(order.begin() + begin[i], order.begin() + begin[i + 1],
+              [&](std::uint32_t j, std::uint32_t k) { return ends(j) < ends(k); });
   }
   return order;
 }
@@ -98,7 +102,8 @@ void SegmentVoronoi::insert_segments(const Monitor& monitor) {
   const std::vector<std::int32_t> order = insertion_order(sites_.segment_count());
   SegmentInsertion insertion(sites_, records_);
   for (std::size_t k = 0; k < order.size(); ++k) {
-    if (k % often == 0 && monitor && !monitor(static_cast<double>(k) / static_cast<double>(order.size()))) {
+    if (k % often == 0 && monitor &&
+        !monitor(static_cast<double>(k) / static_cast<double>(order.size()))) {
       throw Interrupted();
     }
     insertion.insert(static_cast<SiteIndex>(sites_.point_count()) + order[k]);
