@@ -11,8 +11,8 @@
 
 namespace vorotool::core {
 
-// The vertices of a diagram, in an array with room for all that are to come; a point's cell is found by one
-// of its corners.
+// The vertices of a diagram, in an array with room for all that are to come; a point's cell is found by one of
+// its corners.
 struct VoronoiRecords {
   explicit VoronoiRecords(std::size_t room, std::size_t points) : all(room), corner_of_point(points) {}
 
@@ -42,7 +42,7 @@ class SegmentInsertion {
   // An edge on the border of the conflict set, from the side of the set. Counter-clockwise around it the cell
   // of the right site comes before the edge and that of the left one after it.
   struct Cut {
-    Corner outer;          // opposite to the edge in its other vertex
+    Corner outer;  // opposite to the edge in its other vertex
     std::int32_t partner;  // the other cut of an edge that keeps its middle, else -1
     SiteIndex right, left;
     std::uint8_t is_left;  // bit 1: the disc is left of segment `right`, bit 2: left of segment `left`

@@ -1,5 +1,5 @@
-// The vertices of a segment Voronoi diagram while it is built: a triangulation of the sphere whose corners
-// are sites.
+// The vertices of a segment Voronoi diagram while it is built: a triangulation of the sphere whose corners are
+// sites.
 #pragma once
 
 #include <array>
@@ -25,12 +25,12 @@ struct alignas(64) VoronoiRecord {
   // The corner across the edge opposite to each site: the edge between the following two sites. Corners, not
   // records: two vertices may share two edges, and pairs of sites may share several.
   std::array<Corner, 3> twins;
-  double x, y;           // centre of the disc that touches the sites; indeterminate at infinity
-  double radius;         // infinite if one site is the one at infinity
-  float position_error;  // bounds the distance of (x, y) from the true centre
-  float radius_error;    // bounds the error of the radius
-  std::int32_t stamp;  // the last insertion that tested this vertex: twice its number, plus 1 if in conflict
-  std::uint8_t left;   // bit i: site i is a segment, and the disc lies to the left of it
+  double x, y;            // centre of the disc that touches the sites; indeterminate at infinity
+  double radius;          // infinite if one site is the one at infinity
+  float position_error;   // bounds the distance of (x, y) from the true centre
+  float radius_error;     // bounds the error of the radius
+  std::int32_t stamp;     // the last insertion that tested this vertex: twice its number, plus 1 if in conflict
+  std::uint8_t left;      // bit i: site i is a segment, and the disc lies to the left of it
   std::uint8_t survives;  // bit i: the middle of edge i survives the insertion that is going on
 
   bool is_infinite() const { return radius == std::numeric_limits<double>::infinity(); }
