@@ -236,6 +236,16 @@ def make_planar_graph(
 ) -> dict[str, Any]:
     """Arrays of a PlanarGraph, and ``repairs``: of each kind the count, an edge, and what meets it or -1."""
 
+def border_rings(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    segment_faces: NDArray[np.int32],
+    face_start: NDArray[np.int32],
+    face_polygon: NDArray[np.int32],
+    progress: _Progress,
+) -> dict[str, NDArray[Any]]:
+    """Arrays of core/border_rings.hpp by their names there; the indices must be in range."""
+
 def planar_graph_fault(
     points: NDArray[np.int32], segments: NDArray[np.int32], faces: NDArray[np.int32] | None, progress: _Progress
 ) -> str | None: ...
