@@ -59,8 +59,11 @@ class Clipper {
   // left site to the left.
   Line line_of(const GraphArc& arc) const {
     if (arc.source >= 0 && arc.target >= 0) {
+      // from the nearer end: the other one may be so far away that its rounding would move what is in the frame
       const Place a = graph_.end(arc.source).place, b = graph_.end(arc.target).place;
-      return {a, {b[0] - a[0], b[1] - a[1]}, 0, 1};
+      const Place way{b[0] - a[0], b[1] - a[1]};
+      const auto size = [](const Place& p) { return std::max(std::abs(p[0]), std::abs(p[1])); };
+      return size(a) <= size(b) ? Line{a, way, 0, 1} : Line{b, way, -1, 0};
     }
     const LatticeSite left = graph_.diagram().site(arc.left), right = graph_.diagram().site(arc.right);
     const LatticePoint p = left.is_point() ? left.a : right.a, q = right.is_point() ? right.a : left.a;

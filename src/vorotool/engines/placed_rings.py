@@ -1,21 +1,45 @@
-"""The rings of polygons as a planar graph has them, and what each of its sites is there."""
+"""The rings of polygons as a planar graph has them, and what each of its sites and faces is there."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.engines.used_polygons import used_polygons
 from vorotool.geometry.planar_graph import PlanarGraph
-from vorotool.geometry.polygons import LINE, PolygonSet
+from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.skeleton import EDGE, VERTEX, SiteTable
+from vorotool.geometry.skeleton_tables import connected_roots
+from vorotool.geometry.used_polygons import UsedPolygons
 
 
-def placed_polygons(graph: PlanarGraph, *, threads: int = 0) -> tuple[PolygonSet, SiteTable]:
-    """Give the rings as they were used: vertices on the lattice, edges cut where the segments of the graph are.
+@dataclass(frozen=True, eq=False)
+class PlacedShapes:
+    """Polygons as they are used.
 
-    Edges without length are left out. What bounds nothing stays in the rings, which the even-odd rule allows, but is no
-    site. So polygons and rings have the numbers of the input.
+    Parameters
+    ----------
+    polygons : PolygonSet
+        Placed rings; where there were repairs, the borders of each connected part of a polygon.
+    sites : SiteTable
+        Points of the graph, then segments.
+    face_polygon : (f,) int32 array
+        The first of `polygons` that each face lies in; -1 outside.
+    """
+
+    polygons: PolygonSet
+    sites: SiteTable
+    face_polygon: NDArray[np.int32]
+
+
+def placed_shapes(graph: PlanarGraph, *, threads: int = 0) -> PlacedShapes:
+    """Give the rings as they were used.
+
+    Polygons that needed no repair keep their rings, with vertices on the lattice. If any did, all rings are what bounds
+    the polygons in the graph: a polygon that falls apart gives several, with the same id and properties.
 
     Parameters
     ----------
@@ -24,144 +48,101 @@ def placed_polygons(graph: PlanarGraph, *, threads: int = 0) -> tuple[PolygonSet
     threads : int
         0 uses all.
 
-    Returns
-    -------
-    polygons : PolygonSet
-        With the ids and properties of the input.
-    sites : SiteTable
-        Points of the graph, then segments.
-
     Examples
     --------
     >>> from vorotool.engines.planar_graph import planar_graph
-    >>> polygons, sites = placed_polygons(planar_graph([[0, 0], [4, 0], [4, 4]]))
-    >>> polygons.xy.tolist(), sites.index.tolist()
-    ([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0]], [0, 1, 2, 0, 1, 2])
+    >>> placed = placed_shapes(planar_graph([[0, 0], [4, 0], [4, 4]]))
+    >>> placed.polygons.xy.tolist(), placed.sites.index.tolist(), placed.face_polygon.tolist()
+    ([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0]], [0, 1, 2, 0, 1, 2], [-1, 0])
     """
     given = graph.polygons
     assert given is not None
-    if not any(graph.repairs.values()):
-        return _only_placed(graph, given, threads)
-    return _cut(graph, given, threads)
+    vertex = np.concatenate([graph.point_vertex, graph.source_edge[graph.source_start[:-1]]]).astype(np.int64)
+    if any(graph.repairs.values()):
+        return _of_borders(graph, given, vertex)
+    first = _first_polygons(graph)
+    sites = _table(given, vertex, len(graph), given, vertex)
+    if graph.largest_move > 0:
+        lattice, *_ = _core.place_on_lattice(given.xy, threads, None)
+        given = replace(given, xy=graph.coordinates(lattice))
+    return PlacedShapes(given, sites, first)
 
 
-def _only_placed(graph: PlanarGraph, given: PolygonSet, threads: int) -> tuple[PolygonSet, SiteTable]:
-    """Without repairs each edge is one segment, and vertices are points."""
-    vertex = np.concatenate([graph.point_vertex, graph.source_edge[graph.source_start[:-1]]])
-    ring = _ring_of_vertex(given.ring_start)[vertex]
-    index = vertex - given.ring_start[ring]
-    table = _table(len(graph.points), len(graph), given, ring, index, index)
-    if graph.largest_move == 0:
-        return given, table
-    lattice, *_ = _core.place_on_lattice(given.xy, threads, None)
-    return _with_rings(given, graph.coordinates(lattice), given.ring_start), table
+def _of_borders(graph: PlanarGraph, given: PolygonSet, source: NDArray[np.int64]) -> PlacedShapes:
+    used = used_polygons(graph)
+    first_at = np.full(len(graph.points), len(used.point), dtype=np.int64)
+    np.minimum.at(first_at, used.point, np.arange(len(used.point)))
+    first_of = np.full(len(graph), len(used.point), dtype=np.int64)
+    has_edge = np.flatnonzero(used.segment >= 0)
+    np.minimum.at(first_of, used.segment[has_edge], has_edge)
+    vertex = np.concatenate([first_at, first_of])
+    sites = _table(used.polygons, vertex, len(graph), given, source)
+    return PlacedShapes(used.polygons, sites, _first_parts(graph, used))
 
 
-def _cut(graph: PlanarGraph, given: PolygonSet, threads: int) -> tuple[PolygonSet, SiteTable]:
-    lattice, *_ = _core.place_on_lattice(given.xy, threads, None)
-    ring_of = _ring_of_vertex(given.ring_start)
-    following = _following(given)
-    numbers = _PointNumbers(graph.points)
-    segment = np.repeat(np.arange(len(graph)), np.diff(graph.source_start))
-    edge = np.concatenate([graph.source_edge, graph.source_edge])  # that has a segment with an end at the point
-    point = np.concatenate([graph.segments[segment, 0], graph.segments[segment, 1]])
-    place = graph.points[point]
-    is_new = (place != lattice[edge]).any(axis=1) & (place != lattice[following[edge]]).any(axis=1)
-    kept = _with_length(given, lattice, following)
-    # vertices of the new rings: by edge of the input, and along it
-    edges = np.concatenate([kept, edge[is_new]])
-    places = np.concatenate([lattice[kept], place[is_new]]).astype(np.int64)
-    way = (lattice[following[edges]].astype(np.int64) - lattice[edges]) * (places - lattice[edges])
-    order = np.lexsort((places[:, 1], places[:, 0], way.sum(axis=1), edges))
-    edges, places = edges[order], places[order]
-    is_first = np.ones(len(edges), dtype=bool)  # an end of two segments is one vertex
-    is_first[1:] = (edges[1:] != edges[:-1]) | (places[1:] != places[:-1]).any(axis=1)
-    edges, places = edges[is_first], places[is_first]
-    starts = np.searchsorted(ring_of[edges], np.arange(len(given.ring_start))).astype(np.int64)
-    polygons = _with_rings(given, graph.coordinates(places), starts)
-    # sites: the first vertex at each point, and on each segment's first edge the end that comes first
-    at = numbers.of(places)
-    vertex = np.full(len(graph.points), len(edges), dtype=np.int64)
-    np.minimum.at(vertex, at[at >= 0], np.flatnonzero(at >= 0))
-    found = np.lexsort((at, edges))
-    key = edges[found] * (len(graph.points) + 1) + at[found] + 1
-    first_edge = graph.source_edge[graph.source_start[:-1]].astype(np.int64)
-    wanted = first_edge[:, None] * (len(graph.points) + 1) + graph.segments + 1
-    rank = np.searchsorted(key, wanted)
-    # the end of the whole edge may be no vertex of it, but of the next edge: the other one counts then
-    exists = key[np.minimum(rank, len(key) - 1)] == wanted
-    rows = np.where(exists, found[np.minimum(rank, len(key) - 1)], len(edges)).min(axis=1)
-    row = np.concatenate([vertex, rows])
-    ring = ring_of[edges[row]]
-    is_own = np.concatenate([(places[vertex] == lattice[edges[vertex]]).all(axis=1), np.ones(len(graph), dtype=bool)])
-    source = np.where(is_own, edges[row] - given.ring_start[ring], -1)
-    return polygons, _table(len(graph.points), len(graph), given, ring, row - starts[ring], source)
+def _first_polygons(graph: PlanarGraph) -> NDArray[np.int32]:
+    first = np.full(graph.faces, -1, dtype=np.int32)
+    first[graph.is_inside] = graph.face_polygon[graph.face_start[:-1][graph.is_inside]]
+    return first
+
+
+def _first_parts(graph: PlanarGraph, used: UsedPolygons) -> NDArray[np.int32]:
+    """The part of its first polygon that each face is in: faces are connected over segments that do not bound it."""
+    polygon = graph.face_polygon.astype(np.int64)
+    face = np.repeat(np.arange(graph.faces), np.diff(graph.face_start))
+    keys = face * (int(polygon.max(initial=0)) + 1) + polygon  # ascending: polygons of a face are
+    left, right = graph.segment_faces.astype(np.int64).T
+    beside = np.flatnonzero((graph.is_inside[left]) & (graph.is_inside[right]))
+    counts = np.diff(graph.face_start)[left[beside]]
+    entry = np.repeat(graph.face_start[left[beside]], counts) + _steps(counts)
+    wanted = np.repeat(right[beside], counts) * (int(polygon.max(initial=0)) + 1) + polygon[entry]
+    rank = np.minimum(np.searchsorted(keys, wanted), max(len(keys) - 1, 0))
+    same = keys[rank] == wanted if len(keys) else np.zeros(0, dtype=bool)
+    root = connected_roots(np.stack([entry[same], rank[same]], axis=1), len(keys))
+    # the inside of a polygon is left of its rings
+    edges = np.flatnonzero((used.segment >= 0) & ~_on_lines(used))
+    segment = used.segment[edges]
+    is_forward = graph.segments[segment, 0] == used.point[edges]
+    inner = np.where(is_forward, left[segment], right[segment])
+    part = np.repeat(used.polygons.ring_polygon, np.diff(used.polygons.ring_start))[edges]
+    own = np.searchsorted(keys, inner * (int(polygon.max(initial=0)) + 1) + used.source[part])
+    of_root = np.full(len(keys), -1, dtype=np.int32)
+    of_root[root[own]] = part
+    first = np.full(graph.faces, -1, dtype=np.int32)
+    first[graph.is_inside] = of_root[root[graph.face_start[:-1][graph.is_inside]]]
+    return first
+
+
+def _on_lines(used: UsedPolygons) -> NDArray[np.bool_]:
+    polygons = used.polygons
+    on_line: NDArray[np.bool_] = np.repeat(polygons.is_line[polygons.ring_polygon], np.diff(polygons.ring_start))
+    return on_line
+
+
+def _steps(counts: NDArray[np.integer]) -> NDArray[np.int64]:
+    """0, 1, … within each run of so many."""
+    return np.arange(int(counts.sum())) - np.repeat(np.cumsum(counts) - counts, counts)
 
 
 def _table(
-    points: int,
-    segments: int,
-    given: PolygonSet,
-    ring: NDArray[np.int64],
-    index: NDArray[np.int64],
-    source: NDArray[np.int64],
+    polygons: PolygonSet, vertex: NDArray[np.int64], segments: int, given: PolygonSet, source: NDArray[np.int64]
 ) -> SiteTable:
-    polygon = given.ring_polygon[ring]
-    kind = np.repeat(np.array([VERTEX, EDGE], dtype=np.int8), [points, segments])
-    return SiteTable(kind, polygon, ring - given.polygon_start[polygon], index, source)  # type: ignore[arg-type]
-
-
-def _with_rings(given: PolygonSet, xy: NDArray[np.float64], starts: NDArray[np.int64]) -> PolygonSet:
-    return PolygonSet(
-        xy,
-        starts,
-        given.ring_kind,
-        given.ring_polygon,
-        given.ids,
-        given.feature,
-        given.properties,
-        given.y_up,
-        given.crs,
+    """Sites by the vertices where they are or begin, among those used and those given (-1: none)."""
+    ring = _ring_of_vertex(polygons)[vertex]
+    polygon = polygons.ring_polygon[ring]
+    has_source = source >= 0
+    source_ring = np.where(has_source, _ring_of_vertex(given)[source], -1)
+    kind = np.full(len(vertex), VERTEX, dtype=np.int8)
+    kind[len(vertex) - segments :] = EDGE
+    return SiteTable(
+        kind,
+        polygon,
+        (ring - polygons.polygon_start[polygon]).astype(np.int32),
+        (vertex - polygons.ring_start[ring]).astype(np.int32),
+        source_ring.astype(np.int32),
+        np.where(has_source, source - given.ring_start[source_ring], -1).astype(np.int32),
     )
 
 
-def _ring_of_vertex(starts: NDArray[np.int64]) -> NDArray[np.int64]:
-    return np.repeat(np.arange(len(starts) - 1), np.diff(starts))
-
-
-def _following(given: PolygonSet) -> NDArray[np.int64]:
-    """(n,) the next vertex of the ring; of the last of a line, itself."""
-    following = np.arange(1, len(given.xy) + 1)
-    last = given.ring_start[1:] - 1
-    following[last] = np.where(given.ring_kind == LINE, last, given.ring_start[:-1])
-    return following
-
-
-def _with_length(given: PolygonSet, lattice: NDArray[np.int32], following: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Vertices at which an edge with a length begins, or a line ends; one of a ring without any."""
-    has_length = (lattice != lattice[following]).any(axis=1)
-    has_length[given.ring_start[1:][given.ring_kind == LINE] - 1] = True
-    lengths = np.add.reduceat(has_length.astype(np.int64), given.ring_start[:-1])
-    has_length[given.ring_start[:-1][lengths == 0]] = True
-    return np.flatnonzero(has_length)
-
-
-class _PointNumbers:
-    """Finds lattice points by their coordinates."""
-
-    def __init__(self, points: NDArray[np.int32]) -> None:
-        keys = self._keys(points)
-        self._order = np.argsort(keys)
-        self._keys_in_order = keys[self._order]
-
-    @staticmethod
-    def _keys(points: NDArray[np.integer]) -> NDArray[np.int64]:
-        return (points[:, 0].astype(np.int64) << 32) + points[:, 1]
-
-    def of(self, places: NDArray[np.integer]) -> NDArray[np.int64]:
-        """(k,) the number of the point at each place, or -1."""
-        if not len(self._order):
-            return np.full(len(places), -1, dtype=np.int64)
-        keys = self._keys(places)
-        rank = np.minimum(np.searchsorted(self._keys_in_order, keys), len(self._order) - 1)
-        return np.where(self._keys_in_order[rank] == keys, self._order[rank], -1)
+def _ring_of_vertex(polygons: PolygonSet) -> NDArray[np.int64]:
+    return np.repeat(np.arange(len(polygons.ring_start) - 1), np.diff(polygons.ring_start))

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.label_arrays import Progress
-from vorotool.engines.placed_rings import placed_polygons
+from vorotool.engines.placed_rings import PlacedShapes, placed_shapes
 from vorotool.engines.planar_graph import planar_graph
 from vorotool.engines.segment_voronoi import segment_voronoi
 from vorotool.engines.skeleton_exact import (
@@ -27,7 +27,7 @@ from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.polygons import LINE, PolygonSet
 from vorotool.geometry.segment_voronoi import SegmentVoronoiDiagram
-from vorotool.geometry.skeleton import SiteTable, Skeleton
+from vorotool.geometry.skeleton import Skeleton
 
 DEVIATION_STEPS = 2.0**-14
 """Of the extent: how finely arcs are flattened to measure how far two skeletons are apart."""
@@ -47,7 +47,7 @@ class ElementDiagram:
         Of that graph.
     element : (s,) int64 array
         The element that each site of the diagram is a part of: a shortened edge is a closed segment, of three sites.
-    polygons, sites
+    placed : PlacedShapes
         The rings as `shapes` has them, and what the elements are there.
     gap : float
         By how much edges are shortened at both ends.
@@ -57,8 +57,7 @@ class ElementDiagram:
     graph: PlanarGraph
     diagram: SegmentVoronoiDiagram
     element: NDArray[np.int64]
-    polygons: PolygonSet
-    sites: SiteTable
+    placed: PlacedShapes
     gap: float
 
 
@@ -80,8 +79,8 @@ def element_diagram(
     """
     threads = checked_threads(threads)
     shapes = planar_graph(polygons, strict=strict, threads=threads, progress=progress)
-    used, sites = placed_polygons(shapes, threads=threads)
-    refuse_short_edges(shapes, used, sites, gap)
+    placed = placed_shapes(shapes, threads=threads)
+    refuse_short_edges(shapes, placed, gap)
     points = shapes.coordinates()
     a, b = points[shapes.segments].swapaxes(0, 1)
     way = (b - a) * (gap / np.sqrt(((b - a) ** 2).sum(axis=1, keepdims=True)))
@@ -97,7 +96,7 @@ def element_diagram(
     owner = np.repeat(np.arange(count), np.diff(starts))
     vertex = np.concatenate([graph.point_vertex, graph.source_edge[graph.source_start[:-1]]])
     diagram = segment_voronoi(graph.points, graph.segments, threads=threads, progress=progress)
-    return ElementDiagram(shapes, graph, diagram, owner[vertex], used, sites, gap)
+    return ElementDiagram(shapes, graph, diagram, owner[vertex], placed, gap)
 
 
 def skeleton_with_gap(
@@ -132,11 +131,11 @@ def skeleton_of_elements(
 ) -> Skeleton:
     """Delete the bisectors of elements with a label in common, and add the missing portions if wanted."""
     kept = np.flatnonzero(~_share_label(elements)).astype(np.int32)
-    group = face_groups(elements.shapes, side)[_faces_of(elements, kept)]
+    group = face_groups(elements.placed, side)[_faces_of(elements, kept)]
     diagram = elements.diagram
     if complete:
         portions, sites, faces = _missing_portions(elements, kept)
-        own = face_groups(elements.shapes, side)[faces]
+        own = face_groups(elements.placed, side)[faces]
         diagram, added = _with_portions(elements, portions, sites)
         kept, group = np.concatenate([kept, added]), np.concatenate([group, own])
     on_side = group >= 0
@@ -145,8 +144,7 @@ def skeleton_of_elements(
         diagram,
         kept[on_side],
         group[on_side].astype(np.int32),
-        elements.polygons,
-        elements.sites,
+        elements.placed,
         frame=frame if side != "interior" else None,
         clips=side != "interior",
         threads=threads,
@@ -157,7 +155,7 @@ def skeleton_of_elements(
 
 def whole_element_diagram(elements: ElementDiagram, *, frame: Frame | None = None, threads: int = 0) -> Skeleton:
     """Give all edges of the diagram of elements; see `vorotool.engines.skeleton_exact.whole_diagram`."""
-    shapes = ShapeDiagram(elements.graph, elements.diagram, elements.polygons, elements.sites)
+    shapes = ShapeDiagram(elements.graph, elements.diagram, elements.placed)
     return _of_elements(whole_diagram(shapes, frame=frame, threads=threads), elements)
 
 
@@ -325,5 +323,5 @@ def exact_for(elements: ElementDiagram, side: str, *, frame: Frame | None = None
     """Compute the exact skeleton of the shapes that were decomposed."""
     shapes = elements.shapes
     diagram = segment_voronoi(shapes.points, shapes.segments, threads=threads)
-    whole = ShapeDiagram(shapes, diagram, elements.polygons, elements.sites)
+    whole = ShapeDiagram(shapes, diagram, elements.placed)
     return skeleton_of(whole, side=side, frame=frame, threads=threads)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.label_arrays import Progress
-from vorotool.engines.placed_rings import placed_polygons
+from vorotool.engines.placed_rings import PlacedShapes, placed_shapes
 from vorotool.engines.planar_graph import planar_graph
 from vorotool.engines.segment_voronoi import segment_voronoi
 from vorotool.errors import InputError, UsageError, VorotoolWarning
@@ -19,7 +19,7 @@ from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.segment_voronoi import SegmentVoronoiDiagram
-from vorotool.geometry.skeleton import EXTERIOR, INTERIOR, SiteTable, Skeleton
+from vorotool.geometry.skeleton import EXTERIOR, INTERIOR, Skeleton
 
 SIDE_NAMES = ("interior", "exterior", "both")
 FRAME_MARGIN = 0.1
@@ -125,16 +125,13 @@ class ShapeDiagram:
         Of the polygons.
     diagram : SegmentVoronoiDiagram
         Of the graph.
-    polygons : PolygonSet
-        The rings as the graph has them.
-    sites : SiteTable
-        What the sites of the diagram are in these rings.
+    placed : PlacedShapes
+        The rings as the graph has them, and what the sites of the diagram are there.
     """
 
     graph: PlanarGraph
     diagram: SegmentVoronoiDiagram
-    polygons: PolygonSet
-    sites: SiteTable
+    placed: PlacedShapes
 
 
 def shape_diagram(polygons: Any, *, strict: bool = False, threads: int = 0, progress: Progress = None) -> ShapeDiagram:
@@ -148,8 +145,7 @@ def shape_diagram(polygons: Any, *, strict: bool = False, threads: int = 0, prog
     threads = checked_threads(threads)
     graph = planar_graph(polygons, strict=strict, threads=threads, progress=progress)
     diagram = segment_voronoi(graph.points, graph.segments, threads=threads, progress=progress)
-    used, sites = placed_polygons(graph, threads=threads)
-    return ShapeDiagram(graph, diagram, used, sites)
+    return ShapeDiagram(graph, diagram, placed_shapes(graph, threads=threads))
 
 
 def skeleton_of(
@@ -164,17 +160,16 @@ def skeleton_of(
     check_skeleton_options(side, 0, frame)
     threads = checked_threads(threads)
     edges, faces = _core.skeleton_edges(*_arrays(shapes.diagram), shapes.graph.segment_faces, threads, progress)
-    group = face_groups(shapes.graph, side)[faces]
+    group = face_groups(shapes.placed, side)[faces]
     kept = group >= 0
     if side != "exterior" and not shapes.graph.is_inside.any():
-        _warn_empty(shapes.polygons)
+        _warn_empty(shapes.placed.polygons)
     return assembled(
         shapes.graph,
         shapes.diagram,
         edges[kept],
         group[kept],
-        shapes.polygons,
-        shapes.sites,
+        shapes.placed,
         frame=frame if side != "interior" else None,
         clips=side != "interior",
         threads=threads,
@@ -200,9 +195,8 @@ def whole_diagram(
         shapes.graph,
         shapes.diagram,
         np.arange(count, dtype=np.int32),
-        np.full(count, len(shapes.polygons), dtype=np.int32),
-        shapes.polygons,
-        shapes.sites,
+        np.full(count, len(shapes.placed.polygons), dtype=np.int32),
+        shapes.placed,
         frame=frame,
         clips=True,
         threads=checked_threads(threads),
@@ -212,12 +206,10 @@ def whole_diagram(
     return everything
 
 
-def face_groups(graph: PlanarGraph, side: str) -> NDArray[np.int32]:
+def face_groups(placed: PlacedShapes, side: str) -> NDArray[np.int32]:
     """(f,) the first polygon of each face, their number for faces outside; -1 for those on another side."""
-    assert graph.polygons is not None
-    inside = graph.is_inside
-    group = np.full(graph.faces, len(graph.polygons), dtype=np.int32)
-    group[inside] = graph.face_polygon[graph.face_start[:-1][inside]]
+    inside = placed.face_polygon >= 0
+    group = np.where(inside, placed.face_polygon, len(placed.polygons)).astype(np.int32)
     if side == "interior":
         group[~inside] = -1
     elif side == "exterior":
@@ -241,8 +233,7 @@ def assembled(
     diagram: SegmentVoronoiDiagram,
     edges: NDArray[np.int32],
     group: NDArray[np.int32],
-    polygons: PolygonSet,
-    sites: SiteTable,
+    placed: PlacedShapes,
     *,
     frame: Frame | None,
     clips: bool,
@@ -250,8 +241,8 @@ def assembled(
     progress: Progress = None,
 ) -> Skeleton:
     """Make a skeleton of edges of a diagram, the polygon of each given; arcs outside, of the last group, may be clipped."""
-    outside = len(polygons)
-    frame = (frame or default_frame(polygons)) if clips else None
+    outside = len(placed.polygons)
+    frame = (frame or default_frame(placed.polygons)) if clips else None
     clipped = None if frame is None else (outside, _on_lattice(frame, graph))
     made = _core.extract_skeleton(
         *_arrays(diagram), edges, group, clipped, *graph.origin, graph.scale, threads, progress
@@ -266,11 +257,11 @@ def assembled(
     polygon[is_outside] = -1
     return Skeleton(
         **made,
-        site_table=sites,
+        site_table=placed.sites,
         polygon=polygon,
         side=np.where(is_outside, EXTERIOR, INTERIOR).astype(np.int8),
         error_bound=np.zeros(len(polygon)),
-        polygons=polygons,
+        polygons=placed.polygons,
         frame=frame,
     )
 
@@ -307,7 +298,7 @@ def _warn_empty(polygons: PolygonSet) -> None:
     warnings.warn(f"the interior skeleton is empty: {reason}", VorotoolWarning, stacklevel=4)
 
 
-def refuse_short_edges(graph: PlanarGraph, polygons: PolygonSet, sites: SiteTable, gap: float) -> None:
+def refuse_short_edges(graph: PlanarGraph, placed: PlacedShapes, gap: float) -> None:
     """Raise InputError for a segment that nothing would be left of, naming the first."""
     ends = graph.coordinates()[graph.segments]
     length = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
@@ -315,6 +306,7 @@ def refuse_short_edges(graph: PlanarGraph, polygons: PolygonSet, sites: SiteTabl
     if not short.size:
         return
     site = len(graph.points) + int(short[0])
+    polygons, sites = placed.polygons, placed.sites
     ring = int(polygons.polygon_start[sites.polygon[site]] + sites.ring[site])
     (ax, ay), (bx, by) = ends[short[0]].tolist()
     raise InputError(

@@ -70,6 +70,8 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
     vorotool.errors.VerificationError: node 0 at (4.0, 0.0) is 0.0 from site 0, but its radius is 1.0
     """
     threads = checked_threads(threads)
+    if not len(skeleton):
+        return
     _check_arrays(skeleton)
     _check_branches(skeleton)
     sites = _Sites(skeleton)

@@ -62,11 +62,11 @@ def write_json(out: BinaryIO, skeleton: Skeleton, *, precision: int | None = Non
 
 def _write_sites(out: BinaryIO, skeleton: Skeleton, _precision: int | None, threads: int) -> None:
     table = skeleton.site_table
-    has_source = table.source >= 0
+    has_source = table.source_ring >= 0
     columns = [
         _choice(SITE_KINDS, table.kind),
         *(_integers(values) for values in (table.polygon, table.ring, table.index)),
-        *_optional(has_source, [_integers(table.ring).values, _integers(table.source).values]),
+        *_optional(has_source, [_integers(table.source_ring).values, _integers(table.source_index).values]),
     ]
     around = ('{"kind":"', '","polygon":', ',"ring":', ',"index":', ',"source":', "", "", "", "", "}")
     write_rows(out, columns, RowShape(around, ",\n", ""), threads=threads)
@@ -278,8 +278,9 @@ def _read_sites(rows: _Rows, polygons: PolygonSet) -> SiteTable:
     bad = np.flatnonzero(index >= np.diff(polygons.ring_start)[number])
     if bad.size:
         raise InputError(f"{rows.name}, sites {bad[0]}: the ring has no vertex {index[bad[0]]}")
-    source = rows.pairs("sites", items, "source", optional=True)[:, 1]
-    return SiteTable(kind, polygon, ring, index, np.where(np.isnan(source), -1, source).astype(np.int32))
+    source = rows.pairs("sites", items, "source", optional=True)
+    source_ring, source_index = np.where(np.isnan(source), -1, source).astype(np.int32).T
+    return SiteTable(kind, polygon, ring, index, source_ring, source_index)
 
 
 def _read_arcs(

@@ -31,18 +31,20 @@ class SiteTable:
         `VERTEX` or `EDGE`.
     polygon, ring, index : (s,) int32 array
         The polygon; its ring, 0 for the shell or a line; the vertex in the ring, or the one where the edge begins.
-    source : (s,) int32 array
-        The vertex or edge of the same ring of the input that it is, or is a part of; -1 for what is none.
+    source_ring, source_index : (s,) int32 array
+        The ring of the input, counted over all polygons, and the vertex or edge there that it is, or is a part of; -1 for a
+        crossing of edges.
     """
 
     kind: NDArray[np.int8]
     polygon: NDArray[np.int32]
     ring: NDArray[np.int32]
     index: NDArray[np.int32]
-    source: NDArray[np.int32]
+    source_ring: NDArray[np.int32]
+    source_index: NDArray[np.int32]
 
     def __post_init__(self) -> None:
-        for name in ("kind", "polygon", "ring", "index", "source"):
+        for name in ("kind", "polygon", "ring", "index", "source_ring", "source_index"):
             array = np.ascontiguousarray(getattr(self, name), dtype=np.int8 if name == "kind" else np.int32)
             if array.ndim != 1 or len(array) != len(self.kind):
                 raise InputError(f"{name} of the sites must be one value a site, but has shape {array.shape}")
