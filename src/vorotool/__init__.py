@@ -29,6 +29,7 @@ _HOME = {
     "Table": "vorotool.geometry.table",
     "Triangulation": "vorotool.geometry.triangulation",
     "read": "vorotool.formats",
+    "to_geojson": "vorotool.formats",
     "write": "vorotool.formats",
     "seeds_from_points": "vorotool.engines.seeding",
     "seeds_from_raster": "vorotool.engines.seeding",
@@ -45,6 +46,12 @@ _HOME = {
     "planar_graph": "vorotool.engines.planar_graph",
     "verify_planar_graph": "vorotool.engines.planar_graph",
     "skeleton_exact": "vorotool.engines.skeleton_exact",
+    "verify_skeleton": "vorotool.engines.skeleton_verification",
+    "arc_table": "vorotool.geometry.skeleton_tables",
+    "branch_table": "vorotool.geometry.skeleton_tables",
+    "element_table": "vorotool.geometry.skeleton_tables",
+    "polygon_table": "vorotool.geometry.skeleton_tables",
+    "table": "vorotool.geometry.value_tables",
     "colour_regions": "vorotool.engines.regions",
 }
 

@@ -121,7 +121,8 @@ def _on_lines(used: UsedPolygons) -> NDArray[np.bool_]:
 
 def _steps(counts: NDArray[np.integer]) -> NDArray[np.int64]:
     """0, 1, … within each run of so many."""
-    return np.arange(int(counts.sum())) - np.repeat(np.cumsum(counts) - counts, counts)
+    steps: NDArray[np.int64] = np.arange(int(counts.sum())) - np.repeat(np.cumsum(counts) - counts, counts)
+    return steps
 
 
 def _table(

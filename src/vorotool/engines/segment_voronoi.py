@@ -81,7 +81,7 @@ def _rows(values: Any, name: str) -> NDArray[np.int32]:
     array = np.asarray(values)
     if array.size == 0:
         return np.empty((0, 2), np.int32)
-    if array.ndim != 2 or array.shape[1] != 2:  # noqa: PLR2004
+    if array.ndim != 2 or array.shape[1] != 2:
         raise InputError(f"{name} must have shape (…, 2), but has shape {array.shape}")
     if array.dtype.kind not in "iu":
         raise InputError(f"{name} must be integers, but have type {array.dtype}")

@@ -172,7 +172,7 @@ def _share_label(elements: ElementDiagram) -> NDArray[np.bool_]:
     """(e,) edges between elements with a label in common: an edge has one label, a vertex those of its edges."""
     left, right = np.sort(elements.element[elements.diagram.edge_sites], axis=1).T
     vertices = len(elements.shapes.points)
-    share = left == right
+    share: NDArray[np.bool_] = left == right
     mixed = np.flatnonzero((left < vertices) & (right >= vertices))
     ends = elements.shapes.segments[right[mixed] - vertices]
     share[mixed] = (ends == left[mixed, None]).any(axis=1)
@@ -297,8 +297,8 @@ def gap_deviation(skeleton: Skeleton, exact: Skeleton) -> float:
     Returns
     -------
     float
-        In input units; places are the ends of arcs, and points on parabolas as dense as flattening to 2^-14 of the extent
-        makes them. 0 if one of the two has no arcs.
+        In input units; places are the ends of arcs, and points on parabolas as dense as flattening to 2^-14 of the
+        extent makes them. 0 if one of the two has no arcs.
 
     Examples
     --------

@@ -73,7 +73,8 @@ def skeleton_exact(
     Raises
     ------
     InputError
-        If a coordinate is not finite, an edge is not longer than twice the gap, or `strict` and something would be repaired.
+        If a coordinate is not finite, an edge is not longer than twice the gap, or `strict` and something would be
+        repaired.
     UsageError
         If the side, the gap or the frame is none.
     LimitError
@@ -240,11 +241,11 @@ def assembled(
     threads: int,
     progress: Progress = None,
 ) -> Skeleton:
-    """Make a skeleton of edges of a diagram, the polygon of each given; arcs outside, of the last group, may be clipped."""
-    outside = len(placed.polygons)
+    """Make a skeleton of edges of a diagram, the polygon of each given; arcs outside, of the last group, may be
+    clipped.""" outside = len(placed.polygons)
     frame = (frame or default_frame(placed.polygons)) if clips else None
     clipped = None if frame is None else (outside, _on_lattice(frame, graph))
-    made = _core.extract_skeleton(
+    made: dict[str, Any] = _core.extract_skeleton(
         *_arrays(diagram), edges, group, clipped, *graph.origin, graph.scale, threads, progress
     )
     vertices, cut = made["vertices"], made.pop("frame_side")
@@ -277,7 +278,11 @@ def _on_lattice(frame: Frame, graph: PlanarGraph) -> tuple[float, float, float, 
     )
 
 
-def _arrays(diagram: SegmentVoronoiDiagram) -> tuple[Any, ...]:
+_Points = NDArray[np.float64]
+_Rows = NDArray[np.int32]
+
+
+def _arrays(diagram: SegmentVoronoiDiagram) -> tuple[_Rows, _Rows, _Points, _Points, _Rows, _Rows]:
     return (
         diagram.points,
         diagram.segments,

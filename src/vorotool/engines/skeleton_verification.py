@@ -22,9 +22,9 @@ Indices = NDArray[np.int64]
 
 ULPS = 32
 """Of the largest coordinate: by how much distances may differ. A node is right to 8 ulp of the radius and 2 of its
-coordinates, in each of which the radius is at most the extent; placing it rounds once more; the distance is wrong by four
-roundings. Inside an arc the control point's error counts half, along the tangents, which changes no distance but in second
-order."""
+coordinates, in each of which the radius is at most the extent; placing it rounds once more; the distance is wrong by
+four roundings. Inside an arc the control point's error counts half, along the tangents, which changes no distance but
+in second order."""
 
 AREA = 1e-9
 AREA_ULPS = 8
@@ -33,12 +33,12 @@ AREA_ULPS = 8
 def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> None:
     """Check a skeleton from its arrays alone.
 
-    Nodes and the insides of arcs are as far from the sites on both sides as the radius tells, their feet are on the sites,
-    and no site is nearer; no arc is between an edge and its end. For each region inside polygons, or inside a hole if the
-    exterior is there: its skeleton is connected, has as many independent cycles as the complement has components less one,
-    and one end in each corner under 180 degrees, which nothing else shares; the regions between the arcs and their feet sum
-    to its area within 1e-9 of it and 8 ulp of the extent times its perimeter. Outside, all is connected with the frame.
-    Branches are chains that end where they should.
+    Nodes and the insides of arcs are as far from the sites on both sides as the radius tells, their feet are on the
+    sites, and no site is nearer; no arc is between an edge and its end. For each region inside polygons, or inside a
+    hole if the exterior is there: its skeleton is connected, has as many independent cycles as the complement has
+    components less one, and one end in each corner under 180 degrees, which nothing else shares; the regions between
+    the arcs and their feet sum to its area within 1e-9 of it and 8 ulp of the extent times its perimeter. Outside, all
+    is connected with the frame. Branches are chains that end where they should.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
     >>> verify_skeleton(replace(skeleton, radius=skeleton.radius + 1))
     Traceback (most recent call last):
         ...
-    vorotool.errors.VerificationError: node 0 at (4.0, 0.0) is 0.0 from site 0, but its radius is 1.0
+    vorotool.errors.VerificationError: node 0 at (0.0, 0.0) is 0.0 from site 0, but its radius is 1.0
     """
     threads = checked_threads(threads)
     if not len(skeleton):
@@ -107,7 +107,9 @@ def _check_arrays(skeleton: Skeleton) -> None:
     inside = skeleton.polygon >= 0
     at = _first((inside != (skeleton.side == INTERIOR)) | (skeleton.polygon >= len(skeleton.polygons)))
     if at is not None:
-        _fail(f"arc {at} is {'inside' if skeleton.side[at] == INTERIOR else 'outside'}, in polygon {skeleton.polygon[at]}")
+        _fail(
+            f"arc {at} is {'inside' if skeleton.side[at] == INTERIOR else 'outside'}, in polygon {skeleton.polygon[at]}"
+        )
 
 
 def _check_branches(skeleton: Skeleton) -> None:
@@ -185,20 +187,21 @@ def _check_equal_distances(skeleton: Skeleton, sites: _Sites) -> None:
         # moved along the curve by the rounding of a far control point, a place is still on it
         at = _first(~(np.abs(left - right) <= sites.tolerance * _looseness(skeleton)))
         if at is not None:
-            _fail(f"arc {at} is {left[at]} from site {skeleton.sites[at, 0]} and {right[at]} from {skeleton.sites[at, 1]}")
+            _fail(
+                f"arc {at} is {left[at]} from site {skeleton.sites[at, 0]} and {right[at]} from {skeleton.sites[at, 1]}"
+            )
 
 
 def _looseness(skeleton: Skeleton) -> Floats:
-    """How much larger than at nodes the differences of distances inside an arc may be: by the control point's distance."""
-    source, target = skeleton.vertices[skeleton.arcs].swapaxes(0, 1)
+    """How much more than at nodes distances may differ inside an arc: a far control point is rounded in its own ulp."""
+    source = skeleton.vertices[skeleton.arcs[:, 0]]
     way = np.where(skeleton.is_parabola[:, None], skeleton.control - source, 0)
-    size = np.maximum(np.abs(skeleton.vertices).max(initial=1.0), np.abs(skeleton.polygons.xy).max(initial=1.0))
-    return 1 + np.sqrt((way * way).sum(axis=1)) / size + 0 * target[:, 0]
+    largest = max(np.abs(skeleton.vertices).max(initial=0.0), np.abs(skeleton.polygons.xy).max(initial=0.0))
+    looseness: Floats = 1 + np.sqrt((way * way).sum(axis=1)) / largest
+    return looseness
 
 
-def _elements(
-    skeleton: Skeleton, graph: PlanarGraph, threads: int
-) -> PlanarGraph:
+def _elements(skeleton: Skeleton, graph: PlanarGraph, threads: int) -> PlanarGraph:
     """The points and segments that nothing may be nearer than."""
     if not skeleton.gap:
         return graph
@@ -322,7 +325,8 @@ class _Regions:
         found = table.find(np.stack([right, left, points], axis=1).astype(float))
         at = _first(found < 0)
         if at is not None:
-            _fail(f"arc {arc[at]} ends at {tuple(skeleton.vertices[node[at]].tolist())}, which is no corner between its sites")
+            place = tuple(skeleton.vertices[node[at]].tolist())
+            _fail(f"arc {arc[at]} ends at {place}, which is no corner between its sites")
         self.corner_sector = found
         face = np.full(len(skeleton.vertices), -1, dtype=np.int64)
         face[self.root[node]] = sectors.face[found]
@@ -400,9 +404,11 @@ def _check_sides(regions: _Regions, inside: NDArray[np.bool_]) -> None:
     at = _first(inside[face] != (skeleton.side == INTERIOR))
     if at is not None:
         _fail(f"arc {at} is in region {face[at]}, which is on the other side")
-    first = np.where(inside[face], graph.face_polygon[np.minimum(graph.face_start[face], len(graph.face_polygon) - 1)], -1) if len(
-        graph.face_polygon
-    ) else np.full(len(face), -1)
+    first = (
+        np.where(inside[face], graph.face_polygon[np.minimum(graph.face_start[face], len(graph.face_polygon) - 1)], -1)
+        if len(graph.face_polygon)
+        else np.full(len(face), -1)
+    )
     at = _first(first != skeleton.polygon)
     if at is not None:
         _fail(f"arc {at} is said to be in polygon {skeleton.polygon[at]}, but is in {first[at]}")
@@ -412,7 +418,8 @@ def _check_cycles(regions: _Regions, roots: Indices, face: Indices) -> None:
     """Independent cycles of each part: components of the complement of its region less one."""
     skeleton, graph = regions.skeleton, regions.graph
     nodes = np.bincount(regions.root, minlength=len(regions.root))
-    nodes[regions.root[skeleton.on_frame][:1]] -= max(np.count_nonzero(skeleton.on_frame) - 1, 0)  # one at infinity
+    framed = int(np.count_nonzero(skeleton.on_frame))
+    nodes[regions.root[skeleton.on_frame][:1]] -= max(framed - 1, 0)  # these are one node, at infinity
     arcs = np.bincount(regions.root[skeleton.arcs[:, 0]], minlength=len(regions.root))
     cycles = (arcs - nodes + 1)[roots]
     borders = _border_components(graph)

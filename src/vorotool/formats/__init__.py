@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from vorotool.geometry.points import PointSet
     from vorotool.geometry.polygons import PolygonSet
     from vorotool.geometry.raster import Raster
+    from vorotool.geometry.skeleton import Skeleton
 
 
 def read(
@@ -32,8 +33,8 @@ def read(
     properties: bool = True,
     threads: int = 0,
     note: Callable[[str], None] | None = None,
-) -> PointSet | PolygonSet | Raster:
-    """Read points, polygons and lines, or an image.
+) -> PointSet | PolygonSet | Raster | Skeleton:
+    """Read points, polygons and lines, an image, or a skeleton that was written as JSON.
 
     A plain JSON list of pairs holds points, unless ``geometry`` is polygons. GeoJSON and WKT hold either points or
     polygons and lines: what their first geometry is.
@@ -62,7 +63,7 @@ def read(
 
     Returns
     -------
-    PointSet, PolygonSet or Raster
+    PointSet, PolygonSet, Raster or Skeleton
 
     Raises
     ------
@@ -82,6 +83,7 @@ def read(
     from vorotool.formats.input_formats import known_input_format
     from vorotool.formats.points import read_points
     from vorotool.formats.polygons import read_polygons, recognise
+    from vorotool.formats.skeleton_json import read_skeleton, says_skeleton
     from vorotool.formats.sources import read_source
 
     if geometry not in (None, "points", "polygons"):
@@ -89,6 +91,8 @@ def read(
     input_format = known_input_format(input_format)
     threads = checked_threads(threads)
     source = read_source(fspath(path))
+    if geometry is None and input_format in (None, "json") and says_skeleton(source.data):
+        return read_skeleton(source, properties=properties, max_sites=max_sites, note=note)
     is_points = columns is not None and source.data.startswith(NPY_MAGIC)  # the one format that holds either
     if input_format in ("png", "tiff", "pnm") or (input_format in (None, "npy") and not is_points and is_image(source)):
         return read_image(source, input_format=input_format, page=page, max_pixels=max_pixels)
@@ -116,22 +120,27 @@ def write(
     *,
     fmt: str | None = None,
     what: str | None = None,
+    flatten: float | None = None,
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    """Write a label image, a table, polygons and lines, or the edges, triangles or table of a triangulation.
+    """Write a label image, a table, polygons and lines, a triangulation or a skeleton.
 
     Parameters
     ----------
-    value : LabelImage, Table, PolygonSet or Triangulation
+    value : LabelImage, Table, PolygonSet, Triangulation or Skeleton
         What to write: images as PNG, TIFF, NPY or text, tables as CSV, JSON or NPZ, polygons as JSON,
-        GeoJSON, WKT or .poly, a triangulation as a table, GeoJSON, OBJ, or a file of Triangle.
+        GeoJSON, WKT or .poly, a triangulation as a table, GeoJSON, OBJ, or a file of Triangle, a skeleton as JSON,
+        CSV, GeoJSON, WKT or NPZ.
     path : str or path
         The file, replaced atomically.
     fmt : str, optional
         Format, or a usual extension of it; by default that of the path.
-    what : {"edges", "triangles", "table"}, optional
-        Of a triangulation; by default what the format is for, else its edges.
+    what : str, optional
+        Of a triangulation ``edges``, ``triangles`` or ``table``, by default what the format is for, else its edges; of a
+        skeleton ``skeleton`` (the default), ``elements``, ``branches`` or ``table``.
+    flatten : float, optional
+        Of a skeleton in GeoJSON or WKT: how far lines may be from parabolas.
     precision : int, optional
         Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
     threads : int
@@ -152,36 +161,112 @@ def write(
     """
     from vorotool.formats.outputs import open_output
     from vorotool.geometry.label_image import LabelImage
-    from vorotool.geometry.polygons import PolygonSet
-    from vorotool.geometry.table import Table
+    from vorotool.geometry.skeleton import Skeleton
     from vorotool.geometry.triangulation import Triangulation
 
     name = (fmt or Path(path).suffix).lower().lstrip(".")
     chosen: Any = {"tif": "tiff", "txt": "text"}.get(name, name)
     threads = checked_threads(threads)
-    if not isinstance(value, LabelImage | Table | PolygonSet | Triangulation):
+    if what is not None and not isinstance(value, Triangulation | Skeleton):
         raise UsageError(
-            f"a {type(value).__name__} cannot be written: give a LabelImage, Table, PolygonSet or Triangulation"
+            f"what={what!r} is for triangulations and skeletons: leave it out with a {type(value).__name__}"
         )
-    if what is not None and not isinstance(value, Triangulation):
-        raise UsageError(f"what={what!r} is for triangulations: leave it out with a {type(value).__name__}")
+    if flatten is not None and not isinstance(value, Skeleton):
+        raise UsageError(f"flatten is for skeletons: leave it out with a {type(value).__name__}")
     if isinstance(value, LabelImage):
         _write_image(value, fspath(path), chosen, threads)
         return
+    write_value = _writer_of(value)
     with open_output(fspath(path), binary=chosen == "npz") as out:
-        if isinstance(value, Table):
-            from vorotool.formats.tables import write_table
+        write_value(out, value, chosen, what, flatten, precision, threads)
 
-            write_table(out, value, chosen, precision=precision, threads=threads)
-        elif isinstance(value, PolygonSet):
-            from vorotool.formats.polygons import write_polygons
 
-            write_polygons(out, value, chosen, precision=precision)
-        else:
-            from vorotool.formats.mesh_files import write_mesh
+def to_geojson(value: Any, *, what: str | None = None, flatten: float | None = None) -> dict[str, Any]:
+    """Give polygons and lines, edges or triangles of a triangulation, or a skeleton as GeoJSON.
 
-            what = what or {"ele": "triangles", "node": "table"}.get(chosen, "edges")
-            write_mesh(out, value, chosen, what=what, precision=precision, threads=threads)
+    Parameters
+    ----------
+    value : PolygonSet, Triangulation or Skeleton
+        With ids and properties, if it has any.
+    what, flatten : optional
+        As of `write`.
+
+    Raises
+    ------
+    UsageError
+        If it cannot be written so.
+
+    Examples
+    --------
+    >>> import vorotool
+    >>> square = vorotool.skeleton_exact([[0, 0], [4, 0], [4, 4], [0, 4]])
+    >>> to_geojson(square)["features"][0]["geometry"]
+    {'type': 'LineString', 'coordinates': [[0, 0], [2, 2]]}
+    """
+    import io
+
+    import orjson
+
+    out = io.BytesIO()
+    _writer_of(value)(out, value, "geojson", what, flatten, None, 0)
+    made: dict[str, Any] = orjson.loads(out.getvalue())
+    return made
+
+
+_Writer = Callable[[Any, Any, str, str | None, float | None, int | None, int], None]
+
+
+def _writer_of(value: Any) -> _Writer:
+    """The function that writes a value into an open file."""
+    from vorotool.geometry.polygons import PolygonSet
+    from vorotool.geometry.skeleton import Skeleton
+    from vorotool.geometry.table import Table
+    from vorotool.geometry.triangulation import Triangulation
+
+    writers: dict[type, _Writer] = {
+        Table: _write_table,
+        PolygonSet: _write_polygons,
+        Triangulation: _write_mesh,
+        Skeleton: _write_skeleton,
+    }
+    if type(value) not in writers:
+        raise UsageError(
+            f"a {type(value).__name__} cannot be written: give a LabelImage, Table, PolygonSet, Triangulation or Skeleton"
+        )
+    return writers[type(value)]
+
+
+def _write_table(
+    out: Any, value: Any, fmt: str, _what: Any, _flatten: Any, precision: int | None, threads: int
+) -> None:
+    from vorotool.formats.tables import write_table
+
+    write_table(out, value, fmt, precision=precision, threads=threads)
+
+
+def _write_polygons(
+    out: Any, value: Any, fmt: str, _what: Any, _flatten: Any, precision: int | None, _threads: int
+) -> None:
+    from vorotool.formats.polygons import write_polygons
+
+    write_polygons(out, value, fmt, precision=precision)
+
+
+def _write_mesh(
+    out: Any, value: Any, fmt: str, what: str | None, _flatten: Any, precision: int | None, threads: int
+) -> None:
+    from vorotool.formats.mesh_files import write_mesh
+
+    what = what or {"ele": "triangles", "node": "table"}.get(fmt, "edges")
+    write_mesh(out, value, fmt, what=what, precision=precision, threads=threads)
+
+
+def _write_skeleton(
+    out: Any, value: Any, fmt: str, what: str | None, flatten: float | None, precision: int | None, threads: int
+) -> None:
+    from vorotool.formats.skeleton_files import write_skeleton
+
+    write_skeleton(out, value, fmt, what=what or "skeleton", flatten=flatten, precision=precision, threads=threads)
 
 
 def _write_image(image: LabelImage, path: str, fmt: Any, threads: int) -> None:

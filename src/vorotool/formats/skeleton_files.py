@@ -70,7 +70,7 @@ def write_skeleton(
     >>> out = io.BytesIO()
     >>> write_skeleton(out, vorotool.skeleton_exact([[0, 0], [4, 0], [4, 4], [0, 4]]), "wkt")
     >>> out.getvalue().splitlines()[0]
-    b'LINESTRING (4 0, 2 2)'
+    b'LINESTRING (0 0, 2 2)'
     """
     if what not in FORMATS:
         raise UsageError(f"{what!r} is nothing that a skeleton is written as: use {' or '.join(FORMATS)}")
@@ -104,7 +104,7 @@ def skeleton_arrays(skeleton: Skeleton) -> dict[str, NDArray[Any]]:
     --------
     >>> import vorotool
     >>> skeleton_arrays(vorotool.skeleton_exact([[0, 0], [4, 0], [4, 4], [0, 4]]))["arc_target"].tolist()
-    [1, 1, 1, 4]
+    [1, 1, 1, 1]
     """
     table, polygons = skeleton.site_table, skeleton.polygons
     frame = () if skeleton.frame is None else skeleton.frame

@@ -120,6 +120,11 @@ def _optional(exists: NDArray[np.bool_], pair: list[Any]) -> list[Column]:
 
 
 # ---- reading -------------------------------------------------------------------------------------
+def says_skeleton(data: bytes) -> bool:
+    """Whether text looks like the JSON of a skeleton, which is not parsed to tell."""
+    return f'"{TYPE}"'.encode() in data and data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{")
+
+
 def is_skeleton(document: Any) -> bool:
     """Whether a JSON document says that it is a skeleton."""
     return isinstance(document, Mapping) and document.get("type") == TYPE
@@ -164,7 +169,7 @@ def read_skeleton(
             f"{source.name}: version {shortened(document.get('version'))} of skeletons is not known; write version {VERSION}"
         )
     rows = _Rows(source.name, document)
-    options = PolygonOptions(properties, max_sites, 0, note or no_note)
+    options = PolygonOptions(properties, max_sites, note or no_note)
     only_polygons = {"polygons": rows.list_of("polygons")}
     polygons = _described(read_polygon_json(JsonSource(source.name, b"", only_polygons), options), document)
     sites = _read_sites(rows, polygons)
@@ -208,7 +213,7 @@ class _Rows:
         value = self.document.get("frame")
         if value is None:
             return None
-        if type(value) is not list or len(value) != 4 or not all(type(v) in (int, float) for v in value):  # noqa: PLR2004
+        if type(value) is not list or len(value) != 4 or not all(type(v) in (int, float) for v in value):
             raise InputError(f"{self.name}: the frame is {shortened(value)}; write [x, y, w, h]")
         x, y, w, h = map(float, value)
         return (x, y, w, h)
@@ -242,7 +247,7 @@ class _Rows:
         def is_right(value: Any) -> bool:
             if value is None:
                 return optional
-            return type(value) is list and len(value) == 2 and all(type(v) in (int, float) for v in value)  # noqa: PLR2004
+            return type(value) is list and len(value) == 2 and all(type(v) in (int, float) for v in value)
 
         values = [row.get(name) for row in rows]
         if not all(map(is_right, values)):

@@ -1,4 +1,4 @@
-"""Skeletons of polygons and lines: arcs of bisectors, each with its clearance radius and the sites that it is between."""
+"""Skeletons of polygons and lines: arcs of bisectors, each with its clearance radius and its sites."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ class SiteTable:
     polygon, ring, index : (s,) int32 array
         The polygon; its ring, 0 for the shell or a line; the vertex in the ring, or the one where the edge begins.
     source_ring, source_index : (s,) int32 array
-        The ring of the input, counted over all polygons, and the vertex or edge there that it is, or is a part of; -1 for a
-        crossing of edges.
+        The ring of the input, counted over all polygons, and the vertex or edge there that it is, or is a part of; -1
+        for a crossing of edges.
     """
 
     kind: NDArray[np.int8]
@@ -70,8 +70,8 @@ class Skeleton:
     arcs : (a, 2) int32 array
         Source and target of each arc.
     control : (a, 2) float64 array
-        Where the tangents at the ends of a parabola meet: the control point of the quadratic Bezier curve that it is. NaN on
-        straight lines.
+        Where the tangents at the ends of a parabola meet: the control point of the quadratic Bezier curve that it is.
+        NaN on straight lines.
     sites : (a, 2) int32 array
         The sites left and right of each arc, from source to target and y upwards: rows of `site_table`.
     site_table : SiteTable

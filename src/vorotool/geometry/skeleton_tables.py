@@ -26,14 +26,14 @@ def arc_table(skeleton: Skeleton) -> Table:
     -------
     Table
         ``polygon, id, arc, source_index, target_index, x0, y0, r0, x1, y1, r1, kind, cx, cy, site_a_index,
-        site_b_index, side, length, error_bound, branch``. Site a is left of the arc. Outside there is no polygon, on a straight
-        line no control point.
+        site_b_index, side, length, error_bound, branch``. Site a is left of the arc. Outside there is no polygon, on a
+        straight line no control point.
 
     Examples
     --------
     >>> from vorotool import skeleton_exact
     >>> arc_table(skeleton_exact([[0, 0], [4, 0], [0, 3]]))["r1"].tolist()
-    [1.0, 1.0, 0.0]
+    [1.0, 1.0, 1.0]
     """
     source, target = np.ascontiguousarray(skeleton.arcs.T)
     x, y = np.ascontiguousarray(skeleton.vertices.T)
@@ -76,9 +76,9 @@ def element_table(skeleton: Skeleton) -> Table:
     Returns
     -------
     Table
-        ``element, kind, polygon, id, ring, vertex_index, x0, y0, x1, y1, label_a, label_b``: a vertex has no second place. The
-        labels are the paper's, numbers of edges from 1: an edge has its own, a vertex those of its edges (the first two of
-        more), and bisectors between elements with a label in common are deleted.
+        ``element, kind, polygon, id, ring, vertex_index, x0, y0, x1, y1, label_a, label_b``: a vertex has no second
+        place. The labels are the paper's, numbers of edges from 1: an edge has its own, a vertex those of its edges
+        (the first two of more), and bisectors between elements with a label in common are deleted.
 
     Examples
     --------
@@ -126,7 +126,7 @@ def _labels(skeleton: Skeleton) -> NDArray[np.int64]:
     order = np.argsort(at, kind="stable")
     at, label = at[order], label[order]
     nth = np.arange(len(at)) - np.searchsorted(at, at)
-    labels[at[nth < 2], nth[nth < 2]] = label[nth < 2]  # noqa: PLR2004
+    labels[at[nth < 2], nth[nth < 2]] = label[nth < 2]
     return labels
 
 
@@ -147,9 +147,9 @@ def branch_table(skeleton: Skeleton) -> Table:
     Returns
     -------
     Table
-        ``polygon, id, branch, kind, length, chord, r_min, r_max, r_mean``. The kind is ``end`` (it has an end of its own),
-        ``inner`` (it joins junctions), ``closed`` or ``frame`` (it ends on the frame). The chord is the distance between the
-        ends of the branch. The mean of the radius is over the length.
+        ``polygon, id, branch, kind, length, chord, r_min, r_max, r_mean``. The kind is ``end`` (it has an end of its
+        own), ``inner`` (it joins junctions), ``closed`` or ``frame`` (it ends on the frame). The chord is the distance
+        between the ends of the branch. The mean of the radius is over the length.
 
     Examples
     --------
@@ -226,7 +226,8 @@ def _foot(ends: NDArray[np.float64], place: NDArray[np.float64]) -> NDArray[np.f
     way = ends[:, 1] - ends[:, 0]
     square = np.maximum((way * way).sum(axis=1), np.finfo(float).tiny)
     t = ((place - ends[:, 0]) * way).sum(axis=1) / square
-    return ends[:, 0] + t[:, None] * way
+    foot: NDArray[np.float64] = ends[:, 0] + t[:, None] * way
+    return foot
 
 
 def _height(ends: NDArray[np.float64], place: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -244,9 +245,9 @@ def polygon_table(skeleton: Skeleton) -> Table:
     Returns
     -------
     Table
-        ``polygon, id, area, perimeter, holes, length, branches, ends, junctions, cycles, width_max, width_mean``: of the
-        polygons as they were used; width is twice the radius, its mean over the length of the skeleton. Open lines have no area
-        and no width.
+        ``polygon, id, area, perimeter, holes, length, branches, ends, junctions, cycles, width_max, width_mean``: of
+        the polygons as they were used; width is twice the radius, its mean over the length of the skeleton. Open lines
+        have no area and no width.
 
     Examples
     --------
@@ -286,7 +287,7 @@ def polygon_table(skeleton: Skeleton) -> Table:
             "length": length,
             "branches": np.bincount(skeleton.polygon[starts], minlength=count),
             "ends": counted(skeleton.degree == 1),
-            "junctions": counted(skeleton.degree > 2),  # noqa: PLR2004
+            "junctions": counted(skeleton.degree > 2),
             "cycles": cycles,
             "width_max": np.ma.array(widest, mask=empty),
             "width_mean": np.ma.array(mean, mask=empty),
