@@ -241,8 +241,8 @@ def assembled(
     threads: int,
     progress: Progress = None,
 ) -> Skeleton:
-    """Make a skeleton of edges of a diagram, the polygon of each given; arcs outside, of the last group, may be
-    clipped.""" outside = len(placed.polygons)
+    """Make a skeleton of edges of a diagram, each in the group of its polygon; those outside are the last group."""
+    outside = len(placed.polygons)
     frame = (frame or default_frame(placed.polygons)) if clips else None
     clipped = None if frame is None else (outside, _on_lattice(frame, graph))
     made: dict[str, Any] = _core.extract_skeleton(

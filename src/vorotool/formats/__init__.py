@@ -137,8 +137,8 @@ def write(
     fmt : str, optional
         Format, or a usual extension of it; by default that of the path.
     what : str, optional
-        Of a triangulation ``edges``, ``triangles`` or ``table``, by default what the format is for, else its edges; of a
-        skeleton ``skeleton`` (the default), ``elements``, ``branches`` or ``table``.
+        Of a triangulation ``edges``, ``triangles`` or ``table``, by default what the format is for, else its edges; of
+        a skeleton ``skeleton`` (the default), ``elements``, ``branches`` or ``table``.
     flatten : float, optional
         Of a skeleton in GeoJSON or WKT: how far lines may be from parabolas.
     precision : int, optional
@@ -231,7 +231,8 @@ def _writer_of(value: Any) -> _Writer:
     }
     if type(value) not in writers:
         raise UsageError(
-            f"a {type(value).__name__} cannot be written: give a LabelImage, Table, PolygonSet, Triangulation or Skeleton"
+            f"a {type(value).__name__} cannot be written: "
+            "give a LabelImage, Table, PolygonSet, Triangulation or Skeleton"
         )
     return writers[type(value)]
 

@@ -165,9 +165,8 @@ def read_skeleton(
     if not is_skeleton(document):
         raise InputError(f'{source.name}: this is no skeleton; its type should be "{TYPE}"')
     if document.get("version") != VERSION:
-        raise InputError(
-            f"{source.name}: version {shortened(document.get('version'))} of skeletons is not known; write version {VERSION}"
-        )
+        version = shortened(document.get("version"))
+        raise InputError(f"{source.name}: version {version} of skeletons is not known; write version {VERSION}")
     rows = _Rows(source.name, document)
     options = PolygonOptions(properties, max_sites, note or no_note)
     only_polygons = {"polygons": rows.list_of("polygons")}
