@@ -21,13 +21,14 @@ FORMATS = {"picture": ("png", "svg")}
 LAYERS = {"png": ("cells", "diagram"), "svg": ("cells", "labels")}
 """A label image from a file has no seeds."""
 
-SKELETON_LAYERS = ("polygons", "elements", "points", "skeleton", "nodes")
+SKELETON_LAYERS = ("polygons", "elements", "points", "skeleton", "nodes", "labels")
+_SKELETON_PICTURES = {"svg": SKELETON_LAYERS, "png": SKELETON_LAYERS[:-1]}
 
 
 @click.command("draw")
 @click.argument("inputs", metavar="INPUT", nargs=-1)
 @shared("output", "format", "input-format", "page")
-@layers_option(("cells", "diagram", "labels", *SKELETON_LAYERS))
+@layers_option(("cells", "diagram", *SKELETON_LAYERS))
 @shared("width", "y-up", "out-dir", "threads", "stats", "max-pixels", "no-clobber", "quiet", "verbose")
 def command(**options: Any) -> None:
     """Draw a label image, in which neighbouring regions never share a colour, or a skeleton.
@@ -93,7 +94,7 @@ def _skeleton_picture(run: Run, o: SimpleNamespace, source: Source, fmt: str) ->
     from vorotool.render.layers_png import check_picture_size
     from vorotool.render.skeleton_layers import skeleton_layers, skeleton_page
 
-    check_picture_options(o, [fmt], dict.fromkeys(LAYERS, SKELETON_LAYERS), png_has_width=True)
+    check_picture_options(o, [fmt], _SKELETON_PICTURES, png_has_width=True)
     refuse(o, ("page",), "is for images, but the input is a skeleton")
     with run.phase("read"):
         skeleton = read_skeleton(source, properties=False)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import warnings
+from functools import partial
 from math import isfinite
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
@@ -25,8 +27,10 @@ FORMATS = {
     "branches": _TABLES,
     "table": _TABLES,
 }
-LAYERS = ("polygons", "elements", "points", "skeleton", "nodes")
+LAYERS = ("polygons", "elements", "points", "skeleton", "nodes", "labels")
 """Layers of pictures, from below."""
+
+PICTURE_LAYERS = {"svg": LAYERS, "png": tuple(layer for layer in LAYERS if layer != "labels")}
 
 _WITHOUT_DIGITS = frozenset({"npz", *_PICTURES})
 _WITHOUT_CURVES = frozenset({"geojson", "wkt"})
@@ -137,7 +141,7 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     pictures = sorted(formats & set(_PICTURES))
     if o.layers is not None and not pictures:
         raise click.UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
-    check_picture_options(o, pictures, dict.fromkeys(_PICTURES, LAYERS), png_has_width=True)
+    check_picture_options(o, pictures, PICTURE_LAYERS, png_has_width=True)
 
 
 def _read_polygons(run: Run, o: SimpleNamespace, source: str) -> PolygonSet:
@@ -153,8 +157,18 @@ def _read_polygons(run: Run, o: SimpleNamespace, source: str) -> PolygonSet:
         max_sites=o.max_sites,
         properties=not o.no_properties,
         threads=o.threads,
-        note=run.note,
+        note=partial(_note, run),
     )
     if not isinstance(value, PolygonSet):
         raise InputError("this is an image: skeletons of masks are not made yet; give polygons or open lines")
     return value
+
+
+def _note(run: Run, message: str) -> None:
+    """Say what the reader noticed; that lengths are in degrees is a warning, as it is about the result."""
+    if "degrees" in message:
+        from vorotool.errors import VorotoolWarning
+
+        warnings.warn(message, VorotoolWarning, stacklevel=2)
+    else:
+        run.note(message)

@@ -67,7 +67,7 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
     >>> verify_skeleton(replace(skeleton, radius=skeleton.radius + 1))
     Traceback (most recent call last):
         ...
-    vorotool.errors.VerificationError: node 0 at (0.0, 0.0) is 0.0 from site 0, but its radius is 1.0
+    vorotool.errors.VerificationError: node 0 at (0.0, 0.0) is 0.0 from site 7, but its radius is 1.0
     """
     threads = checked_threads(threads)
     if not len(skeleton):

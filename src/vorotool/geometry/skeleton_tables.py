@@ -90,7 +90,7 @@ def element_table(skeleton: Skeleton) -> Table:
     sites = skeleton.site_table
     is_edge = sites.kind == EDGE
     ends = skeleton.site_ends
-    labels = _labels(skeleton)
+    labels = site_labels(skeleton)
     return Table(
         {
             "element": np.arange(len(sites)),
@@ -109,8 +109,8 @@ def element_table(skeleton: Skeleton) -> Table:
     )
 
 
-def _labels(skeleton: Skeleton) -> NDArray[np.int64]:
-    """(s, 2) the first two labels of each site; 0 for none."""
+def site_labels(skeleton: Skeleton) -> NDArray[np.int64]:
+    """(s, 2) the first two labels of each site, numbers of edges from 1; 0 for none."""
     is_edge = skeleton.site_table.kind == EDGE
     points, edges = np.flatnonzero(~is_edge), np.flatnonzero(is_edge)
     labels = np.zeros((len(is_edge), 2), dtype=np.int64)

@@ -9,11 +9,12 @@ from numpy.typing import NDArray
 
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.skeleton import EDGE, Skeleton
+from vorotool.geometry.skeleton_tables import site_labels
 from vorotool.render.label_png import checked_layers
-from vorotool.render.layers import Curves, Layer, Lines, Page, Points, Polygons, bounds_of
+from vorotool.render.layers import Curves, Layer, Lines, Page, Points, Polygons, Texts, bounds_of
 from vorotool.render.palettes import FAINT, INK, LIGHT, RESULT, SEED
 
-LAYERS = ("polygons", "elements", "points", "skeleton", "nodes")
+LAYERS = ("polygons", "elements", "points", "skeleton", "nodes", "labels")
 """From below."""
 
 
@@ -29,7 +30,8 @@ def skeleton_layers(
     page : Page
         Where it will be drawn.
     layers : iterable of str
-        Which of "polygons", "elements" (edges), "points" (their ends), "skeleton", "nodes".
+        Which of "polygons", "elements" (edges), "points" (their ends), "skeleton", "nodes", "labels" (the paper's, of
+        elements).
     name, colour : str
         Of the layer of arcs: a whole diagram has other ones.
 
@@ -55,6 +57,7 @@ def skeleton_layers(
         "points": lambda: [Points("points", _site_places(skeleton), radius=radius)],
         "skeleton": lambda: [_arcs(skeleton, name, colour, width)],
         "nodes": lambda: [Points("nodes", skeleton.vertices, colour=colour, radius=radius)],
+        "labels": lambda: [_labels(skeleton, min(max(spacing / 6, 2.0), 16.0))],
     }
     return [layer for layer_name in LAYERS if layer_name in wanted for layer in make[layer_name]()]
 
@@ -125,6 +128,11 @@ def _edges(skeleton: Skeleton, width: float) -> Lines:
 def _site_places(skeleton: Skeleton) -> NDArray[np.float64]:
     places: NDArray[np.float64] = skeleton.site_ends[skeleton.site_table.kind != EDGE, 0]
     return places
+
+
+def _labels(skeleton: Skeleton, size: float) -> Texts:
+    pairs = [[label for label in pair if label] for pair in site_labels(skeleton).tolist()]
+    return Texts("labels", skeleton.site_ends.mean(axis=1), [",".join(map(str, pair)) for pair in pairs], size=size)
 
 
 def _arcs(skeleton: Skeleton, name: str, colour: str, width: float) -> Curves:
