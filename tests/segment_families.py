@@ -220,7 +220,9 @@ def wheel(rng, n):
     points = np.concatenate([[[0, 0]], lattice(around(np.ones(spokes), scale=int(rng.choice([40 * spokes, HALF]))))])
     rim = np.arange(1, spokes + 1)
     joined = np.stack([rim, np.roll(rim, -1)], axis=1)[rng.random(spokes) < rng.choice([0.5, 1.0])]
-    return points.astype(np.int32), np.concatenate([np.stack([np.zeros_like(rim), rim], axis=1), joined]).astype(np.int32)
+    return points.astype(np.int32), np.concatenate([np.stack([np.zeros_like(rim), rim], axis=1), joined]).astype(
+        np.int32
+    )
 
 
 def chains(rng, n):
@@ -231,7 +233,9 @@ def chains(rng, n):
         b = b + [1, 0] if a[1] else b + [0, 1]
     corners = np.array([[0, 0], a, b]) * pieces
     steps = np.arange(pieces)[:, None]
-    return polygon(np.concatenate([p + (q - p) // pieces * steps for p, q in zip(corners, np.roll(corners, -1, 0), strict=True)]))
+    return polygon(
+        np.concatenate([p + (q - p) // pieces * steps for p, q in zip(corners, np.roll(corners, -1, 0), strict=True)])
+    )
 
 
 def contour(rng, n):
@@ -244,7 +248,7 @@ def contour(rng, n):
     noise[[0, -1]] = noise[:, [0, -1]] = -1
     scale = 2 * HALF // side
     rings = [ring[:-1] for ring in find_contours(noise / np.abs(noise[1:-1, 1:-1]).max(), 0.1)]
-    graphs = [polygon(ring * scale - HALF) for ring in rings if len(ring) > 3]  # noqa: PLR2004
+    graphs = [polygon(ring * scale - HALF) for ring in rings if len(ring) > 3]
     return together(graphs or [regular(rng, n)])
 
 
@@ -265,7 +269,7 @@ def joined(points, pairs):
             & (np.minimum(y[i], y[j]) <= y)
             & (y <= np.maximum(y[i], y[j]))
         )
-        if i == j or between.sum() > 2:  # noqa: PLR2004
+        if i == j or between.sum() > 2:
             continue
         k, l = kept[:, 0], kept[:, 1]
         crossing = (side(i, j, k) * side(i, j, l) < 0) & (side(k, l, i) * side(k, l, j) < 0)
@@ -351,5 +355,5 @@ def renumbered(points, segments, rng):
     order, segment_order = rng.permutation(len(points)), rng.permutation(len(segments))
     number = np.concatenate([np.argsort(order), len(points) + np.argsort(segment_order)])
     new = number[: len(points)][segments[segment_order]]
-    new = np.where(rng.random((len(new), 1)) < 0.5, new, new[:, ::-1])  # noqa: PLR2004
+    new = np.where(rng.random((len(new), 1)) < 0.5, new, new[:, ::-1])
     return np.ascontiguousarray(points[order]), np.ascontiguousarray(new, dtype=np.int32), number

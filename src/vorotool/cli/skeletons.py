@@ -135,12 +135,14 @@ class SkeletonProducts:
     def verify(self) -> None:
         """Check the diagram and the skeleton, from their arrays alone."""
         from vorotool.engines.segment_verification import verify_segment_voronoi
-        from vorotool.engines.skeleton_verification import verify_skeleton
+        from vorotool.engines.skeleton_verification import verify_exterior, verify_skeleton
 
         part = self.shapes if self.shapes is not None else self.elements
         assert part is not None
         progress = self.run.progress("verifying")
         verify_segment_voronoi(part.diagram, threads=self.options.threads, progress=progress)
+        if self.shapes is not None and self.options.side != "interior":
+            verify_exterior(self.shapes, threads=self.options.threads)
         verify_skeleton(self.skeleton, threads=self.options.threads, progress=progress)
 
     def stats(self) -> dict[str, Any]:

@@ -160,7 +160,7 @@ def skeleton_of(
     """Delete what is not the skeleton's from the diagram of shapes; arguments as of `skeleton_exact`."""
     check_skeleton_options(side, 0, frame)
     threads = checked_threads(threads)
-    edges, faces = _core.skeleton_edges(*_arrays(shapes.diagram), shapes.graph.segment_faces, threads, progress)
+    edges, faces = kept_edges(shapes, threads=threads, progress=progress)
     group = face_groups(shapes.placed, side)[faces]
     kept = group >= 0
     if side != "exterior" and not shapes.graph.is_inside.any():
@@ -175,6 +175,15 @@ def skeleton_of(
         clips=side != "interior",
         threads=threads,
         progress=progress,
+    )
+
+
+def kept_edges(
+    shapes: ShapeDiagram, *, threads: int = 0, progress: Progress = None
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Edges of the diagram that are not deleted, and the face of the graph that each is in."""
+    return _core.skeleton_edges(
+        *_arrays(shapes.diagram), shapes.graph.segment_faces, checked_threads(threads), progress
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.label_arrays import Progress
 from vorotool.engines.planar_graph import planar_graph
+from vorotool.engines.skeleton_exact import ShapeDiagram, kept_edges
 from vorotool.errors import VerificationError, VorotoolWarning
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.planar_graph import PlanarGraph
@@ -75,6 +76,8 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
     _check_arrays(skeleton)
     _check_branches(skeleton)
     sites = _Sites(skeleton)
+    if skeleton.gap:  # the lines that lead to the corners are no bisectors of the shortened edges
+        skeleton = _without_portions(skeleton)
     _check_equal_distances(skeleton, sites)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", VorotoolWarning)  # what bounds nothing is still in the rings
@@ -82,6 +85,58 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
         _check_nothing_nearer(skeleton, sites, _elements(skeleton, graph, threads), threads, progress)
     if not skeleton.gap:
         _check_regions(_Regions(skeleton, graph, sites))
+
+
+def verify_exterior(shapes: ShapeDiagram, *, threads: int = 0) -> None:
+    """Check the unbounded part of a skeleton before it is clipped, as a graph.
+
+    With one node at infinity it is connected, and has as many independent cycles as the closed shape has components less
+    one.
+
+    Parameters
+    ----------
+    shapes : ShapeDiagram
+        However its diagram was computed.
+    threads : int
+        0 uses all.
+
+    Raises
+    ------
+    VerificationError
+        If it is not so.
+
+    Examples
+    --------
+    >>> from vorotool.engines.skeleton_exact import shape_diagram
+    >>> verify_exterior(shape_diagram([[[0, 0], [2, 0], [0, 2]], [[5, 5], [7, 5], [5, 7]]]))
+    """
+    graph, diagram = shapes.graph, shapes.diagram
+    edges, faces = kept_edges(shapes, threads=threads)
+    edges = edges[faces == 0]
+    if not len(edges):
+        return
+    ends = diagram.edges[edges].astype(np.int64)
+    infinity = len(diagram)
+    ends[ends < 0] = infinity
+    corner = (ends < infinity) & (np.append(diagram.radius, 1.0)[ends] == 0)
+    ends[corner] = infinity + 1 + np.arange(np.count_nonzero(corner))  # each arc has its own
+    nodes = np.unique(ends)
+    roots = connected_roots(ends, int(ends.max()) + 1)[nodes]
+    if len(np.unique(roots)) > 1:
+        _fail(f"the skeleton outside has {len(np.unique(roots))} connected parts, even with a node at infinity")
+    lone = np.bincount(graph.segments.reshape(-1), minlength=len(graph.points)) == 0
+    sites = np.unique(diagram.edge_sites[edges])
+    points = np.count_nonzero(lone[sites[sites < len(graph.points)]])
+    expected = _border_components(graph)[0] + points - 1
+    cycles = len(edges) - len(nodes) + 1
+    if cycles != expected:
+        _fail(f"the skeleton outside has {cycles} independent cycles, not {expected}")
+
+
+def _without_portions(skeleton: Skeleton) -> Skeleton:
+    kept = (skeleton.radius[skeleton.arcs] > 0).all(axis=1)
+    per_arc = ("arcs", "control", "sites", "polygon", "side", "branch", "length", "error_bound")
+    return replace(skeleton, **{name: getattr(skeleton, name)[kept] for name in per_arc})
 
 
 def _fail(message: str) -> None:
@@ -215,14 +270,17 @@ def _check_nothing_nearer(
 ) -> None:
     """Nodes and places inside arcs: no site within their distance from their own."""
     inner = [_inner_places(skeleton, t) for t in _INSIDE]
-    places = np.concatenate([skeleton.vertices, *inner])
-    distance = np.concatenate([skeleton.radius, *(sites.distances(skeleton.sites[:, 0], place) for place in inner)])
+    nodes = np.unique(skeleton.arcs)
+    places = np.concatenate([skeleton.vertices[nodes], *inner])
+    distance = np.concatenate(
+        [skeleton.radius[nodes], *(sites.distances(skeleton.sites[:, 0], place) for place in inner)]
+    )
     lattice = np.ascontiguousarray((places - graph.origin) / graph.scale)
     reach = np.ascontiguousarray(distance / graph.scale)
     nearest = graph.scale * _core.clearances(graph.points, graph.segments, lattice, reach, threads, progress)
     at = _first(nearest < distance - sites.tolerance)
     if at is not None:
-        what = f"node {at}" if at < len(skeleton.vertices) else f"arc {(at - len(skeleton.vertices)) % len(skeleton)}"
+        what = f"node {nodes[at]}" if at < len(nodes) else f"arc {(at - len(nodes)) % len(skeleton)}"
         _fail(f"{what}: a site is {nearest[at]} from {tuple(places[at].tolist())}, nearer than {distance[at]}")
 
 
@@ -430,8 +488,8 @@ def _check_cycles(regions: _Regions, roots: Indices, face: Indices) -> None:
     pairs = np.unique(np.stack([regions.root[skeleton.arcs[arc, 0]], numbers[arc, hand]], axis=1), axis=0)
     points = np.bincount(pairs[:, 0], minlength=len(regions.root))[roots]
     expected = np.where(face > 0, borders[np.maximum(face, 0)], borders[0]) + points - 1
-    cut = (face <= 0) & skeleton.on_frame.any()  # what is beyond the frame may hold some of the cycles
-    at = _first(np.where(cut, cycles > expected, cycles != expected))
+    cut = (face <= 0) & skeleton.on_frame.any()  # what is beyond the frame is unknown: see verify_exterior
+    at = _first(~cut & (cycles != expected))
     if at is not None:
         _fail(f"the skeleton of region {max(face[at], 0)} has {cycles[at]} independent cycles, not {expected[at]}")
 
