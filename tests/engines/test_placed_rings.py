@@ -4,8 +4,8 @@ import warnings
 
 import numpy as np
 import pytest
-from skeleton_shapes import FAMILIES
 
+from skeleton_shapes import FAMILIES
 from vorotool.engines.placed_rings import placed_shapes
 from vorotool.engines.planar_graph import planar_graph
 from vorotool.errors import VorotoolWarning

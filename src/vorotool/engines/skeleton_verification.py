@@ -335,10 +335,12 @@ class _Regions:
         self.lattice_site = self._graph_sites()
         self.sectors = _sectors(graph)
         self.root = connected_roots(skeleton.arcs, len(skeleton.vertices))
-        if skeleton.on_frame.any():  # all that leads to infinity is connected there
-            framed = np.unique(self.root[skeleton.on_frame])
-            self.root[np.isin(self.root, framed)] = framed[0]
         self.face = self._faces()
+        framed = np.unique(self.root[skeleton.on_frame])
+        framed = framed[self.face[framed] <= 0]
+        if len(framed):  # all that leads to infinity is connected there
+            self.root[np.isin(self.root, framed)] = framed[0]
+            self.face[framed] = 0
 
     def _graph_sites(self) -> Indices:
         """The graph's number of each site."""
@@ -421,7 +423,7 @@ def _check_regions(regions: _Regions) -> None:
     wanted = np.zeros(graph.faces, dtype=bool)
     for side, of_side in ((INTERIOR, inside), (EXTERIOR, ~inside)):
         if (skeleton.side == side).any():
-            wanted |= of_side
+            wanted |= of_side & (_uncut_faces(skeleton, graph) | (side == INTERIOR))
     _check_ends(regions, wanted)
     roots = np.flatnonzero(regions.root == np.arange(len(regions.root)))
     face = regions.face[roots]
@@ -435,6 +437,18 @@ def _check_regions(regions: _Regions) -> None:
         _fail("the skeleton outside has parts that are not connected, even by the frame")
     _check_cycles(regions, roots, face)
     _check_areas(regions, wanted)
+
+
+def _uncut_faces(skeleton: Skeleton, graph: PlanarGraph) -> NDArray[np.bool_]:
+    """(f,) faces that are within the frame as a whole, and the unbounded one."""
+    uncut = np.ones(graph.faces, dtype=bool)
+    if skeleton.frame is not None:
+        x, y, w, h = skeleton.frame
+        places = graph.coordinates()[graph.segments].reshape(-1, 2)
+        beyond = ((places < [x, y]) | (places > [x + w, y + h])).any(axis=1).reshape(-1, 2).any(axis=1)
+        uncut[graph.segment_faces[beyond]] = False
+        uncut[0] = True
+    return uncut
 
 
 def _check_ends(regions: _Regions, wanted: NDArray[np.bool_]) -> None:
@@ -489,7 +503,8 @@ def _check_cycles(regions: _Regions, roots: Indices, face: Indices) -> None:
     points = np.bincount(pairs[:, 0], minlength=len(regions.root))[roots]
     expected = np.where(face > 0, borders[np.maximum(face, 0)], borders[0]) + points - 1
     cut = (face <= 0) & skeleton.on_frame.any()  # what is beyond the frame is unknown: see verify_exterior
-    at = _first(~cut & (cycles != expected))
+    uncut = _uncut_faces(skeleton, graph)[np.maximum(face, 0)] | graph.is_inside[np.maximum(face, 0)]
+    at = _first(~cut & uncut & (cycles != expected))
     if at is not None:
         _fail(f"the skeleton of region {max(face[at], 0)} has {cycles[at]} independent cycles, not {expected[at]}")
 

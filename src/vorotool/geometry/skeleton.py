@@ -147,6 +147,10 @@ class Skeleton:
                 raise InputError(f"{name} must have shape {shape}, but has {array.shape}")
             object.__setattr__(self, name, array)
 
+        if self.frame is not None:
+            x, y, w, h = map(float, self.frame)
+            object.__setattr__(self, "frame", (x, y, w, h))
+
     def __len__(self) -> int:
         return len(self.arcs)
 

@@ -148,8 +148,8 @@ def branch_table(skeleton: Skeleton) -> Table:
     -------
     Table
         ``polygon, id, branch, kind, length, chord, r_min, r_max, r_mean``. The kind is ``end`` (it has an end of its
-        own), ``inner`` (it joins junctions), ``closed`` or ``frame`` (it ends on the frame). The chord is the distance
-        between the ends of the branch. The mean of the radius is over the length.
+        own), ``inner`` (it joins junctions), ``closed`` or ``frame`` (it leads from a junction, or the frame, to the
+        frame). The chord is the distance between the ends of the branch. The mean of the radius is over the length.
 
     Examples
     --------
@@ -169,9 +169,10 @@ def branch_table(skeleton: Skeleton) -> Table:
     integral = np.add.reduceat(integral, start)
     mean = np.divide(integral, length, out=skeleton.radius[a].copy(), where=length > 0)
     polygon = skeleton.polygon[start]
-    ends = skeleton.degree[np.stack([a, b])] == 1
-    framed = (skeleton.on_frame[np.stack([a, b])]).any(axis=0)
-    kind = np.select([a == b, framed, ends.any(axis=0)], [2, 3, 0], 1).astype(np.int32)
+    both = np.stack([a, b])
+    framed = skeleton.on_frame[both]
+    has_end = ((skeleton.degree[both] == 1) & ~framed).any(axis=0)
+    kind = np.select([a == b, has_end, framed.any(axis=0)], [2, 0, 3], 1).astype(np.int32)
     return Table(
         {
             "polygon": np.ma.array(polygon, mask=polygon < 0),
