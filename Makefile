@@ -53,6 +53,7 @@ bench: build ## measure beside the peers, in one run
 	$(RUN) tests/benchmarks/tessellate.py
 	$(RUN) tests/benchmarks/delaunay.py
 	$(RUN) tests/benchmarks/mesh_files.py
+	$(RUN) tests/benchmarks/skeleton_exact.py
 
 .PHONY: fuzz
 fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CASES=..., SEED=...)
@@ -60,6 +61,7 @@ fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CAS
 	$(RUN) tests/fuzz/predicates.py --calls $(or $(CALLS),1000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/delaunay.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/planar_graph.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/skeletons.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
 
 .PHONY: sanitize
 sanitize: build ## run the engine tests on a build with address and undefined-behaviour sanitizers

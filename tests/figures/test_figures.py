@@ -10,7 +10,10 @@ import pytest
 from PIL import Image
 
 ROOT = Path(__file__).parents[2]
-PIXELS = {"figure-03a.png": "eb46790d48b0f8fccd36c7174ee5bf47ae186f83d044c9a3bd2f9f7c477ed1bc"}
+PIXELS = {
+    "figure-03a.png": "eb46790d48b0f8fccd36c7174ee5bf47ae186f83d044c9a3bd2f9f7c477ed1bc",
+    "figure-lakes.png": "6b4690140c1d8df6bce1765520df3dc28cff6e9526a5e2112a46f88d711a5db2",
+}
 """SHA-256 of the RGB pixels."""
 
 
@@ -23,7 +26,18 @@ def figures(tmp_path_factory):
     return folder
 
 
-@pytest.mark.parametrize("name", ["figure-01.svg", "figure-02.svg", "figure-03d.svg"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "figure-01.svg",
+        "figure-02.svg",
+        "figure-03d.svg",
+        "figure-10.svg",
+        "figure-11b.svg",
+        "figure-11c.svg",
+        "figure-11d.svg",
+    ],
+)
 def test_svg(figures, name):
     assert (figures / name).read_text() == (Path(__file__).parent / name).read_text()
 
