@@ -52,10 +52,10 @@ std::optional<std::string> segment_voronoi_fault(
 }  // namespace
 
 void bind_segment_verification(nb::module_& module) {
-  module.def("segment_voronoi_fault", &segment_voronoi_fault, "points"_a.noconvert(), "segments"_a.noconvert(),
-             "vertices"_a.noconvert(), "radius"_a.noconvert(), "vertex_start"_a.noconvert(),
-             "vertex_sites"_a.noconvert(), "edges"_a.noconvert(), "edge_sites"_a.noconvert(), "threads"_a,
-             "progress"_a.none());
+  module.def("segment_voronoi_fault", &segment_voronoi_fault, "points"_a.noconvert(),
+             "segments"_a.noconvert(), "vertices"_a.noconvert(), "radius"_a.noconvert(),
+             "vertex_start"_a.noconvert(), "vertex_sites"_a.noconvert(), "edges"_a.noconvert(),
+             "edge_sites"_a.noconvert(), "threads"_a, "progress"_a.none());
 }
 
 }  // namespace vorotool::bindings

@@ -49,7 +49,8 @@ Row line_row(const DiscCondition& condition, const CertifiedDisc& disc) {
 }
 
 Row row_of(const DiscCondition& condition, const CertifiedDisc& disc) {
-  return condition.kind == DiscCondition::Kind::point ? point_row(condition, disc) : line_row(condition, disc);
+  return condition.kind == DiscCondition::Kind::point ? point_row(condition, disc)
+                                                      : line_row(condition, disc);
 }
 
 using Rows = std::array<Row, 3>;

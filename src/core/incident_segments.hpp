@@ -16,7 +16,8 @@ class IncidentSegments {
 
   // Site numbers of the segments at a point, counter-clockwise from the positive x axis.
   std::span<const std::int32_t> at(std::int32_t point) const {
-    const auto begin = start_[static_cast<std::size_t>(point)], end = start_[static_cast<std::size_t>(point) + 1];
+    const auto begin = start_[static_cast<std::size_t>(point)],
+               end = start_[static_cast<std::size_t>(point) + 1];
     return std::span(segments_).subspan(begin, end - begin);
   }
   // The site number of the segment between two points, or -1.

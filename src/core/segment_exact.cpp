@@ -148,7 +148,8 @@ int clearance_sign(const ExactDisc& disc, const LatticeSite& query) {
 
 int compare_along(const ExactDisc& first, const ExactDisc& second, const LatticeVector& direction) {
   RootTower tower;
-  const std::size_t lifted_first = tower.adjoin_all(*first.tower), lifted_second = tower.adjoin_all(*second.tower);
+  const std::size_t lifted_first = tower.adjoin_all(*first.tower),
+                    lifted_second = tower.adjoin_all(*second.tower);
   const RootNumber a = tower.lift(CentreSeen(first, first.origin).along(direction), lifted_first);
   const RootNumber b = tower.lift(CentreSeen(second, first.origin).along(direction), lifted_second);
   return (a * tower.lift(second.w, lifted_second) - b * tower.lift(first.w, lifted_first)).sign();

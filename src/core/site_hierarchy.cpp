@@ -18,7 +18,8 @@ SiteHierarchy::SiteHierarchy(std::span<const LatticeSite> items, unsigned thread
   std::vector<Point> middles;
   middles.reserve(items.size());
   for (const LatticeSite& s : items) {
-    middles.push_back({0.5 * (static_cast<double>(s.a.x) + s.b.x), 0.5 * (static_cast<double>(s.a.y) + s.b.y)});
+    middles.push_back(
+        {0.5 * (static_cast<double>(s.a.x) + s.b.x), 0.5 * (static_cast<double>(s.a.y) + s.b.y)});
   }
   std::vector<std::int32_t> first(items.size());
   index_ = morton_order(middles, first, threads, monitor).index;

@@ -34,14 +34,15 @@ class SiteHierarchy {
  private:
   static constexpr std::size_t leaf_size = 4;
   struct Box {
-    double ux, uy;                          // about a unit vector
+    double ux, uy;                            // about a unit vector
     double t_least, t_most, n_least, n_most;  // along it, and across
   };
 
   Box box_around(std::size_t first, std::size_t last, std::size_t longest) const;
 
   template <class Visit>
-  bool near(std::size_t level, std::size_t node, double x, double y, double reach2, const Visit& visit) const {
+  bool near(std::size_t level, std::size_t node, double x, double y, double reach2,
+            const Visit& visit) const {
     const Box& box = levels_[level][node];
     const double t = box.ux * x + box.uy * y, n = box.ux * y - box.uy * x;
     const double dt = std::max(std::max(box.t_least - t, t - box.t_most), 0.0);
@@ -58,8 +59,8 @@ class SiteHierarchy {
     return 2 * node + 1 >= levels_[level - 1].size() || near(level - 1, 2 * node + 1, x, y, reach2, visit);
   }
 
-  std::vector<LatticeSite> items_;     // along a Morton curve through their middles
-  std::vector<std::uint32_t> index_;   // of each among those given
+  std::vector<LatticeSite> items_;        // along a Morton curve through their middles
+  std::vector<std::uint32_t> index_;      // of each among those given
   std::vector<std::vector<Box>> levels_;  // the leaves first; node i holds nodes 2 i and 2 i + 1 below
 };
 

@@ -99,13 +99,13 @@ Fault check_distinct(const SegmentVoronoiArrays& in) {
 
 }  // namespace
 
-// Why the checks suffice. Each vertex given is a vertex of the true diagram, with its true ring, and no two are
-// the same; both maps have the same cells, each one cycle of edges, and the same ring at infinity; both are
-// connected and meet Euler's relation. So in both, with F cells,
+// Why the checks suffice. Each vertex given is a vertex of the true diagram, with its true ring, and no two
+// are the same; both maps have the same cells, each one cycle of edges, and the same ring at infinity; both
+// are connected and meet Euler's relation. So in both, with F cells,
 //   sum over the vertices of (degree - 2) + degree of infinity = 2 E - 2 V = 2 F - 2,
-// and every vertex adds at least 1: none is missing. Then along each bisector the places where edges leave and
-// where they arrive are the true ones, and the edges that follow each other without overlap join them as the
-// true ones do. The points inside edges are looked at in spite of that.
+// and every vertex adds at least 1: none is missing. Then along each bisector the places where edges leave
+// and where they arrive are the true ones, and the edges that follow each other without overlap join them as
+// the true ones do. The points inside edges are looked at in spite of that.
 Fault find_fault(const SegmentVoronoiArrays& arrays, unsigned threads, const Monitor& monitor) {
   if (Fault fault = check_sites(arrays)) return fault;
   if (Fault fault = check_indices(arrays, threads, monitor)) return fault;

@@ -14,14 +14,14 @@ namespace vorotool::core {
 
 // Site i < n is point i, site n + j the open segment j.
 struct SegmentVoronoiArrays {
-  std::span<const LatticePoint> points;                      // [n] distinct
-  std::span<const std::array<std::int32_t, 2>> segments;     // [m] ends; segments meet at ends only
-  std::span<const double> vertices;                          // [2 v] centres x, y
-  std::span<const double> radius;                            // [v]
-  std::span<const std::int32_t> vertex_start;                // [v + 1] into vertex_sites
-  std::span<const std::int32_t> vertex_sites;                // [k] rings, counter-clockwise from the smallest
-  std::span<const std::array<std::int32_t, 2>> edges;        // [e] source and target, -1 at infinity
-  std::span<const std::array<std::int32_t, 2>> edge_sites;   // [e] on the left and on the right
+  std::span<const LatticePoint> points;                     // [n] distinct
+  std::span<const std::array<std::int32_t, 2>> segments;    // [m] ends; segments meet at ends only
+  std::span<const double> vertices;                         // [2 v] centres x, y
+  std::span<const double> radius;                           // [v]
+  std::span<const std::int32_t> vertex_start;               // [v + 1] into vertex_sites
+  std::span<const std::int32_t> vertex_sites;               // [k] rings, counter-clockwise from the smallest
+  std::span<const std::array<std::int32_t, 2>> edges;       // [e] source and target, -1 at infinity
+  std::span<const std::array<std::int32_t, 2>> edge_sites;  // [e] on the left and on the right
 
   std::size_t vertex_count() const { return radius.size(); }
   std::size_t site_count() const { return points.size() + segments.size(); }

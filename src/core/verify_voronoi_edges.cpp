@@ -60,13 +60,15 @@ class Bisector {
       if (i + 1 == edges.size()) break;
       const Site next = start_of(edges[i + 1]);
       if (end < 0 || next < 0 || compare(end, next, direction) >= 0) {
-        return edge_text(edges[i]) + " and " + edge_text(edges[i + 1]) + " overlap on the bisector of their sites";
+        return edge_text(edges[i]) + " and " + edge_text(edges[i + 1]) +
+               " overlap on the bisector of their sites";
       }
     }
     return {};
   }
 
-  // The sign of the difference of two vertices' places: vertices are right to `few_ulps`, and two of their own.
+  // The sign of the difference of two vertices' places: vertices are right to `few_ulps`, and two of their
+  // own.
   int compare(Site v, Site w, const LatticeVector& u) const {
     const double ux = static_cast<double>(u.x), uy = static_cast<double>(u.y);
     double place[2], size = 0;
@@ -243,10 +245,12 @@ class InnerPoints {
     const double r = distance(place, left), other = distance(place, right);
     double size = std::abs(place.x) + std::abs(place.y) + r + extent_;
     for (const Site v : in_.edges[edge]) {
-      if (v >= 0) size += std::abs(centre(v).x) + std::abs(centre(v).y) + in_.radius[static_cast<std::size_t>(v)];
+      if (v >= 0)
+        size += std::abs(centre(v).x) + std::abs(centre(v).y) + in_.radius[static_cast<std::size_t>(v)];
     }
     const double tolerance = 0x1p-44 * size;
-    if (std::abs(r - other) > tolerance) return fault(edge, place, "is not as far from one site as from the other");
+    if (std::abs(r - other) > tolerance)
+      return fault(edge, place, "is not as far from one site as from the other");
     Fault found;
     if (r <= tolerance) return found;
     index_.near(place.x, place.y, r, [&](Site site) {

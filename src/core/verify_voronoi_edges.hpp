@@ -18,7 +18,8 @@ std::optional<std::string> find_order_fault(const SegmentVoronoiArrays& arrays,
 
 // Points inside every edge: as far from both sites, and no site is nearer. In floating point, up to its
 // errors. The vertices' discs must be those of their sites.
-std::optional<std::string> find_inner_point_fault(const SegmentVoronoiArrays& arrays, const ClosedSites& index,
-                                                  unsigned threads, const Monitor& monitor);
+std::optional<std::string> find_inner_point_fault(const SegmentVoronoiArrays& arrays,
+                                                  const ClosedSites& index, unsigned threads,
+                                                  const Monitor& monitor);
 
 }  // namespace vorotool::core

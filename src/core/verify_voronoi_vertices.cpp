@@ -63,8 +63,8 @@ class Vertex {
   }
 
  private:
-  // A contact with the circle: where, as a diamond angle; at an end of a segment also which end, and where the
-  // segment goes on.
+  // A contact with the circle: where, as a diamond angle; at an end of a segment also which end, and where
+  // the segment goes on.
   struct Contact {
     double angle;
     Site end;
@@ -108,7 +108,8 @@ class Vertex {
   Fault check_corner() const {
     const Site point = corner();
     const std::vector<Site> right = incident_.corner_ring(point);
-    if (!std::ranges::equal(ring_, right)) return fault("has radius 0, but these are not the cells at one corner");
+    if (!std::ranges::equal(ring_, right))
+      return fault("has radius 0, but these are not the cells at one corner");
     const LatticePoint& p = in_.point(point);
     if (in_.vertices[2 * vertex_] == p.x && in_.vertices[2 * vertex_ + 1] == p.y) return {};
     return fault("has radius 0, but is not at point " + std::to_string(point));
@@ -174,7 +175,8 @@ class Vertex {
     auto apart = [](double value, const DoubleDouble& right) {
       return std::abs((DoubleDouble(value) - right).head);
     };
-    if (apart(x, disc_.x) <= bound && apart(y, disc_.y) <= bound && apart(r, disc_.radius) <= r_bound) return {};
+    if (apart(x, disc_.x) <= bound && apart(y, disc_.y) <= bound && apart(r, disc_.radius) <= r_bound)
+      return {};
     return fault("is (" + number_text(x) + ", " + number_text(y) + "), radius " + number_text(r) + ", but (" +
                  number_text(disc_.x.head) + ", " + number_text(disc_.y.head) + "), radius " +
                  number_text(disc_.radius.head) + " would be right");
@@ -188,7 +190,8 @@ class Vertex {
 
   // From a lattice point to the centre: the roundings of a double, and the error of the disc.
   Way way_from(const LatticePoint& p) const {
-    const double x = (disc_.x - DoubleDouble(static_cast<double>(p.x))).head, y = (disc_.y - DoubleDouble(static_cast<double>(p.y))).head;
+    const double x = (disc_.x - DoubleDouble(static_cast<double>(p.x))).head,
+                 y = (disc_.y - DoubleDouble(static_cast<double>(p.y))).head;
     return {x, y, std::sqrt(x * x + y * y)};
   }
 
@@ -313,7 +316,8 @@ class Vertex {
   // disc as given is the true one.
   bool touches_as_given(Site site) const {
     constexpr double unit = 0x1p10, limit = 0x1p31;
-    const std::array<double, 3> given{in_.vertices[2 * vertex_], in_.vertices[2 * vertex_ + 1], in_.radius[vertex_]};
+    const std::array<double, 3> given{in_.vertices[2 * vertex_], in_.vertices[2 * vertex_ + 1],
+                                      in_.radius[vertex_]};
     std::array<std::int64_t, 3> whole;
     for (std::size_t i = 0; i < 3; ++i) {
       if (!(std::abs(given[i]) < limit) || std::rint(unit * given[i]) != unit * given[i]) return false;
@@ -325,8 +329,8 @@ class Vertex {
     return touches_exactly(whole, in_.site(site));
   }
 
-  // Coordinates below 2^41 in units of 2^-10: products with a segment's direction, below 2^31, and squares fit
-  // in 128 bits. A segment of irrational length is left to exact numbers.
+  // Coordinates below 2^41 in units of 2^-10: products with a segment's direction, below 2^31, and squares
+  // fit in 128 bits. A segment of irrational length is left to exact numbers.
   static bool touches_exactly(const std::array<std::int64_t, 3>& disc, const LatticeSite& s) {
     const int128 x = disc[0] - 1024 * std::int64_t{s.a.x}, y = disc[1] - 1024 * std::int64_t{s.a.y};
     const int128 r = disc[2];
@@ -411,8 +415,8 @@ std::vector<LatticeSite> places_of(const SegmentVoronoiArrays& arrays, std::span
 
 }  // namespace
 
-ClosedSites::ClosedSites(const SegmentVoronoiArrays& arrays, const IncidentSegments& incident, unsigned threads,
-                         const Monitor& monitor)
+ClosedSites::ClosedSites(const SegmentVoronoiArrays& arrays, const IncidentSegments& incident,
+                         unsigned threads, const Monitor& monitor)
     : numbers_(closed_site_numbers(arrays, incident)), tree_(places_of(arrays, numbers_), threads, monitor) {}
 
 Fault find_vertex_fault(const SegmentVoronoiArrays& arrays, const IncidentSegments& incident,

@@ -20,7 +20,7 @@ namespace vorotool::core {
 class ClosedSites {
  public:
   ClosedSites(const SegmentVoronoiArrays& arrays, const IncidentSegments& incident, unsigned threads,
-             const Monitor& monitor);
+              const Monitor& monitor);
 
   // Calls visit(site number), see SiteHierarchy.
   template <class Visit>

@@ -79,7 +79,8 @@ class Map {
       if (in_.vertex_count() == 0 && in_.edges.empty()) return {};
       return "there are vertices or edges, but fewer than two sites";
     }
-    for (const auto step : {&Map::place_edges, &Map::check_rings_full, &Map::check_cells, &Map::check_connection}) {
+    for (const auto step :
+         {&Map::place_edges, &Map::check_rings_full, &Map::check_cells, &Map::check_connection}) {
       if (Fault fault = (this->*step)()) return fault;
     }
     return {};
@@ -93,8 +94,8 @@ class Map {
   Site left_of_half(std::size_t half) const { return in_.edge_sites[half / 2][half % 2]; }
   Site origin_of_half(std::size_t half) const { return in_.edges[half / 2][half % 2]; }
   std::string edge_text(std::size_t edge) const {
-    return "edge " + std::to_string(edge) + " between the cells of " + std::to_string(in_.edge_sites[edge][0]) +
-           " and " + std::to_string(in_.edge_sites[edge][1]);
+    return "edge " + std::to_string(edge) + " between the cells of " +
+           std::to_string(in_.edge_sites[edge][0]) + " and " + std::to_string(in_.edge_sites[edge][1]);
   }
 
   // The place in the ring of v after which the edge with these sites leaves; or none.
@@ -128,8 +129,8 @@ class Map {
       const std::string end = half % 2 == 0 ? "source" : "target";
       if (slot == none) return edge_text(half / 2) + " does not fit the ring of its " + end;
       if (half_at_[slot] != none) {
-        return edge_text(half / 2) + " and edge " + std::to_string(half_at_[slot] / 2) + " have one place at the " +
-               end + " of the first";
+        return edge_text(half / 2) + " and edge " + std::to_string(half_at_[slot] / 2) +
+               " have one place at the " + end + " of the first";
       }
       half_at_[slot] = half;
       slot_[half] = slot;
@@ -146,7 +147,8 @@ class Map {
       return "no edge goes to infinity between the cells of " + std::to_string(at_infinity_[i]) + " and " +
              std::to_string(at_infinity_[(i + 1) % at_infinity_.size()]);
     }
-    const auto after = std::upper_bound(in_.vertex_start.begin(), in_.vertex_start.end(), static_cast<Site>(slot));
+    const auto after =
+        std::upper_bound(in_.vertex_start.begin(), in_.vertex_start.end(), static_cast<Site>(slot));
     return "vertex " + std::to_string(after - in_.vertex_start.begin() - 1) + " has no edge after site " +
            std::to_string(in_.vertex_sites[slot]) + " of its ring";
   }
@@ -157,7 +159,8 @@ class Map {
     const Site vertex = origin_of_half(half ^ 1);
     const std::size_t start =
         vertex < 0 ? finite : static_cast<std::size_t>(in_.vertex_start[static_cast<std::size_t>(vertex)]);
-    const std::size_t size = vertex < 0 ? at_infinity_.size() : in_.ring(static_cast<std::size_t>(vertex)).size();
+    const std::size_t size =
+        vertex < 0 ? at_infinity_.size() : in_.ring(static_cast<std::size_t>(vertex)).size();
     return half_at_[slot == start ? start + size - 1 : slot - 1];
   }
 
@@ -173,7 +176,8 @@ class Map {
       }
     }
     for (std::size_t i = 0; i < cycles.size(); ++i) {
-      const bool has_cell = !in_.is_point(static_cast<Site>(i)) || !incident_.has_no_cell(static_cast<Site>(i));
+      const bool has_cell =
+          !in_.is_point(static_cast<Site>(i)) || !incident_.has_no_cell(static_cast<Site>(i));
       if (has_cell && cycles[i] == 0) return "site " + std::to_string(i) + " has no cell";
       if (!has_cell && cycles[i] > 0) return "site " + std::to_string(i) + " must not have a cell";
       cells_ += cycles[i];
@@ -190,7 +194,8 @@ class Map {
     };
     std::size_t parts = parent.size();
     for (const auto& [source, target] : in_.edges) {
-      const std::size_t a = root(static_cast<std::size_t>(source + 1)), b = root(static_cast<std::size_t>(target + 1));
+      const std::size_t a = root(static_cast<std::size_t>(source + 1)),
+                        b = root(static_cast<std::size_t>(target + 1));
       if (a != b) --parts;
       parent[a] = b;
     }
