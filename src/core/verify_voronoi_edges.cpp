@@ -241,7 +241,7 @@ class InnerPoints {
     return std::abs(ux * ay - uy * ax) / length(ux, uy);
   }
 
-  // The ends of the edge are wrong by a few ulp of their coordinates and radii, the rest by a few roundings.
+  // The ends of the edge are wrong by `value_error_bound`, the rest by a few roundings.
   Fault check_place(std::size_t edge, const Place& place) const {
     const auto [left, right] = in_.edge_sites[edge];
     const double r = distance(place, left), other = distance(place, right);
