@@ -1,8 +1,8 @@
 #include "core/insertion_order.hpp"
 
-#include <array>
 #include <bit>
 #include <cstddef>
+#include <numeric>
 
 namespace vorotool::core {
 namespace {
@@ -18,20 +18,20 @@ std::uint64_t mixed(std::uint64_t x) {
 }
 
 // Two bits decide a quarter: round r before the last with a chance of 3/4 * 4^-r.
-int round_of(std::size_t item) {
+std::size_t round_of(std::size_t item) {
   const int earlier = std::countr_zero(mixed(item) | std::uint64_t{1} << (2 * rounds - 1)) / 2;
-  return rounds - 1 - earlier;
+  return static_cast<std::size_t>(rounds - 1 - earlier);
 }
 
 }  // namespace
 
-std::vector<std::int32_t> insertion_order(std::size_t count) {
-  std::array<std::size_t, rounds + 1> begin{};
-  for (std::size_t item = 0; item < count; ++item) ++begin[static_cast<std::size_t>(round_of(item)) + 1];
-  for (std::size_t r = 0; r < rounds; ++r) begin[r + 1] += begin[r];
-  std::vector<std::int32_t> order(count);
+InsertionOrder insertion_order(std::size_t count) {
+  InsertionOrder order{std::vector<std::int32_t>(count), std::vector<std::size_t>(rounds + 1)};
+  for (std::size_t item = 0; item < count; ++item) ++order.begin[round_of(item) + 1];
+  std::partial_sum(order.begin.begin(), order.begin.end(), order.begin.begin());
+  std::vector<std::size_t> next = order.begin;
   for (std::size_t item = 0; item < count; ++item) {
-    order[begin[static_cast<std::size_t>(round_of(item))]++] = static_cast<std::int32_t>(item);
+    order.items[next[round_of(item)]++] = static_cast<std::int32_t>(item);
   }
   return order;
 }

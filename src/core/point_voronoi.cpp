@@ -49,6 +49,7 @@ void Dual::start(const std::array<SiteIndex, 3>& sites) {
   v.stamp = 0;
   v.left = 0;
   v.survives = 0;
+  v.owner = 0;
   for (int i = 0; i < 3; ++i) {
     const SiteIndex site = sites[static_cast<std::size_t>(i)];
     if (sites_.is_point(site)) {

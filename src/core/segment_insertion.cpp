@@ -1,6 +1,6 @@
 #include "core/segment_insertion.hpp"
 
-#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <stdexcept>
 
@@ -44,9 +44,30 @@ void compute_disc(const SegmentSites& sites, VoronoiRecord& record) {
   if (!(record.radius > 0)) throw std::logic_error("three sites of a Voronoi vertex have no disc");
 }
 
+// Whether this thread may look at a record. What others did to it before is visible then.
+bool SegmentInsertion::take(std::int32_t record) {
+  if (worker_ == 0) return true;
+  const std::atomic_ref owner(records_[record].owner);
+  std::uint16_t found = owner.load(std::memory_order_relaxed);
+  if (found == worker_) return true;
+  if (found != 0 || !owner.compare_exchange_strong(found, worker_, std::memory_order_acquire)) {
+    hindered_ = true;
+    return false;
+  }
+  taken_.push_back(record);
+  return true;
+}
+
+void SegmentInsertion::give_back() {
+  for (const std::int32_t record : taken_) {
+    std::atomic_ref(records_[record].owner).store(0, std::memory_order_release);
+  }
+  taken_.clear();
+}
+
+// Of a record that is taken.
 bool SegmentInsertion::is_in_conflict(std::int32_t record, const SegmentQuery& query) {
   VoronoiRecord& v = records_[record];
-  if (v.stamp >> 1 == number_) return (v.stamp & 1) != 0;
   ++visited_;
   const bool conflict = predicates_.in_conflict(v, query);
   v.stamp = 2 * number_ + conflict;
@@ -60,15 +81,24 @@ Corner SegmentInsertion::turned(Corner corner) const {
   return corner_of(record_of(across), following(place_of(across)));
 }
 
+// Whether a corner of an end is in conflict. A corner that was looked up may be that of the end no longer.
+bool SegmentInsertion::is_found(Corner corner, SiteIndex end, const SegmentQuery& query) {
+  const std::int32_t record = record_of(corner);
+  if (!take(record)) return false;
+  hindered_ |= records_[record].sites[static_cast<std::size_t>(place_of(corner))] != end;
+  if (hindered_) return false;
+  return has_stamp(record) ? has_conflict(record) : is_in_conflict(record, query);
+}
+
 // A vertex in conflict on the border of the cell of an end: there is one at each end. Both cells are walked
 // around in turn, so that the smaller one decides how long it takes.
 std::int32_t SegmentInsertion::find_first(const SegmentQuery& query) {
-  Corner at_p = records_.corner_of_point[static_cast<std::size_t>(query.p)];
-  Corner at_q = records_.corner_of_point[static_cast<std::size_t>(query.q)];
+  Corner at_p = records_.corner_at(query.p), at_q = records_.corner_at(query.q);
   const Corner stop_p = at_p, stop_q = at_q;
   do {
-    if (is_in_conflict(record_of(at_p), query)) return record_of(at_p);
-    if (is_in_conflict(record_of(at_q), query)) return record_of(at_q);
+    if (is_found(at_p, query.p, query)) return record_of(at_p);
+    if (!hindered_ && is_found(at_q, query.q, query)) return record_of(at_q);
+    if (hindered_) return -1;
     at_p = turned(at_p);
     at_q = turned(at_q);
   } while (at_p != stop_p && at_q != stop_q);
@@ -78,11 +108,12 @@ std::int32_t SegmentInsertion::find_first(const SegmentQuery& query) {
 void SegmentInsertion::collect(std::int32_t first, const SegmentQuery& query) {
   conflicts_.assign(1, first);
   for (std::size_t k = 0; k < conflicts_.size(); ++k) {
-    const std::array<Corner, 3> twins = records_[conflicts_[k]].twins;
-    records_[conflicts_[k]].survives = 0;
-    for (const Corner twin : twins) {
+    VoronoiRecord& v = records_[conflicts_[k]];
+    v.survives = 0;
+    for (const Corner twin : v.twins) {
       const std::int32_t other = record_of(twin);
-      if (records_[other].stamp >> 1 != number_ && is_in_conflict(other, query)) conflicts_.push_back(other);
+      if (!take(other)) return;
+      if (!has_stamp(other) && is_in_conflict(other, query)) conflicts_.push_back(other);
     }
   }
 }
@@ -93,7 +124,7 @@ std::size_t SegmentInsertion::inner_edges() const {
   for (const std::int32_t record : conflicts_) {
     const VoronoiRecord& v = records_[record];
     for (std::size_t i = 0; i < 3; ++i) {
-      const bool inner = records_[record_of(v.twins[i])].stamp == 2 * number_ + 1;
+      const bool inner = has_conflict(record_of(v.twins[i]));
       halves += inner && (v.survives >> i & 1) == 0;
     }
   }
@@ -109,7 +140,7 @@ void SegmentInsertion::cut_cycles(const SegmentQuery& query) {
     for (int i = 0; i < 3; ++i) {
       const Corner twin = u.twins[static_cast<std::size_t>(i)];
       VoronoiRecord& w = records_[record_of(twin)];
-      const bool inner = w.stamp == 2 * number_ + 1;
+      const bool inner = has_conflict(record_of(twin));
       if (!inner || twin < corner_of(record, i)) continue;
       if (!predicates_.survives(u, i, w, query)) continue;
       u.survives |= static_cast<std::uint8_t>(1 << i);
@@ -130,7 +161,7 @@ void SegmentInsertion::gather_cuts() {
     VoronoiRecord& u = records_[record_of(corner)];
     const int i = place_of(corner), r = following(i), l = preceding(i);
     const Corner twin = u.twins[static_cast<std::size_t>(i)];
-    const bool inner = records_[record_of(twin)].stamp == 2 * number_ + 1;
+    const bool inner = has_conflict(record_of(twin));
     if (inner && (u.survives >> i & 1) == 0) {
       corner = corner_of(record_of(twin), following(place_of(twin)));
       continue;
@@ -164,7 +195,7 @@ std::size_t SegmentInsertion::cut_at(SiteIndex end) const {
 
 std::int32_t SegmentInsertion::record_for(std::size_t cut) const {
   const std::size_t freed = conflicts_.size();
-  return cut < freed ? conflicts_[cut] : records_.size + static_cast<std::int32_t>(cut - freed);
+  return cut < freed ? conflicts_[cut] : fresh_ + static_cast<std::int32_t>(cut - freed);
 }
 
 // Vertex k lies on cut k; between it and vertex k + 1 the new cell borders on the left site of cut k. Counter-
@@ -172,12 +203,15 @@ std::int32_t SegmentInsertion::record_for(std::size_t cut) const {
 void SegmentInsertion::replace(const SegmentQuery& query) {
   const std::size_t count = cuts_.size();
   const std::size_t at_p = cut_at(query.p), at_q = cut_at(query.q);
+  for (const std::int32_t fresh : {fresh_, fresh_ + 1}) {
+    records_[fresh].owner = worker_;
+    if (worker_ != 0) taken_.push_back(fresh);
+  }
   for (std::size_t k = 0; k < count; ++k) {
     const bool is_right = at_p < at_q ? at_p < k && k <= at_q : at_p < k || k <= at_q;
     write(k, query.site, !is_right);
   }
   for (std::size_t k = 0; k < count; ++k) compute_disc(sites_, records_[record_for(k)]);
-  records_.size += 2;
 }
 
 void SegmentInsertion::write(std::size_t k, SiteIndex segment, bool is_left) {
@@ -199,18 +233,25 @@ void SegmentInsertion::write(std::size_t k, SiteIndex segment, bool is_left) {
   }
   for (const int i : {1, 2}) {
     const SiteIndex site = v.sites[static_cast<std::size_t>(i)];
-    if (sites_.is_point(site)) records_.corner_of_point[static_cast<std::size_t>(site)] = corner_of(here, i);
+    if (sites_.is_point(site)) records_.set_corner(site, corner_of(here, i));
   }
 }
 
-void SegmentInsertion::insert(SiteIndex segment) {
+bool SegmentInsertion::insert(SiteIndex segment, std::int32_t number, std::int32_t fresh) {
   const SegmentQuery query(sites_, segment);
-  ++number_;
-  collect(find_first(query), query);
-  if (inner_edges() + 1 != conflicts_.size()) cut_cycles(query);
-  gather_cuts();
-  pair_cuts();
-  replace(query);
+  number_ = number;
+  fresh_ = fresh;
+  hindered_ = false;
+  const std::int32_t first = find_first(query);
+  if (!hindered_) collect(first, query);
+  if (!hindered_) {
+    if (inner_edges() + 1 != conflicts_.size()) cut_cycles(query);
+    gather_cuts();
+    pair_cuts();
+    replace(query);
+  }
+  give_back();
+  return !hindered_;
 }
 
 }  // namespace vorotool::core

@@ -1,6 +1,8 @@
-// Inserts open segments into a Voronoi diagram of points and segments, one after the other.
+// Inserts open segments into a Voronoi diagram of points and segments, one after the other or on several threads
+// at once.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -19,6 +21,14 @@ struct VoronoiRecords {
   VoronoiRecord& operator[](std::int32_t record) { return all[static_cast<std::size_t>(record)]; }
   const VoronoiRecord& operator[](std::int32_t record) const { return all[static_cast<std::size_t>(record)]; }
 
+  // A corner of a point's cell. Threads that share the diagram see a record no later than its corner.
+  Corner corner_at(SiteIndex point) {
+    return std::atomic_ref(corner_of_point[static_cast<std::size_t>(point)]).load(std::memory_order_acquire);
+  }
+  void set_corner(SiteIndex point, Corner corner) {
+    std::atomic_ref(corner_of_point[static_cast<std::size_t>(point)]).store(corner, std::memory_order_release);
+  }
+
   LargeArray<VoronoiRecord> all;
   std::int32_t size = 0;                // records in use, the first ones
   std::vector<Corner> corner_of_point;  // [points]
@@ -27,12 +37,18 @@ struct VoronoiRecords {
 // Computes centre, radius and bounds of errors of a record from its sites.
 void compute_disc(const SegmentSites& sites, VoronoiRecord& record);
 
+// Threads share a diagram so: a thread takes each record before it looks at it, gives all back after an
+// insertion, and gives up at once where another thread has a record. What an insertion changes are the vertices in
+// conflict and the links of those beside them, all of which it has looked at.
 class SegmentInsertion {
  public:
-  SegmentInsertion(const SegmentSites& sites, VoronoiRecords& records)
-      : sites_(sites), records_(records), predicates_(sites) {}
+  // Worker 0 works alone; others have numbers of their own.
+  SegmentInsertion(const SegmentSites& sites, VoronoiRecords& records, std::uint16_t worker = 0)
+      : sites_(sites), records_(records), predicates_(sites), worker_(worker) {}
 
-  void insert(SiteIndex segment);
+  // Every attempt has a number of its own, from 1; two records from `fresh` on are those of the segment. Returns
+  // false, with nothing changed, if another thread is in the way.
+  bool insert(SiteIndex segment, std::int32_t number, std::int32_t fresh);
 
   std::int64_t visited() const { return visited_; }
   std::int64_t cyclic() const { return cyclic_; }
@@ -48,8 +64,13 @@ class SegmentInsertion {
     std::uint8_t is_left;  // bit 1: the disc is left of segment `right`, bit 2: left of segment `left`
   };
 
+  bool take(std::int32_t record);
+  void give_back();
   bool is_in_conflict(std::int32_t record, const SegmentQuery& query);
+  bool has_stamp(std::int32_t record) const { return records_[record].stamp >> 1 == number_; }
+  bool has_conflict(std::int32_t record) const { return records_[record].stamp == 2 * number_ + 1; }
   std::int32_t find_first(const SegmentQuery& query);
+  bool is_found(Corner corner, SiteIndex end, const SegmentQuery& query);
   Corner turned(Corner corner) const;
   void collect(std::int32_t first, const SegmentQuery& query);
   std::size_t inner_edges() const;
@@ -64,7 +85,11 @@ class SegmentInsertion {
   const SegmentSites& sites_;
   VoronoiRecords& records_;
   SegmentPredicates predicates_;
-  std::int32_t number_ = 0;  // insertions so far
+  std::uint16_t worker_;
+  std::int32_t number_ = 0;          // of the attempt
+  std::int32_t fresh_ = 0;           // the first of two records that it may begin
+  bool hindered_ = false;            // by another thread
+  std::vector<std::int32_t> taken_;  // records that others may not look at
   std::int64_t visited_ = 0, cyclic_ = 0;
   std::vector<std::int32_t> conflicts_;
   std::vector<Cut> cuts_;

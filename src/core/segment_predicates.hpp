@@ -20,6 +20,13 @@ struct EscalationCounts {
   std::int64_t dyadic = 0;         // settled by integers: the centre is a dyadic number
   std::int64_t double_double = 0;  // settled by numbers of 106 bits
   std::int64_t exact = 0;          // settled by multiprecision
+
+  EscalationCounts& operator+=(const EscalationCounts& other) {
+    dyadic += other.dyadic;
+    double_double += other.double_double;
+    exact += other.exact;
+    return *this;
+  }
 };
 
 // A segment that is inserted, or tested.

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/divide_and_conquer.hpp"
-#include "core/insertion_order.hpp"
+#include "core/insertion_rounds.hpp"
 #include "core/point_order.hpp"
 #include "core/point_voronoi.hpp"
 
@@ -94,21 +94,13 @@ SegmentVoronoi::SegmentVoronoi(const PlanarGraph& graph, unsigned threads, const
   }
   sites_ = SegmentSites(std::move(places), ends);
   records_ = point_voronoi(sites_, mesh, 2 * (points + segments), threads, monitor);
-  insert_segments(monitor);
+  insert_segments(threads, monitor);
 }
 
-void SegmentVoronoi::insert_segments(const Monitor& monitor) {
-  constexpr std::size_t often = 256;  // insertions between two looks at the monitor: some 0.5 ms
-  const std::vector<std::int32_t> order = insertion_order(sites_.segment_count());
-  SegmentInsertion insertion(sites_, records_);
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    if (k % often == 0 && monitor &&
-        !monitor(static_cast<double>(k) / static_cast<double>(order.size()))) {
-      throw Interrupted();
-    }
-    insertion.insert(static_cast<SiteIndex>(sites_.point_count()) + order[k]);
-  }
-  counts_ = {insertion.visited(), insertion.cyclic(), insertion.escalations()};
+void SegmentVoronoi::insert_segments(unsigned threads, const Monitor& monitor) {
+  InsertionRounds rounds(sites_, records_, threads);
+  rounds.run(monitor);
+  counts_ = rounds.counts();
 }
 
 }  // namespace vorotool::core

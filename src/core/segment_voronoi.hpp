@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/insertion_rounds.hpp"
 #include "core/lattice.hpp"
 #include "core/monitor.hpp"
 #include "core/segment_insertion.hpp"
@@ -18,12 +19,6 @@ namespace vorotool::core {
 struct PlanarGraph {
   std::span<const LatticePoint> points;
   std::span<const std::array<std::int32_t, 2>> segments;
-};
-
-struct SegmentVoronoiCounts {
-  std::int64_t visited = 0;  // vertices tested while segments were inserted
-  std::int64_t cyclic = 0;   // segments whose vertices in conflict closed a cycle
-  EscalationCounts escalations;
 };
 
 class SegmentVoronoi {
@@ -39,7 +34,7 @@ class SegmentVoronoi {
   std::span<const std::int32_t> given() const { return given_; }
 
  private:
-  void insert_segments(const Monitor& monitor);
+  void insert_segments(unsigned threads, const Monitor& monitor);
 
   SegmentSites sites_;
   std::vector<std::int32_t> given_;

@@ -29,9 +29,10 @@ struct alignas(64) VoronoiRecord {
   double radius;          // infinite if one site is the one at infinity
   float position_error;   // bounds the distance of (x, y) from the true centre
   float radius_error;     // bounds the error of the radius
-  std::int32_t stamp;     // the last insertion that tested this vertex: twice its number, plus 1 if in conflict
+  std::int32_t stamp;     // the last attempt that tested this vertex: twice its number, plus 1 if in conflict
   std::uint8_t left;      // bit i: site i is a segment, and the disc lies to the left of it
   std::uint8_t survives;  // bit i: the middle of edge i survives the insertion that is going on
+  std::uint16_t owner;    // the thread that may look at the record and change it; 0: none
 
   bool is_infinite() const { return radius == std::numeric_limits<double>::infinity(); }
   bool is_left(int i) const { return (left >> i & 1) != 0; }
