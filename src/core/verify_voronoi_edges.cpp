@@ -67,8 +67,7 @@ class Bisector {
     return {};
   }
 
-  // The sign of the difference of two vertices' places: vertices are right to `few_ulps`, and two of their
-  // own.
+  // The sign of the difference of two vertices' places: values are right to `value_error_bound`.
   int compare(Site v, Site w, const LatticeVector& u) const {
     const double ux = static_cast<double>(u.x), uy = static_cast<double>(u.y);
     double place[2], size = 0;
