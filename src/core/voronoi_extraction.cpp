@@ -21,13 +21,12 @@ template <class Body>
 void for_pieces(std::size_t count, unsigned threads, const Monitor& monitor, Body body) {
   parallel_for(
       piece_count(count, piece_size), threads,
-      [&](std::size_t piece) {
-        body(piece, piece * piece_size, std::min(count, (piece + 1) * piece_size));
-      },
+      [&](std::size_t piece) { body(piece, piece * piece_size, std::min(count, (piece + 1) * piece_size)); },
       monitor);
 }
 
-// Whether an edge is written with the vertex at this end of it: that with the smaller number, or the only one.
+// Whether an edge is written with the vertex at this end of it: that with the smaller number, or the only
+// one.
 bool is_written_from(std::size_t vertex, std::int32_t target) {
   return target < 0 || static_cast<std::size_t>(target) > vertex;
 }
@@ -214,7 +213,9 @@ void VoronoiExtraction::number_vertices() {
 // Half-edges from infinity to infinity, each edge once, in the order of the sites on their left.
 std::vector<Corner> VoronoiExtraction::edges_without_vertex() const {
   std::vector<Corner> edges;
-  const auto sites = [&](Corner corner) { return sites_of_edge(records_[record_of(corner)], place_of(corner)); };
+  const auto sites = [&](Corner corner) {
+    return sites_of_edge(records_[record_of(corner)], place_of(corner));
+  };
   for (std::int32_t v = 0; v < records_.size; ++v) {
     if (!records_[v].is_infinite()) continue;
     const Corner corner = corner_of(v, records_[v].find(sites_.infinite()));
@@ -228,8 +229,8 @@ std::vector<Corner> VoronoiExtraction::edges_without_vertex() const {
   return edges;
 }
 
-// Where the edges of a piece belong is known once those before are counted. So pieces are worked on in batches:
-// their rings and edges are gathered, and then put in their places.
+// Where the edges of a piece belong is known once those before are counted. So pieces are worked on in
+// batches: their rings and edges are gathered, and then put in their places.
 void VoronoiExtraction::write(const DiagramArrays& out, unsigned threads, const Monitor& monitor) const {
   std::size_t edge = 0, site = 0;
   for (const Corner corner : edges_without_vertex()) write_edge(edge++, edge_at(-1, corner), out);

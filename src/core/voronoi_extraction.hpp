@@ -1,5 +1,5 @@
-// A segment Voronoi diagram as flat arrays: coincident vertices merged, everything in an order that depends on the
-// input only.
+// A segment Voronoi diagram as flat arrays: coincident vertices merged, everything in an order that depends
+// on the input only.
 #pragma once
 
 #include <cstddef>
@@ -14,15 +14,15 @@
 
 namespace vorotool::core {
 
-// Where to write a diagram. Sites have the numbers of the input: points first, then segments. What comes first is
-// decided by the order in which the engine works on the sites, that of a curve through the points: it depends
-// on where they are, not on how they are numbered.
+// Where to write a diagram. Sites have the numbers of the input: points first, then segments. What comes
+// first is decided by the order in which the engine works on the sites, that of a curve through the points:
+// it depends on where they are, not on how they are numbered.
 struct DiagramArrays {
   double* vertices;            // [2 vertex_count] in the order of the lists of their sites
   double* radius;              // [vertex_count]
   std::int32_t* vertex_start;  // [vertex_count + 1] where the sites of each vertex begin
-  // [ring_size] the sites that the disc of a vertex touches and whose cells meet there, counter-clockwise from
-  // the smallest number.
+  // [ring_size] the sites that the disc of a vertex touches and whose cells meet there, counter-clockwise
+  // from the smallest number.
   std::int32_t* vertex_sites;
   // [2 edge_count] source and target; -1 at infinity, as source only of edges that have no vertex. These come
   // first; the others with their source, the end with the smaller number, counter-clockwise around it.
