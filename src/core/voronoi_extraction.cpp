@@ -42,17 +42,21 @@ VoronoiExtraction::VoronoiExtraction(const SegmentSites& sites, const VoronoiRec
       vertex_of_(static_cast<std::size_t>(records.size)),
       merged_(static_cast<std::size_t>(records.size)) {
   merge_coincident(threads, monitor);
+  choose_leads();
   put_in_order(threads, monitor);
 }
 
-std::int32_t VoronoiExtraction::root(std::int32_t record) const {
-  while (vertex_of_[static_cast<std::size_t>(record)] != record) {
-    record = vertex_of_[static_cast<std::size_t>(record)];
+// With every step the way is halved for those who come after.
+std::int32_t VoronoiExtraction::root(std::int32_t record) {
+  const auto above = [&](std::int32_t v) -> std::int32_t& { return vertex_of_[static_cast<std::size_t>(v)]; };
+  while (above(record) != record) {
+    above(record) = above(above(record));
+    record = above(record);
   }
   return record;
 }
 
-// The smaller number becomes the root: no chain is longer than a place has vertices.
+// The smaller number becomes the root.
 void VoronoiExtraction::unite(std::int32_t u, std::int32_t w) {
   merged_[static_cast<std::size_t>(u)] = merged_[static_cast<std::size_t>(w)] = true;
   u = root(u);
@@ -144,15 +148,23 @@ std::int32_t VoronoiExtraction::target_of(Corner corner) const {
   return vertex_of_[static_cast<std::size_t>(record_of(twin))];
 }
 
-// What a record says of its vertex: nothing (first = -1) unless it is the first one on the border of its
-// place.
-VoronoiExtraction::Key VoronoiExtraction::key_of(std::int32_t record, Ring& ring) const {
-  const Key none{-1, -1, -1, record};
-  if (merged_[static_cast<std::size_t>(record)] && border_size(record) == 0) return none;
-  gather_ring(record, ring);
-  for (const Spoke& spoke : ring) {
-    if (record_of(spoke.corner) < record) return none;
+// The first record of each place that is on its border stands for it.
+void VoronoiExtraction::choose_leads() {
+  leads_.assign(vertex_of_.size(), false);
+  std::vector<bool> seen(vertex_of_.size());
+  for (std::int32_t v = 0; v < records_.size; ++v) {
+    if (!merged_[static_cast<std::size_t>(v)]) continue;
+    const auto place = static_cast<std::size_t>(vertex_of_[static_cast<std::size_t>(v)]);
+    if (seen[place] || border_size(v) == 0) continue;
+    seen[place] = leads_[static_cast<std::size_t>(v)] = true;
   }
+}
+
+// What a record says of its vertex: nothing (first = -1) if another one stands for its place.
+VoronoiExtraction::Key VoronoiExtraction::key_of(std::int32_t record, Ring& ring) const {
+  const auto v = static_cast<std::size_t>(record);
+  if (records_[record].is_infinite() || (merged_[v] && !leads_[v])) return {-1, -1, -1, record};
+  gather_ring(record, ring);
   return {ring[0].site, ring[1].site, ring[2].site, record};
 }
 
@@ -165,9 +177,8 @@ void VoronoiExtraction::put_in_order(unsigned threads, const Monitor& monitor) {
     Ring ring;
     for (std::size_t v = begin; v < end; ++v) {
       const auto record = static_cast<std::int32_t>(v);
-      const bool is_infinite = records_[record].is_infinite();
-      keys[v] = is_infinite ? Key{-1, -1, -1, record} : key_of(record, ring);
-      infinite[piece] += is_infinite;
+      keys[v] = key_of(record, ring);
+      infinite[piece] += records_[record].is_infinite();
       if (keys[v].first >= 0) rings[piece] += ring.size();
     }
   });

@@ -74,8 +74,9 @@ class VoronoiExtraction {
   };
 
   void merge_coincident(unsigned threads, const Monitor& monitor);
-  std::int32_t root(std::int32_t record) const;
+  std::int32_t root(std::int32_t record);
   void unite(std::int32_t u, std::int32_t w);
+  void choose_leads();
   Key key_of(std::int32_t record, Ring& ring) const;
   void put_in_order(unsigned threads, const Monitor& monitor);
   void sort_keys(const LargeArray<Key>& keys, unsigned threads, const Monitor& monitor);
@@ -106,6 +107,7 @@ class VoronoiExtraction {
   std::vector<std::int32_t> vertex_of_;
   std::vector<std::int32_t> order_;  // [vertices] a record of each
   std::vector<bool> merged_;         // [records] whether it shares its place with others
+  std::vector<bool> leads_;          // [records] of these, whether it stands for its place
   std::size_t ring_size_ = 0, infinite_ = 0;
 };
 
