@@ -104,30 +104,25 @@ def jittered_grid(rng, n):
     return polygon(points + rng.integers(-1, 2, points.shape))
 
 
-def comb(rng, n):
-    """Deep rectangular teeth."""
+def toothed(rng, n, offsets):
+    """A bar with deep teeth, whose corners are at these places of a tooth's width."""
     teeth = max(1, n // 4)
-    width = max(1, LIMIT // (2 * teeth + 2))
-    height = int(rng.choice([width, HALF]))
-    x = np.arange(2 * teeth + 1)
-    ends = np.repeat(x, 2)[1:-1] * width
-    tips = np.where(np.arange(len(ends)) // 2 % 2 == 0, 0, height)
-    tips[0], tips[1::4], tips[2::4] = 0, height, height
-    up = np.tile([0, height, height, 0], teeth)
-    points = np.stack([ends[: len(up)], up], axis=1)
-    right = points[-1, 0]
-    return polygon(np.concatenate([points, [[right, -width], [0, -width]]]) - [right // 2, 0])
+    width = max(2, LIMIT // (8 * teeth + 8)) * 2
+    height = int(rng.choice([3 * width + 1, HALF]))
+    x = (4 * np.arange(teeth)[:, None] + np.array(offsets)).ravel() * width // 2
+    points = np.stack([x, np.tile([0, height, height, 0], teeth)], axis=1)
+    right = 2 * teeth * width
+    return polygon(np.concatenate([points, [[right, -width], [-width, -width]]]) - [right // 2, 0])
+
+
+def comb(rng, n):
+    """Rectangular teeth."""
+    return toothed(rng, n, [0, 0, 2, 2])
 
 
 def comb_tapered(rng, n):
     """Teeth that are narrower at their tips: congruent, so that discs tie without being dyadic."""
-    teeth = max(1, n // 4)
-    width = max(4, LIMIT // (4 * teeth + 4))
-    height = int(rng.choice([width * 3 + 1, HALF]))
-    x = 4 * np.arange(teeth)[:, None] + np.array([0, 1, 2, 3])
-    points = np.stack([x.ravel() * width, np.tile([0, height, height, 0], teeth)], axis=1)
-    right = points[-1, 0]
-    return polygon(np.concatenate([points, [[right, -width], [0, -width]]]) - [right // 2, 0])
+    return toothed(rng, n, [0, 1, 2, 3])
 
 
 def spiral(rng, n):
@@ -199,7 +194,8 @@ def needles(rng, n):
     """Triangles a unit wide and up to 2^30 long."""
     graphs = []
     for i in range(max(1, n // 3)):
-        left, right = np.sort(rng.integers(-LIMIT, LIMIT, 2)) + [0, 1]
+        left, right = np.sort(rng.integers(-LIMIT, LIMIT, 2))
+        right += 1
         y = 4 * i
         corners = [(left, y), (left, y + 1), (right, y + int(rng.integers(0, 2)))]
         graphs.append(polygon(corners if rng.random() < 0.5 else [(right, y), (right, y + 1), (left, y)]))
@@ -219,23 +215,21 @@ def wheel(rng, n):
     spokes = max(3, n // 2)
     points = np.concatenate([[[0, 0]], lattice(around(np.ones(spokes), scale=int(rng.choice([40 * spokes, HALF]))))])
     rim = np.arange(1, spokes + 1)
-    joined = np.stack([rim, np.roll(rim, -1)], axis=1)[rng.random(spokes) < rng.choice([0.5, 1.0])]
-    return points.astype(np.int32), np.concatenate([np.stack([np.zeros_like(rim), rim], axis=1), joined]).astype(
-        np.int32
-    )
+    sides = np.stack([rim, np.roll(rim, -1)], axis=1)[rng.random(spokes) < rng.choice([0.5, 1.0])]
+    segments = np.concatenate([np.stack([np.zeros_like(rim), rim], axis=1), sides])
+    return points.astype(np.int32), segments.astype(np.int32)
 
 
 def chains(rng, n):
     """A triangle whose sides are cut into collinear pieces."""
     pieces = max(1, n // 3)
-    a, b = rng.integers(-1000, 1000, (2, 2))
+    a, b = rng.integers(1, 1000, 2), rng.integers(-1000, 1000, 2)
     if a[0] * b[1] == a[1] * b[0]:
-        b = b + [1, 0] if a[1] else b + [0, 1]
-    corners = np.array([[0, 0], a, b]) * pieces
+        b = np.array([-a[1], a[0]])
+    corners = np.array([[0, 0], a, b])
     steps = np.arange(pieces)[:, None]
-    return polygon(
-        np.concatenate([p + (q - p) // pieces * steps for p, q in zip(corners, np.roll(corners, -1, 0), strict=True)])
-    )
+    sides = zip(corners, np.roll(corners, -1, axis=0), strict=True)
+    return polygon(np.concatenate([p * pieces + (q - p) * steps for p, q in sides]))
 
 
 def contour(rng, n):
@@ -271,9 +265,9 @@ def joined(points, pairs):
         )
         if i == j or between.sum() > 2:
             continue
-        k, l = kept[:, 0], kept[:, 1]
-        crossing = (side(i, j, k) * side(i, j, l) < 0) & (side(k, l, i) * side(k, l, j) < 0)
-        same = ((k == i) & (l == j)) | ((k == j) & (l == i))
+        a, b = kept[:, 0], kept[:, 1]
+        crossing = (side(i, j, a) * side(i, j, b) < 0) & (side(a, b, i) * side(a, b, j) < 0)
+        same = ((a == i) & (b == j)) | ((a == j) & (b == i))
         if not (crossing | same).any():
             kept = np.concatenate([kept, [[i, j]]])
     return kept.astype(np.int32)

@@ -59,9 +59,8 @@ nb::tuple arrays_of(const SegmentVoronoi& diagram, unsigned threads, nb::handle 
   LargeArray<double> centres(2 * vertices), radius(vertices);
   LargeArray<std::int32_t> start(vertices + 1), sites(ring), ends(2 * edges), sides(2 * edges);
   run_interruptible(progress, [&](const Monitor& monitor) {
-    extraction.write(
-        {centres.data(), radius.data(), start.data(), sites.data(), ends.data(), sides.data()}, threads,
-        monitor);
+    extraction.write({centres.data(), radius.data(), start.data(), sites.data(), ends.data(), sides.data()},
+                     threads, monitor);
   });
   return nb::make_tuple(to_numpy(std::move(centres), {vertices, 2}), to_numpy(std::move(radius), {vertices}),
                         to_numpy(std::move(start), {vertices + 1}), to_numpy(std::move(sites), {ring}),

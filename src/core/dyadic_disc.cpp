@@ -31,9 +31,10 @@ struct Sight {
   int128 across, along;  // times the length of the segment
 };
 
-// Whether the three sites are touched in counter-clockwise order beyond doubt: then the disc that touches them
-// exactly, so near to the vertex, is that of the vertex, since another one touches them in the other order.
-// The unit vectors from the sites to the centre err by less than 2^-30 together with those at the true centre.
+// Whether the three sites are touched in counter-clockwise order beyond doubt: then the disc that touches
+// them exactly, so near to the vertex, is that of the vertex, since another one touches them in the other
+// order. The unit vectors from the sites to the centre err by less than 2^-30 together with those at the true
+// centre.
 bool is_well_conditioned(const SegmentSites& sites, const VoronoiRecord& v) {
   if (!(v.position_error < 0x1p-36 * v.radius)) return false;
   std::array<double, 3> nx, ny;

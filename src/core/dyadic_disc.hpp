@@ -1,5 +1,5 @@
-// Discs whose centre is a lattice point of quarter units: grids and rectilinear shapes are full of them, and of
-// ties between them. Integers decide there at once.
+// Discs whose centre is a lattice point of quarter units: grids and rectilinear shapes are full of them, and
+// of ties between them. Integers decide there at once.
 #pragma once
 
 #include <cstdint>

@@ -40,7 +40,8 @@ class Dual {
   const SegmentSites& sites_;
   const HalfEdges& edges_;
   VoronoiRecords& records_;
-  std::vector<Corner> corner_;  // [half-edges] 1 + the corner opposite to it in the face on its left; 0: none yet
+  std::vector<Corner>
+      corner_;  // [half-edges] 1 + the corner opposite to it in the face on its left; 0: none yet
 };
 
 void Dual::start(const std::array<SiteIndex, 3>& sites) {

@@ -8,8 +8,9 @@
 
 namespace vorotool::core {
 
-// The mesh has the points of the sites for its vertices. Each triangle gives a vertex, and so does each side of
-// the hull, at infinity: 2 n - 2 of n >= 2 points, by Euler's relation on the sphere. `room` is at least that.
+// The mesh has the points of the sites for its vertices. Each triangle gives a vertex, and so does each side
+// of the hull, at infinity: 2 n - 2 of n >= 2 points, by Euler's relation on the sphere. `room` is at least
+// that.
 VoronoiRecords point_voronoi(const SegmentSites& sites, const Subdivision& mesh, std::size_t room,
                              unsigned threads, const Monitor& monitor);
 

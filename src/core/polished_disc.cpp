@@ -37,15 +37,14 @@ bool determines(const SegmentSites& sites, const std::array<SiteIndex, 3>& tripl
   return true;
 }
 
-std::optional<PolishedDisc> by_double_double(const SegmentSites& sites, const std::array<SiteIndex, 3>& triple,
-                                             std::uint8_t left) {
+std::optional<PolishedDisc> by_double_double(const SegmentSites& sites,
+                                             const std::array<SiteIndex, 3>& triple, std::uint8_t left) {
   const TangentDisc<DoubleDouble> disc = tangent_disc<DoubleDouble>(sites, triple, left);
   const DoubleDouble x = DoubleDouble(static_cast<double>(disc.anchor.x)) + disc.x;
   const DoubleDouble y = DoubleDouble(static_cast<double>(disc.anchor.y)) + disc.y;
   const double radius = disc.radius.head;
   const double size = std::abs(x.head) + std::abs(y.head) + radius;
-  const bool known =
-      disc.position_error <= nearly_exact * size && disc.radius_error <= nearly_exact * radius;
+  const bool known = disc.position_error <= nearly_exact * size && disc.radius_error <= nearly_exact * radius;
   if (!known) return std::nullopt;
   return PolishedDisc{x.head, y.head, radius};
 }
@@ -67,7 +66,8 @@ std::optional<PolishedDisc> first_of_triples(const SegmentSites& sites, std::spa
   return std::nullopt;
 }
 
-std::optional<PolishedDisc> by_exact_level(const SegmentSites& sites, const std::array<SiteIndex, 3>& triple) {
+std::optional<PolishedDisc> by_exact_level(const SegmentSites& sites,
+                                           const std::array<SiteIndex, 3>& triple) {
   try {
     const RoundedDisc disc = exact_disc_rounded(sites.triple(triple));
     return PolishedDisc{disc.x, disc.y, disc.radius};

@@ -23,8 +23,8 @@ Offset offset_of(const TangentDisc<DoubleDouble>& disc, const LatticePoint& p, c
   const auto real = [](std::int64_t value) { return DoubleDouble(int128{value}); };
   const LatticeVector w = disc.anchor - p;
   const DoubleDouble dx = real(d.x), dy = real(d.y);
-  const double size = std::abs(disc.x.head) + std::abs(disc.y.head) +
-                      std::abs(static_cast<double>(w.x)) + std::abs(static_cast<double>(w.y));
+  const double size = std::abs(disc.x.head) + std::abs(disc.y.head) + std::abs(static_cast<double>(w.x)) +
+                      std::abs(static_cast<double>(w.y));
   return {disc.x * dx + disc.y * dy + real(dot(d, w)), disc.y * dx - disc.x * dy + real(cross(d, w)),
           length * (disc.position_error + 8 * roundoff<DoubleDouble> * size)};
 }
@@ -81,8 +81,9 @@ int SegmentPredicates::sign(const VoronoiRecord& v, const SegmentQuery& query) {
     return end_sign(v, at_p >= 0 ? at_p : at_q, query);
   }
   if (v.radius == 0) return 1;  // a corner at another point
-  // The distance from the line: the centre errs by position_error; the difference from a (1), a component of u
-  // (3), a product (1) and the difference of both (1) by 6 roundings of |dx| + |dy| at most, and 1 to spare.
+  // The distance from the line: the centre errs by position_error; the difference from a (1), a component of
+  // u (3), a product (1) and the difference of both (1) by 6 roundings of |dx| + |dy| at most, and 1 to
+  // spare.
   const SegmentSite& s = query.segment;
   const double dx = v.x - s.a.x, dy = v.y - s.a.y;
   const double clearance = std::abs(s.ux * dy - s.uy * dx) - v.radius;
@@ -116,8 +117,7 @@ int SegmentPredicates::end_sign(const VoronoiRecord& v, int i, const SegmentQuer
     const SiteIndex own = v.sites[static_cast<std::size_t>(k)];
     if (!sites_.is_end(own, end)) continue;
     // The centre lies on the normal of another segment of the same end.
-    const std::int64_t turn =
-        cross(sites_.segment(own).direction(), sites_.direction_from(end, query.site));
+    const std::int64_t turn = cross(sites_.segment(own).direction(), sites_.direction_from(end, query.site));
     const int side = v.is_left(k) ? 1 : -1;
     return turn == 0 ? 0 : (turn > 0) == (side > 0) ? -1 : 1;
   }
@@ -159,11 +159,12 @@ int SegmentPredicates::sign_beyond_filter(const VoronoiRecord& v, const SegmentQ
   return exact_clearance_sign(sites_.triple(v.sites), sites_.lattice_site(query.site));
 }
 
-// Where the edge passes from u to w, `point` being one of its sites: the shadow of the point is the ray from it
-// straight away from the segment. On it no disc of the diagram through the point reaches the segment. If an
-// edge whose ends are in conflict has points that are not, the shadow of one of its sites crosses it: along an
-// edge the clearance d(segment) - r has one maximum between two slopes, and there the way from the point to
-// the centre is perpendicular to the segment; with a line for the other site there is none but on its shadow.
+// Where the edge passes from u to w, `point` being one of its sites: the shadow of the point is the ray from
+// it straight away from the segment. On it no disc of the diagram through the point reaches the segment. If
+// an edge whose ends are in conflict has points that are not, the shadow of one of its sites crosses it:
+// along an edge the clearance d(segment) - r has one maximum between two slopes, and there the way from the
+// point to the centre is perpendicular to the segment; with a line for the other site there is none but on
+// its shadow.
 bool SegmentPredicates::survives(const VoronoiRecord& u, int i, const VoronoiRecord& w,
                                  const SegmentQuery& query) {
   const auto [right, left] = sites_of_edge(u, i);
@@ -195,9 +196,9 @@ bool SegmentPredicates::has_shadow_on(const VoronoiRecord& u, int i, const Voron
                                    sites_.lattice_site(query.site)) > 0;
 }
 
-// The bisector of two points, seen from one of them over less than 180 degrees: along the segment, it goes from
-// before the point to beyond it, or the other way where the point lies on the right of the segment. A vertex
-// straight between point and segment is not near the shadow.
+// The bisector of two points, seen from one of them over less than 180 degrees: along the segment, it goes
+// from before the point to beyond it, or the other way where the point lies on the right of the segment. A
+// vertex straight between point and segment is not near the shadow.
 int SegmentPredicates::shadow_on_line(const Arc& arc, const SegmentQuery& query) const {
   const SegmentSite& s = query.segment;
   const LatticePoint& point = sites_.point(arc.point);
@@ -212,8 +213,8 @@ int SegmentPredicates::shadow_on_line(const Arc& arc, const SegmentQuery& query)
   return is_below(from) || is_below(to) ? -1 : undecided;
 }
 
-// A parabola with the line of another segment for its directrix. In the frame of the directrix, with the point
-// at (0, h), the shadow leaves in direction (b, c) and meets the parabola at y = h b / (1 - c).
+// A parabola with the line of another segment for its directrix. In the frame of the directrix, with the
+// point at (0, h), the shadow leaves in direction (b, c) and meets the parabola at y = h b / (1 - c).
 int SegmentPredicates::shadow_on_parabola(const Arc& arc, const SegmentQuery& query) const {
   const SegmentSite& s = query.segment;
   const SegmentSite& base = sites_.segment(arc.other);
@@ -237,8 +238,8 @@ int SegmentPredicates::shadow_on_parabola(const Arc& arc, const SegmentQuery& qu
 }
 
 // The same at an end of the new segment, where the half plane behind the end takes the place of the ray. The
-// line between both half planes goes through the focus: if the segment leaves away from the directrix, the part of
-// the parabola behind it lies around the vertex of the parabola, where no vertex can be in conflict.
+// line between both half planes goes through the focus: if the segment leaves away from the directrix, the
+// part of the parabola behind it lies around the vertex of the parabola, where no vertex can be in conflict.
 int SegmentPredicates::end_shadow_on_parabola(const Arc& arc, const SegmentQuery& query) const {
   const SegmentSite& base = sites_.segment(arc.other);
   const LatticePoint& point = sites_.point(arc.point);

@@ -43,10 +43,9 @@ class SegmentPredicates {
  public:
   explicit SegmentPredicates(const SegmentSites& sites) : sites_(sites) {}
 
-  // Whether the open segment enters the open disc of a vertex. At infinity: whether it is an edge of the hull.
-  bool in_conflict(const VoronoiRecord& vertex, const SegmentQuery& query) {
-    return sign(vertex, query) < 0;
-  }
+  // Whether the open segment enters the open disc of a vertex. At infinity: whether it is an edge of the
+  // hull.
+  bool in_conflict(const VoronoiRecord& vertex, const SegmentQuery& query) { return sign(vertex, query) < 0; }
 
   // The sign of the distance of the open segment from the vertex less its radius, where that is negative;
   // 0 if the closed segment touches the disc, else positive.

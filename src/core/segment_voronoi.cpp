@@ -9,6 +9,7 @@
 #include "core/insertion_rounds.hpp"
 #include "core/point_order.hpp"
 #include "core/point_voronoi.hpp"
+#include "core/segment_exact.hpp"
 
 namespace vorotool::core {
 namespace {
@@ -49,7 +50,8 @@ MortonOrder ordered(std::span<const LatticePoint> points, unsigned threads, cons
 }
 
 // The segments by their ends in the numbers of the sites, the first of the two ends first.
-std::vector<std::uint32_t> along_points(std::span<const Segment> segments, std::span<const std::int32_t> rank) {
+std::vector<std::uint32_t> along_points(std::span<const Segment> segments,
+                                        std::span<const std::int32_t> rank) {
   const auto ends = [&](std::size_t j) {
     const std::int32_t a = rank[static_cast<std::size_t>(segments[j][0])];
     const std::int32_t b = rank[static_cast<std::size_t>(segments[j][1])];
@@ -72,35 +74,47 @@ std::vector<std::uint32_t> along_points(std::span<const Segment> segments, std::
 
 SegmentVoronoi::SegmentVoronoi(const PlanarGraph& graph, unsigned threads, const Monitor& monitor) {
   check(graph);
-  const std::size_t points = graph.points.size(), segments = graph.segments.size();
+  make_point_diagram(graph, threads, monitor);
+  InsertionRounds rounds(sites_, records_, threads);
+  try {
+    rounds.run(monitor);
+  } catch (const NoDisc& error) {
+    throw std::logic_error(error.what());
+  }
+  counts_ = rounds.counts();
+}
+
+// The triangulation is gone when segments are inserted.
+void SegmentVoronoi::make_point_diagram(const PlanarGraph& graph, unsigned threads, const Monitor& monitor) {
   MortonOrder order = ordered(graph.points, threads, monitor);
   const Subdivision mesh =
       divide_and_conquer({order.points, order.index, order.code, order.fine}, threads, monitor);
-  std::vector<std::int32_t> rank(points);
+  const std::vector<std::uint32_t> index = std::move(order.index);
+  order = {};
+  number_sites(graph, index);
+  const std::size_t room = 2 * (graph.points.size() + graph.segments.size());
+  records_ = point_voronoi(sites_, mesh, room, threads, monitor);
+}
+
+// Points in the order of the triangulation, and the segments along them.
+void SegmentVoronoi::number_sites(const PlanarGraph& graph, std::span<const std::uint32_t> order) {
+  const std::size_t points = graph.points.size(), segments = graph.segments.size();
   given_.resize(points + segments);
+  std::vector<std::int32_t> rank(points);
   std::vector<LatticePoint> places(points);
   for (std::size_t i = 0; i < points; ++i) {
-    rank[order.index[i]] = static_cast<std::int32_t>(i);
-    given_[i] = static_cast<std::int32_t>(order.index[i]);
-    places[i] = graph.points[order.index[i]];
+    rank[order[i]] = static_cast<std::int32_t>(i);
+    given_[i] = static_cast<std::int32_t>(order[i]);
+    places[i] = graph.points[order[i]];
   }
-  order = {};
-  std::vector<Segment> ends(segments);
   const std::vector<std::uint32_t> along = along_points(graph.segments, rank);
+  std::vector<Segment> ends(segments);
   for (std::size_t j = 0; j < segments; ++j) {
     const Segment& s = graph.segments[along[j]];
     ends[j] = {rank[static_cast<std::size_t>(s[0])], rank[static_cast<std::size_t>(s[1])]};
     given_[points + j] = static_cast<std::int32_t>(points + along[j]);
   }
   sites_ = SegmentSites(std::move(places), ends);
-  records_ = point_voronoi(sites_, mesh, 2 * (points + segments), threads, monitor);
-  insert_segments(threads, monitor);
-}
-
-void SegmentVoronoi::insert_segments(unsigned threads, const Monitor& monitor) {
-  InsertionRounds rounds(sites_, records_, threads);
-  rounds.run(monitor);
-  counts_ = rounds.counts();
 }
 
 }  // namespace vorotool::core

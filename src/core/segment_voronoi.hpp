@@ -23,8 +23,9 @@ struct PlanarGraph {
 
 class SegmentVoronoi {
  public:
-  // Throws std::length_error for more than 2^28 - 1 sites, and std::invalid_argument for an index that is out
-  // of range, a segment of length zero and two points at one place.
+  // Throws std::length_error for more than 2^28 - 1 sites, std::invalid_argument for an index that is out of
+  // range, a segment of length zero and two points at one place, and std::logic_error where the diagram would
+  // not be planar: the graph is not, or the engine has a defect.
   SegmentVoronoi(const PlanarGraph& graph, unsigned threads, const Monitor& monitor);
 
   const SegmentVoronoiCounts& counts() const { return counts_; }
@@ -34,7 +35,8 @@ class SegmentVoronoi {
   std::span<const std::int32_t> given() const { return given_; }
 
  private:
-  void insert_segments(unsigned threads, const Monitor& monitor);
+  void make_point_diagram(const PlanarGraph& graph, unsigned threads, const Monitor& monitor);
+  void number_sites(const PlanarGraph& graph, std::span<const std::uint32_t> order);
 
   SegmentSites sites_;
   std::vector<std::int32_t> given_;

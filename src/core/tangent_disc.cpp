@@ -51,9 +51,7 @@ struct Line {
   bool ends_at(SiteIndex p) const { return ends[0] == p || ends[1] == p; }
 };
 
-Line<double> directed(const SegmentSite& s, double) {
-  return {s.ends, s.a, s.b, s.ux, s.uy, s.length};
-}
+Line<double> directed(const SegmentSite& s, double) { return {s.ends, s.a, s.b, s.ux, s.uy, s.length}; }
 
 Line<DoubleDouble> directed(const SegmentSite& s, DoubleDouble) {
   const LatticeVector d = s.direction();
@@ -123,9 +121,7 @@ class Solver {
 
   SiteIndex site(int i) const { return triple_[static_cast<std::size_t>(i % 3)]; }
   const LatticePoint& point(int i) const { return sites_.point(site(i)); }
-  Line<Real> line(int i) const {
-    return line_of<Real>(sites_.segment(site(i)), (left_ >> (i % 3) & 1) != 0);
-  }
+  Line<Real> line(int i) const { return line_of<Real>(sites_.segment(site(i)), (left_ >> (i % 3) & 1) != 0); }
 
   // The numerators have 2 + 31 + 63 bits at most.
   Disc circumscribed() const {
@@ -133,10 +129,10 @@ class Solver {
     const LatticePoint& a = point(least);
     const LatticeVector b = point(least + 1) - a, c = point(least + 2) - a;
     const int128 bb = dot(b, b), cc = dot(c, c);
-    const Real area = real<Real>(2 * int128{cross(b, c)});   // (1)
-    const Real x = real<Real>(c.y * bb - b.y * cc) / area;   // (3)
-    const Real y = real<Real>(b.x * cc - c.x * bb) / area;   // (3)
-    const Real r = sqrt(x * x + y * y);                      // (5)
+    const Real area = real<Real>(2 * int128{cross(b, c)});  // (1)
+    const Real x = real<Real>(c.y * bb - b.y * cc) / area;  // (3)
+    const Real y = real<Real>(b.x * cc - c.x * bb) / area;  // (3)
+    const Real r = sqrt(x * x + y * y);                     // (5)
     return {a, x, y, r, 4 * u * rough(r), 6 * u * rough(r)};
   }
 
@@ -184,35 +180,40 @@ class Solver {
   }
 
   // Two points p, q at heights h <= h' above the line; (line, p, q) are counter-clockwise. The disc touches
-  // the line at the foot of the nearer one plus y, with its radius (y^2 + h^2) / (2 h), and the same seen from
-  // the farther one: a y^2 + 2 h b y = h (a h' + b^2), where (b, a) leads from the nearer to the farther. The
-  // product of the roots has no difference in it, since a >= 0. Turning counter-clockwise, h b + a y is
-  // negative if p is the nearer one, positive if it is the farther.
+  // the line at the foot of the nearer one plus y, with its radius (y^2 + h^2) / (2 h), and the same seen
+  // from the farther one: a y^2 + 2 h b y = h (a h' + b^2), where (b, a) leads from the nearer to the
+  // farther. The product of the roots has no difference in it, since a >= 0. Turning counter-clockwise, h b +
+  // a y is negative if p is the nearer one, positive if it is the farther.
   static Disc through_points(const Line<Real>& line, const LatticePoint& p, const LatticePoint& q) {
     const bool p_is_near = line.side(p) <= line.side(q);
     const LatticePoint &near = p_is_near ? p : q, &far = p_is_near ? q : p;
     const LatticeVector w = far - near, d = line.direction();
     const Real h = line.distance(near), h_far = line.distance(far);
-    const Real a = real<Real>(cross(d, w)) / line.length;                       // (4)
-    Real b = real<Real>(dot(d, w)) / line.length;                               // (4)
-    if (p_is_near) b = -b;                                                      // mirrored: h b + a y > 0
-    const Real root = sqrt(real<Real>(dot(w, w))) * sqrt(h * h_far);            // (8)
-    const Real y = rough(b) > 0 ? h * (h_far * a + b * b) / (root + h * b)      // (26)
-                                : (root - h * b) / a;                           // (16)
-    const Real r = (y * y + h * h) / (h + h);                                   // (60)
+    const Real a = real<Real>(cross(d, w)) / line.length;                   // (4)
+    Real b = real<Real>(dot(d, w)) / line.length;                           // (4)
+    if (p_is_near) b = -b;                                                  // mirrored: h b + a y > 0
+    const Real root = sqrt(real<Real>(dot(w, w))) * sqrt(h * h_far);        // (8)
+    const Real y = rough(b) > 0 ? h * (h_far * a + b * b) / (root + h * b)  // (26)
+                                : (root - h * b) / a;                       // (16)
+    const Real r = (y * y + h * h) / (h + h);                               // (60)
     const Real rise = r - h;
     const Real along = p_is_near ? -y : y;
     // |y| <= r and h <= 2 r: u y (30 r), n (r - h) (60 + 8 + 10 r)
-    return {near, along * line.ux - rise * line.uy, along * line.uy + rise * line.ux, r,
-            110 * u * rough(r), 60 * u * rough(r)};
+    return {near,
+            along * line.ux - rise * line.uy,
+            along * line.uy + rise * line.ux,
+            r,
+            110 * u * rough(r),
+            60 * u * rough(r)};
   }
 
-  // Two segments s, t that share an end o, and a point q between them: the centre is r g, where g has distance
-  // 1 from both lines and |g|^2 = G = 1 + cot^2 of half the angle between them. g . w = (e1 + e2) G / 2 for
-  // w = q - o at distances e1, e2, and the discriminant of |r g - w| = r is G e1 e2. The small root has q
-  // beyond the chord of its touching points, as seen from o; then (q, left side, right side) are
+  // Two segments s, t that share an end o, and a point q between them: the centre is r g, where g has
+  // distance 1 from both lines and |g|^2 = G = 1 + cot^2 of half the angle between them. g . w = (e1 + e2) G
+  // / 2 for w = q - o at distances e1, e2, and the discriminant of |r g - w| = r is G e1 e2. The small root
+  // has q beyond the chord of its touching points, as seen from o; then (q, left side, right side) are
   // counter-clockwise.
-  static Disc in_wedge(const LatticePoint& o, const Line<Real>& s, const Line<Real>& t, const LatticePoint& q) {
+  static Disc in_wedge(const LatticePoint& o, const Line<Real>& s, const Line<Real>& t,
+                       const LatticePoint& q) {
     const Angle<Real> angle(s, t);
     const Real X = real<Real>(angle.X < 0 ? -angle.X : angle.X);
     // Seen from o, one of the lines runs outward and one inward: the cosine of the wedge is -D / ll.
@@ -222,14 +223,15 @@ class Solver {
     const Real square = tangent * tangent;                                           // (15)
     const Real G = Real(1.0) + Real(1.0) / square;                                   // (17)
     const Real e1 = s.distance(q), e2 = t.distance(q);
-    const Real sum = (e1 + e2) * G * Real(0.5) + sqrt(G * (e1 * e2));                // (25)
+    const Real sum = (e1 + e2) * G * Real(0.5) + sqrt(G * (e1 * e2));  // (25)
     const LatticeVector w = q - o;
-    const Real r = angle.X > 0 ? real<Real>(dot(w, w)) / sum : sum * square;         // (27), (41)
+    const Real r = angle.X > 0 ? real<Real>(dot(w, w)) / sum : sum * square;  // (27), (41)
     return in_wedge_at(o, s, t, angle, acute, r, G);
   }
 
-  // g is the sum of the outward directions over the sine of the wedge, or that of the normals over 1 - cosine:
-  // the one that does not cancel. A component errs by 3 of each unit vector, 6 of the divisor and 3: (12) |g|.
+  // g is the sum of the outward directions over the sine of the wedge, or that of the normals over 1 -
+  // cosine: the one that does not cancel. A component errs by 3 of each unit vector, 6 of the divisor and 3:
+  // (12) |g|.
   static Disc in_wedge_at(const LatticePoint& o, const Line<Real>& s, const Line<Real>& t,
                           const Angle<Real>& angle, bool acute, const Real& r, const Real& G) {
     Real gx, gy;
@@ -259,8 +261,8 @@ class Solver {
     const bool first = rough(e1) >= rough(e2);
     const Line<Real>& base = first ? s : t;
     const Real& e = first ? e1 : e2;
-    const Real swing = e * cosine, root = sqrt(e1 * e2);                         // (13), (5.5)
-    Real y = (root - swing) / sine;                                              // terms (14), quotient (9)
+    const Real swing = e * cosine, root = sqrt(e1 * e2);  // (13), (5.5)
+    Real y = (root - swing) / sine;                       // terms (14), quotient (9)
     if (!first) y = -y;
     const Real r = (y * y + e * e) / (e + e);
     const Real rise = r - e;
@@ -268,8 +270,8 @@ class Solver {
     // r moves by y / e times the error of y, and by 12 roundings
     const double r_error = std::abs(rough(y)) / rough(e) * y_error + 12 * u * rough(r);
     const double size = std::abs(rough(y)) + rough(r) + rough(e);
-    return {p, y * base.ux - rise * base.uy, y * base.uy + rise * base.ux, r,
-            y_error + r_error + 12 * u * size, r_error};
+    return {p, y * base.ux - rise * base.uy,      y * base.uy + rise * base.ux,
+            r, y_error + r_error + 12 * u * size, r_error};
   }
 
   // Where the anchor of three lines is: an end of line k.
@@ -279,10 +281,10 @@ class Solver {
     double terms = std::numeric_limits<double>::infinity();
   };
 
-  // h_i + n_i . x = r for the distances h_i of the anchor: multiplied by the sines s_jk of the opposite pairs,
-  // r (s_12 + s_23 + s_31) = h_1 s_23 + h_2 s_31 + h_3 s_12, and the sum of sines is four times the product
-  // of the half sines (25). Of the six ends the one with the smallest terms is taken; its own h is zero, and that of
-  // a second line if they share it.
+  // h_i + n_i . x = r for the distances h_i of the anchor: multiplied by the sines s_jk of the opposite
+  // pairs, r (s_12 + s_23 + s_31) = h_1 s_23 + h_2 s_31 + h_3 s_12, and the sum of sines is four times the
+  // product of the half sines (25). Of the six ends the one with the smallest terms is taken; its own h is
+  // zero, and that of a second line if they share it.
   Disc three_lines() const {
     const int least = static_cast<int>(std::min_element(triple_.begin(), triple_.end()) - triple_.begin());
     const std::array<Line<Real>, 3> lines{line(least), line(least + 1), line(least + 2)};
@@ -294,24 +296,30 @@ class Solver {
                                                       static_cast<std::size_t>(anchor.k)};
     const std::array<Real, 3> half{angles[0].half_sine(), angles[1].half_sine(), angles[2].half_sine()};
     const Real h_i = lines[i].distance(anchor.place), h_j = lines[j].distance(anchor.place);
-    const Real det = Real(4.0) * half[0] * half[1] * half[2];                        // (26)
-    const Real r = (h_i * angles[i].sine() + h_j * angles[j].sine()) / det;          // (12 + 27) of the terms
+    const Real det = Real(4.0) * half[0] * half[1] * half[2];                // (26)
+    const Real r = (h_i * angles[i].sine() + h_j * angles[j].sine()) / det;  // (12 + 27) of the terms
     const double r_error = 40 * u * anchor.terms / rough(det);
     const Foot by_i = foot(h_i, angles[j], half[j], r, r_error, true);
     const Foot by_j = foot(h_j, angles[i], half[i], r, r_error, false);
     const Foot& best = by_i.error <= by_j.error ? by_i : by_j;
     const Line<Real>& base = lines[k];
-    return {anchor.place, best.y * base.ux - r * base.uy, best.y * base.uy + r * base.ux, r,
-            best.error + r_error + 4 * u * (std::abs(rough(best.y)) + rough(r)), r_error};
+    return {anchor.place,
+            best.y * base.ux - r * base.uy,
+            best.y * base.uy + r * base.ux,
+            r,
+            best.error + r_error + 4 * u * (std::abs(rough(best.y)) + rough(r)),
+            r_error};
   }
 
-  static Anchor best_anchor(const std::array<Line<Real>, 3>& lines, const std::array<Angle<Real>, 3>& angles) {
+  static Anchor best_anchor(const std::array<Line<Real>, 3>& lines,
+                            const std::array<Angle<Real>, 3>& angles) {
     Anchor best;
     for (int k = 0; k < 3; ++k) {
       const auto i = static_cast<std::size_t>((k + 1) % 3), j = static_cast<std::size_t>((k + 2) % 3);
       const double s_i = std::abs(rough(angles[i].sine())), s_j = std::abs(rough(angles[j].sine()));
       const double l_i = rough(lines[i].length), l_j = rough(lines[j].length);
-      for (const LatticePoint& end : {lines[static_cast<std::size_t>(k)].start, lines[static_cast<std::size_t>(k)].end}) {
+      for (const LatticePoint& end :
+           {lines[static_cast<std::size_t>(k)].start, lines[static_cast<std::size_t>(k)].end}) {
         const double terms = std::abs(static_cast<double>(lines[i].side(end))) / l_i * s_i +
                              std::abs(static_cast<double>(lines[j].side(end))) / l_j * s_j;
         if (terms < best.terms) best = {end, k, terms};
@@ -333,9 +341,9 @@ class Solver {
     const Real sine = from_k ? -angle.sine() : angle.sine();
     const Real gap = Real(2.0) * half * half;
     const Real y = (r * gap - h) / sine;
-    const double error = (4 * u * std::abs(rough(h)) + rough(gap) * (r_error + 20 * u * rough(r))) /
-                             std::abs(rough(sine)) +
-                         8 * u * std::abs(rough(y));
+    const double error =
+        (4 * u * std::abs(rough(h)) + rough(gap) * (r_error + 20 * u * rough(r))) / std::abs(rough(sine)) +
+        8 * u * std::abs(rough(y));
     return {y, error};
   }
 
@@ -347,7 +355,8 @@ class Solver {
 }  // namespace
 
 template <class Real>
-TangentDisc<Real> tangent_disc(const SegmentSites& sites, std::array<SiteIndex, 3> triple, std::uint8_t left) {
+TangentDisc<Real> tangent_disc(const SegmentSites& sites, std::array<SiteIndex, 3> triple,
+                               std::uint8_t left) {
   return Solver<Real>(sites, triple, left).solve();
 }
 

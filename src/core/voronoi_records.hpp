@@ -1,5 +1,5 @@
-// The vertices of a segment Voronoi diagram while it is built: a triangulation of the sphere whose corners are
-// sites.
+// The vertices of a segment Voronoi diagram while it is built: a triangulation of the sphere whose corners
+// are sites.
 #pragma once
 
 #include <array>

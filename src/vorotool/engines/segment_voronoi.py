@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.label_arrays import Progress
-from vorotool.errors import InputError, LimitError
+from vorotool.errors import InputError, LimitError, VerificationError, VorotoolError
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.segment_voronoi import LATTICE_LIMIT, SegmentVoronoiDiagram
 
@@ -30,8 +30,8 @@ def segment_voronoi(
     points : (n, 2) array of integers
         Distinct, at most 2^30 - 1 in magnitude. Every one is a site, also where segments end.
     segments : (m, 2) array of integers
-        Indices of the ends of each segment. Segments meet at shared ends only, no point lies inside one, and no two have
-        the same ends: `place` makes such a graph. This is not checked in full.
+        Indices of the ends of each segment. Segments meet at shared ends only, no point lies inside one, and no two
+        have the same ends: placement makes such a graph. This is not checked in full.
     threads : int
         0 uses all.
     progress : callable, optional
@@ -40,8 +40,9 @@ def segment_voronoi(
     Returns
     -------
     SegmentVoronoiDiagram
-        With ``counts``: ``visited`` vertices that were tested, ``cyclic`` segments whose conflict set had to be cut, and
-        tests settled beyond floating point by ``dyadic`` numbers, in ``double_double`` and ``exact``.
+        With ``counts``: ``visited`` vertices that were tested, ``cyclic`` segments whose conflict set had to be cut,
+        and tests settled beyond floating point by ``dyadic`` numbers, in ``double_double`` and ``exact``. These
+        numbers depend a little on how threads meet; nothing else does.
 
     Raises
     ------
@@ -49,8 +50,10 @@ def segment_voronoi(
         If a coordinate is beyond the lattice, an index out of range, a segment of length zero, two points are at one
         place, or segments cross where that comes to light.
     LimitError
-        If there are more than 2^28 - 1 sites. Memory is at most 420 bytes for each point and its segment, and as much
-        again for the arrays of the result.
+        If there are more than 2^28 - 1 sites. The engine takes at most 420 bytes for each point and its segment, the
+        arrays of the result 280.
+    VerificationError
+        If the engine finds its own diagram not planar, with valid input.
 
     References
     ----------
@@ -59,26 +62,52 @@ def segment_voronoi(
     Examples
     --------
     >>> diagram = segment_voronoi([[0, 0], [4, 0], [0, 3]], [[0, 1], [1, 2], [2, 0]])
-    >>> diagram.vertices[-1].tolist(), diagram.radius[-1].tolist(), diagram.sites_of(-2).tolist()
+    >>> diagram.vertices[-1].tolist(), diagram.radius[-1].tolist(), diagram.sites_of(3).tolist()
     ([1.0, 1.0], 1.0, [3, 4, 5])
     """
-    places = _rows(points, "points")
-    ends = _rows(segments, "segments")
-    count = len(places) + len(ends)
+    rows = np.asarray(points), np.asarray(segments)
+    count = sum(len(array) for array in rows if array.ndim)
     if count > MOST_SITES:
         raise LimitError(f"there are {count} points and segments, more than {MOST_SITES}: simplify or split the input")
+    places, ends = _on_lattice(rows[0], "points"), _on_lattice(rows[1], "segments")
     threads = checked_threads(threads)
     try:
         core = _core.SegmentVoronoi(places, ends, threads, progress)
-        arrays = core.arrays(threads, progress)
     except ValueError as error:
         raise InputError(f"{error}: place the input on the lattice first") from None
-    return SegmentVoronoiDiagram(places, ends, *arrays, counts=core.counts)
+    except RuntimeError as error:
+        raise _explained(str(error), places, ends) from None
+    return SegmentVoronoiDiagram(places, ends, *core.arrays(threads, progress), counts=core.counts)
 
 
-def _rows(values: Any, name: str) -> NDArray[np.int32]:
+def _explained(symptom: str, points: NDArray[np.int32], segments: NDArray[np.int32]) -> VorotoolError:
+    """What was wrong with the graph where the diagram came out as none."""
+    fault = _fault_of(points, segments)
+    if fault is not None:
+        return InputError(f"{fault}: place the input on the lattice first")
+    return VerificationError(f"{symptom}: a defect of vorotool, please report it with the input")
+
+
+def _fault_of(points: NDArray[np.int32], segments: NDArray[np.int32]) -> str | None:
+    """Where segments have more in common than an end."""
+    import shapely
+
+    lines = shapely.linestrings(points[segments])
+    tree = shapely.STRtree(lines)
+    places, at = tree.query(shapely.points(points), predicate="intersects")
+    inside = np.flatnonzero((segments[at] != places[:, None]).all(axis=1))
+    if inside.size:
+        return f"point {places[inside[0]]} lies inside segment {at[inside[0]]}"
+    first, second = tree.query(lines, predicate="intersects")
+    common = (segments[first][:, :, None] == segments[second][:, None, :]).sum(axis=(1, 2))
+    faults = np.flatnonzero((first < second) & (common != 1))
+    if not faults.size:
+        return None
+    return f"segments {first[faults[0]]} and {second[faults[0]]} cross, or have the same ends"
+
+
+def _on_lattice(array: NDArray[Any], name: str) -> NDArray[np.int32]:
     """Pairs of integers on the lattice."""
-    array = np.asarray(values)
     if array.size == 0:
         return np.empty((0, 2), np.int32)
     if array.ndim != 2 or array.shape[1] != 2:

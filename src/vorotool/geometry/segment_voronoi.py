@@ -29,8 +29,9 @@ _SHAPES = {
 class SegmentVoronoiDiagram:
     """The Voronoi diagram of n points and m open segments, in lattice units.
 
-    Point i is site i, open segment j is site n + j. Vertices are in the order of their lists of sites, edges in that of
-    their numbers: source, target, left, right. Nothing depends on how the diagram was computed.
+    Point i is site i, open segment j is site n + j. The order of vertices and edges is that of a Morton curve through
+    the points: it depends on where they are, not on how they are numbered, and on nothing else. An edge comes with its
+    source, which is the end with the smaller number, counter-clockwise around it.
 
     Parameters
     ----------
@@ -48,10 +49,10 @@ class SegmentVoronoiDiagram:
         All sites that the disc touches and whose cells meet there, counter-clockwise from the smallest number. A point
         whose segments leave no gap of 180 degrees has no cell.
     edges : (e, 2) int32 array
-        Source and target of each edge; -1 at infinity. Edges between a segment and its own end are included, edges of
-        length zero are not.
+        Source and target of each edge; -1 at infinity, as source only of lines without a vertex. Edges between a
+        segment and its own end are included, edges of length zero are not.
     edge_sites : (e, 2) int32 array
-        The sites left and right of source -> target; that on the left has the smaller number.
+        The sites left and right of source -> target.
     counts : dict of str to int
         Statistics of the computation.
 
@@ -69,7 +70,7 @@ class SegmentVoronoiDiagram:
     >>> from vorotool.engines.segment_voronoi import segment_voronoi
     >>> square = segment_voronoi([[0, 0], [2, 0], [2, 2], [0, 2]], [[0, 1], [1, 2], [2, 3], [3, 0]])
     >>> square.vertices.tolist(), square.radius.tolist()
-    ([[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0], [1.0, 1.0]], [0.0, 0.0, 0.0, 0.0, 1.0])
+    ([[0.0, 0.0], [0.0, 2.0], [2.0, 0.0], [2.0, 2.0], [1.0, 1.0]], [0.0, 0.0, 0.0, 0.0, 1.0])
     >>> square.sites_of(4).tolist()
     [4, 5, 6, 7]
     """
