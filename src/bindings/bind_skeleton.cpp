@@ -176,8 +176,8 @@ void bind_skeleton(nb::module_& module) {
              "vertices"_a.noconvert(), "radius"_a.noconvert(), "edges"_a.noconvert(),
              "edge_sites"_a.noconvert(), "kept"_a.noconvert(), "groups"_a.noconvert(), "clipped"_a.none(),
              "origin_x"_a, "origin_y"_a, "scale"_a, "threads"_a, "progress"_a.none());
-  module.def("clearances", &clearances, "points"_a.noconvert(), "segments"_a.noconvert(), "places"_a.noconvert(),
-             "reach"_a.noconvert(), "threads"_a, "progress"_a.none());
+  module.def("clearances", &clearances, "points"_a.noconvert(), "segments"_a.noconvert(),
+             "places"_a.noconvert(), "reach"_a.noconvert(), "threads"_a, "progress"_a.none());
 }
 
 }  // namespace vorotool::bindings

@@ -30,8 +30,9 @@ double distance(const LatticeSite& site, const std::array<double, 2>& place) {
 
 }  // namespace
 
-std::vector<double> clearances(std::span<const LatticeSite> sites, std::span<const std::array<double, 2>> places,
-                               std::span<const double> reach, unsigned threads, const Monitor& monitor) {
+std::vector<double> clearances(std::span<const LatticeSite> sites,
+                               std::span<const std::array<double, 2>> places, std::span<const double> reach,
+                               unsigned threads, const Monitor& monitor) {
   constexpr std::size_t grain = 1 << 12;  // places a piece: some milliseconds
   std::vector<double> found(places.size(), std::numeric_limits<double>::infinity());
   const SiteHierarchy hierarchy(sites, threads, monitor);

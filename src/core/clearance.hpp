@@ -11,9 +11,10 @@
 
 namespace vorotool::core {
 
-// For each place on the lattice, the distance of the nearest closed site that is not farther than its reach (or
-// a little more), or infinity: right to a few ulp of the coordinates.
-std::vector<double> clearances(std::span<const LatticeSite> sites, std::span<const std::array<double, 2>> places,
-                               std::span<const double> reach, unsigned threads, const Monitor& monitor);
+// For each place on the lattice, the distance of the nearest closed site that is not farther than its reach
+// (or a little more), or infinity: right to a few ulp of the coordinates.
+std::vector<double> clearances(std::span<const LatticeSite> sites,
+                               std::span<const std::array<double, 2>> places, std::span<const double> reach,
+                               unsigned threads, const Monitor& monitor);
 
 }  // namespace vorotool::core

@@ -55,11 +55,12 @@ class Clipper {
            (!bisector.is_parabola || frame_.holds(control_point(bisector.parabola, source, target)));
   }
 
-  // Only the bisectors of two points, and of a segment and its end, are unbounded: across the way between them, the
-  // left site to the left.
+  // Only the bisectors of two points, and of a segment and its end, are unbounded: across the way between
+  // them, the left site to the left.
   Line line_of(const GraphArc& arc) const {
     if (arc.source >= 0 && arc.target >= 0) {
-      // from the nearer end: the other one may be so far away that its rounding would move what is in the frame
+      // from the nearer end: the other one may be so far away that its rounding would move what is in the
+      // frame
       const Place a = graph_.end(arc.source).place, b = graph_.end(arc.target).place;
       const Place way{b[0] - a[0], b[1] - a[1]};
       const auto size = [](const Place& p) { return std::max(std::abs(p[0]), std::abs(p[1])); };
@@ -70,7 +71,8 @@ class Clipper {
     const auto middle_of = [](const LatticeSite& s) {
       return LatticeVector{std::int64_t{s.a.x} + s.b.x, std::int64_t{s.a.y} + s.b.y};
     };
-    const LatticeVector across{middle_of(left).x - middle_of(right).x, middle_of(left).y - middle_of(right).y};
+    const LatticeVector across{middle_of(left).x - middle_of(right).x,
+                               middle_of(left).y - middle_of(right).y};
     const Place way{static_cast<double>(across.y), -static_cast<double>(across.x)};
     if (arc.source >= 0) return {graph_.end(arc.source).place, way, 0, infinity};
     if (arc.target >= 0) return {graph_.end(arc.target).place, way, -infinity, 0};
