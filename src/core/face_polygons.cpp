@@ -5,7 +5,7 @@
 namespace vorotool::core {
 namespace {
 
-constexpr std::size_t most_entries = std::size_t{1} << 28;
+constexpr std::size_t most_entries = std::size_t{1} << 26;  // 256 MB, and as much again at the end
 constexpr std::size_t faces_between_polls = 4096;
 
 // A place in the plane, as the rings have it.

@@ -44,9 +44,9 @@ class Maker {
     bool is_back;
   };
 
-  void count_repair(Repair kind, std::int32_t edge, std::int32_t other, std::int64_t times = 1) {
+  void count_repair(Repair kind, std::int32_t edge, std::int32_t other) {
     RepairCount& repair = graph_.repairs[static_cast<std::size_t>(kind)];
-    repair.count += times;
+    ++repair.count;
     if (repair.edge < 0 || edge < repair.edge || (edge == repair.edge && other < repair.other)) {
       repair.edge = edge;
       repair.other = other;

@@ -9,20 +9,22 @@
 // round makes at least one more segment loose, so that this ends; after some rounds all are made loose, which
 // is the classical algorithm.
 //
-// Why no two pieces cross and no node lies inside a piece. On each loose segment take a point p in every cell
-// that it meets, and let p move to the centre c of the cell: p + t (c - p), 0 <= t <= 1. The pieces between
-// consecutive ones stay straight. With B = [-1/2, 1/2)^2, which is convex and holds 0, p - c is in B, and so is
-// any average of such differences. A point of a piece that moves is q + t d at time t, q on its segment between
-// its ends, -d in B.
-// 1. If a node w lies on a piece at time t, then q = w - t d is in w + B, the cell of w: the segment meets it
-//    there, and w is an end of the piece. A piece of a segment that stays was cut at w, unless w is a rounded
-//    crossing; but the cell of that is disturbed by what crosses there, and a segment through it would be loose.
-// 2. Two pieces e and f without a common node do not touch at t = 0: where two loose segments meet is in the cell
-//    of a node, and where one that stays meets another is a node. At the first later t an end of one would have
-//    come upon the other, say that of f in the cell of w, w + (1 - t) b with b in B, upon e. If e is of a loose
-//    segment, q = w + (1 - t) b - t d is in w + B again, and w is an end of e. If e stays, the end of f has
-//    moved, the cell of w is disturbed, and e, which meets it, would be loose.
-// 3. Two pieces with one common node could only overlap; then 1 holds for the other end of the shorter one.
+// Why no two pieces cross and no node lies inside a piece. On each loose segment take a point p in every
+// cell that it meets, and let p move to the centre c of the cell: p + t (c - p), 0 <= t <= 1. The pieces
+// between consecutive ones stay straight. With B = [-1/2, 1/2)^2, which is convex and holds 0, p - c is in
+// B, and so is any average of such differences. A point of a piece that moves is q + t d at time t, with q
+// on its segment between its ends, and -d in B.
+// 1. If a node w lies on a piece at time t, then q = w - t d is in w + B, the cell of w: the segment meets
+//    it there, and w is an end of the piece. A piece of a segment that stays was cut at w, unless w is a
+//    rounded crossing; but the cell of that is disturbed by what crosses there, and a segment through it
+//    would be loose.
+// 2. Two pieces e and f without a common node do not touch at t = 0: where two loose segments meet is in
+//    the cell of a node, and where one that stays meets another is a node. At the first later t an end of
+//    one would have come upon the other, say that of f in the cell of w, w + (1 - t) b with b in B, upon
+//    e. If e is of a loose segment, q = w + (1 - t) b - t d is in w + B again, and w is an end of e. If e
+//    stays, the end of f has moved, the cell of w is disturbed, and e, which meets it, would be loose.
+// 3. Two pieces with one common node could only overlap; then 1 holds for the other end of the shorter
+//    one.
 #pragma once
 
 #include <cstdint>

@@ -212,6 +212,20 @@ def test_limits(monkeypatch):
         planar_graph(SQUARE)
 
 
+def nested_squares(count):
+    size = np.arange(1, count + 1)[:, None, None]
+    corners = (np.array([[[-1, -1], [1, -1], [1, 1], [-1, 1]]]) * size).reshape(-1, 2)
+    return PolygonSet(corners, 4 * np.arange(count + 1), np.zeros(count), np.arange(count))
+
+
+def test_polygons_that_nest_deep():
+    graph, said = quietly(nested_squares(300))
+    assert said == []
+    assert sorted(np.diff(graph.face_start).tolist()) == list(range(301))
+    with pytest.raises(LimitError, match="overlap or nest more than 67108864 times"):
+        planar_graph(nested_squares(12_000))
+
+
 def changed(graph, **arrays):
     return replace(graph, **{name: np.array(values) for name, values in arrays.items()})
 

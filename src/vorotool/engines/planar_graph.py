@@ -18,6 +18,8 @@ from vorotool.geometry.polygons import LINE, PolygonSet
 
 MOST_VERTICES = 2**28
 """Segments are numbered in 31 bits, and crossings make more of them."""
+MOST_OVERLAPS = 2**26
+"""Polygons of all faces together, as the core has it."""
 
 
 def planar_graph(polygons: Any, *, strict: bool = False, threads: int = 0, progress: Progress = None) -> PlanarGraph:
@@ -52,7 +54,7 @@ def planar_graph(polygons: Any, *, strict: bool = False, threads: int = 0, progr
         If a coordinate is not finite, or `strict` and something would be repaired: polygon, ring, vertex or edge and
         its coordinates are named.
     LimitError
-        If there are more than 2^28 vertices or crossings.
+        If there are more than 2^28 vertices or crossings, or 2^26 entries in `PlanarGraph.face_polygon`.
 
     Warns
     -----
@@ -81,7 +83,7 @@ def planar_graph(polygons: Any, *, strict: bool = False, threads: int = 0, progr
     except _core.TooManyCrossingsError:
         raise LimitError(f"the edges meet more than {MOST_VERTICES} times: simplify or split the polygons") from None
     except _core.TooManyOverlapsError:
-        raise LimitError(f"the polygons overlap or nest more than {MOST_VERTICES} times: split them") from None
+        raise LimitError(f"the polygons overlap or nest more than {MOST_OVERLAPS} times: split them") from None
     found = dict(zip(REPAIRS, made.pop("repairs"), strict=True))
     repairs = {name: count for name, (count, _, _) in found.items()}
     scale = math.ldexp(1.0, exponent)
@@ -246,20 +248,27 @@ def _side_fault(graph: PlanarGraph, given: PolygonSet, segment: Any, edge: Any) 
     count = max(len(given), 1)
     ring_of_edge = np.searchsorted(given.ring_start, edge, side="right") - 1
     own = segment * count + given.ring_polygon[ring_of_edge]
+    pairs, pair = np.unique(graph.segment_faces, axis=0, return_inverse=True)
     sides = []
-    for column in (0, 1):
-        face = graph.segment_faces[:, column]
-        length = np.diff(graph.face_start)[face]
-        within = np.arange(length.sum()) - np.repeat(np.cumsum(length) - length, length)
-        polygon = graph.face_polygon[np.repeat(graph.face_start[face], length) + within]
-        sides.append(np.repeat(np.arange(len(graph)), length) * count + polygon)
-    differing = np.setxor1d(*sides)
-    strange = differing[~np.isin(differing, own)]
-    if strange.size:
-        return f"segment {strange[0] // count} divides a polygon of which it is no edge"
-    is_border = np.zeros(len(graph), dtype=bool)
-    is_border[differing // count] = True
+    for face in pairs.T:
+        at, length = _expanded(graph.face_start[face], np.diff(graph.face_start)[face])
+        sides.append(np.repeat(np.arange(len(pairs)), length) * count + graph.face_polygon[at])
+    differing = np.setxor1d(*sides)  # pair of faces, and polygon
+    first = np.searchsorted(differing, np.arange(len(pairs) + 1) * count)
+    at, length = _expanded(first[pair.ravel()], np.diff(first)[pair.ravel()])
+    strange = ~np.isin(np.repeat(np.arange(len(graph)), length) * count + differing[at] % count, own)
+    if strange.any():
+        return (
+            f"segment {np.repeat(np.arange(len(graph)), length)[strange][0]} divides a polygon of which it is no edge"
+        )
+    is_border = length > 0
     is_border[segment[given.ring_kind[ring_of_edge] == LINE]] = True
     if not is_border.all():
         return f"segment {is_border.argmin()} bounds nothing"
     return None
+
+
+def _expanded(start: Any, length: Any) -> tuple[Any, Any]:
+    """The indices start, start + 1, … of each row, one row after the other; and the lengths."""
+    within = np.arange(length.sum()) - np.repeat(np.cumsum(length) - length, length)
+    return np.repeat(start, length) + within, length

@@ -80,15 +80,15 @@ def read(
     53
     """
     from vorotool.formats.images import is_image, read_image
-    from vorotool.formats.input_formats import known_input_format
+    from vorotool.formats.input_formats import NAMES_WITH, known_input_format
     from vorotool.formats.points import read_points
     from vorotool.formats.polygons import read_polygons, recognise
     from vorotool.formats.skeleton_json import read_skeleton, says_skeleton
     from vorotool.formats.sources import read_source
 
-    if geometry not in (None, "points", "polygons"):
+    if geometry not in NAMES_WITH:
         raise UsageError(f"geometry is {geometry!r}: use points or polygons, or leave it out")
-    input_format = known_input_format(input_format)
+    input_format = known_input_format(input_format, NAMES_WITH[geometry])
     threads = checked_threads(threads)
     source = read_source(fspath(path))
     if geometry is None and input_format in (None, "json") and says_skeleton(source.data):
