@@ -172,11 +172,16 @@ class Skeleton:
     @cached_property
     def on_frame(self) -> NDArray[np.bool_]:
         """(v,) whether each node is an end on the frame."""
+        return self.touches_frame & (self.degree == 1)
+
+    @cached_property
+    def touches_frame(self) -> NDArray[np.bool_]:
+        """(v,) whether each node is on the border of the frame: what goes on beyond is cut off."""
         if self.frame is None:
             return np.zeros(len(self.vertices), dtype=bool)
         x, y, w, h = self.frame
         sides = np.equal(self.vertices[:, :1], [x, x + w]) | np.equal(self.vertices[:, 1:], [y, y + h])
-        return np.asarray(sides.any(axis=1) & (self.degree == 1))
+        return np.asarray(sides.any(axis=1))
 
     @property
     def y_up(self) -> bool:
