@@ -15,6 +15,7 @@
 #include "core/large_array.hpp"
 #include "core/verify_triangulation.hpp"
 #include "interrupts.hpp"
+#include "mesh_arrays.hpp"
 
 namespace vorotool::bindings {
 namespace {
@@ -24,20 +25,6 @@ using namespace nb::literals;
 using core::DelaunayMesh;
 using core::Monitor;
 using core::Point;
-using Indices = Vector<const std::int32_t>;
-using IndexRows = Matrix<const std::int32_t>;
-
-std::span<const Point> as_points(const Matrix<const double>& array) {
-  if (array.shape(1) != 2) throw std::invalid_argument("points must have two columns");
-  static_assert(sizeof(Point) == 2 * sizeof(double));
-  return {reinterpret_cast<const Point*>(array.data()), array.shape(0)};
-}
-
-std::span<const std::int32_t> rows_of(const IndexRows& array, std::size_t columns) {
-  if (array.shape(1) != columns)
-    throw std::invalid_argument("an array of indices has a wrong number of columns");
-  return view(array);
-}
 
 nb::object copied(std::span<const std::int32_t> values) {
   core::LargeArray<std::int32_t> kept(values.size());
