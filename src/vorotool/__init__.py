@@ -35,6 +35,9 @@ _HOME = {
     "neighbour_table": "vorotool.engines.regions",
     "voronoi_diagram": "vorotool.engines.regions",
     "delaunay": "vorotool.engines.delaunay",
+    "edge_table": "vorotool.geometry.mesh_tables",
+    "triangle_table": "vorotool.geometry.mesh_tables",
+    "point_table": "vorotool.geometry.mesh_tables",
     "verify_triangulation": "vorotool.engines.delaunay",
     "colour_regions": "vorotool.engines.regions",
 }
