@@ -41,6 +41,12 @@ _HOME = {
     "point_table": "vorotool.geometry.mesh_tables",
     "verify_triangulation": "vorotool.engines.delaunay",
     "colour_regions": "vorotool.engines.regions",
+    "AlphaComplex": "vorotool.geometry.alpha_complex",
+    "AlphaShape": "vorotool.geometry.alpha_shape",
+    "alpha_complex": "vorotool.engines.alphashape",
+    "alpha_curves": "vorotool.engines.alphashape",
+    "alpha_edges": "vorotool.engines.alphashape",
+    "alpha_shape": "vorotool.engines.alphashape",
 }
 
 __all__ = ["__version__", *_HOME]  # noqa: PLE0604 - the keys are strings
