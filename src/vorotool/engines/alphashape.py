@@ -141,7 +141,7 @@ def chosen_radius(r: Any, alpha: Any, automatic: bool = False) -> Radius | None:
     r : number, optional
         The radius itself.
     alpha : number, optional
-        The paper's α = -1/r, negative. Of a float the double nearest to -1/α is taken, of an exact number the exact one.
+        The paper's α = -1/r, negative. For a float r is the double nearest to -1/α, for an exact number exact.
     automatic : bool
         Whether the smallest radius that holds all points was asked for by name.
 
@@ -157,11 +157,10 @@ def chosen_radius(r: Any, alpha: Any, automatic: bool = False) -> Radius | None:
     >>> chosen_radius(None, -0.1)
     10.0
     """
-    given = [
-        name for name, is_given in (("r", r is not None), ("alpha", alpha is not None), ("auto", automatic)) if is_given
-    ]
-    if len(given) > 1:
-        raise UsageError(f"{' and '.join(given)} are given, but each sets the radius: give one of r, alpha and auto")
+    given = {"r": r is not None, "alpha": alpha is not None, "auto": automatic}
+    named = [name for name, is_given in given.items() if is_given]
+    if len(named) > 1:
+        raise UsageError(f"{' and '.join(named)} are given, but each sets the radius: give one of r, alpha and auto")
     if alpha is not None:
         value = _number(alpha, "alpha")
         if not value < 0:

@@ -23,10 +23,10 @@ CLASSES = ("outside", "singular", "boundary", "interior")
 class AlphaComplex:
     """For each Delaunay edge the radii r at which it enters the alpha shape, bounds it, and goes inside.
 
-    The paper's α is -1/r. An edge is in the shape for r_min ≤ r < r_max: half its length, if it is a Gabriel edge, else
-    the smaller circumradius of its triangles; and the larger one, infinite where there is one triangle or none. From
-    r_mid on, the smaller circumradius, it bounds a triangle of the shape. A triangle is in the shape if its circumradius
-    is at most r. The paper has open intervals; the shapes differ only at radii of the spectrum.
+    The paper's α is -1/r. An edge is in the shape for r_min ≤ r < r_max. r_min is half its length, if it is a Gabriel
+    edge, else r_mid, the smaller circumradius of its triangles, from which on it bounds a triangle of the shape; r_max
+    is the larger one. They are infinite where there are not so many triangles. A triangle is in the shape if its
+    circumradius is at most r. The paper has open intervals; the shapes differ only at radii of the spectrum.
 
     Radii are correctly rounded. Comparisons go by ranks, which are places in the spectrum and exact.
 
@@ -102,7 +102,7 @@ class AlphaComplex:
         except OverflowError:
             rounded = inf
         low, high = (int(np.searchsorted(self.spectrum, rounded, side=side)) for side in ("left", "right"))
-        square = Fraction(r) ** 2 if np.isfinite(r) or isinstance(r, Fraction) else None
+        square = None if r == inf else Fraction(r) ** 2
         while low < high:
             middle = (low + high) // 2
             exact = self.squared_radius(middle)
@@ -140,7 +140,7 @@ class AlphaComplex:
         return self._fraction_from(rank, square)
 
     def _fraction_from(self, rank: int, square: Fraction) -> Fraction:
-        """Give the shortest decimal at least as large as a radius that another one follows within a double's spacing."""
+        """Give a decimal at least as large as a radius that another one follows within the spacing of doubles."""
         digits = 17
         while True:
             digits += 5

@@ -98,7 +98,7 @@ class AlphaShape:
         """(regions,) areas."""
         inside = self.inside
         areas = self.family.mesh.areas()[inside]
-        return np.bincount(self.region[inside], weights=areas, minlength=self.region_count)
+        return np.bincount(self.region[inside], areas, self.region_count).astype(np.float64)
 
     def edge_classes(self) -> NDArray[np.uint8]:
         """(e,) place of the class of each edge of the family in `CLASSES`."""
