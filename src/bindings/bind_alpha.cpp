@@ -82,9 +82,8 @@ nb::tuple shape_edges(const Indices& min, const Indices& mid, const Indices& max
   core::ShapeEdges found = run_interruptible(progress, [&](const Monitor& monitor) {
     return core::shape_edges(ranks, reached, entered, threads, monitor);
   });
-  return nb::make_tuple(
-      to_numpy(std::move(found.edge)),
-      column<std::uint8_t>(found.kind, [](core::EdgeClass kind) { return static_cast<std::uint8_t>(kind); }));
+  return nb::make_tuple(to_numpy(std::move(found.edge), {found.count}),
+                        to_numpy(std::move(found.kind), {found.count}));
 }
 
 nb::object connected_triangles(const Vector<const std::uint8_t>& inside, const IndexRows& sides,

@@ -13,6 +13,7 @@ namespace vorotool::core {
 namespace {
 
 constexpr std::size_t piece_size = std::size_t{1} << 13;  // triangles or edges: about a millisecond of work
+constexpr std::size_t ahead = 16;                         // triangles or edges
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::size_t pieces_of(std::size_t count) { return piece_count(count, piece_size); }
@@ -75,9 +76,16 @@ class AlphaBuilder {
     return {a, at(in_.edges[2 * edge + 1]), a, false};
   }
 
+  // Points may be anywhere in memory: they are called for before they are needed.
+  void call_for(std::span<const std::int32_t> corners, std::size_t first, std::size_t count) const {
+    for (std::size_t i = first; i < std::min(first + count, corners.size()); ++i)
+      __builtin_prefetch(&at(corners[i]));
+  }
+
   void measure_triangles() {
     for_pieces(triangles_, threads_, monitor_, [&](std::size_t, std::size_t first, std::size_t end) {
       for (std::size_t t = first; t < end; ++t) {
+        call_for(in_.triangles, 3 * (t + ahead), 3);
         const Point &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
         const TriangleMeasure found = measure_triangle(a, b, c);
         const bool is_flat = found.radius == infinity && orient2d(a, b, c) == 0;
@@ -104,6 +112,7 @@ class AlphaBuilder {
   void measure_edges() {
     for_pieces(edges_, threads_, monitor_, [&](std::size_t, std::size_t first, std::size_t end) {
       for (std::size_t i = triangles_ + first; i < triangles_ + end; ++i) {
+        call_for(in_.edges, 2 * (i - triangles_ + ahead), 2);
         const auto item = static_cast<std::uint32_t>(i);
         value_[i] = starts_at_half(i - triangles_) ? critical_radius(support_of(item)) : left_out;
       }

@@ -12,7 +12,7 @@
 namespace vorotool::core {
 namespace {
 
-constexpr std::size_t piece_size = std::size_t{1} << 17;  // edges: some tenths of a millisecond of work
+constexpr std::size_t piece_size = std::size_t{1} << 16;  // edges: some tenths of a millisecond of work
 constexpr std::size_t poll_interval = std::size_t{1} << 16;
 
 void poll(const Monitor& monitor, std::size_t done, std::size_t total) {
@@ -106,26 +106,32 @@ class RingTracer {
 
 }  // namespace
 
+// Each piece writes where it would if all edges before it were in the shape, every candidate, and the next
+// one over it unless it is: faster than a branch. Then the pieces are moved together.
 ShapeEdges shape_edges(const EdgeRanks& ranks, std::int32_t reached, std::int32_t entered, unsigned threads,
                        const Monitor& monitor) {
-  const std::size_t count = ranks.min.size();
-  std::vector<ShapeEdges> parts(piece_count(count, piece_size));
+  const std::size_t size = ranks.min.size();
+  ShapeEdges out{LargeArray<std::int32_t>(size), LargeArray<std::uint8_t>(size), 0};
+  std::vector<std::size_t> counts(piece_count(size, piece_size));
   const auto scan = [&](std::size_t piece) {
-    ShapeEdges& part = parts[piece];
-    const std::size_t end = std::min(count, (piece + 1) * piece_size);
-    for (std::size_t e = piece * piece_size; e < end; ++e) {
-      if (ranks.min[e] >= entered || ranks.max[e] < reached) continue;
-      part.edge.push_back(static_cast<std::int32_t>(e));
-      part.kind.push_back(ranks.mid[e] < reached ? EdgeClass::boundary : EdgeClass::singular);
+    const std::size_t begin = piece * piece_size, end = std::min(size, begin + piece_size);
+    std::size_t next = begin;
+    for (std::size_t e = begin; e < end; ++e) {
+      out.edge[next] = static_cast<std::int32_t>(e);
+      out.kind[next] =
+          static_cast<std::uint8_t>(ranks.mid[e] < reached ? EdgeClass::boundary : EdgeClass::singular);
+      next += (ranks.min[e] < entered) & (ranks.max[e] >= reached);
     }
+    counts[piece] = next - begin;
   };
-  parallel_for(parts.size(), threads, scan, monitor);
-  ShapeEdges all;
-  for (const ShapeEdges& part : parts) {
-    all.edge.insert(all.edge.end(), part.edge.begin(), part.edge.end());
-    all.kind.insert(all.kind.end(), part.kind.begin(), part.kind.end());
+  parallel_for(counts.size(), threads, scan, monitor);
+  for (std::size_t piece = 0; piece < counts.size(); ++piece) {
+    const std::size_t begin = piece * piece_size, end = begin + counts[piece];
+    std::copy(out.edge.data() + begin, out.edge.data() + end, out.edge.data() + out.count);
+    std::copy(out.kind.data() + begin, out.kind.data() + end, out.kind.data() + out.count);
+    out.count += counts[piece];
   }
-  return all;
+  return out;
 }
 
 std::vector<std::int32_t> connected_triangles(std::span<const std::uint8_t> is_inside,

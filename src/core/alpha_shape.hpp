@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/large_array.hpp"
 #include "core/monitor.hpp"
 #include "core/predicates.hpp"
 
@@ -18,8 +19,9 @@ struct EdgeRanks {
 };
 
 struct ShapeEdges {
-  std::vector<std::int32_t> edge;  // singular and boundary ones, increasing
-  std::vector<EdgeClass> kind;
+  LargeArray<std::int32_t> edge;  // singular and boundary ones, increasing; `count` of them
+  LargeArray<std::uint8_t> kind;  // an EdgeClass each
+  std::size_t count;
 };
 
 // The edges of the shape in which ranks below `reached` have come; edges enter at ranks below `entered`,

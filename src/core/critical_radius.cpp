@@ -322,8 +322,8 @@ bool is_obtuse_exactly(const Point& a, const Point& b, const Point& p) {
   return ((at[0] - at[4]) * (at[2] - at[4]) + (at[1] - at[5]) * (at[3] - at[5])).sign() < 0;
 }
 
-// Errors of the heads of the squares are at most (1 + 20 u) u of them; those of the two sums make it less than
-// 4 u of all three.
+// Errors of the heads of the squares are at most (1 + 20 u) u of them; those of the two sums make it less
+// than 4 u of all three.
 int obtuse_corner(const Triangle& t, const std::array<const Point*, 3>& corner) {
   const auto& s = t.square;
   const double doubt = 4 * u * (s[0].head + s[1].head + s[2].head);
@@ -331,7 +331,8 @@ int obtuse_corner(const Triangle& t, const std::array<const Point*, 3>& corner) 
     const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
     const double excess = s[k].head - (s[i].head + s[j].head);
     if (excess < -doubt) continue;
-    if (excess > doubt || is_inside_diametral_disc(*corner[i], *corner[j], *corner[k])) return static_cast<int>(k);
+    if (excess > doubt || is_inside_diametral_disc(*corner[i], *corner[j], *corner[k]))
+      return static_cast<int>(k);
   }
   return 3;
 }

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <limits>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 #include "core/parallel.hpp"
@@ -41,8 +42,10 @@ class Sorter {
     count();
     LargeArray<std::uint64_t> words(start_[buckets]);
     fill(words);
+    parallel_for(buckets, threads_, [&](std::size_t b) { sort_bucket(b, words); }, monitor_);
+    settle_long_runs();
     LargeArray<double> sorted(start_[buckets]);
-    parallel_for(buckets, threads_, [&](std::size_t b) { sort_bucket(b, words, sorted.data()); }, monitor_);
+    parallel_for(buckets, threads_, [&](std::size_t b) { gather(b, words, sorted); }, monitor_);
     return write(words, sorted);
   }
 
@@ -107,70 +110,98 @@ class Sorter {
 
   static std::uint32_t item_of(std::uint64_t word) { return static_cast<std::uint32_t>(word & 0x7fffffff); }
 
-  // Puts the words of a bucket in the order of the exact values, and what is left of them are the numbers of
-  // the items, marked where a value begins.
-  void sort_bucket(std::size_t bucket, LargeArray<std::uint64_t>& words, double* sorted) {
-    const std::size_t begin = start_[bucket], end = start_[bucket + 1];
-    if (begin == end) return;
-    std::vector<std::uint64_t> chosen(words.data() + begin, words.data() + end);
+  // Puts the words of a bucket in the order of the exact values. What is left of them are the numbers of the
+  // items, marked where a value begins; long runs of equal doubles are left for settle_long_runs.
+  void sort_bucket(std::size_t bucket, LargeArray<std::uint64_t>& words) {
+    const std::span<std::uint64_t> place(words.data() + start_[bucket], words.data() + start_[bucket + 1]);
+    if (place.empty()) return;
+    std::vector<std::uint64_t> chosen(place.begin(), place.end());
     radix_sort(chosen, item_bits, item_bits + digit_bits);
-    settle(chosen, 0, chosen.size());
-    std::size_t distinct = 0;
-    for (std::size_t i = 0; i < chosen.size(); ++i) {
-      words[begin + i] = chosen[i];
-      sorted[begin + i] = values_[item_of(chosen[i])];
-      distinct += (chosen[i] & starts) != 0;
-    }
-    distinct_[bucket] = distinct;
-  }
-
-  // Sorts runs of words with equal keys by value, and of these runs with equal values exactly.
-  void settle(std::vector<std::uint64_t>& words, std::size_t begin, std::size_t end) const {
-    const auto value = [&](std::uint64_t word) { return values_[item_of(word)]; };
-    for (std::size_t i = begin; i < end;) {
-      std::size_t run = i + 1;
-      while (run < end && words[run] >> item_bits == words[i] >> item_bits) ++run;
-      const auto same_key = std::span(words).subspan(i, run - i);
-      for (std::uint64_t& word : same_key) word = item_of(word);
-      const auto comes_before = [&](std::uint64_t a, std::uint64_t b) {
-        return value(a) != value(b) ? value(a) < value(b) : a < b;
-      };
-      if (!std::is_sorted(same_key.begin(), same_key.end(), comes_before)) {
-        std::sort(same_key.begin(), same_key.end(), comes_before);
-      }
-      for (std::size_t j = i; j < run;) {
-        std::size_t equal = j + 1;
-        while (equal < run && value(words[equal]) == value(words[j])) ++equal;
-        settle_equal(std::span(words).subspan(j, equal - j));
-        j = equal;
-      }
-      i = run;
+    std::copy(chosen.begin(), chosen.end(), place.begin());
+    for (std::size_t i = 0; i < place.size();) {
+      std::size_t end = i + 1;
+      while (end < place.size() && place[end] >> item_bits == place[i] >> item_bits) ++end;
+      settle_key(place.subspan(i, end - i));
+      i = end;
     }
   }
 
-  // Items with one double: those less than one in the middle, those equal to it, those greater, and so on
-  // within both; the smaller part by recursion, so that its depth is logarithmic.
-  void settle_equal(std::span<std::uint64_t> words) const {
+  double value(std::uint64_t word) const { return values_[item_of(word)]; }
+
+  // Sorts words with one key by value, and runs of equal values exactly.
+  void settle_key(std::span<std::uint64_t> words) {
+    for (std::uint64_t& word : words) word = item_of(word);
+    const auto comes_before = [&](std::uint64_t a, std::uint64_t b) {
+      return value(a) != value(b) ? value(a) < value(b) : a < b;
+    };
+    if (!std::is_sorted(words.begin(), words.end(), comes_before))
+      std::sort(words.begin(), words.end(), comes_before);
+    for (std::size_t i = 0; i < words.size();) {
+      std::size_t end = i + 1;
+      while (end < words.size() && value(words[end]) == value(words[i])) ++end;
+      settle_equal(words.subspan(i, end - i));
+      i = end;
+    }
+  }
+
+  void settle_equal(std::span<std::uint64_t> words) {
+    if (words.size() > long_run) {
+      const std::lock_guard lock(mutex_);
+      long_runs_.push_back(words);
+      return;
+    }
+    std::vector<std::int8_t> signs;
     while (!words.empty()) {
       std::swap(words[0], words[words.size() / 2]);
-      std::vector<std::uint64_t> less, greater;
-      std::size_t equal = 1;
-      for (const std::uint64_t word : words.subspan(1)) {
-        const int sign = compare_(item_of(word), item_of(words[0]));
-        if (sign == 0) {
-          words[equal++] = word;
-        } else {
-          (sign < 0 ? less : greater).push_back(word);
-        }
-      }
-      const auto middle = words.subspan(less.size(), equal);
-      std::copy_backward(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(equal), middle.end());
-      std::copy(less.begin(), less.end(), words.begin());
-      std::copy(greater.begin(), greater.end(), middle.end());
-      middle[0] |= starts;
-      const auto before = words.first(less.size()), after = words.last(greater.size());
+      signs.resize(words.size());
+      for (std::size_t i = 0; i < words.size(); ++i) signs[i] = compared(words, i);
+      const auto [before, after] = part(words, signs);
+      // The smaller part by recursion: its depth is logarithmic.
       settle_equal(before.size() < after.size() ? before : after);
       words = before.size() < after.size() ? after : before;
+    }
+  }
+
+  // On all threads together, since there may be but one such run; and the monitor is served.
+  void settle_long_runs() {
+    std::vector<std::int8_t> signs;
+    while (!long_runs_.empty()) {
+      const std::span<std::uint64_t> words = long_runs_.back();
+      long_runs_.pop_back();
+      std::swap(words[0], words[words.size() / 2]);
+      signs.resize(words.size());
+      const auto compare_piece = [&](std::size_t piece) {
+        const std::size_t end = std::min(words.size(), (piece + 1) * long_run);
+        for (std::size_t i = piece * long_run; i < end; ++i) signs[i] = compared(words, i);
+      };
+      parallel_for(piece_count(words.size(), long_run), threads_, compare_piece, monitor_);
+      const auto [before, after] = part(words, signs);
+      settle_equal(before);
+      settle_equal(after);
+    }
+  }
+
+  std::int8_t compared(std::span<const std::uint64_t> words, std::size_t i) const {
+    return i == 0 ? std::int8_t{0} : static_cast<std::int8_t>(compare_(item_of(words[i]), item_of(words[0])));
+  }
+
+  // Words whose values are less than, equal to and greater than that of the first one, by the signs; the
+  // first and the last part remain to be settled.
+  static std::pair<std::span<std::uint64_t>, std::span<std::uint64_t>> part(
+      std::span<std::uint64_t> words, const std::vector<std::int8_t>& signs) {
+    std::array<std::vector<std::uint64_t>, 3> parts;
+    for (std::size_t i = 0; i < words.size(); ++i)
+      parts[static_cast<std::size_t>(signs[i] + 1)].push_back(words[i]);
+    parts[1][0] |= starts;
+    auto place = words.begin();
+    for (const auto& one : parts) place = std::copy(one.begin(), one.end(), place);
+    return {words.first(parts[0].size()), words.last(parts[2].size())};
+  }
+
+  void gather(std::size_t bucket, const LargeArray<std::uint64_t>& words, LargeArray<double>& sorted) {
+    for (std::size_t i = start_[bucket]; i < start_[bucket + 1]; ++i) {
+      sorted[i] = value(words[i]);
+      distinct_[bucket] += (words[i] & starts) != 0;
     }
   }
 
@@ -206,6 +237,7 @@ class Sorter {
     return out;
   }
 
+  static constexpr std::size_t long_run = std::size_t{1} << 12;  // some milliseconds of exact comparisons
   static constexpr std::uint64_t starts = std::uint64_t{1} << item_bits;  // once sorted the key is not needed
 
   std::span<const double> values_;
@@ -216,6 +248,8 @@ class Sorter {
   int shift_ = 0;
   std::vector<std::array<std::uint32_t, buckets>> counts_;  // [pieces]
   std::array<std::size_t, buckets + 1> start_{};
+  std::vector<std::span<std::uint64_t>> long_runs_;  // in any order
+  std::mutex mutex_;                                 // guards them
   std::vector<std::size_t> distinct_;  // values of each bucket; once all are sorted, of those before it
 };
 

@@ -265,7 +265,7 @@ def test_auto_is_the_smallest(name, regions):
 
 
 def test_auto_where_the_regions_are_not_monotone():
-    """A hole of four triangles, the inner one of which has the smallest circle: one region, then two, then one again."""
+    """A hole of four triangles of which the inner one has the smallest circle: one region, two, then one again."""
     inner = np.array([[0, 0], [1, 0], [0.5, 0.75**0.5]])
     centre = inner.mean(axis=0)
     middles = (np.roll(inner, -1, axis=0) + np.roll(inner, -2, axis=0)) / 2
