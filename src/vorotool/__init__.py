@@ -36,6 +36,12 @@ _HOME = {
     "voronoi_diagram": "vorotool.engines.regions",
     "delaunay": "vorotool.engines.delaunay",
     "verify_triangulation": "vorotool.engines.delaunay",
+    "DigitalTriangulation": "vorotool.geometry.digital_triangulation",
+    "digital_triangulation": "vorotool.engines.digital_triangulation",
+    "digital_delaunay": "vorotool.engines.digital_triangulation",
+    "repair_digital": "vorotool.engines.digital_triangulation",
+    "DigitalComparison": "vorotool.geometry.digital_comparison",
+    "compare_digital": "vorotool.engines.digital_comparison",
     "colour_regions": "vorotool.engines.regions",
 }
 
