@@ -160,7 +160,7 @@ def test_lengths_of_voronoi_edges():
 
 
 def test_few_seeds():
-    for seeds in ([[1, 1]], [[1, 1], [5, 5]], [[0, 0], [2, 2], [4, 4]]):
+    for seeds in ([], [[1, 1]], [[1, 1], [5, 5]], [[0, 0], [2, 2], [4, 4]]):
         comparison = compare_digital(seeds, shape=(8, 8))
         assert (comparison.edge_precision, comparison.edge_recall, comparison.triangle_recall) == (1, 1, 1)
         assert comparison.suggestion == ""

@@ -140,8 +140,6 @@ def test_what_cannot_be_read():
         digital_triangulation([[0, 0]], shape=(2, 2), window=(0, 0, 2, 2))
     with pytest.raises(InputError, match="use --window"):
         digital_triangulation([[-1, 0]])
-    with pytest.raises(InputError, match="there are no seeds"):
-        digital_triangulation([])
     image = LabelImage(np.array([[1, 3]], dtype=np.uint8), seeds=SeedSet([0], [0], [1]))
     with pytest.raises(InputError, match="label 3, none of the 1 sites"):
         digital_triangulation(image)
@@ -223,6 +221,12 @@ def test_chains(seeds):
     mesh, repair = repair_digital(seeds)
     assert_same(mesh, delaunay(seeds))
     assert (repair.route, len(mesh)) == ("chain", 0)
+
+
+def test_no_seeds():
+    assert len(digital_triangulation([]).points) == len(digital_triangulation([]).edges) == 0
+    mesh, repair = repair_digital([])
+    assert (len(mesh.points), len(mesh.edges), repair.route) == (0, 0, "chain")
 
 
 def test_each_step_is_needed():

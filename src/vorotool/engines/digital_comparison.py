@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.delaunay import delaunay
 from vorotool.engines.delaunay_ties import DelaunayTies
-from vorotool.engines.digital import as_seeds, asked_frame, default_frame, require_memory, require_seeds
+from vorotool.engines.digital import as_seeds, asked_frame, default_frame, require_memory
 from vorotool.engines.digital_causes import SHORT, Causes, Members, members_of
 from vorotool.engines.digital_triangulation import digital_triangulation, one_seed_a_label
 from vorotool.engines.label_arrays import Progress
@@ -68,7 +68,7 @@ def compare_digital(
     Raises
     ------
     InputError
-        If there is no seed, or several seeds share a label.
+        If several seeds share a label.
     LimitError
         If the frame has more than `max_pixels` pixels.
 
@@ -78,10 +78,11 @@ def compare_digital(
     >>> comparison.triangle_precision, comparison.table.rows
     (1.0, 0)
     """
-    seeds = as_seeds(source)
-    require_seeds(seeds)
+    seeds, frame = as_seeds(source), asked_frame(shape, window)
     one_seed_a_label(seeds)
-    frame = asked_frame(shape, window) or default_frame(seeds)
+    if not len(seeds):
+        return DigitalComparison(1.0, 1.0, 1.0, 1.0, _table([], np.empty(0, np.int64)), {}, "")
+    frame = frame or default_frame(seeds)
     require_memory(frame, max_pixels)
     threads = checked_threads(threads)
     sweep = Tessellator(seeds, frame, threads=threads, strict=strict, progress=progress)

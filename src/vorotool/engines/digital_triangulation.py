@@ -11,14 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.delaunay import MOST_POINTS
+from vorotool.engines.delaunay import MOST_POINTS, delaunay
 from vorotool.engines.digital import (
     as_seeds,
     asked_frame,
     band_limits,
     default_frame,
     require_memory,
-    require_seeds,
 )
 from vorotool.engines.label_arrays import Progress, label_array
 from vorotool.engines.regions import measure_regions
@@ -65,11 +64,12 @@ def digital_triangulation(
     Returns
     -------
     DigitalTriangulation
+        Empty if there are no seeds.
 
     Raises
     ------
     InputError
-        If there is no seed, a seed is unusable, or the points have negative coordinates and no window.
+        If a seed is unusable, or the points have negative coordinates and no window.
     UsageError
         If options do not go together.
 
@@ -86,9 +86,10 @@ def digital_triangulation(
     threads = checked_threads(threads)
     if isinstance(source, LabelImage):
         return _read(source, _sites_of_image(source, threads), [label_array(source.labels)], threads, progress)
-    seeds = as_seeds(source)
-    require_seeds(seeds)
-    sweep = Tessellator(seeds, asked_frame(shape, window), threads=threads, strict=strict, progress=progress)
+    seeds, frame = as_seeds(source), asked_frame(shape, window)
+    if not len(seeds):
+        return _read(seeds, _sites_of_seeds(seeds), [], threads, None)
+    sweep = Tessellator(seeds, frame, threads=threads, strict=strict, progress=progress)
     return _read(seeds, _sites_of_seeds(seeds), _bands(sweep), threads, None)
 
 
@@ -266,7 +267,7 @@ def repair_digital(
     Raises
     ------
     InputError
-        If there is no seed, or several seeds share a label: regions of objects have no triangulation of points.
+        If several seeds share a label: regions of objects have no triangulation of points.
     LimitError
         If the frame has more than `max_pixels` pixels, or there are more than 2^28 seeds.
 
@@ -285,10 +286,11 @@ def repair_digital(
     >>> len(mesh), repair.route, repair.filled
     (3, 'repaired', 1)
     """
-    seeds = as_seeds(source)
-    require_seeds(seeds)
+    seeds, frame = as_seeds(source), asked_frame(shape, window)
     order = one_seed_a_label(seeds)
-    frame = asked_frame(shape, window) or default_frame(seeds)
+    if not len(seeds):
+        return delaunay(seeds), DigitalRepair("chain")
+    frame = frame or default_frame(seeds)
     require_memory(frame, max_pixels)
     threads = checked_threads(threads)
     ranked = SeedSet(seeds.x[order], seeds.y[order], np.arange(1, len(order) + 1, dtype=np.uint32), scale=seeds.scale)

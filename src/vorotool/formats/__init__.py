@@ -105,7 +105,7 @@ def write(
 
     Parameters
     ----------
-    value : LabelImage, Table or Triangulation
+    value : LabelImage, Table, Triangulation or DigitalTriangulation
         What to write: images as PNG, TIFF, NPY or text, tables as CSV, JSON or NPZ, a triangulation as one of
         these, GeoJSON, OBJ, or a file of Triangle.
     path : str or path
@@ -134,6 +134,7 @@ def write(
     """
     from vorotool.errors import UsageError
     from vorotool.formats.outputs import open_output
+    from vorotool.geometry.digital_triangulation import DigitalTriangulation
     from vorotool.geometry.label_image import LabelImage
     from vorotool.geometry.table import Table
     from vorotool.geometry.triangulation import Triangulation
@@ -141,9 +142,9 @@ def write(
     name = (fmt or Path(path).suffix).lower().lstrip(".")
     chosen: Any = {"tif": "tiff", "txt": "text"}.get(name, name)
     threads = checked_threads(threads)
-    if not isinstance(value, LabelImage | Table | Triangulation):
+    if not isinstance(value, LabelImage | Table | Triangulation | DigitalTriangulation):
         raise UsageError(f"a {type(value).__name__} cannot be written: give a LabelImage, Table or Triangulation")
-    if what is not None and not isinstance(value, Triangulation):
+    if what is not None and not isinstance(value, Triangulation | DigitalTriangulation):
         raise UsageError(f"what={what!r} is for triangulations: leave it out with a {type(value).__name__}")
     if isinstance(value, LabelImage):
         _write_image(value, fspath(path), chosen, threads)

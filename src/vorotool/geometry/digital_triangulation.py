@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.geometry.triangulation import ALL, Triangulation, lengths_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,8 +98,16 @@ class DigitalTriangulation:
         """(n,) labels of the regions."""
         return self.labels
 
+    def edge_lengths(self, rows: slice = ALL) -> NDArray[np.float64]:
+        """(e,) distances between the sites of the edges, or of some of them."""
+        return lengths_of(self.points, self.edges[rows])
+
     def sides(self) -> NDArray[np.int32]:
         """(s, 2) sides of the triangles, each once, the smaller index first, in lexicographic order."""
         pairs = self.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
         sides: NDArray[np.int32] = np.unique(np.sort(pairs, axis=1), axis=0)
         return sides
+
+
+AnyTriangulation = Triangulation | DigitalTriangulation
+"""What has points, edges and triangles to write or draw, whether or not these fit together."""
