@@ -220,3 +220,23 @@ def alpha_curves(
 # rows of six: three points, the first two and the first again for an edge
 def critical_radii(supports: NDArray[np.float64]) -> NDArray[np.float64]: ...
 def compare_radii(p: NDArray[np.float64], q: NDArray[np.float64]) -> NDArray[np.int8]: ...
+
+# ---- digital triangulation (bind_digital.cpp): rows are C-contiguous uint8, uint16 or uint32 labels ----------------
+
+class DigitalTriangulationScan:
+    def __init__(self) -> None: ...
+    def add_rows(self, rows: NDArray[Any], threads: int, progress: _Progress) -> None: ...
+    def finish(self) -> dict[str, Any]: ...
+
+def digital_mesh(
+    points: NDArray[np.float64],
+    x: NDArray[np.int64],
+    y: NDArray[np.int64],
+    scale: int,
+    image: NDArray[np.uint32],
+    frame_x: int,
+    frame_y: int,
+    threads: int,
+    progress: _Progress,
+) -> tuple[DelaunayMesh, dict[str, Any]]: ...
+def inserted_mesh(points: NDArray[np.float64], threads: int, progress: _Progress) -> DelaunayMesh: ...

@@ -258,6 +258,7 @@ def test_bad_input(run, folder, name):
         (["--layers", "points"], "--layers is for pictures"),
         (["--width", "300"], "--width is for pictures"),
         (["--layers", "cellar", "-f", "svg"], "not one of triangles, edges, points, labels"),
+        (["--layers", "labels", "-o", "a.png"], "--layers labels: a picture in PNG has triangles, edges, points"),
         (["--precision", "3", "-o", "a.npz"], "--precision is for numbers in text"),
         (["--precision", "0"], "precision"),
         (["--threshold", "otsu"], "--threshold is for images, but the input is a list of points"),
@@ -347,9 +348,8 @@ def test_permuted_input_permutes_labels_only(run, folder):
 
 def test_pictures(run, folder):
     assert run("delaunay", DOTS, "--what", "triangles", "-o", "t.png", "--width", "300").code == 0
-    image = Image.open(folder / "t.png")
-    assert image.mode == "RGB"
-    assert image.width == 300
+    with Image.open(folder / "t.png") as image:
+        assert (image.mode, image.width) == ("RGB", 300)
     done = run("delaunay", DOTS, "-f", "svg")
     assert '<g id="edges"' in done.out
     assert '<g id="points"' in done.out

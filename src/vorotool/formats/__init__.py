@@ -121,7 +121,7 @@ def write(
 
     Parameters
     ----------
-    value : LabelImage, Table, PolygonSet or Triangulation
+    value : LabelImage, Table, PolygonSet, Triangulation or DigitalTriangulation
         What to write: images as PNG, TIFF, NPY or text, tables as CSV, JSON or NPZ, polygons as JSON, GeoJSON, WKT or
         .poly, a triangulation as a table, GeoJSON, OBJ, or a file of Triangle.
     path : str or path
@@ -150,6 +150,7 @@ def write(
     """
     from vorotool.errors import UsageError
     from vorotool.formats.outputs import open_output
+    from vorotool.geometry.digital_triangulation import DigitalTriangulation
     from vorotool.geometry.label_image import LabelImage
     from vorotool.geometry.polygons import PolygonSet
     from vorotool.geometry.table import Table
@@ -158,11 +159,11 @@ def write(
     name = (fmt or Path(path).suffix).lower().lstrip(".")
     chosen: Any = {"tif": "tiff", "txt": "text"}.get(name, name)
     threads = checked_threads(threads)
-    if not isinstance(value, LabelImage | Table | PolygonSet | Triangulation):
+    if not isinstance(value, LabelImage | Table | PolygonSet | Triangulation | DigitalTriangulation):
         raise UsageError(
             f"a {type(value).__name__} cannot be written: give a LabelImage, a Table, a PolygonSet or a Triangulation"
         )
-    if what is not None and not isinstance(value, Triangulation):
+    if what is not None and not isinstance(value, Triangulation | DigitalTriangulation):
         raise UsageError(f"what={what!r} is for triangulations: leave it out with a {type(value).__name__}")
     if isinstance(value, LabelImage):
         _write_image(value, fspath(path), chosen, threads)

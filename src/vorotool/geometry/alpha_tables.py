@@ -30,7 +30,7 @@ def shape_edge_table(shape: AlphaShape, *, interior: bool = False) -> Table:
     >>> from vorotool import alpha_shape
     >>> table = shape_edge_table(alpha_shape([[0, 0], [4, 0], [0, 3]], r=2))
     >>> table["label_a"].tolist(), table["r_max"].tolist(), table["class"]
-    ([1, 1], [2.5, 2.5], ['singular', 'singular'])
+    ([1, 1], [inf, inf], ['singular', 'singular'])
     """
     family = shape.family
     classes = shape.edge_classes()

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from vorotool.geometry.triangulation import Triangulation
+from vorotool.geometry.digital_triangulation import AnyTriangulation
 from vorotool.render.label_png import checked_layers
 from vorotool.render.layers import Layer, Lines, Page, Points, Polygons, Texts, bounds_of
 from vorotool.render.palettes import CELLS, INK
@@ -15,12 +15,12 @@ LAYERS = ("triangles", "edges", "points", "labels")
 """From below."""
 
 
-def mesh_layers(mesh: Triangulation, page: Page, layers: Iterable[str]) -> list[Layer]:
+def mesh_layers(mesh: AnyTriangulation, page: Page, layers: Iterable[str]) -> list[Layer]:
     """Make layers of a triangulation; lines and discs get finer where points are crowded.
 
     Parameters
     ----------
-    mesh : Triangulation
+    mesh : Triangulation or DigitalTriangulation
         What to draw.
     page : Page
         Where it will be drawn.
@@ -54,7 +54,25 @@ def mesh_layers(mesh: Triangulation, page: Page, layers: Iterable[str]) -> list[
     return [made[name] for name in LAYERS if name in wanted]
 
 
-def mesh_page(mesh: Triangulation, *, width: int = 1000, y_up: bool | None = None) -> Page:
-    """The page that shows all points of a triangulation; y upwards where the input says so."""
+def mesh_page(
+    mesh: AnyTriangulation,
+    *,
+    width: int = 1000,
+    y_up: bool | None = None,
+    bounds: tuple[float, float, float, float] | None = None,
+) -> Page:
+    """The page of a picture: with all points of a triangulation, or with other bounds.
+
+    Parameters
+    ----------
+    mesh : Triangulation or DigitalTriangulation
+        What to draw; where ``y_up`` is not given, its own decides.
+    width : int
+        In px.
+    y_up : bool, optional
+        Draw y upwards.
+    bounds : (x, y, x, y), optional
+        The least and the largest coordinates to show.
+    """
     up = mesh.y_up if y_up is None else y_up
-    return Page(bounds_of([Points("points", mesh.points)]), width=width, y_up=up)
+    return Page(bounds or bounds_of([Points("points", mesh.points)]), width=width, y_up=up)
