@@ -52,6 +52,8 @@ _HOME = {
     "alpha_complex": "vorotool.engines.alphashape",
     "alpha_curves": "vorotool.engines.alphashape",
     "alpha_edges": "vorotool.engines.alphashape",
+    "AlphaHull": "vorotool.geometry.alpha_hull",
+    "alpha_hull": "vorotool.engines.alpha_hull",
     "alpha_shape": "vorotool.engines.alphashape",
 }
 
