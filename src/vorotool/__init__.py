@@ -55,6 +55,7 @@ _HOME = {
     "AlphaHull": "vorotool.geometry.alpha_hull",
     "alpha_hull": "vorotool.engines.alpha_hull",
     "alpha_shape": "vorotool.engines.alphashape",
+    "verify_alpha_shape": "vorotool.engines.verify_alpha",
 }
 
 __all__ = ["__version__", *_HOME]  # noqa: PLE0604 - the keys are strings

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -12,7 +13,16 @@ from hypothesis import strategies as st
 import vorotool
 from alpha_oracle import alpha_edges, rounded_root
 from point_families import FAMILIES, draw
-from vorotool import InputError, UsageError, VorotoolWarning, alpha_complex, alpha_curves, alpha_shape
+from vorotool import (
+    InputError,
+    UsageError,
+    VerificationError,
+    VorotoolWarning,
+    alpha_complex,
+    alpha_curves,
+    alpha_shape,
+    verify_alpha_shape,
+)
 from vorotool.geometry.alpha_complex import CLASSES, classes_of
 
 families = pytest.mark.parametrize("name", FAMILIES)
@@ -171,6 +181,7 @@ def shape_triangles(shape):
 
 def check_polygons(shape):
     """Polygons are valid, one a region, and together what the triangles are."""
+    verify_alpha_shape(shape)
     polygons = shape.polygons
     assert len(polygons) == shape.region_count
     made = []
@@ -392,20 +403,20 @@ def test_regions_and_rings_that_touch():
 @pytest.mark.parametrize(
     ("options", "error", "message"),
     [
-        ({"r": 0}, InputError, "r is 0.0: a radius must be positive"),
-        ({"r": -1}, InputError, "r is -1.0: a radius must be positive"),
-        ({"r": float("nan")}, InputError, "r is nan: give a number"),
-        ({"r": "x"}, InputError, "r is 'x': give a number"),
+        ({"r": 0}, UsageError, "r is 0: a radius must be positive"),
+        ({"r": -1}, UsageError, "r is -1: a radius must be positive"),
+        ({"r": float("nan")}, UsageError, "r is nan: give a number"),
+        ({"r": "x"}, UsageError, "r is 'x': give a number"),
         (
             {"alpha": 0.1},
-            InputError,
+            UsageError,
             r"alpha must be negative \(α = −1/r\): for the alphashape package's 0.1 use -r 10$",
         ),
-        ({"alpha": 0}, InputError, r"alpha must be negative \(α = −1/r\), but is 0"),
+        ({"alpha": 0}, UsageError, r"alpha must be negative \(α = −1/r\): for the convex hull use -r inf$"),
         ({"r": 1, "alpha": -1}, UsageError, "r and alpha are given, but each sets the radius: give one of"),
         ({"r": 1, "regions": 2}, UsageError, "regions is for the automatic choice"),
         ({"regions": 0}, UsageError, "regions is 0: at least 1"),
-        ({"hole_threshold": -1}, InputError, "hole_threshold is -1: give an area of at least 0"),
+        ({"hole_threshold": -1}, UsageError, "hole_threshold is -1: give an area of at least 0"),
         ({"rule": "other"}, UsageError, "rule is 'other': use corrected, or printed"),
     ],
 )
@@ -433,6 +444,45 @@ def test_alpha_is_minus_one_over_r():
     shape = alpha_shape([[0, 0], [4, 0], [0, 3]], alpha=Fraction(-2, 5))
     assert (shape.r, shape.alpha, shape.region_count) == (Fraction(5, 2), -0.4, 1)
     assert alpha_shape([[0, 0], [4, 0], [0, 3]], alpha=-0.1).r == 10.0
+
+
+def changed(shape, array, index, value):
+    values = getattr(shape, array).copy()
+    values[index] = value
+    return replace(shape, **{array: values})
+
+
+def test_the_checker_finds_faults():
+    family = alpha_complex(draw("uniform", 60, 2))
+    shape = alpha_shape(family, r=float(np.median(family.spectrum)))
+    verify_alpha_shape(shape)
+    inside, outside = int(np.argmax(shape.inside)), int(np.argmin(shape.inside))
+    last = shape.region_count - 1
+    polygons = shape.polygons
+    faulty = {
+        "is in the shape, but its circumradius": replace(shape, r=shape.r / 2),
+        "is not in the shape, but its circumradius": replace(shape, r=shape.r * 2),
+        "triangle": changed(shape, "region", outside, 0),
+        "triangle ": changed(shape, "region", inside, -1),
+        "but should be": changed(shape, "kind", 0, 3 - int(shape.kind[0])),
+        "edge": replace(shape, edge_index=shape.edge_index[1:], kind=shape.kind[1:]),
+        "regions": replace(shape, region=np.minimum(shape.region, last - 1)),
+        "rings": replace(shape, polygons=replace(polygons, xy=np.roll(polygons.xy, 1, axis=0))),
+        "edges are not those": replace(shape, family=replace(family, edges=np.roll(family.edges, 1, axis=1))),
+        "no side of a triangle": replace(shape, family=replace(family, sides=np.roll(family.sides, 3, axis=0))),
+    }
+    for words, wrong in faulty.items():
+        with pytest.raises(VerificationError, match=words):
+            verify_alpha_shape(wrong)
+
+
+@families
+def test_every_family_passes_the_checker(name):
+    points = draw(name, 40 if name == "any_double" else 150, 9)
+    family = quietly(points)
+    for k in (0, len(family.spectrum) // 2, len(family.spectrum) - 1):
+        verify_alpha_shape(alpha_shape(family, r=family.radius_from(k)))
+    verify_alpha_shape(alpha_shape(family, r=np.inf))
 
 
 def test_agreement_with_gudhi():

@@ -24,9 +24,11 @@ EXTENSIONS = {
     ".ele": "ele",
     ".node": "node",
     ".obj": "obj",
+    ".wkt": "wkt",
+    ".html": "html",
 }
 FORMATS = tuple(dict.fromkeys(EXTENSIONS.values()))
-TEXT_FORMATS = frozenset({"text", "svg", "csv", "json", "geojson", "edge", "ele", "node", "obj"})
+TEXT_FORMATS = frozenset({"text", "svg", "csv", "json", "geojson", "edge", "ele", "node", "obj", "wkt", "html"})
 TRIANGLE_FILES = frozenset({"node", "edge", "ele"})
 _EXTENSION_OF = {"tiff": "tif", "text": "txt"}
 

@@ -11,12 +11,14 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.alpha_components import fill_and_drop
+from vorotool.engines.alpha_digital import linked_digital
 from vorotool.engines.delaunay import delaunay
 from vorotool.engines.label_arrays import Progress
 from vorotool.errors import InputError, UsageError
 from vorotool.geometry.alpha_complex import AlphaComplex, Radius, checked_radius
 from vorotool.geometry.alpha_shape import AlphaShape
 from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.polygons import HOLE, SHELL, PolygonSet
 from vorotool.geometry.table import Table
 from vorotool.geometry.triangulation import Triangulation
@@ -34,8 +36,8 @@ def alpha_complex(
 
     Parameters
     ----------
-    points : PointSet, SeedSet, Triangulation, or (n, 2) array-like or shapely points
-        At least two distinct ones. A triangulation is taken as it is.
+    points : PointSet, SeedSet, Triangulation, DigitalTriangulation, or (n, 2) array-like or shapely points
+        At least two distinct ones. A triangulation is taken as it is; of a digital one only edges are right.
     rule : {"corrected", "printed"}
         ``printed`` follows the paper's text, which is wrong where an edge is no Gabriel edge; intervals are open.
     strict : bool
@@ -71,15 +73,16 @@ def alpha_complex(
     if rule not in RULES:
         raise UsageError(f"rule is {rule!r}: use corrected, or printed for the text of the paper")
     threads = checked_threads(threads)
-    if isinstance(points, Triangulation):
-        mesh = points
+    if isinstance(points, DigitalTriangulation):
+        mesh, edges, sides = linked_digital(points)
     else:
-        mesh = delaunay(points, strict=strict, threads=threads, progress=progress)
+        given = isinstance(points, Triangulation)
+        mesh = points if given else delaunay(points, strict=strict, threads=threads, progress=progress)
+        edges, sides = _edges_and_sides(mesh, threads, progress)
     count = len(mesh.points) - mesh.duplicates
     if count < 2:
         held = f"{len(mesh.points)} points, all at one place" if len(mesh.points) > 1 else f"{count} points"
         raise InputError(f"there are {held}: an alpha shape needs at least two distinct points")
-    edges, sides = _edges_and_sides(mesh, threads, progress)
     arrays = _core.alpha_complex(mesh.points, mesh.triangles, edges, sides, rule == "printed", threads, progress)
     return AlphaComplex(mesh, edges, sides, rule=rule, **arrays)
 
@@ -148,9 +151,7 @@ def chosen_radius(r: Any, alpha: Any, automatic: bool = False) -> Radius | None:
     Raises
     ------
     UsageError
-        If two of the three are given.
-    InputError
-        If r is not positive, or alpha is not negative.
+        If two of the three are given, r is not positive, or alpha is not negative.
 
     Examples
     --------
@@ -164,8 +165,9 @@ def chosen_radius(r: Any, alpha: Any, automatic: bool = False) -> Radius | None:
     if alpha is not None:
         value = _number(alpha, "alpha")
         if not value < 0:
-            hint = f": for the alphashape package's {alpha} use -r {_plain(1 / value)}" if value > 0 else ""
-            raise InputError(f"alpha must be negative (α = −1/r){hint or f', but is {alpha}'}")
+            known = f"for the alphashape package's {_plain(value)} use -r {_plain(1 / value)}" if value > 0 else ""
+            hint = f": {known or 'for the convex hull use -r inf'}"
+            raise UsageError(f"alpha must be negative (α = −1/r){hint}")
         return checked_radius(-1 / value)
     return None if r is None else checked_radius(_number(r, "r"))
 
@@ -176,9 +178,9 @@ def _number(value: Any, name: str) -> Radius:
     try:
         number = float(value)
     except (TypeError, ValueError):
-        raise InputError(f"{name} is {value!r}: give a number") from None
+        raise UsageError(f"{name} is {value!r}: give a number") from None
     if isnan(number):
-        raise InputError(f"{name} is {value}: give a number")
+        raise UsageError(f"{name} is {value}: give a number")
     return number
 
 
@@ -222,9 +224,9 @@ def alpha_shape(
     Raises
     ------
     InputError
-        If r is not positive, alpha not negative, or the automatic choice finds no triangle.
+        If there are fewer than two distinct points, or the automatic choice finds no triangle.
     UsageError
-        If both r and alpha are given, or ``regions`` with one of them.
+        If r is not positive, alpha not negative, both are given, or ``regions`` with one of them.
 
     References
     ----------
@@ -259,7 +261,7 @@ def _threshold(value: Any, name: str) -> Fraction | None:
         return None
     number = _number(value, name)
     if not 0 <= number < float("inf"):
-        raise InputError(f"{name} is {value}: give an area of at least 0")
+        raise UsageError(f"{name} is {value}: give an area of at least 0")
     return Fraction(number)
 
 
@@ -280,7 +282,8 @@ def _shape(
         index, kind = _reclassified(family, inside, index[kind == 1])
     region = np.where(inside, component, np.int32(-1))
     holes = int(component[~inside].max(initial=-1)) + 1
-    return AlphaShape(family, r, index, kind, region, _polygons(family, region, progress), holes)
+    polygons = _polygons(family, region, progress)
+    return AlphaShape(family, r, index, kind, region, polygons, holes, thresholds != (None, None))
 
 
 def _reclassified(

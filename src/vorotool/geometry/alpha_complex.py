@@ -9,7 +9,7 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
+from vorotool.errors import UsageError
 from vorotool.geometry.triangulation import Triangulation
 
 Radius = float | Fraction
@@ -155,7 +155,7 @@ class AlphaComplex:
 
         Raises
         ------
-        InputError
+        UsageError
             If r is not positive.
         """
         reached, entered = self.reached(checked_radius(r)), self.entered(r)
@@ -192,8 +192,14 @@ def checked_radius(r: Radius) -> Radius:
     """
     value = r if isinstance(r, Fraction) else float(r)
     if not value > 0:
-        raise InputError(f"r is {r}: a radius must be positive; leave it out for the smallest that holds all points")
+        raise UsageError(
+            f"r is {_told(r)}: a radius must be positive; leave it out for the smallest that joins all points"
+        )
     return value
+
+
+def _told(r: Radius) -> str:
+    return repr(float(r)).removesuffix(".0")
 
 
 def _ceiling_root(value: int) -> int:

@@ -35,6 +35,8 @@ class AlphaShape:
         without repeated vertices. Regions, and rings of one region, may touch at points.
     hole_count : int
         Bounded components of what the triangles leave: a gap that several regions enclose is one, but no polygon's.
+    has_thresholds : bool
+        Whether small holes were filled or small regions left out.
 
     Examples
     --------
@@ -53,6 +55,7 @@ class AlphaShape:
     region: NDArray[np.int32]
     polygons: PolygonSet
     hole_count: int
+    has_thresholds: bool = False
 
     @property
     def alpha(self) -> float:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.alpha_complex import CLASSES, AlphaComplex
 from vorotool.geometry.alpha_shape import POINT_CLASSES, AlphaShape
+from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.table import Lookup, Table
 
 
@@ -161,3 +164,20 @@ def _perimeters(shape: AlphaShape) -> NDArray[np.float64]:
 
 def _named(names: tuple[str, ...], numbers: NDArray[np.uint8]) -> list[str]:
     return [names[number] for number in numbers.tolist()]
+
+
+def described_polygons(shape: AlphaShape) -> PolygonSet:
+    """Give the polygons of a shape with the area, the perimeter and the number of holes of each.
+
+    Examples
+    --------
+    >>> from vorotool import alpha_shape
+    >>> described_polygons(alpha_shape([[0, 0], [4, 0], [0, 3]], r=2.5)).properties
+    {'area': [6.0], 'perimeter': [12.0], 'holes': [0]}
+    """
+    described = {
+        "area": shape.region_areas().tolist(),
+        "perimeter": _perimeters(shape).tolist(),
+        "holes": shape.holes_of_regions().tolist(),
+    }
+    return replace(shape.polygons, properties=described)
