@@ -429,7 +429,7 @@ def test_bad_options(options, error, message):
     ("points", "message"),
     [
         ([], "there are 0 points: an alpha shape needs at least two distinct points"),
-        ([[1, 2]], "there are 1 points"),
+        ([[1, 2]], "there is 1 point:"),
         ([[1, 2], [np.nan, 0]], "point 2 is"),
     ],
 )

@@ -64,7 +64,8 @@ class ShapeProducts:
             with run.phase("shape"):
                 self.shape = self._shape()
             if options.radius is None:
-                run.note(f"r = {radius_text(self.shape.r)}, the smallest that is wanted")
+                regions = "one region" if options.regions in (None, 1) else f"at most {options.regions} regions"
+                run.note(f"r = {radius_text(self.shape.r)}, the smallest whose shape is {regions} with every point")
 
     def _triangulation(self, points: PointSet | SeedSet) -> AnyTriangulation:
         from vorotool.engines.delaunay import delaunay

@@ -81,8 +81,9 @@ def alpha_complex(
         edges, sides = _edges_and_sides(mesh, threads, progress)
     count = len(mesh.points) - mesh.duplicates
     if count < 2:
-        held = f"{len(mesh.points)} points, all at one place" if len(mesh.points) > 1 else f"{count} points"
-        raise InputError(f"there are {held}: an alpha shape needs at least two distinct points")
+        held = "is 1 point" if len(mesh.points) == 1 else f"are {len(mesh.points)} points"
+        where = ", all at one place" if len(mesh.points) > 1 else ""
+        raise InputError(f"there {held}{where}: an alpha shape needs at least two distinct points")
     arrays = _core.alpha_complex(mesh.points, mesh.triangles, edges, sides, rule == "printed", threads, progress)
     return AlphaComplex(mesh, edges, sides, rule=rule, **arrays)
 
