@@ -330,6 +330,11 @@ def test_a_radius_is_compared_exactly():
     huge = alpha_complex([[-1e308, 0], [1e308, 0], [0, 1e308], [0, 1.7e308]])
     assert huge.reached(np.inf) == len(huge.spectrum)
     assert huge.reached(Fraction(10) ** 400) == len(huge.spectrum)
+    flat = alpha_complex([[0, 0], [1e300, 1], [2e300, 0]])  # its circle is beyond the largest double
+    assert flat.spectrum.tolist() == [5e299, np.inf]
+    assert isinstance(flat.radius_from(1), Fraction)
+    assert [flat.reached(flat.radius_from(k)) for k in range(2)] == [1, 2]
+    assert flat.reached(1e308) == 1
 
 
 def test_two_radii_in_one_double():

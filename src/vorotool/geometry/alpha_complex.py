@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from math import inf
+from math import floor, inf, isqrt, log10
 
 import numpy as np
 from numpy.typing import NDArray
@@ -133,22 +133,22 @@ class AlphaComplex:
         """
         square = self.squared_radius(rank)
         rounded = float(self.spectrum[rank])
-        if Fraction(rounded) ** 2 < square:
+        if rounded < inf and Fraction(rounded) ** 2 < square:
             rounded = float(np.nextafter(rounded, inf))
-        if self.reached(rounded) == rank + 1:
+        if rounded < inf and self.reached(rounded) == rank + 1:
             return rounded
         return self._fraction_from(rank, square)
 
     def _fraction_from(self, rank: int, square: Fraction) -> Fraction:
         """Give a decimal at least as large as a radius that another one follows within the spacing of doubles."""
-        digits = 17
+        bits = square.numerator.bit_length() - square.denominator.bit_length()
+        digits = 17 - floor(bits / 2 * log10(2))  # behind the point: at least 16 significant ones
         while True:
+            step = Fraction(10) ** -digits
+            root = _ceiling_root(square / step**2) * step
+            if self.reached(root) == rank + 1:
+                return root
             digits += 5
-            step = Fraction(10) ** (int(np.floor(np.log10(self.spectrum[rank]))) - digits)
-            scaled = square / step**2
-            root = _ceiling_root(-(-scaled.numerator // scaled.denominator))
-            if self.reached(root * step) == rank + 1:
-                return root * step
 
     def classes(self, r: Radius) -> NDArray[np.uint8]:
         """(e,) place of each edge's class in `CLASSES` for the shape of r.
@@ -202,8 +202,6 @@ def _told(r: Radius) -> str:
     return repr(float(r)).removesuffix(".0")
 
 
-def _ceiling_root(value: int) -> int:
-    """Give the least integer whose square is at least this."""
-    from math import isqrt
-
-    return isqrt(max(value - 1, 0)) + 1 if value else 0
+def _ceiling_root(value: Fraction) -> int:
+    """Give the least integer whose square is at least this positive number."""
+    return isqrt(-(-value.numerator // value.denominator) - 1) + 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from math import ceil, floor, log10
 from typing import BinaryIO
 
@@ -104,7 +105,7 @@ def _steps(axis: _Axis, y: NDArray[np.float64], bottom: int) -> str:
     path = [f"M{axis.left} {bottom}"]
     columns = np.floor(axis.x * 4).astype(np.int64)
     starts = np.flatnonzero(np.diff(columns, prepend=-1))
-    for first, last in zip(starts.tolist(), np.append(starts[1:], len(y)).tolist(), strict=True):
+    for first, last in pairwise([*starts.tolist(), len(y)]):
         inside = y[first:last]
         path.append(f"H{axis.x[first]:.2f}V{inside[0]:.2f}")
         if last - first > 1:

@@ -162,7 +162,7 @@ class Arcs:
         offset = self.start - self.centre
         towards = self.end - self.centre
         turn = np.arctan2(offset[:, 0] * towards[:, 1] - offset[:, 1] * towards[:, 0], (offset * towards).sum(axis=1))
-        angle = turn[:, None] * (np.arange(pieces) / pieces)
+        angle = -np.abs(turn)[:, None] * (np.arange(pieces) / pieces)
         x = offset[:, :1] * np.cos(angle) - offset[:, 1:] * np.sin(angle)
         y = offset[:, :1] * np.sin(angle) + offset[:, 1:] * np.cos(angle)
         places = (self.centre[:, None] + np.stack([x, y], axis=-1)).reshape(-1, 2)
