@@ -121,15 +121,16 @@ def write(
 
     Parameters
     ----------
-    value : LabelImage, Table, PolygonSet, Triangulation or DigitalTriangulation
+    value : LabelImage, Table, PolygonSet, Triangulation, DigitalTriangulation, AlphaShape or AlphaComplex
         What to write: images as PNG, TIFF, NPY or text, tables as CSV, JSON or NPZ, polygons as JSON, GeoJSON, WKT or
-        .poly, a triangulation as a table, GeoJSON, OBJ, or a file of Triangle.
+        .poly, a triangulation as a table, GeoJSON, OBJ, or a file of Triangle, an alpha shape's edges as a table or
+        GeoJSON and its polygons as polygons, an alpha complex as a table.
     path : str or path
         The file, replaced atomically.
     fmt : str, optional
         Format, or a usual extension of it; by default that of the path.
-    what : {"edges", "triangles", "table"}, optional
-        Of a triangulation; by default what the format is for, else its edges.
+    what : {"edges", "triangles", "table", "polygons", "family"}, optional
+        Of a triangulation or an alpha shape; by default what the format is for, else its edges.
     precision : int, optional
         Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
     threads : int
@@ -147,9 +148,12 @@ def write(
     >>> import vorotool
     >>> write(vorotool.tessellate([[1, 1], [5, 3]], shape=(4, 6)), "build/labels.png")
     >>> write(vorotool.delaunay([[0, 0], [4, 0], [0, 3]]), "build/triangles.geojson", what="triangles")
+    >>> write(vorotool.alpha_shape([[0, 0], [4, 0], [0, 3]], r=2.5), "build/shape.geojson")
     """
     from vorotool.errors import UsageError
     from vorotool.formats.outputs import open_output
+    from vorotool.geometry.alpha_complex import AlphaComplex
+    from vorotool.geometry.alpha_shape import AlphaShape
     from vorotool.geometry.digital_triangulation import DigitalTriangulation
     from vorotool.geometry.label_image import LabelImage
     from vorotool.geometry.polygons import PolygonSet
@@ -159,11 +163,13 @@ def write(
     name = (fmt or Path(path).suffix).lower().lstrip(".")
     chosen: Any = {"tif": "tiff", "txt": "text"}.get(name, name)
     threads = checked_threads(threads)
-    if not isinstance(value, LabelImage | Table | PolygonSet | Triangulation | DigitalTriangulation):
+    has_parts = isinstance(value, Triangulation | DigitalTriangulation | AlphaComplex | AlphaShape)
+    if not has_parts and not isinstance(value, LabelImage | Table | PolygonSet):
         raise UsageError(
-            f"a {type(value).__name__} cannot be written: give a LabelImage, a Table, a PolygonSet or a Triangulation"
+            f"a {type(value).__name__} cannot be written: give a LabelImage, a Table, a PolygonSet, a Triangulation or "
+            "an AlphaShape"
         )
-    if what is not None and not isinstance(value, Triangulation | DigitalTriangulation):
+    if what is not None and not has_parts:
         raise UsageError(f"what={what!r} is for triangulations: leave it out with a {type(value).__name__}")
     if isinstance(value, LabelImage):
         _write_image(value, fspath(path), chosen, threads)
@@ -177,6 +183,10 @@ def write(
             from vorotool.formats.polygons import write_polygons
 
             write_polygons(out, value, chosen, precision=precision)
+        elif isinstance(value, AlphaComplex | AlphaShape):
+            from vorotool.formats.alpha_files import write_shape
+
+            write_shape(out, value, chosen, what=what, precision=precision, threads=threads)
         else:
             from vorotool.formats.mesh_files import write_mesh
 

@@ -10,15 +10,71 @@ import numpy as np
 from vorotool.errors import UsageError
 from vorotool.formats.mesh_files import write_features
 from vorotool.formats.polygon_text import Digits
-from vorotool.formats.tables import json_text
-from vorotool.geometry.alpha_complex import CLASSES
+from vorotool.formats.polygons import write_polygons
+from vorotool.formats.tables import json_text, write_table
+from vorotool.geometry.alpha_complex import CLASSES, AlphaComplex
 from vorotool.geometry.alpha_hull import AlphaHull
 from vorotool.geometry.alpha_shape import AlphaShape
-from vorotool.geometry.alpha_tables import described_polygons, shape_edge_table
+from vorotool.geometry.alpha_tables import described_polygons, family_table, shape_edge_table
 
 GENERAL_FORMATS = ("geojson", "wkt")
 HULL_STEPS = 256
 """Chords of the whole circle in flattened hulls are off by less than 1e-4 of its radius."""
+
+
+def write_shape(
+    out: BinaryIO,
+    value: AlphaShape | AlphaComplex,
+    fmt: str,
+    *,
+    what: str | None = None,
+    precision: int | None = None,
+    threads: int = 0,
+) -> None:
+    r"""Write the edges or the polygons of a shape, or the radii of a family.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable.
+    value : AlphaShape or AlphaComplex
+        A family has the table of its radii only.
+    fmt : {"csv", "json", "npz", "geojson", "wkt", "poly"}
+        The format.
+    what : {"edges", "polygons", "family"}, optional
+        By default polygons where the format is for these, else edges.
+    precision : int, optional
+        Significant digits; by default the shortest that reads back the same.
+    threads : int
+        0 for all.
+
+    Raises
+    ------
+    UsageError
+        If the value has no such part, or the format no place for it.
+
+    Examples
+    --------
+    >>> import io
+    >>> from vorotool import alpha_shape
+    >>> out = io.BytesIO()
+    >>> write_shape(out, alpha_shape([[0, 0], [4, 0], [0, 3]], r=2.5), "wkt")
+    >>> out.getvalue()
+    b'POLYGON ((4 0, 0 3, 0 0, 4 0))\n'
+    """
+    own = ("family",) if isinstance(value, AlphaComplex) else ("edges", "polygons")
+    what = what or (own[-1] if fmt in ("geojson", "wkt", "poly") else own[0])
+    if what not in own:
+        kind = type(value).__name__
+        raise UsageError(f"{what!r} is nothing that an {kind} is written as: use {' or '.join(own)}")
+    if isinstance(value, AlphaComplex):
+        write_table(out, family_table(value), fmt, precision=precision, threads=threads)
+    elif what == "polygons":
+        write_polygons(out, described_polygons(value), fmt, precision=precision)
+    elif fmt == "geojson":
+        write_shape_edges(out, value, precision=precision, threads=threads)
+    else:
+        write_table(out, shape_edge_table(value), fmt, precision=precision, threads=threads)
 
 
 def write_shape_edges(
