@@ -18,6 +18,8 @@ _HOME = {
     "VerificationError": "vorotool.errors",
     "VorotoolError": "vorotool.errors",
     "VorotoolWarning": "vorotool.errors",
+    "Box": "vorotool.geometry.box",
+    "CellSet": "vorotool.geometry.cells",
     "Frame": "vorotool.geometry.frame",
     "LabelImage": "vorotool.geometry.label_image",
     "PointSet": "vorotool.geometry.points",
@@ -36,6 +38,8 @@ _HOME = {
     "voronoi_diagram": "vorotool.engines.regions",
     "delaunay": "vorotool.engines.delaunay",
     "verify_triangulation": "vorotool.engines.delaunay",
+    "voronoi_cells": "vorotool.engines.cells",
+    "verify_cells": "vorotool.engines.cells",
     "colour_regions": "vorotool.engines.regions",
 }
 

@@ -159,3 +159,26 @@ def triangulation_fault(
     threads: int,
     progress: _Progress,
 ) -> str | None: ...
+
+# ---- Voronoi cells (bind_cells.cpp): a frame is left, bottom, right, top --------------------------------------------
+
+def voronoi_cells(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    neighbours: NDArray[np.int32],
+    hull: NDArray[np.int32],
+    first: NDArray[np.int32],
+    frame: tuple[float, float, float, float],
+    threads: int,
+    progress: _Progress,
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Vertices of the cells' rings, and where the ring of each point begins."""
+
+def cell_fault(
+    sites: NDArray[np.float64],
+    vertices: NDArray[np.float64],
+    starts: NDArray[np.int64],
+    frame: tuple[float, float, float, float],
+    threads: int,
+    progress: _Progress,
+) -> str | None: ...
