@@ -116,8 +116,8 @@ class CellSet:
     @property
     def is_empty(self) -> NDArray[np.bool_]:
         """(n,) whether each cell is empty."""
-        sizes: NDArray[np.int64] = np.diff(self.starts if self.cell_starts is None else self.cell_starts)
-        return sizes == 0
+        empty: NDArray[np.bool_] = np.diff(self.starts if self.cell_starts is None else self.cell_starts) == 0
+        return empty
 
     def areas(self) -> NDArray[np.float64]:
         """(n,) areas of the cells, 0 of empty ones.
