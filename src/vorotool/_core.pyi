@@ -127,8 +127,16 @@ def line_of_row(text: bytes, delimiter: str, header_records: int, row: int) -> i
 def first_record(text: bytes, delimiter: str) -> tuple[int, str, list[str]] | None: ...
 def find_too_deep(text: bytes, limit: int) -> int | None: ...
 def format_columns(
-    values: list[Any], missing: list[NDArray[np.bool_] | None], precision: int = 0, threads: int = 0
+    values: list[Any],
+    missing: list[NDArray[np.bool_] | None],
+    precision: int = 0,
+    threads: int = 0,
+    shape: tuple[tuple[str, ...], str, str] | None = None,
 ) -> list[bytes]: ...
+
+class NumberTexts:
+    def __init__(self, values: NDArray[np.float64], precision: int = 0, threads: int = 0) -> None: ...
+    def __len__(self) -> int: ...
 
 # ---- predicates (bind_predicates.cpp): a level is "auto", "filter", "integers", "expansions" or "wide"; the sign
 # ---- is 2 where a level other than "auto" and "wide" cannot tell. The points must be finite. -----------------------

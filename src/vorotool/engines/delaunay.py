@@ -81,6 +81,7 @@ def delaunay(points: Any, *, strict: bool = False, threads: int = 0, progress: P
         properties=given.properties,
         y_up=given.y_up,
         crs=given.crs,
+        first_number=given.first_number,
     )
     _report_duplicates(mesh, strict=strict)
     return mesh

@@ -13,6 +13,7 @@ from vorotool.geometry.frame import MAX_PIXELS
 NPY_MAGIC = b"\x93NUMPY"
 
 if TYPE_CHECKING:
+    from vorotool.geometry.label_image import LabelImage
     from vorotool.geometry.points import PointSet
     from vorotool.geometry.raster import Raster
 
@@ -91,17 +92,30 @@ def read(
     )
 
 
-def write(value: Any, path: str | PathLike[str], *, fmt: str | None = None, threads: int = 0) -> None:
-    """Write a label image (PNG, TIFF, NPY, text) or a table (CSV, JSON, NPZ).
+def write(
+    value: Any,
+    path: str | PathLike[str],
+    *,
+    fmt: str | None = None,
+    what: str | None = None,
+    precision: int | None = None,
+    threads: int = 0,
+) -> None:
+    """Write a label image, a table, or the edges, triangles or table of a triangulation.
 
     Parameters
     ----------
-    value : LabelImage or Table
-        What to write.
+    value : LabelImage, Table or Triangulation
+        What to write: images as PNG, TIFF, NPY or text, tables as CSV, JSON or NPZ, a triangulation as one of
+        these, GeoJSON, OBJ, or a file of Triangle.
     path : str or path
         The file, replaced atomically.
     fmt : str, optional
         Format, or a usual extension of it; by default that of the path.
+    what : {"edges", "triangles", "table"}, optional
+        Of a triangulation; by default what the format is for, else its edges.
+    precision : int, optional
+        Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
     threads : int
         0 uses all.
 
@@ -116,32 +130,50 @@ def write(value: Any, path: str | PathLike[str], *, fmt: str | None = None, thre
     --------
     >>> import vorotool
     >>> write(vorotool.tessellate([[1, 1], [5, 3]], shape=(4, 6)), "build/labels.png")
+    >>> write(vorotool.delaunay([[0, 0], [4, 0], [0, 3]]), "build/triangles.geojson", what="triangles")
     """
     from vorotool.errors import UsageError
-    from vorotool.formats.label_images import write_label_image
     from vorotool.formats.outputs import open_output
-    from vorotool.formats.tables import write_table
     from vorotool.geometry.label_image import LabelImage
     from vorotool.geometry.table import Table
+    from vorotool.geometry.triangulation import Triangulation
 
     name = (fmt or Path(path).suffix).lower().lstrip(".")
     chosen: Any = {"tif": "tiff", "txt": "text"}.get(name, name)
     threads = checked_threads(threads)
-    if isinstance(value, LabelImage) and chosen == "svg":
-        raise UsageError("an SVG is a picture: write the labels as PNG or NPY, and draw them with vorotool draw")
+    if not isinstance(value, LabelImage | Table | Triangulation):
+        raise UsageError(f"a {type(value).__name__} cannot be written: give a LabelImage, Table or Triangulation")
+    if what is not None and not isinstance(value, Triangulation):
+        raise UsageError(f"what={what!r} is for triangulations: leave it out with a {type(value).__name__}")
     if isinstance(value, LabelImage):
-        with open_output(fspath(path), binary=chosen != "text") as out:
-            write_label_image(
-                out,
-                [value.labels],
-                shape=value.shape,
-                dtype=value.labels.dtype,
-                fmt=chosen,
-                largest_label=int(value.labels.max()),
-                threads=threads,
-            )
-    elif isinstance(value, Table):
-        with open_output(fspath(path), binary=chosen == "npz") as out:
-            write_table(out, value, chosen, threads=threads)
-    else:
-        raise UsageError(f"a {type(value).__name__} cannot be written: give a LabelImage or a Table")
+        _write_image(value, fspath(path), chosen, threads)
+        return
+    with open_output(fspath(path), binary=chosen == "npz") as out:
+        if isinstance(value, Table):
+            from vorotool.formats.tables import write_table
+
+            write_table(out, value, chosen, precision=precision, threads=threads)
+        else:
+            from vorotool.formats.mesh_files import write_mesh
+
+            what = what or {"ele": "triangles", "node": "table"}.get(chosen, "edges")
+            write_mesh(out, value, chosen, what=what, precision=precision, threads=threads)
+
+
+def _write_image(image: LabelImage, path: str, fmt: Any, threads: int) -> None:
+    from vorotool.errors import UsageError
+    from vorotool.formats.label_images import write_label_image
+    from vorotool.formats.outputs import open_output
+
+    if fmt == "svg":
+        raise UsageError("an SVG is a picture: write the labels as PNG or NPY, and draw them with vorotool draw")
+    with open_output(path, binary=fmt != "text") as out:
+        write_label_image(
+            out,
+            [image.labels],
+            shape=image.shape,
+            dtype=image.labels.dtype,
+            fmt=fmt,
+            largest_label=int(image.labels.max()),
+            threads=threads,
+        )

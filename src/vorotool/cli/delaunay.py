@@ -1,0 +1,111 @@
+"""``vorotool delaunay``."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from vorotool.cli.inputs import naming, read_seed_input, refuse
+from vorotool.cli.options import layers_option, shared, single_input, what_option
+from vorotool.cli.run import Run
+from vorotool.cli.targets import Target, check_picture_options, check_stats, check_targets, plan_targets
+
+if TYPE_CHECKING:
+    from vorotool.geometry.points import PointSet
+    from vorotool.geometry.seeds import SeedSet
+
+METHODS = ("exact",)
+_TABLES = ("csv", "json", "npz")
+_PICTURES = ("svg", "png")
+FORMATS = {
+    "edges": ("csv", "json", "geojson", "npz", "edge", "obj", *_PICTURES),
+    "triangles": ("csv", "json", "geojson", "npz", "ele", "obj", *_PICTURES),
+    "table": (*_TABLES, "node"),
+}
+LAYERS = ("triangles", "edges", "points", "labels")
+"""Layers of pictures, from below."""
+
+_WITHOUT_DIGITS = frozenset({"npz", "edge", "ele", *_PICTURES})
+
+
+@click.command("delaunay")
+@click.argument("inputs", metavar="INPUT", nargs=-1)
+@shared("output", "format")
+@what_option(tuple(FORMATS))
+@click.option(
+    "--method", type=click.Choice(METHODS), default="exact", show_default=True, help="How the triangulation is made."
+)
+@shared("columns", "input-format", "page", "seeds", "connectivity", "threshold", "invert")
+@layers_option(LAYERS)
+@shared("width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels", "max-sites")
+@shared("no-clobber", "no-properties", "quiet", "verbose")
+def command(**options: Any) -> None:
+    """Triangulate points exactly: no circle through a triangle's vertices holds another point.
+
+    \b
+    Example:
+      vorotool delaunay data/dots.csv -o edges.csv
+
+    INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, PBM,
+    NPY), whose components or labels count as points at their centroids; - is standard input. Label i is the i-th
+    point; labels of the input are kept. OBJ and files for Triangle (.edge, .ele, .node) number the points instead.
+    """
+    o = SimpleNamespace(**options)
+    source = single_input(o.inputs)
+    targets = plan_targets(FORMATS, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=source)
+    check_stats(o.stats, targets, source)
+    _check_options(o, targets)
+    with Run("delaunay", quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber) as run:
+        from vorotool.cli.meshes import MeshProducts
+        from vorotool.formats.outputs import make_folder
+
+        check_targets(o, targets, source)
+        with naming(source), run.phase("read"):
+            points = _read_points(run, o, source)
+        with naming(source):
+            products = MeshProducts(points, o, run)
+        for target in targets:
+            products.check(target)
+        if o.verify:
+            with run.phase("verify"):
+                products.verify()
+        if o.out_dir is not None:
+            make_folder(o.out_dir)
+        for target in targets:
+            with run.phase(f"write {target.what}"):
+                products.write(target, inputs=(source,))
+        run.stats.update(products.stats())
+
+
+def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
+    if o.connectivity is not None and o.seeds in ("pixels", "labels"):
+        raise click.UsageError(f"--connectivity is for components: leave it out with --seeds {o.seeds}")
+    formats = {target.fmt for target in targets}
+    if o.precision is not None and formats <= _WITHOUT_DIGITS:
+        raise click.UsageError("--precision is for numbers in text: use -f csv, json, geojson or obj, or leave it out")
+    pictures = sorted(formats & set(_PICTURES))
+    if o.layers is not None and not pictures:
+        raise click.UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
+    check_picture_options(o, pictures, dict.fromkeys(_PICTURES, LAYERS), png_has_width=True)
+
+
+def _read_points(run: Run, o: SimpleNamespace, source: str) -> PointSet | SeedSet:
+    from vorotool.engines.seeding import seeds_from_raster
+    from vorotool.geometry.points import PointSet
+
+    value = read_seed_input(run, o, source, properties="table" in o.what)
+    if isinstance(value, PointSet):
+        return value
+    refuse(o, ("columns",), "is for lists of points, but the input is an image")
+    mode = None if o.seeds == "centroids" else o.seeds  # the sites of objects are their centroids
+    return seeds_from_raster(
+        value,
+        mode=mode,
+        connectivity=int(o.connectivity or 8),
+        threshold=o.threshold,
+        invert=o.invert,
+        max_sites=o.max_sites,
+        allow_empty=True,
+    )
