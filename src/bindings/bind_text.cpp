@@ -192,14 +192,16 @@ struct ColumnStore {
       add_texts(nb::borrow<nb::list>(values));
     } else if (!add_array<double>(values) && !add_array<std::int64_t>(values) &&
                !add_array<std::uint64_t>(values) && !add_numbers(values)) {
-      throw nb::type_error("a column must be a float64, int64 or uint64 array, a list of str, or NumberTexts");
+      throw nb::type_error(
+          "a column must be a float64, int64 or uint64 array, a list of str, or NumberTexts");
     }
   }
 
   // Every index is checked here: the core reads without looking.
   void add_index(nb::handle values, std::size_t limit) {
     const auto array = nb::cast<IndexArray>(values, false);
-    const core::StridedIndices index{array.data(), array.size(), static_cast<std::ptrdiff_t>(array.stride(0))};
+    const core::StridedIndices index{array.data(), array.size(),
+                                     static_cast<std::ptrdiff_t>(array.stride(0))};
     for (std::size_t row = 0; row < index.size; ++row) {
       if (index[row] >= limit) throw nb::index_error("an index of a column is out of range");
     }
@@ -248,7 +250,8 @@ nb::list format_columns(const nb::list& values, const std::vector<std::optional<
   return result;
 }
 
-void make_number_texts(core::NumberTexts* self, const InputArray<double>& values, int precision, unsigned threads) {
+void make_number_texts(core::NumberTexts* self, const InputArray<double>& values, int precision,
+                       unsigned threads) {
   run_interruptible(nb::none(), [&](const core::Monitor& monitor) {
     new (self) core::NumberTexts({values.data(), values.size()}, precision, threads, monitor);
   });

@@ -100,8 +100,8 @@ RowShape csv_shape(std::size_t columns) {
   return shape;
 }
 
-std::vector<std::string> format_columns(std::span<const TextColumn> columns, const RowShape& shape, int precision,
-                                        unsigned threads, const Monitor& monitor) {
+std::vector<std::string> format_columns(std::span<const TextColumn> columns, const RowShape& shape,
+                                        int precision, unsigned threads, const Monitor& monitor) {
   const std::size_t rows = columns.empty() ? 0 : row_count(columns.front());
   std::vector<std::string> blocks(piece_count(rows, kBlockRows));
   parallel_for(

@@ -8,7 +8,8 @@
 
 namespace vorotool::core {
 
-NumberTexts::NumberTexts(std::span<const double> values, int precision, unsigned threads, const Monitor& monitor)
+NumberTexts::NumberTexts(std::span<const double> values, int precision, unsigned threads,
+                         const Monitor& monitor)
     : blocks_(piece_count(values.size(), kBlock)), ends_(values.size()) {
   parallel_for(
       blocks_.size(), threads,

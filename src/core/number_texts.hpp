@@ -27,7 +27,7 @@ class NumberTexts {
  private:
   static constexpr std::size_t kBlock = std::size_t{1} << 13;
 
-  std::vector<std::string> blocks_;   // texts of kBlock numbers, one after the other
+  std::vector<std::string> blocks_;  // texts of kBlock numbers, one after the other
   std::vector<std::uint32_t> ends_;  // of each text in its block
 };
 

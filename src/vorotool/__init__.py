@@ -41,6 +41,7 @@ _HOME = {
     "triangle_table": "vorotool.geometry.mesh_tables",
     "point_table": "vorotool.geometry.mesh_tables",
     "verify_triangulation": "vorotool.engines.delaunay",
+    "site_table": "vorotool.engines.site_table",
     "voronoi_cells": "vorotool.engines.cells",
     "verify_cells": "vorotool.engines.cells",
     "colour_regions": "vorotool.engines.regions",

@@ -190,3 +190,18 @@ def cell_fault(
     threads: int,
     progress: _Progress,
 ) -> str | None: ...
+def measure_cells(
+    sites: NDArray[np.float64],
+    vertices: NDArray[np.float64],
+    rings: NDArray[np.int64],
+    cell_rings: NDArray[np.int64],
+    frame: tuple[float, float, float, float],
+    threads: int,
+    progress: _Progress,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.uint8]]:
+    """Area, perimeter, distance of the farthest vertex from the site, whether a vertex is on the frame."""
+
+def nearest_neighbours(
+    points: NDArray[np.float64], edges: NDArray[np.int32], labels: NDArray[np.int64], progress: _Progress
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Index of the nearest point of each, -1 without any, and its number of neighbours."""

@@ -125,15 +125,19 @@ class CellSet:
         The error is about 1e-15 times the square of a ring's diameter.
         """
         rings = self.nesting.rings
+        left, bottom, right, top = self.frame.sides
+        exponent = int(np.frexp(max(right / 2 - left / 2, top / 2 - bottom / 2))[1])  # products do not overflow
         start = np.repeat(self.coordinates[rings[:-1]], np.diff(rings), axis=0)
-        x, y = (self.coordinates - start).T
+        x, y = np.ldexp(self.coordinates - start, -exponent).T
         following = _following(rings)
-        return self._sum(x * y[following] - x[following] * y) / 2
+        with np.errstate(over="ignore"):
+            return np.ldexp(self._sum(x * y[following] - x[following] * y), 2 * exponent - 1)
 
     def perimeters(self) -> NDArray[np.float64]:
         """(n,) lengths of the boundaries, those of holes included; 0 of empty cells."""
-        step = self.coordinates[_following(self.nesting.rings)] - self.coordinates
-        return self._sum(np.hypot(step[:, 0], step[:, 1]))
+        with np.errstate(over="ignore"):  # beyond the largest double: infinite
+            step = self.coordinates[_following(self.nesting.rings)] - self.coordinates
+            return self._sum(np.hypot(step[:, 0], step[:, 1]))
 
     def cell_of_vertices(self) -> NDArray[np.int64]:
         """(n + 1,) where the vertices of each cell begin in `coordinates`, and the end."""
