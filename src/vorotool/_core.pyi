@@ -138,6 +138,19 @@ class NumberTexts:
     def __init__(self, values: NDArray[np.float64], precision: int = 0, threads: int = 0) -> None: ...
     def __len__(self) -> int: ...
 
+class PolygonTexts:
+    """A column of polygons: each row from its first polygon to that of the next; style wkt, geojson or json."""
+
+    def __init__(
+        self,
+        vertices: NDArray[np.float64],
+        rings: NDArray[np.int64],
+        polygons: NDArray[np.int64],
+        rows: NDArray[np.int64],
+        style: str,
+    ) -> None: ...
+    def __len__(self) -> int: ...
+
 # ---- predicates (bind_predicates.cpp): a level is "auto", "filter", "integers", "expansions" or "wide"; the sign
 # ---- is 2 where a level other than "auto" and "wide" cannot tell. The points must be finite. -----------------------
 
