@@ -52,6 +52,7 @@ bench: build ## measure beside the peers, in one run
 	    $$($(PYTHON) -c 'import tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["bench"])')
 	$(RUN) tests/benchmarks/tessellate.py
 	$(RUN) tests/benchmarks/delaunay.py
+	$(RUN) tests/benchmarks/mesh_files.py
 
 .PHONY: fuzz
 fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CASES=..., SEED=...)

@@ -26,6 +26,7 @@ FORMATS = {
 }
 LAYERS = ("triangles", "edges", "points", "labels")
 """Layers of pictures, from below."""
+PICTURE_LAYERS = {"svg": LAYERS, "png": tuple(layer for layer in LAYERS if layer != "labels")}
 
 _WITHOUT_DIGITS = frozenset({"npz", "edge", "ele", *_PICTURES})
 
@@ -88,7 +89,7 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     pictures = sorted(formats & set(_PICTURES))
     if o.layers is not None and not pictures:
         raise click.UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
-    check_picture_options(o, pictures, dict.fromkeys(_PICTURES, LAYERS), png_has_width=True)
+    check_picture_options(o, pictures, PICTURE_LAYERS, png_has_width=True)
 
 
 def _read_points(run: Run, o: SimpleNamespace, source: str) -> PointSet | SeedSet:

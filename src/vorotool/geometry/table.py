@@ -21,7 +21,7 @@ class Lookup:
     Parameters
     ----------
     values : (m,) int64 or float64 array
-        Contiguous.
+        Contiguous; finite.
     index : (n,) int32 array
         0-based; it may be a column of a matrix.
 
@@ -49,7 +49,8 @@ class Computed:
     Parameters
     ----------
     function : callable
-        ``function(rows)`` gives the float64 values of a slice; called in several threads at once.
+        ``function(rows)`` gives the float64 values of a slice; called in several threads at once. What is not finite
+        is written empty in text, and as it is in NPZ.
     size : int
         Number of rows.
 

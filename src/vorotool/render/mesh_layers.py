@@ -54,7 +54,25 @@ def mesh_layers(mesh: Triangulation, page: Page, layers: Iterable[str]) -> list[
     return [made[name] for name in LAYERS if name in wanted]
 
 
-def mesh_page(mesh: Triangulation, *, width: int = 1000, y_up: bool | None = None) -> Page:
-    """The page that shows all points of a triangulation; y upwards where the input says so."""
+def mesh_page(
+    mesh: Triangulation,
+    *,
+    width: int = 1000,
+    y_up: bool | None = None,
+    bounds: tuple[float, float, float, float] | None = None,
+) -> Page:
+    """The page of a picture: with all points of a triangulation, or with other bounds.
+
+    Parameters
+    ----------
+    mesh : Triangulation
+        What to draw; where ``y_up`` is not given, its own decides.
+    width : int
+        In px.
+    y_up : bool, optional
+        Draw y upwards.
+    bounds : (x, y, x, y), optional
+        The least and the largest coordinates to show.
+    """
     up = mesh.y_up if y_up is None else y_up
-    return Page(bounds_of([Points("points", mesh.points)]), width=width, y_up=up)
+    return Page(bounds or bounds_of([Points("points", mesh.points)]), width=width, y_up=up)
