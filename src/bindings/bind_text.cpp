@@ -151,8 +151,8 @@ class PolygonRows {
  public:
   using Starts = InputArray<std::int64_t>;
 
-  PolygonRows(const Matrix<const double>& vertices, const Starts& rings, const Starts& polygons, const Starts& rows,
-              const std::string& style)
+  PolygonRows(const Matrix<const double>& vertices, const Starts& rings, const Starts& polygons,
+              const Starts& rows, const std::string& style)
       : vertices_(vertices),
         rings_(rings),
         polygons_(polygons),
@@ -166,8 +166,8 @@ class PolygonRows {
   // What begins somewhere among so many; the core reads without looking.
   static std::span<const std::int64_t> checked(const Starts& starts, std::size_t count) {
     const std::span<const std::int64_t> values(starts.data(), starts.size());
-    const bool fits = !values.empty() && std::is_sorted(values.begin(), values.end()) && values.front() >= 0 &&
-                      static_cast<std::size_t>(values.back()) <= count;
+    const bool fits = !values.empty() && std::is_sorted(values.begin(), values.end()) &&
+                      values.front() >= 0 && static_cast<std::size_t>(values.back()) <= count;
     if (!fits) throw nb::value_error("beginnings of rings, polygons or rows are out of order or of range");
     return values;
   }
@@ -327,7 +327,8 @@ void bind_text(nb::module_& module) {
   nb::class_<PolygonRows>(module, "PolygonTexts")
       .def(nb::init<const Matrix<const double>&, const PolygonRows::Starts&, const PolygonRows::Starts&,
                     const PolygonRows::Starts&, const std::string&>(),
-           "vertices"_a.noconvert(), "rings"_a.noconvert(), "polygons"_a.noconvert(), "rows"_a.noconvert(), "style"_a)
+           "vertices"_a.noconvert(), "rings"_a.noconvert(), "polygons"_a.noconvert(), "rows"_a.noconvert(),
+           "style"_a)
       .def("__len__", [](const PolygonRows& rows) { return rows.texts().size(); });
 }
 

@@ -91,7 +91,8 @@ bool PolygonTexts::append(std::string& out, std::size_t row, int precision) cons
   if (is_wkt) {
     out += is_multi ? "MULTIPOLYGON " : "POLYGON ";
   } else {
-    out += is_multi ? "{\"type\":\"MultiPolygon\",\"coordinates\":" : "{\"type\":\"Polygon\",\"coordinates\":";
+    out +=
+        is_multi ? "{\"type\":\"MultiPolygon\",\"coordinates\":" : "{\"type\":\"Polygon\",\"coordinates\":";
   }
   if (is_multi) {
     writer.list(first, last, [&](std::int64_t k) { writer.polygon(k); });

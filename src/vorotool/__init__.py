@@ -23,6 +23,7 @@ _HOME = {
     "Frame": "vorotool.geometry.frame",
     "LabelImage": "vorotool.geometry.label_image",
     "PointSet": "vorotool.geometry.points",
+    "PolygonSet": "vorotool.geometry.polygons",
     "Raster": "vorotool.geometry.raster",
     "SeedSet": "vorotool.geometry.seeds",
     "Table": "vorotool.geometry.table",

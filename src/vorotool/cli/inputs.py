@@ -29,9 +29,11 @@ def read_seed_input(run: Run, o: SimpleNamespace, source: str, *, properties: bo
     """
     from vorotool.formats import read
     from vorotool.geometry.points import PointSet
+    from vorotool.geometry.polygons import PolygonSet
 
     value = read(
         source,
+        geometry="points",
         input_format=o.input_format,
         columns=o.columns,
         page=o.page,
@@ -41,6 +43,7 @@ def read_seed_input(run: Run, o: SimpleNamespace, source: str, *, properties: bo
         threads=o.threads,
         note=run.note,
     )
+    assert not isinstance(value, PolygonSet)  # points are asked for
     if isinstance(value, PointSet):
         refuse(o, IMAGE_OPTIONS, "is for images, but the input is a list of points")
     return value

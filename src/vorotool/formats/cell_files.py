@@ -33,8 +33,8 @@ def write_cells(out: BinaryIO, cells: CellSet, fmt: str, *, precision: int | Non
     fmt : {"geojson", "csv", "json", "npz", "wkt"}
         GeoJSON features have the id of the input, else the label; CSV has the cell as WKT after label and place of its
         site; JSON is that of polygons, with the parts of a cell numbered if any has several; NPZ has beside the columns
-        the vertices, where each ring begins among these (``ring_starts``), each polygon among the rings, each cell among
-        the polygons, and the sides of the frame; WKT is one geometry a line, without the columns.
+        the vertices, where each ring begins among these (``ring_starts``), each polygon among the rings, each cell
+        among the polygons, and the sides of the frame; WKT is one geometry a line, without the columns.
     precision : int, optional
         Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
     threads : int
