@@ -43,6 +43,7 @@ _HOME = {
     "point_table": "vorotool.geometry.mesh_tables",
     "verify_triangulation": "vorotool.engines.delaunay",
     "site_table": "vorotool.engines.site_table",
+    "cell_colours": "vorotool.engines.cells",
     "voronoi_cells": "vorotool.engines.cells",
     "verify_cells": "vorotool.engines.cells",
     "colour_regions": "vorotool.engines.regions",

@@ -55,6 +55,11 @@ class Box:
         """Left, bottom, right, top."""
         return (self.left, self.bottom, self.right, self.top)
 
+    @property
+    def extent(self) -> tuple[float, float, float, float]:
+        """Left, bottom, width, height."""
+        return (self.left, self.bottom, self.right - self.left, self.top - self.bottom)
+
     @staticmethod
     def of_size(x: float, y: float, width: float, height: float) -> Box:
         """Give the box with its smallest corner at (x, y), as ``--frame X,Y,W,H``.
