@@ -351,9 +351,8 @@ def test_permuted_input_permutes_labels_only(run, folder):
 
 def test_pictures(run, folder):
     assert run("delaunay", DOTS, "--what", "triangles", "-o", "t.png", "--width", "300").code == 0
-    image = Image.open(folder / "t.png")
-    assert image.mode == "RGB"
-    assert image.width == 300
+    with Image.open(folder / "t.png") as image:
+        assert (image.mode, image.width) == ("RGB", 300)
     done = run("delaunay", DOTS, "-f", "svg")
     assert '<g id="edges"' in done.out
     assert '<g id="points"' in done.out
