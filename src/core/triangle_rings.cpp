@@ -13,12 +13,17 @@ void check_range(std::span<const std::int32_t> indices, std::int32_t least, std:
 
 }  // namespace
 
-TriangleRings::TriangleRings(const TriangulationArrays& mesh)
-    : mesh_(mesh), triangles_(mesh.triangles.size() / 3), first_(mesh.points.size(), -1) {
+void check_indices(const TriangulationArrays& mesh) {
   check_range(mesh.triangles, 0, mesh.points.size(), "a triangle names a point that does not exist");
-  check_range(mesh.neighbours, -1, triangles_, "a neighbour is no triangle");
+  check_range(mesh.neighbours, -1, mesh.triangles.size() / 3, "a neighbour is no triangle");
+  check_range(mesh.edges, 0, mesh.points.size(), "an edge names a point that does not exist");
   check_range(mesh.hull, 0, mesh.points.size(), "the hull names a point that does not exist");
   check_range(mesh.first, 0, mesh.points.size(), "first names a point that does not exist");
+}
+
+TriangleRings::TriangleRings(const TriangulationArrays& mesh)
+    : mesh_(mesh), triangles_(mesh.triangles.size() / 3), first_(mesh.points.size(), -1) {
+  check_indices(mesh);
   order_.reserve(mesh.points.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const std::int32_t v = mesh.triangles[i];

@@ -11,6 +11,9 @@
 
 namespace vorotool::core {
 
+// Refuses indices that do not exist with std::invalid_argument.
+void check_indices(const TriangulationArrays& mesh);
+
 class TriangleRings {
  public:
   // Refuses indices that do not exist with std::invalid_argument.

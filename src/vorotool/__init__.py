@@ -41,6 +41,7 @@ _HOME = {
     "edge_table": "vorotool.geometry.mesh_tables",
     "triangle_table": "vorotool.geometry.mesh_tables",
     "point_table": "vorotool.geometry.mesh_tables",
+    "insert_points": "vorotool.engines.insertion",
     "verify_triangulation": "vorotool.engines.delaunay",
     "site_table": "vorotool.engines.site_table",
     "cell_colours": "vorotool.engines.cells",

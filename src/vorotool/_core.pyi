@@ -170,6 +170,19 @@ class DelaunayMesh:
     ) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]]:
         """Triangles, their neighbours, and edges."""
 
+def insert_points(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    neighbours: NDArray[np.int32],
+    edges: NDArray[np.int32],
+    hull: NDArray[np.int32],
+    first: NDArray[np.int32],
+    hints: NDArray[np.int32],
+    threads: int,
+    progress: _Progress,
+) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]] | None:
+    """Triangles, neighbours, edges, hull, first; None where the order of the triangles that stay would change."""
+
 def triangulation_fault(
     points: NDArray[np.float64],
     triangles: NDArray[np.int32],
