@@ -14,20 +14,20 @@ bool comes_before(const Point& a, const Point& b) { return a.x != b.x ? a.x < b.
 }  // namespace
 
 GhostMesh::GhostMesh(const TriangulationArrays& mesh, std::span<const Point> points, std::size_t more)
-    : points_(points) {
-  const std::size_t slots = mesh.triangles.size() / 3 + mesh.hull.size() + 2 * more;
-  corners_.reserve(3 * slots);
-  across_.reserve(3 * slots);
-  corners_.assign(mesh.triangles.begin(), mesh.triangles.end());
-  across_.assign(mesh.neighbours.begin(), mesh.neighbours.end());
-  changed_.reserve(slots);
-  changed_.assign(corners_.size() / 3, 0);
+    : points_(points),
+      slots_(mesh.triangles.size() / 3),
+      corners_(3 * (slots_ + mesh.hull.size() + 2 * more)),
+      across_(corners_.size()) {
+  std::copy(mesh.triangles.begin(), mesh.triangles.end(), corners_.data());
+  std::copy(mesh.neighbours.begin(), mesh.neighbours.end(), across_.data());
+  changed_.reserve(corners_.size() / 3);
+  changed_.assign(slots_, 0);
   add_ghosts();
 }
 
 // Ghosts are linked to each other around the hull by the vertex that they share.
 void GhostMesh::add_ghosts() {
-  const std::size_t sides = corners_.size();
+  const std::size_t sides = 3 * slots_;
   std::vector<std::pair<Vertex, Slot>> starts, ends;  // of hull sides, and their ghosts
   for (std::size_t i = 0; i < sides; ++i) {
     if (across_[i] >= 0) continue;
@@ -50,9 +50,8 @@ void GhostMesh::add_ghosts() {
 }
 
 GhostMesh::Slot GhostMesh::new_slot() {
-  const auto s = static_cast<Slot>(slots());
-  corners_.resize(corners_.size() + 3, infinity);
-  across_.resize(across_.size() + 3, -1);
+  if (3 * slots_ == corners_.size()) refuse();  // more sides than the hull has
+  const auto s = static_cast<Slot>(slots_++);
   changed_.push_back(0);
   mark(s);
   return s;
@@ -65,7 +64,7 @@ void GhostMesh::mark(Slot s) {
 }
 
 void GhostMesh::set(Slot s, const std::array<Vertex, 3>& corners) {
-  std::copy(corners.begin(), corners.end(), corners_.begin() + static_cast<std::ptrdiff_t>(at(s, 0)));
+  std::copy(corners.begin(), corners.end(), corners_.data() + at(s, 0));
   mark(s);
 }
 
@@ -89,11 +88,8 @@ int GhostMesh::side_towards(Slot s, Slot t) const {
 }
 
 void GhostMesh::rotate(Slot s, int k) {
-  const auto begin = [&](std::vector<std::int32_t>& of) {
-    return of.begin() + static_cast<std::ptrdiff_t>(at(s, 0));
-  };
-  std::rotate(begin(corners_), begin(corners_) + k, begin(corners_) + 3);
-  std::rotate(begin(across_), begin(across_) + k, begin(across_) + 3);
+  for (std::int32_t* of : {corners_.data() + at(s, 0), across_.data() + at(s, 0)})
+    std::rotate(of, of + k, of + 3);
 }
 
 // ---- the search ----

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "core/large_array.hpp"
 #include "core/predicates.hpp"
 #include "core/verify_triangulation.hpp"
 
@@ -26,7 +27,7 @@ class GhostMesh {
   // Throws std::invalid_argument where the arrays are found not to be a triangulation.
   GhostMesh(const TriangulationArrays& mesh, std::span<const Point> points, std::size_t more);
 
-  std::size_t slots() const { return corners_.size() / 3; }
+  std::size_t slots() const { return slots_; }
   Vertex corner(Slot s, int k) const { return corners_[at(s, k)]; }
   // The triangle across the side opposite to corner k.
   Slot across(Slot s, int k) const { return across_[at(s, k)]; }
@@ -90,8 +91,9 @@ class GhostMesh {
   void make_fan(Slot within);
 
   std::span<const Point> points_;
-  std::vector<Vertex> corners_;  // [3 slots] counter-clockwise; of ghosts, as seen from outside the hull
-  std::vector<Slot> across_;     // [3 slots]
+  std::size_t slots_;           // in use
+  LargeArray<Vertex> corners_;  // [3 slots] counter-clockwise; of ghosts, as seen from outside the hull
+  LargeArray<Slot> across_;     // [3 slots]
   std::vector<std::uint8_t> changed_;
   std::vector<Slot> changed_slots_;
   std::vector<Slot>

@@ -82,6 +82,7 @@ class Inserter {
         grid_(bounds_),
         threads_(threads),
         monitor_(monitor),
+        codes_(points.size()),
         mesh_(mesh, points, points.size() - mesh.points.size()),
         first_(points.size()) {
     std::copy(mesh.first.begin(), mesh.first.end(), first_.begin());
@@ -91,6 +92,7 @@ class Inserter {
     const auto further = points_.subspan(in_.points.size());
     if (!std::all_of(further.begin(), further.end(), [&](const Point& p) { return bounds_.holds(p); }))
       return {};
+    number_cells();
     insert_all(hints);
     mesh_.make_fans();
     make_blocks();
@@ -106,10 +108,19 @@ class Inserter {
  private:
   const Point& at(Vertex v) const { return points_[static_cast<std::size_t>(v)]; }
 
+  std::uint32_t code(Vertex v) const { return codes_[static_cast<std::size_t>(v)]; }
+
+  void number_cells() {
+    const auto number = [&](std::size_t piece) {
+      const std::size_t end = std::min(points_.size(), (piece + 1) * rows_a_piece);
+      for (std::size_t i = piece * rows_a_piece; i < end; ++i) codes_[i] = grid_.code(points_[i]);
+    };
+    parallel_for(piece_count(points_.size(), rows_a_piece), threads_, number, monitor_);
+  }
+
   // The order of vertices: along the curve, and by (x, y) in a cell of few points.
   bool is_earlier(Vertex v, Vertex w) const {
-    const std::uint32_t a = grid_.code(at(v)), b = grid_.code(at(w));
-    if (a != b) return a < b;
+    if (code(v) != code(w)) return code(v) < code(w);
     return at(v).x != at(w).x ? at(v).x < at(w).x : at(v).y < at(w).y;
   }
 
@@ -119,7 +130,7 @@ class Inserter {
   std::vector<Vertex> order_of_insertion() const {
     std::vector<std::pair<std::uint32_t, Vertex>> order;
     for (std::size_t i = in_.points.size(); i < points_.size(); ++i) {
-      order.emplace_back(grid_.code(points_[i]), static_cast<Vertex>(i));
+      order.emplace_back(codes_[i], static_cast<Vertex>(i));
     }
     std::sort(order.begin(), order.end());
     std::vector<Vertex> result;
@@ -134,7 +145,7 @@ class Inserter {
       const auto i = static_cast<std::size_t>(v) - in_.points.size();
       if (!hints.empty()) row = 0;
       const Vertex aim = hints.empty() ? v : first_[static_cast<std::size_t>(hints[i])];
-      Slot near = start_for(at(aim), row);
+      Slot near = start_for(aim, row);
       if (!hints.empty()) near = mesh_.slot_at(aim, near);
       first_[static_cast<std::size_t>(v)] = mesh_.insert(v, near);
     }
@@ -143,10 +154,9 @@ class Inserter {
   // A triangle that was close to a place before anything was inserted: they are in the order of their first
   // corners. Wherever its slot has gone since, it did not go far. `row` is where the search for an earlier
   // place ended.
-  Slot start_for(const Point& p, std::size_t& row) const {
+  Slot start_for(Vertex v, std::size_t& row) const {
     const std::size_t rows = in_.triangles.size() / 3;
-    const std::uint32_t code = grid_.code(p);
-    row = first_row(row, rows, [&](std::size_t t) { return grid_.code(at(in_.triangles[3 * t])) < code; });
+    row = first_row(row, rows, [&](std::size_t t) { return code(in_.triangles[3 * t]) < code(v); });
     return static_cast<Slot>(std::min(row, rows - 1));
   }
 
@@ -241,12 +251,12 @@ class Inserter {
   bool changes_order() const {
     CellCounts cells(near_.size() + points_.size() - in_.points.size());
     for (const Vertex v : near_) {
-      if (v != GhostMesh::infinity) cells.add_cell(grid_.code(at(v)));
+      if (v != GhostMesh::infinity) cells.add_cell(code(v));
     }
-    for (std::size_t i = in_.points.size(); i < points_.size(); ++i) cells.add_cell(grid_.code(points_[i]));
+    for (std::size_t i = in_.points.size(); i < points_.size(); ++i) cells.add_cell(codes_[i]);
     const auto count = [&](std::size_t piece) {
       const std::size_t end = std::min(points_.size(), (piece + 1) * rows_a_piece);
-      for (std::size_t i = piece * rows_a_piece; i < end; ++i) cells.count(grid_.code(points_[i]));
+      for (std::size_t i = piece * rows_a_piece; i < end; ++i) cells.count(codes_[i]);
     };
     parallel_for(piece_count(points_.size(), rows_a_piece), threads_, count, monitor_);
     return cells.any_above(few);
@@ -287,25 +297,28 @@ class Inserter {
 
   void merge_triangles(InsertedArrays& out) const {
     const std::size_t rows = out.triangles.size() / 3;
-    std::vector<Slot> slot_of;  // [rows] of the result
-    slot_of.reserve(rows);
+    LargeArray<Slot> slot_of(rows);                  // of the result
+    LargeArray<std::int32_t> row_of(mesh_.slots());  // in the result; of ghosts, -1
+    std::fill_n(row_of.data(), row_of.size(), -1);
+    std::size_t next = 0;
+    const auto put = [&](Slot s) {
+      if (next == rows) throw std::invalid_argument("the triangles are not in their order");
+      row_of[static_cast<std::size_t>(s)] = static_cast<std::int32_t>(next);
+      slot_of[next++] = s;
+    };
     const auto lead = [&](std::size_t t) { return in_.triangles[3 * t]; };
     merge(
         in_.triangles.size() / 3, [&](std::size_t t, Vertex v) { return is_earlier(lead(t), v); },
         [&](std::size_t t, Vertex v) { return lead(t) == v; },
         [&](std::size_t begin, std::size_t end) {
-          for (std::size_t t = begin; t < end; ++t) slot_of.push_back(static_cast<Slot>(t));
+          for (std::size_t t = begin; t < end; ++t) put(static_cast<Slot>(t));
         },
         [&](std::size_t b) {
           for (std::size_t i = blocks_[b].first_triangle; i < blocks_[b + 1].first_triangle; ++i) {
-            slot_of.push_back(new_triangles_[i]);
+            put(new_triangles_[i]);
           }
         });
-    if (slot_of.size() != rows) throw std::invalid_argument("the triangles are not in their order");
-    std::vector<std::int32_t> row_of(mesh_.slots(), -1);  // of ghosts, none
-    for (std::size_t row = 0; row < rows; ++row) {
-      row_of[static_cast<std::size_t>(slot_of[row])] = static_cast<std::int32_t>(row);
-    }
+    if (next != rows) throw std::invalid_argument("the triangles are not in their order");
     const auto write = [&](std::size_t piece) {
       const std::size_t end = std::min(rows, (piece + 1) * rows_a_piece);
       for (std::size_t row = piece * rows_a_piece; row < end; ++row) {
@@ -366,6 +379,7 @@ class Inserter {
   const MortonGrid grid_;
   const unsigned threads_;
   const Monitor& monitor_;
+  LargeArray<std::uint32_t> codes_;  // [points] of their cells
   GhostMesh mesh_;
   std::vector<std::int32_t> first_;
   std::vector<Block> blocks_;
