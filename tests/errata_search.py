@@ -26,7 +26,7 @@ from digital_oracle import edge_is_delaunay
 class Batch:
     """The tessellations of an image by one set of pixels.
 
-    ``orders[t]`` are the pixels of the set in the order of their labels, ``labels[t]`` the image: (height, width), from 0.
+    ``orders[t]`` are pixels of the set in the order of their labels, ``labels[t]`` the image, (height, width), from 0.
     """
 
     sites: tuple[tuple[Fraction, Fraction], ...]

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include "core/large_array.hpp"
 #include "core/verify_triangulation.hpp"
 #include "interrupts.hpp"
+#include "mesh_arrays.hpp"
 
 namespace vorotool::bindings {
 namespace {
@@ -24,20 +24,6 @@ using namespace nb::literals;
 using core::DelaunayMesh;
 using core::Monitor;
 using core::Point;
-using Indices = Vector<const std::int32_t>;
-using IndexRows = Matrix<const std::int32_t>;
-
-std::span<const Point> as_points(const Matrix<const double>& array) {
-  if (array.shape(1) != 2) throw std::invalid_argument("points must have two columns");
-  static_assert(sizeof(Point) == 2 * sizeof(double));
-  return {reinterpret_cast<const Point*>(array.data()), array.shape(0)};
-}
-
-std::span<const std::int32_t> rows_of(const IndexRows& array, std::size_t columns) {
-  if (array.shape(1) != columns)
-    throw std::invalid_argument("an array of indices has a wrong number of columns");
-  return view(array);
-}
 
 nb::object copied(std::span<const std::int32_t> values) {
   core::LargeArray<std::int32_t> kept(values.size());
@@ -66,12 +52,8 @@ std::optional<std::string> triangulation_fault(const Matrix<const double>& point
                                                const IndexRows& neighbours, const IndexRows& edges,
                                                const Indices& hull, const Indices& first, unsigned threads,
                                                nb::handle progress) {
-  const core::TriangulationArrays arrays{
-      as_points(points), rows_of(triangles, 3), rows_of(neighbours, 3), rows_of(edges, 2), view(hull),
-      view(first)};
-  if (arrays.first.size() != arrays.points.size() || arrays.neighbours.size() != arrays.triangles.size()) {
-    throw std::invalid_argument("the arrays of a triangulation have lengths that do not go together");
-  }
+  const core::TriangulationArrays arrays =
+      mesh_arrays(points, triangles, neighbours, rows_of(edges, 2), view(hull), view(first));
   return run_interruptible(
       progress, [&](const Monitor& monitor) { return core::find_fault(arrays, threads, monitor); });
 }

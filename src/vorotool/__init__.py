@@ -18,9 +18,12 @@ _HOME = {
     "VerificationError": "vorotool.errors",
     "VorotoolError": "vorotool.errors",
     "VorotoolWarning": "vorotool.errors",
+    "Box": "vorotool.geometry.box",
+    "CellSet": "vorotool.geometry.cells",
     "Frame": "vorotool.geometry.frame",
     "LabelImage": "vorotool.geometry.label_image",
     "PointSet": "vorotool.geometry.points",
+    "PolygonSet": "vorotool.geometry.polygons",
     "Raster": "vorotool.geometry.raster",
     "SeedSet": "vorotool.geometry.seeds",
     "Table": "vorotool.geometry.table",
@@ -45,6 +48,10 @@ _HOME = {
     "repair_digital": "vorotool.engines.digital_triangulation",
     "DigitalComparison": "vorotool.geometry.digital_comparison",
     "compare_digital": "vorotool.engines.digital_comparison",
+    "site_table": "vorotool.engines.site_table",
+    "cell_colours": "vorotool.engines.cells",
+    "voronoi_cells": "vorotool.engines.cells",
+    "verify_cells": "vorotool.engines.cells",
     "colour_regions": "vorotool.engines.regions",
 }
 
