@@ -46,6 +46,7 @@ _HOME = {
     "digital_triangulation": "vorotool.engines.digital_triangulation",
     "digital_delaunay": "vorotool.engines.digital_triangulation",
     "repair_digital": "vorotool.engines.digital_triangulation",
+    "verify_digital_triangulation": "vorotool.engines.verify_digital",
     "DigitalComparison": "vorotool.geometry.digital_comparison",
     "compare_digital": "vorotool.engines.digital_comparison",
     "site_table": "vorotool.engines.site_table",

@@ -186,7 +186,7 @@ def test_few_points(run, folder, method):
         (["--size", "9x9", "--window", "0,0,9,9", "--method", "digital"], "give --size or --window, not both"),
         (["--method", "digital", "--what", "table"], "table as csv needs --method exact or digital-valid"),
         (["--method", "digital", "--what", "cells"], "cells as geojson needs --method exact or digital-valid"),
-        (["--method", "digital", "-f", "svg", "--layers", "cells"], "--layers cells and diagram are of the exact cells"),
+        (["--method", "digital", "-f", "svg", "--layers", "cells"], "--layers cells and diagram are of the exact"),
         (["--method", "digital-valid", "--what", "compare"], "--what compare is about the digital rule"),
         (["--what", "edges,compare", "-o", "a"], "--what compare is about the digital rule"),
         (["--what", "compare", "-f", "svg"], "compare cannot be written as svg"),
