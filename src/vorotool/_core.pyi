@@ -194,6 +194,26 @@ def triangulation_fault(
     progress: _Progress,
 ) -> str | None: ...
 
+# ---- digital triangulation (bind_digital.cpp): rows are C-contiguous uint8, uint16 or uint32 labels ----------------
+
+class DigitalTriangulationScan:
+    def __init__(self) -> None: ...
+    def add_rows(self, rows: NDArray[Any], threads: int, progress: _Progress) -> None: ...
+    def finish(self) -> dict[str, Any]: ...
+
+def digital_mesh(
+    points: NDArray[np.float64],
+    x: NDArray[np.int64],
+    y: NDArray[np.int64],
+    scale: int,
+    image: NDArray[np.uint32],
+    frame_x: int,
+    frame_y: int,
+    threads: int,
+    progress: _Progress,
+) -> tuple[DelaunayMesh, dict[str, Any]]: ...
+def inserted_mesh(points: NDArray[np.float64], threads: int, progress: _Progress) -> DelaunayMesh: ...
+
 # ---- Voronoi cells (bind_cells.cpp): a frame is left, bottom, right, top --------------------------------------------
 
 def voronoi_cells(

@@ -16,7 +16,8 @@ from PIL import Image
 
 import vorotool
 from vorotool.cli.delaunay import FORMATS, LAYERS
-from vorotool.cli.meshes import DEFAULT_LAYERS, MeshProducts
+from vorotool.cli.digital_meshes import DigitalProducts
+from vorotool.cli.meshes import DEFAULT_LAYERS
 from vorotool.render import cell_layers, mesh_layers
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -62,7 +63,7 @@ def test_every_format_is_written(run, folder, what):
         assert run("delaunay", DOTS, "--what", what, "-f", fmt, "-o", "b").code == 0
         assert (folder / f"a.{fmt}").read_bytes() == (folder / "b").read_bytes()
         assert (folder / "b").stat().st_size > 500
-    assert hasattr(MeshProducts, f"_write_{what}")
+    assert hasattr(DigitalProducts, f"_write_{what}")
     assert run("delaunay", DOTS, "--what", what).out == (folder / f"a.{FORMATS[what][0]}").read_text()
 
 

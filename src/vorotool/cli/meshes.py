@@ -17,6 +17,7 @@ from vorotool.engines.delaunay import delaunay, verify_triangulation
 from vorotool.engines.site_table import site_table
 from vorotool.errors import VorotoolWarning
 from vorotool.formats.tables import TABLE_FORMATS, write_table
+from vorotool.geometry.digital_triangulation import AnyTriangulation
 from vorotool.geometry.points import PointSet
 from vorotool.geometry.seeds import SeedSet
 
@@ -47,9 +48,18 @@ class MeshProducts:
 
     def __init__(self, points: PointSet | SeedSet, options: SimpleNamespace, run: Run) -> None:
         self.options, self.run = options, run
-        progress = run.progress("triangulating")
-        with run.phase("triangulate"):
-            self.mesh = delaunay(points, strict=options.strict, threads=options.threads, progress=progress)
+        if self.wants_mesh:
+            with run.phase("triangulate"):
+                self.mesh: Any = self._triangulate(points)
+
+    @property
+    def wants_mesh(self) -> bool:
+        """Whether a result shows the triangulation itself."""
+        return bool(self.options.what != ("compare",))
+
+    def _triangulate(self, points: PointSet | SeedSet) -> AnyTriangulation:
+        progress = self.run.progress("triangulating")
+        return delaunay(points, strict=self.options.strict, threads=self.options.threads, progress=progress)
 
     def check(self, target: Target) -> None:
         """Refuse what cannot be written, and say what will be empty, before anything is written."""
@@ -57,8 +67,7 @@ class MeshProducts:
             from vorotool.render.layers_png import check_picture_size
 
             check_picture_size(self._page(target.what), self.options.max_pixels)
-        rows = {"edges": len(self.mesh.edges), "triangles": len(self.mesh.triangles)}.get(target.what)
-        if rows == 0:
+        if target.what in ("edges", "triangles") and not len(getattr(self.mesh, target.what)):
             warnings.warn(f"there are no {target.what}: {self._shape()}", VorotoolWarning, stacklevel=2)
 
     def _shape(self) -> str:

@@ -121,7 +121,7 @@ def write(
 
     Parameters
     ----------
-    value : LabelImage, Table, PolygonSet, CellSet or Triangulation
+    value : LabelImage, Table, PolygonSet, CellSet, Triangulation or DigitalTriangulation
         What to write: images as PNG, TIFF, NPY or text, tables as CSV, JSON or NPZ, polygons as JSON, GeoJSON, WKT or
         .poly, cells as GeoJSON, CSV, JSON, NPZ or WKT, a triangulation as a table, GeoJSON, OBJ, or a file of Triangle.
     path : str or path
@@ -149,13 +149,14 @@ def write(
     >>> write(vorotool.delaunay([[0, 0], [4, 0], [0, 3]]), "build/triangles.geojson", what="triangles")
     """
     from vorotool.formats.outputs import open_output
+    from vorotool.geometry.digital_triangulation import DigitalTriangulation
     from vorotool.geometry.label_image import LabelImage
     from vorotool.geometry.triangulation import Triangulation
 
     name = (fmt or Path(path).suffix).lower().lstrip(".")
     chosen: Any = {"tif": "tiff", "txt": "text"}.get(name, name)
     threads = checked_threads(threads)
-    if what is not None and not isinstance(value, Triangulation):
+    if what is not None and not isinstance(value, Triangulation | DigitalTriangulation):
         raise UsageError(f"what={what!r} is for triangulations: leave it out with a {type(value).__name__}")
     if isinstance(value, LabelImage):
         _write_image(value, fspath(path), chosen, threads)
@@ -168,6 +169,7 @@ def write(
 def _writer_of(value: Any, fmt: str, what: str | None, threads: int) -> tuple[Callable[..., None], dict[str, Any]]:
     """Give the function that writes a value, and its further options."""
     from vorotool.geometry.cells import CellSet
+    from vorotool.geometry.digital_triangulation import DigitalTriangulation
     from vorotool.geometry.polygons import PolygonSet
     from vorotool.geometry.table import Table
     from vorotool.geometry.triangulation import Triangulation
@@ -184,7 +186,7 @@ def _writer_of(value: Any, fmt: str, what: str | None, threads: int) -> tuple[Ca
         from vorotool.formats.cell_files import write_cells
 
         return write_cells, {"threads": threads}
-    if isinstance(value, Triangulation):
+    if isinstance(value, Triangulation | DigitalTriangulation):
         from vorotool.formats.mesh_files import write_mesh
 
         return write_mesh, {"what": what or {"ele": "triangles", "node": "table"}.get(fmt, "edges"), "threads": threads}
