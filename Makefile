@@ -60,6 +60,7 @@ fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CAS
 	$(RUN) tests/fuzz/tessellate.py --pixels $(or $(PIXELS),100000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/predicates.py --calls $(or $(CALLS),1000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/delaunay.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/cells.py --cases $(or $(CASES),20000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/alphashape.py --cases $(or $(CASES),20000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/digital.py --sets $(or $(SETS),500) --seed $(or $(SEED),1)
 

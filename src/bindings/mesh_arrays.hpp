@@ -1,13 +1,12 @@
-// Points and rows of indices as the core takes them.
+// The arrays of a triangulation as they come in from NumPy.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <stdexcept>
 
 #include "arrays.hpp"
-#include "core/predicates.hpp"
+#include "core/verify_triangulation.hpp"
 
 namespace vorotool::bindings {
 
@@ -24,6 +23,28 @@ inline std::span<const std::int32_t> rows_of(const IndexRows& array, std::size_t
   if (array.shape(1) != columns)
     throw std::invalid_argument("an array of indices has a wrong number of columns");
   return view(array);
+}
+
+inline core::TriangulationArrays mesh_arrays(const Matrix<const double>& points, const IndexRows& triangles,
+                                             const IndexRows& neighbours, std::span<const std::int32_t> edges,
+                                             std::span<const std::int32_t> hull,
+                                             std::span<const std::int32_t> first) {
+  const core::TriangulationArrays arrays{
+      as_points(points), rows_of(triangles, 3), rows_of(neighbours, 3), edges, hull, first};
+  if (arrays.first.size() != arrays.points.size() || arrays.neighbours.size() != arrays.triangles.size()) {
+    throw std::invalid_argument("the arrays of a triangulation have lengths that do not go together");
+  }
+  return arrays;
+}
+
+// (n, 2) doubles that take over the points.
+inline nanobind::object points_to_numpy(core::LargeArray<core::Point>&& points) {
+  const std::size_t rows = points.size();
+  core::Point* data = points.release();
+  const nanobind::capsule owner(
+      data, [](void* p) noexcept { core::LargeArray<core::Point>::free(static_cast<core::Point*>(p)); });
+  return nanobind::cast(
+      nanobind::ndarray<nanobind::numpy, double>(reinterpret_cast<double*>(data), {rows, 2}, owner));
 }
 
 }  // namespace vorotool::bindings

@@ -10,4 +10,5 @@ NB_MODULE(_core, module) {
   vorotool::bindings::bind_delaunay(module);
   vorotool::bindings::bind_alpha(module);
   vorotool::bindings::bind_digital(module);
+  vorotool::bindings::bind_cells(module);
 }

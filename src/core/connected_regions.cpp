@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/arithmetic.hpp"
 #include "core/label_runs.hpp"
 #include "core/region_scan.hpp"
 #include "core/regions.hpp"
@@ -15,7 +16,7 @@ namespace vorotool::core {
 namespace {
 
 using Label = std::uint32_t;
-using Square = Wide;  // squared distances below 2^84: see kLatticeLimit
+using Square = uint128;  // squared distances below 2^84: see kLatticeLimit
 
 constexpr std::size_t steps_between_polls = std::size_t{1} << 14;
 

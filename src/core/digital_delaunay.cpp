@@ -11,21 +11,23 @@
 namespace vorotool::core {
 namespace {
 
+constexpr TriangleMesh::Side sides_between_polls = 3 << 14;
+
 Vertex as_vertex(std::size_t i) { return static_cast<Vertex>(i); }
 
 // Links every side of the dual with its twin, and the ring with ghosts. False if it is no closed surface.
-bool assemble(const DigitalDual& dual, TriangleMesh& mesh) {
+bool assemble(const DigitalDual& dual, TriangleMesh& mesh, const Monitor& monitor) {
   if (dual.ring.size() < 2) return false;
-  FlatMap waiting(2 * dual.triangles.size());  // sides a, b whose twin b, a is to come, plus 1
+  FlatMap waiting(2 *
+                  dual.triangles.size());  // by a, b: the side, plus 1, whose twin b, a is to come; then 0
   std::size_t open = 0;
   const auto close = [&](Vertex a, Vertex b, TriangleMesh::Side side) {
     const auto key = [](Vertex from, Vertex to) {
       return (static_cast<std::uint64_t>(from) + 1) << 32 | (static_cast<std::uint64_t>(to) + 1);
     };
-    std::uint64_t& other = waiting[key(b, a)];
-    if (other != 0) {
+    if (const std::uint64_t other = waiting.find(key(b, a)); other != 0) {
       mesh.link(side, static_cast<TriangleMesh::Side>(other - 1));
-      other = 0;
+      waiting[key(b, a)] = 0;
       --open;
       return true;
     }
@@ -37,6 +39,7 @@ bool assemble(const DigitalDual& dual, TriangleMesh& mesh) {
   };
   for (const auto& [a, b, c] : dual.triangles) {
     const TriangleMesh::Side s = mesh.add_triangle(a, b, c);
+    if (s % sides_between_polls == 0 && monitor && !monitor(0.5)) throw Interrupted();
     if (!close(a, b, s) || !close(b, c, s + 1) || !close(c, a, s + 2)) return false;
   }
   const std::size_t count = dual.ring.size();
@@ -86,7 +89,7 @@ std::uint64_t insert_missing(TriangleMesh& mesh, const std::vector<bool>& used) 
 std::optional<Subdivision> repaired(const DigitalDual& dual, std::span<const Point> points,
                                     DigitalRepair& repair, const Monitor& monitor) {
   TriangleMesh mesh(points, monitor);
-  if (!assemble(dual, mesh)) return {};
+  if (!assemble(dual, mesh, monitor)) return {};
   repair.straightened = mesh.straighten();
   if (!mesh.is_positive()) return {};
   mesh.make_delaunay();

@@ -3,6 +3,7 @@ from __future__ import annotations
 import subprocess
 import sys
 import warnings
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -19,12 +20,14 @@ from vorotool import (
     LimitError,
     SeedSet,
     UsageError,
+    VerificationError,
     VorotoolWarning,
     _core,
     delaunay,
     digital_delaunay,
     digital_triangulation,
     repair_digital,
+    verify_digital_triangulation,
     verify_triangulation,
 )
 from vorotool.engines import digital
@@ -147,6 +150,42 @@ def test_what_cannot_be_read():
         vorotool.DigitalTriangulation([[0, 0]], [], [[0, 1]], [False], [1])
     with pytest.raises(InputError, match="at_four must be as long as triangles"):
         vorotool.DigitalTriangulation([[0, 0]], [], [[0, 0, 0]], [], [1])
+
+
+@pytest.mark.parametrize("case", range(40))
+def test_the_checker_agrees(case, monkeypatch):
+    _, x, y, labels, scale, window = random_case(np.random.default_rng(case), 40)
+    seeds = SeedSet(x, y, labels, scale=scale)
+    monkeypatch.setattr(digital, "BAND_PIXELS", 300)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", VorotoolWarning)
+        verify_digital_triangulation(digital_triangulation(seeds, window=window), seeds, window=window)
+
+
+def test_the_checker_sees_faults():
+    seeds = random_seeds(4, 60, 40)
+    found = digital_triangulation(seeds, shape=(60, 60))
+    a, b, c = np.sort(found.labels[found.triangles[3]]).tolist()
+    faults = {
+        f"triangle {a}-{b}-{c} is missing .1 such triangles": {
+            "triangles": np.delete(found.triangles, 3, 0),
+            "at_four": np.delete(found.at_four, 3),
+        },
+        "edge 1-.* is missing": {"edges": found.edges[1:]},
+        "edge 1-.* should not be there .1 such edges": {
+            "edges": np.concatenate([found.edges, [[0, far_label(found)]]])
+        },
+        "an edge is there twice": {"edges": np.concatenate([found.edges, found.edges[:1, ::-1]])},
+        r"edge .* is missing .\d+ such edges": {"labels": found.labels + 1},
+    }
+    for message, change in faults.items():
+        with pytest.raises(VerificationError, match=message):
+            verify_digital_triangulation(replace(found, **change), seeds, shape=(60, 60))
+
+
+def far_label(found):
+    """A region that does not touch the first."""
+    return next(i for i in range(1, len(found.points)) if [0, i] not in found.edges.tolist())
 
 
 # ---- the repair -----------------------------------------------------------------------------------------

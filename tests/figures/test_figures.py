@@ -24,16 +24,7 @@ def figures(tmp_path_factory):
 
 
 @pytest.mark.parametrize(
-    "name",
-    [
-        "figure-01.svg",
-        "figure-02.svg",
-        "figure-03c.svg",
-        "figure-03d.svg",
-        "figure-04a.svg",
-        "figure-04b.svg",
-        "figure-04c.svg",
-    ],
+    "name", [f"figure-{number}.svg" for number in ("01", "02", "03b", "03c", "03d", "04a", "04b", "04c")]
 )
 def test_svg(figures, name):
     assert (figures / name).read_text() == (Path(__file__).parent / name).read_text()

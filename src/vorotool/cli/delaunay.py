@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vorotool.cli.inputs import naming, read_seed_input, refuse
-from vorotool.cli.options import layers_option, shared, single_input, what_option
+from vorotool.cli.inputs import naming, read_clip, read_seed_input, refuse
+from vorotool.cli.options import Rectangle, layers_option, shared, single_input, what_option
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options, check_stats, check_targets, plan_targets
 
@@ -23,12 +23,15 @@ _PICTURES = ("svg", "png")
 FORMATS = {
     "edges": ("csv", "json", "geojson", "npz", "edge", "obj", *_PICTURES),
     "triangles": ("csv", "json", "geojson", "npz", "ele", "obj", *_PICTURES),
+    "cells": ("geojson", "csv", "json", "npz", "wkt", *_PICTURES),
     "table": (*_TABLES, "node"),
     "compare": _TABLES,
 }
-OF_TRIANGULATIONS = frozenset({("table", fmt) for fmt in FORMATS["table"]} | {("edges", "edge"), ("triangles", "ele")})
+OF_TRIANGULATIONS = frozenset(
+    {("edges", "edge"), ("triangles", "ele")} | {(what, fmt) for what in ("cells", "table") for fmt in FORMATS[what]}
+)
 """Results and formats that what the digital rule finds has no place in."""
-LAYERS = ("triangles", "edges", "points", "labels")
+LAYERS = ("cells", "triangles", "diagram", "edges", "points", "labels")
 """Layers of pictures, from below."""
 PICTURE_LAYERS = {"svg": LAYERS, "png": tuple(layer for layer in LAYERS if layer != "labels")}
 
@@ -47,6 +50,12 @@ _WITHOUT_DIGITS = frozenset({"npz", "edge", "ele", *_PICTURES})
     help="digital: the paper's rule, to the letter, on the digital tessellation of a frame; digital-valid: its "
     "certified repair, which gives the exact triangulation.",
 )
+@click.option(
+    "--frame",
+    type=Rectangle(),
+    help="Rectangle that cells are clipped to; by default the bounds of the points and a tenth more.",
+)
+@click.option("--clip", metavar="POLYGONS", help="File of polygons that cells are clipped to as well.")
 @shared("size", "window", "columns", "input-format", "page", "seeds", "connectivity", "threshold", "invert")
 @layers_option(LAYERS)
 @shared("width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels", "max-sites")
@@ -75,6 +84,9 @@ def command(**options: Any) -> None:
         check_targets(o, targets, source)
         with naming(source), run.phase("read"):
             points = _read_points(run, o, source)
+        if o.clip is not None:
+            with run.phase("read polygons"):
+                o.clip = read_clip(run, o, o.clip)
         with naming(source):
             products = _products(o)(points, o, run)
         for target in targets:
@@ -110,6 +122,10 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     if o.connectivity is not None and o.seeds in ("pixels", "labels"):
         raise click.UsageError(f"--connectivity is for components: leave it out with --seeds {o.seeds}")
     formats = {target.fmt for target in targets}
+    with_cells = {"cells", "diagram"} & set(o.layers or ()) or {"cells", "table"} & set(o.what)
+    for name in ("frame", "clip"):
+        if getattr(o, name) is not None and not with_cells:
+            raise click.UsageError(f"--{name} is for cells: use --what cells or table, or leave it out")
     if o.precision is not None and formats <= _WITHOUT_DIGITS:
         raise click.UsageError("--precision is for numbers in text: use -f csv, json, geojson or obj, or leave it out")
     pictures = sorted(formats & set(_PICTURES))
@@ -129,6 +145,8 @@ def _check_method(o: SimpleNamespace, targets: list[Target]) -> None:
         if o.method == "digital-valid" or (o.method == "exact" and len(o.what) > 1):
             raise click.UsageError("--what compare is about the digital rule: use --method digital")
         o.method = "digital"
+    if o.method == "digital" and {"cells", "diagram"} & set(o.layers or ()):
+        raise click.UsageError("--layers cells and diagram are of the exact cells: use --method exact or digital-valid")
     for target in targets:
         if o.method == "digital" and (target.what, target.fmt) in OF_TRIANGULATIONS:
             raise click.UsageError(
@@ -141,7 +159,7 @@ def _read_points(run: Run, o: SimpleNamespace, source: str) -> PointSet | SeedSe
     from vorotool.engines.seeding import seeds_from_raster
     from vorotool.geometry.points import PointSet
 
-    value = read_seed_input(run, o, source, properties="table" in o.what)
+    value = read_seed_input(run, o, source, properties=bool({"table", "cells"} & set(o.what)))
     if isinstance(value, PointSet):
         return value
     refuse(o, ("columns",), "is for lists of points, but the input is an image")

@@ -117,14 +117,14 @@ def write(
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    """Write a label image, a table, polygons, or the edges, triangles or table of a triangulation.
+    """Write a label image, a table, polygons, Voronoi cells, or the edges, triangles or table of a triangulation.
 
     Parameters
     ----------
-    value : LabelImage, Table, PolygonSet, Triangulation, DigitalTriangulation, AlphaShape or AlphaComplex
+    value : LabelImage, Table, PolygonSet, CellSet, Triangulation, DigitalTriangulation, AlphaShape or AlphaComplex
         What to write: images as PNG, TIFF, NPY or text, tables as CSV, JSON or NPZ, polygons as JSON, GeoJSON, WKT or
-        .poly, a triangulation as a table, GeoJSON, OBJ, or a file of Triangle, an alpha shape's edges as a table or
-        GeoJSON and its polygons as polygons, an alpha complex as a table.
+        .poly, cells as GeoJSON, CSV, JSON, NPZ or WKT, a triangulation as a table, GeoJSON, OBJ, or a file of Triangle,
+        an alpha shape as a table or GeoJSON of its edges or as polygons, an alpha complex as a table.
     path : str or path
         The file, replaced atomically.
     fmt : str, optional
@@ -150,52 +150,64 @@ def write(
     >>> write(vorotool.delaunay([[0, 0], [4, 0], [0, 3]]), "build/triangles.geojson", what="triangles")
     >>> write(vorotool.alpha_shape([[0, 0], [4, 0], [0, 3]], r=2.5), "build/shape.geojson")
     """
-    from vorotool.errors import UsageError
     from vorotool.formats.outputs import open_output
     from vorotool.geometry.alpha_complex import AlphaComplex
     from vorotool.geometry.alpha_shape import AlphaShape
     from vorotool.geometry.digital_triangulation import DigitalTriangulation
     from vorotool.geometry.label_image import LabelImage
-    from vorotool.geometry.polygons import PolygonSet
-    from vorotool.geometry.table import Table
     from vorotool.geometry.triangulation import Triangulation
 
     name = (fmt or Path(path).suffix).lower().lstrip(".")
     chosen: Any = {"tif": "tiff", "txt": "text"}.get(name, name)
     threads = checked_threads(threads)
     has_parts = isinstance(value, Triangulation | DigitalTriangulation | AlphaComplex | AlphaShape)
-    if not has_parts and not isinstance(value, LabelImage | Table | PolygonSet):
-        raise UsageError(
-            f"a {type(value).__name__} cannot be written: give a LabelImage, a Table, a PolygonSet, a Triangulation or "
-            "an AlphaShape"
-        )
     if what is not None and not has_parts:
         raise UsageError(f"what={what!r} is for triangulations: leave it out with a {type(value).__name__}")
     if isinstance(value, LabelImage):
         _write_image(value, fspath(path), chosen, threads)
         return
+    writer, options = _writer_of(value, chosen, what, threads)
     with open_output(fspath(path), binary=chosen == "npz") as out:
-        if isinstance(value, Table):
-            from vorotool.formats.tables import write_table
+        writer(out, value, chosen, precision=precision, **options)
 
-            write_table(out, value, chosen, precision=precision, threads=threads)
-        elif isinstance(value, PolygonSet):
-            from vorotool.formats.polygons import write_polygons
 
-            write_polygons(out, value, chosen, precision=precision)
-        elif isinstance(value, AlphaComplex | AlphaShape):
-            from vorotool.formats.alpha_files import write_shape
+def _writer_of(value: Any, fmt: str, what: str | None, threads: int) -> tuple[Callable[..., None], dict[str, Any]]:
+    """Give the function that writes a value, and its further options."""
+    from vorotool.geometry.alpha_complex import AlphaComplex
+    from vorotool.geometry.alpha_shape import AlphaShape
+    from vorotool.geometry.cells import CellSet
+    from vorotool.geometry.digital_triangulation import DigitalTriangulation
+    from vorotool.geometry.polygons import PolygonSet
+    from vorotool.geometry.table import Table
+    from vorotool.geometry.triangulation import Triangulation
 
-            write_shape(out, value, chosen, what=what, precision=precision, threads=threads)
-        else:
-            from vorotool.formats.mesh_files import write_mesh
+    if isinstance(value, Table):
+        from vorotool.formats.tables import write_table
 
-            what = what or {"ele": "triangles", "node": "table"}.get(chosen, "edges")
-            write_mesh(out, value, chosen, what=what, precision=precision, threads=threads)
+        return write_table, {"threads": threads}
+    if isinstance(value, PolygonSet):
+        from vorotool.formats.polygons import write_polygons
+
+        return write_polygons, {}
+    if isinstance(value, CellSet):
+        from vorotool.formats.cell_files import write_cells
+
+        return write_cells, {"threads": threads}
+    if isinstance(value, AlphaComplex | AlphaShape):
+        from vorotool.formats.alpha_files import write_shape
+
+        return write_shape, {"what": what, "threads": threads}
+    if isinstance(value, Triangulation | DigitalTriangulation):
+        from vorotool.formats.mesh_files import write_mesh
+
+        return write_mesh, {"what": what or {"ele": "triangles", "node": "table"}.get(fmt, "edges"), "threads": threads}
+    raise UsageError(
+        f"a {type(value).__name__} cannot be written: give a LabelImage, Table, PolygonSet, CellSet, Triangulation or "
+        "AlphaShape"
+    )
 
 
 def _write_image(image: LabelImage, path: str, fmt: Any, threads: int) -> None:
-    from vorotool.errors import UsageError
     from vorotool.formats.label_images import write_label_image
     from vorotool.formats.outputs import open_output
 
