@@ -1,5 +1,6 @@
 #include "core/alpha_curves.hpp"
 
+#include <cmath>
 #include <vector>
 
 #include "core/disjoint_sets.hpp"
@@ -10,13 +11,13 @@ namespace {
 
 constexpr std::size_t poll_interval = std::size_t{1} << 16;  // edges
 
-// A sum of many terms, in two doubles.
+// A sum of many terms, in two doubles; one once it is beyond their range.
 struct LongSum {
   TwoTerms value{0, 0};
 
   void add(double term) {
     const TwoTerms sum = two_sum(value.head, term);
-    value = two_sum(sum.head, sum.tail + value.tail);
+    value = std::isfinite(sum.head) ? two_sum(sum.head, sum.tail + value.tail) : TwoTerms{sum.head, 0};
   }
   void add(const LongSum& other) {
     add(other.value.head);

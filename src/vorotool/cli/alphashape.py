@@ -125,7 +125,7 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
         raise click.UsageError(f"--connectivity is for components: leave it out with --seeds {o.seeds}")
     if o.regions is not None and (o.r is not None or o.alpha is not None):
         raise click.UsageError("--regions is for the automatic choice of r: leave out -r and --alpha")
-    _check_method(o)
+    _check_method(o, {target.fmt for target in targets})
     if "hull" in o.what and (o.hole_threshold is not None or o.region_threshold is not None):
         raise click.UsageError("the hull has no thresholds: leave out --hole-threshold and --region-threshold")
     formats = {target.fmt for target in targets}
@@ -138,19 +138,26 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     check_picture_options(o, pictures or plots, PICTURE_LAYERS, png_has_width=True)
 
 
-def _check_method(o: SimpleNamespace) -> None:
+def _check_method(o: SimpleNamespace, formats: set[str]) -> None:
+    """Refuse what the way of triangulating or the rule cannot give, or would not look at."""
     if o.size is not None and o.window is not None:
         raise click.UsageError("give --size or --window, not both")
     for name in ("size", "window"):
         if getattr(o, name) is not None and o.method == "exact":
             raise click.UsageError(f"--{name} is the frame of a tessellation: use --method digital or digital-valid")
-    needs_corrected = (o.r is None and o.alpha is None and set(o.what) & OF_ONE_SHAPE) or "curves" in o.what
+    is_automatic = o.r is None and o.alpha is None
+    needs_corrected = (is_automatic and set(o.what) & OF_ONE_SHAPE) or "curves" in o.what or "html" in formats
     if o.rule == "printed" and needs_corrected:
-        raise click.UsageError("curves and the automatic r need --rule corrected: give -r, or leave out --rule")
+        raise click.UsageError("curves, pages and the automatic r need --rule corrected: give -r, or leave out --rule")
     if o.rule == "printed" and o.verify:
         raise click.UsageError("the printed rule fails the check, as it should: leave out --verify or --rule")
-    if o.method != "digital":
-        return
+    if o.method == "digital":
+        _check_digital_rule(o, formats)
+
+
+def _check_digital_rule(o: SimpleNamespace, formats: set[str]) -> None:
+    if "html" in formats:
+        raise click.UsageError("--method digital has no curves for a page: use --method exact or digital-valid")
     for name in o.what:
         if name not in OF_DIGITAL_RULE:
             raise click.UsageError(

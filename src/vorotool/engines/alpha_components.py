@@ -59,12 +59,14 @@ def _in_small(mesh: Triangulation, component: NDArray[np.int32], threshold: Frac
     areas = np.bincount(numbers, weights=mesh.areas()[chosen])
     # A triangle's area is off by about 1e-15 times the product of two sides at most, a sum of n terms by n 2^-53 of it.
     corners = mesh.points[mesh.triangles[chosen]]
-    extent = np.ptp(corners, axis=1).max(axis=1, initial=0.0)
-    scale = np.bincount(numbers, weights=extent**2)
-    doubt = 2.0**-48 * (8 + np.bincount(numbers)) * scale
     limit = float(threshold)
-    small = areas < limit - doubt
-    for number in np.flatnonzero(np.abs(areas - limit) <= doubt).tolist():
+    with np.errstate(over="ignore", invalid="ignore"):
+        extent = np.ptp(corners, axis=1).max(axis=1, initial=0.0)
+        scale = np.bincount(numbers, weights=extent**2)
+        doubt = 2.0**-48 * (8 + np.bincount(numbers)) * scale + 2.0**-1000  # what underflows is far less
+        small = areas < limit - doubt
+        unclear = ~(np.abs(areas - limit) > doubt)
+    for number in np.flatnonzero(unclear).tolist():
         small[number] = _exact_area(mesh, component == number) <= threshold
     result = np.zeros(len(component), dtype=bool)
     result[chosen] = small[numbers]
