@@ -131,6 +131,10 @@ class Sorter {
   // Sorts words with one key by value, and runs of equal values exactly.
   void settle_key(std::span<std::uint64_t> words) {
     for (std::uint64_t& word : words) word = item_of(word);
+    if (words.size() == 1) {  // nearly always
+      words[0] |= starts;
+      return;
+    }
     const auto comes_before = [&](std::uint64_t a, std::uint64_t b) {
       return value(a) != value(b) ? value(a) < value(b) : a < b;
     };
