@@ -4,13 +4,18 @@ VOROTOOL := $(BIN)/vorotool
 FIGURES  := $(BUILD)/figures
 TABLE_1_SIZES := 64 128 256 512
 
-.PHONY: figures figure-01 figure-02 figure-03a figure-03d figure-10 figure-11 figure-lakes table-1
-figures: figure-01 figure-02 figure-03a figure-03d figure-10 figure-11 figure-lakes table-1 ## draw the figures and tables of the paper into build/figures
+.PHONY: figures figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c figure-10 figure-11 figure-lakes table-1
+figures: figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c figure-10 figure-11 figure-lakes table-1 ## draw the figures and tables of the paper into build/figures
 	@echo "figures are in $(FIGURES):" && ls $(FIGURES)
 figure-01: $(FIGURES)/figure-01.svg
 figure-02: $(FIGURES)/figure-02.svg
 figure-03a: $(FIGURES)/figure-03a.png
+figure-03b: $(FIGURES)/figure-03b.svg
+figure-03c: $(FIGURES)/figure-03c.svg
 figure-03d: $(FIGURES)/figure-03d.svg
+figure-04a: $(FIGURES)/figure-04a.svg
+figure-04b: $(FIGURES)/figure-04b.svg
+figure-04c: $(FIGURES)/figure-04c.svg
 figure-10: $(FIGURES)/figure-10.svg
 figure-11: $(foreach part,a b c d,$(FIGURES)/figure-11$(part).svg)
 figure-lakes: $(FIGURES)/figure-lakes.png
@@ -31,9 +36,29 @@ $(FIGURES)/figure-02.svg: data/six-seeds.csv $(BUILD)/.installed | $(FIGURES)
 $(FIGURES)/figure-03a.png: data/dots.csv $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) tessellate $< --size 512x512 --what diagram --layers diagram,seeds -o $@
 
+# Purpose: the continuous Voronoi diagram of the same seeds, in the same image.
+$(FIGURES)/figure-03b.svg: data/dots.csv $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) delaunay $< --what cells --frame -0.5,-0.5,512,512 --layers diagram,points -o $@
+
+# Purpose: the Delaunay triangulation of the same seeds as their digital diagram shows it.
+$(FIGURES)/figure-03c.svg: data/dots.csv $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) delaunay $< --size 512x512 --method digital -o $@
+
 # Purpose: the Delaunay triangulation of the same seeds, from the continuous diagram.
 $(FIGURES)/figure-03d.svg: data/dots.csv $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) delaunay $< -o $@
+
+# Purpose: a dot pattern of 160 random seeds,
+$(FIGURES)/figure-04a.svg: data/dot-pattern.csv $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) delaunay $< --layers points -o $@
+
+# the edges of its Delaunay triangulation,
+$(FIGURES)/figure-04b.svg: data/dot-pattern.csv $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) delaunay $< --layers edges,points -o $@
+
+# and its alpha shape for r = -1/α = 10.
+$(FIGURES)/figure-04c.svg: data/dot-pattern.csv $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) alphashape $< -r 10 -o $@
 
 # Purpose: the elements of a polygonal shape, one label for an edge and two for a vertex.
 $(FIGURES)/figure-10.svg: data/shape.json $(BUILD)/.installed | $(FIGURES)

@@ -5,16 +5,19 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "arrays.hpp"
 #include "bindings.hpp"
 #include "core/format_columns.hpp"
 #include "core/nesting.hpp"
 #include "core/text_columns.hpp"
 #include "interrupts.hpp"
+#include "mesh_arrays.hpp"
 
 namespace vorotool::bindings {
 namespace {
@@ -143,6 +146,44 @@ nb::object find_too_deep(const nb::bytes& text, std::size_t limit) {
 
 using IndexArray = nb::ndarray<const std::int32_t, nb::ndim<1>, nb::device::cpu>;
 
+// Polygons of rows, and the arrays that hold them.
+class PolygonRows {
+ public:
+  using Starts = InputArray<std::int64_t>;
+
+  PolygonRows(const Matrix<const double>& vertices, const Starts& rings, const Starts& polygons,
+              const Starts& rows, const std::string& style)
+      : vertices_(vertices),
+        rings_(rings),
+        polygons_(polygons),
+        rows_(rows),
+        texts_{as_points(vertices), checked(rings, vertices.shape(0)), checked(polygons, rings.size() - 1),
+               checked(rows, polygons.size() - 1), style_of(style)} {}
+
+  const core::PolygonTexts& texts() const { return texts_; }
+
+ private:
+  // What begins somewhere among so many; the core reads without looking.
+  static std::span<const std::int64_t> checked(const Starts& starts, std::size_t count) {
+    const std::span<const std::int64_t> values(starts.data(), starts.size());
+    const bool fits = !values.empty() && std::is_sorted(values.begin(), values.end()) &&
+                      values.front() >= 0 && static_cast<std::size_t>(values.back()) <= count;
+    if (!fits) throw nb::value_error("beginnings of rings, polygons or rows are out of order or of range");
+    return values;
+  }
+
+  static core::PolygonStyle style_of(const std::string& name) {
+    if (name == "wkt") return core::PolygonStyle::wkt;
+    if (name == "geojson") return core::PolygonStyle::geojson;
+    if (name == "json") return core::PolygonStyle::json;
+    throw nb::value_error("the style must be wkt, geojson or json");
+  }
+
+  Matrix<const double> vertices_;
+  Starts rings_, polygons_, rows_;
+  core::PolygonTexts texts_;
+};
+
 // Holds what the columns of one call point into.
 struct ColumnStore {
   std::vector<core::TextColumn> columns;
@@ -178,6 +219,14 @@ struct ColumnStore {
     return true;
   }
 
+  bool add_polygons(nb::handle values) {
+    const PolygonRows* polygons = nullptr;
+    if (!nb::try_cast(values, polygons, false) || polygons == nullptr) return false;
+    columns.push_back({&polygons->texts(), {}});
+    owners.push_back(nb::borrow(values));
+    return true;
+  }
+
   void add_texts(const nb::list& values) {
     std::vector<std::string_view> views;
     views.reserve(values.size());
@@ -191,9 +240,9 @@ struct ColumnStore {
     if (nb::isinstance<nb::list>(values)) {
       add_texts(nb::borrow<nb::list>(values));
     } else if (!add_array<double>(values) && !add_array<std::int64_t>(values) &&
-               !add_array<std::uint64_t>(values) && !add_numbers(values)) {
+               !add_array<std::uint64_t>(values) && !add_numbers(values) && !add_polygons(values)) {
       throw nb::type_error(
-          "a column must be a float64, int64 or uint64 array, a list of str, or NumberTexts");
+          "a column must be a float64, int64 or uint64 array, a list of str, NumberTexts or PolygonTexts");
     }
   }
 
@@ -275,6 +324,12 @@ void bind_text(nb::module_& module) {
   nb::class_<core::NumberTexts>(module, "NumberTexts")
       .def("__init__", &make_number_texts, "values"_a.noconvert(), "precision"_a = 0, "threads"_a = 0)
       .def("__len__", &core::NumberTexts::size);
+  nb::class_<PolygonRows>(module, "PolygonTexts")
+      .def(nb::init<const Matrix<const double>&, const PolygonRows::Starts&, const PolygonRows::Starts&,
+                    const PolygonRows::Starts&, const std::string&>(),
+           "vertices"_a.noconvert(), "rings"_a.noconvert(), "polygons"_a.noconvert(), "rows"_a.noconvert(),
+           "style"_a)
+      .def("__len__", [](const PolygonRows& rows) { return rows.texts().size(); });
 }
 
 }  // namespace vorotool::bindings

@@ -133,7 +133,7 @@ class Tracer {
   }
 
   const BorderGraph& graph_;
-  DisjointSets regions_;
+  DisjointSets<std::int32_t> regions_;
   std::vector<Border> borders_;  // sorted by polygon and then by their first points
   std::vector<std::uint8_t> is_used_;
   std::vector<std::int32_t> place_;  // of each point in the path, or -1

@@ -21,6 +21,8 @@ constexpr std::uint32_t no_slot = 0xffffffff;  // fewer than 2^29 triangles, tim
 
 Vertex neighbour(Vertex entry) { return entry < 0 ? ~entry : entry; }
 
+OrderedPoints as_ordered(MortonOrder& order) { return {order.points, order.index, order.code, order.fine}; }
+
 // Calls body(item) for all items, those of a piece one after the other.
 template <class Body>
 void for_all(std::size_t count, unsigned threads, const Monitor& monitor, Body body) {
@@ -34,11 +36,17 @@ void for_all(std::size_t count, unsigned threads, const Monitor& monitor, Body b
 }  // namespace
 
 DelaunayMesh::DelaunayMesh(std::span<const Point> points, unsigned threads, const Monitor& monitor)
+    : DelaunayMesh(
+          points, [&](MortonOrder& order) { return divide_and_conquer(as_ordered(order), threads, monitor); },
+          threads, monitor) {}
+
+DelaunayMesh::DelaunayMesh(std::span<const Point> points, const Triangulate& triangulate, unsigned threads,
+                           const Monitor& monitor)
     : first_(points.size()) {
   if (points.size() > most_points) throw std::length_error("more than 268435456 points");
   MortonOrder order = morton_order(points, first_, threads, monitor);
-  Subdivision mesh =
-      divide_and_conquer({order.points, order.index, order.code, order.fine}, threads, monitor);
+  permute_equal_codes(as_ordered(order));
+  Subdivision mesh = triangulate(order);
   index_ = std::move(order.index);
   const std::vector<bool> outer = walk_hull(mesh);
   if (mesh.degenerate) make_fans(mesh.edges, outer, order.points, threads, monitor);

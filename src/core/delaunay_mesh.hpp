@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,11 @@ class DelaunayMesh {
  public:
   // Finite points. Throws std::length_error for more than 2^28 of them.
   DelaunayMesh(std::span<const Point> points, unsigned threads, const Monitor& monitor);
+
+  // The same from a Delaunay triangulation that is made in another way.
+  using Triangulate = std::function<Subdivision(MortonOrder&)>;
+  DelaunayMesh(std::span<const Point> points, const Triangulate& triangulate, unsigned threads,
+               const Monitor& monitor);
 
   // [n] for each point the first one at the same place: itself if it is the only one.
   std::span<const std::int32_t> first() const { return first_; }

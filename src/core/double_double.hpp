@@ -20,7 +20,8 @@ struct DoubleDouble {
 
   DoubleDouble() = default;
   DoubleDouble(double value) : head(value) {}
-  explicit DoubleDouble(const TwoTerms& value) : head(value.head), tail(value.tail) {}
+  DoubleDouble(const TwoTerms& value) : head(value.head), tail(value.tail) {}
+  DoubleDouble(double head, double tail) : head(head), tail(tail) {}
   // Exact below 2^106: the remainder has at most 53 bits.
   explicit DoubleDouble(int128 value) : head(static_cast<double>(value)) {
     tail = static_cast<double>(value - static_cast<int128>(head));

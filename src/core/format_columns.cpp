@@ -44,6 +44,14 @@ struct FieldWriter {
     out += text;
     return !text.empty();
   }
+  bool operator()(const PolygonTexts* polygons) const {
+    const std::size_t begin = out.size();
+    if (is_csv) out += '"';  // commas abound
+    const bool exists = polygons->append(out, row, precision);
+    if (is_csv) out += '"';
+    if (!exists) out.resize(begin);
+    return exists;
+  }
 };
 
 void append_field(std::string& out, const TextColumn& column, std::size_t row, const RowShape& shape,
@@ -69,6 +77,7 @@ void append_row(std::string& out, std::span<const TextColumn> columns, std::size
 }
 
 std::size_t size_of(const NumberTexts* texts) { return texts->size(); }
+std::size_t size_of(const PolygonTexts* polygons) { return polygons->size(); }
 
 template <class T>
 std::size_t size_of(std::span<T> values) {

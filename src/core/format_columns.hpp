@@ -12,6 +12,7 @@
 
 #include "core/monitor.hpp"
 #include "core/number_texts.hpp"
+#include "core/polygon_texts.hpp"
 
 namespace vorotool::core {
 
@@ -30,7 +31,7 @@ struct StridedIndices {
 // not exist either. With `index`, row i shows values[index[i]], and `missing` is about values too.
 struct TextColumn {
   std::variant<std::span<const std::int64_t>, std::span<const std::uint64_t>, std::span<const double>,
-               std::span<const std::string_view>, const NumberTexts*>
+               std::span<const std::string_view>, const NumberTexts*, const PolygonTexts*>
       values;
   std::span<const std::uint8_t> missing;
   std::optional<StridedIndices> index = {};

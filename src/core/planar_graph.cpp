@@ -265,7 +265,7 @@ class Maker {
   void number_faces(const PlanarFaces& faces, const FacePolygons& inside) {
     std::vector<std::uint8_t> is_kept(set_.size(), 0);
     for (const Border& border : borders_) is_kept[static_cast<std::size_t>(border.segment)] = 1;
-    DisjointSets joined(static_cast<std::size_t>(faces.count));
+    DisjointSets<std::int32_t> joined(static_cast<std::size_t>(faces.count));
     for (std::size_t s = 0; s < set_.size(); ++s) {
       if (is_kept[s] == 0) joined.join(faces.left[s], faces.right[s]);
     }

@@ -99,6 +99,7 @@ def colour_graph(
 ) -> NDArray[np.uint32]: ...
 
 # ---- text (bind_text.cpp): a delimiter is one of "," ";" "\t" " " ---------------------------------------------
+# ---- text (bind_text.cpp): a delimiter is one of "," ";" "\t" " " --------------------------------
 
 class TextError(ValueError):
     """Args: kind (not_number, not_finite, field_count, open_quote), line, column, text, found, expected."""
@@ -137,8 +138,20 @@ class NumberTexts:
     def __init__(self, values: NDArray[np.float64], precision: int = 0, threads: int = 0) -> None: ...
     def __len__(self) -> int: ...
 
-# ---- predicates (bind_predicates.cpp): a level is "auto", "filter", "integers", "expansions" or "wide"; the sign
+class PolygonTexts:
+    """A column of polygons: each row from its first polygon to that of the next; style wkt, geojson or json."""
 
+    def __init__(
+        self,
+        vertices: NDArray[np.float64],
+        rings: NDArray[np.int64],
+        polygons: NDArray[np.int64],
+        rows: NDArray[np.int64],
+        style: str,
+    ) -> None: ...
+    def __len__(self) -> int: ...
+
+# ---- predicates (bind_predicates.cpp): a level is "auto", "filter", "integers", "expansions" or "wide"; the sign
 # ---- is 2 where a level other than "auto" and "wide" cannot tell. The points must be finite. -----------------------
 
 def orient2d(points: NDArray[np.float64], level: str = "auto") -> NDArray[np.int8]: ...
@@ -157,6 +170,19 @@ class DelaunayMesh:
     ) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]]:
         """Triangles, their neighbours, and edges."""
 
+def insert_points(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    neighbours: NDArray[np.int32],
+    edges: NDArray[np.int32],
+    hull: NDArray[np.int32],
+    first: NDArray[np.int32],
+    hints: NDArray[np.int32],
+    threads: int,
+    progress: _Progress,
+) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]] | None:
+    """Triangles, neighbours, edges, hull, first; None where the order of the triangles that stay would change."""
+
 def triangulation_fault(
     points: NDArray[np.float64],
     triangles: NDArray[np.int32],
@@ -168,54 +194,116 @@ def triangulation_fault(
     progress: _Progress,
 ) -> str | None: ...
 
-# ---- exact signs of segment Voronoi diagrams (bind_segment_exact.cpp), for tests: a site is a row x, y, x, y of int32,
+# ---- alpha shapes (bind_alpha.cpp): a side is a triangle or -1; ranks are places in the spectrum ------------------
 
-# ---- a disc three sites in counter-clockwise order of contact; the sign is 2 where they have no disc ----------------
-
-def segment_clearance_signs(sites: NDArray[np.int32]) -> NDArray[np.int8]:
-    """(k, 4, 4): a disc, and the query."""
-
-def segment_same_centre(sites: NDArray[np.int32]) -> NDArray[np.int8]:
-    """(k, 6, 4): two discs."""
-
-def segment_edge_clearance_signs(sites: NDArray[np.int32]) -> NDArray[np.int8]:
-    """(k, 9, 4): the edge's two sites, two discs, and the query."""
-
-def segment_discs(sites: NDArray[np.int32]) -> NDArray[np.float64]:
-    """(k, 3) x, y and radius of (k, 3, 4) discs; NaN where there is none."""
-
-# ---- skeletons (bind_skeleton.cpp): the first six arguments are the arrays of a segment Voronoi diagram -------------
-
-def skeleton_edges(
-    points: NDArray[np.int32],
-    segments: NDArray[np.int32],
-    vertices: NDArray[np.float64],
-    radius: NDArray[np.float64],
-    edges: NDArray[np.int32],
-    edge_sites: NDArray[np.int32],
-    segment_faces: NDArray[np.int32],
-    threads: int,
-    progress: _Progress,
+def edges_of_triangles(
+    triangles: NDArray[np.int32], neighbours: NDArray[np.int32], threads: int, progress: _Progress
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Edges that are not deleted, and the face that each lies in."""
+    """Edges, and the triangles on their sides."""
 
-def extract_skeleton(
-    points: NDArray[np.int32],
-    segments: NDArray[np.int32],
-    vertices: NDArray[np.float64],
-    radius: NDArray[np.float64],
+def alpha_complex(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
     edges: NDArray[np.int32],
-    edge_sites: NDArray[np.int32],
-    kept: NDArray[np.int32],
-    groups: NDArray[np.int32],
-    clipped: tuple[int, tuple[float, float, float, float]] | None,
-    origin_x: float,
-    origin_y: float,
-    scale: float,
+    sides: NDArray[np.int32],
+    printed: bool,
     threads: int,
     progress: _Progress,
-) -> dict[str, NDArray[Any]]:
-    """Frames are (least x, most x, least y, most y) on the lattice."""
+) -> dict[str, NDArray[Any]]: ...
+def shape_edges(
+    rank_min: NDArray[np.int32],
+    rank_mid: NDArray[np.int32],
+    rank_max: NDArray[np.int32],
+    reached: int,
+    entered: int,
+    threads: int,
+    progress: _Progress,
+) -> tuple[NDArray[np.int32], NDArray[np.uint8]]: ...
+def connected_triangles(
+    inside: NDArray[np.uint8], sides: NDArray[np.int32], progress: _Progress
+) -> NDArray[np.int32]: ...
+def trace_rings(
+    points: NDArray[np.float64],
+    a: NDArray[np.int32],
+    b: NDArray[np.int32],
+    region: NDArray[np.int32],
+    progress: _Progress,
+) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32], NDArray[np.uint8]]:
+    """Vertices of all rings, where each begins, its region, and whether it is a hole."""
+
+def alpha_curves(
+    spectrum: int,
+    triangle_rank: NDArray[np.int32],
+    rank_min: NDArray[np.int32],
+    rank_mid: NDArray[np.int32],
+    rank_max: NDArray[np.int32],
+    sides: NDArray[np.int32],
+    area: NDArray[np.float64],
+    length: NDArray[np.float64],
+    progress: _Progress,
+) -> dict[str, NDArray[Any]]: ...
+
+# rows of six: three points, the first two and the first again for an edge
+def critical_radii(supports: NDArray[np.float64]) -> NDArray[np.float64]: ...
+def compare_radii(p: NDArray[np.float64], q: NDArray[np.float64]) -> NDArray[np.int8]: ...
+
+# ---- digital triangulation (bind_digital.cpp): rows are C-contiguous uint8, uint16 or uint32 labels ----------------
+
+class DigitalTriangulationScan:
+    def __init__(self) -> None: ...
+    def add_rows(self, rows: NDArray[Any], threads: int, progress: _Progress) -> None: ...
+    def finish(self) -> dict[str, Any]: ...
+
+def digital_mesh(
+    points: NDArray[np.float64],
+    x: NDArray[np.int64],
+    y: NDArray[np.int64],
+    scale: int,
+    image: NDArray[np.uint32],
+    frame_x: int,
+    frame_y: int,
+    threads: int,
+    progress: _Progress,
+) -> tuple[DelaunayMesh, dict[str, Any]]: ...
+def inserted_mesh(points: NDArray[np.float64], threads: int, progress: _Progress) -> DelaunayMesh: ...
+
+# ---- Voronoi cells (bind_cells.cpp): a frame is left, bottom, right, top --------------------------------------------
+
+def voronoi_cells(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    neighbours: NDArray[np.int32],
+    hull: NDArray[np.int32],
+    first: NDArray[np.int32],
+    frame: tuple[float, float, float, float],
+    threads: int,
+    progress: _Progress,
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Vertices of the cells' rings, and where the ring of each point begins."""
+
+def cell_fault(
+    sites: NDArray[np.float64],
+    vertices: NDArray[np.float64],
+    starts: NDArray[np.int64],
+    frame: tuple[float, float, float, float],
+    threads: int,
+    progress: _Progress,
+) -> str | None: ...
+def measure_cells(
+    sites: NDArray[np.float64],
+    vertices: NDArray[np.float64],
+    rings: NDArray[np.int64],
+    cell_rings: NDArray[np.int64],
+    frame: tuple[float, float, float, float],
+    threads: int,
+    progress: _Progress,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.uint8]]:
+    """Area, perimeter, distance of the farthest vertex from the site, whether a vertex is on the frame."""
+
+def nearest_neighbours(
+    points: NDArray[np.float64], edges: NDArray[np.int32], labels: NDArray[np.int64], progress: _Progress
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Index of the nearest point of each, -1 without any, and its number of neighbours."""
 
 # ---- planar graphs (bind_planar_graph.cpp): arrays are C-contiguous; lattice points are int32 rows ------------------
 
@@ -249,6 +337,21 @@ def border_rings(
 def planar_graph_fault(
     points: NDArray[np.int32], segments: NDArray[np.int32], faces: NDArray[np.int32] | None, progress: _Progress
 ) -> str | None: ...
+
+# ---- exact signs of segment Voronoi diagrams (bind_segment_exact.cpp), for tests: a site is a row x, y, x, y of int32,
+# ---- a disc three sites in counter-clockwise order of contact; the sign is 2 where they have no disc ----------------
+
+def segment_clearance_signs(sites: NDArray[np.int32]) -> NDArray[np.int8]:
+    """(k, 4, 4): a disc, and the query."""
+
+def segment_same_centre(sites: NDArray[np.int32]) -> NDArray[np.int8]:
+    """(k, 6, 4): two discs."""
+
+def segment_edge_clearance_signs(sites: NDArray[np.int32]) -> NDArray[np.int8]:
+    """(k, 9, 4): the edge's two sites, two discs, and the query."""
+
+def segment_discs(sites: NDArray[np.int32]) -> NDArray[np.float64]:
+    """(k, 3) x, y and radius of (k, 3, 4) discs; NaN where there is none."""
 
 # ---- the check of segment Voronoi diagrams (bind_segment_verification.cpp): arrays as in SegmentVoronoiDiagram ----
 
@@ -284,6 +387,39 @@ class SegmentVoronoi:
         NDArray[np.int32],
     ]:
         """Vertices, radii, where the sites of each begin, these, edges, and the sites beside them."""
+
+# ---- skeletons (bind_skeleton.cpp): the first six arguments are the arrays of a segment Voronoi diagram -------------
+
+def skeleton_edges(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    vertices: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    edges: NDArray[np.int32],
+    edge_sites: NDArray[np.int32],
+    segment_faces: NDArray[np.int32],
+    threads: int,
+    progress: _Progress,
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Edges that are not deleted, and the face that each lies in."""
+
+def extract_skeleton(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    vertices: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    edges: NDArray[np.int32],
+    edge_sites: NDArray[np.int32],
+    kept: NDArray[np.int32],
+    groups: NDArray[np.int32],
+    clipped: tuple[int, tuple[float, float, float, float]] | None,
+    origin_x: float,
+    origin_y: float,
+    scale: float,
+    threads: int,
+    progress: _Progress,
+) -> dict[str, NDArray[Any]]:
+    """Frames are (least x, most x, least y, most y) on the lattice."""
 
 # ---- distances from sites (bind_skeleton.cpp) --------------------------------------------------------------------
 

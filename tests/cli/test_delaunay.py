@@ -16,8 +16,9 @@ from PIL import Image
 
 import vorotool
 from vorotool.cli.delaunay import FORMATS, LAYERS
-from vorotool.cli.meshes import DEFAULT_LAYERS, MeshProducts
-from vorotool.render import mesh_layers
+from vorotool.cli.digital_meshes import DigitalProducts
+from vorotool.cli.meshes import DEFAULT_LAYERS
+from vorotool.render import cell_layers, mesh_layers
 
 sys.path.insert(0, str(Path(__file__).parent))
 from conftest import leftovers
@@ -62,8 +63,8 @@ def test_every_format_is_written(run, folder, what):
         assert run("delaunay", DOTS, "--what", what, "-f", fmt, "-o", "b").code == 0
         assert (folder / f"a.{fmt}").read_bytes() == (folder / "b").read_bytes()
         assert (folder / "b").stat().st_size > 500
-    assert hasattr(MeshProducts, f"_write_{what}")
-    assert run("delaunay", DOTS, "--what", what).out == (folder / "a.csv").read_text()
+    assert hasattr(DigitalProducts, f"_write_{what}")
+    assert run("delaunay", DOTS, "--what", what).out == (folder / f"a.{FORMATS[what][0]}").read_text()
 
 
 POINTS = [[2, 1], [7, 5], [1, 6], [9, 9.5]]
@@ -249,7 +250,7 @@ def test_bad_input(run, folder, name):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (["--what", "faces"], "'faces' is not one of edges, triangles, table"),
+        (["--what", "faces"], "'faces' is not one of edges, triangles, cells, table"),
         (["--method", "paper"], "paper"),
         (["-f", "tiff"], "edges cannot be written as tiff: use one of csv"),
         (["-f", "npz"], None),  # binary to a pipe
@@ -257,8 +258,11 @@ def test_bad_input(run, folder, name):
         (["--what", "edges,triangles"], "several results need -o STEM"),
         (["--layers", "points"], "--layers is for pictures"),
         (["--width", "300"], "--width is for pictures"),
-        (["--layers", "cellar", "-f", "svg"], "not one of triangles, edges, points, labels"),
-        (["--layers", "labels", "-o", "a.png"], "--layers labels: a picture in PNG has triangles, edges, points"),
+        (["--layers", "cellar", "-f", "svg"], "not one of cells, triangles, diagram, edges, points, labels"),
+        (
+            ["--layers", "labels", "-o", "a.png"],
+            "--layers labels: a picture in PNG has cells, triangles, diagram, edges, points",
+        ),
         (["--precision", "3", "-o", "a.npz"], "--precision is for numbers in text"),
         (["--precision", "0"], "precision"),
         (["--threshold", "otsu"], "--threshold is for images, but the input is a list of points"),
@@ -362,7 +366,7 @@ def test_pictures(run, folder):
 
 
 def test_layers_are_those_of_the_renderer():
-    assert LAYERS == mesh_layers.LAYERS
+    assert set(LAYERS) == {*mesh_layers.LAYERS, *cell_layers.LAYERS}
     assert all(set(layers) <= set(LAYERS) for layers in DEFAULT_LAYERS.values())
 
 

@@ -29,13 +29,8 @@ def figures(tmp_path_factory):
 @pytest.mark.parametrize(
     "name",
     [
-        "figure-01.svg",
-        "figure-02.svg",
-        "figure-03d.svg",
-        "figure-10.svg",
-        "figure-11b.svg",
-        "figure-11c.svg",
-        "figure-11d.svg",
+        f"figure-{number}.svg"
+        for number in ("01", "02", "03b", "03c", "03d", "04a", "04b", "04c", "10", "11b", "11c", "11d")
     ],
 )
 def test_svg(figures, name):

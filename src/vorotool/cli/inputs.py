@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from types import SimpleNamespace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -29,7 +29,8 @@ def read_seed_input(run: Run, o: SimpleNamespace, source: str, *, properties: bo
     """
     from vorotool.formats import read
     from vorotool.geometry.points import PointSet
-    from vorotool.geometry.raster import Raster
+    from vorotool.geometry.polygons import PolygonSet
+    from vorotool.geometry.skeleton import Skeleton
 
     value = read(
         source,
@@ -43,11 +44,33 @@ def read_seed_input(run: Run, o: SimpleNamespace, source: str, *, properties: bo
         threads=o.threads,
         note=run.note,
     )
+    assert not isinstance(value, PolygonSet | Skeleton)  # points are asked for
     if isinstance(value, PointSet):
         refuse(o, IMAGE_OPTIONS, "is for images, but the input is a list of points")
-        return value
-    assert isinstance(value, Raster)  # what is asked for is points, or an image
     return value
+
+
+def read_clip(run: Run, o: SimpleNamespace, path: str) -> Sequence[Any]:
+    """Read the polygons of ``--clip``, as shapely geometry; lines are left out with a note.
+
+    Raises
+    ------
+    InputError
+        If there are none.
+    """
+    from vorotool.formats import read
+    from vorotool.geometry.polygon_conversion import to_shapely
+    from vorotool.geometry.polygons import PolygonSet
+
+    value = read(path, geometry="polygons", properties=False, threads=o.threads, note=run.note)
+    if not isinstance(value, PolygonSet):
+        raise InputError(f"{path} is an image: give --clip a file of polygons")
+    lines = int(value.is_line.sum())
+    if lines:
+        run.note(f"{path}: {lines} open lines are left out of --clip")
+    if lines == len(value):
+        raise InputError(f"{path} holds no polygons: give --clip a file that does")
+    return list(to_shapely(value)[~value.is_line])
 
 
 def refuse(o: SimpleNamespace, names: tuple[str, ...], reason: str) -> None:

@@ -124,21 +124,23 @@ def write(
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    """Write a label image, a table, polygons and lines, a triangulation or a skeleton.
+    """Write a label image, a table, polygons, Voronoi cells, a triangulation, an alpha shape or a skeleton.
 
     Parameters
     ----------
-    value : LabelImage, Table, PolygonSet, Triangulation or Skeleton
-        What to write: images as PNG, TIFF, NPY or text, tables as CSV, JSON or NPZ, polygons as JSON,
-        GeoJSON, WKT or .poly, a triangulation as a table, GeoJSON, OBJ, or a file of Triangle, a skeleton as JSON,
-        CSV, GeoJSON, WKT or NPZ.
+    value : LabelImage, Table, PolygonSet, CellSet, Triangulation, AlphaShape, AlphaComplex, Skeleton
+        What to write (a DigitalTriangulation, too): images as PNG, TIFF, NPY or text, tables as CSV, JSON or NPZ,
+        polygons as JSON, GeoJSON, WKT or .poly, cells as GeoJSON, CSV, JSON, NPZ or WKT, a triangulation as a table,
+        GeoJSON, OBJ, or a file of Triangle, an alpha shape as a table or GeoJSON of its edges or as polygons, an alpha
+        complex as a table, a skeleton as JSON, CSV, GeoJSON, WKT or NPZ.
     path : str or path
         The file, replaced atomically.
     fmt : str, optional
         Format, or a usual extension of it; by default that of the path.
     what : str, optional
-        Of a triangulation ``edges``, ``triangles`` or ``table``, by default what the format is for, else its edges; of
-        a skeleton ``skeleton`` (the default), ``elements``, ``branches`` or ``table``.
+        Of a triangulation or an alpha shape ``edges``, ``triangles``, ``table``, ``polygons`` or ``family``, by default
+        what the format is for, else its edges; of a skeleton ``skeleton`` (the default), ``elements``, ``branches`` or
+        ``table``.
     flatten : float, optional
         Of a skeleton in GeoJSON or WKT: how far lines may be from parabolas.
     precision : int, optional
@@ -158,8 +160,12 @@ def write(
     >>> import vorotool
     >>> write(vorotool.tessellate([[1, 1], [5, 3]], shape=(4, 6)), "build/labels.png")
     >>> write(vorotool.delaunay([[0, 0], [4, 0], [0, 3]]), "build/triangles.geojson", what="triangles")
+    >>> write(vorotool.alpha_shape([[0, 0], [4, 0], [0, 3]], r=2.5), "build/shape.geojson")
     """
     from vorotool.formats.outputs import open_output
+    from vorotool.geometry.alpha_complex import AlphaComplex
+    from vorotool.geometry.alpha_shape import AlphaShape
+    from vorotool.geometry.digital_triangulation import DigitalTriangulation
     from vorotool.geometry.label_image import LabelImage
     from vorotool.geometry.skeleton import Skeleton
     from vorotool.geometry.triangulation import Triangulation
@@ -167,7 +173,8 @@ def write(
     name = (fmt or Path(path).suffix).lower().lstrip(".")
     chosen: Any = {"tif": "tiff", "txt": "text"}.get(name, name)
     threads = checked_threads(threads)
-    if what is not None and not isinstance(value, Triangulation | Skeleton):
+    has_parts = isinstance(value, Triangulation | DigitalTriangulation | AlphaComplex | AlphaShape | Skeleton)
+    if what is not None and not has_parts:
         raise UsageError(
             f"what={what!r} is for triangulations and skeletons: leave it out with a {type(value).__name__}"
         )
@@ -176,17 +183,17 @@ def write(
     if isinstance(value, LabelImage):
         _write_image(value, fspath(path), chosen, threads)
         return
-    write_value = _writer_of(value)
+    writer, options = _writer_of(value, chosen, what, flatten, threads)
     with open_output(fspath(path), binary=chosen == "npz") as out:
-        write_value(out, value, chosen, what, flatten, precision, threads)
+        writer(out, value, chosen, precision=precision, **options)
 
 
 def to_geojson(value: Any, *, what: str | None = None, flatten: float | None = None) -> dict[str, Any]:
-    """Give polygons and lines, edges or triangles of a triangulation, or a skeleton as GeoJSON.
+    """Give polygons and lines, cells, edges or triangles of a triangulation, alpha shapes or skeletons as GeoJSON.
 
     Parameters
     ----------
-    value : PolygonSet, Triangulation or Skeleton
+    value : PolygonSet, CellSet, Triangulation, AlphaShape or Skeleton
         With ids and properties, if it has any.
     what, flatten : optional
         As of `write`.
@@ -208,66 +215,53 @@ def to_geojson(value: Any, *, what: str | None = None, flatten: float | None = N
     import orjson
 
     out = io.BytesIO()
-    _writer_of(value)(out, value, "geojson", what, flatten, None, 0)
+    writer, options = _writer_of(value, "geojson", what, flatten, 0)
+    writer(out, value, "geojson", precision=None, **options)
     made: dict[str, Any] = orjson.loads(out.getvalue())
     return made
 
 
-_Writer = Callable[[Any, Any, str, str | None, float | None, int | None, int], None]
-
-
-def _writer_of(value: Any) -> _Writer:
-    """The function that writes a value into an open file."""
+def _writer_of(
+    value: Any, fmt: str, what: str | None, flatten: float | None, threads: int
+) -> tuple[Callable[..., None], dict[str, Any]]:
+    """Give the function that writes a value, and its further options."""
+    from vorotool.geometry.alpha_complex import AlphaComplex
+    from vorotool.geometry.alpha_shape import AlphaShape
+    from vorotool.geometry.cells import CellSet
+    from vorotool.geometry.digital_triangulation import DigitalTriangulation
     from vorotool.geometry.polygons import PolygonSet
     from vorotool.geometry.skeleton import Skeleton
     from vorotool.geometry.table import Table
     from vorotool.geometry.triangulation import Triangulation
 
-    writers: dict[type, _Writer] = {
-        Table: _write_table,
-        PolygonSet: _write_polygons,
-        Triangulation: _write_mesh,
-        Skeleton: _write_skeleton,
-    }
-    if type(value) not in writers:
-        raise UsageError(
-            f"a {type(value).__name__} cannot be written: "
-            "give a LabelImage, Table, PolygonSet, Triangulation or Skeleton"
-        )
-    return writers[type(value)]
+    if isinstance(value, Table):
+        from vorotool.formats.tables import write_table
 
+        return write_table, {"threads": threads}
+    if isinstance(value, PolygonSet):
+        from vorotool.formats.polygons import write_polygons
 
-def _write_table(
-    out: Any, value: Any, fmt: str, _what: Any, _flatten: Any, precision: int | None, threads: int
-) -> None:
-    from vorotool.formats.tables import write_table
+        return write_polygons, {}
+    if isinstance(value, CellSet):
+        from vorotool.formats.cell_files import write_cells
 
-    write_table(out, value, fmt, precision=precision, threads=threads)
+        return write_cells, {"threads": threads}
+    if isinstance(value, AlphaComplex | AlphaShape):
+        from vorotool.formats.alpha_files import write_shape
 
+        return write_shape, {"what": what, "threads": threads}
+    if isinstance(value, Triangulation | DigitalTriangulation):
+        from vorotool.formats.mesh_files import write_mesh
 
-def _write_polygons(
-    out: Any, value: Any, fmt: str, _what: Any, _flatten: Any, precision: int | None, _threads: int
-) -> None:
-    from vorotool.formats.polygons import write_polygons
+        return write_mesh, {"what": what or {"ele": "triangles", "node": "table"}.get(fmt, "edges"), "threads": threads}
+    if isinstance(value, Skeleton):
+        from vorotool.formats.skeleton_files import write_skeleton
 
-    write_polygons(out, value, fmt, precision=precision)
-
-
-def _write_mesh(
-    out: Any, value: Any, fmt: str, what: str | None, _flatten: Any, precision: int | None, threads: int
-) -> None:
-    from vorotool.formats.mesh_files import write_mesh
-
-    what = what or {"ele": "triangles", "node": "table"}.get(fmt, "edges")
-    write_mesh(out, value, fmt, what=what, precision=precision, threads=threads)
-
-
-def _write_skeleton(
-    out: Any, value: Any, fmt: str, what: str | None, flatten: float | None, precision: int | None, threads: int
-) -> None:
-    from vorotool.formats.skeleton_files import write_skeleton
-
-    write_skeleton(out, value, fmt, what=what or "skeleton", flatten=flatten, precision=precision, threads=threads)
+        return write_skeleton, {"what": what or "skeleton", "flatten": flatten, "threads": threads}
+    raise UsageError(
+        f"a {type(value).__name__} cannot be written: give a LabelImage, Table, PolygonSet, CellSet, Triangulation, "
+        "AlphaShape or Skeleton"
+    )
 
 
 def _write_image(image: LabelImage, path: str, fmt: Any, threads: int) -> None:

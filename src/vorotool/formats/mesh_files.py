@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import BinaryIO
+from collections.abc import Callable, Mapping
+from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
-from vorotool.formats.tables import TABLE_FORMATS, json_text, object_shape, write_table
+from vorotool.formats.tables import TABLE_FORMATS, json_column, json_text, object_shape, write_table
 from vorotool.formats.text_rows import Column, RowShape, write_rows
+from vorotool.geometry.digital_triangulation import AnyTriangulation, DigitalTriangulation
 from vorotool.geometry.mesh_tables import edge_table, point_table, triangle_table
 from vorotool.geometry.table import Lookup, Table
 from vorotool.geometry.triangulation import Triangulation
@@ -19,7 +20,7 @@ EDGE_FORMATS = ("csv", "json", "geojson", "npz", "edge", "obj")
 TRIANGLE_FORMATS = ("csv", "json", "geojson", "npz", "ele", "obj")
 POINT_FORMATS = (*TABLE_FORMATS, "node")
 _FORMATS = {"edges": EDGE_FORMATS, "triangles": TRIANGLE_FORMATS, "table": POINT_FORMATS}
-_TABLES: dict[str, Callable[[Triangulation], Table]] = {
+_TABLES: dict[str, Callable[[Any], Table]] = {
     "edges": edge_table,
     "triangles": triangle_table,
     "table": point_table,
@@ -28,7 +29,7 @@ _TABLES: dict[str, Callable[[Triangulation], Table]] = {
 
 def write_mesh(
     out: BinaryIO,
-    mesh: Triangulation,
+    mesh: AnyTriangulation,
     fmt: str,
     *,
     what: str = "edges",
@@ -46,7 +47,7 @@ def write_mesh(
     ----------
     out : binary file object
         Need not be seekable.
-    mesh : Triangulation
+    mesh : Triangulation or DigitalTriangulation
         Rows are in the order of its arrays.
     fmt : {"csv", "json", "geojson", "npz", "edge", "ele", "node", "obj"}
         Edges are LineStrings in GeoJSON and lines in OBJ, triangles are Polygons and faces.
@@ -76,6 +77,11 @@ def write_mesh(
         raise UsageError(f"{fmt.upper()} is for pictures: draw it with vorotool delaunay -o picture.{fmt}")
     if fmt not in _FORMATS[what]:
         raise UsageError(f"{what} cannot be written as {fmt!r}: use one of {', '.join(_FORMATS[what])}")
+    if isinstance(mesh, DigitalTriangulation) and (what == "table" or fmt in ("edge", "ele")):
+        raise UsageError(
+            f"{what} as {fmt!r} is for triangulations: what a digital tessellation shows need not be one; write its "
+            "edges or triangles as csv, json, geojson, npz or obj"
+        )
     if fmt in TABLE_FORMATS:
         write_table(out, _TABLES[what](mesh), fmt, precision=precision, threads=threads)
     else:
@@ -83,36 +89,70 @@ def write_mesh(
 
 
 # ---- GeoJSON -------------------------------------------------------------------------------------
-def _write_geojson(out: BinaryIO, mesh: Triangulation, what: str, precision: int | None, threads: int) -> None:
+def _write_geojson(out: BinaryIO, mesh: AnyTriangulation, what: str, precision: int | None, threads: int) -> None:
     """One feature an edge or triangle; its id is its number from 1, its labels and length are properties."""
     rows = mesh.edges if what == "edges" else mesh.triangles
-    x, y = np.ascontiguousarray(mesh.points.T)
-    ring = [*rows.T, *([] if what == "edges" else [rows[:, 0]])]
-    corners = [Column("", Lookup(values, index)) for index in ring for values in (x, y)]
     stored = _TABLES[what](mesh).stored()
-    names = [name for name in stored if name.startswith("label") or name == "length"]
-    columns = [Column.of("id", np.arange(1, len(rows) + 1)), *(Column.of(name, stored[name]) for name in names)]
+    columns = {name: stored[name] for name in stored if name.startswith("label") or name == "length"}
+    write_features(out, columns, mesh.points, rows, crs=mesh.crs, precision=precision, threads=threads)
+
+
+def write_features(
+    out: BinaryIO,
+    columns: Mapping[str, Any],
+    points: NDArray[np.float64],
+    rows: NDArray[np.int32],
+    *,
+    crs: Any = None,
+    precision: int | None = None,
+    threads: int = 0,
+) -> None:
+    """Write edges or triangles as GeoJSON, streamed: one feature each, whose id is its number from 1.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable.
+    columns : mapping of str to column
+        Properties, as in a `Table`.
+    points : (n, 2) float64 array
+        Coordinates.
+    rows : (m, 2) or (m, 3) int32 array
+        Points of each edge, which becomes a LineString, or triangle, which becomes a Polygon.
+    crs : object, optional
+        The ``crs`` member.
+    precision : int, optional
+        Significant digits; by default the shortest that reads back the same.
+    threads : int
+        0 for all.
+    """
+    x, y = np.ascontiguousarray(points.T)
+    ring = [*rows.T, *([rows[:, 0]] if rows.shape[1] == 3 else [])]
+    corners = [Column("", Lookup(values, index)) for index in ring for values in (x, y)]
+    properties = [json_column(Column.of(name, column), precision) for name, column in columns.items()]
     out.write(b'{"type":"FeatureCollection",')
-    if mesh.crs is not None:
-        out.write(f'"crs":{json_text(mesh.crs)},'.encode())
+    if crs is not None:
+        out.write(f'"crs":{json_text(crs)},'.encode())
     out.write(b'"features":[')
     if len(rows):
         out.write(b"\n")
-        write_rows(out, [*columns, *corners], _feature_shape(names, what), precision=precision, threads=threads)
+        numbers = Column.of("id", np.arange(1, len(rows) + 1))
+        shape = _feature_shape(list(columns), rows.shape[1])
+        write_rows(out, [numbers, *properties, *corners], shape, precision=precision, threads=threads)
         out.write(b"\n")
     out.write(b"]}\n")
 
 
-def _feature_shape(names: list[str], what: str) -> RowShape:
-    kind, opening, closing = ("LineString", "[[", "]]") if what == "edges" else ("Polygon", "[[[", "]]]")
-    corners = 2 if what == "edges" else 4
+def _feature_shape(names: list[str], vertices: int) -> RowShape:
+    kind, opening, closing = ("LineString", "[[", "]]") if vertices == 2 else ("Polygon", "[[[", "]]]")
+    corners = 2 if vertices == 2 else 4
     properties = object_shape(names, ',"properties":', f',"geometry":{{"type":"{kind}","coordinates":{opening}')
     between = ("],[" if k % 2 else "," for k in range(2 * corners - 1))
     return RowShape(('{"type":"Feature","id":', *properties.around, *between, f"{closing}}}}}"), ",\n", "null")
 
 
 # ---- OBJ -----------------------------------------------------------------------------------------
-def _write_obj(out: BinaryIO, mesh: Triangulation, what: str, precision: int | None, threads: int) -> None:
+def _write_obj(out: BinaryIO, mesh: AnyTriangulation, what: str, precision: int | None, threads: int) -> None:
     x, y = (Column("", values) for values in np.ascontiguousarray(mesh.points.T))
     write_rows(out, [x, y], RowShape(("v ", " ", " 0\n")), precision=precision, threads=threads)
     if what == "edges":
@@ -151,13 +191,13 @@ def _counted(mesh: Triangulation, rows: int) -> Column:
     return Column("", np.arange(rows, dtype=np.int64) + mesh.first_number)
 
 
-def _numbers(mesh: Triangulation, rows: NDArray[np.int32], first: int = 1) -> list[Column]:
+def _numbers(mesh: AnyTriangulation, rows: NDArray[np.int32], first: int = 1) -> list[Column]:
     """Columns of vertices by their numbers, the first of which is given."""
     numbers = np.arange(len(mesh.points), dtype=np.int64) + first
     return [Column("", Lookup(numbers, index)) for index in rows.T]
 
 
-_WRITERS: dict[str, Callable[[BinaryIO, Triangulation, str, int | None, int], None]] = {
+_WRITERS: dict[str, Callable[[BinaryIO, Any, str, int | None, int], None]] = {
     "geojson": _write_geojson,
     "obj": _write_obj,
     "edge": _write_edge,

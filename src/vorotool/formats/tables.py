@@ -58,7 +58,7 @@ def write_table(out: BinaryIO, table: Table, fmt: str, *, precision: int | None 
     elif fmt == "json":
         _write_json(out, columns, precision, threads)
     elif fmt == "npz":
-        _write_npz(out, columns, threads)
+        write_npz(out, columns, threads)
     else:
         raise UsageError(f"-f {fmt!r} is no format of tables: use {', '.join(TABLE_FORMATS)}")
 
@@ -145,7 +145,8 @@ class _Stream:
         self._out.flush()
 
 
-def _write_npz(out: BinaryIO, columns: list[Column], threads: int) -> None:
+def write_npz(out: BinaryIO, columns: list[Column], threads: int) -> None:
+    """Write one array a column, of any lengths."""
     with zipfile.ZipFile(_Stream(out), "w", zipfile.ZIP_STORED) as archive:  # type: ignore[call-overload]
         for column in columns:
             _write_array(archive, column.name, _npz_values(column), threads)

@@ -173,4 +173,6 @@ def _core_values(column: Column, texts: dict[int, _core.NumberTexts]) -> Any:
         return (texts.get(id(values.values), values.values), values.index)
     if isinstance(values, list | Computed):
         return values[:]
+    if isinstance(values, _core.PolygonTexts):
+        return values
     return values.astype(np.int64) if values.dtype.kind == "b" else values

@@ -5,16 +5,17 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.digital_triangulation import AnyTriangulation
 from vorotool.geometry.table import Computed, Lookup, Table
 from vorotool.geometry.triangulation import Triangulation
 
 
-def edge_table(mesh: Triangulation) -> Table:
+def edge_table(mesh: AnyTriangulation) -> Table:
     """Give one row an edge: its labels, its ends and its length.
 
     Parameters
     ----------
-    mesh : Triangulation
+    mesh : Triangulation or DigitalTriangulation
         Rows are in the order of its edges, ends as there.
 
     Returns
@@ -45,12 +46,12 @@ def edge_table(mesh: Triangulation) -> Table:
     )
 
 
-def triangle_table(mesh: Triangulation) -> Table:
+def triangle_table(mesh: AnyTriangulation) -> Table:
     """Give one row a triangle: its labels, counter-clockwise.
 
     Parameters
     ----------
-    mesh : Triangulation
+    mesh : Triangulation or DigitalTriangulation
         Rows are in the order of its triangles, vertices as there.
 
     Returns

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from vorotool.geometry.triangulation import Triangulation
+from vorotool.geometry.digital_triangulation import AnyTriangulation
 from vorotool.render.label_png import checked_layers
 from vorotool.render.layers import Layer, Lines, Page, Points, Polygons, Texts, bounds_of
 from vorotool.render.palettes import CELLS, INK
@@ -15,12 +15,12 @@ LAYERS = ("triangles", "edges", "points", "labels")
 """From below."""
 
 
-def mesh_layers(mesh: Triangulation, page: Page, layers: Iterable[str]) -> list[Layer]:
+def mesh_layers(mesh: AnyTriangulation, page: Page, layers: Iterable[str]) -> list[Layer]:
     """Make layers of a triangulation; lines and discs get finer where points are crowded.
 
     Parameters
     ----------
-    mesh : Triangulation
+    mesh : Triangulation or DigitalTriangulation
         What to draw.
     page : Page
         Where it will be drawn.
@@ -55,7 +55,7 @@ def mesh_layers(mesh: Triangulation, page: Page, layers: Iterable[str]) -> list[
 
 
 def mesh_page(
-    mesh: Triangulation,
+    mesh: AnyTriangulation,
     *,
     width: int = 1000,
     y_up: bool | None = None,
@@ -65,7 +65,7 @@ def mesh_page(
 
     Parameters
     ----------
-    mesh : Triangulation
+    mesh : Triangulation or DigitalTriangulation
         What to draw; where ``y_up`` is not given, its own decides.
     width : int
         In px.
