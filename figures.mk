@@ -4,8 +4,8 @@ VOROTOOL := $(BIN)/vorotool
 FIGURES  := $(BUILD)/figures
 TABLE_1_SIZES := 64 128 256 512
 
-.PHONY: figures figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c table-1
-figures: figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c table-1 ## draw the figures and tables of the paper into build/figures
+.PHONY: figures figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c figure-10 figure-11 figure-lakes table-1
+figures: figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c figure-10 figure-11 figure-lakes table-1 ## draw the figures and tables of the paper into build/figures
 	@echo "figures are in $(FIGURES):" && ls $(FIGURES)
 figure-01: $(FIGURES)/figure-01.svg
 figure-02: $(FIGURES)/figure-02.svg
@@ -16,6 +16,9 @@ figure-03d: $(FIGURES)/figure-03d.svg
 figure-04a: $(FIGURES)/figure-04a.svg
 figure-04b: $(FIGURES)/figure-04b.svg
 figure-04c: $(FIGURES)/figure-04c.svg
+figure-10: $(FIGURES)/figure-10.svg
+figure-11: $(foreach part,a b c d,$(FIGURES)/figure-11$(part).svg)
+figure-lakes: $(FIGURES)/figure-lakes.png
 table-1: $(FIGURES)/table-1.md
 
 $(FIGURES):
@@ -56,6 +59,24 @@ $(FIGURES)/figure-04b.svg: data/dot-pattern.csv $(BUILD)/.installed | $(FIGURES)
 # and its alpha shape for r = -1/α = 10.
 $(FIGURES)/figure-04c.svg: data/dot-pattern.csv $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) alphashape $< -r 10 -o $@
+
+# Purpose: the elements of a polygonal shape, one label for an edge and two for a vertex.
+$(FIGURES)/figure-10.svg: data/shape.json $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --gap 4 --what elements --layers elements,points,labels -o $@
+
+# Purpose: two polygonal shapes, their elements (the step is 4), the Voronoi diagram of these, and the skeletons.
+$(FIGURES)/figure-11a.svg: data/two-shapes.json $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --what elements --layers polygons -o $@
+$(FIGURES)/figure-11b.svg: data/two-shapes.json $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --gap 4 --what elements --layers elements,points -o $@
+$(FIGURES)/figure-11c.svg: data/two-shapes.json $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --gap 4 --what diagram -o $@
+$(FIGURES)/figure-11d.svg: data/two-shapes.json $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --gap 4 -o $@
+
+# Purpose: the exact skeletons of real polygons, with islands as holes.
+$(FIGURES)/figure-lakes.png: data/great-lakes.geojson $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< -q -o $@
 
 # Purpose: seconds against the size of the image: the paper's, its algorithm here, and the exact engine.
 # The 53 seeds of Figure 3 are scaled to each size.

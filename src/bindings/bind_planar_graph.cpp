@@ -13,6 +13,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "core/border_rings.hpp"
 #include "core/placement.hpp"
 #include "core/planar_graph.hpp"
 #include "core/verify_planar_graph.hpp"
@@ -84,6 +85,26 @@ nb::dict make_planar_graph(const IndexRows& array, const Vector<const std::int64
   return result;
 }
 
+nb::dict border_rings(const IndexRows& points, const IndexRows& segments, const IndexRows& segment_faces,
+                      const Vector<const std::int32_t>& face_start,
+                      const Vector<const std::int32_t>& face_polygon, nb::handle progress) {
+  const core::BorderGraph graph{as_lattice_points(points), view(segments), view(segment_faces),
+                                view(face_start), view(face_polygon)};
+  if (graph.segment_faces.size() != graph.segments.size() || graph.face_start.empty()) {
+    throw std::invalid_argument("the arrays of a planar graph have lengths that do not go together");
+  }
+  core::BorderRings rings =
+      run_interruptible(progress, [&](const Monitor&) { return core::find_border_rings(graph); });
+  nb::dict result;
+  result["start"] = to_numpy(std::move(rings.start));
+  result["point"] = to_numpy(std::move(rings.point));
+  result["segment"] = to_numpy(std::move(rings.segment));
+  result["is_hole"] = to_numpy(std::move(rings.is_hole));
+  result["ring_part"] = to_numpy(std::move(rings.ring_part));
+  result["part_polygon"] = to_numpy(std::move(rings.part_polygon));
+  return result;
+}
+
 std::optional<std::string> planar_graph_fault(const IndexRows& points, const IndexRows& segments,
                                               const std::optional<IndexRows>& faces, nb::handle progress) {
   if (segments.shape(1) != 2 || (faces && (faces->shape(1) != 2 || faces->size() != segments.size()))) {
@@ -103,6 +124,9 @@ void bind_planar_graph(nb::module_& module) {
   module.def("place_on_lattice", &place_on_lattice, "points"_a.noconvert(), "threads"_a, "progress"_a.none());
   module.def("make_planar_graph", &make_planar_graph, "vertices"_a.noconvert(), "ring_start"_a.noconvert(),
              "ring_kind"_a.noconvert(), "ring_polygon"_a.noconvert(), "progress"_a.none());
+  module.def("border_rings", &border_rings, "points"_a.noconvert(), "segments"_a.noconvert(),
+             "segment_faces"_a.noconvert(), "face_start"_a.noconvert(), "face_polygon"_a.noconvert(),
+             "progress"_a.none());
   module.def("planar_graph_fault", &planar_graph_fault, "points"_a.noconvert(), "segments"_a.noconvert(),
              "faces"_a.noconvert().none(), "progress"_a.none());
 }

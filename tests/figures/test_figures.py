@@ -10,7 +10,10 @@ import pytest
 from PIL import Image
 
 ROOT = Path(__file__).parents[2]
-PIXELS = {"figure-03a.png": "eb46790d48b0f8fccd36c7174ee5bf47ae186f83d044c9a3bd2f9f7c477ed1bc"}
+PIXELS = {
+    "figure-03a.png": "eb46790d48b0f8fccd36c7174ee5bf47ae186f83d044c9a3bd2f9f7c477ed1bc",
+    "figure-lakes.png": "6b4690140c1d8df6bce1765520df3dc28cff6e9526a5e2112a46f88d711a5db2",
+}
 """SHA-256 of the RGB pixels."""
 
 
@@ -24,7 +27,11 @@ def figures(tmp_path_factory):
 
 
 @pytest.mark.parametrize(
-    "name", [f"figure-{number}.svg" for number in ("01", "02", "03b", "03c", "03d", "04a", "04b", "04c")]
+    "name",
+    [
+        f"figure-{number}.svg"
+        for number in ("01", "02", "03b", "03c", "03d", "04a", "04b", "04c", "10", "11b", "11c", "11d")
+    ],
 )
 def test_svg(figures, name):
     assert (figures / name).read_text() == (Path(__file__).parent / name).read_text()

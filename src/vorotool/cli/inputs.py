@@ -29,7 +29,7 @@ def read_seed_input(run: Run, o: SimpleNamespace, source: str, *, properties: bo
     """
     from vorotool.formats import read
     from vorotool.geometry.points import PointSet
-    from vorotool.geometry.polygons import PolygonSet
+    from vorotool.geometry.raster import Raster
 
     value = read(
         source,
@@ -43,10 +43,10 @@ def read_seed_input(run: Run, o: SimpleNamespace, source: str, *, properties: bo
         threads=o.threads,
         note=run.note,
     )
-    assert not isinstance(value, PolygonSet)  # points are asked for
     if isinstance(value, PointSet):
         refuse(o, IMAGE_OPTIONS, "is for images, but the input is a list of points")
-    assert not isinstance(value, PolygonSet)  # geometry="points" gives none
+        return value
+    assert isinstance(value, Raster)  # what is asked for is points, or an image
     return value
 
 

@@ -19,7 +19,8 @@ COMMANDS = {
     "tessellate": "Digital Voronoi tessellation of points or of an image.",
     "delaunay": "Exact Delaunay triangulation of points or of an image.",
     "alphashape": "Alpha shapes of points, of one radius or of all.",
-    "draw": "Draw a label image again, without computing it again.",
+    "skeleton-exact": "Exact skeleton (medial axis) of polygons and lines.",
+    "draw": "Draw a label image or a skeleton again, without computing it again.",
 }
 """Commands and what they do; the module of a command is imported when it is called."""
 
@@ -61,7 +62,7 @@ class LazyGroup(click.Group):
         """Import a command."""
         if cmd_name not in COMMANDS:
             return None
-        command: click.Command = import_module(f"vorotool.cli.{cmd_name}").command
+        command: click.Command = import_module(f"vorotool.cli.{cmd_name.replace('-', '_')}").command
         return command
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from vorotool.geometry.points import PointSet
     from vorotool.geometry.polygons import PolygonSet
     from vorotool.geometry.raster import Raster
+    from vorotool.geometry.skeleton import Skeleton
 
 
 def read(
@@ -32,8 +33,8 @@ def read(
     properties: bool = True,
     threads: int = 0,
     note: Callable[[str], None] | None = None,
-) -> PointSet | PolygonSet | Raster:
-    """Read points, polygons and lines, or an image.
+) -> PointSet | PolygonSet | Raster | Skeleton:
+    """Read points, polygons and lines, an image, or a skeleton that was written as JSON.
 
     A plain JSON list of pairs holds points, unless ``geometry`` is polygons. GeoJSON and WKT hold either points or
     polygons and lines: what their first geometry is.
@@ -62,7 +63,7 @@ def read(
 
     Returns
     -------
-    PointSet, PolygonSet or Raster
+    PointSet, PolygonSet, Raster or Skeleton
 
     Raises
     ------
@@ -82,6 +83,7 @@ def read(
     from vorotool.formats.input_formats import NAMES_WITH, known_input_format
     from vorotool.formats.points import read_points
     from vorotool.formats.polygons import read_polygons, recognise
+    from vorotool.formats.skeleton_json import read_skeleton, says_skeleton
     from vorotool.formats.sources import read_source
 
     if geometry not in NAMES_WITH:
@@ -89,6 +91,8 @@ def read(
     input_format = known_input_format(input_format, NAMES_WITH[geometry])
     threads = checked_threads(threads)
     source = read_source(fspath(path))
+    if geometry is None and input_format in (None, "json") and says_skeleton(source.data):
+        return read_skeleton(source, properties=properties, max_sites=max_sites, note=note)
     is_points = columns is not None and source.data.startswith(NPY_MAGIC)  # the one format that holds either
     if input_format in ("png", "tiff", "pnm") or (input_format in (None, "npy") and not is_points and is_image(source)):
         return read_image(source, input_format=input_format, page=page, max_pixels=max_pixels)
@@ -116,23 +120,29 @@ def write(
     *,
     fmt: str | None = None,
     what: str | None = None,
+    flatten: float | None = None,
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    """Write a label image, a table, polygons, Voronoi cells, or the edges, triangles or table of a triangulation.
+    """Write a label image, a table, polygons and lines, Voronoi cells, a triangulation, an alpha shape or a skeleton.
 
     Parameters
     ----------
-    value : LabelImage, Table, PolygonSet, CellSet, Triangulation, DigitalTriangulation, AlphaShape or AlphaComplex
-        What to write: images as PNG, TIFF, NPY or text, tables as CSV, JSON or NPZ, polygons as JSON, GeoJSON, WKT or
-        .poly, cells as GeoJSON, CSV, JSON, NPZ or WKT, a triangulation as a table, GeoJSON, OBJ, or a file of Triangle,
-        an alpha shape as a table or GeoJSON of its edges or as polygons, an alpha complex as a table.
+    value : value of the library
+        What to write: a `LabelImage` as PNG, TIFF, NPY or text, a `Table` as CSV, JSON or NPZ, a `PolygonSet` as JSON,
+        GeoJSON, WKT or .poly, a `CellSet` as GeoJSON, CSV, JSON, NPZ or WKT, a `Triangulation` or a
+        `DigitalTriangulation` as a table, GeoJSON, OBJ, or a file of Triangle, an `AlphaShape` as a table or GeoJSON of
+        its edges or as polygons, an `AlphaComplex` as a table, a `Skeleton` as JSON, CSV, GeoJSON, WKT or NPZ.
     path : str or path
         The file, replaced atomically.
     fmt : str, optional
         Format, or a usual extension of it; by default that of the path.
-    what : {"edges", "triangles", "table", "polygons", "family"}, optional
-        Of a triangulation or an alpha shape; by default what the format is for, else its edges.
+    what : str, optional
+        Of a triangulation or an alpha shape ``edges``, ``triangles``, ``table``, ``polygons`` or ``family``, by default
+        what the format is for, else its edges; of a skeleton ``skeleton`` (the default), ``elements``, ``branches`` or
+        ``table``.
+    flatten : float, optional
+        Of a skeleton in GeoJSON or WKT: how far lines may be from parabolas.
     precision : int, optional
         Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
     threads : int
@@ -153,35 +163,91 @@ def write(
     >>> write(vorotool.alpha_shape([[0, 0], [4, 0], [0, 3]], r=2.5), "build/shape.geojson")
     """
     from vorotool.formats.outputs import open_output
-    from vorotool.geometry.alpha_complex import AlphaComplex
-    from vorotool.geometry.alpha_shape import AlphaShape
-    from vorotool.geometry.digital_triangulation import DigitalTriangulation
     from vorotool.geometry.label_image import LabelImage
-    from vorotool.geometry.triangulation import Triangulation
 
     name = (fmt or Path(path).suffix).lower().lstrip(".")
     chosen: Any = {"tif": "tiff", "txt": "text"}.get(name, name)
     threads = checked_threads(threads)
-    has_parts = isinstance(value, Triangulation | DigitalTriangulation | AlphaComplex | AlphaShape)
-    if what is not None and not has_parts:
-        raise UsageError(f"what={what!r} is for triangulations: leave it out with a {type(value).__name__}")
     if isinstance(value, LabelImage):
+        if what is not None:
+            raise UsageError(f"what={what!r} is for what has parts: leave it out with a LabelImage")
         _write_image(value, fspath(path), chosen, threads)
         return
-    writer, options = _writer_of(value, chosen, what, threads)
+    writer, options = _writer_of(value, chosen, what, flatten, threads)
     with open_output(fspath(path), binary=chosen == "npz") as out:
         writer(out, value, chosen, precision=precision, **options)
 
 
-def _writer_of(value: Any, fmt: str, what: str | None, threads: int) -> tuple[Callable[..., None], dict[str, Any]]:
+def to_geojson(value: Any, *, what: str | None = None, flatten: float | None = None) -> dict[str, Any]:
+    """Give polygons and lines, Voronoi cells, a triangulation, an alpha shape or a skeleton as GeoJSON.
+
+    Parameters
+    ----------
+    value : PolygonSet, CellSet, Triangulation, AlphaShape or Skeleton
+        With ids and properties, if it has any.
+    what, flatten : optional
+        As of `write`.
+
+    Raises
+    ------
+    UsageError
+        If it cannot be written so.
+
+    Examples
+    --------
+    >>> import vorotool
+    >>> square = vorotool.skeleton_exact([[0, 0], [4, 0], [4, 4], [0, 4]])
+    >>> to_geojson(square)["features"][0]["geometry"]
+    {'type': 'LineString', 'coordinates': [[0, 0], [2, 2]]}
+    """
+    import io
+
+    import orjson
+
+    out = io.BytesIO()
+    writer, options = _writer_of(value, "geojson", what, flatten, 0)
+    writer(out, value, "geojson", precision=None, **options)
+    made: dict[str, Any] = orjson.loads(out.getvalue())
+    return made
+
+
+def _writer_of(
+    value: Any, fmt: str, what: str | None, flatten: float | None, threads: int
+) -> tuple[Callable[..., None], dict[str, Any]]:
     """Give the function that writes a value, and its further options."""
     from vorotool.geometry.alpha_complex import AlphaComplex
     from vorotool.geometry.alpha_shape import AlphaShape
-    from vorotool.geometry.cells import CellSet
     from vorotool.geometry.digital_triangulation import DigitalTriangulation
+    from vorotool.geometry.skeleton import Skeleton
+    from vorotool.geometry.triangulation import Triangulation
+
+    if flatten is not None and not isinstance(value, Skeleton):
+        raise UsageError(f"flatten is for skeletons: leave it out with a {type(value).__name__}")
+    if isinstance(value, Skeleton):
+        from vorotool.formats.skeleton_files import write_skeleton
+
+        return write_skeleton, {"what": what or "skeleton", "flatten": flatten, "threads": threads}
+    if isinstance(value, AlphaComplex | AlphaShape):
+        from vorotool.formats.alpha_files import write_shape
+
+        return write_shape, {"what": what, "threads": threads}
+    if isinstance(value, Triangulation | DigitalTriangulation):
+        from vorotool.formats.mesh_files import write_mesh
+
+        return write_mesh, {"what": what or {"ele": "triangles", "node": "table"}.get(fmt, "edges"), "threads": threads}
+    if what is not None:
+        raise UsageError(
+            f"what={what!r} is for triangulations, alpha shapes and skeletons: "
+            f"leave it out with a {type(value).__name__}"
+        )
+    return _plain_writer(value, threads)
+
+
+def _plain_writer(value: Any, threads: int) -> tuple[Callable[..., None], dict[str, Any]]:
+    """Give the function that writes a value of which there is one thing to write."""
+    from vorotool.geometry.cells import CellSet
     from vorotool.geometry.polygons import PolygonSet
     from vorotool.geometry.table import Table
-    from vorotool.geometry.triangulation import Triangulation
 
     if isinstance(value, Table):
         from vorotool.formats.tables import write_table
@@ -195,17 +261,9 @@ def _writer_of(value: Any, fmt: str, what: str | None, threads: int) -> tuple[Ca
         from vorotool.formats.cell_files import write_cells
 
         return write_cells, {"threads": threads}
-    if isinstance(value, AlphaComplex | AlphaShape):
-        from vorotool.formats.alpha_files import write_shape
-
-        return write_shape, {"what": what, "threads": threads}
-    if isinstance(value, Triangulation | DigitalTriangulation):
-        from vorotool.formats.mesh_files import write_mesh
-
-        return write_mesh, {"what": what or {"ele": "triangles", "node": "table"}.get(fmt, "edges"), "threads": threads}
     raise UsageError(
-        f"a {type(value).__name__} cannot be written: give a LabelImage, Table, PolygonSet, CellSet, Triangulation or "
-        "AlphaShape"
+        f"a {type(value).__name__} cannot be written: give a LabelImage, Table, PolygonSet, CellSet, Triangulation, "
+        "AlphaShape or Skeleton"
     )
 
 

@@ -92,12 +92,19 @@ def _features(described: list[dict[str, Any]], owners: list[int], place: Any) ->
 
 def write_json(out: BinaryIO, polygons: PolygonSet, precision: int | None) -> None:
     """Write ``{"polygons": […]}``, one polygon or line a line of text."""
+    out.write(b"{")
+    write_items(out, polygons, precision)
+    out.write(b"}\n")
+
+
+def write_items(out: BinaryIO, polygons: PolygonSet, precision: int | None) -> None:
+    """Write ``"polygons": […]``, a member of an object."""
     import orjson
 
     digits = Digits(precision)
     part = polygons.part.tolist()
     in_parts = max(part, default=1) > 1
-    out.write(b'{"polygons":[')
+    out.write(b'"polygons":[')
     for index, is_line in enumerate(polygons.is_line):
         item: dict[str, Any] = {}
         if polygons.ids is not None:
@@ -109,4 +116,4 @@ def write_json(out: BinaryIO, polygons: PolygonSet, precision: int | None) -> No
         rings = [digits.rounded(ring) for ring in polygons.rings_of(index)]
         item |= {"line": rings[0]} if is_line else {"shell": rings[0], "holes": rings[1:]}
         out.write((b",\n" if index else b"\n") + orjson.dumps(item, default=str, option=orjson.OPT_SERIALIZE_NUMPY))
-    out.write(b"\n]}\n" if len(polygons) else b"]}\n")
+    out.write(b"\n]" if len(polygons) else b"]")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import zipfile
+from collections.abc import Mapping
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -70,6 +71,9 @@ def _write_csv(out: BinaryIO, columns: list[Column], precision: int | None, thre
 
 
 def _with_texts(column: Column, precision: int | None) -> Column:
+    if isinstance(column.values, Lookup) and isinstance(column.values.values, list):
+        texts = [_text_of(value, precision) for value in column.values.values]
+        return Column(column.name, Lookup(texts, column.values.index))
     if not isinstance(column.values, list):
         return column
     return Column(column.name, [_text_of(value, precision) for value in column.values], column.missing)
@@ -110,6 +114,8 @@ def object_shape(names: list[str], before: str = "", after: str = "") -> RowShap
 def json_column(column: Column, precision: int | None = None) -> Column:
     """The column with what is no number as JSON text."""
     values = column.values
+    if isinstance(values, Lookup) and isinstance(values.values, list):
+        return Column(column.name, Lookup([json_text(value) for value in values.values], values.index))
     if isinstance(values, Lookup | Computed) or (not isinstance(values, list) and values.dtype.kind != "b"):
         return column
     plain = values if isinstance(values, list) else values.tolist()
@@ -148,9 +154,28 @@ def write_npz(out: BinaryIO, columns: list[Column], threads: int) -> None:
                 _write_array(archive, f"{column.name}_missing", column.missing, threads)
 
 
+def write_arrays(out: BinaryIO, arrays: Mapping[str, NDArray[Any]], *, threads: int = 0) -> None:
+    """Write 1-D arrays of any lengths as NPZ: the same bytes for the same arrays.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable.
+    arrays : mapping of str to 1-D array
+        Of numbers or texts.
+    threads : int
+        0 for all.
+    """
+    with zipfile.ZipFile(_Stream(out), "w", zipfile.ZIP_STORED) as archive:  # type: ignore[call-overload]
+        for name, values in arrays.items():
+            _write_array(archive, name, values, threads)
+
+
 def _npz_values(column: Column) -> NDArray[Any] | Lookup | Computed:
     """Give values without objects; what is missing is zero or empty."""
     values, missing = column.values, column.missing
+    if isinstance(values, Lookup) and isinstance(values.values, list):
+        return np.array([_text_of(value, 0) for value in values.values], dtype=np.str_)[values.index]
     if not isinstance(values, list):
         if missing is None or isinstance(values, Lookup | Computed):
             return values

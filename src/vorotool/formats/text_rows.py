@@ -42,12 +42,12 @@ class Column:
     def of(name: str, column: Any) -> Column:
         """Widen an array, find out what is missing, and take for a list what no array holds."""
         if isinstance(column, Lookup):
-            return Column(name, Lookup(_widened(column.values), column.index))
+            values = column.values
+            return Column(name, Lookup(_widened(values), column.index) if isinstance(values, np.ndarray) else column)
         if isinstance(column, Computed):
             return Column(name, column)
         mask = np.ma.getmaskarray(column) if isinstance(column, np.ma.MaskedArray) else None
         array = _as_array(np.ma.getdata(column) if mask is not None else column)
-        values: NDArray[Any] | list[Any]
         if array is None or array.dtype.kind not in "biuf":
             values = column.tolist() if isinstance(column, np.ndarray) else list(column)
             absent = np.array([_is_absent(value) for value in values], dtype=bool)
@@ -160,7 +160,11 @@ def slices(rows: int, size: int) -> list[slice]:
 def _lookup_texts(columns: Sequence[Column], digits: int, threads: int) -> dict[int, _core.NumberTexts]:
     """Texts of the numbers that lookups show, by the identity of their arrays: each array once."""
     arrays = {id(c.values.values): c.values.values for c in columns if isinstance(c.values, Lookup)}
-    return {key: _core.NumberTexts(array, digits, threads) for key, array in arrays.items() if array.dtype.kind == "f"}
+    return {
+        key: _core.NumberTexts(array, digits, threads)
+        for key, array in arrays.items()
+        if isinstance(array, np.ndarray) and array.dtype.kind == "f"
+    }
 
 
 def _core_values(column: Column, texts: dict[int, _core.NumberTexts]) -> Any:

@@ -20,8 +20,8 @@ class Lookup:
 
     Parameters
     ----------
-    values : (m,) int64 or float64 array
-        Contiguous; finite.
+    values : (m,) int64 or float64 array, or list
+        Contiguous; finite. Of a list, None shows that there is no value.
     index : (n,) int32 array
         0-based; it may be a column of a matrix.
 
@@ -31,15 +31,22 @@ class Lookup:
     [1.5, 2.5]
     """
 
-    values: NDArray[Any]
+    values: NDArray[Any] | list[Any]
     index: NDArray[np.int32]
 
     def __len__(self) -> int:
         return len(self.index)
 
     def __getitem__(self, rows: slice) -> NDArray[Any]:
-        found: NDArray[Any] = self.values.take(self.index[rows])
+        values = self.values if isinstance(self.values, np.ndarray) else _object_array(self.values)
+        found: NDArray[Any] = values.take(self.index[rows])
         return found
+
+
+def _object_array(values: list[Any]) -> NDArray[Any]:
+    array = np.empty(len(values), dtype=object)
+    array[:] = values
+    return array
 
 
 @dataclass(frozen=True, eq=False)

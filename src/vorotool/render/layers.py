@@ -18,6 +18,10 @@ TALLEST = 4
 """A page is at most so many times as high as wide: narrower data are drawn smaller."""
 
 
+MOST_PIECES = 1 << 12
+"""Lines that a curve is drawn with."""
+
+
 @dataclass(frozen=True, eq=False)
 class Lines:
     """Straight lines.
@@ -41,6 +45,63 @@ class Lines:
     pairs: NDArray[np.int32]
     colour: str = INK
     width: float = 1.5
+
+
+@dataclass(frozen=True, eq=False)
+class Curves:
+    """Straight lines and quadratic Bezier curves.
+
+    Parameters
+    ----------
+    name : str
+        Of the layer.
+    points : (n, 2) float64 array
+        Finite coordinates of ends and control points.
+    pairs : (m, 2) int32 array
+        Ends of each curve. Curves of which one begins where the one before ends are drawn as one path.
+    control : (m,) int32 array
+        The control point of each; -1: it is a straight line.
+    colour : str
+        ``#rrggbb``.
+    width : float
+        In px, whatever the scale.
+    """
+
+    name: str
+    points: NDArray[np.float64]
+    pairs: NDArray[np.int32]
+    control: NDArray[np.int32]
+    colour: str = INK
+    width: float = 1.5
+
+    def flattened(self, places: NDArray[np.float64], tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+        """Straight lines instead of the curves.
+
+        Parameters
+        ----------
+        places : (n, 2) float64 array
+            Where the points are drawn.
+        tolerance : float
+            How far a line may be from its curve.
+
+        Returns
+        -------
+        places : (k, 2) float64 array
+        pairs : (l, 2) int32 array
+            Ends of each line.
+        """
+        source, target = places[self.pairs[:, 0]], places[self.pairs[:, 1]]
+        control = np.where((self.control >= 0)[:, None], places[self.control], (source + target) / 2)
+        bend = source - 2 * control + target
+        square = (bend * bend).sum(axis=1)  # a chord over 1/n of a curve is off by |bend| / (4 n^2)
+        pieces = np.clip(np.ceil(np.sqrt(np.sqrt(square) / (4 * tolerance))), 1, MOST_PIECES).astype(np.int64)
+        start = np.cumsum(pieces + 1) - (pieces + 1)
+        curve = np.repeat(np.arange(len(pieces)), pieces + 1)
+        step = np.arange(len(curve)) - start[curve]
+        t = (step / pieces[curve])[:, None]
+        points = source[curve] + t * (2 * (control - source)[curve] + t * bend[curve])
+        first = np.flatnonzero(step < pieces[curve])
+        return points, np.stack([first, first + 1], axis=1).astype(np.int32)
 
 
 @dataclass(frozen=True, eq=False)
@@ -173,7 +234,7 @@ class Arcs:
         )
 
 
-Layer = Lines | Polygons | Points | Texts | Arcs
+Layer = Lines | Curves | Polygons | Points | Texts | Arcs
 
 
 def bounds_of(layers: Iterable[Layer]) -> tuple[float, float, float, float]:

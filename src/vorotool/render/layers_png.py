@@ -8,11 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import LimitError
-from vorotool.render.layers import Arcs, Layer, Lines, Page, Points, Polygons
+from vorotool.render.layers import Arcs, Curves, Layer, Lines, Page, Points, Polygons
 from vorotool.render.palettes import WHITE
 
 FINE = 4
 """Pixels of the drawing a pixel of the picture, each way: 16 shades."""
+
+FLATNESS = 0.25
+"""Pixels of the drawing that lines may be off the curves that they stand for."""
 
 MOST_COLOURS = 255
 BAND_ROWS = 64
@@ -81,6 +84,9 @@ class _Canvas:
                 self._stroke(places, layer.sides(), layer.width, self._colour(layer.edge))
         elif isinstance(layer, Lines):
             self._stroke(places, layer.pairs, layer.width, self._colour(layer.colour))
+        elif isinstance(layer, Curves):
+            lines = layer.flattened(places, FLATNESS)
+            self._stroke(*lines, layer.width, self._colour(layer.colour))
         elif isinstance(layer, Points):
             self._discs(places, layer.radius * FINE, self._colour(layer.colour))
 

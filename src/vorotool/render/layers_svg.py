@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.render.layers import Arcs, Layer, Lines, Page, Points, Polygons, Texts
+from vorotool.render.layers import Arcs, Curves, Layer, Lines, Page, Points, Polygons, Texts
 from vorotool.render.palettes import WHITE
 
 PATH_ROWS = 4096
@@ -62,6 +62,8 @@ def _parts(layer: Layer, page: Page, threads: int) -> Iterator[bytes]:
     x, y = np.ascontiguousarray(np.round(page.place(layer.points), DECIMALS).T + 0.0)  # no -0
     if isinstance(layer, Lines):
         return _lines(layer, x, y, threads)
+    if isinstance(layer, Curves):
+        return _curves(layer, x, y, threads)
     if isinstance(layer, Polygons):
         return _polygons(layer, x, y, threads)
     return _points(layer, x, y, threads) if isinstance(layer, Points) else _texts(layer, x, y, threads)
@@ -84,6 +86,31 @@ def _lines(layer: Lines, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iter
         yield from _rows([(across, a), (down, a), (across, b), (down, b)], ("M", " ", "L", " ", ""), threads)
         yield b'"/>\n'
     yield b"</g>\n"
+
+
+def _curves(layer: Curves, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
+    """One row a place: M before the begin of a path, Q before a control point, then L or nothing before an end."""
+    across, down = _core.NumberTexts(x, 0, threads), _core.NumberTexts(y, 0, threads)
+    yield f'<g id="{escape(layer.name)}" fill="none" {_stroke(layer.colour, layer.width)}>\n'.encode()
+    for rows in _chunks(len(layer.pairs), PATH_ROWS):
+        source, target = layer.pairs[rows].T
+        control = layer.control[rows]
+        begins = np.append(True, source[1:] != target[:-1])
+        bends = control >= 0
+        last = np.cumsum(1 + begins + bends) - 1  # the row of each target
+        place = np.empty(last[-1] + 1, dtype=np.int32)
+        token = np.empty(last[-1] + 1, dtype=np.int32)
+        place[last], token[last] = target, np.where(bends, 3, 1)
+        place[last[bends] - 1], token[last[bends] - 1] = control[bends], 2
+        first = (last - bends - 1)[begins]
+        place[first], token[first] = source[begins], 0
+        yield f"<path {_UNSCALED} d=".encode() + b'"'
+        yield from _rows([(_COMMANDS, token), (across, place), (down, place)], ("", "", " ", ""), threads)
+        yield b'"/>\n'
+    yield b"</g>\n"
+
+
+_COMMANDS = ["M", "L", "Q", " "]
 
 
 def _polygons(layer: Polygons, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:

@@ -26,6 +26,8 @@ FAINT = "#999999"
 PALE = "#cccccc"
 BOUNDARY = "#222222"
 SINGULAR = "#cc3311"
+LIGHT = "#e4e4e4"
+RESULT = "#aa3344"
 
 CELLS = (
     "#77aadd",

@@ -1,0 +1,183 @@
+// From segment Voronoi diagrams to skeletons.
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/tuple.h>
+
+#include <array>
+#include <optional>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "core/clearance.hpp"
+#include "core/parallel.hpp"
+#include "core/skeleton_edges.hpp"
+#include "core/skeleton_extraction.hpp"
+#include "interrupts.hpp"
+
+namespace vorotool::bindings {
+namespace {
+
+namespace nb = nanobind;
+using namespace nb::literals;
+using core::LatticePoint;
+using core::Monitor;
+using core::Place;
+using Pair = std::array<std::int32_t, 2>;
+using IndexRows = Matrix<const std::int32_t>;
+using Places = Matrix<const double>;
+
+static_assert(sizeof(LatticePoint) == 2 * sizeof(std::int32_t) && sizeof(Place) == 2 * sizeof(double));
+
+template <class Row, class Array>
+std::span<const Row> rows(const Array& array) {
+  if (array.shape(1) != 2) throw std::invalid_argument("an array that should have two columns has not");
+  return {reinterpret_cast<const Row*>(array.data()), array.shape(0)};
+}
+
+// An (n, 2) array that takes over the values.
+template <class Value>
+nb::object two_columns(std::vector<std::array<Value, 2>>&& values) {
+  auto kept = std::make_unique<std::vector<std::array<Value, 2>>>(std::move(values));
+  Value* data = kept->empty() ? nullptr : kept->front().data();
+  const std::size_t size = kept->size();
+  const nb::capsule owner(
+      kept.release(), [](void* p) noexcept { delete static_cast<std::vector<std::array<Value, 2>>*>(p); });
+  return nb::cast(nb::ndarray<nb::numpy, Value>(data, {size, 2}, owner));
+}
+
+// The arrays of a diagram, kept while the core works on views of them.
+struct DiagramArrays {
+  IndexRows points, segments;
+  Places vertices;
+  Vector<const double> radius;
+  IndexRows edges, edge_sites;
+
+  core::SegmentDiagram diagram() const {
+    const core::SegmentDiagram d{rows<LatticePoint>(points), rows<Pair>(segments),
+                                 rows<Place>(vertices),      view(radius),
+                                 rows<Pair>(edges),          rows<Pair>(edge_sites)};
+    check(d);
+    return d;
+  }
+
+ private:
+  static void check(const core::SegmentDiagram& d) {
+    if (d.vertices.size() != d.radius.size() || d.edges.size() != d.edge_sites.size()) {
+      throw std::invalid_argument("the arrays of a diagram have lengths that do not go together");
+    }
+    check_range(d.segments, 0, d.points.size());
+    check_range(d.edges, -1, d.radius.size());
+    check_range(d.edge_sites, 0, d.points.size() + d.segments.size());
+  }
+  static void check_range(std::span<const Pair> pairs, std::int32_t least, std::size_t count) {
+    for (const Pair& pair : pairs) {
+      for (const std::int32_t index : pair) {
+        if (index < least || (index >= 0 && static_cast<std::size_t>(index) >= count)) {
+          throw std::invalid_argument("an index of the diagram is out of range");
+        }
+      }
+    }
+  }
+};
+
+nb::tuple skeleton_edges(const IndexRows& points, const IndexRows& segments, const Places& vertices,
+                         const Vector<const double>& radius, const IndexRows& edges,
+                         const IndexRows& edge_sites, const IndexRows& segment_faces, unsigned threads,
+                         nb::handle progress) {
+  const DiagramArrays arrays{points, segments, vertices, radius, edges, edge_sites};
+  const core::SegmentDiagram diagram = arrays.diagram();
+  const std::span<const Pair> faces = rows<Pair>(segment_faces);
+  if (faces.size() != diagram.segments.size())
+    throw std::invalid_argument("each segment must have two faces");
+  core::SkeletonEdges kept = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::skeleton_edges(diagram, faces, core::resolve_threads(threads), monitor);
+  });
+  return nb::make_tuple(to_numpy(std::move(kept.edge)), to_numpy(std::move(kept.face)));
+}
+
+using Box = std::tuple<double, double, double, double>;
+
+nb::dict extract_skeleton(const IndexRows& points, const IndexRows& segments, const Places& vertices,
+                          const Vector<const double>& radius, const IndexRows& edges,
+                          const IndexRows& edge_sites, const Vector<const std::int32_t>& kept,
+                          const Vector<const std::int32_t>& groups,
+                          const std::optional<std::pair<std::int32_t, Box>>& clipped, double origin_x,
+                          double origin_y, double scale, unsigned threads, nb::handle progress) {
+  const DiagramArrays arrays{points, segments, vertices, radius, edges, edge_sites};
+  const core::SegmentDiagram diagram = arrays.diagram();
+  if (kept.size() != groups.size()) throw std::invalid_argument("each edge must have one group");
+  std::optional<core::ClippedGroup> frame;
+  if (clipped) {
+    const auto [least_x, most_x, least_y, most_y] = clipped->second;
+    frame = core::ClippedGroup{clipped->first, {least_x, most_x, least_y, most_y}};
+  }
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    const std::int32_t edge = view(kept)[k], group = view(groups)[k];
+    if (edge < 0 || static_cast<std::size_t>(edge) >= diagram.edges.size() || group < 0) {
+      throw std::invalid_argument("an edge or a group is out of range");
+    }
+    const Pair& ends = diagram.edges[static_cast<std::size_t>(edge)];
+    if ((ends[0] < 0 || ends[1] < 0) && !(frame && frame->group == group)) {
+      throw std::invalid_argument("an unbounded edge is in no frame");
+    }
+  }
+  core::SkeletonArrays made = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::extract_skeleton(diagram, view(kept), view(groups), frame, {origin_x, origin_y, scale},
+                                  core::resolve_threads(threads), monitor);
+  });
+  nb::dict result;
+  result["vertices"] = two_columns(std::move(made.vertices));
+  result["radius"] = to_numpy(std::move(made.radius));
+  result["frame_side"] = to_numpy(std::move(made.side));
+  result["arcs"] = two_columns(std::move(made.arcs));
+  result["control"] = two_columns(std::move(made.control));
+  result["sites"] = two_columns(std::move(made.sites));
+  result["group"] = to_numpy(std::move(made.group));
+  result["branch"] = to_numpy(std::move(made.branch));
+  result["length"] = to_numpy(std::move(made.length));
+  return result;
+}
+
+// Distances of places on the lattice from the nearest of points and segments.
+nb::object clearances(const IndexRows& points, const IndexRows& segments, const Places& places,
+                      const Vector<const double>& reach, unsigned threads, nb::handle progress) {
+  const std::span<const LatticePoint> all = rows<LatticePoint>(points);
+  const std::span<const Pair> ends = rows<Pair>(segments);
+  if (places.shape(0) != reach.size()) throw std::invalid_argument("each place must have one reach");
+  for (const Pair& pair : ends) {
+    for (const std::int32_t end : pair) {
+      if (end < 0 || static_cast<std::size_t>(end) >= all.size()) {
+        throw std::invalid_argument("an end of a segment is out of range");
+      }
+    }
+  }
+  std::vector<double> found = run_interruptible(progress, [&](const Monitor& monitor) {
+    std::vector<core::LatticeSite> sites;
+    sites.reserve(all.size() + ends.size());
+    for (const LatticePoint& point : all) sites.push_back({point, point});
+    for (const auto& [a, b] : ends) {
+      sites.push_back({all[static_cast<std::size_t>(a)], all[static_cast<std::size_t>(b)]});
+    }
+    return core::clearances(sites, rows<Place>(places), view(reach), core::resolve_threads(threads), monitor);
+  });
+  return to_numpy(std::move(found));
+}
+
+}  // namespace
+
+void bind_skeleton(nb::module_& module) {
+  module.def("skeleton_edges", &skeleton_edges, "points"_a.noconvert(), "segments"_a.noconvert(),
+             "vertices"_a.noconvert(), "radius"_a.noconvert(), "edges"_a.noconvert(),
+             "edge_sites"_a.noconvert(), "segment_faces"_a.noconvert(), "threads"_a, "progress"_a.none());
+  module.def("extract_skeleton", &extract_skeleton, "points"_a.noconvert(), "segments"_a.noconvert(),
+             "vertices"_a.noconvert(), "radius"_a.noconvert(), "edges"_a.noconvert(),
+             "edge_sites"_a.noconvert(), "kept"_a.noconvert(), "groups"_a.noconvert(), "clipped"_a.none(),
+             "origin_x"_a, "origin_y"_a, "scale"_a, "threads"_a, "progress"_a.none());
+  module.def("clearances", &clearances, "points"_a.noconvert(), "segments"_a.noconvert(),
+             "places"_a.noconvert(), "reach"_a.noconvert(), "threads"_a, "progress"_a.none());
+}
+
+}  // namespace vorotool::bindings

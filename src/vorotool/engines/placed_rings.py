@@ -1,0 +1,149 @@
+"""The rings of polygons as a planar graph has them, and what each of its sites and faces is there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.used_polygons import used_polygons
+from vorotool.geometry.planar_graph import PlanarGraph
+from vorotool.geometry.polygons import PolygonSet
+from vorotool.geometry.skeleton import EDGE, VERTEX, SiteTable
+from vorotool.geometry.skeleton_tables import connected_roots
+from vorotool.geometry.used_polygons import UsedPolygons
+
+
+@dataclass(frozen=True, eq=False)
+class PlacedShapes:
+    """Polygons as they are used.
+
+    Parameters
+    ----------
+    polygons : PolygonSet
+        Placed rings; where there were repairs, the borders of each connected part of a polygon.
+    sites : SiteTable
+        Points of the graph, then segments.
+    face_polygon : (f,) int32 array
+        The first of `polygons` that each face lies in; -1 outside.
+    """
+
+    polygons: PolygonSet
+    sites: SiteTable
+    face_polygon: NDArray[np.int32]
+
+
+def placed_shapes(graph: PlanarGraph, *, threads: int = 0) -> PlacedShapes:
+    """Give the rings as they were used.
+
+    Polygons that needed no repair keep their rings, with vertices on the lattice. If any did, all rings are what bounds
+    the polygons in the graph: a polygon that falls apart gives several, with the same id and properties.
+
+    Parameters
+    ----------
+    graph : PlanarGraph
+        Of polygons.
+    threads : int
+        0 uses all.
+
+    Examples
+    --------
+    >>> from vorotool.engines.planar_graph import planar_graph
+    >>> placed = placed_shapes(planar_graph([[0, 0], [4, 0], [4, 4]]))
+    >>> placed.polygons.xy.tolist(), placed.sites.index.tolist(), placed.face_polygon.tolist()
+    ([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0]], [0, 1, 2, 0, 1, 2], [-1, 0])
+    """
+    given = graph.polygons
+    assert given is not None
+    vertex = np.concatenate([graph.point_vertex, graph.source_edge[graph.source_start[:-1]]]).astype(np.int64)
+    if any(graph.repairs.values()):
+        return _of_borders(graph, given, vertex)
+    first = _first_polygons(graph)
+    sites = _table(given, vertex, len(graph), given, vertex)
+    if graph.largest_move > 0:
+        lattice, *_ = _core.place_on_lattice(given.xy, threads, None)
+        given = replace(given, xy=graph.coordinates(lattice))
+    return PlacedShapes(given, sites, first)
+
+
+def _of_borders(graph: PlanarGraph, given: PolygonSet, source: NDArray[np.int64]) -> PlacedShapes:
+    used = used_polygons(graph)
+    first_at = np.full(len(graph.points), len(used.point), dtype=np.int64)
+    np.minimum.at(first_at, used.point, np.arange(len(used.point)))
+    first_of = np.full(len(graph), len(used.point), dtype=np.int64)
+    has_edge = np.flatnonzero(used.segment >= 0)
+    np.minimum.at(first_of, used.segment[has_edge], has_edge)
+    vertex = np.concatenate([first_at, first_of])
+    sites = _table(used.polygons, vertex, len(graph), given, source)
+    return PlacedShapes(used.polygons, sites, _first_parts(graph, used))
+
+
+def _first_polygons(graph: PlanarGraph) -> NDArray[np.int32]:
+    first = np.full(graph.faces, -1, dtype=np.int32)
+    first[graph.is_inside] = graph.face_polygon[graph.face_start[:-1][graph.is_inside]]
+    return first
+
+
+def _first_parts(graph: PlanarGraph, used: UsedPolygons) -> NDArray[np.int32]:
+    """The part of its first polygon that each face is in: faces are connected over segments that do not bound it."""
+    polygon = graph.face_polygon.astype(np.int64)
+    face = np.repeat(np.arange(graph.faces), np.diff(graph.face_start))
+    keys = face * (int(polygon.max(initial=0)) + 1) + polygon  # ascending: polygons of a face are
+    left, right = graph.segment_faces.astype(np.int64).T
+    beside = np.flatnonzero((graph.is_inside[left]) & (graph.is_inside[right]))
+    counts = np.diff(graph.face_start)[left[beside]]
+    entry = np.repeat(graph.face_start[left[beside]], counts) + _steps(counts)
+    wanted = np.repeat(right[beside], counts) * (int(polygon.max(initial=0)) + 1) + polygon[entry]
+    rank = np.minimum(np.searchsorted(keys, wanted), max(len(keys) - 1, 0))
+    same = keys[rank] == wanted if len(keys) else np.zeros(0, dtype=bool)
+    root = connected_roots(np.stack([entry[same], rank[same]], axis=1), len(keys))
+    # the inside of a polygon is left of its rings
+    edges = np.flatnonzero((used.segment >= 0) & ~_on_lines(used))
+    segment = used.segment[edges]
+    is_forward = graph.segments[segment, 0] == used.point[edges]
+    inner = np.where(is_forward, left[segment], right[segment])
+    part = np.repeat(used.polygons.ring_polygon, np.diff(used.polygons.ring_start))[edges]
+    own = np.searchsorted(keys, inner * (int(polygon.max(initial=0)) + 1) + used.source[part])
+    of_root = np.full(len(keys), -1, dtype=np.int32)
+    of_root[root[own]] = part
+    first = np.full(graph.faces, -1, dtype=np.int32)
+    first[graph.is_inside] = of_root[root[graph.face_start[:-1][graph.is_inside]]]
+    return first
+
+
+def _on_lines(used: UsedPolygons) -> NDArray[np.bool_]:
+    polygons = used.polygons
+    on_line: NDArray[np.bool_] = np.repeat(polygons.is_line[polygons.ring_polygon], np.diff(polygons.ring_start))
+    return on_line
+
+
+def _steps(counts: NDArray[np.integer]) -> NDArray[np.int64]:
+    """0, 1, … within each run of so many."""
+    steps: NDArray[np.int64] = np.arange(int(counts.sum())) - np.repeat(np.cumsum(counts) - counts, counts)
+    return steps
+
+
+def _table(
+    polygons: PolygonSet, vertex: NDArray[np.int64], segments: int, given: PolygonSet, source: NDArray[np.int64]
+) -> SiteTable:
+    """Sites by the vertices where they are or begin, among those used and those given (-1: none)."""
+    ring = _ring_of_vertex(polygons)[vertex]
+    polygon = polygons.ring_polygon[ring]
+    has_source = source >= 0
+    source_ring = np.where(has_source, _ring_of_vertex(given)[source], -1)
+    kind = np.full(len(vertex), VERTEX, dtype=np.int8)
+    kind[len(vertex) - segments :] = EDGE
+    return SiteTable(
+        kind,
+        polygon,
+        (ring - polygons.polygon_start[polygon]).astype(np.int32),
+        (vertex - polygons.ring_start[ring]).astype(np.int32),
+        source_ring.astype(np.int32),
+        np.where(has_source, source - given.ring_start[source_ring], -1).astype(np.int32),
+    )
+
+
+def _ring_of_vertex(polygons: PolygonSet) -> NDArray[np.int64]:
+    return np.repeat(np.arange(len(polygons.ring_start) - 1), np.diff(polygons.ring_start))

@@ -1,0 +1,330 @@
+"""Exact skeletons from the Voronoi diagram of line segments (paper, section 3.2)."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.label_arrays import Progress
+from vorotool.engines.placed_rings import PlacedShapes, placed_shapes
+from vorotool.engines.planar_graph import planar_graph
+from vorotool.engines.segment_voronoi import segment_voronoi
+from vorotool.errors import InputError, UsageError, VorotoolWarning
+from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.planar_graph import PlanarGraph
+from vorotool.geometry.polygons import PolygonSet
+from vorotool.geometry.segment_voronoi import SegmentVoronoiDiagram
+from vorotool.geometry.skeleton import EXTERIOR, INTERIOR, Skeleton
+
+SIDE_NAMES = ("interior", "exterior", "both")
+FRAME_MARGIN = 0.1
+"""Of the larger side of the bounds, on each side of the default frame."""
+
+Frame = tuple[float, float, float, float]
+
+
+def skeleton_exact(
+    polygons: Any,
+    *,
+    side: str = "interior",
+    gap: float = 0.0,
+    complete: bool = True,
+    frame: Frame | None = None,
+    strict: bool = False,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Skeleton:
+    """Compute the skeleton of polygons: where the nearest place on the boundary is not one alone.
+
+    The polygons are placed on a lattice of 31 bits, and from there on every decision is exact: the Voronoi diagram of
+    the vertices and open edges is made, and of its edges those between an edge and its own end are deleted. With holes
+    the result is exact just the same; several polygons, and open lines, are boundaries of one diagram.
+
+    Parameters
+    ----------
+    polygons : PolygonSet, shapely geometry, (n, 2) array-like, or a list of these
+        See :func:`vorotool.geometry.polygon_conversion.as_polygons`.
+    side : {"interior", "exterior", "both"}
+        Inside polygons, outside all of them, or both.
+    gap : float
+        Shorten each edge by so much at both ends, as the paper does (Figure 10): then nothing leads to the corners,
+        and the result is no longer exact. The new ends go to the nearest points of the lattice.
+    complete : bool
+        With a gap, add the straight lines that lead from the skeleton to the corners.
+    frame : (x, y, w, h), optional
+        Rectangle that arcs outside are cut by; by default the bounds and a tenth of their larger side around them.
+    strict : bool
+        Refuse polygons that would be repaired.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done of each step.
+
+    Returns
+    -------
+    Skeleton
+        Without arcs where there is no such side.
+
+    Raises
+    ------
+    InputError
+        If a coordinate is not finite, an edge is not longer than twice the gap, or `strict` and something would be
+        repaired.
+    UsageError
+        If the side, the gap or the frame is none.
+    LimitError
+        If there are too many vertices.
+
+    Warns
+    -----
+    VorotoolWarning
+        If polygons were repaired, or none has an inside and that is asked for.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 3.2.
+
+    Examples
+    --------
+    >>> skeleton = skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])
+    >>> float(skeleton.radius.max()), round(float(skeleton.length.sum()), 9)
+    (1.0, 7.656854249)
+    """
+    check_skeleton_options(side, gap, frame)
+    if gap:
+        from vorotool.engines.skeleton_elements import skeleton_with_gap
+
+        return skeleton_with_gap(
+            polygons, gap, side=side, complete=complete, frame=frame, strict=strict, threads=threads, progress=progress
+        )
+    shapes = shape_diagram(polygons, strict=strict, threads=threads, progress=progress)
+    return skeleton_of(shapes, side=side, frame=frame, threads=threads, progress=progress)
+
+
+def check_skeleton_options(side: str, gap: float, frame: Frame | None) -> None:
+    """Raise UsageError for what is no side, gap or frame."""
+    if side not in SIDE_NAMES:
+        raise UsageError(f"the side is {side!r}: use {', '.join(SIDE_NAMES)}")
+    if not (0 <= gap < np.inf):
+        raise UsageError(f"the gap is {gap}: use a length of 0 or more")
+    if frame is not None and not (np.isfinite(frame).all() and frame[2] > 0 and frame[3] > 0):
+        raise UsageError(f"the frame is {frame}: use X, Y, W, H, the last two above 0")
+
+
+@dataclass(frozen=True, eq=False)
+class ShapeDiagram:
+    """Polygons made a planar graph, and the Voronoi diagram of its points and open segments.
+
+    Parameters
+    ----------
+    graph : PlanarGraph
+        Of the polygons.
+    diagram : SegmentVoronoiDiagram
+        Of the graph.
+    placed : PlacedShapes
+        The rings as the graph has them, and what the sites of the diagram are there.
+    """
+
+    graph: PlanarGraph
+    diagram: SegmentVoronoiDiagram
+    placed: PlacedShapes
+
+
+def shape_diagram(polygons: Any, *, strict: bool = False, threads: int = 0, progress: Progress = None) -> ShapeDiagram:
+    """Place polygons and compute their segment Voronoi diagram; arguments and errors as of `skeleton_exact`.
+
+    Examples
+    --------
+    >>> len(shape_diagram([[0, 0], [4, 0], [4, 4], [0, 4]]).diagram)
+    5
+    """
+    threads = checked_threads(threads)
+    graph = planar_graph(polygons, strict=strict, threads=threads, progress=progress)
+    diagram = segment_voronoi(graph.points, graph.segments, threads=threads, progress=progress)
+    return ShapeDiagram(graph, diagram, placed_shapes(graph, threads=threads))
+
+
+def skeleton_of(
+    shapes: ShapeDiagram,
+    *,
+    side: str = "interior",
+    frame: Frame | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Skeleton:
+    """Delete what is not the skeleton's from the diagram of shapes; arguments as of `skeleton_exact`."""
+    check_skeleton_options(side, 0, frame)
+    threads = checked_threads(threads)
+    edges, faces = kept_edges(shapes, threads=threads, progress=progress)
+    group = face_groups(shapes.placed, side)[faces]
+    kept = group >= 0
+    if side != "exterior" and not shapes.graph.is_inside.any():
+        _warn_empty(shapes.placed.polygons)
+    return assembled(
+        shapes.graph,
+        shapes.diagram,
+        edges[kept],
+        group[kept],
+        shapes.placed,
+        frame=frame if side != "interior" else None,
+        clips=side != "interior",
+        threads=threads,
+        progress=progress,
+    )
+
+
+def kept_edges(
+    shapes: ShapeDiagram, *, threads: int = 0, progress: Progress = None
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Edges of the diagram that are not deleted, and the face of the graph that each is in."""
+    return _core.skeleton_edges(
+        *_arrays(shapes.diagram), shapes.graph.segment_faces, checked_threads(threads), progress
+    )
+
+
+def whole_diagram(
+    shapes: ShapeDiagram, *, frame: Frame | None = None, threads: int = 0, progress: Progress = None
+) -> Skeleton:
+    """Give all edges of the diagram as arcs, cut by a frame: what it is before anything is deleted.
+
+    They have no side and no polygon (-1).
+
+    Examples
+    --------
+    >>> len(whole_diagram(shape_diagram([[0, 0], [4, 0], [4, 4], [0, 4]])))
+    12
+    """
+    check_skeleton_options("both", 0, frame)
+    count = len(shapes.diagram.edges)
+    everything = assembled(
+        shapes.graph,
+        shapes.diagram,
+        np.arange(count, dtype=np.int32),
+        np.full(count, len(shapes.placed.polygons), dtype=np.int32),
+        shapes.placed,
+        frame=frame,
+        clips=True,
+        threads=checked_threads(threads),
+        progress=progress,
+    )
+    everything.side[:] = -1
+    return everything
+
+
+def face_groups(placed: PlacedShapes, side: str) -> NDArray[np.int32]:
+    """(f,) the first polygon of each face, their number for faces outside; -1 for those on another side."""
+    inside = placed.face_polygon >= 0
+    group = np.where(inside, placed.face_polygon, len(placed.polygons)).astype(np.int32)
+    if side == "interior":
+        group[~inside] = -1
+    elif side == "exterior":
+        group[inside] = -1
+    return group
+
+
+def default_frame(polygons: PolygonSet) -> Frame:
+    """Bounds of polygons and a tenth of their larger side around them; of a single place a square of side 2."""
+    if not len(polygons.xy):
+        return (-1.0, -1.0, 2.0, 2.0)
+    low, high = polygons.xy.min(axis=0), polygons.xy.max(axis=0)
+    margin = FRAME_MARGIN * float((high - low).max()) or 1.0
+    x, y = (low - margin).tolist()
+    w, h = (high - low + 2 * margin).tolist()
+    return (x, y, w, h)
+
+
+def assembled(
+    graph: PlanarGraph,
+    diagram: SegmentVoronoiDiagram,
+    edges: NDArray[np.int32],
+    group: NDArray[np.int32],
+    placed: PlacedShapes,
+    *,
+    frame: Frame | None,
+    clips: bool,
+    threads: int,
+    progress: Progress = None,
+) -> Skeleton:
+    """Make a skeleton of edges of a diagram, each in the group of its polygon; those outside are the last group."""
+    outside = len(placed.polygons)
+    frame = (frame or default_frame(placed.polygons)) if clips else None
+    clipped = None if frame is None else (outside, _on_lattice(frame, graph))
+    made: dict[str, Any] = _core.extract_skeleton(
+        *_arrays(diagram), edges, group, clipped, *graph.origin, graph.scale, threads, progress
+    )
+    vertices, cut = made["vertices"], made.pop("frame_side")
+    if frame is not None:  # rounding must not move what was cut off the frame
+        x, y, w, h = frame
+        for number, (axis, value) in enumerate(((0, x), (0, x + w), (1, y), (1, y + h))):
+            vertices[cut == number, axis] = value
+    polygon = made.pop("group")
+    is_outside = polygon == outside
+    polygon[is_outside] = -1
+    return Skeleton(
+        **made,
+        site_table=placed.sites,
+        polygon=polygon,
+        side=np.where(is_outside, EXTERIOR, INTERIOR).astype(np.int8),
+        error_bound=np.zeros(len(polygon)),
+        polygons=placed.polygons,
+        frame=frame,
+    )
+
+
+def _on_lattice(frame: Frame, graph: PlanarGraph) -> tuple[float, float, float, float]:
+    x, y, w, h = frame
+    (origin_x, origin_y), scale = graph.origin, graph.scale
+    return (
+        (x - origin_x) / scale,
+        (x + w - origin_x) / scale,
+        (y - origin_y) / scale,
+        (y + h - origin_y) / scale,
+    )
+
+
+_Points = NDArray[np.float64]
+_Rows = NDArray[np.int32]
+
+
+def _arrays(diagram: SegmentVoronoiDiagram) -> tuple[_Rows, _Rows, _Points, _Points, _Rows, _Rows]:
+    return (
+        diagram.points,
+        diagram.segments,
+        diagram.vertices,
+        diagram.radius,
+        diagram.edges,
+        diagram.edge_sites,
+    )
+
+
+def _warn_empty(polygons: PolygonSet) -> None:
+    if not len(polygons):
+        reason = "there are no polygons"
+    elif polygons.is_line.all():
+        reason = "open lines have no inside: use --side exterior"
+    else:
+        reason = "no polygon has an inside"
+    warnings.warn(f"the interior skeleton is empty: {reason}", VorotoolWarning, stacklevel=4)
+
+
+def refuse_short_edges(graph: PlanarGraph, placed: PlacedShapes, gap: float) -> None:
+    """Raise InputError for a segment that nothing would be left of, naming the first."""
+    ends = graph.coordinates()[graph.segments]
+    length = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+    short = np.flatnonzero(~(length > 2 * gap))
+    if not short.size:
+        return
+    site = len(graph.points) + int(short[0])
+    polygons, sites = placed.polygons, placed.sites
+    ring = int(polygons.polygon_start[sites.polygon[site]] + sites.ring[site])
+    (ax, ay), (bx, by) = ends[short[0]].tolist()
+    raise InputError(
+        f"{polygons.ring_place(ring)}, edge {int(sites.index[site]) + 1} from ({ax!r}, {ay!r}) to ({bx!r}, {by!r}) is "
+        f"{length[short[0]]:.6g} long, and a gap of {gap:g} at both ends leaves nothing of it "
+        f"({short.size} such edges): use a gap below {length.min() / 2:.6g}"
+    )

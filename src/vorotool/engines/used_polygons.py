@@ -1,0 +1,132 @@
+"""Polygons and lines read back from their planar graph."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.geometry.planar_graph import PlanarGraph
+from vorotool.geometry.polygons import HOLE, LINE, SHELL, PolygonSet
+from vorotool.geometry.used_polygons import UsedPolygons
+
+
+@dataclass(frozen=True)
+class _Rings:
+    """Points and segments along rings, one after the other; the kind and the input polygon of each ring."""
+
+    sizes: NDArray[Any]
+    kind: NDArray[Any]
+    source: NDArray[Any]
+    point: NDArray[Any]
+    segment: NDArray[Any]
+
+
+def used_polygons(graph: PlanarGraph) -> UsedPolygons:
+    """Polygons as their planar graph has them: what a skeleton is made of, and refers to.
+
+    Parameters
+    ----------
+    graph : PlanarGraph
+        As :func:`vorotool.engines.planar_graph.planar_graph` makes it, of its polygons.
+
+    Returns
+    -------
+    UsedPolygons
+        In the order of the input.
+
+    Examples
+    --------
+    >>> from vorotool import planar_graph
+    >>> clockwise = planar_graph([[[0, 0], [0, 4], [4, 4], [4, 0]]])
+    >>> used = used_polygons(clockwise)
+    >>> used.polygons.xy.tolist(), used.point.tolist(), used.segment.tolist()
+    ([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]], [0, 3, 2, 1], [3, 2, 1, 0])
+    """
+    assert graph.polygons is not None
+    given = graph.polygons
+    rings = _merged(_borders(graph), _lines(graph, given))
+    starts_polygon = rings.kind != HOLE
+    source = rings.source[starts_polygon]
+    polygons = PolygonSet(
+        graph.coordinates()[rings.point],
+        np.concatenate([[0], np.cumsum(rings.sizes)]),
+        rings.kind,
+        np.cumsum(starts_polygon) - 1,
+        None if given.ids is None else [given.ids[i] for i in source.tolist()],
+        None if given.feature is None else given.feature[source],
+        {name: [values[i] for i in source.tolist()] for name, values in given.properties.items()},
+        given.y_up,
+        given.crs,
+    )
+    return UsedPolygons(polygons, source.astype(np.int32), rings.point, rings.segment)
+
+
+def _borders(graph: PlanarGraph) -> _Rings:
+    found = _core.border_rings(
+        graph.points, graph.segments, graph.segment_faces, graph.face_start, graph.face_polygon, None
+    )
+    return _Rings(
+        np.diff(found["start"]),
+        np.where(found["is_hole"] != 0, HOLE, SHELL),
+        found["part_polygon"][found["ring_part"]],
+        found["point"],
+        found["segment"],
+    )
+
+
+def _lines(graph: PlanarGraph, given: PolygonSet) -> _Rings:
+    """Each line from its first vertex along the pieces of its edges."""
+    lines = np.flatnonzero(given.ring_kind == LINE)
+    segment = np.repeat(np.arange(len(graph)), graph.source_count)
+    edge = graph.source_edge
+    ring = np.searchsorted(given.ring_start, edge, side="right") - 1
+    on_line = given.ring_kind[ring] == LINE
+    segment, edge, ring = segment[on_line], edge[on_line], ring[on_line]
+    vertices = _core.place_on_lattice(given.xy, 1, None)[0].astype(np.int64)
+    along = vertices[edge + 1] - vertices[edge]
+    ends = graph.segments[segment]
+    pieces = graph.points[ends].astype(np.int64)
+    is_back = ((pieces[:, 1] - pieces[:, 0]) * along).sum(axis=1) < 0
+    ends[is_back] = ends[is_back, ::-1]
+    # both coordinates are monotone along an edge
+    keys = graph.points[ends[:, 0]] * np.sign(along)
+    order = np.lexsort((keys[:, 1], keys[:, 0], edge))
+    count = np.bincount(np.searchsorted(lines, ring), minlength=len(lines))
+    first = _first_points(graph, vertices[given.ring_start[lines]])
+    at = np.cumsum(count) - count
+    return _Rings(
+        count + 1,
+        np.full(len(lines), LINE),
+        given.ring_polygon[lines],
+        np.insert(ends[order, 1], at, first),
+        np.insert(segment[order], at + count, -1),
+    )
+
+
+def _first_points(graph: PlanarGraph, places: NDArray[np.int64]) -> NDArray[Any]:
+    """The point of the graph at each of these places, where there is one."""
+    keys = graph.points[:, 0].astype(np.int64) * 2**31 + graph.points[:, 1]
+    order = np.argsort(keys)
+    return order[np.searchsorted(keys, places[:, 0] * 2**31 + places[:, 1], sorter=order)]
+
+
+def _merged(a: _Rings, b: _Rings) -> _Rings:
+    """Put the rings in the order of the input polygons."""
+    sizes = np.concatenate([a.sizes, b.sizes])
+    source = np.concatenate([a.source, b.source])
+    order = np.argsort(source, kind="stable")
+    starts = np.cumsum(sizes) - sizes
+    sorted_sizes = sizes[order]
+    within = np.arange(sizes.sum()) - np.repeat(np.cumsum(sorted_sizes) - sorted_sizes, sorted_sizes)
+    index = np.repeat(starts[order], sorted_sizes) + within
+    return _Rings(
+        sorted_sizes,
+        np.concatenate([a.kind, b.kind])[order],
+        source[order],
+        np.concatenate([a.point, b.point])[index].astype(np.int32),
+        np.concatenate([a.segment, b.segment])[index].astype(np.int32),
+    )

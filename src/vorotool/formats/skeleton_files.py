@@ -1,0 +1,207 @@
+"""Writing skeletons, in every format that has a place for them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import UsageError
+from vorotool.formats.skeleton_json import write_json
+from vorotool.formats.tables import TABLE_FORMATS, json_text, write_arrays, write_table
+from vorotool.formats.text_rows import Column, RowShape, write_rows
+from vorotool.geometry.skeleton import SIDES, Skeleton
+from vorotool.geometry.skeleton_tables import arc_table, branch_table, element_table, polygon_table
+from vorotool.geometry.table import Lookup, Table
+
+SKELETON_FORMATS = ("json", "csv", "geojson", "npz", "wkt")
+_TABLES: dict[str, Callable[[Skeleton], Table]] = {
+    "elements": element_table,
+    "branches": branch_table,
+    "table": polygon_table,
+}
+FORMATS = {"skeleton": SKELETON_FORMATS, **dict.fromkeys(_TABLES, TABLE_FORMATS)}
+FLATTEN = 2.0**-12
+"""Of the larger side of the bounds: how far polylines are from parabolas where nothing else is asked for."""
+
+
+def write_skeleton(
+    out: BinaryIO,
+    skeleton: Skeleton,
+    fmt: str,
+    *,
+    what: str = "skeleton",
+    flatten: float | None = None,
+    precision: int | None = None,
+    threads: int = 0,
+) -> None:
+    r"""Write a skeleton, its branches or a row a polygon; the bytes depend on nothing but the skeleton and the options.
+
+    JSON (version 1) and NPZ hold all there is, CSV one row an arc. GeoJSON and WKT have no curves: each branch is a
+    LineString, in GeoJSON with the id and the properties of its polygon.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable.
+    skeleton : Skeleton
+        What to write, in its order.
+    fmt : {"json", "csv", "geojson", "npz", "wkt"}
+        The format; the others are written as CSV, JSON or NPZ.
+    what : {"skeleton", "elements", "branches", "table"}
+        What to write.
+    flatten : float, optional
+        How far a polyline may be from its parabola, in input units; by default 1/4096 of the larger side of the bounds.
+    precision : int, optional
+        Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
+    threads : int
+        0 for all.
+
+    Raises
+    ------
+    UsageError
+        If there is no such format of them.
+
+    Examples
+    --------
+    >>> import io, vorotool
+    >>> out = io.BytesIO()
+    >>> write_skeleton(out, vorotool.skeleton_exact([[0, 0], [4, 0], [4, 4], [0, 4]]), "wkt")
+    >>> out.getvalue().splitlines()[0]
+    b'LINESTRING (0 0, 2 2)'
+    """
+    if what not in FORMATS:
+        raise UsageError(f"{what!r} is nothing that a skeleton is written as: use {' or '.join(FORMATS)}")
+    if fmt in ("svg", "png"):
+        raise UsageError(f"{fmt.upper()} is for pictures: draw it with vorotool draw skeleton.json -o picture.{fmt}")
+    if fmt not in FORMATS[what]:
+        raise UsageError(f"{what} cannot be written as {fmt!r}: use one of {', '.join(FORMATS[what])}")
+    if what != "skeleton":
+        write_table(out, _TABLES[what](skeleton), fmt, precision=precision, threads=threads)
+    elif fmt == "csv":
+        write_table(out, arc_table(skeleton), fmt, precision=precision, threads=threads)
+    elif fmt == "json":
+        write_json(out, skeleton, precision=precision, threads=threads)
+    elif fmt == "npz":
+        write_arrays(out, skeleton_arrays(skeleton), threads=threads)
+    else:
+        tolerance = flatten if flatten is not None else default_flatten(skeleton)
+        _write_branches(out, skeleton, _HEADS[fmt], tolerance, precision, threads)
+
+
+def default_flatten(skeleton: Skeleton) -> float:
+    """How far polylines may be from arcs where nothing is asked for."""
+    xy = skeleton.polygons.xy
+    return FLATTEN * (float(np.ptp(xy, axis=0).max()) or 1.0) if len(xy) else 1.0
+
+
+def skeleton_arrays(skeleton: Skeleton) -> dict[str, NDArray[Any]]:
+    """1-D arrays of all that a skeleton holds, as in its JSON; no polygon, side or source is -1.
+
+    Examples
+    --------
+    >>> import vorotool
+    >>> skeleton_arrays(vorotool.skeleton_exact([[0, 0], [4, 0], [4, 4], [0, 4]]))["arc_target"].tolist()
+    [1, 1, 1, 1]
+    """
+    table, polygons = skeleton.site_table, skeleton.polygons
+    frame = () if skeleton.frame is None else skeleton.frame
+    return {
+        "vertex_x": skeleton.vertices[:, 0],
+        "vertex_y": skeleton.vertices[:, 1],
+        "vertex_r": skeleton.radius,
+        "arc_source": skeleton.arcs[:, 0],
+        "arc_target": skeleton.arcs[:, 1],
+        "arc_kind": skeleton.is_parabola.astype(np.int8),
+        "arc_control_x": skeleton.control[:, 0],
+        "arc_control_y": skeleton.control[:, 1],
+        "arc_site_a": skeleton.sites[:, 0],
+        "arc_site_b": skeleton.sites[:, 1],
+        "arc_polygon": skeleton.polygon,
+        "arc_side": skeleton.side,
+        "arc_branch": skeleton.branch,
+        "arc_length": skeleton.length,
+        "arc_error_bound": skeleton.error_bound,
+        "site_kind": table.kind,
+        "site_polygon": table.polygon,
+        "site_ring": table.ring,
+        "site_index": table.index,
+        "site_source_ring": table.source_ring,
+        "site_source_index": table.source_index,
+        "ring_x": polygons.xy[:, 0],
+        "ring_y": polygons.xy[:, 1],
+        "ring_start": polygons.ring_start,
+        "ring_kind": polygons.ring_kind,
+        "ring_polygon": polygons.ring_polygon,
+        "frame": np.array(frame, dtype=np.float64),
+        "gap": np.array([skeleton.gap]),
+    }
+
+
+# ---- polylines -----------------------------------------------------------------------------------
+def _write_branches(
+    out: BinaryIO,
+    skeleton: Skeleton,
+    heads: Callable[[Skeleton, NDArray[np.int64]], tuple[bytes, list[str], tuple[str, str, str], bytes]],
+    tolerance: float,
+    precision: int | None,
+    threads: int,
+) -> None:
+    """One row a point: what stands before it is a comma, or the end of a branch and the beginning of another."""
+    points, start = skeleton.flattened(tolerance)
+    first_arcs = np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
+    before, openings, (comma, space, closing), after = heads(skeleton, first_arcs)
+    opens = np.zeros(len(points), dtype=bool)
+    opens[start[first_arcs]] = True
+    kept = np.ones(len(points), dtype=bool)  # an arc's first point is the last one of the arc before
+    kept[start[:-1]] = opens[start[:-1]]
+    points, opens = points[kept], opens[kept]
+    texts = [comma, *(closing + text if k else text for k, text in enumerate(openings))]
+    token = np.where(opens, np.cumsum(opens), 0).astype(np.int32)
+    out.write(before)
+    if len(points):
+        columns = [Column("", Lookup(texts, token)), Column("", points[:, 0].copy()), Column("", points[:, 1].copy())]
+        write_rows(out, columns, RowShape(("", "", space, "")), precision=precision, threads=threads)
+        out.write(closing.rstrip(",\n").encode() + b"\n")
+    out.write(after)
+
+
+def _geojson_heads(
+    skeleton: Skeleton, first_arcs: NDArray[np.int64]
+) -> tuple[bytes, list[str], tuple[str, str, str], bytes]:
+    polygons = skeleton.polygons
+    columns = branch_table(skeleton)
+    own = {name: columns[name].tolist() for name in ("branch", "kind", "length", "r_min", "r_max", "r_mean")}
+    own = {f"voro_{name}" if name in polygons.properties else name: values for name, values in own.items()}
+    side = "voro_side" if "side" in polygons.properties else "side"
+    heads = []
+    for row, (polygon, number) in enumerate(
+        zip(skeleton.polygon[first_arcs].tolist(), skeleton.side[first_arcs].tolist(), strict=True)
+    ):
+        described: dict[str, Any] = {}
+        name = ""
+        if polygon >= 0:
+            described = {key: values[polygon] for key, values in polygons.properties.items()}
+            if polygons.ids is not None and polygons.ids[polygon] is not None:
+                name = f'"id":{json_text(polygons.ids[polygon])},'
+            described["voro_polygon" if "polygon" in polygons.properties else "polygon"] = polygon
+        described |= {key: values[row] for key, values in own.items()}
+        described[side] = None if number < 0 else SIDES[number]
+        heads.append(
+            f'{{"type":"Feature",{name}"properties":{json_text(described)},'
+            '"geometry":{"type":"LineString","coordinates":[['
+        )
+    crs = "" if polygons.crs is None else f'"crs":{json_text(polygons.crs)},'
+    opening = f'{{"type":"FeatureCollection",{crs}"features":[\n'
+    return opening.encode(), heads, ("],[", ",", "]]}},\n"), b"]}\n"
+
+
+def _wkt_heads(
+    _skeleton: Skeleton, first_arcs: NDArray[np.int64]
+) -> tuple[bytes, list[str], tuple[str, str, str], bytes]:
+    return b"", ["LINESTRING ("] * len(first_arcs), (", ", " ", ")\n"), b""
+
+
+_HEADS = {"geojson": _geojson_heads, "wkt": _wkt_heads}

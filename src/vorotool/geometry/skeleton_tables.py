@@ -1,0 +1,359 @@
+"""Tables of a skeleton: its arcs, its branches, and one row a polygon."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.polygon_conversion import to_shapely
+from vorotool.geometry.polygons import PolygonSet
+from vorotool.geometry.skeleton import EDGE, INTERIOR, KINDS, SIDES, Skeleton
+from vorotool.geometry.table import Lookup, Table
+
+
+def arc_table(skeleton: Skeleton) -> Table:
+    """Give one row an arc: polygon, ends with radii, control point of a parabola, sites, length.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Rows are in the order of its arcs. Polygons, arcs and branches are counted from 0.
+
+    Returns
+    -------
+    Table
+        ``polygon, id, arc, source_index, target_index, x0, y0, r0, x1, y1, r1, kind, cx, cy, site_a_index,
+        site_b_index, side, length, error_bound, branch``. Site a is left of the arc. Outside there is no polygon, on a
+        straight line no control point.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> arc_table(skeleton_exact([[0, 0], [4, 0], [0, 3]]))["r1"].tolist()
+    [1.0, 1.0, 1.0]
+    """
+    source, target = np.ascontiguousarray(skeleton.arcs.T)
+    x, y = np.ascontiguousarray(skeleton.vertices.T)
+    cx, cy = np.ascontiguousarray(skeleton.control.T)
+    site_a, site_b = np.ascontiguousarray(skeleton.sites.T)
+    return Table(
+        {
+            "polygon": np.ma.array(skeleton.polygon, mask=skeleton.polygon < 0),
+            "id": ids_of(skeleton.polygons, skeleton.polygon),
+            "arc": np.arange(len(skeleton)),
+            "source_index": source,
+            "target_index": target,
+            "x0": Lookup(x, source),
+            "y0": Lookup(y, source),
+            "r0": Lookup(skeleton.radius, source),
+            "x1": Lookup(x, target),
+            "y1": Lookup(y, target),
+            "r1": Lookup(skeleton.radius, target),
+            "kind": Lookup(list(KINDS), skeleton.is_parabola.astype(np.int32)),
+            "cx": cx,
+            "cy": cy,
+            "site_a_index": site_a,
+            "site_b_index": site_b,
+            "side": Lookup([*SIDES, None], np.where(skeleton.side < 0, len(SIDES), skeleton.side).astype(np.int32)),
+            "length": skeleton.length,
+            "error_bound": skeleton.error_bound,
+            "branch": skeleton.branch,
+        }
+    )
+
+
+def element_table(skeleton: Skeleton) -> Table:
+    """Give one row a site: vertices and edges, as the paper decomposes shapes (Figure 10).
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Rows are in the order of its sites. With a gap, edges are as they were shortened.
+
+    Returns
+    -------
+    Table
+        ``element, kind, polygon, id, ring, vertex_index, x0, y0, x1, y1, label_a, label_b``: a vertex has no second
+        place. The labels are the paper's, numbers of edges from 1: an edge has its own, a vertex those of its edges
+        (the first two of more), and bisectors between elements with a label in common are deleted.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> table = element_table(skeleton_exact([[0, 0], [4, 0], [0, 3]]))
+    >>> table["label_a"].tolist(), table["label_b"].tolist()
+    ([1, 1, 2, 1, 2, 3], [3, 2, 3, None, None, None])
+    """
+    sites = skeleton.site_table
+    is_edge = sites.kind == EDGE
+    ends = skeleton.site_ends
+    labels = site_labels(skeleton)
+    return Table(
+        {
+            "element": np.arange(len(sites)),
+            "kind": Lookup(["vertex", "edge"], sites.kind.astype(np.int32)),
+            "polygon": sites.polygon,
+            "id": ids_of(skeleton.polygons, sites.polygon),
+            "ring": sites.ring,
+            "vertex_index": sites.index,
+            "x0": ends[:, 0, 0],
+            "y0": ends[:, 0, 1],
+            "x1": np.ma.array(ends[:, 1, 0], mask=~is_edge),
+            "y1": np.ma.array(ends[:, 1, 1], mask=~is_edge),
+            "label_a": np.ma.array(labels[:, 0], mask=labels[:, 0] == 0),
+            "label_b": np.ma.array(labels[:, 1], mask=labels[:, 1] == 0),
+        }
+    )
+
+
+def site_labels(skeleton: Skeleton) -> NDArray[np.int64]:
+    """(s, 2) the first two labels of each site, numbers of edges from 1; 0 for none."""
+    is_edge = skeleton.site_table.kind == EDGE
+    points, edges = np.flatnonzero(~is_edge), np.flatnonzero(is_edge)
+    labels = np.zeros((len(is_edge), 2), dtype=np.int64)
+    labels[edges, 0] = np.arange(1, len(edges) + 1)
+    ends = replace(skeleton, gap=0.0).site_ends
+    places = np.concatenate([ends[points, 0], ends[edges].reshape(-1, 2)])
+    _, place = np.unique(places, axis=0, return_inverse=True)
+    place = place.reshape(-1)
+    owner = np.zeros(int(place.max(initial=-1)) + 1, dtype=np.int64)
+    owner[place[: len(points)]] = points
+    at = owner[place[len(points) :]]
+    label = np.repeat(np.arange(1, len(edges) + 1), 2)
+    order = np.argsort(at, kind="stable")
+    at, label = at[order], label[order]
+    nth = np.arange(len(at)) - np.searchsorted(at, at)
+    labels[at[nth < 2], nth[nth < 2]] = label[nth < 2]
+    return labels
+
+
+def ids_of(polygons: PolygonSet, polygon: NDArray[np.int32]) -> Lookup:
+    """Column of the input's names of polygons; none of -1."""
+    names = [None] * len(polygons) if polygons.ids is None else list(polygons.ids)
+    return Lookup([*names, None], np.where(polygon < 0, len(polygons), polygon).astype(np.int32))
+
+
+def branch_table(skeleton: Skeleton) -> Table:
+    """Give one row a branch, a chain of arcs between nodes with one arc or more than two.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Rows are in the order of its branches.
+
+    Returns
+    -------
+    Table
+        ``polygon, id, branch, kind, length, chord, r_min, r_max, r_mean``. The kind is ``end`` (it has an end of its
+        own), ``inner`` (it joins junctions), ``closed`` or ``frame`` (it leads from a junction, or the frame, to the
+        frame). The chord is the distance between the ends of the branch. The mean of the radius is over the length.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> branch_table(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]))["kind"].tolist().count("inner")
+    1
+    """
+    start = _branch_starts(skeleton)
+    if not len(start):
+        empty: NDArray[Any] = np.empty(0)
+        names = ("polygon", "id", "branch", "kind", "length", "chord", "r_min", "r_max", "r_mean")
+        return Table(dict.fromkeys(names, empty))
+    last = np.append(start[1:], len(skeleton)) - 1
+    a, b = skeleton.arcs[start, 0], skeleton.arcs[last, 1]
+    least, most, integral = _arc_radii(skeleton)
+    length = np.add.reduceat(skeleton.length, start)
+    integral = np.add.reduceat(integral, start)
+    mean = np.divide(integral, length, out=skeleton.radius[a].copy(), where=length > 0)
+    polygon = skeleton.polygon[start]
+    both = np.stack([a, b])
+    framed = skeleton.on_frame[both]
+    has_end = ((skeleton.degree[both] == 1) & ~framed).any(axis=0)
+    kind = np.select([a == b, has_end, framed.any(axis=0)], [2, 0, 3], 1).astype(np.int32)
+    return Table(
+        {
+            "polygon": np.ma.array(polygon, mask=polygon < 0),
+            "id": ids_of(skeleton.polygons, polygon),
+            "branch": skeleton.branch[start],
+            "kind": Lookup(["end", "inner", "closed", "frame"], kind),
+            "length": length,
+            "chord": _distance(skeleton.vertices[a], skeleton.vertices[b]),
+            "r_min": np.minimum.reduceat(least, start),
+            "r_max": np.maximum.reduceat(most, start),
+            "r_mean": mean,
+        }
+    )
+
+
+def _branch_starts(skeleton: Skeleton) -> NDArray[np.int64]:
+    return np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
+
+
+def _distance(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    way = b - a
+    return np.asarray(np.sqrt((way * way).sum(axis=-1)))  # the same on every machine, as hypot is not
+
+
+def _arc_radii(skeleton: Skeleton) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Smallest and largest radius on each arc, and the integral of the radius along it."""
+    source, target = skeleton.vertices[skeleton.arcs].swapaxes(0, 1)
+    r = skeleton.radius[skeleton.arcs]
+    ends = skeleton.site_ends[skeleton.sites]  # arc, left and right, end, coordinate
+    is_edge = skeleton.site_table.kind[skeleton.sites] == EDGE
+    control = np.where(skeleton.is_parabola[:, None], skeleton.control, (source + target) / 2)
+    least, most = r.min(axis=1), r.max(axis=1)
+    # nearest to a vertex the arc may be in its middle, half-way between the two sites
+    has_vertex = ~is_edge.all(axis=1)
+    other = np.where(is_edge[:, 1, None], _foot(ends[:, 1], ends[:, 0, 0]), ends[:, 1, 0])
+    first = np.where(is_edge[:, 0, None], _foot(ends[:, 0], ends[:, 1, 0]), ends[:, 0, 0])
+    middle, half = (first + other) / 2, _distance(first, other) / 2
+    way = target - source
+    within = ((middle - source) * way).sum(axis=1) * ((middle - target) * way).sum(axis=1) < 0
+    least = np.where(has_vertex & within, np.minimum(least, half), least)
+    nodes, weights = np.polynomial.legendre.leggauss(8)
+    integral = np.zeros(len(skeleton))
+    for t, weight in zip((nodes + 1) / 2, weights / 2, strict=True):
+        place = (1 - t) ** 2 * source + 2 * t * (1 - t) * control + t * t * target
+        speed = 2 * ((1 - t) * (control - source) + t * (target - control))
+        at = np.where(is_edge[:, 0], _height(ends[:, 0], place), _distance(ends[:, 0, 0], place))
+        integral += weight * at * _distance(speed, np.zeros(2))
+    return least, most, integral
+
+
+def _foot(ends: NDArray[np.float64], place: NDArray[np.float64]) -> NDArray[np.float64]:
+    way = ends[:, 1] - ends[:, 0]
+    square = np.maximum((way * way).sum(axis=1), np.finfo(float).tiny)
+    t = ((place - ends[:, 0]) * way).sum(axis=1) / square
+    foot: NDArray[np.float64] = ends[:, 0] + t[:, None] * way
+    return foot
+
+
+def _height(ends: NDArray[np.float64], place: NDArray[np.float64]) -> NDArray[np.float64]:
+    return _distance(_foot(ends, place), place)
+
+
+def polygon_table(skeleton: Skeleton) -> Table:
+    """Give one row a polygon, with what the skeleton inside tells of it.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Its polygons' properties are the further columns.
+
+    Returns
+    -------
+    Table
+        ``polygon, id, area, perimeter, holes, length, branches, ends, junctions, cycles, width_max, width_mean``: of
+        the polygons as they were used; width is twice the radius, its mean over the length of the skeleton. Open lines
+        have no area and no width.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> table = polygon_table(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]))
+    >>> [table[name].tolist() for name in ("area", "ends", "junctions", "cycles", "width_max")]
+    [[8.0], [4], [2], [0], [2.0]]
+    """
+    polygons, count = skeleton.polygons, len(skeleton.polygons)
+    inside = np.flatnonzero(skeleton.side == INTERIOR)
+    of_arc = skeleton.polygon[inside]
+    node_polygon = np.full(len(skeleton.vertices), -1)
+    node_polygon[skeleton.arcs[inside]] = of_arc[:, None]
+    own = node_polygon >= 0
+
+    def counted(nodes: NDArray[np.bool_]) -> NDArray[np.int64]:
+        return np.bincount(node_polygon[own & nodes], minlength=count)
+
+    arcs = np.bincount(of_arc, minlength=count)
+    length = np.bincount(of_arc, skeleton.length[inside], count)
+    _, most, integral = _arc_radii(skeleton)
+    widest = np.zeros(count)
+    np.maximum.at(widest, of_arc, 2 * most[inside])
+    mean = np.divide(2 * np.bincount(of_arc, integral[inside], count), length, out=np.zeros(count), where=length > 0)
+    starts = _branch_starts(skeleton)
+    starts = starts[skeleton.side[starts] == INTERIOR]
+    cycles = arcs - counted(own) + _components(skeleton, inside, node_polygon, count)
+    area, perimeter = _measures(polygons)
+    empty = arcs == 0
+    table = Table(
+        {
+            "polygon": np.arange(count),
+            "id": ids_of(polygons, np.arange(count, dtype=np.int32)),
+            "area": np.ma.array(area, mask=polygons.is_line),
+            "perimeter": perimeter,
+            "holes": np.where(polygons.is_line, 0, np.diff(polygons.polygon_start) - 1),
+            "length": length,
+            "branches": np.bincount(skeleton.polygon[starts], minlength=count),
+            "ends": counted(skeleton.degree == 1),
+            "junctions": counted(skeleton.degree > 2),
+            "cycles": cycles,
+            "width_max": np.ma.array(widest, mask=empty),
+            "width_mean": np.ma.array(mean, mask=empty),
+        }
+    )
+    return table.with_properties(polygons.properties)
+
+
+def _components(
+    skeleton: Skeleton, inside: NDArray[np.int64], node_polygon: NDArray[np.int64], count: int
+) -> NDArray[np.int64]:
+    """Connected components of the skeleton in each polygon."""
+    root = connected_roots(skeleton.arcs[inside], len(skeleton.vertices))
+    roots = np.flatnonzero((root == np.arange(len(root))) & (node_polygon >= 0))
+    return np.bincount(node_polygon[roots], minlength=count)
+
+
+def connected_roots(pairs: NDArray[np.integer], count: int) -> NDArray[np.int64]:
+    """(count,) the smallest number that each is connected with by pairs.
+
+    Examples
+    --------
+    >>> connected_roots(np.array([[0, 1], [3, 1], [2, 4]]), 5).tolist()
+    [0, 0, 2, 0, 2]
+    """
+    root = np.arange(count)
+    a, b = np.asarray(pairs).reshape(-1, 2).T
+    while len(a):
+        low, high = np.minimum(root[a], root[b]), np.maximum(root[a], root[b])
+        apart = low != high
+        a, b = a[apart], b[apart]
+        np.minimum.at(root, high[apart], low[apart])
+        while True:  # follow chains of roots to their ends, each step twice as far
+            further = root[root]
+            if (further == root).all():
+                break
+            root = further
+    return root
+
+
+def _measures(polygons: PolygonSet) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Areas and perimeters; an area by the even-odd rule."""
+    count = len(polygons)
+    if not count:
+        return np.zeros(0), np.zeros(0)
+    first = polygons.ring_start[:-1]
+    following = np.arange(1, len(polygons.xy) + 1)
+    following[polygons.ring_start[1:] - 1] = first
+    ring_length = _distance(polygons.xy, polygons.xy[following])
+    ring_length[(polygons.ring_start[1:] - 1)[polygons.is_line[polygons.ring_polygon]]] = 0
+    perimeter = np.add.reduceat(np.add.reduceat(ring_length, first), polygons.polygon_start[:-1])
+    own = polygons.xy - np.repeat(polygons.xy[first], np.diff(polygons.ring_start), axis=0)
+    products = own[:, 0] * own[following, 1] - own[:, 1] * own[following, 0]
+    twice = np.abs(np.add.reduceat(products, first))
+    twice = np.where(polygons.ring_kind == 1, -twice, twice)
+    area = np.add.reduceat(twice, polygons.polygon_start[:-1]) / 2
+    area[polygons.is_line] = 0
+    return _with_valid_areas(polygons, area), perimeter
+
+
+def _with_valid_areas(polygons: PolygonSet, area: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Measure again what touches or crosses itself."""
+    import shapely
+
+    shapes = to_shapely(polygons)
+    for index in np.flatnonzero(~shapely.is_valid(shapes) & ~polygons.is_line):
+        area[index] = shapely.make_valid(shapes[index]).area
+    return area

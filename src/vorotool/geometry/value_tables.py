@@ -1,0 +1,43 @@
+"""The table of any value, for a data frame."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import UsageError
+from vorotool.geometry.mesh_tables import edge_table
+from vorotool.geometry.skeleton import Skeleton
+from vorotool.geometry.skeleton_tables import arc_table
+from vorotool.geometry.table import Table
+from vorotool.geometry.triangulation import Triangulation
+
+
+def table(value: Any) -> dict[str, NDArray[Any]]:
+    """Give the columns of a table, of the edges of a triangulation or of the arcs of a skeleton, as arrays.
+
+    Parameters
+    ----------
+    value : Table, Triangulation or Skeleton
+        What to tell about; fields that do not exist are masked, None, or NaN.
+
+    Raises
+    ------
+    UsageError
+        If there is no table of it.
+
+    Examples
+    --------
+    >>> import vorotool
+    >>> table(vorotool.skeleton_exact([[0, 0], [4, 0], [0, 3]]))["kind"].tolist()
+    ['line', 'line', 'line']
+    """
+    if isinstance(value, Triangulation):
+        value = edge_table(value)
+    elif isinstance(value, Skeleton):
+        value = arc_table(value)
+    if not isinstance(value, Table):
+        raise UsageError(f"there is no table of a {type(value).__name__}: give a Table, Triangulation or Skeleton")
+    return {name: column if isinstance(column, np.ndarray) else np.array(column) for name, column in value.items()}

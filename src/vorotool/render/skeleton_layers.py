@@ -1,0 +1,143 @@
+"""The layers of a skeleton's picture."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.polygons import PolygonSet
+from vorotool.geometry.skeleton import EDGE, Skeleton
+from vorotool.geometry.skeleton_tables import site_labels
+from vorotool.render.label_png import checked_layers
+from vorotool.render.layers import Curves, Layer, Lines, Page, Points, Polygons, Texts, bounds_of
+from vorotool.render.palettes import FAINT, INK, LIGHT, RESULT, SEED
+
+LAYERS = ("polygons", "elements", "points", "skeleton", "nodes", "labels")
+"""From below."""
+
+
+def skeleton_layers(
+    skeleton: Skeleton, page: Page, layers: Iterable[str], *, name: str = "skeleton", colour: str = RESULT
+) -> list[Layer]:
+    """Make layers of a skeleton; lines get finer where there are many.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        What to draw: its polygons light grey, its sites, its arcs, and its nodes.
+    page : Page
+        Where it will be drawn.
+    layers : iterable of str
+        Which of "polygons", "elements" (edges), "points" (their ends), "skeleton", "nodes", "labels" (the paper's, of
+        elements).
+    name, colour : str
+        Of the layer of arcs: a whole diagram has other ones.
+
+    Raises
+    ------
+    UsageError
+        If a layer is unknown.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> skeleton = skeleton_exact([[0, 0], [4, 0], [0, 3]])
+    >>> [layer.name for layer in skeleton_layers(skeleton, skeleton_page(skeleton), ["skeleton", "polygons"])]
+    ['polygons', 'skeleton']
+    """
+    wanted = checked_layers(layers, LAYERS)
+    spacing = page.spacing(max(len(skeleton.site_table), 1))
+    width = min(max(spacing / 16, 0.2), 1.5)
+    radius = min(max(spacing / 16, 0.3), 3.0)
+    make: dict[str, Callable[[], list[Layer]]] = {
+        "polygons": lambda: _polygon_layers(skeleton.polygons, width),
+        "elements": lambda: [_edges(skeleton, width)],
+        "points": lambda: [Points("points", _site_places(skeleton), radius=radius)],
+        "skeleton": lambda: [_arcs(skeleton, name, colour, width)],
+        "nodes": lambda: [Points("nodes", skeleton.vertices, colour=colour, radius=radius)],
+        "labels": lambda: [_labels(skeleton, min(max(spacing / 6, 2.0), 16.0))],
+    }
+    return [layer for layer_name in LAYERS if layer_name in wanted for layer in make[layer_name]()]
+
+
+def picture_layers(skeleton: Skeleton, page: Page, layers: Iterable[str], *, what: str = "skeleton") -> list[Layer]:
+    """Make the layers of the picture of a skeleton, or of a whole diagram, which is another layer in another colour."""
+    if what == "diagram":
+        return skeleton_layers(skeleton, page, layers, name="diagram", colour=SEED)
+    return skeleton_layers(skeleton, page, layers)
+
+
+def skeleton_page(
+    skeleton: Skeleton,
+    *,
+    width: int = 1000,
+    y_up: bool | None = None,
+    bounds: tuple[float, float, float, float] | None = None,
+) -> Page:
+    """The page of a picture: with all polygons and the frame, if arcs are cut by one, or with other bounds.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        What to draw; where ``y_up`` is not given, its own decides.
+    width : int
+        In px.
+    y_up : bool, optional
+        Draw y upwards.
+    bounds : (x, y, x, y), optional
+        The least and the largest coordinates to show.
+    """
+    shown = [skeleton.polygons.xy]
+    if skeleton.frame is not None:
+        x, y, w, h = skeleton.frame
+        shown.append(np.array([[x, y], [x + w, y + h]]))
+    up = skeleton.y_up if y_up is None else y_up
+    return Page(bounds or bounds_of([Points("shown", np.concatenate(shown))]), width=width, y_up=up)
+
+
+def _polygon_layers(polygons: PolygonSet, width: float) -> list[Layer]:
+    """Closed rings filled, open lines drawn."""
+    closed = ~polygons.is_line[polygons.ring_polygon]
+    corner_is_closed = np.repeat(closed, np.diff(polygons.ring_start))
+    corners = np.flatnonzero(corner_is_closed).astype(np.int32)
+    sizes = np.diff(polygons.ring_start)[closed]
+    per_polygon = np.bincount(polygons.ring_polygon[closed], minlength=len(polygons))
+    filled = Polygons(
+        "polygons",
+        polygons.xy,
+        corners,
+        np.concatenate([[0], np.cumsum(sizes)]),
+        first_rings=np.concatenate([[0], np.cumsum(per_polygon)]),
+        colours=[LIGHT],
+    )
+    first = np.flatnonzero(~corner_is_closed)
+    last = np.isin(first, polygons.ring_start[1:] - 1)
+    pairs = np.stack([first[~last], first[~last] + 1], axis=1).astype(np.int32)
+    lines = Lines("lines", polygons.xy, pairs, FAINT, width)
+    return [filled, lines] if len(pairs) else [filled]
+
+
+def _edges(skeleton: Skeleton, width: float) -> Lines:
+    ends = skeleton.site_ends[skeleton.site_table.kind == EDGE]
+    pairs = np.arange(2 * len(ends), dtype=np.int32).reshape(-1, 2)
+    return Lines("elements", ends.reshape(-1, 2), pairs, INK, width)
+
+
+def _site_places(skeleton: Skeleton) -> NDArray[np.float64]:
+    places: NDArray[np.float64] = skeleton.site_ends[skeleton.site_table.kind != EDGE, 0]
+    return places
+
+
+def _labels(skeleton: Skeleton, size: float) -> Texts:
+    pairs = [[label for label in pair if label] for pair in site_labels(skeleton).tolist()]
+    return Texts("labels", skeleton.site_ends.mean(axis=1), [",".join(map(str, pair)) for pair in pairs], size=size)
+
+
+def _arcs(skeleton: Skeleton, name: str, colour: str, width: float) -> Curves:
+    bent = np.flatnonzero(skeleton.is_parabola)
+    control = np.full(len(skeleton), -1, dtype=np.int32)
+    control[bent] = len(skeleton.vertices) + np.arange(len(bent))
+    points = np.concatenate([skeleton.vertices, skeleton.control[bent]])
+    return Curves(name, points, skeleton.arcs, control, colour, width)

@@ -1,0 +1,54 @@
+"""Random polygons and lines, most of them broken: inputs of the skeleton tests."""
+
+import numpy as np
+
+
+def star(rng):
+    """Around the origin, with spikes; whole coordinates up to 10^9."""
+    count = rng.integers(3, 25)
+    angle = np.sort(rng.random(count)) * 2 * np.pi
+    radius = rng.random(count) * 10 ** rng.integers(1, 10)
+    return np.round(np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1))
+
+
+def crossing(rng):
+    """Vertices anywhere in a small square: edges cross, overlap and touch."""
+    return rng.integers(0, rng.integers(3, 50), (rng.integers(3, 12), 2)).astype(float)
+
+
+def fractions(rng):
+    """No coordinate is on a coarse lattice."""
+    return rng.random((rng.integers(3, 12), 2)) - 0.5
+
+
+def several(rng):
+    """Polygons that overlap."""
+    return [crossing(rng) for _ in range(rng.integers(1, 4))]
+
+
+def with_lines(rng):
+    """Open lines, single places, and a polygon."""
+    lines = [{"line": rng.integers(0, 12, (rng.integers(1, 5), 2)).tolist()} for _ in range(rng.integers(1, 5))]
+    return [*lines, {"shell": crossing(rng).tolist()}]
+
+
+def tiles(rng):
+    """Unit squares on a grid: they share corners and edges, and many places tie."""
+    square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+    return [{"shell": (square + rng.integers(0, 4, 2)).tolist()} for _ in range(rng.integers(1, 8))]
+
+
+def holed(rng):
+    """A square with holes that may touch or overlap."""
+    corners = rng.integers(0, 9, (rng.integers(1, 5), 2))
+    holes = [(corner + [[0, 0], [0, 2], [2, 1]]).tolist() for corner in corners]
+    return [{"shell": [[0, 0], [10, 0], [10, 10], [0, 10]], "holes": holes}]
+
+
+FAMILIES = (star, crossing, fractions, several, with_lines, tiles, holed)
+
+
+def regular(count, radius=1000.0):
+    """A regular polygon."""
+    angle = 2 * np.pi * np.arange(count) / count
+    return radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)
