@@ -171,8 +171,8 @@ Found collinear_pair(const LatticeSite& s, const LatticeSite& t, const LatticeSi
 // With Ni the lines' normals towards p, Li their lengths, Hi > 0 the heights of p, and v the way from p to
 // the centre: Ni v + Hi = Li r and |v| = r. With K = L1 L2, M = K - N1 N2, D = N1 x N2, Q^2 = 2 H1 H2 M and
 // sigma = 1 or -1
-//   L1 r = ((L1^2 H2 + K H1) M + sigma D L1 Q) / M^2,   N1.left() v = (H1 D + sigma L1 Q) / M.
-// (Put N2 v = (N1 N2 N1 v + D N1.left() v) / L1^2 in, and D^2 = M (K + N1 N2).) Where p is between parallel
+//   L1 r = ((L1^2 H2 + K H1) M + sigma D L1 Q) / M^2,   left_of(N1) v = (H1 D + sigma L1 Q) / M.
+// (Put N2 v = (N1 N2 N1 v + D left_of(N1) v) / L1^2 in, and D^2 = M (K + N1 N2).) Where p is between parallel
 // lines sigma = 1 is the disc to the left of p along the first line, which touches p, then the second, then
 // the first; the order could only change where two contacts meet, that is at M = 0 or Hi = 0. So the order
 // p, first, second has sigma = -1.
@@ -215,12 +215,14 @@ Found point_and_segments(const LatticePoint& p, const LatticeSite& s, const Latt
 
 using Lines = std::array<Ray, 3>;
 
-// The disc to the left of all lines, which it touches in counter-clockwise order. Ni v + Hi = Li r for the
-// way v from the first line's origin to the centre; by Cramer's rule, in cyclic sums and times L1,
-//   r = -sum Hi' (Nj x Nk) / W,  v = sum Li (Hj' Nk - Hk' Nj).left()... / W,  W = sum Li (Nj x Nk)
-// with Hi' = -Hi. W is the orientation of the three contacts: positive exactly where at least two of the
-// cross products are, since of three angles that sum to 360 degrees at least two are under 180. The numerator
-// of r is an integer. Sizes: H <= 2^63, L1 Li <= 2^63, x <= 3 2^63 2 2^63 2^31 < 2^160, w < 2^128.
+// The disc to the left of all lines, which it touches in counter-clockwise order. With Hi the heights of the
+// first line's origin over the lines, and v the way from there to the centre: Ni v + Hi = Li r. By Cramer's
+// rule, in sums over the cyclic orders i, j, k,
+//   W r = sum Hi (Nj x Nk),  W v = -sum Li left_of(Hk Nj - Hj Nk),  W = sum Li (Nj x Nk).
+// W is the orientation of the three contacts: positive exactly where at least two of the cross products are,
+// since of three angles that sum to 360 degrees at least two are under 180. The numerator of r is an integer;
+// the others are taken times L1, so that only L1 L2 and L1 L3 are roots.
+// Sizes: H <= 2^63, L1 Li <= 2^63, x <= 3 2^63 2 2^63 2^31 < 2^160, w < 2^128.
 Found disc_left_of(const Lines& lines) {
   std::array<LatticeVector, 3> n;
   std::array<std::int64_t, 3> h, turn;  // turn[i] = Nj x Nk

@@ -2,7 +2,7 @@
 // point, w <= 2^191, two roots a disc):
 //  - clearance from a segment: (N c)^2 <= (2 2^31 2^226)^2 = 2^516, two roots, so 4 516 = 2 064 bits;
 //  - two centres along a direction: 2^32 (x w' - x' w) <= 2^450, four roots, so 16 450 = 7 200 bits;
-//  - along a parabola: M (N.left() v) <= 2^64 2^258, three roots, so 8 323 = 2 584 bits.
+//  - along a parabola: M (left_of(N) v) <= 2^64 2^258, three roots, so 8 323 = 2 584 bits.
 // A sum of two of a size is a bit longer: 7 264 bits are enough for all.
 #include "core/segment_exact.hpp"
 
@@ -51,7 +51,7 @@ int clearance_sign(const ExactDisc& disc, const LatticePoint& query) {
 bool between(int first, int second) { return first * second < 0; }
 
 // The bisector of p and q is a line; r^2 = |q - p|^2 / 4 + t^2 in the distance t from the middle of p and q,
-// so r is convex and g concave. With E = (q - p).left() and N the query's normal, g is largest at
+// so r is convex and g concave. With E = left_of(q - p) and N the query's normal, g is largest at
 // (p + q) / 2 + E (N E) / (2 |N x E|), where it is positive if and only if p and q are on one side of the
 // query: two discs touch p, q and the line then, and none else.
 int middle_of_points(const LatticePoint& p, const LatticePoint& q, const ExactDisc& first,
@@ -69,12 +69,12 @@ int middle_of_points(const LatticePoint& p, const LatticePoint& q, const ExactDi
   return between(side(first), side(second)) ? 1 : -1;
 }
 
-// The parabola of p and a segment t: in the coordinate N1.left() v along t, v the way from p to the centre, r
-// is quadratic and g concave, as point_and_lines in exact_disc.cpp has it: with N1 and N2 the normals of t
-// and the query towards p, and H2 the height of p over the query, g is largest at N1.left() v = H1 D / M, and
-// g > 0 there if H1 H2 M > 0. M = 0: both lines have one direction, and g has no summit. H2 = 0: g is 0 at
-// its summit, where the disc touches the query's line at p. If p is not the query's end, that is beyond its
-// ends, and the clearance is positive.
+// The parabola of p and a segment t: in the coordinate left_of(N1) v along t, v the way from p to the centre,
+// r is quadratic and g concave, as point_and_lines in exact_disc.cpp has it: with N1 and N2 the normals of t
+// and the query towards p, and H2 the height of p over the query, g is largest at left_of(N1) v = H1 D / M,
+// and g > 0 there if H1 H2 M > 0. M = 0: both lines have one direction, and g has no summit.
+// H2 = 0: g is 0 at its summit, where the disc touches the query's line at p. If p is not the query's end,
+// that is beyond its ends, and the clearance is positive.
 int middle_of_parabola(const LatticePoint& p, const LatticeSite& segment, const ExactDisc& first,
                        const ExactDisc& second, const LatticeSite& query) {
   auto normal_towards_p = [&p](const LatticeSite& line) {
@@ -96,7 +96,7 @@ int middle_of_parabola(const LatticePoint& p, const LatticeSite& segment, const 
 
 // p is the query's end: (p - c) u for the query's direction u from p is concave along the parabola if t is
 // behind p, seen along u; it is positive at its summit then, which the disc that touches the query's line at
-// p would have: N1.left() v = -H1 (N1.left() u) / (N1 u). Else it is largest at an end.
+// p would have: left_of(N1) v = -H1 (left_of(N1) u) / (N1 u). Else it is largest at an end.
 int middle_behind_end(const LatticePoint& p, const LatticeSite& segment, const ExactDisc& first,
                       const ExactDisc& second, const LatticeVector& u) {
   const LatticeVector raw = left_of(segment.b - segment.a);
