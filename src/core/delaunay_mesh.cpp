@@ -1,11 +1,9 @@
 #include "core/delaunay_mesh.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <stdexcept>
 #include <utility>
 
-#include "core/cocircular_fans.hpp"
 #include "core/large_array.hpp"
 #include "core/parallel.hpp"
 
@@ -16,7 +14,6 @@ namespace {
 constexpr std::size_t most_points = std::size_t{1} << 28;  // six half-edges a point are counted in 32 bits
 constexpr int piece_bits = 14;                             // vertices of a piece, some 0.5 ms of work
 constexpr std::size_t piece_size = std::size_t{1} << piece_bits;
-constexpr std::size_t ahead = 256;             // vertices: how early half-edges are called for
 constexpr std::uint32_t no_slot = 0xffffffff;  // fewer than 2^29 triangles, times four, stay below
 
 Vertex neighbour(Vertex entry) { return entry < 0 ? ~entry : entry; }
@@ -37,53 +34,40 @@ DelaunayMesh::DelaunayMesh(std::span<const Point> points, unsigned threads, cons
     : first_(points.size()) {
   if (points.size() > most_points) throw std::length_error("more than 268435456 points");
   MortonOrder order = morton_order(points, first_, threads, monitor);
-  Subdivision mesh =
-      divide_and_conquer({order.points, order.index, order.code, order.fine}, threads, monitor);
   index_ = std::move(order.index);
-  const std::vector<bool> outer = walk_hull(mesh);
-  if (mesh.degenerate) make_fans(mesh.edges, outer, order.points, threads, monitor);
-  gather_rings(mesh, outer, threads, monitor);
+  const std::span<RingVertex> vertices{order.vertices.data(), index_.size()};
+  const Subdivision mesh = divide_and_conquer({vertices, index_, order.code, order.fine}, threads, monitor);
+  walk_hull(mesh, vertices);
+  gather_rings(vertices, threads, monitor);
 }
 
-// Tells which half-edges have the unbounded face on their left.
-std::vector<bool> DelaunayMesh::walk_hull(const Subdivision& mesh) {
-  const HalfEdges& edges = mesh.edges;
-  std::vector<bool> outer(static_cast<std::size_t>(edges.size()), false);
-  if (index_.size() == 1) hull_ = {given(0)};
-  if (mesh.hull == no_edge) return outer;
-  const HalfEdge start =
-      HalfEdges::twin(mesh.hull);  // the unbounded face is on its left, gone round clockwise
-  HalfEdge e = start;
-  do {
-    outer[static_cast<std::size_t>(e)] = true;
-    hull_.push_back(given(edges.origin(e)));
-    e = edges.next_left(e);
-  } while (e != start);
-  // The walk began at the vertex after the first one.
-  std::reverse(hull_.begin(), hull_.end());
-  std::rotate(hull_.begin(), hull_.end() - 2, hull_.end());
-  // A chain is gone along both ways, from one end; one way is enough.
-  const bool chain = hull_.size() == 2 * (index_.size() - 1);
-  if (chain) hull_.resize(index_.size());
-  return outer;
+// Lists the hull, and marks in the rings where the unbounded face follows.
+void DelaunayMesh::walk_hull(const Subdivision& mesh, std::span<RingVertex> vertices) {
+  Vertex from = -1;
+  for (Vertex v = mesh.start; v >= 0;) {
+    hull_.push_back(given(v));
+    RingVertex& vertex = vertices[static_cast<std::size_t>(v)];
+    Vertex next = mesh.start;
+    for (Vertex& entry : std::span(vertex.ring(), vertex.degree())) {
+      if (mesh.is_chain && entry != from) next = entry;
+      if (mesh.is_chain) entry = ~entry;
+    }
+    if (!mesh.is_chain) {
+      next = vertex.front();
+      Vertex& last = vertex.ring()[vertex.degree() - 1];
+      last = ~last;
+    }
+    from = v;
+    v = next == mesh.start ? -1 : next;
+  }
 }
 
-void DelaunayMesh::gather_rings(const Subdivision& mesh, const std::vector<bool>& outer, unsigned threads,
+void DelaunayMesh::gather_rings(std::span<const RingVertex> vertices, unsigned threads,
                                 const Monitor& monitor) {
-  const HalfEdges& edges = mesh.edges;
-  const std::size_t vertices = index_.size();
-  ring_end_.resize(vertices);
-  edge_start_.resize(vertices);
-  pieces_.resize(piece_count(vertices, piece_size) + 1);
-  if (mesh.hull == no_edge) return;
-  // Which of its half-edges a vertex gets depends on the threads; the ring made from it does not.
-  std::vector<HalfEdge> leaving(vertices);
-  for_all(static_cast<std::size_t>(edges.size()), threads, monitor, [&](std::size_t i) {
-    const auto e = static_cast<HalfEdge>(i);
-    if (!edges.exists(e)) return;
-    std::atomic_ref(leaving[static_cast<std::size_t>(edges.origin(e))]).store(e, std::memory_order_relaxed);
-  });
-  const auto gather = [&](std::size_t piece) { pieces_[piece] = gather_piece(piece, edges, outer, leaving); };
+  ring_end_.resize(vertices.size());
+  edge_start_.resize(vertices.size());
+  pieces_.resize(piece_count(vertices.size(), piece_size) + 1);
+  const auto gather = [&](std::size_t piece) { pieces_[piece] = gather_piece(piece, vertices); };
   parallel_for(pieces_.size() - 1, threads, gather, monitor);
   std::size_t triangles = 0;
   for (Piece& piece : pieces_) {
@@ -92,32 +76,19 @@ void DelaunayMesh::gather_rings(const Subdivision& mesh, const std::vector<bool>
   }
 }
 
-DelaunayMesh::Piece DelaunayMesh::gather_piece(std::size_t number, const HalfEdges& edges,
-                                               const std::vector<bool>& outer,
-                                               std::span<const HalfEdge> leaving) {
+DelaunayMesh::Piece DelaunayMesh::gather_piece(std::size_t number, std::span<const RingVertex> vertices) {
   Piece piece;
   piece.rings.reserve(6 * piece_size);
-  std::vector<Vertex> ring(64);
-  const std::size_t end = std::min(index_.size(), (number + 1) << piece_bits);
+  const std::size_t end = std::min(vertices.size(), (number + 1) << piece_bits);
   for (std::size_t place = number << piece_bits; place < end; ++place) {
     const auto v = static_cast<Vertex>(place);
-    // Edges are numbered much as vertices are, three for each.
-    edges.prefetch(6 * (place + ahead));
-    edges.prefetch(6 * (place + ahead) + 5);
-    std::size_t degree = 0;
-    HalfEdge e = leaving[place];
-    do {
-      if (degree == ring.size()) ring.resize(2 * degree);
-      const Vertex w = edges.target(e);
-      ring[degree++] = outer[static_cast<std::size_t>(e)] ? ~w : w;
-      e = edges.next_around(e);
-    } while (e != leaving[place]);
+    const std::span ring(vertices[place].ring(), vertices[place].degree());
     std::size_t from = 0;
-    for (std::size_t k = 1; k < degree; ++k) from = neighbour(ring[k]) < neighbour(ring[from]) ? k : from;
+    for (std::size_t k = 1; k < ring.size(); ++k) from = neighbour(ring[k]) < neighbour(ring[from]) ? k : from;
     edge_start_[place] = static_cast<std::uint32_t>(piece.edges);
-    for (std::size_t k = 0; k < degree; ++k) {
+    for (std::size_t k = 0; k < ring.size(); ++k) {
       const Vertex entry = ring[from];
-      from = from + 1 == degree ? 0 : from + 1;
+      from = from + 1 == ring.size() ? 0 : from + 1;
       const Vertex w = neighbour(entry);
       piece.rings.push_back(entry);
       piece.edges += w > v;

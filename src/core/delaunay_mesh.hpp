@@ -51,11 +51,9 @@ class DelaunayMesh {
   };
   struct Lead;
 
-  std::vector<bool> walk_hull(const Subdivision& mesh);
-  void gather_rings(const Subdivision& mesh, const std::vector<bool>& outer, unsigned threads,
-                    const Monitor& monitor);
-  Piece gather_piece(std::size_t piece, const HalfEdges& edges, const std::vector<bool>& outer,
-                     std::span<const HalfEdge> leaving);
+  void walk_hull(const Subdivision& mesh, std::span<RingVertex> vertices);
+  void gather_rings(std::span<const RingVertex> vertices, unsigned threads, const Monitor& monitor);
+  Piece gather_piece(std::size_t piece, std::span<const RingVertex> vertices);
 
   std::int32_t given(Vertex v) const {
     return static_cast<std::int32_t>(index_[static_cast<std::size_t>(v)]);

@@ -62,7 +62,7 @@ class Orderer {
     std::vector<std::uint64_t> words(count);
     for (std::size_t i = 0; i < count; ++i) words[i] = i;
     sort_along_curve(words);
-    order_.points.resize(count);
+    order_.vertices = LargeArray<RingVertex>(count);
     order_.index.resize(count);
     order_.code.resize(count);
     repeated_.resize(count);
@@ -161,8 +161,9 @@ class Orderer {
     for (std::size_t i = 0; i < cell.size(); ++i) {
       const std::size_t here = place + i;
       order_.index[here] = index_of(cell[i]);
-      order_.points[here] = points_[index_of(cell[i])];
-      const bool repeated = i > 0 && same_place(order_.points[here], order_.points[original]);
+      order_.vertices[here].clear(points_[index_of(cell[i])]);
+      const bool repeated =
+          i > 0 && same_place(order_.vertices[here].point, order_.vertices[original].point);
       if (repeated) any_repeated_.store(true, std::memory_order_relaxed);
       if (!repeated) original = here;
       repeated_[here] = repeated;
@@ -174,13 +175,12 @@ class Orderer {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < repeated_.size(); ++i) {
       if (repeated_[i]) continue;
-      order_.points[kept] = order_.points[i];
+      order_.vertices[kept] = order_.vertices[i];
       order_.index[kept] = order_.index[i];
       order_.code[kept] = order_.code[i];
       if (!order_.fine.empty()) order_.fine[kept] = order_.fine[i];
       ++kept;
     }
-    order_.points.resize(kept);
     order_.index.resize(kept);
     order_.code.resize(kept);
     if (!order_.fine.empty()) order_.fine.resize(kept);
