@@ -45,6 +45,7 @@ DelaunayMesh::DelaunayMesh(std::span<const Point> points, unsigned threads, cons
 void DelaunayMesh::walk_hull(const Subdivision& mesh, std::span<RingVertex> vertices) {
   Vertex from = -1;
   for (Vertex v = mesh.start; v >= 0;) {
+    outline_.push_back(v);
     hull_.push_back(given(v));
     RingVertex& vertex = vertices[static_cast<std::size_t>(v)];
     Vertex next = mesh.start;
@@ -77,24 +78,28 @@ void DelaunayMesh::gather_rings(std::span<const RingVertex> vertices, unsigned t
 }
 
 DelaunayMesh::Piece DelaunayMesh::gather_piece(std::size_t number, std::span<const RingVertex> vertices) {
-  Piece piece;
-  piece.rings.reserve(6 * piece_size);
-  const std::size_t end = std::min(vertices.size(), (number + 1) << piece_bits);
-  for (std::size_t place = number << piece_bits; place < end; ++place) {
+  const std::size_t begin = number << piece_bits;
+  const std::size_t end = std::min(vertices.size(), begin + piece_size);
+  std::size_t entries = 0;
+  for (std::size_t place = begin; place < end; ++place) entries += vertices[place].degree();
+  Piece piece{LargeArray<Vertex>(entries)};
+  Vertex* next = piece.rings.data();
+  for (std::size_t place = begin; place < end; ++place) {
     const auto v = static_cast<Vertex>(place);
     const std::span ring(vertices[place].ring(), vertices[place].degree());
     std::size_t from = 0;
-    for (std::size_t k = 1; k < ring.size(); ++k) from = neighbour(ring[k]) < neighbour(ring[from]) ? k : from;
+    for (std::size_t k = 1; k < ring.size(); ++k)
+      from = neighbour(ring[k]) < neighbour(ring[from]) ? k : from;
     edge_start_[place] = static_cast<std::uint32_t>(piece.edges);
     for (std::size_t k = 0; k < ring.size(); ++k) {
       const Vertex entry = ring[from];
       from = from + 1 == ring.size() ? 0 : from + 1;
       const Vertex w = neighbour(entry);
-      piece.rings.push_back(entry);
+      *next++ = entry;
       piece.edges += w > v;
       piece.triangles += (w > v) & (neighbour(ring[from]) > v) & (entry >= 0);
     }
-    ring_end_[place] = static_cast<std::uint32_t>(piece.rings.size());
+    ring_end_[place] = static_cast<std::uint32_t>(next - piece.rings.data());
   }
   return piece;
 }
@@ -102,7 +107,7 @@ DelaunayMesh::Piece DelaunayMesh::gather_piece(std::size_t number, std::span<con
 std::span<const Vertex> DelaunayMesh::ring(Vertex v) const {
   const auto place = static_cast<std::size_t>(v);
   const std::size_t begin = place % piece_size == 0 ? 0 : ring_end_[place - 1];
-  return std::span(pieces_[place >> piece_bits].rings).subspan(begin, ring_end_[place] - begin);
+  return {pieces_[place >> piece_bits].rings.data() + begin, ring_end_[place] - begin};
 }
 
 // A triangle is written at its earliest vertex v: what links it to its neighbours.
@@ -138,15 +143,14 @@ void DelaunayMesh::visit_spokes(std::size_t piece, Visit visit) const {
 
 void DelaunayMesh::write(const MeshArrays& out, unsigned threads, const Monitor& monitor) const {
   if (edge_count_ == 0) return;
-  const bool link = out.neighbours != nullptr;
+  const bool link = out.neighbours != nullptr && triangle_count() > 0;
   LargeArray<std::uint32_t> slots(link ? 2 * edge_count_ : 0);
-  if (link) for_all(2 * edge_count_, threads, monitor, [&](std::size_t i) { slots[i] = no_slot; });
-  const auto write_piece = [&](std::size_t piece) {
-    if (out.triangles) write_triangles(piece, out.triangles, link ? slots.data() : nullptr);
-    if (out.edges) write_edges(piece, out.edges);
-  };
-  parallel_for(pieces_.size() - 1, threads, write_piece, monitor);
+  const auto write = [&](std::size_t piece) { write_piece(piece, out, link ? slots.data() : nullptr); };
+  parallel_for(pieces_.size() - 1, threads, write, monitor);
   if (!link) return;
+  for (std::size_t i = 0; i < outline_.size(); ++i) {
+    slots[slot_of(outline_[i], outline_[i == 0 ? outline_.size() - 1 : i - 1])] = no_slot;
+  }
   const auto put = [&](std::uint32_t slot, std::uint32_t across) {
     if (slot == no_slot) return;
     out.neighbours[3 * std::size_t{slot / 4} + slot % 4] =
@@ -158,33 +162,30 @@ void DelaunayMesh::write(const MeshArrays& out, unsigned threads, const Monitor&
   });
 }
 
-// Here and in write_triangles every candidate is written, and the next one over it unless it counts: faster
-// than a branch that cannot be foretold. At the end of a piece nothing more is written.
-void DelaunayMesh::write_edges(std::size_t piece, std::int32_t* edges) const {
-  std::int32_t* next = edges + 2 * pieces_[piece].edges;
-  const std::int32_t* last = edges + 2 * pieces_[piece + 1].edges;
-  visit_spokes(piece, [&](Vertex v, Vertex w, Vertex, std::uint32_t, std::uint32_t, bool edge, bool) {
-    if (next == last) return;
-    const std::int32_t a = given(v), b = given(w);
-    next[0] = std::min(a, b);
-    next[1] = std::max(a, b);
-    next += edge ? 2 : 0;
-  });
-}
-
-void DelaunayMesh::write_triangles(std::size_t piece, std::int32_t* triangles, std::uint32_t* slots) const {
+// Every candidate is written, and the next one over it unless it counts: faster than a branch that cannot be
+// foretold. At the end of a piece nothing more is written.
+void DelaunayMesh::write_piece(std::size_t piece, const MeshArrays& out, std::uint32_t* slots) const {
   const std::size_t first = pieces_[piece].triangles;
-  std::vector<Lead> leads(pieces_[piece + 1].triangles - first);
+  std::vector<Lead> leads(out.triangles ? pieces_[piece + 1].triangles - first : 0);
   std::size_t count = 0;
-  visit_spokes(piece, [&](Vertex v, Vertex w, Vertex u, std::uint32_t edge_w, std::uint32_t edge_u, bool,
+  std::int32_t* next = out.edges ? out.edges + 2 * pieces_[piece].edges : nullptr;
+  const std::int32_t* last = out.edges ? out.edges + 2 * pieces_[piece + 1].edges : nullptr;
+  visit_spokes(piece, [&](Vertex v, Vertex w, Vertex u, std::uint32_t edge_w, std::uint32_t edge_u, bool edge,
                           bool triangle) {
-    if (count == leads.size()) return;
-    std::int32_t* corners = triangles + 3 * (first + count);
-    corners[0] = given(v);
-    corners[1] = given(w);
-    corners[2] = given(u);
-    leads[count] = {w, u, edge_w, edge_u};
-    count += triangle;
+    const std::int32_t a = given(v), b = given(w);
+    if (next != last) {
+      next[0] = std::min(a, b);
+      next[1] = std::max(a, b);
+      next += edge ? 2 : 0;
+    }
+    if (count != leads.size()) {
+      std::int32_t* corners = out.triangles + 3 * (first + count);
+      corners[0] = a;
+      corners[1] = b;
+      corners[2] = given(u);
+      leads[count] = {w, u, edge_w, edge_u};
+      count += triangle;
+    }
   });
   if (slots) fill_slots(leads, first, slots);
 }
@@ -197,8 +198,12 @@ void DelaunayMesh::fill_slots(const std::vector<Lead>& leads, std::size_t first,
     const auto slot = static_cast<std::uint32_t>(4 * (first + i));
     slots[2 * std::size_t{edge_w}] = slot + 2;
     slots[2 * std::size_t{edge_u} + 1] = slot + 1;
-    slots[2 * edge_between(std::min(w, u), std::max(w, u)) + (u < w)] = slot;
+    slots[slot_of(w, u)] = slot;
   }
+}
+
+std::size_t DelaunayMesh::slot_of(Vertex from, Vertex to) const {
+  return 2 * edge_between(std::min(from, to), std::max(from, to)) + (to < from);
 }
 
 std::size_t DelaunayMesh::first_edge(Vertex v) const {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/divide_and_conquer.hpp"
+#include "core/large_array.hpp"
 #include "core/monitor.hpp"
 #include "core/point_order.hpp"
 #include "core/predicates.hpp"
@@ -46,7 +47,7 @@ class DelaunayMesh {
   // each, its ring, go counter-clockwise from the earliest one; ~w instead of w where the unbounded face
   // follows.
   struct Piece {
-    std::vector<Vertex> rings;
+    LargeArray<Vertex> rings;
     std::size_t edges = 0, triangles = 0;  // of the piece; once all are made, of those before it
   };
   struct Lead;
@@ -61,15 +62,16 @@ class DelaunayMesh {
   std::span<const Vertex> ring(Vertex v) const;
   template <class Visit>
   void visit_spokes(std::size_t piece, Visit visit) const;
-  void write_edges(std::size_t piece, std::int32_t* edges) const;
-  void write_triangles(std::size_t piece, std::int32_t* triangles, std::uint32_t* slots) const;
+  void write_piece(std::size_t piece, const MeshArrays& out, std::uint32_t* slots) const;
   void fill_slots(const std::vector<Lead>& leads, std::size_t first, std::uint32_t* slots) const;
   std::size_t first_edge(Vertex v) const;
-  std::size_t edge_between(Vertex a, Vertex b) const;
+  std::size_t slot_of(Vertex from, Vertex to) const;
+  std::size_t edge_between(Vertex earlier, Vertex later) const;
 
   std::vector<std::uint32_t> index_;  // [vertices] of the points given
   std::vector<std::int32_t> first_;
   std::vector<std::int32_t> hull_;
+  std::vector<Vertex> outline_;            // the same as vertices
   std::vector<Piece> pieces_;              // one more than there are, with the totals
   std::vector<std::uint32_t> ring_end_;    // [vertices] in the rings of its piece
   std::vector<std::uint32_t> edge_start_;  // [vertices] edges of its piece before the first one written at it

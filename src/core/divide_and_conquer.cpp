@@ -12,8 +12,8 @@ namespace vorotool::core {
 
 namespace {
 
-bool less_by_x(const Point& a, const Point& b) { return (a.x < b.x) | ((a.x == b.x) & (a.y < b.y)); }
-bool less_by_y(const Point& a, const Point& b) { return (a.y < b.y) | ((a.y == b.y) & (a.x < b.x)); }
+bool less_by_x(const Point& a, const Point& b) { return (a.x < b.x) | (!(b.x < a.x) & (a.y < b.y)); }
+bool less_by_y(const Point& a, const Point& b) { return (a.y < b.y) | (!(b.y < a.y) & (a.x < b.x)); }
 
 // Extreme vertices of a part, by (x, y) and by (y, x), so they are ends even of a chain.
 struct Hull {
@@ -56,8 +56,8 @@ ExactLimits exact_limits(std::span<const RingVertex> vertices) {
   return std::abs(least) <= most_magnitude ? ExactLimits(std::ldexp(1.0, least)) : ExactLimits();
 }
 
-// Where along a ring the candidates of a base are: from it counter-clockwise at its left end, clockwise at its
-// right end.
+// Where along a ring the candidates of a base are: from it counter-clockwise at its left end, clockwise at
+// its right end.
 enum class Turn { counter_clockwise, clockwise };
 
 template <Turn turn>
@@ -91,7 +91,8 @@ class Builder {
   Hull build(std::int32_t first, std::int32_t last, RingStore& store) {
     bool by_x = false;
     if (last - first <= 3) {
-      if (last - first == 3 && is_cell(first, last)) cut_by_median(first, last, by_x);  // for the order it makes
+      if (last - first == 3 && is_cell(first, last))
+        cut_by_median(first, last, by_x);  // for the order it makes
       return build_few(first, last, store);
     }
     const std::int32_t middle = cut(first, last, by_x);
@@ -169,7 +170,8 @@ class Builder {
 
   bool is_cell(std::int32_t first, std::int32_t last) const {
     const auto equal = [&](std::span<const std::uint32_t> code) {
-      return code.empty() || code[static_cast<std::size_t>(first)] == code[static_cast<std::size_t>(last - 1)];
+      return code.empty() ||
+             code[static_cast<std::size_t>(first)] == code[static_cast<std::size_t>(last - 1)];
     };
     return equal(ordered_.code) && equal(ordered_.fine);
   }
@@ -210,13 +212,14 @@ class Builder {
     return side_of(l, r, v, seen_from(point(l), point(r), point(v)));
   }
 
-  // Whether w is inside the circle through l, r and v. Cocircular points are told apart as if each were lifted
-  // a little towards the inside of circles, the lexicographically smaller the more by far: this makes fans
-  // from smallest vertices, whichever way they are come upon. Of four, the lift of the smallest decides: w
-  // itself gets inside and v gets w outside; if l or r does, the determinant changes by its cofactor.
+  // Whether w is inside the circle through l, r and v. Cocircular points are told apart as if each were
+  // lifted a little towards the inside of circles, the lexicographically smaller the more by far: this makes
+  // fans from smallest vertices, whichever way they are come upon. Of four, the lift of the smallest decides:
+  // w itself gets inside and v gets w outside; if l or r does, the determinant changes by its cofactor.
   bool is_inside(Vertex l, Vertex r, const Candidate& v, const Candidate& w) const {
     int sign = incircle_filter(v.apex, w.apex, exact_.circle);
-    if (sign == undecided) sign = incircle_beyond_filter(point(l), point(r), point(v.vertex), point(w.vertex));
+    if (sign == undecided)
+      sign = incircle_beyond_filter(point(l), point(r), point(v.vertex), point(w.vertex));
     if (sign != 0) return sign > 0;
     const auto earlier = [&](Vertex a, Vertex b) { return less_by_x(point(b), point(a)) ? b : a; };
     const Vertex smallest = earlier(earlier(l, r), earlier(v.vertex, w.vertex));
@@ -285,15 +288,16 @@ class Builder {
     }
   }
 
-  // The neighbour next to the base at one end of it. Neighbours whose circle with the base holds the one after
-  // them are taken out.
+  // The neighbour next to the base at one end of it. Neighbours whose circle with the base holds the one
+  // after them are taken out.
   template <Turn turn>
   Candidate candidate(const Base& base, Vertex end, Vertex other_end, std::uint32_t& base_place) {
     RingVertex& vertex = at(end);
     std::uint32_t place = turned<turn>(vertex, base_place);
     Candidate chosen = seen(base, vertex.ring()[place]);
     // An end without other neighbours turns back to the base itself.
-    chosen.is_valid = chosen.vertex != other_end && side_of(base.left, base.right, chosen.vertex, chosen.apex) > 0;
+    chosen.is_valid =
+        chosen.vertex != other_end && side_of(base.left, base.right, chosen.vertex, chosen.apex) > 0;
     if (!chosen.is_valid) return chosen;
     for (;;) {
       const Vertex following = vertex.ring()[turned<turn>(vertex, place)];

@@ -27,8 +27,8 @@ struct Subdivision {
   bool is_chain = true;           // fewer than three or collinear points: a chain of edges
 };
 
-// Makes the rings of the Delaunay triangulation of the points, in which every cocircular polygon is a fan from
-// its lexicographically smallest vertex.
+// Makes the rings of the Delaunay triangulation of the points, in which every cocircular polygon is a fan
+// from its lexicographically smallest vertex.
 Subdivision divide_and_conquer(const OrderedPoints& ordered, unsigned threads, const Monitor& monitor);
 
 }  // namespace vorotool::core

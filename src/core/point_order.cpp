@@ -44,6 +44,7 @@ class Cells {
 
 constexpr std::size_t piece_size = std::size_t{1} << 14;  // words of a piece of work
 constexpr std::size_t crowd = 64;                         // points of a cell that get a finer curve
+constexpr std::size_t ahead = 32;                         // words: how early points are called for
 
 // A word holds the code of a point above its index.
 std::uint32_t code_of(std::uint64_t word) { return static_cast<std::uint32_t>(word >> 32); }
@@ -119,6 +120,8 @@ class Orderer {
   void put_cells(std::vector<std::uint64_t>& words, std::size_t piece) {
     const Range within{piece * piece_size, std::min(words.size(), (piece + 1) * piece_size)};
     for_cells(words, within, [&](Range cell) {
+      if (cell.begin + ahead < words.size())
+        __builtin_prefetch(&points_[index_of(words[cell.begin + ahead])]);
       std::fill(order_.code.begin() + offset(cell.begin), order_.code.begin() + offset(cell.end),
                 code_of(words[cell.begin]));
       if (cell.end - cell.begin > crowd) {
@@ -162,8 +165,7 @@ class Orderer {
       const std::size_t here = place + i;
       order_.index[here] = index_of(cell[i]);
       order_.vertices[here].clear(points_[index_of(cell[i])]);
-      const bool repeated =
-          i > 0 && same_place(order_.vertices[here].point, order_.vertices[original].point);
+      const bool repeated = i > 0 && same_place(order_.vertices[here].point, order_.vertices[original].point);
       if (repeated) any_repeated_.store(true, std::memory_order_relaxed);
       if (!repeated) original = here;
       repeated_[here] = repeated;

@@ -53,10 +53,10 @@ inline int orient2d_filter(const Point& a, const Point& b, const Point& c) {
   return std::abs(determinant) > bound ? sign_of(determinant) : undecided;
 }
 
-// A point as it is seen from the ends l and r of an edge: with L = l - p and R = r - p, the sine and the cosine
-// of the angle from L to R, times the lengths of both.
+// A point as it is seen from the ends l and r of an edge: with L = l - p and R = r - p, the sine and the
+// cosine of the angle from L to R, times the lengths of both.
 struct Apex {
-  double cross, dot;                  // L.x R.y - L.y R.x and L.x R.x + L.y R.y
+  double cross, dot;                      // L.x R.y - L.y R.x and L.x R.x + L.y R.y
   double cross_permanent, dot_permanent;  // sums of the absolute products, and `underflow_guard`
 };
 
@@ -68,14 +68,14 @@ struct Apex {
 // Bounds: a cross or dot product has two monomials, each with four roundings at most (two differences, the
 // product, the sum), its permanent P the same and that of the guard g, and each product may underflow by h.
 //   |cross - C| <= P ((1 + u)^4 - 1) (1 - u)^-5 + 2 h (1 + u) <= P (4 u + 27 u^2) + 3 h
-// A factor k = 4 u + 64 u^2 loses 4 u^2 P in the rounding of k P; what is left, 33 u^2 P >= 33 u^2 g, is above
-// 3 h, since P >= g = 2^-450.
-// A monomial of D meets 4 + 4 roundings, one in the product and one in the difference, and one of
-// P = dot_permanent(p) cross_permanent(q) + cross_permanent(p) dot_permanent(q) two more for the guards:
+// A factor k = 4 u + 64 u^2 loses 4 u^2 P in the rounding of k P; what is left, 33 u^2 P >= 33 u^2 g, is
+// above 3 h, since P >= g = 2^-450. A monomial of D meets 4 + 4 roundings, one in the product and one in the
+// difference, and one of P = dot_permanent(p) cross_permanent(q) + cross_permanent(p) dot_permanent(q) two
+// more for the guards:
 //   |det - D| <= P ((1 + u)^10 - 1) (1 - u)^-12 + underflow <= P (10 u + 180 u^2) + underflow
 // With e = 3 h for what cross and dot lose to underflow and S the sum of the four permanents, that is at most
-// (e S + 2 e^2 + 2 h) (1 + 4 u). A factor k = 10 u + 256 u^2 leaves 60 u^2 P, and as permanents are at least g,
-// P >= g S / 2 and P >= 2 g^2: 30 u^2 P >= 15 u^2 g S > 2 e S, and 30 u^2 P >= 60 u^2 g^2 > 2^-1001 > 4 h.
+// (e S + 2 e^2 + 2 h) (1 + 4 u). A factor k = 10 u + 256 u^2 leaves 60 u^2 P, and as permanents are at least
+// g, P >= g S / 2 and P >= 2 g^2: 30 u^2 P >= 15 u^2 g S > 2 e S, and 30 u^2 P >= 60 u^2 g^2 > 2^-1001 > 4 h.
 inline constexpr double underflow_guard = 0x1p-450;
 inline constexpr double cross_bound = (4 + 64 * unit_roundoff) * unit_roundoff;
 inline constexpr double incircle_bound = (10 + 256 * unit_roundoff) * unit_roundoff;
@@ -90,7 +90,8 @@ inline Apex seen_from(const Point& l, const Point& r, const Point& p) {
 // The sign of orient2d(l, r, p) for a point seen from l and r. Where the products cannot have been rounded,
 // since the permanent is at most `exact`, zero is one as well.
 inline int side_filter(const Apex& p, double exact = 0) {
-  if (std::abs(p.cross) > cross_bound * p.cross_permanent || p.cross_permanent <= exact) return sign_of(p.cross);
+  if (std::abs(p.cross) > cross_bound * p.cross_permanent || p.cross_permanent <= exact)
+    return sign_of(p.cross);
   return undecided;
 }
 
