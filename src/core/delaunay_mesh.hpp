@@ -30,6 +30,8 @@ class DelaunayMesh {
  public:
   // Finite points. Throws std::length_error for more than 2^28 of them.
   DelaunayMesh(std::span<const Point> points, unsigned threads, const Monitor& monitor);
+  DelaunayMesh(const DelaunayMesh&) = delete;
+  DelaunayMesh& operator=(const DelaunayMesh&) = delete;
 
   // [n] for each point the first one at the same place: itself if it is the only one.
   std::span<const std::int32_t> first() const { return first_; }
