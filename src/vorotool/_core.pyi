@@ -130,8 +130,9 @@ def format_columns(
     values: list[Any], missing: list[NDArray[np.bool_] | None], precision: int = 0, threads: int = 0
 ) -> list[bytes]: ...
 
-# ---- predicates (bind_predicates.cpp): a level is "auto", "filter", "integers", "expansions" or "wide"; the sign
-# ---- is 2 where a level other than "auto" and "wide" cannot tell. The points must be finite. -----------------------
+# ---- predicates (bind_predicates.cpp): a level is "auto", "filter", "seen" (the filter of the triangulation),
+# ---- "integers", "expansions" or "wide"; the sign is 2 where a level other than "auto" and "wide" cannot tell. The
+# ---- points must be finite. ---------------------------------------------------------------------------------------
 
 def orient2d(points: NDArray[np.float64], level: str = "auto") -> NDArray[np.int8]: ...
 def incircle(points: NDArray[np.float64], level: str = "auto") -> NDArray[np.int8]: ...
