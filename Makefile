@@ -52,12 +52,15 @@ bench: build ## measure beside the peers, in one run
 	    $$($(PYTHON) -c 'import tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["bench"])')
 	$(RUN) tests/benchmarks/tessellate.py
 	$(RUN) tests/benchmarks/delaunay.py
+	$(RUN) tests/benchmarks/mesh_files.py
 
 .PHONY: fuzz
-fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CASES=..., SEED=...)
+fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CASES=..., SETS=..., SEED=...)
 	$(RUN) tests/fuzz/tessellate.py --pixels $(or $(PIXELS),100000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/predicates.py --calls $(or $(CALLS),1000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/delaunay.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/cells.py --cases $(or $(CASES),20000) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/digital.py --sets $(or $(SETS),500) --seed $(or $(SEED),1)
 
 .PHONY: sanitize
 sanitize: build ## run the engine tests on a build with address and undefined-behaviour sanitizers

@@ -4,12 +4,15 @@ VOROTOOL := $(BIN)/vorotool
 FIGURES  := $(BUILD)/figures
 TABLE_1_SIZES := 64 128 256 512
 
-.PHONY: figures figure-01 figure-02 figure-03a table-1
-figures: figure-01 figure-02 figure-03a table-1 ## draw the figures and tables of the paper into build/figures
+.PHONY: figures figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d table-1
+figures: figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d table-1 ## draw the figures and tables of the paper into build/figures
 	@echo "figures are in $(FIGURES):" && ls $(FIGURES)
 figure-01: $(FIGURES)/figure-01.svg
 figure-02: $(FIGURES)/figure-02.svg
 figure-03a: $(FIGURES)/figure-03a.png
+figure-03b: $(FIGURES)/figure-03b.svg
+figure-03c: $(FIGURES)/figure-03c.svg
+figure-03d: $(FIGURES)/figure-03d.svg
 table-1: $(FIGURES)/table-1.md
 
 $(FIGURES):
@@ -26,6 +29,18 @@ $(FIGURES)/figure-02.svg: data/six-seeds.csv $(BUILD)/.installed | $(FIGURES)
 # Purpose: the digital Voronoi diagram of 53 random seeds.
 $(FIGURES)/figure-03a.png: data/dots.csv $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) tessellate $< --size 512x512 --what diagram --layers diagram,seeds -o $@
+
+# Purpose: the continuous Voronoi diagram of the same seeds, in the same image.
+$(FIGURES)/figure-03b.svg: data/dots.csv $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) delaunay $< --what cells --frame -0.5,-0.5,512,512 --layers diagram,points -o $@
+
+# Purpose: the Delaunay triangulation of the same seeds as their digital diagram shows it.
+$(FIGURES)/figure-03c.svg: data/dots.csv $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) delaunay $< --size 512x512 --method digital -o $@
+
+# Purpose: the Delaunay triangulation of the same seeds, from the continuous diagram.
+$(FIGURES)/figure-03d.svg: data/dots.csv $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) delaunay $< -o $@
 
 # Purpose: seconds against the size of the image: the paper's, its algorithm here, and the exact engine.
 # The 53 seeds of Figure 3 are scaled to each size.

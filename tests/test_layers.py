@@ -48,7 +48,9 @@ def test_imports_run_downwards(path):
             assert target == layer or target in BELOW[layer], f"{path}: {layer} must not import {target}"
 
 
-@pytest.mark.parametrize("arguments", [["--help"], ["--version"], ["tessellate", "--help"], ["draw", "--help"]])
+@pytest.mark.parametrize(
+    "arguments", [["--help"], ["--version"], ["tessellate", "--help"], ["delaunay", "--help"], ["draw", "--help"]]
+)
 def test_help_loads_no_heavy_module(arguments):
     script = (
         "import sys\n"

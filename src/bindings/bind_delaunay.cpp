@@ -13,8 +13,10 @@
 #include "bindings.hpp"
 #include "core/delaunay_mesh.hpp"
 #include "core/large_array.hpp"
+#include "core/local_insertion.hpp"
 #include "core/verify_triangulation.hpp"
 #include "interrupts.hpp"
+#include "mesh_arrays.hpp"
 
 namespace vorotool::bindings {
 namespace {
@@ -24,20 +26,6 @@ using namespace nb::literals;
 using core::DelaunayMesh;
 using core::Monitor;
 using core::Point;
-using Indices = Vector<const std::int32_t>;
-using IndexRows = Matrix<const std::int32_t>;
-
-std::span<const Point> as_points(const Matrix<const double>& array) {
-  if (array.shape(1) != 2) throw std::invalid_argument("points must have two columns");
-  static_assert(sizeof(Point) == 2 * sizeof(double));
-  return {reinterpret_cast<const Point*>(array.data()), array.shape(0)};
-}
-
-std::span<const std::int32_t> rows_of(const IndexRows& array, std::size_t columns) {
-  if (array.shape(1) != columns)
-    throw std::invalid_argument("an array of indices has a wrong number of columns");
-  return view(array);
-}
 
 nb::object copied(std::span<const std::int32_t> values) {
   core::LargeArray<std::int32_t> kept(values.size());
@@ -62,16 +50,39 @@ nb::tuple arrays_of(const DelaunayMesh& mesh, unsigned threads, nb::handle progr
                         to_numpy(std::move(edges), {mesh.edge_count(), 2}));
 }
 
+// Triangles, neighbours, edges, hull and first of the points of a mesh and further ones; None where the order
+// of its triangles would change.
+nb::object insert_points(const Matrix<const double>& points, const IndexRows& triangles,
+                         const IndexRows& neighbours, const IndexRows& edges, const Indices& hull,
+                         const Indices& first, const Indices& hints, unsigned threads, nb::handle progress) {
+  const std::span<const Point> all = as_points(points);
+  const core::TriangulationArrays mesh{all.first(std::min(first.size(), all.size())),
+                                       rows_of(triangles, 3),
+                                       rows_of(neighbours, 3),
+                                       rows_of(edges, 2),
+                                       view(hull),
+                                       view(first)};
+  if (first.size() > all.size() || neighbours.size() != triangles.size() ||
+      (hints.size() != 0 && hints.size() != all.size() - first.size())) {
+    throw std::invalid_argument("the arrays of a triangulation have lengths that do not go together");
+  }
+  std::optional<core::InsertedArrays> made = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::insert_points(mesh, all, view(hints), threads, monitor);
+  });
+  if (!made) return nb::none();
+  const std::size_t rows = made->triangles.size() / 3, links = made->edges.size() / 2;
+  return nb::make_tuple(to_numpy(std::move(made->triangles), {rows, 3}),
+                        to_numpy(std::move(made->neighbours), {rows, 3}),
+                        to_numpy(std::move(made->edges), {links, 2}), to_numpy(std::move(made->hull)),
+                        to_numpy(std::move(made->first)));
+}
+
 std::optional<std::string> triangulation_fault(const Matrix<const double>& points, const IndexRows& triangles,
                                                const IndexRows& neighbours, const IndexRows& edges,
                                                const Indices& hull, const Indices& first, unsigned threads,
                                                nb::handle progress) {
-  const core::TriangulationArrays arrays{
-      as_points(points), rows_of(triangles, 3), rows_of(neighbours, 3), rows_of(edges, 2), view(hull),
-      view(first)};
-  if (arrays.first.size() != arrays.points.size() || arrays.neighbours.size() != arrays.triangles.size()) {
-    throw std::invalid_argument("the arrays of a triangulation have lengths that do not go together");
-  }
+  const core::TriangulationArrays arrays =
+      mesh_arrays(points, triangles, neighbours, rows_of(edges, 2), view(hull), view(first));
   return run_interruptible(
       progress, [&](const Monitor& monitor) { return core::find_fault(arrays, threads, monitor); });
 }
@@ -84,6 +95,9 @@ void bind_delaunay(nb::module_& module) {
       .def_prop_ro("first", [](const DelaunayMesh& mesh) { return copied(mesh.first()); })
       .def_prop_ro("hull", [](const DelaunayMesh& mesh) { return copied(mesh.hull()); })
       .def("arrays", &arrays_of, "threads"_a, "progress"_a.none());
+  module.def("insert_points", &insert_points, "points"_a.noconvert(), "triangles"_a.noconvert(),
+             "neighbours"_a.noconvert(), "edges"_a.noconvert(), "hull"_a.noconvert(), "first"_a.noconvert(),
+             "hints"_a.noconvert(), "threads"_a, "progress"_a.none());
   module.def("triangulation_fault", &triangulation_fault, "points"_a.noconvert(), "triangles"_a.noconvert(),
              "neighbours"_a.noconvert(), "edges"_a.noconvert(), "hull"_a.noconvert(), "first"_a.noconvert(),
              "threads"_a, "progress"_a.none());

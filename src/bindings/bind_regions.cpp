@@ -81,8 +81,8 @@ nb::tuple verify_labels(Matrix<const Label> labels, std::int64_t x, std::int64_t
                         nb::object progress) {
   const core::PixelFrame frame{x, y, labels.shape(1), labels.shape(0)};
   const core::LatticeSeeds seeds{view(seed_x), view(seed_y), view(seed_labels), scale};
-  std::optional<core::Wide> limit;
-  if (limit_high) limit = core::Wide{*limit_high} << 64 | limit_low;
+  std::optional<core::uint128> limit;
+  if (limit_high) limit = core::uint128{*limit_high} << 64 | limit_low;
   const core::WrongPixels wrong = run_interruptible(progress, [&](const Monitor& monitor) {
     return core::verify_labels<Label>(view(labels), frame, seeds, limit, threads, monitor);
   });

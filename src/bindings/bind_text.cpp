@@ -5,16 +5,19 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "arrays.hpp"
 #include "bindings.hpp"
 #include "core/format_columns.hpp"
 #include "core/nesting.hpp"
 #include "core/text_columns.hpp"
 #include "interrupts.hpp"
+#include "mesh_arrays.hpp"
 
 namespace vorotool::bindings {
 namespace {
@@ -141,6 +144,46 @@ nb::object find_too_deep(const nb::bytes& text, std::size_t limit) {
   return nb::int_(found);
 }
 
+using IndexArray = nb::ndarray<const std::int32_t, nb::ndim<1>, nb::device::cpu>;
+
+// Polygons of rows, and the arrays that hold them.
+class PolygonRows {
+ public:
+  using Starts = InputArray<std::int64_t>;
+
+  PolygonRows(const Matrix<const double>& vertices, const Starts& rings, const Starts& polygons,
+              const Starts& rows, const std::string& style)
+      : vertices_(vertices),
+        rings_(rings),
+        polygons_(polygons),
+        rows_(rows),
+        texts_{as_points(vertices), checked(rings, vertices.shape(0)), checked(polygons, rings.size() - 1),
+               checked(rows, polygons.size() - 1), style_of(style)} {}
+
+  const core::PolygonTexts& texts() const { return texts_; }
+
+ private:
+  // What begins somewhere among so many; the core reads without looking.
+  static std::span<const std::int64_t> checked(const Starts& starts, std::size_t count) {
+    const std::span<const std::int64_t> values(starts.data(), starts.size());
+    const bool fits = !values.empty() && std::is_sorted(values.begin(), values.end()) &&
+                      values.front() >= 0 && static_cast<std::size_t>(values.back()) <= count;
+    if (!fits) throw nb::value_error("beginnings of rings, polygons or rows are out of order or of range");
+    return values;
+  }
+
+  static core::PolygonStyle style_of(const std::string& name) {
+    if (name == "wkt") return core::PolygonStyle::wkt;
+    if (name == "geojson") return core::PolygonStyle::geojson;
+    if (name == "json") return core::PolygonStyle::json;
+    throw nb::value_error("the style must be wkt, geojson or json");
+  }
+
+  Matrix<const double> vertices_;
+  Starts rings_, polygons_, rows_;
+  core::PolygonTexts texts_;
+};
+
 // Holds what the columns of one call point into.
 struct ColumnStore {
   std::vector<core::TextColumn> columns;
@@ -168,6 +211,22 @@ struct ColumnStore {
     return true;
   }
 
+  bool add_numbers(nb::handle values) {
+    const core::NumberTexts* numbers = nullptr;
+    if (!nb::try_cast(values, numbers, false) || numbers == nullptr) return false;
+    columns.push_back({numbers, {}});
+    owners.push_back(nb::borrow(values));
+    return true;
+  }
+
+  bool add_polygons(nb::handle values) {
+    const PolygonRows* polygons = nullptr;
+    if (!nb::try_cast(values, polygons, false) || polygons == nullptr) return false;
+    columns.push_back({&polygons->texts(), {}});
+    owners.push_back(nb::borrow(values));
+    return true;
+  }
+
   void add_texts(const nb::list& values) {
     std::vector<std::string_view> views;
     views.reserve(values.size());
@@ -177,35 +236,74 @@ struct ColumnStore {
     owners.push_back(values);
   }
 
-  void add(nb::handle values, const std::optional<InputArray<bool>>& missing) {
+  void add_values(nb::handle values) {
     if (nb::isinstance<nb::list>(values)) {
       add_texts(nb::borrow<nb::list>(values));
     } else if (!add_array<double>(values) && !add_array<std::int64_t>(values) &&
-               !add_array<std::uint64_t>(values)) {
-      throw nb::type_error("a column must be a float64, int64 or uint64 array, or a list of str");
+               !add_array<std::uint64_t>(values) && !add_numbers(values) && !add_polygons(values)) {
+      throw nb::type_error(
+          "a column must be a float64, int64 or uint64 array, a list of str, NumberTexts or PolygonTexts");
     }
-    const std::size_t rows = std::visit([](const auto& v) { return v.size(); }, columns.back().values);
-    const std::size_t first = std::visit([](const auto& v) { return v.size(); }, columns.front().values);
-    if (rows != first || (missing && missing->size() != rows)) {
+  }
+
+  // Every index is checked here: the core reads without looking.
+  void add_index(nb::handle values, std::size_t limit) {
+    const auto array = nb::cast<IndexArray>(values, false);
+    const core::StridedIndices index{array.data(), array.size(),
+                                     static_cast<std::ptrdiff_t>(array.stride(0))};
+    for (std::size_t row = 0; row < index.size; ++row) {
+      if (index[row] >= limit) throw nb::index_error("an index of a column is out of range");
+    }
+    columns.back().index = index;
+    owners.push_back(nb::borrow(values));
+  }
+
+  // A column is an array or a list, or a pair of values and the indices of those to show.
+  void add(nb::handle column, const std::optional<InputArray<bool>>& missing) {
+    const bool looks_up = nb::isinstance<nb::tuple>(column);
+    add_values(looks_up ? nb::handle(column[0]) : column);
+    const std::size_t values = core::value_count(columns.back());
+    if (missing && missing->size() != values) throw nb::value_error("columns and masks must have one length");
+    if (looks_up) add_index(column[1], values);
+    if (core::row_count(columns.back()) != core::row_count(columns.front())) {
       throw nb::value_error("columns and masks must have one length");
     }
     if (missing) {
-      columns.back().missing = {reinterpret_cast<const std::uint8_t*>(missing->data()), rows};
+      columns.back().missing = {reinterpret_cast<const std::uint8_t*>(missing->data()), values};
     }
   }
 };
 
+// (around, separator, missing), all str; None is CSV.
+core::RowShape shape_of(const std::optional<nb::tuple>& shape, std::size_t columns, ColumnStore& store) {
+  if (!shape) return core::csv_shape(columns);
+  core::RowShape result;
+  for (const nb::handle text : nb::cast<nb::tuple>((*shape)[0])) result.around.push_back(store.utf8(text));
+  if (result.around.size() != columns + 1) throw nb::value_error("a row has one text more than columns");
+  result.separator = store.utf8((*shape)[1]);
+  result.missing = store.utf8((*shape)[2]);
+  return result;
+}
+
 nb::list format_columns(const nb::list& values, const std::vector<std::optional<InputArray<bool>>>& missing,
-                        int precision, unsigned threads) {
+                        int precision, unsigned threads, const std::optional<nb::tuple>& shape) {
   if (values.size() != missing.size()) throw nb::value_error("one mask, or None, a column");
   ColumnStore store;
   for (std::size_t i = 0; i < missing.size(); ++i) store.add(values[i], missing[i]);
+  const core::RowShape row = shape_of(shape, missing.size(), store);
   const std::vector<std::string> blocks = run_interruptible(nb::none(), [&](const core::Monitor& monitor) {
-    return core::format_columns(store.columns, precision, threads, monitor);
+    return core::format_columns(store.columns, row, precision, threads, monitor);
   });
   nb::list result;
   for (const std::string& block : blocks) result.append(nb::bytes(block.data(), block.size()));
   return result;
+}
+
+void make_number_texts(core::NumberTexts* self, const InputArray<double>& values, int precision,
+                       unsigned threads) {
+  run_interruptible(nb::none(), [&](const core::Monitor& monitor) {
+    new (self) core::NumberTexts({values.data(), values.size()}, precision, threads, monitor);
+  });
 }
 
 }  // namespace
@@ -221,7 +319,17 @@ void bind_text(nb::module_& module) {
   module.def("line_of_row", &line_of_row, "text"_a, "delimiter"_a, "header_records"_a, "row"_a);
   module.def("first_record", &first_record, "text"_a, "delimiter"_a);
   module.def("find_too_deep", &find_too_deep, "text"_a, "limit"_a);
-  module.def("format_columns", &format_columns, "values"_a, "missing"_a, "precision"_a = 0, "threads"_a = 0);
+  module.def("format_columns", &format_columns, "values"_a, "missing"_a, "precision"_a = 0, "threads"_a = 0,
+             "shape"_a = nb::none());
+  nb::class_<core::NumberTexts>(module, "NumberTexts")
+      .def("__init__", &make_number_texts, "values"_a.noconvert(), "precision"_a = 0, "threads"_a = 0)
+      .def("__len__", &core::NumberTexts::size);
+  nb::class_<PolygonRows>(module, "PolygonTexts")
+      .def(nb::init<const Matrix<const double>&, const PolygonRows::Starts&, const PolygonRows::Starts&,
+                    const PolygonRows::Starts&, const std::string&>(),
+           "vertices"_a.noconvert(), "rings"_a.noconvert(), "polygons"_a.noconvert(), "rows"_a.noconvert(),
+           "style"_a)
+      .def("__len__", [](const PolygonRows& rows) { return rows.texts().size(); });
 }
 
 }  // namespace vorotool::bindings

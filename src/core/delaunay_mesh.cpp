@@ -31,12 +31,18 @@ void for_all(std::size_t count, unsigned threads, const Monitor& monitor, Body b
 }  // namespace
 
 DelaunayMesh::DelaunayMesh(std::span<const Point> points, unsigned threads, const Monitor& monitor)
+    : DelaunayMesh(
+          points, [&](const OrderedPoints& ordered) { return divide_and_conquer(ordered, threads, monitor); },
+          threads, monitor) {}
+
+DelaunayMesh::DelaunayMesh(std::span<const Point> points, const Triangulate& triangulate, unsigned threads,
+                           const Monitor& monitor)
     : first_(points.size()) {
   if (points.size() > most_points) throw std::length_error("more than 268435456 points");
   MortonOrder order = morton_order(points, first_, threads, monitor);
   index_ = std::move(order.index);
   const std::span<RingVertex> vertices{order.vertices.data(), index_.size()};
-  const Subdivision mesh = divide_and_conquer({vertices, index_, order.code, order.fine}, threads, monitor);
+  const Subdivision mesh = triangulate({vertices, index_, order.code, order.fine});
   walk_hull(mesh, vertices);
   gather_rings(vertices, threads, monitor);
 }

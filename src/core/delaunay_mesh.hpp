@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -30,8 +31,12 @@ class DelaunayMesh {
  public:
   // Finite points. Throws std::length_error for more than 2^28 of them.
   DelaunayMesh(std::span<const Point> points, unsigned threads, const Monitor& monitor);
-  DelaunayMesh(const DelaunayMesh&) = delete;
-  DelaunayMesh& operator=(const DelaunayMesh&) = delete;
+
+  // The same from the rings of divide_and_conquer that are made in another way, after permute_equal_codes.
+  using Triangulate = std::function<Subdivision(const OrderedPoints&)>;
+  DelaunayMesh(std::span<const Point> points, const Triangulate& triangulate, unsigned threads,
+               const Monitor& monitor);
+  DelaunayMesh(DelaunayMesh&&) = default;  // and no copy
 
   // [n] for each point the first one at the same place: itself if it is the only one.
   std::span<const std::int32_t> first() const { return first_; }

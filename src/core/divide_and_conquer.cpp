@@ -358,7 +358,27 @@ std::vector<Part> plan_parts(Builder& builder, std::int32_t count, unsigned thre
   return parts;
 }
 
+// The cuts of divide and conquer, and nothing else: of two points none is made.
+void cut_all(Builder& builder, std::int32_t first, std::int32_t last) {
+  if (last - first <= 2) return;
+  bool by_x = false;
+  const std::int32_t middle = builder.cut(first, last, by_x);
+  cut_all(builder, first, middle);
+  cut_all(builder, middle, last);
+}
+
 }  // namespace
+
+void permute_equal_codes(const OrderedPoints& ordered) {
+  Builder builder(ordered);
+  const auto same = [&](std::size_t i, std::size_t j) {
+    return ordered.code[i] == ordered.code[j] && (ordered.fine.empty() || ordered.fine[i] == ordered.fine[j]);
+  };
+  for (std::size_t first = 0, last = 0; first < ordered.vertices.size(); first = last) {
+    while (last < ordered.vertices.size() && same(first, last)) ++last;
+    cut_all(builder, static_cast<std::int32_t>(first), static_cast<std::int32_t>(last));
+  }
+}
 
 Subdivision divide_and_conquer(const OrderedPoints& ordered, unsigned threads, const Monitor& monitor) {
   const auto count = static_cast<std::int32_t>(ordered.vertices.size());

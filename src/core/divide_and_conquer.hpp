@@ -31,4 +31,8 @@ struct Subdivision {
 // from its lexicographically smallest vertex.
 Subdivision divide_and_conquer(const OrderedPoints& ordered, unsigned threads, const Monitor& monitor);
 
+// Permutes points of equal code as divide_and_conquer does, for triangulations made in another way: then
+// equal triangulations have equal numbers.
+void permute_equal_codes(const OrderedPoints& ordered);
+
 }  // namespace vorotool::core

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 
+#include "core/morton_grid.hpp"
 #include "core/parallel.hpp"
 #include "core/radix_sort.hpp"
 
@@ -11,39 +12,7 @@ namespace vorotool::core {
 
 namespace {
 
-// 16 bits of each coordinate: enough to tell most points apart, and three passes of the sort.
-constexpr int cell_bits = 16;
-
-// Puts the 16 bits of v at the even places.
-std::uint32_t spread(std::uint32_t v) {
-  v = (v | v << 8) & 0x00ff00ffU;
-  v = (v | v << 4) & 0x0f0f0f0fU;
-  v = (v | v << 2) & 0x33333333U;
-  return (v | v << 1) & 0x55555555U;
-}
-
-// Numbers the cells of one coordinate; both coordinates have cells of one size. Every step rounds
-// monotonically, so a smaller cell means a smaller coordinate. Halves keep the range of the largest doubles
-// finite.
-class Cells {
- public:
-  Cells(double least, double half_range) : least_(least / 2) {
-    // A range below 2^-960 is blown up in two exact steps, where one factor would be infinite.
-    blow_up_ = half_range < 0x1p-960 ? 0x1p120 : 1.0;
-    factor_ = half_range > 0 ? last / (half_range * blow_up_) : 0.0;
-  }
-
-  std::uint32_t operator()(double v) const {
-    return static_cast<std::uint32_t>(std::min((v / 2 - least_) * blow_up_ * factor_, last));
-  }
-
- private:
-  static constexpr double last = (1 << cell_bits) - 1;
-  double least_, blow_up_, factor_;
-};
-
 constexpr std::size_t piece_size = std::size_t{1} << 14;  // words of a piece of work
-constexpr std::size_t crowd = 64;                         // points of a cell that get a finer curve
 constexpr std::size_t ahead = 32;                         // words: how early points are called for
 
 // A word holds the code of a point above its index.
@@ -82,25 +51,17 @@ class Orderer {
   // Sorts words by their place on the curve through a grid over their points, and then by index.
   void sort_along_curve(std::vector<std::uint64_t>& words) const {
     if (words.empty()) return;
-    Point least = points_[index_of(words[0])];
-    Point most = least;
-    for (const std::uint64_t word : words) {
-      const Point& p = points_[index_of(word)];
-      least = {std::min(least.x, p.x), std::min(least.y, p.y)};
-      most = {std::max(most.x, p.x), std::max(most.y, p.y)};
-    }
-    const double half_range = std::max(most.x / 2 - least.x / 2, most.y / 2 - least.y / 2);
-    const Cells column(least.x, half_range);
-    const Cells row(least.y, half_range);
+    Bounds bounds(points_[index_of(words[0])]);
+    for (const std::uint64_t word : words) bounds.add(points_[index_of(word)]);
+    const MortonGrid grid(bounds);
     for (std::uint64_t& word : words) {
       const std::uint32_t index = index_of(word);
-      const std::uint32_t code = spread(column(points_[index].x)) << 1 | spread(row(points_[index].y));
-      word = std::uint64_t{code} << 32 | index;
+      word = std::uint64_t{grid.code(points_[index])} << 32 | index;
     }
     if (words.size() < 4096) {
       std::sort(words.begin(), words.end());
     } else {
-      radix_sort(words, 32, 32 + 2 * cell_bits);
+      radix_sort(words, 32, 32 + 2 * morton_cell_bits);
     }
   }
 
@@ -124,7 +85,7 @@ class Orderer {
         __builtin_prefetch(&points_[index_of(words[cell.begin + ahead])]);
       std::fill(order_.code.begin() + offset(cell.begin), order_.code.begin() + offset(cell.end),
                 code_of(words[cell.begin]));
-      if (cell.end - cell.begin > crowd) {
+      if (cell.end - cell.begin > morton_crowd) {
         crowds_[piece].push_back(cell);
       } else {
         put_cell(std::span(words).subspan(cell.begin, cell.end - cell.begin), cell.begin);

@@ -10,15 +10,14 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/arithmetic.hpp"
 #include "core/monitor.hpp"
 
 namespace vorotool::core {
 
-__extension__ typedef unsigned __int128 Wide;
-
 // Coordinates and squared distances of a SiteTree, with their bounds:
 // - std::int64_t, std::uint64_t: exact while coordinates differ by at most 2^31: 2 * (2^31)^2 < 2^64;
-// - std::int64_t, Wide: exact while coordinates are at most 2^62: 2 * (2^63)^2 < 2^128;
+// - std::int64_t, uint128: exact while coordinates are at most 2^62: 2 * (2^63)^2 < 2^128;
 // - double, double: the minimum of squared distances as they are rounded, exact where they need at most 53
 //   bits. The search adds no error of its own: rounding is monotonic, so the rounded distance to a box never
 //   exceeds that to a point in it.

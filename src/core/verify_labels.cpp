@@ -16,7 +16,7 @@ class RightRow {
   using Tree = SiteTree<std::int64_t, Distance>;
   using Nearest = typename Tree::Nearest;
 
-  RightRow(const Tree& tree, const PixelFrame& frame, std::int64_t scale, std::optional<Wide> limit)
+  RightRow(const Tree& tree, const PixelFrame& frame, std::int64_t scale, std::optional<uint128> limit)
       : tree_(tree), frame_(frame), scale_(scale), limit_(limit), labels_(frame.width, 0) {}
 
   const std::vector<std::uint32_t>& compute(std::size_t row) {
@@ -68,7 +68,7 @@ class RightRow {
   const Tree& tree_;
   const PixelFrame& frame_;
   std::int64_t scale_;
-  std::optional<Wide> limit_;
+  std::optional<uint128> limit_;
   std::int64_t y_ = 0;
   std::vector<std::uint32_t> labels_;
 };
@@ -84,7 +84,7 @@ void compare_row(std::span<const Label> row, std::span<const std::uint32_t> righ
 
 template <class Distance, class Label>
 WrongPixels verify(std::span<const Label> image, const PixelFrame& frame, const LatticeSeeds& seeds,
-                   std::optional<Wide> limit, unsigned threads, const Monitor& monitor) {
+                   std::optional<uint128> limit, unsigned threads, const Monitor& monitor) {
   const SiteTree<std::int64_t, Distance> tree(seeds.x, seeds.y, seeds.labels, monitor);
   // At a query a pixel, 2^14 pixels are a few milliseconds.
   const std::size_t rows = std::max<std::size_t>(1, (std::size_t{1} << 14) / frame.width);
@@ -132,7 +132,7 @@ Extent extent(std::span<const std::int64_t> seeds, std::int64_t origin, std::siz
 
 template <class Label>
 WrongPixels verify_labels(std::span<const Label> image, const PixelFrame& frame, const LatticeSeeds& seeds,
-                          std::optional<Wide> limit, unsigned threads, const Monitor& monitor) {
+                          std::optional<uint128> limit, unsigned threads, const Monitor& monitor) {
   if (image.empty()) return {};
   const Extent x = extent(seeds.x, frame.x, frame.width, seeds.scale);
   const Extent y = extent(seeds.y, frame.y, frame.height, seeds.scale);
@@ -140,12 +140,12 @@ WrongPixels verify_labels(std::span<const Label> image, const PixelFrame& frame,
   if (x.high - x.low <= kNarrow && y.high - y.low <= kNarrow) {
     return verify<std::uint64_t>(image, frame, seeds, limit, threads, monitor);
   }
-  return verify<Wide>(image, frame, seeds, limit, threads, monitor);
+  return verify<uint128>(image, frame, seeds, limit, threads, monitor);
 }
 
 #define VOROTOOL_INSTANTIATE(Label)                                                                  \
   template WrongPixels verify_labels(std::span<const Label>, const PixelFrame&, const LatticeSeeds&, \
-                                     std::optional<Wide>, unsigned, const Monitor&);
+                                     std::optional<uint128>, unsigned, const Monitor&);
 VOROTOOL_INSTANTIATE(std::uint8_t)
 VOROTOOL_INSTANTIATE(std::uint16_t)
 VOROTOOL_INSTANTIATE(std::uint32_t)

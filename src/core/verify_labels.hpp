@@ -43,6 +43,6 @@ constexpr std::int64_t kLatticeLimit = std::int64_t{1} << 40;
 // Throws std::out_of_range beyond kLatticeLimit.
 template <class Label>
 WrongPixels verify_labels(std::span<const Label> image, const PixelFrame& frame, const LatticeSeeds& seeds,
-                          std::optional<Wide> limit, unsigned threads, const Monitor& monitor);
+                          std::optional<uint128> limit, unsigned threads, const Monitor& monitor);
 
 }  // namespace vorotool::core

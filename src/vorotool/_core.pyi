@@ -127,8 +127,29 @@ def line_of_row(text: bytes, delimiter: str, header_records: int, row: int) -> i
 def first_record(text: bytes, delimiter: str) -> tuple[int, str, list[str]] | None: ...
 def find_too_deep(text: bytes, limit: int) -> int | None: ...
 def format_columns(
-    values: list[Any], missing: list[NDArray[np.bool_] | None], precision: int = 0, threads: int = 0
+    values: list[Any],
+    missing: list[NDArray[np.bool_] | None],
+    precision: int = 0,
+    threads: int = 0,
+    shape: tuple[tuple[str, ...], str, str] | None = None,
 ) -> list[bytes]: ...
+
+class NumberTexts:
+    def __init__(self, values: NDArray[np.float64], precision: int = 0, threads: int = 0) -> None: ...
+    def __len__(self) -> int: ...
+
+class PolygonTexts:
+    """A column of polygons: each row from its first polygon to that of the next; style wkt, geojson or json."""
+
+    def __init__(
+        self,
+        vertices: NDArray[np.float64],
+        rings: NDArray[np.int64],
+        polygons: NDArray[np.int64],
+        rows: NDArray[np.int64],
+        style: str,
+    ) -> None: ...
+    def __len__(self) -> int: ...
 
 # ---- predicates (bind_predicates.cpp): a level is "auto", "filter", "seen" (the filter of the triangulation),
 # ---- "integers", "expansions" or "wide"; the sign is 2 where a level other than "auto" and "wide" cannot tell. The
@@ -150,6 +171,19 @@ class DelaunayMesh:
     ) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]]:
         """Triangles, their neighbours, and edges."""
 
+def insert_points(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    neighbours: NDArray[np.int32],
+    edges: NDArray[np.int32],
+    hull: NDArray[np.int32],
+    first: NDArray[np.int32],
+    hints: NDArray[np.int32],
+    threads: int,
+    progress: _Progress,
+) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]] | None:
+    """Triangles, neighbours, edges, hull, first; None where the order of the triangles that stay would change."""
+
 def triangulation_fault(
     points: NDArray[np.float64],
     triangles: NDArray[np.int32],
@@ -160,3 +194,61 @@ def triangulation_fault(
     threads: int,
     progress: _Progress,
 ) -> str | None: ...
+
+# ---- digital triangulation (bind_digital.cpp): rows are C-contiguous uint8, uint16 or uint32 labels ----------------
+
+class DigitalTriangulationScan:
+    def __init__(self) -> None: ...
+    def add_rows(self, rows: NDArray[Any], threads: int, progress: _Progress) -> None: ...
+    def finish(self) -> dict[str, Any]: ...
+
+def digital_mesh(
+    points: NDArray[np.float64],
+    x: NDArray[np.int64],
+    y: NDArray[np.int64],
+    scale: int,
+    image: NDArray[np.uint32],
+    frame_x: int,
+    frame_y: int,
+    threads: int,
+    progress: _Progress,
+) -> tuple[DelaunayMesh, dict[str, Any]]: ...
+def inserted_mesh(points: NDArray[np.float64], threads: int, progress: _Progress) -> DelaunayMesh: ...
+
+# ---- Voronoi cells (bind_cells.cpp): a frame is left, bottom, right, top --------------------------------------------
+
+def voronoi_cells(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    neighbours: NDArray[np.int32],
+    hull: NDArray[np.int32],
+    first: NDArray[np.int32],
+    frame: tuple[float, float, float, float],
+    threads: int,
+    progress: _Progress,
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Vertices of the cells' rings, and where the ring of each point begins."""
+
+def cell_fault(
+    sites: NDArray[np.float64],
+    vertices: NDArray[np.float64],
+    starts: NDArray[np.int64],
+    frame: tuple[float, float, float, float],
+    threads: int,
+    progress: _Progress,
+) -> str | None: ...
+def measure_cells(
+    sites: NDArray[np.float64],
+    vertices: NDArray[np.float64],
+    rings: NDArray[np.int64],
+    cell_rings: NDArray[np.int64],
+    frame: tuple[float, float, float, float],
+    threads: int,
+    progress: _Progress,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.uint8]]:
+    """Area, perimeter, distance of the farthest vertex from the site, whether a vertex is on the frame."""
+
+def nearest_neighbours(
+    points: NDArray[np.float64], edges: NDArray[np.int32], labels: NDArray[np.int64], progress: _Progress
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Index of the nearest point of each, -1 without any, and its number of neighbours."""

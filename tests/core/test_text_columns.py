@@ -311,3 +311,57 @@ def test_format_refuses_columns_of_other_types_and_lengths():
         format_text([np.array([1, 2]), np.array([1])])
     with pytest.raises(ValueError, match="one length"):
         format_text([np.array([1, 2])], [np.array([True])])
+
+
+def rows(*columns, around=None, separator="", missing=""):
+    shape = None if around is None else (around, separator, missing)
+    return b"".join(_core.format_columns(list(columns), [None] * len(columns), 0, 2, shape)).decode()
+
+
+def test_rows_of_any_shape():
+    numbers, reals = np.array([1, 2]), np.array([0.5, math.nan])
+    text = rows(numbers, reals, ['"a,b"', "null"], around=("{", ";", " ", "}"), separator=",\n", missing="-")
+    assert text == '{1;0.5 "a,b"},\n{2;- null}'  # texts as they are
+    assert rows(numbers[:0], around=("[", "]"), separator=",") == ""
+    with pytest.raises(ValueError, match="one text more"):
+        rows(numbers, around=("[", ",", "]"))
+
+
+def test_separators_stand_between_all_rows_of_all_blocks():
+    count = 40_000
+    text = rows(np.arange(count), around=("", ""), separator=" ")
+    assert text == " ".join(map(str, range(count)))
+
+
+def test_columns_that_look_up():
+    values = np.array([0.25, -1e300, 1 / 3])
+    index = np.array([[2, 0], [1, 1], [0, 2], [2, 2]], dtype=np.int32)
+    texts = _core.NumberTexts(values)
+    assert len(texts) == 3
+    for column in (values, texts):
+        shown = rows((column, index[:, 0]), (column, index[:, 1])).split()  # columns of a matrix: strided
+        assert shown == [f"{float(values[a])!r},{float(values[b])!r}" for a, b in index]
+    assert rows((np.array([7, 8, 9]), index[:, 0]), ["a", "b", "c", "d"]) == "9,a\n8,b\n7,c\n9,d\n"
+    assert rows((["x", "y,"], np.array([1, 0], dtype=np.int32))) == '"y,"\nx\n'
+    assert rows((values[:0], index[:0, 0]), (values, index[:0, 1])) == ""
+
+
+def test_texts_of_numbers_are_those_of_columns():
+    values = np.random.default_rng(3).normal(size=20_000)
+    values[::1000] = math.inf
+    index = np.random.default_rng(4).integers(0, len(values), 30_000).astype(np.int32)
+    for precision in (0, 3):
+        expected = format_text([values[index]], precision=precision)
+        for threads in (1, 3):
+            texts = _core.NumberTexts(values, precision, threads)
+            assert format_text([(texts, index)], precision=precision) == expected
+
+
+@pytest.mark.parametrize("bad", [-1, 3, 2**31 - 1])
+def test_an_index_out_of_range_is_refused(bad):
+    index = np.array([0, bad], dtype=np.int32)
+    for values in (np.arange(3), _core.NumberTexts(np.arange(3.0)), ["a", "b", "c"]):
+        with pytest.raises(IndexError, match="out of range"):
+            rows((values, index))
+    with pytest.raises(ValueError, match="one length"):
+        rows(np.arange(3), (np.arange(3), np.array([0, 1], dtype=np.int32)))

@@ -23,7 +23,7 @@ def figures(tmp_path_factory):
     return folder
 
 
-@pytest.mark.parametrize("name", ["figure-01.svg", "figure-02.svg"])
+@pytest.mark.parametrize("name", [f"figure-{number}.svg" for number in ("01", "02", "03b", "03c", "03d")])
 def test_svg(figures, name):
     assert (figures / name).read_text() == (Path(__file__).parent / name).read_text()
 

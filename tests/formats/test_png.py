@@ -146,3 +146,14 @@ def test_memory_stays_bounded() -> None:
         assert tracemalloc.get_traced_memory()[1] < 40e6
     finally:
         tracemalloc.stop()
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_red_green_and_blue(threads: int) -> None:
+    pixels = np.random.default_rng(1).integers(0, 256, (300, 17, 3)).astype(np.uint8)
+    bands = [pixels[:100].reshape(100, -1), pixels[100:].reshape(200, -1)]
+    image = Image.open(io.BytesIO(png(bands, (300, 17), rgb=True, threads=threads)))
+    assert image.mode == "RGB"
+    np.testing.assert_array_equal(np.asarray(image), pixels)
+    with pytest.raises(ValueError, match="shape"):
+        png([pixels[:, :, 0]], (300, 17), rgb=True)

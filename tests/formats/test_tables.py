@@ -15,7 +15,7 @@ from vorotool.errors import UsageError
 from vorotool.formats.points import read_points
 from vorotool.formats.sources import Source
 from vorotool.formats.tables import TABLE_FORMATS, write_table
-from vorotool.geometry.table import Table
+from vorotool.geometry.table import Computed, Lookup, Table
 
 
 def written(table, fmt, **options):
@@ -149,3 +149,47 @@ def test_what_is_written_as_csv_is_read_back(rows):
     by_csv = list(csv.DictReader(io.StringIO(data.decode(), newline="")))
     assert [row["name"] for row in by_csv] == names
     assert [float(row["x"]) for row in by_csv] == x
+
+
+LAZY = Table(
+    {
+        "label": Lookup(np.array([7, 8, 9]), np.array([2, 0, 0, 1], dtype=np.int32)),
+        "x": Lookup(np.array([0.5, 1 / 3, -2]), np.array([[1, 1], [0, 0], [2, 2], [0, 1]], dtype=np.int32)[:, 0]),
+        "length": Computed(lambda rows: np.array([1.5, math.inf, 0.1, 1e300])[rows], 4),
+    }
+)
+
+
+def test_lazy_columns_are_written_like_others():
+    assert LAZY["label"].tolist() == [9, 7, 7, 8]
+    plain = Table(dict(LAZY))
+    for fmt in ("csv", "json"):
+        assert written(LAZY, fmt) == written(plain, fmt)
+        assert written(LAZY, fmt, precision=2) == written(plain, fmt, precision=2)
+    arrays = np.load(io.BytesIO(written(LAZY, "npz")))
+    for name in LAZY:
+        np.testing.assert_array_equal(arrays[name], LAZY[name])
+
+
+def test_lazy_columns_of_many_slices():
+    rng = np.random.default_rng(2)
+    values, index = rng.normal(size=1000), rng.integers(0, 1000, 200_000).astype(np.int32)
+    table = Table({"x": Lookup(values, index), "square": Computed(lambda rows: values[index[rows]] ** 2, len(index))})
+    for fmt in TABLE_FORMATS:
+        assert len({written(table, fmt, threads=threads) for threads in (1, 2, 3)}) == 1
+    read = np.loadtxt(io.BytesIO(written(table, "csv")), delimiter=",", skiprows=1)
+    np.testing.assert_array_equal(read, np.stack([values[index], values[index] ** 2], axis=1))
+    assert [row["x"] for row in json.loads(written(table, "json"))] == values[index].tolist()
+    np.testing.assert_array_equal(np.load(io.BytesIO(written(table, "npz")))["square"], values[index] ** 2)
+
+
+@settings(deadline=None)
+@given(st.lists(st.tuples(st.floats(), texts, st.booleans()), max_size=20))
+def test_what_is_written_as_json_is_read_back(rows):
+    x, names, flags = ([row[i] for row in rows] for i in range(3))
+    data = written(Table({"x": np.array(x, dtype=float), 'na"me': names, "flag": np.array(flags, dtype=bool)}), "json")
+    expected = [
+        {"x": v if math.isfinite(v) else None, 'na"me': name, "flag": flag}
+        for v, name, flag in zip(x, names, flags, strict=True)
+    ]
+    assert json.loads(data) == expected

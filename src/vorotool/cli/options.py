@@ -55,6 +55,26 @@ class Window(click.ParamType[tuple[int, int, int, int]]):
         return (x, y, w, h)
 
 
+class Rectangle(click.ParamType[tuple[float, float, float, float]]):
+    """``X,Y,W,H`` in the units of the input."""
+
+    name = "X,Y,W,H"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[float, float, float, float]:
+        """Parse four numbers of which the last two are positive."""
+        if isinstance(value, tuple):
+            return value
+        try:
+            x, y, w, h = (float(part) for part in value.split(","))
+        except ValueError:
+            self.fail(f"{value!r} is no frame: give four numbers X,Y,W,H, such as 0,0,12.5,8", param, ctx)
+        if not (all(map(isfinite, (x, y, w, h))) and w > 0 and h > 0):
+            self.fail(f"{value!r} is no frame: all must be finite, W and H more than 0", param, ctx)
+        return (x, y, w, h)
+
+
 class Threshold(click.ParamType[float | str]):
     """A number, or ``otsu``."""
 

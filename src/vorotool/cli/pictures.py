@@ -1,14 +1,17 @@
-"""Pictures of label images, for the commands that draw them."""
+"""Pictures, for the commands that draw them: of label images, and from layers."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.label_image import LabelImage
+
+if TYPE_CHECKING:
+    from vorotool.render.layers import Layer, Page
 
 BAND_ROWS = 256
 """Rows of a picture that are composed at a time."""
@@ -100,3 +103,30 @@ def _numbering(
     by_label = np.zeros(largest + 1, classes.dtype)
     by_label[labels] = classes
     return np.asarray, by_label
+
+
+def write_layers(out: BinaryIO, layers: Sequence[Layer], page: Page, *, fmt: str, threads: int = 0) -> None:
+    """Draw layers as SVG or PNG.
+
+    Parameters
+    ----------
+    out : binary file
+        Where to write.
+    layers : sequence of Layer
+        What to draw, from below.
+    page : Page
+        Where it lies.
+    fmt : {"svg", "png"}
+        Kind of picture.
+    threads : int
+        0 uses all.
+    """
+    if fmt == "svg":
+        from vorotool.render.layers_svg import write_layers_svg
+
+        write_layers_svg(out, layers, page, threads=threads)
+    else:
+        from vorotool.formats.png import write_png
+        from vorotool.render.layers_png import layer_bands
+
+        write_png(out, layer_bands(layers, page), (page.height, page.width), rgb=True, threads=threads)

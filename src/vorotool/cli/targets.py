@@ -19,9 +19,16 @@ EXTENSIONS = {
     ".csv": "csv",
     ".json": "json",
     ".npz": "npz",
+    ".geojson": "geojson",
+    ".edge": "edge",
+    ".ele": "ele",
+    ".node": "node",
+    ".obj": "obj",
+    ".wkt": "wkt",
 }
 FORMATS = tuple(dict.fromkeys(EXTENSIONS.values()))
-TEXT_FORMATS = frozenset({"text", "svg", "csv", "json"})
+TEXT_FORMATS = frozenset({"text", "svg", "csv", "json", "geojson", "edge", "ele", "node", "obj", "wkt"})
+TRIANGLE_FILES = frozenset({"node", "edge", "ele"})
 _EXTENSION_OF = {"tiff": "tif", "text": "txt"}
 
 
@@ -76,18 +83,19 @@ def plan_targets(
     several = len(what) > 1
     if out_dir is not None:
         stem = Path(out_dir) / ("stdin" if source == "-" else Path(source).stem)
-        chosen = {name: _chosen(formats[name], name, fmt, None) for name in what}
+        choose = _several_format if several else _chosen
+        chosen = {name: choose(formats, name, fmt, None) for name in what}
         return [Target(name, _named(stem, name if several else None, chosen[name]), chosen[name]) for name in what]
     if several:
         if output is None or output == "-":
             raise click.UsageError("several results need -o STEM (files STEM.<what>.<ext>) or --out-dir DIR")
         given = EXTENSIONS.get(Path(output).suffix.lower())
         stem = Path(output).with_suffix("") if given else Path(output)
-        chosen = {name: _several_format(formats[name], name, fmt, given) for name in what}
+        chosen = {name: _several_format(formats, name, fmt, given) for name in what}
         return [Target(name, _named(stem, name, chosen[name]), chosen[name]) for name in what]
     name = what[0]
     path = "-" if output is None else output
-    chosen_format = _chosen(formats[name], name, fmt, None if path == "-" else Path(path).suffix.lower())
+    chosen_format = _chosen(formats, name, fmt, None if path == "-" else Path(path).suffix.lower())
     target = Target(name, path, chosen_format)
     if output is None and fmt is None and target.is_binary:
         raise click.UsageError(
@@ -116,7 +124,11 @@ def check_stats(stats: str | None, targets: Sequence[Target], source: str) -> No
 
 
 def check_picture_options(
-    options: Any, pictures: Sequence[str], layers: Mapping[str, Sequence[str]] = PICTURE_LAYERS
+    options: Any,
+    pictures: Sequence[str],
+    layers: Mapping[str, Sequence[str]] = PICTURE_LAYERS,
+    *,
+    png_has_width: bool = False,
 ) -> None:
     """Refuse layers and a width that no picture would show.
 
@@ -128,13 +140,17 @@ def check_picture_options(
         Formats of the pictures that are to be written.
     layers : mapping of str to sequence of str
         Layers of each format.
+    png_has_width : bool
+        PNG pictures are of no image, so that they are as wide as is asked for.
 
     Raises
     ------
     click.UsageError
         If a layer is none of a picture's format, or the width is for SVG only.
     """
-    if options.width is not None and "svg" not in pictures:
+    if options.width is not None and png_has_width and not pictures:
+        raise click.UsageError("--width is for pictures: use -f svg or -f png, or leave it out")
+    if options.width is not None and not png_has_width and "svg" not in pictures:
         raise click.UsageError(
             "--width is for SVG pictures: a PNG has the size of the image; use -f svg, or leave it out"
         )
@@ -192,8 +208,8 @@ def _known_format(fmt: str | None) -> str | None:
     return known[fmt.lower()]
 
 
-def _chosen(possible: Sequence[str], what: str, fmt: str | None, extension: str | None) -> str:
-    chosen = fmt
+def _chosen(formats: Mapping[str, Sequence[str]], what: str, fmt: str | None, extension: str | None) -> str:
+    possible, chosen = formats[what], fmt
     if chosen is None and extension:
         chosen = EXTENSIONS.get(extension)
         if chosen is None:
@@ -202,15 +218,23 @@ def _chosen(possible: Sequence[str], what: str, fmt: str | None, extension: str 
             )
     chosen = chosen or possible[0]
     if chosen not in possible:
-        raise click.UsageError(f"{what} cannot be written as {chosen}: use one of {', '.join(possible)}")
+        others = [name for name, those in formats.items() if chosen in those]
+        instead = f"use --what {' or '.join(others)}, or " if others else "use "
+        raise click.UsageError(f"{what} cannot be written as {chosen}: {instead}one of {', '.join(possible)}")
     return chosen
 
 
-def _several_format(possible: Sequence[str], what: str, fmt: str | None, given: str | None) -> str:
-    """With several results the extension of -o holds for those that can be written so."""
-    if fmt is None and given in possible:
+def _several_format(formats: Mapping[str, Sequence[str]], what: str, fmt: str | None, given: str | None) -> str:
+    """With several results the extension of -o holds for those that can be written so.
+
+    The files of Triangle are one format: each result goes to its own kind.
+    """
+    wanted = fmt or given
+    if wanted in TRIANGLE_FILES and wanted not in formats[what]:
+        fmt = next((own for own in formats[what] if own in TRIANGLE_FILES), fmt)
+    if fmt is None and given in formats[what]:
         return str(given)
-    return _chosen(possible, what, fmt, None)
+    return _chosen(formats, what, fmt, None)
 
 
 def _named(stem: Path, what: str | None, fmt: str) -> str:

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from vorotool.cli.inputs import naming, read_seed_input, refuse
 from vorotool.cli.options import Decimal, layers_option, shared, single_input, what_option
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options, check_stats, check_targets, plan_targets
-from vorotool.errors import InputError
 
 if TYPE_CHECKING:
     from vorotool.cli.products import Products
@@ -76,9 +74,9 @@ def command(**options: Any) -> None:
         from vorotool.formats.outputs import make_folder
 
         check_targets(o, targets, source)
-        with _naming(source), run.phase("read"):
+        with naming(source), run.phase("read"):
             seeds = _read_seeds(run, o, source)
-        with _naming(source), run.phase("prepare"):
+        with naming(source), run.phase("prepare"):
             products = _prepare(run, o, seeds)
         for target in targets:
             products.check(target)
@@ -122,29 +120,13 @@ def _check_output_options(o: SimpleNamespace, outputs: set[tuple[str, str]]) -> 
 
 def _read_seeds(run: Run, o: SimpleNamespace, source: str) -> SeedSet:
     from vorotool.engines.seeding import seeds_from_points, seeds_from_raster
-    from vorotool.formats import read
     from vorotool.geometry.points import PointSet
 
-    value = read(
-        source,
-        input_format=o.input_format,
-        columns=o.columns,
-        page=o.page,
-        max_pixels=o.max_pixels,
-        max_sites=o.max_sites,
-        properties="table" in o.what and not o.no_properties,
-        threads=o.threads,
-        note=run.note,
-    )
+    value = read_seed_input(run, o, source, properties="table" in o.what)
     if isinstance(value, PointSet):
-        _refuse(
-            o,
-            ("page", "seeds", "connectivity", "threshold", "invert"),
-            "is for images, but the input is a list of points",
-        )
         o.y_up = value.y_up if o.y_up is None else o.y_up
         return seeds_from_points(value, strict=o.strict)
-    _refuse(o, ("columns", "size", "window"), "is for lists of points, but the input is an image, which brings its own")
+    refuse(o, ("columns", "size", "window"), "is for lists of points, but the input is an image, which brings its own")
     return seeds_from_raster(
         value,
         mode=o.seeds,
@@ -154,24 +136,6 @@ def _read_seeds(run: Run, o: SimpleNamespace, source: str) -> SeedSet:
         strict=o.strict,
         max_sites=o.max_sites,
     )
-
-
-def _refuse(o: SimpleNamespace, names: tuple[str, ...], reason: str) -> None:
-    for name in names:
-        if getattr(o, name) is not None and getattr(o, name) is not False:  # 0 is given, too
-            raise click.UsageError(f"--{name} {reason}")
-
-
-@contextmanager
-def _naming(source: str) -> Iterator[None]:
-    """Let messages about the content of the input begin with its name."""
-    try:
-        yield
-    except InputError as error:
-        name = "standard input" if source == "-" else source
-        if str(error).startswith((name, repr(name))):
-            raise
-        raise InputError(f"{name}: {error}") from error
 
 
 def _frame(o: SimpleNamespace) -> Frame | None:

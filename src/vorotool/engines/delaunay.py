@@ -81,8 +81,9 @@ def delaunay(points: Any, *, strict: bool = False, threads: int = 0, progress: P
         properties=given.properties,
         y_up=given.y_up,
         crs=given.crs,
+        first_number=given.first_number,
     )
-    _report_duplicates(mesh, strict=strict)
+    report_duplicates(mesh, strict=strict)
     return mesh
 
 
@@ -94,7 +95,8 @@ def _point_set(source: Any) -> PointSet:
     return as_points(source)
 
 
-def _report_duplicates(mesh: Triangulation, *, strict: bool) -> None:
+def report_duplicates(mesh: Triangulation, *, strict: bool) -> None:
+    """Say how many points lie on an earlier one, or refuse them."""
     count = mesh.duplicates
     if not count:
         return

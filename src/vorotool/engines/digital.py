@@ -7,6 +7,7 @@ import warnings
 from collections.abc import Iterator
 from fractions import Fraction
 from numbers import Rational, Real
+from operator import index
 from typing import Any
 
 import numpy as np
@@ -77,6 +78,34 @@ def default_frame(seeds: SeedSet) -> Frame:
             raise InputError(f"points span {name} {low:g}..{high:g}: use --window X,Y,W,H, or delaunay --what cells")
     nearest = [int((2 * v.max() + seeds.scale) // (2 * seeds.scale)) + 1 for v in (seeds.x, seeds.y)]
     return Frame(0, 0, nearest[0], nearest[1])
+
+
+def asked_frame(shape: Any, window: Any) -> Frame | None:
+    """Give the frame that is asked for by ``shape`` (H, W) or ``window`` (x, y, w, h), if one is.
+
+    Raises
+    ------
+    UsageError
+        If both are given, or not integers.
+
+    Examples
+    --------
+    >>> asked_frame((480, 640), None)
+    Frame(x=0, y=0, width=640, height=480)
+    """
+    if shape is not None and window is not None:
+        raise UsageError("give shape or window, not both")
+    given, size = (window, 4) if window is not None else (shape, 2)
+    if given is None:
+        return None
+    try:
+        numbers = [index(number) for number in given]
+    except TypeError:
+        numbers = []
+    if len(numbers) != size:
+        form = "window must be four integers (x, y, w, h)" if size == 4 else "shape must be two integers (H, W)"
+        raise UsageError(f"{form}, but is {given!r}")
+    return Frame(*numbers) if size == 4 else Frame(0, 0, numbers[1], numbers[0])
 
 
 def require_memory(frame: Frame, max_pixels: int) -> None:

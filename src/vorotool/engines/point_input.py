@@ -8,6 +8,7 @@ import numpy as np
 
 from vorotool.errors import InputError
 from vorotool.geometry.points import PointSet
+from vorotool.geometry.polygons import PolygonSet
 
 
 def as_points(
@@ -39,6 +40,8 @@ def as_points(
     """
     if isinstance(source, PointSet):
         return source
+    if isinstance(source, PolygonSet):
+        raise InputError("these are polygons or lines: give points, for example their centroids or vertices")
     if getattr(source, "geom_type", "") == "MultiPoint":
         source = source.geoms
     elif hasattr(source, "geom_type"):

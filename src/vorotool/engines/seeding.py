@@ -133,6 +133,7 @@ def seeds_from_raster(
     invert: bool = False,
     strict: bool = False,
     max_sites: int = LARGEST_LABEL,
+    allow_empty: bool = False,
 ) -> SeedSet:
     """Take seeds from an image.
 
@@ -154,6 +155,8 @@ def seeds_from_raster(
     max_sites : int
         More seeds, which are the foreground pixels unless centroids are taken, are refused before memory is
         taken for them.
+    allow_empty : bool
+        An image without foreground has no seeds, instead of being refused.
 
     Returns
     -------
@@ -163,7 +166,8 @@ def seeds_from_raster(
     Raises
     ------
     InputError
-        If there is no foreground, or the image looks like a photograph and no threshold is given.
+        If there is no foreground (unless `allow_empty`), or the image looks like a photograph and no
+        threshold is given.
     LimitError
         If there are more seeds than `max_sites`.
     UsageError
@@ -182,6 +186,9 @@ def seeds_from_raster(
     if mode not in get_args(SeedMode):
         raise UsageError(f"mode is {mode!r}: it must be one of {', '.join(get_args(SeedMode))}")
     frame = Frame(0, 0, values.shape[1], values.shape[0])
+    if allow_empty and not values.any():
+        nothing = np.empty(0, dtype=np.int64)
+        return SeedSet(nothing, nothing, nothing.astype(np.uint32), frame=frame)
     if mode == "pixels":
         x, y = _foreground(values, max_sites)
         labels = np.arange(1, len(x) + 1, dtype=np.uint32)

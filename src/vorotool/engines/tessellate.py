@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from operator import index
 from typing import Any, Literal
 
 from numpy.typing import NDArray
 
-from vorotool.engines.digital import as_seeds, band_limits, default_frame, require_memory, squared_limit
+from vorotool.engines.digital import (
+    as_seeds,
+    asked_frame,
+    band_limits,
+    default_frame,
+    require_memory,
+    squared_limit,
+)
 from vorotool.engines.label_arrays import Progress
 from vorotool.engines.propagation import PropagatedRows, propagate
 from vorotool.engines.sweep import Tessellator
@@ -80,9 +86,7 @@ def tessellate(
     [[1, 1, 2], [1, 2, 2]]
     """
     seed_set = as_seeds(seeds)
-    if shape is not None and window is not None:
-        raise UsageError("give shape or window, not both")
-    frame = _frame(shape, window)
+    frame = asked_frame(shape, window)
     if len(seed_set):
         require_memory(frame or default_frame(seed_set), max_pixels)
     if method == "propagation":
@@ -95,21 +99,6 @@ def tessellate(
         raise UsageError(f"passes is {passes}, which needs method='propagation'")
     sweep = Tessellator(seed_set, frame, max_distance=max_distance, threads=threads, progress=progress)
     return LabelImage(sweep.labels(dtype=dtype, out=out), sweep.frame, seed_set)
-
-
-def _frame(shape: Any, window: Any) -> Frame | None:
-    """Give the frame that is asked for, if one is."""
-    given, size = (window, 4) if window is not None else (shape, 2)
-    if given is None:
-        return None
-    try:
-        numbers = [index(number) for number in given]
-    except TypeError:
-        numbers = []
-    if len(numbers) != size:
-        form = "window must be four integers (x, y, w, h)" if size == 4 else "shape must be two integers (H, W)"
-        raise UsageError(f"{form}, but is {given!r}")
-    return Frame(*numbers) if size == 4 else Frame(0, 0, numbers[1], numbers[0])
 
 
 def verify_rows(rows: Tessellator | PropagatedRows, *, threads: int = 0) -> None:

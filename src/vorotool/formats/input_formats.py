@@ -16,6 +16,9 @@ POINT_NAMES = {
 }
 """Formats of points by name; csv stands for all delimited text."""
 
+POLYGON_NAMES = {"json": "json", "geojson": "geojson", "wkt": "wkt", "poly": "poly"}
+"""Formats of polygons and lines by name."""
+
 IMAGE_NAMES = {
     "png": "png",
     "tiff": "tiff",
@@ -28,7 +31,8 @@ IMAGE_NAMES = {
 }
 """Formats of images by name; NPY files hold either."""
 
-ALL_NAMES = {**POINT_NAMES, **IMAGE_NAMES}
+ALL_NAMES = {**POINT_NAMES, **POLYGON_NAMES, **IMAGE_NAMES}
+_KINDS = ((POINT_NAMES, "points"), (POLYGON_NAMES, "polygons"), (IMAGE_NAMES, "images"))
 
 
 def known_input_format(name: str | None, names: dict[str, str] = ALL_NAMES) -> str | None:
@@ -47,6 +51,6 @@ def known_input_format(name: str | None, names: dict[str, str] = ALL_NAMES) -> s
     if name is None:
         return None
     if name.lower() not in names:
-        kind = "points" if names is POINT_NAMES else "images" if names is IMAGE_NAMES else "inputs"
+        kind = next((kind for known, kind in _KINDS if names is known), "inputs")
         raise UsageError(f"--input-format {name!r} is no format of {kind}: use one of {', '.join(names)}")
     return names[name.lower()]

@@ -24,7 +24,7 @@ LARGEST_SIDE = 2**31 - 1
 _UP = 2
 _ZLIB_HEADER = b"\x78\x01"
 _EMPTY_LAST_BLOCK = b"\x03\x00"
-_GREY, _PALETTE = 0, 3
+_GREY, _RGB, _PALETTE = 0, 2, 3
 
 
 def write_png(
@@ -34,9 +34,10 @@ def write_png(
     *,
     bit_depth: int = 16,
     palette: NDArray[np.uint8] | None = None,
+    rgb: bool = False,
     threads: int = 0,
 ) -> None:
-    r"""Write a grey or palette PNG from bands of rows, in bounded memory.
+    r"""Write a grey, palette or RGB PNG from bands of rows, in bounded memory.
 
     The bytes depend on the pixels alone: not on threads, nor on how the rows come in bands.
 
@@ -45,13 +46,16 @@ def write_png(
     out : binary file
         Written from its current position on; never sought.
     bands : iterable of (rows, W) arrays
-        Unsigned, signed or boolean rows from top to bottom. A band may be reused once the next is asked for.
+        Unsigned, signed or boolean rows from top to bottom; of RGB, (rows, 3 W) of uint8. A band may be reused
+        once the next is asked for.
     shape : (int, int)
         Height and width.
     bit_depth : {1, 2, 4, 8, 16}
         Bits a pixel; at most 8 with a palette.
     palette : (k, 3) uint8 array, optional
         Colours; the values are then indices below k.
+    rgb : bool
+        Write red, green and blue of 8 bits each, whatever ``bit_depth`` is.
     threads : int
         0 for all processors.
 
@@ -73,16 +77,18 @@ def write_png(
     height, width = shape
     if max(shape) > LARGEST_SIDE:
         raise LimitError(f"a PNG has at most {LARGEST_SIDE} pixels a side, not {width} x {height}: use .tif or .npy")
+    bit_depth = 8 if rgb else bit_depth
     _check_kind(bit_depth, palette)
     out.write(SIGNATURE)
-    colour_type = _GREY if palette is None else _PALETTE
+    colour_type = _RGB if rgb else _GREY if palette is None else _PALETTE
     _write_chunk(out, b"IHDR", struct.pack(">IIBBBBB", width, height, bit_depth, colour_type, 0, 0, 0))
     if palette is not None:
         _write_chunk(out, b"PLTE", np.ascontiguousarray(palette).tobytes())
+    values = (height, 3 * width) if rgb else shape
     packed = blocks(
         bands,
-        shape,
-        columns=width if bit_depth >= 8 else -(-width * bit_depth // 8),
+        values,
+        columns=values[1] if bit_depth >= 8 else -(-width * bit_depth // 8),
         dtype=">u2" if bit_depth == 16 else np.uint8,
         encode=_encoder(bit_depth, palette),
     )

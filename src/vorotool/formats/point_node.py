@@ -42,8 +42,8 @@ def read_node(source: Source, options: PointOptions) -> PointSet:
         counted_by = f"each vertex after the header (line {header.line})"
         raise explain(source.name, error, _described, counted_by) from None
     _check_count(source.name, header, len(values))
-    _check_numbering(source, values[:, 0])
-    return PointSet(values[:, 1:3], None, _properties(source, header, options))
+    base = _checked_numbering(source, values[:, 0])
+    return PointSet(values[:, 1:3], None, _properties(source, header, options), first_number=base)
 
 
 def _described(column: int) -> str:
@@ -72,10 +72,9 @@ def _check_count(name: str, header: _Header, rows: int) -> None:
         )
 
 
-def _check_numbering(source: Source, indices: NDArray[np.float64]) -> None:
-    if not len(indices):
-        return
-    base = 0 if indices[0] == 0 else 1
+def _checked_numbering(source: Source, indices: NDArray[np.float64]) -> int:
+    """Number of the first vertex; the others follow without gaps."""
+    base = 0 if len(indices) and indices[0] == 0 else 1
     bad = np.flatnonzero(indices != np.arange(base, base + len(indices)))
     if bad.size:
         row = int(bad[0])
@@ -84,6 +83,7 @@ def _check_numbering(source: Source, indices: NDArray[np.float64]) -> None:
             f"{source.name}, line {line}: vertex {indices[row]:.17g} stands where {row + base} is due; "
             "number the vertices from 0 or 1 without gaps"
         )
+    return base
 
 
 def _properties(source: Source, header: _Header, options: PointOptions) -> dict[str, list[str]]:

@@ -22,7 +22,7 @@ def read_wkt(source: Source, options: PointOptions) -> PointSet:
     import shapely
 
     check_nesting(source.data, name=source.name)
-    texts, lines = _geometry_texts(source)
+    texts, lines = geometry_texts(source)
     with np.errstate(all="ignore"):  # numbers beyond the largest double are found below
         geometries = shapely.from_wkt(np.array(texts, dtype=object), on_invalid="ignore")
     for index in np.flatnonzero(shapely.get_type_id(geometries) != _POINT):
@@ -43,7 +43,7 @@ def read_wkt(source: Source, options: PointOptions) -> PointSet:
     return PointSet(xy, None, properties, y_up=True)
 
 
-def _geometry_texts(source: Source) -> tuple[list[str], list[int]]:
+def geometry_texts(source: Source) -> tuple[list[str], list[int]]:
     """Cut a text into geometries, and give the line of each: it ends when its brackets are closed."""
     texts: list[str] = []
     lines: list[int] = []

@@ -37,6 +37,7 @@ _BY_SUFFIX = {
     ".wkt": "wkt",
 }
 _CONVERTIBLE = (".shp", ".gpkg", ".dxf", ".kml", ".gml", ".fgb")
+_CONVERTIBLE_HEADS = {b"SQLite format 3\0": ".gpkg", b"\0\0\x27\x0a": ".shp", b"fgb": ".fgb"}
 _WKT = re.compile(
     rb"\s*(SRID\s*=\s*\d+\s*;\s*)?(MULTI)?(POINT|LINESTRING|POLYGON|GEOMETRYCOLLECTION)\s*(Z|M|ZM)?\s*(\(|EMPTY)",
     re.IGNORECASE,
@@ -58,12 +59,7 @@ def detect_point_format(source: Source) -> str:
     >>> detect_point_format(Source("standard input", b"POINT (1 2)"))
     'wkt'
     """
-    if source.suffix in _CONVERTIBLE:
-        converted = Path(source.name).with_suffix(".geojson")
-        raise InputError(
-            f"{source.name}: {source.suffix} files are not read; convert it: "
-            f"ogr2ogr -f GeoJSON {converted} {source.name}"
-        )
+    refuse_convertible(source)
     if source.suffix in _BY_SUFFIX:
         return _BY_SUFFIX[source.suffix]
     head = source.data[:4096].removeprefix(_UTF8_MARK).lstrip()
@@ -74,6 +70,28 @@ def detect_point_format(source: Source) -> str:
     if head.startswith(b"["):
         return "json"
     return "wkt" if _WKT.match(head) else "csv"
+
+
+def refuse_convertible(source: Source) -> None:
+    """Refuse the formats of geographic information systems that are not read, by extension or content.
+
+    Raises
+    ------
+    InputError
+        With the command that converts the file.
+
+    Examples
+    --------
+    >>> refuse_convertible(Source("seeds.csv", b"1,2"))
+    """
+    heads = (suffix for head, suffix in _CONVERTIBLE_HEADS.items() if source.data.startswith(head))
+    found = source.suffix if source.suffix in _CONVERTIBLE else next(heads, None)
+    if found is not None:
+        file = source.name if source.suffix == found else f"FILE{found}"
+        raise InputError(
+            f"{source.name}: {found} files are not read; convert it: "
+            f"ogr2ogr -f GeoJSON {Path(file).with_suffix('.geojson')} {file}"
+        )
 
 
 def read_points(
@@ -134,18 +152,18 @@ def read_points(
     if columns is not None and chosen != "csv":
         raise UsageError(f"--columns is for delimited text, but {source.name} is read as {chosen}: leave it out")
     if chosen != "npy":
-        source = _text_source(source)
+        source = text_source(source)
     options = PointOptions(columns, properties, max_sites, threads, note or no_note)
     return _READERS[chosen](source, options)
 
 
-def _text_source(source: Source) -> Source:
+def text_source(source: Source) -> Source:
     """Take the byte order mark off, and refuse what is no text in an encoding that is read."""
     if source.data.startswith(_UTF16_MARKS):
         raise InputError(f"{source.name} is UTF-16 text; save it as UTF-8 (iconv -f UTF-16 -t UTF-8)")
     if b"\0" in source.data[:4096]:
         raise InputError(
-            f"{source.name} is binary, not a list of points; use CSV, .node, NPY, GeoJSON, WKT or JSON, or "
+            f"{source.name} is binary, not points or polygons; use CSV, .node, NPY, .poly, GeoJSON, WKT or JSON, or "
             "say which with --input-format"
         )
     if source.data.startswith(_UTF8_MARK):

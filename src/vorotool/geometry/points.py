@@ -28,6 +28,8 @@ class PointSet:
         Pictures of this input are drawn y upwards (GeoJSON and WKT).
     crs : object, optional
         The ``crs`` member of a GeoJSON input, copied to GeoJSON outputs.
+    first_number : {1, 0}
+        Number of the first point in the input's own file: a ``.node`` file may count from 0.
 
     Raises
     ------
@@ -45,6 +47,7 @@ class PointSet:
     properties: dict[str, Any] = field(default_factory=dict)
     y_up: bool = False
     crs: Any = None
+    first_number: int = 1
 
     def __post_init__(self) -> None:
         try:

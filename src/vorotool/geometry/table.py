@@ -2,12 +2,72 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+
+
+@dataclass(frozen=True, eq=False)
+class Lookup:
+    """A column that shows the values of other objects: row i holds ``values[index[i]]``.
+
+    Nothing is gathered until the rows are asked for, and a writer turns each value into text once.
+
+    Parameters
+    ----------
+    values : (m,) int64 or float64 array
+        Contiguous; finite.
+    index : (n,) int32 array
+        0-based; it may be a column of a matrix.
+
+    Examples
+    --------
+    >>> Lookup(np.array([1.5, 2.5]), np.array([1, 0, 1], dtype=np.int32))[1:].tolist()
+    [1.5, 2.5]
+    """
+
+    values: NDArray[Any]
+    index: NDArray[np.int32]
+
+    def __len__(self) -> int:
+        return len(self.index)
+
+    def __getitem__(self, rows: slice) -> NDArray[Any]:
+        found: NDArray[Any] = self.values.take(self.index[rows])
+        return found
+
+
+@dataclass(frozen=True, eq=False)
+class Computed:
+    """A column of numbers that are computed when its rows are asked for.
+
+    Parameters
+    ----------
+    function : callable
+        ``function(rows)`` gives the float64 values of a slice; called in several threads at once. What is not finite
+        is written empty in text, and as it is in NPZ.
+    size : int
+        Number of rows.
+
+    Examples
+    --------
+    >>> Computed(lambda rows: np.sqrt(np.arange(10.0)[rows]), 10)[4:5].tolist()
+    [2.0]
+    """
+
+    function: Callable[[slice], NDArray[np.float64]]
+    size: int
+
+    def __len__(self) -> int:
+        return self.size
+
+    def __getitem__(self, rows: slice) -> NDArray[np.float64]:
+        return self.function(rows)
 
 
 class Table(Mapping[str, Any]):
@@ -15,7 +75,7 @@ class Table(Mapping[str, Any]):
 
     Parameters
     ----------
-    columns : mapping of str to 1-D array or list
+    columns : mapping of str to 1-D array, list, Lookup or Computed
         Columns of one length. Fields masked in a ``numpy.ma`` array, and None in a list, are written empty.
 
     Raises
@@ -38,13 +98,18 @@ class Table(Mapping[str, Any]):
         self.rows = next(iter(lengths.values()), 0)
 
     def __getitem__(self, name: str) -> Any:
-        return self._columns[name]
+        column = self._columns[name]
+        return column[:] if isinstance(column, Lookup | Computed) else column
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._columns)
 
     def __len__(self) -> int:
         return len(self._columns)
+
+    def stored(self) -> dict[str, Any]:
+        """Columns as they were given: what is looked up or computed is not so yet."""
+        return dict(self._columns)
 
     def with_properties(self, properties: Mapping[str, Any]) -> Table:
         """Add the input's own columns; on a clash of names ours take the prefix ``voro_``."""

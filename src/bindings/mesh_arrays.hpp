@@ -1,0 +1,50 @@
+// The arrays of a triangulation as they come in from NumPy.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+
+#include "arrays.hpp"
+#include "core/verify_triangulation.hpp"
+
+namespace vorotool::bindings {
+
+using Indices = Vector<const std::int32_t>;
+using IndexRows = Matrix<const std::int32_t>;
+
+inline std::span<const core::Point> as_points(const Matrix<const double>& array) {
+  if (array.shape(1) != 2) throw std::invalid_argument("points must have two columns");
+  static_assert(sizeof(core::Point) == 2 * sizeof(double));
+  return {reinterpret_cast<const core::Point*>(array.data()), array.shape(0)};
+}
+
+inline std::span<const std::int32_t> rows_of(const IndexRows& array, std::size_t columns) {
+  if (array.shape(1) != columns)
+    throw std::invalid_argument("an array of indices has a wrong number of columns");
+  return view(array);
+}
+
+inline core::TriangulationArrays mesh_arrays(const Matrix<const double>& points, const IndexRows& triangles,
+                                             const IndexRows& neighbours, std::span<const std::int32_t> edges,
+                                             std::span<const std::int32_t> hull,
+                                             std::span<const std::int32_t> first) {
+  const core::TriangulationArrays arrays{
+      as_points(points), rows_of(triangles, 3), rows_of(neighbours, 3), edges, hull, first};
+  if (arrays.first.size() != arrays.points.size() || arrays.neighbours.size() != arrays.triangles.size()) {
+    throw std::invalid_argument("the arrays of a triangulation have lengths that do not go together");
+  }
+  return arrays;
+}
+
+// (n, 2) doubles that take over the points.
+inline nanobind::object points_to_numpy(core::LargeArray<core::Point>&& points) {
+  const std::size_t rows = points.size();
+  core::Point* data = points.release();
+  const nanobind::capsule owner(
+      data, [](void* p) noexcept { core::LargeArray<core::Point>::free(static_cast<core::Point*>(p)); });
+  return nanobind::cast(
+      nanobind::ndarray<nanobind::numpy, double>(reinterpret_cast<double*>(data), {rows, 2}, owner));
+}
+
+}  // namespace vorotool::bindings

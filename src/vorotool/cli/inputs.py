@@ -1,0 +1,91 @@
+"""The input of a command: read, named in messages, and options that do not fit it refused."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from vorotool.cli.run import Run
+from vorotool.errors import InputError
+
+if TYPE_CHECKING:
+    from vorotool.geometry.points import PointSet
+    from vorotool.geometry.raster import Raster
+
+IMAGE_OPTIONS = ("page", "seeds", "connectivity", "threshold", "invert")
+
+
+def read_seed_input(run: Run, o: SimpleNamespace, source: str, *, properties: bool) -> PointSet | Raster:
+    """Read points or an image, as the options say.
+
+    Raises
+    ------
+    click.UsageError
+        If the input is a list of points and an option for images is given.
+    """
+    from vorotool.formats import read
+    from vorotool.geometry.points import PointSet
+    from vorotool.geometry.polygons import PolygonSet
+
+    value = read(
+        source,
+        geometry="points",
+        input_format=o.input_format,
+        columns=o.columns,
+        page=o.page,
+        max_pixels=o.max_pixels,
+        max_sites=o.max_sites,
+        properties=properties and not o.no_properties,
+        threads=o.threads,
+        note=run.note,
+    )
+    assert not isinstance(value, PolygonSet)  # points are asked for
+    if isinstance(value, PointSet):
+        refuse(o, IMAGE_OPTIONS, "is for images, but the input is a list of points")
+    return value
+
+
+def read_clip(run: Run, o: SimpleNamespace, path: str) -> Sequence[Any]:
+    """Read the polygons of ``--clip``, as shapely geometry; lines are left out with a note.
+
+    Raises
+    ------
+    InputError
+        If there are none.
+    """
+    from vorotool.formats import read
+    from vorotool.geometry.polygon_conversion import to_shapely
+    from vorotool.geometry.polygons import PolygonSet
+
+    value = read(path, geometry="polygons", properties=False, threads=o.threads, note=run.note)
+    if not isinstance(value, PolygonSet):
+        raise InputError(f"{path} is an image: give --clip a file of polygons")
+    lines = int(value.is_line.sum())
+    if lines:
+        run.note(f"{path}: {lines} open lines are left out of --clip")
+    if lines == len(value):
+        raise InputError(f"{path} holds no polygons: give --clip a file that does")
+    return list(to_shapely(value)[~value.is_line])
+
+
+def refuse(o: SimpleNamespace, names: tuple[str, ...], reason: str) -> None:
+    """Refuse options that are given although they mean nothing here."""
+    for name in names:
+        if getattr(o, name) is not None and getattr(o, name) is not False:  # 0 is given, too
+            raise click.UsageError(f"--{name} {reason}")
+
+
+@contextmanager
+def naming(source: str) -> Iterator[None]:
+    """Let messages about the content of the input begin with its name."""
+    try:
+        yield
+    except InputError as error:
+        name = "standard input" if source == "-" else source
+        if str(error).startswith((name, repr(name))):
+            raise
+        raise InputError(f"{name}: {error}") from error

@@ -1,0 +1,112 @@
+"""Polygons and lines as plain JSON."""
+
+from __future__ import annotations
+
+from typing import Any, BinaryIO
+
+from vorotool.errors import InputError
+from vorotool.formats.geojson import parse_json, property_columns
+from vorotool.formats.point_options import shortened
+from vorotool.formats.polygon_geojson import read_geojson
+from vorotool.formats.polygon_options import PolygonOptions, RingCollector
+from vorotool.formats.polygon_text import Digits
+from vorotool.formats.sources import Source
+from vorotool.geometry.polygons import PolygonSet
+
+_FORM = '{"polygons": [{"shell": [[x, y], …], "holes": [[[x, y], …], …]}, {"line": [[x, y], …]}, …]}'
+
+
+def read_json(source: Source, options: PolygonOptions) -> PolygonSet:
+    """Read ``[[x, y], …]``, a list of such shells, ``{"polygons": […]}``, or GeoJSON where the object has a type."""
+    document = parse_json(source)
+    if isinstance(document, dict) and "polygons" not in document and "type" in document:
+        return read_geojson(source, options)
+    items = _items(source.name, document)
+
+    def place(index: int) -> str:
+        return f"{source.name}, polygon {index + 1}"
+
+    collector = RingCollector(options, source.name, place, flat_only=True)
+    for index, item in enumerate(items):
+        _collect(collector, index, item, place(index))
+    owners = collector.features
+    described = [item if isinstance(item, dict) else {} for item in items]
+    has_ids = options.properties and any("id" in item for item in described)
+    polygons = collector.finish(
+        ids=[described[i].get("id") for i in owners] if has_ids else None,
+        feature=_features(described, owners, place),
+        properties=property_columns(source.name, described, owners, "polygons") if options.properties else {},
+    )
+    options.note_left_out(source.name, len(items) - len(owners))
+    return polygons
+
+
+def _items(name: str, document: Any) -> list[Any]:
+    if isinstance(document, dict):
+        items = document.get("polygons")
+        if not isinstance(items, list):
+            raise InputError(f"{name}: the object has no list of polygons; write {_FORM}, GeoJSON, or [[x, y], …]")
+        return items
+    if not isinstance(document, list):
+        raise InputError(f"{name}: {shortened(document)} is no polygon; write [[x, y], …], or {_FORM}")
+    return document if is_list_of_shells(document) else [document] if document else []
+
+
+def is_list_of_shells(document: Any) -> bool:
+    """Whether a list is one of shells, not of pairs: its first item that is not empty begins with a list."""
+    first = next((item for item in document if item), None)
+    return isinstance(first, dict) or (isinstance(first, list) and isinstance(first[0], list))
+
+
+def _collect(collector: RingCollector, index: int, item: Any, place: str) -> None:
+    if isinstance(item, list):
+        collector.add_polygon(index, [item])
+    elif isinstance(item, dict) and ("shell" in item) != ("line" in item):
+        if "properties" in item and not isinstance(item["properties"], dict | None):
+            raise InputError(f"{place}: properties are {shortened(item['properties'])}; write an object or null")
+        if "line" in item:
+            collector.add_line(index, item["line"])
+            return
+        holes = item.get("holes")
+        if not isinstance(holes, list | None):
+            raise InputError(f"{place}: holes are {shortened(holes)}; write [[[x, y], …], …]")
+        collector.add_polygon(index, [item["shell"], *(holes or [])])
+    else:
+        raise InputError(f"{place}: {shortened(item)} is no polygon; write {_FORM}")
+
+
+def _features(described: list[dict[str, Any]], owners: list[int], place: Any) -> list[int]:
+    """Number the features: a polygon whose ``part`` is one more than that of the one before continues that feature."""
+    features: list[int] = []
+    before = 0
+    for index in owners:
+        part = described[index].get("part", 1)
+        if type(part) is not int or (part != 1 and part != before + 1):
+            raise InputError(
+                f"{place(index)}: part is {shortened(part)}; number the parts of a feature 1, 2, … one after the other"
+            )
+        features.append((features[-1] if features else -1) + (part == 1))
+        before = part
+    return features
+
+
+def write_json(out: BinaryIO, polygons: PolygonSet, precision: int | None) -> None:
+    """Write ``{"polygons": […]}``, one polygon or line a line of text."""
+    import orjson
+
+    digits = Digits(precision)
+    part = polygons.part.tolist()
+    in_parts = max(part, default=1) > 1
+    out.write(b'{"polygons":[')
+    for index, is_line in enumerate(polygons.is_line):
+        item: dict[str, Any] = {}
+        if polygons.ids is not None:
+            item["id"] = polygons.ids[index]
+        if in_parts:
+            item["part"] = part[index]
+        if polygons.properties:
+            item["properties"] = {key: values[index] for key, values in polygons.properties.items()}
+        rings = [digits.rounded(ring) for ring in polygons.rings_of(index)]
+        item |= {"line": rings[0]} if is_line else {"shell": rings[0], "holes": rings[1:]}
+        out.write((b",\n" if index else b"\n") + orjson.dumps(item, default=str, option=orjson.OPT_SERIALIZE_NUMPY))
+    out.write(b"\n]}\n" if len(polygons) else b"]}\n")

@@ -1,0 +1,194 @@
+"""Reading and writing polygons and open lines, whatever the format."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import BinaryIO
+
+from vorotool.errors import InputError, UsageError
+from vorotool.formats.geojson import JsonSource, holds_shapes, parse_json
+from vorotool.formats.input_formats import POLYGON_NAMES, known_input_format
+from vorotool.formats.point_options import no_note
+from vorotool.formats.points import detect_point_format, text_source
+from vorotool.formats.polygon_geojson import read_geojson, write_geojson
+from vorotool.formats.polygon_json import is_list_of_shells, read_json, write_json
+from vorotool.formats.polygon_options import PolygonOptions
+from vorotool.formats.polygon_poly import read_poly, write_poly
+from vorotool.formats.polygon_wkt import holds_shapes as wkt_holds_shapes
+from vorotool.formats.polygon_wkt import read_wkt, write_wkt
+from vorotool.formats.sources import Source
+from vorotool.geometry.polygons import PolygonSet
+
+_READERS: dict[str, Callable[[Source, PolygonOptions], PolygonSet]] = {
+    "json": read_json,
+    "geojson": read_geojson,
+    "wkt": read_wkt,
+    "poly": read_poly,
+}
+_WRITERS: dict[str, Callable[[BinaryIO, PolygonSet, int | None], None]] = {
+    "json": write_json,
+    "geojson": write_geojson,
+    "wkt": write_wkt,
+    "poly": write_poly,
+}
+POLYGON_FORMATS = tuple(_READERS)
+"""Formats of polygons and lines that are read and written."""
+
+
+def detect_polygon_format(source: Source) -> str:
+    """Tell the format of polygons by the extension, else by the content.
+
+    Raises
+    ------
+    InputError
+        If it is a format that holds none, or has to be converted first; the message gives the command.
+
+    Examples
+    --------
+    >>> detect_polygon_format(Source("standard input", b"LINESTRING (1 2, 3 4)"))
+    'wkt'
+    """
+    if source.suffix == ".poly":
+        return "poly"
+    if source.suffix == ".json":
+        return "json"
+    found = detect_point_format(source)
+    if found == "geojson" and source.suffix != ".geojson":  # an object: of either kind
+        return "json"
+    if found in POLYGON_FORMATS:
+        return found
+    raise InputError(
+        f"{source.name} holds no polygons or lines that are read (it looks like {found}); use JSON, GeoJSON, WKT or "
+        ".poly, or say which with --input-format"
+    )
+
+
+def with_shapes(source: Source, input_format: str | None = None) -> Source | None:
+    """Return the source if it holds polygons or lines, else None; JSON comes back parsed.
+
+    A plain JSON list of pairs is taken for points, and so is what cannot be told.
+
+    Raises
+    ------
+    InputError
+        If the format has to be converted first, or it is not JSON.
+
+    Examples
+    --------
+    >>> with_shapes(Source("standard input", b"POINT (1 2)")) is None
+    True
+    """
+    if input_format == "poly" or (input_format is None and source.suffix == ".poly"):
+        return source
+    chosen = input_format or detect_point_format(source)
+    source = text_source(source) if chosen in POLYGON_FORMATS else source
+    if chosen == "wkt":
+        return source if wkt_holds_shapes(source.data) else None
+    if chosen not in ("json", "geojson") or _is_flat(source.data):
+        return None
+    parsed = JsonSource(source.name, source.data, parse_json(source))
+    document = parsed.document
+    if isinstance(document, dict):
+        return parsed if "polygons" in document or holds_shapes(document) else None
+    return parsed if isinstance(document, list) and is_list_of_shells(document) else None
+
+
+def _is_flat(data: bytes) -> bool:
+    """Whether JSON is at most a list of lists: points by the million are not parsed to tell that they are points."""
+    return b"{" not in data and not data.lstrip().removeprefix(b"[").lstrip().removeprefix(b"[").lstrip().startswith(
+        b"["
+    )
+
+
+def read_polygons(
+    source: Source,
+    *,
+    input_format: str | None = None,
+    properties: bool = True,
+    max_sites: int | None = None,
+    threads: int = 0,
+    note: Callable[[str], None] | None = None,
+) -> PolygonSet:
+    """Read polygons and open lines, in the order of the input.
+
+    JSON is ``[[x, y], …]`` (one shell), a list of such, or ``{"polygons": […]}`` whose items are shells,
+    ``{"shell": […], "holes": […]}`` or ``{"line": […]}``, with ``id``, ``part`` and ``properties`` if wanted. In
+    GeoJSON and WKT the parts of a multi-part geometry are polygons of one feature. Rings may repeat their first vertex
+    at their end or not (in WKT they must). Geometry without coordinates is left out with a note.
+
+    GeoJSON without a ``crs`` member is longitude and latitude by RFC 7946. Many planar files leave it out too:
+    coordinates are taken for degrees, with a note that lengths are in degrees, where all fit in ±180 and ±90 and not
+    all are whole numbers, or where the ``crs`` says so. Nothing is reprojected.
+
+    Parameters
+    ----------
+    source : Source
+        What was read.
+    input_format : str, optional
+        A name in `POLYGON_NAMES`; by default the extension decides, else the content.
+    properties : bool
+        Keep ``id`` and properties.
+    max_sites : int, optional
+        The most vertices that are accepted.
+    threads : int
+        Not used by the formats that there are.
+    note : callable, optional
+        Called with a line for each thing that was guessed or left out.
+
+    Returns
+    -------
+    PolygonSet
+        Without polygons when the input has none.
+
+    Raises
+    ------
+    InputError
+        If the input cannot be used; the line or place, the value and what to do are named.
+    LimitError
+        If there are more than ``max_sites`` vertices.
+    UsageError
+        If the format is unknown.
+
+    Examples
+    --------
+    >>> read_polygons(Source("shape.wkt", b"POLYGON ((0 0, 4 0, 0 3, 0 0))")).xy.tolist()
+    [[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]
+    """
+    chosen = known_input_format(input_format, POLYGON_NAMES) or detect_polygon_format(source)
+    options = PolygonOptions(properties, max_sites, threads, note or no_note)
+    return _READERS[chosen](text_source(source), options)
+
+
+def write_polygons(out: BinaryIO, polygons: PolygonSet, fmt: str, *, precision: int | None = None) -> None:
+    r"""Write polygons and lines; the bytes depend on nothing but these, the format and the precision.
+
+    The parts of a feature become one multi-part geometry, but in JSON, which numbers them. WKT and ``.poly`` have no
+    place for ids and properties; ``.poly`` has none for features either.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable.
+    polygons : PolygonSet
+        What to write.
+    fmt : {"json", "geojson", "wkt", "poly"}
+        The format.
+    precision : int, optional
+        Significant digits of coordinates; by default the shortest text that reads back the same.
+
+    Raises
+    ------
+    UsageError
+        If the format is unknown or ``precision`` is not from 1 to 17.
+
+    Examples
+    --------
+    >>> import io
+    >>> out = io.BytesIO()
+    >>> write_polygons(out, read_polygons(Source("a.json", b"[[0, 0], [4, 0.5], [0, 3]]")), "wkt")
+    >>> out.getvalue()
+    b'POLYGON ((0 0, 4 0.5, 0 3, 0 0))\n'
+    """
+    if fmt not in _WRITERS:
+        raise UsageError(f"-f {fmt!r} is no format of polygons: use {', '.join(POLYGON_FORMATS)}")
+    _WRITERS[fmt](out, polygons, precision)

@@ -1,0 +1,95 @@
+"""A rectangle with sides along the axes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+
+LARGEST = float(np.finfo(np.float64).max)
+
+
+@dataclass(frozen=True)
+class Box:
+    """A closed rectangle in the units of the input.
+
+    Parameters
+    ----------
+    left, bottom, right, top : float
+        Its sides: the smallest and largest x and y; finite.
+
+    Raises
+    ------
+    InputError
+        If it has no area or a side is not finite.
+
+    Examples
+    --------
+    >>> Box.of_size(10, 20, 4, 3)
+    Box(left=10.0, bottom=20.0, right=14.0, top=23.0)
+    """
+
+    left: float
+    bottom: float
+    right: float
+    top: float
+
+    def __post_init__(self) -> None:
+        for name in ("left", "bottom", "right", "top"):
+            object.__setattr__(self, name, float(getattr(self, name)))
+        if not all(map(math.isfinite, self.sides)):
+            raise InputError(f"the frame is {self.sides}: its sides must be finite")
+        if not (self.left < self.right and self.bottom < self.top):
+            raise InputError(
+                f"the frame reaches from ({self.left:g}, {self.bottom:g}) to ({self.right:g}, {self.top:g}): its width "
+                "and height must be positive, and large enough beside the coordinates"
+            )
+
+    @property
+    def sides(self) -> tuple[float, float, float, float]:
+        """Left, bottom, right, top."""
+        return (self.left, self.bottom, self.right, self.top)
+
+    @property
+    def extent(self) -> tuple[float, float, float, float]:
+        """Left, bottom, width, height."""
+        return (self.left, self.bottom, self.right - self.left, self.top - self.bottom)
+
+    @staticmethod
+    def of_size(x: float, y: float, width: float, height: float) -> Box:
+        """Give the box with its smallest corner at (x, y), as ``--frame X,Y,W,H``.
+
+        Raises
+        ------
+        InputError
+            If it has no area or a side is not finite.
+        """
+        return Box(x, y, float(x) + float(width), float(y) + float(height))
+
+    @staticmethod
+    def around(points: NDArray[np.float64], margin: float = 0.1) -> Box:
+        """Give the bounds of points, widened on all sides by a part of the longer one.
+
+        Points at a single place get a unit square around it, no points that around the origin. Sides beyond the
+        largest double are moved to it.
+
+        Examples
+        --------
+        >>> Box.around(np.array([[0.0, 0.0], [20.0, 10.0]])).sides
+        (-2.0, -2.0, 22.0, 12.0)
+        """
+        low, high = (points.min(axis=0), points.max(axis=0)) if len(points) else (np.zeros(2), np.zeros(2))
+        if (low == high).all():
+            wide: Any = np.maximum(0.5, np.spacing(np.abs(low) / 2) * 2)
+        else:  # the longer side may be beyond the largest double: its tenth is not
+            tenth = float((high * margin - low * margin).max())
+            wide = np.maximum(tenth, np.spacing(np.maximum(np.abs(low), np.abs(high)) / 2) * 2)
+        with np.errstate(over="ignore"):
+            left, bottom = np.maximum(low - wide, -LARGEST)
+            right, top = np.minimum(high + wide, LARGEST)
+        return Box(left, bottom, right, top)

@@ -1,0 +1,219 @@
+"""Polygons and open lines as they were given: rings in flat arrays, and what the input said of each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from vorotool.errors import InputError
+
+SHELL, HOLE, LINE = 0, 1, 2
+"""Kinds of rings: the outer boundary of a polygon, a hole in it, an open line."""
+
+_KIND_NAMES = ("shell", "hole", "line")
+
+
+@dataclass(frozen=True, eq=False)
+class PolygonSet:
+    """Polygons and open lines in the order of the input, each vertex once: rings do not repeat their first one.
+
+    A polygon is a shell followed by its holes; an open line counts as a polygon of one ring. What lies in a polygon is
+    inside its shell and in none of its holes, each ring by the even-odd rule; nothing else is asked of the rings here.
+
+    Parameters
+    ----------
+    xy : (n, 2) float64 array
+        Vertices of all rings, one ring after the other, in the units of the input; finite.
+    ring_start : (r + 1,) int64 array
+        Ring k has the vertices ``ring_start[k]`` to ``ring_start[k + 1] - 1``, at least one.
+    ring_kind : (r,) int8 array
+        `SHELL`, `HOLE` or `LINE`. A line that ends where it begins repeats its first vertex.
+    ring_polygon : (r,) int32 array
+        The polygon of each ring: from 0, not decreasing, without gaps.
+    ids : sequence, optional
+        The input's own name of each polygon; None for one without.
+    feature : (p,) int32 array, optional
+        The object of the input that each polygon is a part of, from 0, not decreasing. By default each is its own.
+    properties : dict of str to sequence, optional
+        Further columns of the input, one value a polygon.
+    y_up : bool
+        Pictures of this input are drawn y upwards (GeoJSON and WKT).
+    crs : object, optional
+        The ``crs`` member of a GeoJSON input, copied to GeoJSON outputs.
+
+    Raises
+    ------
+    InputError
+        If an array has another shape or order, or a coordinate is not finite; polygon, ring and vertex are named.
+
+    Examples
+    --------
+    >>> shapes = PolygonSet([[0, 0], [4, 0], [0, 3], [1, 1], [2, 1], [1, 2], [5, 0], [6, 1]],
+    ...                     [0, 3, 6, 8], [SHELL, HOLE, LINE], [0, 0, 1])
+    >>> len(shapes), shapes.ring(1).tolist(), shapes.part.tolist()
+    (2, [[1.0, 1.0], [2.0, 1.0], [1.0, 2.0]], [1, 1])
+    """
+
+    xy: NDArray[np.float64]
+    ring_start: NDArray[np.int64]
+    ring_kind: NDArray[np.int8]
+    ring_polygon: NDArray[np.int32]
+    ids: Sequence[Any] | None = None
+    feature: NDArray[np.int32] | None = None
+    properties: dict[str, Any] = field(default_factory=dict)
+    y_up: bool = False
+    crs: Any = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "xy", _checked_vertices(self.xy))
+        for name, dtype in (("ring_start", np.int64), ("ring_kind", np.int8), ("ring_polygon", np.int32)):
+            object.__setattr__(self, name, _integers(getattr(self, name), dtype, name))
+        _check_rings(self.ring_start, self.ring_kind, self.ring_polygon, len(self.xy))
+        count = len(self)
+        feature = np.arange(count) if self.feature is None else self.feature
+        object.__setattr__(self, "feature", _checked_features(feature, count))
+        for name, values in [*self.properties.items(), ("ids", self.ids)]:
+            if values is not None and len(values) != count:
+                raise InputError(f"{name} must hold one value a polygon, {count}, but holds {len(values)}")
+        bad = np.flatnonzero(~np.isfinite(self.xy).all(axis=1))
+        if bad.size:
+            at = int(bad[0])
+            raise InputError(
+                f"{self.place(at)} is ({self.xy[at, 0]}, {self.xy[at, 1]}): coordinates must be finite; "
+                f"remove or repair it ({bad.size} such vertices)"
+            )
+
+    def __len__(self) -> int:
+        return int(self.ring_polygon[-1]) + 1 if len(self.ring_polygon) else 0
+
+    @cached_property
+    def part(self) -> NDArray[np.int32]:
+        """(p,) number of each polygon within its feature, from 1."""
+        assert self.feature is not None
+        new = np.flatnonzero(np.diff(self.feature, prepend=-1))
+        starts = np.repeat(new, np.diff(new, append=len(self.feature)))
+        return (np.arange(len(self.feature)) - starts + 1).astype(np.int32)
+
+    @cached_property
+    def polygon_start(self) -> NDArray[np.int64]:
+        """(p + 1,) first ring of each polygon, and the number of rings."""
+        return np.searchsorted(self.ring_polygon, np.arange(len(self) + 1)).astype(np.int64)
+
+    @cached_property
+    def is_line(self) -> NDArray[np.bool_]:
+        """(p,) whether each is an open line."""
+        return np.equal(self.ring_kind[self.polygon_start[:-1]], LINE)
+
+    def ring(self, index: int) -> NDArray[np.float64]:
+        """(k, 2) vertices of a ring: a view."""
+        return self.xy[self.ring_start[index] : self.ring_start[index + 1]]
+
+    def rings_of(self, polygon: int) -> Iterator[NDArray[np.float64]]:
+        """Vertices of the shell of a polygon, then of its holes; of a line, its own."""
+        for index in range(*self.polygon_start[polygon : polygon + 2].tolist()):
+            yield self.ring(index)
+
+    def place(self, vertex: int) -> str:
+        """Words for the place of a vertex, all counted from 1: ``polygon 2, hole 1, vertex 5``."""
+        ring = int(np.searchsorted(self.ring_start, vertex, side="right")) - 1
+        return f"{self.ring_place(ring)}, vertex {vertex - int(self.ring_start[ring]) + 1}"
+
+    def ring_place(self, ring: int) -> str:
+        """Words for a ring, all counted from 1: ``polygon 2, hole 1``."""
+        polygon = int(self.ring_polygon[ring])
+        kind = int(self.ring_kind[ring])
+        nth = f" {ring - int(self.polygon_start[polygon])}" if kind == HOLE else ""
+        return f"polygon {polygon + 1}, {_KIND_NAMES[kind]}{nth}"
+
+
+def set_of_rings(
+    xy: ArrayLike, sizes: ArrayLike, kinds: ArrayLike, polygons: ArrayLike, **described: Any
+) -> PolygonSet:
+    """Make a `PolygonSet` of rings that may repeat their first vertex at their end, once or more.
+
+    Parameters
+    ----------
+    xy : (n, 2) array-like
+        Vertices of all rings.
+    sizes, kinds, polygons : (r,) array-like
+        Number of vertices (at least 1), kind and polygon of each ring.
+    **described
+        The other fields of the `PolygonSet`.
+
+    Raises
+    ------
+    InputError
+        As `PolygonSet` has it.
+
+    Examples
+    --------
+    >>> set_of_rings([[0, 0], [1, 0], [0, 1], [0, 0]], [4], [SHELL], [0]).ring_start.tolist()
+    [0, 3]
+    """
+    vertices = _checked_vertices(xy)
+    lengths = np.array(sizes, dtype=np.int64).reshape(-1)
+    starts = np.cumsum(lengths) - lengths
+    kept = np.ones(len(vertices), dtype=bool)
+    ring = np.flatnonzero((lengths > 1) & (np.asarray(kinds) != LINE))
+    while ring.size:
+        last = starts[ring] + lengths[ring] - 1
+        repeated = (vertices[starts[ring]] == vertices[last]).all(axis=1)
+        kept[last[repeated]] = False
+        ring = ring[repeated]
+        lengths[ring] -= 1
+        ring = ring[lengths[ring] > 1]
+    starts = np.concatenate([[0], np.cumsum(lengths)])
+    return PolygonSet(vertices[kept], starts, kinds, polygons, **described)  # type: ignore[arg-type]
+
+
+def _checked_vertices(xy: Any) -> NDArray[np.float64]:
+    try:
+        array = np.ascontiguousarray(xy, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"vertices must be an (n, 2) array of numbers: {error}") from None
+    if array.size == 0:
+        array = array.reshape(0, 2)
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise InputError(f"vertices must have shape (n, 2), but have shape {array.shape}")
+    return array
+
+
+def _integers(values: Any, dtype: Any, name: str) -> NDArray[Any]:
+    array = np.ascontiguousarray(values, dtype=dtype)
+    if array.ndim != 1:
+        raise InputError(f"{name} must have one dimension, but has shape {array.shape}")
+    return array
+
+
+def _check_rings(
+    starts: NDArray[np.int64], kinds: NDArray[np.int8], polygons: NDArray[np.int32], vertices: int
+) -> None:
+    if len(starts) != len(kinds) + 1 or len(kinds) != len(polygons):
+        raise InputError(
+            f"ring_start, ring_kind and ring_polygon are of {len(starts)}, {len(kinds)} and {len(polygons)} values; "
+            "for r rings give r + 1, r and r"
+        )
+    if starts[0] != 0 or starts[-1] != vertices or (np.diff(starts) < 1).any():
+        raise InputError(f"ring_start must rise from 0 to the number of vertices, {vertices}, without empty rings")
+    if len(polygons) and (polygons[0] != 0 or not np.isin(np.diff(polygons), (0, 1)).all()):
+        raise InputError("ring_polygon must rise from 0 without gaps: number the polygons in order")
+    first = np.diff(polygons, prepend=-1) > 0
+    lone = np.diff(np.append(np.flatnonzero(first), len(kinds))) == 1
+    if (kinds[first] == HOLE).any() or (kinds[~first] != HOLE).any() or (kinds[first][~lone] == LINE).any():
+        raise InputError("the rings of a polygon must be a shell and then holes, or one line")
+    if not np.isin(kinds, (SHELL, HOLE, LINE)).all():
+        raise InputError("ring_kind must be 0 (shell), 1 (hole) or 2 (line)")
+
+
+def _checked_features(values: Any, count: int) -> NDArray[np.int32]:
+    feature = _integers(values, np.int32, "feature")
+    if len(feature) != count:
+        raise InputError(f"feature must hold one value a polygon, {count}, but holds {len(feature)}")
+    if count and (feature[0] < 0 or (np.diff(feature) < 0).any()):
+        raise InputError("feature must not fall: the parts of a feature follow one another")
+    return feature

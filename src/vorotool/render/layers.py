@@ -1,0 +1,186 @@
+"""Pictures as layers of lines, polygons, points and texts, in the coordinates of the data, and the page they go to."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.render.palettes import INK, SEED
+
+MARGIN = 0.02
+"""Of the larger side of the data, on each side of the page."""
+
+TALLEST = 4
+"""A page is at most so many times as high as wide: narrower data are drawn smaller."""
+
+
+@dataclass(frozen=True, eq=False)
+class Lines:
+    """Straight lines.
+
+    Parameters
+    ----------
+    name : str
+        Of the layer: the id of its group in SVG.
+    points : (n, 2) float64 array
+        Finite coordinates.
+    pairs : (m, 2) int32 array
+        Ends of each line, indices of points.
+    colour : str
+        ``#rrggbb``.
+    width : float
+        In px, whatever the scale.
+    """
+
+    name: str
+    points: NDArray[np.float64]
+    pairs: NDArray[np.int32]
+    colour: str = INK
+    width: float = 1.5
+
+
+@dataclass(frozen=True, eq=False)
+class Polygons:
+    """Polygons of one or more rings each, filled by the even-odd rule.
+
+    Parameters
+    ----------
+    name : str
+        Of the layer.
+    points : (n, 2) float64 array
+        Finite coordinates.
+    corners : (k,) int32 array
+        Indices of points, ring after ring; rings are not closed by repetition.
+    rings : (r + 1,) integer array
+        Where each ring begins in ``corners``, and ``k``.
+    first_rings : (p + 1,) integer array, optional
+        Where each polygon begins among the rings, and ``r``; by default each ring is a polygon.
+    colours : sequence of str
+        Fills, ``#rrggbb``.
+    colour_of : (p,) integer array, optional
+        Index of each polygon's fill; by default all have the first.
+    ids : sequence of str, optional
+        Id of each polygon in SVG: each is a path of its own then, unless they are too many.
+    edge : str, optional
+        Colour of the outlines.
+    width : float
+        Of the outlines, in px.
+    """
+
+    name: str
+    points: NDArray[np.float64]
+    corners: NDArray[np.int32]
+    rings: NDArray[np.int64]
+    first_rings: NDArray[np.int64] | None = None
+    colours: Sequence[str] = ("#ffffff",)
+    colour_of: NDArray[np.integer] | None = None
+    ids: Sequence[str] | None = None
+    edge: str | None = None
+    width: float = 1.5
+
+    @property
+    def ring_limits(self) -> NDArray[np.int64]:
+        """(p + 1,) where each polygon begins among the rings."""
+        if self.first_rings is not None:
+            return np.asarray(self.first_rings, dtype=np.int64)
+        return np.arange(len(self.rings), dtype=np.int64)
+
+    @property
+    def polygon_of_ring(self) -> NDArray[np.int64]:
+        """(r,) polygon that each ring belongs to."""
+        limits = self.ring_limits
+        return np.repeat(np.arange(len(limits) - 1), np.diff(limits))
+
+    def sides(self) -> NDArray[np.int32]:
+        """(k, 2) corners at the ends of each side, in the order of ``corners``."""
+        following = np.arange(1, len(self.corners) + 1)
+        rings = np.asarray(self.rings)
+        has_corners = rings[1:] > rings[:-1]
+        following[rings[1:][has_corners] - 1] = rings[:-1][has_corners]
+        return np.stack([self.corners, self.corners[following]], axis=1)
+
+
+@dataclass(frozen=True, eq=False)
+class Points:
+    """Discs of one radius, in px."""
+
+    name: str
+    points: NDArray[np.float64]
+    colour: str = SEED
+    radius: float = 2.5
+
+
+@dataclass(frozen=True, eq=False)
+class Texts:
+    """Short texts beside points; SVG only."""
+
+    name: str
+    points: NDArray[np.float64]
+    texts: Sequence[str]
+    colour: str = INK
+    size: float = 12.0
+
+
+Layer = Lines | Polygons | Points | Texts
+
+
+def bounds_of(layers: Iterable[Layer]) -> tuple[float, float, float, float]:
+    """Smallest box that holds the points of layers: least x, least y, largest x, largest y.
+
+    Examples
+    --------
+    >>> bounds_of([Points("sites", np.array([[1.0, 5.0], [3.0, 2.0]]))])
+    (1.0, 2.0, 3.0, 5.0)
+    """
+    used = [layer.points for layer in layers if len(layer.points)]
+    if not used:
+        return (0.0, 0.0, 1.0, 1.0)
+    low = np.min([points.min(axis=0) for points in used], axis=0)
+    high = np.max([points.max(axis=0) for points in used], axis=0)
+    return (*low.tolist(), *high.tolist())
+
+
+class Page:
+    """Where the data are on the page.
+
+    Parameters
+    ----------
+    bounds : (x, y, x, y)
+        The least and the largest coordinates to show; any finite ones.
+    width : int
+        Of the page, in px. The height follows from the bounds.
+    y_up : bool
+        Draw y upwards.
+
+    Examples
+    --------
+    >>> page = Page((0, 0, 100, 46), width=104, y_up=True)
+    >>> page.height, page.place(np.array([[0.0, 0.0]])).tolist()
+    (50, [[2.0, 48.0]])
+    """
+
+    def __init__(self, bounds: tuple[float, float, float, float], *, width: int, y_up: bool) -> None:
+        box = np.array(bounds, dtype=np.float64)
+        self._exponent = int(np.frexp(np.abs(box).max())[1])  # a power of two keeps differences within range
+        low, high = np.ldexp(box, -self._exponent).reshape(2, 2)
+        span = high - low
+        margin = MARGIN * (span.max() or 1.0)
+        across, down = span + 2 * margin
+        self.scale = float(min(width / across, TALLEST * width / down))  # px a unit of the scaled data
+        self.width, self.height = width, max(1, round(float(down * self.scale)))
+        self._y_up, self._middle = y_up, low + span / 2
+
+    def place(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(n, 2) px from the left and from the top."""
+        scale = np.array([self.scale, -self.scale if self._y_up else self.scale])
+        centre = np.array([self.width / 2, self.height / 2])
+        placed: NDArray[np.float64] = (np.ldexp(points, -self._exponent) - self._middle) * scale + centre
+        return placed
+
+    def spacing(self, count: int) -> float:
+        """Distance in px between neighbours of so many points, spread evenly over the page."""
+        return math.sqrt(self.width * self.height / max(count, 1))

@@ -1,0 +1,160 @@
+"""SVG pictures from layers, streamed: the numbers are formatted in the core."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from html import escape
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.render.layers import Layer, Lines, Page, Points, Polygons, Texts
+from vorotool.render.palettes import WHITE
+
+PATH_ROWS = 4096
+"""Lines or polygons of one path: viewers slow down with longer ones, and with many elements."""
+
+MOST_ELEMENTS = 100_000
+"""Elements of a layer: resvg refuses files of 10^6, browsers become slow before. More share paths."""
+
+SLICE_ROWS = 1 << 17
+DECIMALS = 2
+
+
+def write_layers_svg(out: BinaryIO, layers: Iterable[Layer], page: Page, *, threads: int = 0) -> None:
+    """Draw layers from below, each a group with its name for an id; strokes keep their width when it is scaled.
+
+    Parameters
+    ----------
+    out : binary file
+        Receives UTF-8.
+    layers : iterable of Layer
+        What to draw.
+    page : Page
+        Where it lies.
+    threads : int
+        0 for all.
+
+    Examples
+    --------
+    >>> import io
+    >>> out = io.BytesIO()
+    >>> write_layers_svg(out, [Points("sites", np.zeros((3, 2)))], Page((0, 0, 1, 1), width=100, y_up=False))
+    >>> out.getvalue().count(b"<circle")
+    3
+    """
+    size = f'width="{page.width}" height="{page.height}"'
+    out.write(
+        f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="0 0 {page.width} {page.height}">\n'
+        f'<rect {size} fill="{WHITE}"/>\n'.encode()
+    )
+    for layer in layers:
+        for part in _parts(layer, page, threads):
+            out.write(part)
+    out.write(b"</svg>\n")
+
+
+def _parts(layer: Layer, page: Page, threads: int) -> Iterator[bytes]:
+    x, y = np.ascontiguousarray(np.round(page.place(layer.points), DECIMALS).T + 0.0)  # no -0
+    if isinstance(layer, Lines):
+        return _lines(layer, x, y, threads)
+    if isinstance(layer, Polygons):
+        return _polygons(layer, x, y, threads)
+    return _points(layer, x, y, threads) if isinstance(layer, Points) else _texts(layer, x, y, threads)
+
+
+def _rows(columns: list[Any], around: tuple[str, ...], threads: int, separator: str = "") -> list[bytes]:
+    return _core.format_columns(columns, [None] * len(columns), 0, threads, (around, separator, ""))
+
+
+def _chunks(count: int, size: int) -> Iterator[slice]:
+    return (slice(begin, min(begin + size, count)) for begin in range(0, count, size))
+
+
+def _lines(layer: Lines, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
+    across, down = _core.NumberTexts(x, 0, threads), _core.NumberTexts(y, 0, threads)
+    yield f'<g id="{escape(layer.name)}" fill="none" {_stroke(layer.colour, layer.width)}>\n'.encode()
+    for rows in _chunks(len(layer.pairs), PATH_ROWS):
+        a, b = layer.pairs[rows].T
+        yield f"<path {_UNSCALED} d=".encode() + b'"'
+        yield from _rows([(across, a), (down, a), (across, b), (down, b)], ("M", " ", "L", " ", ""), threads)
+        yield b'"/>\n'
+    yield b"</g>\n"
+
+
+def _polygons(layer: Polygons, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
+    """One row a corner: what stands before it is L, the end of a ring, or the end of a path and another's begin."""
+    across, down = _core.NumberTexts(x, 0, threads), _core.NumberTexts(y, 0, threads)
+    stroke = "" if layer.edge is None else f" {_stroke(layer.edge, layer.width)}"
+    yield f'<g id="{escape(layer.name)}" fill-rule="evenodd"{stroke}>\n'.encode()
+    texts, before = _openings(layer)
+    for rows in _chunks(len(layer.corners), SLICE_ROWS):
+        corners = layer.corners[rows]
+        yield from _rows([(texts, before[rows]), (across, corners), (down, corners)], ("", "", " ", ""), threads)
+    yield b'Z"/>\n</g>\n' if len(layer.corners) else b"</g>\n"
+
+
+def _openings(layer: Polygons) -> tuple[list[str], NDArray[np.int32]]:
+    """Texts that stand before corners, and which of them stands before each."""
+    rings = np.asarray(layer.rings, dtype=np.int64)
+    drawn = np.flatnonzero(rings[1:] > rings[:-1])  # rings with corners
+    polygon = layer.polygon_of_ring[drawn]
+    is_first = np.ones(len(drawn), dtype=bool)
+    is_first[1:] = polygon[1:] != polygon[:-1]
+    colour = np.zeros(len(layer.ring_limits) - 1, np.int64) if layer.colour_of is None else layer.colour_of
+    ids = None if len(colour) > MOST_ELEMENTS else layer.ids
+    texts = ["L", "ZM"]
+    before = np.zeros(len(layer.corners), dtype=np.int32)
+    opens = is_first.copy()
+    if ids is None:  # polygons of one colour that follow each other share a path
+        order = np.cumsum(is_first) - 1
+        fills = colour[polygon]
+        opens &= (order % PATH_ROWS == 0) | np.append(True, fills[1:] != fills[:-1])
+    for number, of in enumerate(polygon[opens].tolist()):
+        name = "" if ids is None else f' id="{escape(ids[of])}"'
+        fill = layer.colours[int(colour[of])]
+        end = 'Z"/>\n' if number else ""
+        texts.append(f'{end}<path{name} {_UNSCALED} fill="{fill}" d="M')
+    before[rings[:-1][drawn]] = np.where(opens, np.cumsum(opens) + 1, 1)
+    return texts, before
+
+
+def _points(layer: Points, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
+    if len(x) > MOST_ELEMENTS:
+        yield from _dots(layer, x, y, threads)
+        return
+    yield f'<g id="{escape(layer.name)}" fill="{layer.colour}">\n'.encode()
+    radius = f'" r="{layer.radius:.3g}"/>\n'
+    yield from _rows([x, y], ('<circle cx="', '" cy="', radius), threads)
+    yield b"</g>\n"
+
+
+def _dots(layer: Points, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
+    """Lines of no length with round ends are discs."""
+    yield f'<g id="{escape(layer.name)}" fill="none" {_stroke(layer.colour, 2 * layer.radius)}>\n'.encode()
+    for rows in _chunks(len(x), PATH_ROWS):
+        yield f"<path {_UNSCALED} d=".encode() + b'"'
+        yield from _rows([x[rows], y[rows]], ("M", " ", "h0"), threads)
+        yield b'"/>\n'
+    yield b"</g>\n"
+
+
+def _texts(layer: Texts, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
+    """Above the points in the lower half of the page, below them in the upper one, where the margin is narrow."""
+    font = f'font-family="Helvetica, Arial, sans-serif" font-size="{layer.size:g}"'
+    yield f'<g id="{escape(layer.name)}" text-anchor="middle" {font} fill="{layer.colour}">\n'.encode()
+    texts = [escape(text) for text in layer.texts]
+    below = y < (y.min(initial=0.0) + y.max(initial=0.0)) / 2
+    y = np.round(y + layer.size * np.where(below, 1.1, -0.5), DECIMALS)
+    for rows in _chunks(len(x), SLICE_ROWS):
+        yield from _rows([x[rows], y[rows], texts[rows]], ('<text x="', '" y="', '">', "</text>\n"), threads)
+    yield b"</g>\n"
+
+
+_UNSCALED = 'vector-effect="non-scaling-stroke"'
+
+
+def _stroke(colour: str, width: float) -> str:
+    return f'stroke="{colour}" stroke-width="{width:.3g}" stroke-linejoin="round" stroke-linecap="round"'

@@ -1,0 +1,71 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import shapely
+
+from vorotool import Box, CellSet, InputError
+
+SQUARES = [[0, 0], [2, 0], [2, 2], [0, 2], [2, 0], [4, 0], [4, 2], [2, 2]]
+
+
+def test_empty_cells_have_no_polygon():
+    cells = CellSet([[1, 1], [9, 9], [3, 1], [9, 9]], SQUARES, [0, 4, 4, 8, 8], Box(0, 0, 4, 2))
+    assert cells.is_empty.tolist() == [False, True, False, True]
+    assert cells.areas().tolist() == [4.0, 0.0, 4.0, 0.0]
+    assert cells.perimeters().tolist() == [8.0, 0.0, 8.0, 0.0]
+    rings, polygons, of_cells = cells.nesting
+    assert (rings.tolist(), polygons.tolist(), of_cells.tolist()) == ([0, 4, 8], [0, 1, 2], [0, 1, 1, 2, 2])
+    shapes = cells.to_shapely()
+    assert shapely.area(shapes).tolist() == [4.0, 0.0, 4.0, 0.0]
+    assert [s.is_empty for s in shapes] == [False, True, False, True]
+    assert cells.label_array.tolist() == [1, 2, 3, 4]
+
+
+def test_no_cells():
+    cells = CellSet([], [], [0], Box(0, 0, 1, 1))
+    assert len(cells) == 0
+    assert cells.areas().shape == cells.perimeters().shape == cells.to_shapely().shape == (0,)
+
+
+def test_polygons_with_holes_and_parts():
+    hole = [[1, 1], [1, 3], [3, 3], [3, 1]]
+    shell = [[0, 0], [4, 0], [4, 4], [0, 4]]
+    far = [[5, 0], [6, 0], [6, 1]]
+    cells = CellSet([[0, 0]], [*shell, *hole, *far], [0, 4, 8, 11], Box(0, 0, 9, 9), [0, 2, 3], [0, 2])
+    assert cells.areas().tolist() == [12.5]
+    assert cells.perimeters()[0] == pytest.approx(16 + 8 + 2 + np.sqrt(2))
+    (shape,) = cells.to_shapely()
+    assert shape.geom_type == "MultiPolygon"
+    assert shape.area == 12.5
+    assert shapely.get_num_interior_rings(shapely.get_parts([shape])).tolist() == [1, 0]
+
+
+@pytest.mark.parametrize(
+    ("arrays", "message"),
+    [
+        (([[0, 0, 0]], SQUARES, [0, 8]), "shape"),
+        (([[0, 0]], SQUARES, [0, 7]), "from 0 to 8"),
+        (([[0, 0]], SQUARES, [1, 8]), "from 0 to 8"),
+        (([[0, 0], [1, 1]], SQUARES, [0, 8]), "1 cells, but 2 sites"),
+        (([[0, 0], [1, 1]], SQUARES, [0, 9, 8]), "increase"),
+    ],
+)
+def test_arrays_that_do_not_go_together(arrays, message):
+    with pytest.raises(InputError, match=message):
+        CellSet(*arrays, Box(0, 0, 1, 1))
+
+
+def test_polygon_and_cell_starts_go_together():
+    with pytest.raises(InputError, match="together"):
+        CellSet([[0, 0]], SQUARES, [0, 8], Box(0, 0, 1, 1), polygon_starts=[0, 1])
+
+
+def test_boxes_around_points_of_any_range():
+    largest = np.finfo(float).max
+    for points in ([[-largest, 0], [largest, 0]], [[largest, largest]], [[5e-324, 0], [0, 0]], [[1e300, 1e-300]]):
+        box = Box.around(np.array(points))
+        assert box.left < box.right
+        assert box.bottom < box.top
+        assert (np.array(points) >= [box.left, box.bottom]).all()
+        assert (np.array(points) <= [box.right, box.top]).all()
