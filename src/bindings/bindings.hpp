@@ -12,5 +12,8 @@ void bind_predicates(nanobind::module_& module);
 void bind_delaunay(nanobind::module_& module);
 void bind_digital(nanobind::module_& module);
 void bind_cells(nanobind::module_& module);
+void bind_segment_exact(nanobind::module_& module);
+void bind_segment_verification(nanobind::module_& module);
+void bind_segment_voronoi(nanobind::module_& module);
 
 }  // namespace vorotool::bindings

@@ -10,4 +10,7 @@ NB_MODULE(_core, module) {
   vorotool::bindings::bind_delaunay(module);
   vorotool::bindings::bind_digital(module);
   vorotool::bindings::bind_cells(module);
+  vorotool::bindings::bind_segment_exact(module);
+  vorotool::bindings::bind_segment_verification(module);
+  vorotool::bindings::bind_segment_voronoi(module);
 }

@@ -1,47 +1,78 @@
-// Numbers of about 106 bits: the unevaluated sum of two doubles, the head the rounded sum.
+// Numbers as unevaluated sums of two doubles: about 106 bits, the range of exponents of a double.
 //
-// With u = 2^-53, and where nothing overflows or underflows, the relative errors are below 4 u^2 for a sum of
-// any signs, 8 u^2 for a product and 16 u^2 for a quotient (M. Joldes, J.-M. Muller and V. Popescu, "Tight
-// and rigorous error bounds for basic building blocks of double-word arithmetic", ACM TOMS 44, 2017: 3 u^2 +
-// 13 u^3 for algorithm 6, 7 u^2 for algorithm 10, 15 u^2 + 56 u^3 for algorithm 16).
+// The bounds of the relative errors, with u = 2^-53, are those of Joldes, Muller and Popescu 2017 ("Tight and
+// rigorous error bounds for basic building blocks of double-word arithmetic"): sum 3 u^2 + 13 u^3 (algorithm
+// 6), product 7 u^2 (algorithm 10 without a fused operation), quotient 15 u^2 + 56 u^3 (algorithm 17), where
+// nothing overflows or underflows. For the square root see there.
 #pragma once
 
+#include <cmath>
+#include <cstdint>
+
+#include "core/arithmetic.hpp"
 #include "core/expansion.hpp"
 
 namespace vorotool::core {
 
-using DoubleDouble = TwoTerms;
+struct DoubleDouble {
+  double head = 0;  // the sum rounded to a double
+  double tail = 0;
 
-// Dekker's sum: |a| >= |b|, or a = 0.
-inline TwoTerms ordered_sum(double a, double b) {
+  DoubleDouble() = default;
+  DoubleDouble(double value) : head(value) {}
+  DoubleDouble(const TwoTerms& value) : head(value.head), tail(value.tail) {}
+  DoubleDouble(double rounded, double rest) : head(rounded), tail(rest) {}
+  // Exact below 2^106: the remainder has at most 53 bits.
+  explicit DoubleDouble(int128 value) : head(static_cast<double>(value)) {
+    tail = static_cast<double>(value - static_cast<int128>(head));
+  }
+
+  explicit operator double() const { return head; }
+};
+
+// Dekker's sum, for |a| >= |b| or a == 0.
+inline TwoTerms fast_two_sum(double a, double b) {
   const double head = a + b;
   return {head, b - (head - a)};
 }
 
-inline TwoTerms exact_product(double a, double b) { return two_product(a, b, split(b)); }
+inline DoubleDouble operator-(const DoubleDouble& a) { return DoubleDouble(TwoTerms{-a.head, -a.tail}); }
 
-inline DoubleDouble operator-(const DoubleDouble& x) { return {-x.head, -x.tail}; }
-
-inline DoubleDouble operator+(const DoubleDouble& x, const DoubleDouble& y) {
-  const TwoTerms heads = two_sum(x.head, y.head);
-  const TwoTerms tails = two_sum(x.tail, y.tail);
-  const TwoTerms sum = ordered_sum(heads.head, heads.tail + tails.head);
-  return ordered_sum(sum.head, tails.tail + sum.tail);
+inline DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) {
+  const TwoTerms heads = two_sum(a.head, b.head);
+  const TwoTerms tails = two_sum(a.tail, b.tail);
+  const TwoTerms sum = fast_two_sum(heads.head, heads.tail + tails.head);
+  return DoubleDouble(fast_two_sum(sum.head, tails.tail + sum.tail));
 }
 
-inline DoubleDouble operator-(const DoubleDouble& x, const DoubleDouble& y) { return x + -y; }
+inline DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) { return a + -b; }
 
-inline DoubleDouble operator*(const DoubleDouble& x, const DoubleDouble& y) {
-  const TwoTerms product = exact_product(x.head, y.head);
-  return ordered_sum(product.head, product.tail + (x.head * y.tail + x.tail * y.head));
+inline DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
+  const TwoTerms product = two_product(a.head, b.head, split(b.head));
+  const double cross = a.head * b.tail + a.tail * b.head;
+  return DoubleDouble(fast_two_sum(product.head, product.tail + cross));
 }
 
-inline DoubleDouble operator/(const DoubleDouble& x, const DoubleDouble& y) {
-  const double quotient = x.head / y.head;
-  const TwoTerms product = exact_product(quotient, y.head);
-  const TwoTerms back = ordered_sum(product.head, product.tail + quotient * y.tail);
-  const double rest = (x.head - back.head) + (x.tail - back.tail);
-  return ordered_sum(quotient, rest / y.head);
+inline DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {
+  const double quotient = a.head / b.head;
+  const DoubleDouble remainder = a - b * DoubleDouble(quotient);
+  return DoubleDouble(fast_two_sum(quotient, remainder.head / b.head));
 }
+
+// One step of Newton from the root of the head, which has a relative error of at most 2 u: what remains is
+// its square, halved, and the roundings of the step: below 8 u^2.
+inline DoubleDouble sqrt(const DoubleDouble& a) {
+  if (a.head <= 0) return DoubleDouble(0.0);
+  const double root = std::sqrt(a.head);
+  const DoubleDouble remainder = a - DoubleDouble(two_product(root, root, split(root)));
+  return DoubleDouble(fast_two_sum(root, remainder.head / (2 * root)));
+}
+
+inline bool operator<(const DoubleDouble& a, const DoubleDouble& b) {
+  return a.head < b.head || (a.head == b.head && a.tail < b.tail);
+}
+inline bool operator>(const DoubleDouble& a, const DoubleDouble& b) { return b < a; }
+
+inline DoubleDouble abs(const DoubleDouble& a) { return a.head < 0 ? -a : a; }
 
 }  // namespace vorotool::core

@@ -252,3 +252,53 @@ def nearest_neighbours(
     points: NDArray[np.float64], edges: NDArray[np.int32], labels: NDArray[np.int64], progress: _Progress
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Index of the nearest point of each, -1 without any, and its number of neighbours."""
+
+# ---- exact signs of segment Voronoi diagrams (bind_segment_exact.cpp), for tests: a site is a row x, y, x, y of int32,
+# ---- a disc three sites in counter-clockwise order of contact; the sign is 2 where they have no disc ----------------
+
+def segment_clearance_signs(sites: NDArray[np.int32]) -> NDArray[np.int8]:
+    """(k, 4, 4): a disc, and the query."""
+
+def segment_same_centre(sites: NDArray[np.int32]) -> NDArray[np.int8]:
+    """(k, 6, 4): two discs."""
+
+def segment_edge_clearance_signs(sites: NDArray[np.int32]) -> NDArray[np.int8]:
+    """(k, 9, 4): the edge's two sites, two discs, and the query."""
+
+def segment_discs(sites: NDArray[np.int32]) -> NDArray[np.float64]:
+    """(k, 3) x, y and radius of (k, 3, 4) discs; NaN where there is none."""
+
+# ---- the check of segment Voronoi diagrams (bind_segment_verification.cpp): arrays as in SegmentVoronoiDiagram ----
+
+def segment_voronoi_fault(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    vertices: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    vertex_start: NDArray[np.int32],
+    vertex_sites: NDArray[np.int32],
+    edges: NDArray[np.int32],
+    edge_sites: NDArray[np.int32],
+    threads: int,
+    progress: _Progress,
+) -> str | None: ...
+
+# ---- segment Voronoi diagrams (bind_segment_voronoi.cpp): arrays of int32, C-contiguous, two columns -----------------
+
+class SegmentVoronoi:
+    def __init__(
+        self, points: NDArray[np.int32], segments: NDArray[np.int32], threads: int, progress: _Progress
+    ) -> None: ...
+    @property
+    def counts(self) -> dict[str, int]: ...
+    def arrays(
+        self, threads: int, progress: _Progress
+    ) -> tuple[
+        NDArray[np.float64],
+        NDArray[np.float64],
+        NDArray[np.int32],
+        NDArray[np.int32],
+        NDArray[np.int32],
+        NDArray[np.int32],
+    ]:
+        """Vertices, radii, where the sites of each begin, these, edges, and the sites beside them."""

@@ -1,0 +1,91 @@
+// The segment Voronoi diagram.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "core/large_array.hpp"
+#include "core/segment_voronoi.hpp"
+#include "core/voronoi_extraction.hpp"
+#include "interrupts.hpp"
+
+namespace vorotool::bindings {
+namespace {
+
+namespace nb = nanobind;
+using namespace nb::literals;
+using core::LargeArray;
+using core::LatticePoint;
+using core::Monitor;
+using core::SegmentVoronoi;
+using core::VoronoiExtraction;
+using Rows = Matrix<const std::int32_t>;
+
+std::span<const LatticePoint> as_points(const Rows& array) {
+  if (array.shape(1) != 2) throw std::invalid_argument("points must have two columns");
+  for (const std::int32_t value : view(array)) {
+    if (std::abs(std::int64_t{value}) > core::lattice_limit) {
+      throw std::invalid_argument("coordinate " + std::to_string(value) + " is beyond the lattice");
+    }
+  }
+  static_assert(sizeof(LatticePoint) == 2 * sizeof(std::int32_t));
+  return {reinterpret_cast<const LatticePoint*>(array.data()), array.shape(0)};
+}
+
+std::span<const std::array<std::int32_t, 2>> as_segments(const Rows& array) {
+  if (array.shape(1) != 2) throw std::invalid_argument("segments must have two columns");
+  return {reinterpret_cast<const std::array<std::int32_t, 2>*>(array.data()), array.shape(0)};
+}
+
+void make_diagram(SegmentVoronoi* self, const Rows& points, const Rows& segments, unsigned threads,
+                  nb::handle progress) {
+  const core::PlanarGraph graph{as_points(points), as_segments(segments)};
+  run_interruptible(progress,
+                    [&](const Monitor& monitor) { new (self) SegmentVoronoi(graph, threads, monitor); });
+}
+
+// Vertices, radii, where their sites begin, their sites, edges, and the sites of these.
+nb::tuple arrays_of(const SegmentVoronoi& diagram, unsigned threads, nb::handle progress) {
+  const VoronoiExtraction extraction = run_interruptible(progress, [&](const Monitor& monitor) {
+    return VoronoiExtraction(diagram.sites(), diagram.records(), diagram.given(), threads, monitor);
+  });
+  const std::size_t vertices = extraction.vertex_count(), ring = extraction.ring_size(),
+                    edges = extraction.edge_count();
+  LargeArray<double> centres(2 * vertices), radius(vertices);
+  LargeArray<std::int32_t> start(vertices + 1), sites(ring), ends(2 * edges), sides(2 * edges);
+  run_interruptible(progress, [&](const Monitor& monitor) {
+    extraction.write({centres.data(), radius.data(), start.data(), sites.data(), ends.data(), sides.data()},
+                     threads, monitor);
+  });
+  return nb::make_tuple(to_numpy(std::move(centres), {vertices, 2}), to_numpy(std::move(radius), {vertices}),
+                        to_numpy(std::move(start), {vertices + 1}), to_numpy(std::move(sites), {ring}),
+                        to_numpy(std::move(ends), {edges, 2}), to_numpy(std::move(sides), {edges, 2}));
+}
+
+nb::dict counts_of(const SegmentVoronoi& diagram) {
+  const core::SegmentVoronoiCounts& counts = diagram.counts();
+  nb::dict result;
+  result["visited"] = counts.visited;
+  result["cyclic"] = counts.cyclic;
+  result["dyadic"] = counts.escalations.dyadic;
+  result["double_double"] = counts.escalations.double_double;
+  result["exact"] = counts.escalations.exact;
+  return result;
+}
+
+}  // namespace
+
+void bind_segment_voronoi(nb::module_& module) {
+  nb::class_<SegmentVoronoi>(module, "SegmentVoronoi")
+      .def("__init__", &make_diagram, "points"_a.noconvert(), "segments"_a.noconvert(), "threads"_a,
+           "progress"_a.none())
+      .def_prop_ro("counts", &counts_of)
+      .def("arrays", &arrays_of, "threads"_a, "progress"_a.none());
+}
+
+}  // namespace vorotool::bindings

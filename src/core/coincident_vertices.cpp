@@ -1,0 +1,60 @@
+#include "core/coincident_vertices.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/dyadic_disc.hpp"
+#include "core/segment_exact.hpp"
+#include "core/tangent_disc.hpp"
+
+namespace vorotool::core {
+namespace {
+
+// Whether the centres are surely apart, given the differences of their coordinates.
+bool are_apart(double dx, double dy, double error) { return std::max(std::abs(dx), std::abs(dy)) > error; }
+
+bool are_apart_in_double_double(const SegmentSites& sites, const VoronoiRecord& u, const VoronoiRecord& w) {
+  const auto a = tangent_disc<DoubleDouble>(sites, u.sites, u.left);
+  const auto b = tangent_disc<DoubleDouble>(sites, w.sites, w.left);
+  const auto difference = [](const DoubleDouble& p, const DoubleDouble& q, double anchors) {
+    return (p - q + DoubleDouble(anchors)).head;
+  };
+  const double dx = difference(a.x, b.x, static_cast<double>(a.anchor.x) - b.anchor.x);
+  const double dy = difference(a.y, b.y, static_cast<double>(a.anchor.y) - b.anchor.y);
+  // Three numbers are summed in two operations.
+  const double size = std::abs(a.x.head) + std::abs(a.y.head) + std::abs(b.x.head) + std::abs(b.y.head) +
+                      std::abs(dx) + std::abs(dy);
+  return are_apart(dx, dy, a.position_error + b.position_error + 4 * roundoff<DoubleDouble> * size);
+}
+
+// Vertices on the normals of two segments at their common end are at one place if the normals are one line.
+std::optional<bool> by_common_end(const SegmentSites& sites, const VoronoiRecord& u, int i,
+                                  const VoronoiRecord& w) {
+  const auto [right, left] = sites_of_edge(u, i);
+  for (const SiteIndex end : {right, left}) {
+    if (!sites.is_point(end)) continue;
+    const SiteIndex s = u.sites[static_cast<std::size_t>(i)];
+    for (const SiteIndex t : w.sites) {
+      if (t == right || t == left || !sites.is_end(s, end) || !sites.is_end(t, end)) continue;
+      return cross(sites.segment(s).direction(), sites.segment(t).direction()) == 0;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool are_coincident(const SegmentSites& sites, const VoronoiRecord& u, int i, const VoronoiRecord& w) {
+  const double error = static_cast<double>(u.position_error) + static_cast<double>(w.position_error);
+  if (are_apart(u.x - w.x, u.y - w.y, error)) return false;
+  // Only corners have radius 0, and those of one point are at one place.
+  if (u.radius == 0 || w.radius == 0) return u.radius == w.radius;
+  if (const std::optional<bool> known = by_common_end(sites, u, i, w)) return *known;
+  const std::optional<DyadicDisc> a = dyadic_disc(sites, u), b = dyadic_disc(sites, w);
+  if (a && b) return a->same_centre(*b);
+  if (are_apart_in_double_double(sites, u, w)) return false;
+  return exact_same_centre(sites.triple(u.sites), sites.triple(w.sites));
+}
+
+}  // namespace vorotool::core

@@ -1,0 +1,115 @@
+#include "core/dyadic_disc.hpp"
+
+#include <cmath>
+
+#include "core/predicates.hpp"
+
+namespace vorotool::core {
+namespace {
+
+constexpr std::int64_t scale = 4;
+// |coordinates| of a centre in units: with those of a lattice point they differ by less than 2^32, 2^34 in
+// quarters.
+constexpr double most_coordinate = 0x1p31;
+// Squares of distances along with squares of lengths, and squares of products, are below 2^126.
+constexpr int128 most_square = int128{1} << 63;
+constexpr int128 most_product = int128{1} << 63;
+
+int128 magnitude(int128 value) { return value < 0 ? -value : value; }
+
+// Where a segment is seen from a centre, in quarter units.
+struct Sight {
+  Sight(std::int64_t x, std::int64_t y, const SegmentSite& s) : direction(s.direction()) {
+    const std::int64_t dx = x - scale * s.a.x, dy = y - scale * s.a.y;
+    across = int128{direction.x} * dy - int128{direction.y} * dx;
+    along = int128{direction.x} * dx + int128{direction.y} * dy;
+  }
+  int128 square_length() const { return dot(direction, direction); }
+  bool is_between() const { return along > 0 && along < scale * square_length(); }
+
+  LatticeVector direction;
+  int128 across, along;  // times the length of the segment
+};
+
+// Whether the three sites are touched in counter-clockwise order beyond doubt: then the disc that touches
+// them exactly, so near to the vertex, is that of the vertex, since another one touches them in the other
+// order. The unit vectors from the sites to the centre err by less than 2^-30 together with those at the true
+// centre.
+bool is_well_conditioned(const SegmentSites& sites, const VoronoiRecord& v) {
+  if (!(v.position_error < 0x1p-36 * v.radius)) return false;
+  std::array<double, 3> nx, ny;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const SiteIndex site = v.sites[i];
+    for (const SiteIndex other : v.sites) {
+      if (sites.is_point(site) && sites.is_end(other, site)) return true;  // linear: there is no other disc
+    }
+    if (sites.is_point(site)) {
+      nx[i] = (v.x - sites.point(site).x) / v.radius;
+      ny[i] = (v.y - sites.point(site).y) / v.radius;
+    } else {
+      const SegmentSite& s = sites.segment(site);
+      const double turn = v.is_left(static_cast<int>(i)) ? 1 : -1;
+      nx[i] = -turn * s.uy;
+      ny[i] = turn * s.ux;
+    }
+  }
+  const double area = (nx[1] - nx[0]) * (ny[2] - ny[0]) - (nx[2] - nx[0]) * (ny[1] - ny[0]);
+  return area > 0x1p-20;
+}
+
+}  // namespace
+
+double DyadicDisc::x() const { return static_cast<double>(x_) / scale; }
+double DyadicDisc::y() const { return static_cast<double>(y_) / scale; }
+double DyadicDisc::radius() const { return std::sqrt(static_cast<double>(square_)) / scale; }
+
+int128 DyadicDisc::square_distance(const LatticePoint& p) const {
+  const int128 dx = x_ - scale * p.x, dy = y_ - scale * p.y;
+  return dx * dx + dy * dy;
+}
+
+// The square of the distance from a site, rounded down: touches() is false if that was no integer.
+bool DyadicDisc::take_radius(const SegmentSites& sites, SiteIndex site) {
+  if (sites.is_point(site)) {
+    square_ = square_distance(sites.point(site));
+  } else {
+    const Sight sight(x_, y_, sites.segment(site));
+    if (magnitude(sight.across) >= most_product) return false;
+    square_ = sight.across * sight.across / sight.square_length();
+  }
+  return square_ < most_square;
+}
+
+bool DyadicDisc::touches(const SegmentSites& sites, SiteIndex site, bool is_left) const {
+  if (sites.is_point(site)) return square_distance(sites.point(site)) == square_;
+  const Sight sight(x_, y_, sites.segment(site));
+  return magnitude(sight.across) < most_product && (sight.across > 0) == is_left &&
+         sight.across * sight.across == square_ * sight.square_length();
+}
+
+int DyadicDisc::sign(const SegmentSite& query) const {
+  const Sight sight(x_, y_, query);
+  if (!sight.is_between()) return 1;  // its ends are not inside; touching one of them is as good as clear
+  if (magnitude(sight.across) >= most_product) return undecided;
+  const int128 difference = sight.across * sight.across - square_ * sight.square_length();
+  return (difference > 0) - (difference < 0);
+}
+
+std::optional<DyadicDisc> dyadic_disc(const SegmentSites& sites, const VoronoiRecord& v) {
+  if (!(std::abs(v.x) < most_coordinate && std::abs(v.y) < most_coordinate)) return std::nullopt;
+  const double x = std::nearbyint(scale * v.x), y = std::nearbyint(scale * v.y);
+  const double away = std::abs(x - scale * v.x) + std::abs(y - scale * v.y);
+  if (!(away <= scale * static_cast<double>(v.position_error)) || !is_well_conditioned(sites, v)) {
+    return std::nullopt;
+  }
+  DyadicDisc disc;
+  disc.x_ = static_cast<std::int64_t>(x);
+  disc.y_ = static_cast<std::int64_t>(y);
+  if (!disc.take_radius(sites, v.sites[0])) return std::nullopt;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!disc.touches(sites, v.sites[i], v.is_left(static_cast<int>(i)))) return std::nullopt;
+  }
+  return disc;
+}
+
+}  // namespace vorotool::core

@@ -1,0 +1,120 @@
+#include "core/segment_voronoi.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "core/divide_and_conquer.hpp"
+#include "core/insertion_rounds.hpp"
+#include "core/point_order.hpp"
+#include "core/point_voronoi.hpp"
+#include "core/segment_exact.hpp"
+
+namespace vorotool::core {
+namespace {
+
+// Of n sites there are at most 2 n - 2 vertices, each with four corner numbers in 31 bits.
+constexpr std::size_t most_sites = (std::size_t{1} << 28) - 1;
+
+using Segment = std::array<std::int32_t, 2>;
+
+void check(const PlanarGraph& graph) {
+  const std::size_t points = graph.points.size();
+  if (points + graph.segments.size() > most_sites) throw std::length_error("more than 268435455 sites");
+  for (std::size_t j = 0; j < graph.segments.size(); ++j) {
+    for (const std::int32_t end : graph.segments[j]) {
+      if (end < 0 || static_cast<std::size_t>(end) >= points) {
+        throw std::invalid_argument("segment " + std::to_string(j) + " ends at point " + std::to_string(end) +
+                                    ", but there are " + std::to_string(points) + " points");
+      }
+    }
+    if (graph.segments[j][0] == graph.segments[j][1]) {
+      throw std::invalid_argument("both ends of segment " + std::to_string(j) + " are the same point");
+    }
+  }
+}
+
+MortonOrder ordered(std::span<const LatticePoint> points, unsigned threads, const Monitor& monitor) {
+  std::vector<Point> places;
+  places.reserve(points.size());
+  for (const LatticePoint& p : points) places.push_back({static_cast<double>(p.x), static_cast<double>(p.y)});
+  std::vector<std::int32_t> first(points.size());
+  MortonOrder order = morton_order(places, first, threads, monitor);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (static_cast<std::size_t>(first[i]) == i) continue;
+    throw std::invalid_argument("points " + std::to_string(first[i]) + " and " + std::to_string(i) +
+                                " are at one place");
+  }
+  return order;
+}
+
+// The segments by their ends in the numbers of the sites, the first of the two ends first.
+std::vector<std::uint32_t> along_points(std::span<const Segment> segments,
+                                        std::span<const std::int32_t> rank) {
+  const auto ends = [&](std::size_t j) {
+    const std::int32_t a = rank[static_cast<std::size_t>(segments[j][0])];
+    const std::int32_t b = rank[static_cast<std::size_t>(segments[j][1])];
+    return std::pair(static_cast<std::size_t>(std::min(a, b)), std::max(a, b));
+  };
+  std::vector<std::uint32_t> begin(rank.size() + 2), order(segments.size());
+  for (std::size_t j = 0; j < segments.size(); ++j) ++begin[ends(j).first + 2];
+  for (std::size_t i = 0; i < rank.size(); ++i) begin[i + 2] += begin[i + 1];
+  for (std::size_t j = 0; j < segments.size(); ++j) {
+    order[begin[ends(j).first + 1]++] = static_cast<std::uint32_t>(j);
+  }
+  for (std::size_t i = 0; i < rank.size(); ++i) {
+    std::sort(order.begin() + begin[i], order.begin() + begin[i + 1],
+              [&](std::uint32_t j, std::uint32_t k) { return ends(j) < ends(k); });
+  }
+  return order;
+}
+
+}  // namespace
+
+SegmentVoronoi::SegmentVoronoi(const PlanarGraph& graph, unsigned threads, const Monitor& monitor) {
+  check(graph);
+  make_point_diagram(graph, threads, monitor);
+  InsertionRounds rounds(sites_, records_, threads);
+  try {
+    rounds.run(monitor);
+  } catch (const NoDisc& error) {
+    throw std::logic_error(error.what());
+  }
+  counts_ = rounds.counts();
+}
+
+// The triangulation is gone when segments are inserted.
+void SegmentVoronoi::make_point_diagram(const PlanarGraph& graph, unsigned threads, const Monitor& monitor) {
+  MortonOrder order = ordered(graph.points, threads, monitor);
+  const Subdivision mesh =
+      divide_and_conquer({order.points, order.index, order.code, order.fine}, threads, monitor);
+  const std::vector<std::uint32_t> index = std::move(order.index);
+  order = {};
+  number_sites(graph, index);
+  const std::size_t room = 2 * (graph.points.size() + graph.segments.size());
+  records_ = point_voronoi(sites_, mesh, room, threads, monitor);
+}
+
+// Points in the order of the triangulation, and the segments along them.
+void SegmentVoronoi::number_sites(const PlanarGraph& graph, std::span<const std::uint32_t> order) {
+  const std::size_t points = graph.points.size(), segments = graph.segments.size();
+  given_.resize(points + segments);
+  std::vector<std::int32_t> rank(points);
+  std::vector<LatticePoint> places(points);
+  for (std::size_t i = 0; i < points; ++i) {
+    rank[order[i]] = static_cast<std::int32_t>(i);
+    given_[i] = static_cast<std::int32_t>(order[i]);
+    places[i] = graph.points[order[i]];
+  }
+  const std::vector<std::uint32_t> along = along_points(graph.segments, rank);
+  std::vector<Segment> ends(segments);
+  for (std::size_t j = 0; j < segments; ++j) {
+    const Segment& s = graph.segments[along[j]];
+    ends[j] = {rank[static_cast<std::size_t>(s[0])], rank[static_cast<std::size_t>(s[1])]};
+    given_[points + j] = static_cast<std::int32_t>(points + along[j]);
+  }
+  sites_ = SegmentSites(std::move(places), ends);
+}
+
+}  // namespace vorotool::core

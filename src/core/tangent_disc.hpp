@@ -1,0 +1,34 @@
+// The disc that touches three sites: centre and radius in closed form, with bounds of their errors.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/double_double.hpp"
+#include "core/segment_sites.hpp"
+
+namespace vorotool::core {
+
+// A bound of the relative error of one operation.
+template <class Real>
+inline constexpr double roundoff = 0x1p-53;
+// The largest of the bounds in core/double_double.hpp is 15 u^2 + 56 u^3 < 2^-102.
+template <>
+inline constexpr double roundoff<DoubleDouble> = 0x1p-102;
+
+// The numbers relative to a lattice point keep their accuracy however far that is from the origin.
+template <class Real>
+struct TangentDisc {
+  LatticePoint anchor;
+  Real x, y;  // the centre less the anchor
+  Real radius;
+  double position_error, radius_error;  // bounds; infinite or NaN where the numbers mean nothing
+};
+
+// The disc whose touching points with the sites follow each other counter-clockwise as the sites do, to the
+// left of segment i if bit i of `left` is set, else to the right.
+// The result depends on the cyclic order of the sites alone, not on which comes first.
+template <class Real>
+TangentDisc<Real> tangent_disc(const SegmentSites& sites, std::array<SiteIndex, 3> triple, std::uint8_t left);
+
+}  // namespace vorotool::core

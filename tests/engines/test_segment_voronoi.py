@@ -1,0 +1,160 @@
+"""The segment Voronoi diagram against brute force, the checker, and itself under symmetries."""
+
+import time
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from segment_families import BOOST_FAILURE, FAMILIES, draw, polygon, renumbered, symmetries
+from segment_oracle import differences, voronoi_diagram
+from vorotool import _core
+from vorotool.engines.segment_verification import verify_segment_voronoi
+from vorotool.engines.segment_voronoi import segment_voronoi
+from vorotool.errors import InputError, LimitError
+
+ARRAYS = ("vertices", "radius", "vertex_start", "vertex_sites", "edges", "edge_sites")
+SMALL = 26
+"""Sites that brute force takes a fraction of a second for."""
+
+
+def assert_right(points, segments):
+    diagram = segment_voronoi(points, segments, threads=1)
+    assert not differences(diagram, voronoi_diagram(points, segments))
+    verify_segment_voronoi(diagram, threads=1)
+
+
+def rings(diagram):
+    return {tuple(diagram.sites_of(v).tolist()) for v in range(len(diagram))}
+
+
+@pytest.mark.parametrize("name", [name for name in FAMILIES if name != "contour"])
+def test_brute_force_agrees(name):
+    points, segments = next(
+        graph for n in range(9, 0, -1) for graph in [draw(name, n, 1)] if len(graph[0]) + len(graph[1]) <= SMALL
+    )
+    assert_right(points, segments)
+
+
+def test_the_polygon_on_which_boost_is_wrong():
+    assert_right(*polygon(BOOST_FAILURE))
+
+
+@given(st.sampled_from(["clusters", "crowded", "scattered", "star_small", "jittered_grid"]), st.integers(0, 2**32))
+@settings(max_examples=25)
+def test_brute_force_agrees_on_graphs_of_any_kind(name, seed):
+    points, segments = draw(name, 8, seed)
+    if len(points) + len(segments) <= SMALL:
+        assert_right(points, segments)
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_the_checker_passes_under_the_symmetries_of_the_square(name):
+    points, segments = draw(name, 150, 1)
+    vertices = set()
+    for turned in symmetries(points):
+        diagram = segment_voronoi(turned, segments)
+        verify_segment_voronoi(diagram)
+        vertices.add((len(diagram), len(diagram.edges)))
+    assert len(vertices) == 1
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_clusters_of_points_in_a_wide_extent(seed):
+    for k in range(4):
+        verify_segment_voronoi(segment_voronoi(*draw("clusters", 60, [seed, k])))
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_numbers_of_sites_change_nothing_else(name):
+    points, segments = draw(name, 80, 5)
+    diagram = segment_voronoi(points, segments)
+    other_points, other_segments, number = renumbered(points, segments, np.random.default_rng(5))
+    other = segment_voronoi(other_points, other_segments)
+    for array in ("vertices", "radius", "vertex_start", "edges"):
+        assert np.array_equal(getattr(diagram, array), getattr(other, array))
+    assert np.array_equal(number[diagram.edge_sites], other.edge_sites)
+
+
+@pytest.mark.parametrize("name", ["star_smooth", "star_rough", "comb", "hilbert"])
+def test_threads_change_nothing(name):
+    """Rounds long enough to be shared."""
+    points, segments = draw(name, 40_000, 2)
+    one, three = (segment_voronoi(points, segments, threads=threads) for threads in (1, 3))
+    for array in ARRAYS:
+        assert np.array_equal(getattr(one, array), getattr(three, array))
+
+
+@pytest.mark.parametrize("name", ["star_small", "wheel", "crowded", "squares"])
+def test_translation_and_scale(name):
+    points, segments = draw(name, 60, 3)
+    diagram = segment_voronoi(points, segments)
+    for scale, shift in ((1, [17, -5]), (2, [0, 0])):
+        moved = segment_voronoi(points * scale + np.array(shift, np.int32), segments)
+        assert rings(moved) == rings(diagram)
+        order = [sorted(range(len(d)), key=lambda v, d=d: tuple(d.sites_of(v))) for d in (diagram, moved)]
+        assert np.allclose(moved.radius[order[1]], scale * diagram.radius[order[0]], rtol=1e-13)
+
+
+def test_deep_teeth_stay_cheap():
+    """Every tooth's side sees all the others: in a plain spatial order the work is quadratic."""
+    graphs = [draw("comb", n, 4) for n in (2_000, 16_000)]
+    visited = [segment_voronoi(*graph, threads=1).counts["visited"] / len(graph[1]) for graph in graphs]
+    assert visited[1] < visited[0] + 20  # about as log n
+
+
+@pytest.mark.parametrize(
+    ("points", "segments", "vertices", "edges"),
+    [
+        ([], [], 0, 0),
+        ([[3, 4]], [], 0, 0),
+        ([[0, 0], [4, 0]], [], 0, 1),
+        ([[0, 0], [4, 0]], [[0, 1]], 0, 2),
+        ([[0, 0], [4, 0], [8, 0]], [[1, 0], [1, 2]], 0, 4),
+        ([[0, 0], [4, 0], [0, 3]], [], 1, 3),
+        ([[0, 0], [2, 0], [2, 2], [0, 2]], [], 1, 4),
+    ],
+)
+def test_few_sites(points, segments, vertices, edges):
+    diagram = segment_voronoi(points, segments)
+    assert (len(diagram), len(diagram.edges)) == (vertices, edges)
+    assert_right(np.array(points, np.int32).reshape(-1, 2), np.array(segments, np.int32).reshape(-1, 2))
+
+
+@pytest.mark.parametrize(
+    ("points", "segments", "message"),
+    [
+        ([[0, 0], [1, 1]], [[0, 2]], "segment 0 ends at point 2, but there are 2 points"),
+        ([[0, 0], [1, 1]], [[0, 1], [1, 1]], "both ends of segment 1 are the same point"),
+        ([[0, 0], [1, 1], [0, 0]], [], "points 0 and 2 are at one place"),
+        ([[0, 2**30]], [], "beyond 1073741823"),
+        ([[0.5, 1]], [], "must be integers"),
+        ([0, 1], [], "must have shape"),
+        ([[0, 0], [9, 9], [0, 9], [9, 0]], [[0, 1], [2, 3]], "segments 0 and 1 cross"),
+        ([[0, 0], [9, 0], [4, 0]], [[0, 1]], "point 2 lies inside segment 0"),
+    ],
+)
+def test_bad_input_is_named(points, segments, message):
+    with pytest.raises(InputError, match=message):
+        segment_voronoi(points, segments)
+
+
+def test_too_many_sites_are_refused_before_memory_is_taken():
+    points = np.broadcast_to(np.zeros((1, 2), np.int32), (2**28, 2))
+    with pytest.raises(LimitError, match="more than 268435455"):
+        segment_voronoi(points, [])
+
+
+def test_a_callback_that_raises_stops_the_work():
+    points, segments = draw("star_rough", 60_000, 1)
+    called = []
+
+    def stop(fraction):
+        called.append(time.perf_counter())
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        _core.SegmentVoronoi(points, segments, 1, stop)
+    assert len(called) == 1
+    assert time.perf_counter() - called[0] < 0.2
