@@ -10,6 +10,7 @@ void bind_tessellation(nanobind::module_& module);
 void bind_regions(nanobind::module_& module);
 void bind_predicates(nanobind::module_& module);
 void bind_delaunay(nanobind::module_& module);
+void bind_alpha(nanobind::module_& module);
 void bind_digital(nanobind::module_& module);
 void bind_cells(nanobind::module_& module);
 

@@ -8,6 +8,7 @@ NB_MODULE(_core, module) {
   vorotool::bindings::bind_regions(module);
   vorotool::bindings::bind_predicates(module);
   vorotool::bindings::bind_delaunay(module);
+  vorotool::bindings::bind_alpha(module);
   vorotool::bindings::bind_digital(module);
   vorotool::bindings::bind_cells(module);
 }

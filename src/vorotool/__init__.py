@@ -55,6 +55,15 @@ _HOME = {
     "voronoi_cells": "vorotool.engines.cells",
     "verify_cells": "vorotool.engines.cells",
     "colour_regions": "vorotool.engines.regions",
+    "AlphaComplex": "vorotool.geometry.alpha_complex",
+    "AlphaShape": "vorotool.geometry.alpha_shape",
+    "alpha_complex": "vorotool.engines.alphashape",
+    "alpha_curves": "vorotool.engines.alphashape",
+    "alpha_edges": "vorotool.engines.alphashape",
+    "AlphaHull": "vorotool.geometry.alpha_hull",
+    "alpha_hull": "vorotool.engines.alpha_hull",
+    "alpha_shape": "vorotool.engines.alphashape",
+    "verify_alpha_shape": "vorotool.engines.verify_alpha",
 }
 
 __all__ = ["__version__", *_HOME]  # noqa: PLE0604 - the keys are strings
