@@ -63,6 +63,7 @@ fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CAS
 	$(RUN) tests/fuzz/cells.py --cases $(or $(CASES),20000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/alphashape.py --cases $(or $(CASES),20000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/digital.py --sets $(or $(SETS),500) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/planar_graph.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
 
 .PHONY: sanitize
 sanitize: build ## run the engine tests on a build with address and undefined-behaviour sanitizers

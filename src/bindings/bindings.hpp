@@ -13,5 +13,6 @@ void bind_delaunay(nanobind::module_& module);
 void bind_alpha(nanobind::module_& module);
 void bind_digital(nanobind::module_& module);
 void bind_cells(nanobind::module_& module);
+void bind_planar_graph(nanobind::module_& module);
 
 }  // namespace vorotool::bindings

@@ -11,4 +11,5 @@ NB_MODULE(_core, module) {
   vorotool::bindings::bind_alpha(module);
   vorotool::bindings::bind_digital(module);
   vorotool::bindings::bind_cells(module);
+  vorotool::bindings::bind_planar_graph(module);
 }

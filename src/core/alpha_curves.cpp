@@ -100,7 +100,7 @@ class Sweep {
   }
 
   // The two faces of an edge: 0 is the unbounded one, t + 1 a triangle.
-  bool join(DisjointSets& faces, std::size_t edge) const {
+  bool join(DisjointSets<>& faces, std::size_t edge) const {
     return faces.join(static_cast<std::uint32_t>(in_.sides[2 * edge] + 1),
                       static_cast<std::uint32_t>(in_.sides[2 * edge + 1] + 1));
   }

@@ -4,36 +4,38 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
-#include <utility>
 #include <vector>
 
 namespace vorotool::core {
 
+// Of numbers of an integer type.
+template <class Index = std::uint32_t>
 class DisjointSets {
  public:
   // 0 ... count - 1, each a set of its own.
-  explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
+  explicit DisjointSets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), Index{0});
+  }
 
-  // The smallest member of a set; paths are halved on the way.
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) {
-      parent_[i] = parent_[parent_[i]];
-      i = parent_[i];
-    }
+  // The smallest member of a set, whatever the order in which sets were joined; paths are halved on the way.
+  Index find(Index i) {
+    while (parent(i) != i) i = parent(i) = parent(parent(i));
     return i;
   }
 
   // Whether they were two sets before.
-  bool join(std::uint32_t i, std::uint32_t j) {
+  bool join(Index i, Index j) {
     i = find(i);
     j = find(j);
     if (i == j) return false;
-    parent_[i < j ? j : i] = i < j ? i : j;
+    parent(i < j ? j : i) = i < j ? i : j;
     return true;
   }
 
  private:
-  std::vector<std::uint32_t> parent_;  // never greater than the member itself
+  Index& parent(Index i) { return parent_[static_cast<std::size_t>(i)]; }
+
+  std::vector<Index> parent_;  // never greater than the member itself
 };
 
 }  // namespace vorotool::core

@@ -305,3 +305,26 @@ def nearest_neighbours(
     points: NDArray[np.float64], edges: NDArray[np.int32], labels: NDArray[np.int64], progress: _Progress
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Index of the nearest point of each, -1 without any, and its number of neighbours."""
+
+# ---- planar graphs (bind_planar_graph.cpp): arrays are C-contiguous; lattice points are int32 rows ------------------
+
+class TooManyCrossingsError(ValueError): ...
+class TooManyOverlapsError(ValueError): ...
+
+def place_on_lattice(
+    points: NDArray[np.float64], threads: int, progress: _Progress
+) -> tuple[NDArray[np.int32], tuple[float, float], int, float]:
+    """Lattice points, origin, exponent of the step and the largest move; the points must be finite."""
+
+def make_planar_graph(
+    vertices: NDArray[np.int32],
+    ring_start: NDArray[np.int64],
+    ring_kind: NDArray[np.int8],
+    ring_polygon: NDArray[np.int32],
+    progress: _Progress,
+) -> dict[str, Any]:
+    """Arrays of a PlanarGraph, and ``repairs``: of each kind the count, an edge, and what meets it or -1."""
+
+def planar_graph_fault(
+    points: NDArray[np.int32], segments: NDArray[np.int32], faces: NDArray[np.int32] | None, progress: _Progress
+) -> str | None: ...

@@ -79,24 +79,26 @@ def read(
     53
     """
     from vorotool.formats.images import is_image, read_image
-    from vorotool.formats.input_formats import known_input_format
+    from vorotool.formats.input_formats import NAMES_WITH, known_input_format
     from vorotool.formats.points import read_points
-    from vorotool.formats.polygons import read_polygons, with_shapes
+    from vorotool.formats.polygons import read_polygons, recognise
     from vorotool.formats.sources import read_source
 
-    if geometry not in (None, "points", "polygons"):
+    if geometry not in NAMES_WITH:
         raise UsageError(f"geometry is {geometry!r}: use points or polygons, or leave it out")
-    input_format = known_input_format(input_format)
+    input_format = known_input_format(input_format, NAMES_WITH[geometry])
     threads = checked_threads(threads)
     source = read_source(fspath(path))
     is_points = columns is not None and source.data.startswith(NPY_MAGIC)  # the one format that holds either
     if input_format in ("png", "tiff", "pnm") or (input_format in (None, "npy") and not is_points and is_image(source)):
         return read_image(source, input_format=input_format, page=page, max_pixels=max_pixels)
-    shapes = source if geometry == "polygons" else None if geometry else with_shapes(source, input_format)
-    if shapes is not None:
-        return read_polygons(
-            shapes, input_format=input_format, properties=properties, max_sites=max_sites, threads=threads, note=note
-        )
+    has_shapes = geometry == "polygons"
+    if geometry is None and columns is None:
+        source, has_shapes = recognise(source, input_format)
+    if has_shapes:
+        if columns is not None:
+            raise UsageError("--columns is for lists of points: leave it out for polygons")
+        return read_polygons(source, input_format=input_format, properties=properties, max_sites=max_sites, note=note)
     return read_points(
         source,
         input_format=input_format,
