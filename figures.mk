@@ -4,8 +4,8 @@ VOROTOOL := $(BIN)/vorotool
 FIGURES  := $(BUILD)/figures
 TABLE_1_SIZES := 64 128 256 512
 
-.PHONY: figures figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d table-1
-figures: figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d table-1 ## draw the figures and tables of the paper into build/figures
+.PHONY: figures figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c table-1
+figures: figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c table-1 ## draw the figures and tables of the paper into build/figures
 	@echo "figures are in $(FIGURES):" && ls $(FIGURES)
 figure-01: $(FIGURES)/figure-01.svg
 figure-02: $(FIGURES)/figure-02.svg
@@ -13,6 +13,9 @@ figure-03a: $(FIGURES)/figure-03a.png
 figure-03b: $(FIGURES)/figure-03b.svg
 figure-03c: $(FIGURES)/figure-03c.svg
 figure-03d: $(FIGURES)/figure-03d.svg
+figure-04a: $(FIGURES)/figure-04a.svg
+figure-04b: $(FIGURES)/figure-04b.svg
+figure-04c: $(FIGURES)/figure-04c.svg
 table-1: $(FIGURES)/table-1.md
 
 $(FIGURES):
@@ -41,6 +44,18 @@ $(FIGURES)/figure-03c.svg: data/dots.csv $(BUILD)/.installed | $(FIGURES)
 # Purpose: the Delaunay triangulation of the same seeds, from the continuous diagram.
 $(FIGURES)/figure-03d.svg: data/dots.csv $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) delaunay $< -o $@
+
+# Purpose: a dot pattern of 160 random seeds,
+$(FIGURES)/figure-04a.svg: data/dot-pattern.csv $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) delaunay $< --layers points -o $@
+
+# the edges of its Delaunay triangulation,
+$(FIGURES)/figure-04b.svg: data/dot-pattern.csv $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) delaunay $< --layers edges,points -o $@
+
+# and its alpha shape for r = -1/α = 10.
+$(FIGURES)/figure-04c.svg: data/dot-pattern.csv $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) alphashape $< -r 10 -o $@
 
 # Purpose: seconds against the size of the image: the paper's, its algorithm here, and the exact engine.
 # The 53 seeds of Figure 3 are scaled to each size.

@@ -61,7 +61,7 @@ def test_the_reference_is_true():
     assert done.stdout == (ROOT / "docs/cli.md").read_text(encoding="utf-8"), "run docs/cli_reference.py > docs/cli.md"
 
 
-@pytest.mark.parametrize("arguments", [[], ["tessellate"], ["delaunay"], ["draw"]])
+@pytest.mark.parametrize("arguments", [[], ["tessellate"], ["delaunay"], ["alphashape"], ["draw"]])
 def test_the_example_of_the_help_runs(arguments, folder):
     text = run(f"vorotool {' '.join(arguments)} --help", folder).stdout
     example = re.search(r"Example:\s*\n\s*(vorotool .*)", text)

@@ -49,7 +49,15 @@ def test_imports_run_downwards(path):
 
 
 @pytest.mark.parametrize(
-    "arguments", [["--help"], ["--version"], ["tessellate", "--help"], ["delaunay", "--help"], ["draw", "--help"]]
+    "arguments",
+    [
+        ["--help"],
+        ["--version"],
+        ["tessellate", "--help"],
+        ["delaunay", "--help"],
+        ["alphashape", "--help"],
+        ["draw", "--help"],
+    ],
 )
 def test_help_loads_no_heavy_module(arguments):
     script = (

@@ -8,8 +8,10 @@ NB_MODULE(_core, module) {
   vorotool::bindings::bind_regions(module);
   vorotool::bindings::bind_predicates(module);
   vorotool::bindings::bind_delaunay(module);
+  vorotool::bindings::bind_alpha(module);
   vorotool::bindings::bind_digital(module);
   vorotool::bindings::bind_cells(module);
+  vorotool::bindings::bind_planar_graph(module);
   vorotool::bindings::bind_segment_exact(module);
   vorotool::bindings::bind_segment_verification(module);
   vorotool::bindings::bind_segment_voronoi(module);

@@ -22,6 +22,7 @@ _HOME = {
     "CellSet": "vorotool.geometry.cells",
     "Frame": "vorotool.geometry.frame",
     "LabelImage": "vorotool.geometry.label_image",
+    "PlanarGraph": "vorotool.geometry.planar_graph",
     "PointSet": "vorotool.geometry.points",
     "PolygonSet": "vorotool.geometry.polygons",
     "Raster": "vorotool.geometry.raster",
@@ -54,7 +55,18 @@ _HOME = {
     "cell_colours": "vorotool.engines.cells",
     "voronoi_cells": "vorotool.engines.cells",
     "verify_cells": "vorotool.engines.cells",
+    "planar_graph": "vorotool.engines.planar_graph",
+    "verify_planar_graph": "vorotool.engines.planar_graph",
     "colour_regions": "vorotool.engines.regions",
+    "AlphaComplex": "vorotool.geometry.alpha_complex",
+    "AlphaShape": "vorotool.geometry.alpha_shape",
+    "alpha_complex": "vorotool.engines.alphashape",
+    "alpha_curves": "vorotool.engines.alphashape",
+    "alpha_edges": "vorotool.engines.alphashape",
+    "AlphaHull": "vorotool.geometry.alpha_hull",
+    "alpha_hull": "vorotool.engines.alpha_hull",
+    "alpha_shape": "vorotool.engines.alphashape",
+    "verify_alpha_shape": "vorotool.engines.verify_alpha",
 }
 
 __all__ = ["__version__", *_HOME]  # noqa: PLE0604 - the keys are strings

@@ -195,6 +195,59 @@ def triangulation_fault(
     progress: _Progress,
 ) -> str | None: ...
 
+# ---- alpha shapes (bind_alpha.cpp): a side is a triangle or -1; ranks are places in the spectrum ------------------
+
+def edges_of_triangles(
+    triangles: NDArray[np.int32], neighbours: NDArray[np.int32], threads: int, progress: _Progress
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Edges, and the triangles on their sides."""
+
+def alpha_complex(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    edges: NDArray[np.int32],
+    sides: NDArray[np.int32],
+    printed: bool,
+    threads: int,
+    progress: _Progress,
+) -> dict[str, NDArray[Any]]: ...
+def shape_edges(
+    rank_min: NDArray[np.int32],
+    rank_mid: NDArray[np.int32],
+    rank_max: NDArray[np.int32],
+    reached: int,
+    entered: int,
+    threads: int,
+    progress: _Progress,
+) -> tuple[NDArray[np.int32], NDArray[np.uint8]]: ...
+def connected_triangles(
+    inside: NDArray[np.uint8], sides: NDArray[np.int32], progress: _Progress
+) -> NDArray[np.int32]: ...
+def trace_rings(
+    points: NDArray[np.float64],
+    a: NDArray[np.int32],
+    b: NDArray[np.int32],
+    region: NDArray[np.int32],
+    progress: _Progress,
+) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32], NDArray[np.uint8]]:
+    """Vertices of all rings, where each begins, its region, and whether it is a hole."""
+
+def alpha_curves(
+    spectrum: int,
+    triangle_rank: NDArray[np.int32],
+    rank_min: NDArray[np.int32],
+    rank_mid: NDArray[np.int32],
+    rank_max: NDArray[np.int32],
+    sides: NDArray[np.int32],
+    area: NDArray[np.float64],
+    length: NDArray[np.float64],
+    progress: _Progress,
+) -> dict[str, NDArray[Any]]: ...
+
+# rows of six: three points, the first two and the first again for an edge
+def critical_radii(supports: NDArray[np.float64]) -> NDArray[np.float64]: ...
+def compare_radii(p: NDArray[np.float64], q: NDArray[np.float64]) -> NDArray[np.int8]: ...
+
 # ---- digital triangulation (bind_digital.cpp): rows are C-contiguous uint8, uint16 or uint32 labels ----------------
 
 class DigitalTriangulationScan:
@@ -252,6 +305,29 @@ def nearest_neighbours(
     points: NDArray[np.float64], edges: NDArray[np.int32], labels: NDArray[np.int64], progress: _Progress
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Index of the nearest point of each, -1 without any, and its number of neighbours."""
+
+# ---- planar graphs (bind_planar_graph.cpp): arrays are C-contiguous; lattice points are int32 rows ------------------
+
+class TooManyCrossingsError(ValueError): ...
+class TooManyOverlapsError(ValueError): ...
+
+def place_on_lattice(
+    points: NDArray[np.float64], threads: int, progress: _Progress
+) -> tuple[NDArray[np.int32], tuple[float, float], int, float]:
+    """Lattice points, origin, exponent of the step and the largest move; the points must be finite."""
+
+def make_planar_graph(
+    vertices: NDArray[np.int32],
+    ring_start: NDArray[np.int64],
+    ring_kind: NDArray[np.int8],
+    ring_polygon: NDArray[np.int32],
+    progress: _Progress,
+) -> dict[str, Any]:
+    """Arrays of a PlanarGraph, and ``repairs``: of each kind the count, an edge, and what meets it or -1."""
+
+def planar_graph_fault(
+    points: NDArray[np.int32], segments: NDArray[np.int32], faces: NDArray[np.int32] | None, progress: _Progress
+) -> str | None: ...
 
 # ---- exact signs of segment Voronoi diagrams (bind_segment_exact.cpp), for tests: a site is a row x, y, x, y of int32,
 # ---- a disc three sites in counter-clockwise order of contact; the sign is 2 where they have no disc ----------------

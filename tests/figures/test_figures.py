@@ -23,7 +23,9 @@ def figures(tmp_path_factory):
     return folder
 
 
-@pytest.mark.parametrize("name", [f"figure-{number}.svg" for number in ("01", "02", "03b", "03c", "03d")])
+@pytest.mark.parametrize(
+    "name", [f"figure-{number}.svg" for number in ("01", "02", "03b", "03c", "03d", "04a", "04b", "04c")]
+)
 def test_svg(figures, name):
     assert (figures / name).read_text() == (Path(__file__).parent / name).read_text()
 

@@ -1,12 +1,13 @@
 """What an input is taken for, and reading and writing by the library."""
 
 import json
+import random
 
 import pytest
 
 import vorotool
 from polygon_reading import assert_same, error_of, read
-from vorotool import InputError, PointSet, PolygonSet, UsageError
+from vorotool import InputError, PointSet, PolygonSet, UsageError, VorotoolError
 from vorotool.formats.sources import STANDARD_INPUT
 
 POLYGON = '{"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [0, 9], [0, 0]]]}'
@@ -55,6 +56,22 @@ def test_the_caller_knows(tmp_path):
         vorotool.read(path, geometry="points")
     with pytest.raises(UsageError, match="geometry is 'lines'"):
         vorotool.read(path, geometry="lines")
+    with pytest.raises(UsageError, match="--columns is for lists of points"):
+        vorotool.read(path, geometry="polygons", columns="1,2")
+    with pytest.raises(UsageError, match="--columns is for delimited text"):
+        vorotool.read(path, columns="1,2")
+
+
+def test_json_is_parsed_once(tmp_path, monkeypatch):
+    import orjson
+
+    calls = []
+    parse = orjson.loads
+    monkeypatch.setattr(orjson, "loads", lambda data: calls.append(1) or parse(data))
+    for text in (POLYGON, POINT, collected(POINT, POINT)):
+        (tmp_path / "a.geojson").write_text(text)
+        vorotool.read(tmp_path / "a.geojson")
+    assert len(calls) == 3
 
 
 @pytest.mark.parametrize(
@@ -120,3 +137,62 @@ def test_what_cannot_be_written(tmp_path):
     assert list(tmp_path.iterdir()) == []
     with pytest.raises(InputError, match="these are polygons or lines"):
         vorotool.delaunay(shapes)
+
+
+WHOLE = {
+    "json": (
+        '{"polygons": [{"id": "a", "shell": [[0, 0], [4, 0], [0, 4]], "holes": [[[1, 1], [2, 1], [1, 2]]]}, '
+        '{"part": 2, "line": [[0, 0], [1, 1]], "properties": {"n": 1}}, [[0, 0], [1, 0], [1, 1]]]}'
+    ),
+    "geojson": (
+        f'{{"type": "FeatureCollection", "features": [{{"type": "Feature", "geometry": {POLYGON}}}, '
+        '{"type": "Feature", "id": 3, "properties": {"n": 1}, "geometry": {"type": "MultiLineString", "coordinates": '
+        "[[[0, 0, 1], [1.5, 1e3]]]}}]}"
+    ),
+    "wkt": "POLYGON ((0 0, 4 0, 0 4, 0 0), (1 1, 2 1, 1 2, 1 1))\nGEOMETRYCOLLECTION (LINESTRING Z (0 0 1, 1 1 2))",
+    "poly": "6 2\n1 0 0\n2 8 0\n3 0 8\n4 1 1\n5 2 1\n6 1 2\n6\n1 1 2\n2 2 3\n3 3 1\n4 4 5\n5 5 6\n6 6 4\n1\n1 1.2 1.2",
+}
+SPLINTERS = [
+    "",
+    "[",
+    "]",
+    "{",
+    "}",
+    ",",
+    ":",
+    '"',
+    "(",
+    ")",
+    "-1",
+    "1e999",
+    "1e308",
+    "1e-320",
+    "null",
+    "EMPTY",
+    "#",
+    "\0",
+]
+
+
+def outcome(text, fmt):
+    """Empty if it was read, else what is said; anything but an error of ours fails the test."""
+    try:
+        read(text, f"a.{fmt}")
+    except VorotoolError as error:
+        return str(error)
+    return ""
+
+
+@pytest.mark.parametrize("fmt", WHOLE)
+def test_damaged_files_give_errors_in_words(fmt):
+    """Each damaged at one or two places."""
+    said = []
+    for seed in range(400):
+        rng = random.Random(seed)
+        text = WHOLE[fmt]
+        for _ in range(rng.randint(1, 2)):
+            at = rng.randrange(len(text))
+            text = text[:at] + rng.choice(SPLINTERS) + text[at + rng.randint(0, 4) :]
+        said.append(outcome(text, fmt))
+    assert all(not words or words.startswith(f"a.{fmt}") for words in said)
+    assert 0 < sum(map(bool, said)) < 400

@@ -46,6 +46,7 @@ def read_seed_input(run: Run, o: SimpleNamespace, source: str, *, properties: bo
     assert not isinstance(value, PolygonSet)  # points are asked for
     if isinstance(value, PointSet):
         refuse(o, IMAGE_OPTIONS, "is for images, but the input is a list of points")
+    assert not isinstance(value, PolygonSet)  # geometry="points" gives none
     return value
 
 

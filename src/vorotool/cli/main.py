@@ -18,6 +18,7 @@ from vorotool.errors import VorotoolError
 COMMANDS = {
     "tessellate": "Digital Voronoi tessellation of points or of an image.",
     "delaunay": "Exact Delaunay triangulation of points or of an image.",
+    "alphashape": "Alpha shapes of points, of one radius or of all.",
     "draw": "Draw a label image again, without computing it again.",
 }
 """Commands and what they do; the module of a command is imported when it is called."""

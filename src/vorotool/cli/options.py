@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from fractions import Fraction
-from math import isfinite, nan
+from math import inf, isfinite, nan
 from typing import Any
 
 import click
@@ -108,6 +108,16 @@ class Decimal(click.ParamType[Fraction]):
             return Fraction(value)
         except (ValueError, ZeroDivisionError):
             self.fail(f"{value!r} is no number: give a decimal such as 12.5", param, ctx)
+
+
+class Radius(Decimal):
+    """A decimal number, kept exactly, or infinity."""
+
+    name = "R"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Parse the number."""
+        return inf if value in ("inf", inf) else super().convert(value, param, ctx)
 
 
 class Names(click.ParamType[tuple[str, ...]]):

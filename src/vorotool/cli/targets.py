@@ -25,9 +25,10 @@ EXTENSIONS = {
     ".node": "node",
     ".obj": "obj",
     ".wkt": "wkt",
+    ".html": "html",
 }
 FORMATS = tuple(dict.fromkeys(EXTENSIONS.values()))
-TEXT_FORMATS = frozenset({"text", "svg", "csv", "json", "geojson", "edge", "ele", "node", "obj", "wkt"})
+TEXT_FORMATS = frozenset({"text", "svg", "csv", "json", "geojson", "edge", "ele", "node", "obj", "wkt", "html"})
 TRIANGLE_FILES = frozenset({"node", "edge", "ele"})
 _EXTENSION_OF = {"tiff": "tif", "text": "txt"}
 

@@ -175,9 +175,9 @@ def _clipped(cells: CellSet, area: Any) -> CellSet:
 
     shapes = cells.to_shapely()
     shapely.prepare(area)
-    crossing = shapely.intersects(area, shapes) & ~shapely.contains_properly(area, shapes)
-    outside = ~crossing & ~shapely.contains_properly(area, shapes)
-    shapes[outside] = shapely.Polygon()
+    inside, meets = shapely.contains_properly(area, shapes), shapely.intersects(area, shapes)
+    crossing = meets & ~inside
+    shapes[~meets] = shapely.Polygon()
     parts = shapely.intersection(shapes[crossing], area)
     shapes[crossing] = [_polygons_of(part) for part in parts]
     return _from_shapely(cells, shapes)

@@ -79,24 +79,26 @@ def read(
     53
     """
     from vorotool.formats.images import is_image, read_image
-    from vorotool.formats.input_formats import known_input_format
+    from vorotool.formats.input_formats import NAMES_WITH, known_input_format
     from vorotool.formats.points import read_points
-    from vorotool.formats.polygons import read_polygons, with_shapes
+    from vorotool.formats.polygons import read_polygons, recognise
     from vorotool.formats.sources import read_source
 
-    if geometry not in (None, "points", "polygons"):
+    if geometry not in NAMES_WITH:
         raise UsageError(f"geometry is {geometry!r}: use points or polygons, or leave it out")
-    input_format = known_input_format(input_format)
+    input_format = known_input_format(input_format, NAMES_WITH[geometry])
     threads = checked_threads(threads)
     source = read_source(fspath(path))
     is_points = columns is not None and source.data.startswith(NPY_MAGIC)  # the one format that holds either
     if input_format in ("png", "tiff", "pnm") or (input_format in (None, "npy") and not is_points and is_image(source)):
         return read_image(source, input_format=input_format, page=page, max_pixels=max_pixels)
-    shapes = source if geometry == "polygons" else None if geometry else with_shapes(source, input_format)
-    if shapes is not None:
-        return read_polygons(
-            shapes, input_format=input_format, properties=properties, max_sites=max_sites, threads=threads, note=note
-        )
+    has_shapes = geometry == "polygons"
+    if geometry is None and columns is None:
+        source, has_shapes = recognise(source, input_format)
+    if has_shapes:
+        if columns is not None:
+            raise UsageError("--columns is for lists of points: leave it out for polygons")
+        return read_polygons(source, input_format=input_format, properties=properties, max_sites=max_sites, note=note)
     return read_points(
         source,
         input_format=input_format,
@@ -121,15 +123,16 @@ def write(
 
     Parameters
     ----------
-    value : LabelImage, Table, PolygonSet, CellSet, Triangulation or DigitalTriangulation
+    value : LabelImage, Table, PolygonSet, CellSet, Triangulation, DigitalTriangulation, AlphaShape or AlphaComplex
         What to write: images as PNG, TIFF, NPY or text, tables as CSV, JSON or NPZ, polygons as JSON, GeoJSON, WKT or
-        .poly, cells as GeoJSON, CSV, JSON, NPZ or WKT, a triangulation as a table, GeoJSON, OBJ, or a file of Triangle.
+        .poly, cells as GeoJSON, CSV, JSON, NPZ or WKT, a triangulation as a table, GeoJSON, OBJ, or a file of Triangle,
+        an alpha shape as a table or GeoJSON of its edges or as polygons, an alpha complex as a table.
     path : str or path
         The file, replaced atomically.
     fmt : str, optional
         Format, or a usual extension of it; by default that of the path.
-    what : {"edges", "triangles", "table"}, optional
-        Of a triangulation; by default what the format is for, else its edges.
+    what : {"edges", "triangles", "table", "polygons", "family"}, optional
+        Of a triangulation or an alpha shape; by default what the format is for, else its edges.
     precision : int, optional
         Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
     threads : int
@@ -147,8 +150,11 @@ def write(
     >>> import vorotool
     >>> write(vorotool.tessellate([[1, 1], [5, 3]], shape=(4, 6)), "build/labels.png")
     >>> write(vorotool.delaunay([[0, 0], [4, 0], [0, 3]]), "build/triangles.geojson", what="triangles")
+    >>> write(vorotool.alpha_shape([[0, 0], [4, 0], [0, 3]], r=2.5), "build/shape.geojson")
     """
     from vorotool.formats.outputs import open_output
+    from vorotool.geometry.alpha_complex import AlphaComplex
+    from vorotool.geometry.alpha_shape import AlphaShape
     from vorotool.geometry.digital_triangulation import DigitalTriangulation
     from vorotool.geometry.label_image import LabelImage
     from vorotool.geometry.triangulation import Triangulation
@@ -156,7 +162,8 @@ def write(
     name = (fmt or Path(path).suffix).lower().lstrip(".")
     chosen: Any = {"tif": "tiff", "txt": "text"}.get(name, name)
     threads = checked_threads(threads)
-    if what is not None and not isinstance(value, Triangulation | DigitalTriangulation):
+    has_parts = isinstance(value, Triangulation | DigitalTriangulation | AlphaComplex | AlphaShape)
+    if what is not None and not has_parts:
         raise UsageError(f"what={what!r} is for triangulations: leave it out with a {type(value).__name__}")
     if isinstance(value, LabelImage):
         _write_image(value, fspath(path), chosen, threads)
@@ -168,6 +175,8 @@ def write(
 
 def _writer_of(value: Any, fmt: str, what: str | None, threads: int) -> tuple[Callable[..., None], dict[str, Any]]:
     """Give the function that writes a value, and its further options."""
+    from vorotool.geometry.alpha_complex import AlphaComplex
+    from vorotool.geometry.alpha_shape import AlphaShape
     from vorotool.geometry.cells import CellSet
     from vorotool.geometry.digital_triangulation import DigitalTriangulation
     from vorotool.geometry.polygons import PolygonSet
@@ -186,12 +195,17 @@ def _writer_of(value: Any, fmt: str, what: str | None, threads: int) -> tuple[Ca
         from vorotool.formats.cell_files import write_cells
 
         return write_cells, {"threads": threads}
+    if isinstance(value, AlphaComplex | AlphaShape):
+        from vorotool.formats.alpha_files import write_shape
+
+        return write_shape, {"what": what, "threads": threads}
     if isinstance(value, Triangulation | DigitalTriangulation):
         from vorotool.formats.mesh_files import write_mesh
 
         return write_mesh, {"what": what or {"ele": "triangles", "node": "table"}.get(fmt, "edges"), "threads": threads}
     raise UsageError(
-        f"a {type(value).__name__} cannot be written: give a LabelImage, Table, PolygonSet, CellSet or Triangulation"
+        f"a {type(value).__name__} cannot be written: give a LabelImage, Table, PolygonSet, CellSet, Triangulation or "
+        "AlphaShape"
     )
 
 

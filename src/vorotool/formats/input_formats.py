@@ -32,6 +32,8 @@ IMAGE_NAMES = {
 """Formats of images by name; NPY files hold either."""
 
 ALL_NAMES = {**POINT_NAMES, **POLYGON_NAMES, **IMAGE_NAMES}
+NAMES_WITH = {"points": {**POINT_NAMES, **IMAGE_NAMES}, "polygons": {**POLYGON_NAMES, **IMAGE_NAMES}, None: ALL_NAMES}
+"""Formats of inputs that hold an image or such geometry."""
 _KINDS = ((POINT_NAMES, "points"), (POLYGON_NAMES, "polygons"), (IMAGE_NAMES, "images"))
 
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
-from vorotool.formats.tables import TABLE_FORMATS, json_text, object_shape, write_table
+from vorotool.formats.tables import TABLE_FORMATS, json_column, json_text, object_shape, write_table
 from vorotool.formats.text_rows import Column, RowShape, write_rows
 from vorotool.geometry.digital_triangulation import AnyTriangulation, DigitalTriangulation
 from vorotool.geometry.mesh_tables import edge_table, point_table, triangle_table
@@ -92,26 +92,60 @@ def write_mesh(
 def _write_geojson(out: BinaryIO, mesh: AnyTriangulation, what: str, precision: int | None, threads: int) -> None:
     """One feature an edge or triangle; its id is its number from 1, its labels and length are properties."""
     rows = mesh.edges if what == "edges" else mesh.triangles
-    x, y = np.ascontiguousarray(mesh.points.T)
-    ring = [*rows.T, *([] if what == "edges" else [rows[:, 0]])]
-    corners = [Column("", Lookup(values, index)) for index in ring for values in (x, y)]
     stored = _TABLES[what](mesh).stored()
-    names = [name for name in stored if name.startswith("label") or name == "length"]
-    columns = [Column.of("id", np.arange(1, len(rows) + 1)), *(Column.of(name, stored[name]) for name in names)]
+    columns = {name: stored[name] for name in stored if name.startswith("label") or name == "length"}
+    write_features(out, columns, mesh.points, rows, crs=mesh.crs, precision=precision, threads=threads)
+
+
+def write_features(
+    out: BinaryIO,
+    columns: Mapping[str, Any],
+    points: NDArray[np.float64],
+    rows: NDArray[np.int32],
+    *,
+    crs: Any = None,
+    precision: int | None = None,
+    threads: int = 0,
+) -> None:
+    """Write edges or triangles as GeoJSON, streamed: one feature each, whose id is its number from 1.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable.
+    columns : mapping of str to column
+        Properties, as in a `Table`.
+    points : (n, 2) float64 array
+        Coordinates.
+    rows : (m, 2) or (m, 3) int32 array
+        Points of each edge, which becomes a LineString, or triangle, which becomes a Polygon.
+    crs : object, optional
+        The ``crs`` member.
+    precision : int, optional
+        Significant digits; by default the shortest that reads back the same.
+    threads : int
+        0 for all.
+    """
+    x, y = np.ascontiguousarray(points.T)
+    ring = [*rows.T, *([rows[:, 0]] if rows.shape[1] == 3 else [])]
+    corners = [Column("", Lookup(values, index)) for index in ring for values in (x, y)]
+    properties = [json_column(Column.of(name, column), precision) for name, column in columns.items()]
     out.write(b'{"type":"FeatureCollection",')
-    if mesh.crs is not None:
-        out.write(f'"crs":{json_text(mesh.crs)},'.encode())
+    if crs is not None:
+        out.write(f'"crs":{json_text(crs)},'.encode())
     out.write(b'"features":[')
     if len(rows):
         out.write(b"\n")
-        write_rows(out, [*columns, *corners], _feature_shape(names, what), precision=precision, threads=threads)
+        numbers = Column.of("id", np.arange(1, len(rows) + 1))
+        shape = _feature_shape(list(columns), rows.shape[1])
+        write_rows(out, [numbers, *properties, *corners], shape, precision=precision, threads=threads)
         out.write(b"\n")
     out.write(b"]}\n")
 
 
-def _feature_shape(names: list[str], what: str) -> RowShape:
-    kind, opening, closing = ("LineString", "[[", "]]") if what == "edges" else ("Polygon", "[[[", "]]]")
-    corners = 2 if what == "edges" else 4
+def _feature_shape(names: list[str], vertices: int) -> RowShape:
+    kind, opening, closing = ("LineString", "[[", "]]") if vertices == 2 else ("Polygon", "[[[", "]]]")
+    corners = 2 if vertices == 2 else 4
     properties = object_shape(names, ',"properties":', f',"geometry":{{"type":"{kind}","coordinates":{opening}')
     between = ("],[" if k % 2 else "," for k in range(2 * corners - 1))
     return RowShape(('{"type":"Feature","id":', *properties.around, *between, f"{closing}}}}}"), ",\n", "null")

@@ -23,7 +23,6 @@ class PolygonOptions:
 
     properties: bool = True
     max_sites: int | None = None
-    threads: int = 0
     note: Callable[[str], None] = no_note
 
     def check_vertices(self, name: str, count: int) -> None:

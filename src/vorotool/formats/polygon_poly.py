@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -35,7 +36,7 @@ def read_poly(source: Source, options: PolygonOptions) -> PolygonSet:
     if unused:
         options.note(f"{source.name}: {unused} vertices of no segment are left out")
     loops = {i: xy[chain[:-1]] for i, chain in enumerate(chains) if len(chain) > 3 and chain[0] == chain[-1]}
-    polygons = _nested(loops, holes, source.name)
+    polygons = _nested(loops, holes, _Frame.of(xy), source.name)
     polygons |= {i: [xy[chain]] for i, chain in enumerate(chains) if i not in loops}
     ordered = [(i in loops, polygons[i]) for i in sorted(polygons)]
     rings = [ring for _, polygon in ordered for ring in polygon]
@@ -184,8 +185,28 @@ def _chains(segments: NDArray[np.int64], vertices: int) -> list[list[int]]:
     return chains
 
 
+@dataclass(frozen=True)
+class _Frame:
+    """A frame in which coordinates are at most about 1, so that areas neither overflow nor vanish."""
+
+    middle: NDArray[np.float64]
+    exponent: int
+
+    @staticmethod
+    def of(xy: NDArray[np.float64]) -> _Frame:
+        low, high = xy.min(axis=0), xy.max(axis=0)
+        return _Frame(low / 2 + high / 2, int(np.frexp((high / 2 - low / 2).max())[1]))
+
+    def scaled(self, xy: NDArray[np.float64]) -> NDArray[np.float64]:
+        with np.errstate(over="ignore", under="ignore"):  # of hole points far outside
+            return np.nan_to_num(np.ldexp(xy - self.middle, -self.exponent))
+
+    def unscaled(self, x: float, y: float) -> tuple[float, float]:
+        return tuple((np.ldexp([x, y], self.exponent) + self.middle).tolist())
+
+
 def _nested(
-    loops: dict[int, NDArray[np.float64]], holes: NDArray[np.float64], name: str
+    loops: dict[int, NDArray[np.float64]], holes: NDArray[np.float64], frame: _Frame, name: str
 ) -> dict[int, list[NDArray[np.float64]]]:
     """Shell and holes of each polygon, by the number of its shell."""
     import shapely
@@ -193,14 +214,15 @@ def _nested(
     if not len(holes):
         return {number: [loop] for number, loop in loops.items()}
     numbers = list(loops)
-    shapes = np.array([shapely.make_valid(shapely.Polygon(loop)) for loop in loops.values()], dtype=object)
-    hole_of = _smallest_around(shapes, shapely.points(holes), None)
+    scaled = [frame.scaled(loop) for loop in loops.values()]
+    shapes = np.array([shapely.make_valid(shapely.Polygon(loop)) for loop in scaled], dtype=object)
+    hole_of = _smallest_around(shapes, shapely.points(frame.scaled(holes)), None)
     if -1 in hole_of:
         at = hole_of.index(-1)
         raise InputError(
             f"{name}: hole {at + 1}, ({holes[at, 0]:g}, {holes[at, 1]:g}), lies in no closed loop; move or remove it"
         )
-    around = _smallest_around(shapes, shapely.points([loop[0] for loop in loops.values()]), np.arange(len(shapes)))
+    around = _smallest_around(shapes, shapely.points([loop[0] for loop in scaled]), np.arange(len(shapes)))
     is_hole = np.isin(np.arange(len(shapes)), hole_of)
     polygons = {numbers[i]: [loops[numbers[i]]] for i in np.flatnonzero(~is_hole).tolist()}
     for loop in np.flatnonzero(is_hole).tolist():
@@ -267,6 +289,8 @@ def _hole_points(polygons: PolygonSet) -> list[tuple[float, float]]:
 
     if not (polygons.ring_kind == HOLE).any():
         return []
+    frame = _Frame.of(polygons.xy)
+    polygons = replace(polygons, xy=frame.scaled(polygons.xy))
     shapes = to_shapely(polygons)
     shells = shapely.make_valid(shapely.polygons(shapely.get_exterior_ring(shapes[~polygons.is_line])))
     tree = shapely.STRtree(shells)
@@ -276,5 +300,5 @@ def _hole_points(polygons: PolygonSet) -> list[tuple[float, float]]:
         inside = shapely.union_all(shells[tree.query(hole, predicate="contains")])
         point = shapely.difference(hole, inside).representative_point()
         if not point.is_empty:
-            points.append((point.x, point.y))
+            points.append(frame.unscaled(point.x, point.y))
     return points

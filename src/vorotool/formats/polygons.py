@@ -63,8 +63,8 @@ def detect_polygon_format(source: Source) -> str:
     )
 
 
-def with_shapes(source: Source, input_format: str | None = None) -> Source | None:
-    """Return the source if it holds polygons or lines, else None; JSON comes back parsed.
+def recognise(source: Source, input_format: str | None = None) -> tuple[Source, bool]:
+    """Tell whether a source that is no image holds polygons or lines; JSON comes back parsed.
 
     A plain JSON list of pairs is taken for points, and so is what cannot be told.
 
@@ -75,22 +75,24 @@ def with_shapes(source: Source, input_format: str | None = None) -> Source | Non
 
     Examples
     --------
-    >>> with_shapes(Source("standard input", b"POINT (1 2)")) is None
-    True
+    >>> recognise(Source("standard input", b"POINT (1 2)"))[1]
+    False
     """
     if input_format == "poly" or (input_format is None and source.suffix == ".poly"):
-        return source
+        return source, True
     chosen = input_format or detect_point_format(source)
-    source = text_source(source) if chosen in POLYGON_FORMATS else source
+    if chosen not in POLYGON_FORMATS:
+        return source, False
+    source = text_source(source)
     if chosen == "wkt":
-        return source if wkt_holds_shapes(source.data) else None
-    if chosen not in ("json", "geojson") or _is_flat(source.data):
-        return None
+        return source, wkt_holds_shapes(source.data)
+    if _is_flat(source.data):
+        return source, False
     parsed = JsonSource(source.name, source.data, parse_json(source))
     document = parsed.document
-    if isinstance(document, dict):
-        return parsed if "polygons" in document or holds_shapes(document) else None
-    return parsed if isinstance(document, list) and is_list_of_shells(document) else None
+    if isinstance(document, list):
+        return parsed, is_list_of_shells(document)
+    return parsed, isinstance(document, dict) and ("polygons" in document or holds_shapes(document))
 
 
 def _is_flat(data: bytes) -> bool:
@@ -106,7 +108,6 @@ def read_polygons(
     input_format: str | None = None,
     properties: bool = True,
     max_sites: int | None = None,
-    threads: int = 0,
     note: Callable[[str], None] | None = None,
 ) -> PolygonSet:
     """Read polygons and open lines, in the order of the input.
@@ -130,8 +131,6 @@ def read_polygons(
         Keep ``id`` and properties.
     max_sites : int, optional
         The most vertices that are accepted.
-    threads : int
-        Not used by the formats that there are.
     note : callable, optional
         Called with a line for each thing that was guessed or left out.
 
@@ -155,7 +154,7 @@ def read_polygons(
     [[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]
     """
     chosen = known_input_format(input_format, POLYGON_NAMES) or detect_polygon_format(source)
-    options = PolygonOptions(properties, max_sites, threads, note or no_note)
+    options = PolygonOptions(properties, max_sites, note or no_note)
     return _READERS[chosen](text_source(source), options)
 
 

@@ -125,7 +125,55 @@ class Texts:
     size: float = 12.0
 
 
-Layer = Lines | Polygons | Points | Texts
+@dataclass(frozen=True, eq=False)
+class Arcs:
+    """Closed curves of circular arcs, filled by the even-odd rule; with y upwards each arc turns clockwise.
+
+    Parameters
+    ----------
+    name : str
+        Of the layer.
+    start, end, centre : (k, 2) float64 array
+        Of each arc, which is at most half a circle.
+    rings : (r + 1,) integer array
+        Where each curve begins among the arcs, and ``k``.
+    fill, edge : str
+        Colours, ``#rrggbb``.
+    width : float
+        Of the curves, in px.
+    """
+
+    name: str
+    start: NDArray[np.float64]
+    end: NDArray[np.float64]
+    centre: NDArray[np.float64]
+    rings: NDArray[np.int64]
+    fill: str
+    edge: str
+    width: float = 1.5
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """(k, 2) where arcs begin, and so end."""
+        return self.start
+
+    def chords(self, pieces: int = 64) -> Polygons:
+        """Polygons instead: so many chords an arc, off by less than 1/3000 of its radius."""
+        offset = self.start - self.centre
+        towards = self.end - self.centre
+        turn = np.arctan2(offset[:, 0] * towards[:, 1] - offset[:, 1] * towards[:, 0], (offset * towards).sum(axis=1))
+        angle = -np.abs(turn)[:, None] * (np.arange(pieces) / pieces)
+        x = offset[:, :1] * np.cos(angle) - offset[:, 1:] * np.sin(angle)
+        y = offset[:, :1] * np.sin(angle) + offset[:, 1:] * np.cos(angle)
+        places = (self.centre[:, None] + np.stack([x, y], axis=-1)).reshape(-1, 2)
+        first = np.array([0, len(self.rings) - 1]) if len(self.rings) > 1 else None
+        corners = np.arange(len(places), dtype=np.int32)
+        return Polygons(
+            self.name, places, corners, self.rings * pieces, first, [self.fill], edge=self.edge, width=self.width
+        )
+
+
+Layer = Lines | Polygons | Points | Texts | Arcs
 
 
 def bounds_of(layers: Iterable[Layer]) -> tuple[float, float, float, float]:
@@ -172,14 +220,18 @@ class Page:
         across, down = span + 2 * margin
         self.scale = float(min(width / across, TALLEST * width / down))  # px a unit of the scaled data
         self.width, self.height = width, max(1, round(float(down * self.scale)))
-        self._y_up, self._middle = y_up, low + span / 2
+        self.y_up, self._middle = y_up, low + span / 2
 
     def place(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """(n, 2) px from the left and from the top."""
-        scale = np.array([self.scale, -self.scale if self._y_up else self.scale])
+        scale = np.array([self.scale, -self.scale if self.y_up else self.scale])
         centre = np.array([self.width / 2, self.height / 2])
         placed: NDArray[np.float64] = (np.ldexp(points, -self._exponent) - self._middle) * scale + centre
         return placed
+
+    def length(self, distance: float) -> float:
+        """Px of a distance."""
+        return float(np.ldexp(distance, -self._exponent) * self.scale)
 
     def spacing(self, count: int) -> float:
         """Distance in px between neighbours of so many points, spread evenly over the page."""

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import LimitError
-from vorotool.render.layers import Layer, Lines, Page, Points, Polygons
+from vorotool.render.layers import Arcs, Layer, Lines, Page, Points, Polygons
 from vorotool.render.palettes import WHITE
 
 FINE = 4
@@ -72,6 +72,8 @@ class _Canvas:
         self.colours = {WHITE: 0}
 
     def draw(self, layer: Layer) -> None:
+        if isinstance(layer, Arcs):
+            layer = layer.chords()
         places = self.page.place(layer.points) * FINE
         if isinstance(layer, Polygons):
             self._fill(layer, places)

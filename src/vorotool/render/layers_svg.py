@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.render.layers import Layer, Lines, Page, Points, Polygons, Texts
+from vorotool.render.layers import Arcs, Layer, Lines, Page, Points, Polygons, Texts
 from vorotool.render.palettes import WHITE
 
 PATH_ROWS = 4096
@@ -57,6 +57,8 @@ def write_layers_svg(out: BinaryIO, layers: Iterable[Layer], page: Page, *, thre
 
 
 def _parts(layer: Layer, page: Page, threads: int) -> Iterator[bytes]:
+    if isinstance(layer, Arcs):
+        return _arcs(layer, page)
     x, y = np.ascontiguousarray(np.round(page.place(layer.points), DECIMALS).T + 0.0)  # no -0
     if isinstance(layer, Lines):
         return _lines(layer, x, y, threads)
@@ -150,6 +152,25 @@ def _texts(layer: Texts, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iter
     y = np.round(y + layer.size * np.where(below, 1.1, -0.5), DECIMALS)
     for rows in _chunks(len(x), SLICE_ROWS):
         yield from _rows([x[rows], y[rows], texts[rows]], ('<text x="', '" y="', '">', "</text>\n"), threads)
+    yield b"</g>\n"
+
+
+def _arcs(layer: Arcs, page: Page) -> Iterator[bytes]:
+    """One path of all curves; with y downwards what turned clockwise turns counter-clockwise."""
+    start, end = (np.round(page.place(places), DECIMALS) + 0.0 for places in (layer.start, layer.end))
+    radii = np.hypot(*(layer.start - layer.centre).T).tolist()
+    sweep = int(page.y_up)  # 1 is clockwise as seen
+    paths = []
+    for first, last in zip(layer.rings[:-1].tolist(), layer.rings[1:].tolist(), strict=True):
+        steps = [f"M{start[first, 0]:g} {start[first, 1]:g}"]
+        for arc in range(first, last):
+            radius = f"{page.length(radii[arc]):.3f}".rstrip("0").rstrip(".")
+            steps.append(f"A{radius} {radius} 0 0 {sweep} {end[arc, 0]:g} {end[arc, 1]:g}")
+        paths.append("".join(steps) + "Z")
+    style = f'fill="{layer.fill}" fill-rule="evenodd" {_stroke(layer.edge, layer.width)}'
+    yield f'<g id="{escape(layer.name)}" {style}>\n'.encode()
+    if paths:
+        yield f'<path {_UNSCALED} d="{"".join(paths)}"/>\n'.encode()
     yield b"</g>\n"
 
 

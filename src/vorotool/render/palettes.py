@@ -23,6 +23,9 @@ SEED = "#332288"
 INK = "#222222"
 EDGE = "#ffffff"
 FAINT = "#999999"
+PALE = "#cccccc"
+BOUNDARY = "#222222"
+SINGULAR = "#cc3311"
 
 CELLS = (
     "#77aadd",

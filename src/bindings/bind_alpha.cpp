@@ -1,0 +1,179 @@
+// Alpha complexes, alpha shapes and their curves.
+#include <cstdint>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "core/alpha_complex.hpp"
+#include "core/alpha_curves.hpp"
+#include "core/alpha_shape.hpp"
+#include "core/critical_radius.hpp"
+#include "interrupts.hpp"
+#include "mesh_arrays.hpp"
+
+namespace vorotool::bindings {
+namespace {
+
+namespace nb = nanobind;
+using namespace nb::literals;
+using core::Monitor;
+using Values = Vector<const double>;
+
+// The binding trusts nobody with indices: a wrong one would read elsewhere.
+void check_indices(std::span<const std::int32_t> values, std::int64_t least, std::size_t end) {
+  for (const std::int32_t value : values) {
+    if (value < least || value >= static_cast<std::int64_t>(end))
+      throw std::invalid_argument("an index is out of range");
+  }
+}
+
+nb::tuple edges_of_triangles(const IndexRows& triangles, const IndexRows& neighbours, unsigned threads,
+                             nb::handle progress) {
+  if (triangles.shape(0) != neighbours.shape(0))
+    throw std::invalid_argument("each triangle must have neighbours");
+  check_indices(rows_of(neighbours, 3), -1, neighbours.shape(0));
+  core::EdgeArrays found = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::edges_of_triangles(rows_of(triangles, 3), rows_of(neighbours, 3), threads, monitor);
+  });
+  const std::size_t rows = found.ends.size() / 2;
+  return nb::make_tuple(to_numpy(std::move(found.ends), {rows, 2}),
+                        to_numpy(std::move(found.sides), {rows, 2}));
+}
+
+nb::dict alpha_complex(const Matrix<const double>& points, const IndexRows& triangles, const IndexRows& edges,
+                       const IndexRows& sides, bool printed, unsigned threads, nb::handle progress) {
+  const core::AlphaInput input{as_points(points), rows_of(triangles, 3), rows_of(edges, 2),
+                               rows_of(sides, 2)};
+  if (edges.shape(0) != sides.shape(0)) throw std::invalid_argument("each edge must have sides");
+  check_indices(input.triangles, 0, input.points.size());
+  check_indices(input.edges, 0, input.points.size());
+  check_indices(input.sides, -1, triangles.shape(0));
+  const auto rule = printed ? core::AlphaRule::printed : core::AlphaRule::corrected;
+  core::AlphaArrays found = run_interruptible(
+      progress, [&](const Monitor& monitor) { return core::alpha_complex(input, rule, threads, monitor); });
+  nb::dict out;
+  const auto put = [&](const char* name, auto& values) {
+    const std::size_t size = values.size();
+    out[name] = to_numpy(std::move(values), {size});
+  };
+  put("r_min", found.r_min);
+  put("r_mid", found.r_mid);
+  put("r_max", found.r_max);
+  put("rank_min", found.rank_min);
+  put("rank_mid", found.rank_mid);
+  put("rank_max", found.rank_max);
+  put("triangle_rank", found.triangle_rank);
+  put("spectrum", found.spectrum);
+  put("witness", found.witness);
+  return out;
+}
+
+core::EdgeRanks ranks_of(const Indices& min, const Indices& mid, const Indices& max) {
+  if (min.size() != mid.size() || min.size() != max.size())
+    throw std::invalid_argument("ranks differ in length");
+  return {view(min), view(mid), view(max)};
+}
+
+nb::tuple shape_edges(const Indices& min, const Indices& mid, const Indices& max, std::int32_t reached,
+                      std::int32_t entered, unsigned threads, nb::handle progress) {
+  const core::EdgeRanks ranks = ranks_of(min, mid, max);
+  core::ShapeEdges found = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::shape_edges(ranks, reached, entered, threads, monitor);
+  });
+  return nb::make_tuple(to_numpy(std::move(found.edge), {found.count}),
+                        to_numpy(std::move(found.kind), {found.count}));
+}
+
+nb::object connected_triangles(const Vector<const std::uint8_t>& inside, const IndexRows& sides,
+                               nb::handle progress) {
+  check_indices(rows_of(sides, 2), -1, inside.size());
+  return to_numpy(run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::connected_triangles(view(inside), rows_of(sides, 2), monitor);
+  }));
+}
+
+nb::tuple trace_rings(const Matrix<const double>& points, const Indices& a, const Indices& b,
+                      const Indices& region, nb::handle progress) {
+  if (a.size() != b.size() || a.size() != region.size())
+    throw std::invalid_argument("columns differ in length");
+  check_indices(view(a), 0, points.shape(0));
+  check_indices(view(b), 0, points.shape(0));
+  core::Rings rings = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::trace_rings(as_points(points), view(a), view(b), view(region), monitor);
+  });
+  return nb::make_tuple(to_numpy(std::move(rings.vertex)), to_numpy(std::move(rings.start)),
+                        to_numpy(std::move(rings.region)), to_numpy(std::move(rings.is_hole)));
+}
+
+nb::dict alpha_curves(std::size_t spectrum, const Indices& triangle_rank, const Indices& min,
+                      const Indices& mid, const Indices& max, const IndexRows& sides, const Values& area,
+                      const Values& length, nb::handle progress) {
+  const core::CurveInput input{spectrum,          view(triangle_rank), ranks_of(min, mid, max),
+                               rows_of(sides, 2), view(area),          view(length)};
+  if (area.size() != triangle_rank.size() || length.size() != min.size() || sides.shape(0) != min.size()) {
+    throw std::invalid_argument("columns differ in length");
+  }
+  for (const auto ranks : {input.triangle_rank, input.edges.min, input.edges.mid, input.edges.max}) {
+    check_indices(ranks, 0, spectrum + 1);
+  }
+  check_indices(input.sides, -1, triangle_rank.size());
+  core::Curves found =
+      run_interruptible(progress, [&](const Monitor& monitor) { return core::alpha_curves(input, monitor); });
+  nb::dict out;
+  out["area"] = to_numpy(std::move(found.area), {spectrum});
+  out["perimeter"] = to_numpy(std::move(found.perimeter), {spectrum});
+  out["regions"] = to_numpy(std::move(found.regions), {spectrum});
+  out["holes"] = to_numpy(std::move(found.holes), {spectrum});
+  out["edges"] = to_numpy(std::move(found.edges), {spectrum});
+  return out;
+}
+
+// Supports are rows of three points, or of two with the first one repeated.
+core::Support support_of(const double* p) {
+  const bool is_edge = p[0] == p[4] && p[1] == p[5];
+  return {{p[0], p[1]}, {p[2], p[3]}, {p[4], p[5]}, !is_edge};
+}
+
+nb::object critical_radii(const Matrix<const double>& supports) {
+  if (supports.shape(1) != 6) throw std::invalid_argument("supports must have six columns");
+  std::vector<double> radii(supports.shape(0));
+  for (std::size_t i = 0; i < radii.size(); ++i)
+    radii[i] = core::critical_radius(support_of(supports.data() + 6 * i));
+  return to_numpy(std::move(radii));
+}
+
+nb::object compare_radii(const Matrix<const double>& p, const Matrix<const double>& q) {
+  if (p.shape(1) != 6 || q.shape(1) != 6 || p.shape(0) != q.shape(0)) {
+    throw std::invalid_argument("supports must have six columns, as many of both");
+  }
+  std::vector<std::int8_t> signs(p.shape(0));
+  for (std::size_t i = 0; i < signs.size(); ++i) {
+    signs[i] = static_cast<std::int8_t>(
+        core::compare_radii(support_of(p.data() + 6 * i), support_of(q.data() + 6 * i)));
+  }
+  return to_numpy(std::move(signs));
+}
+
+}  // namespace
+
+void bind_alpha(nb::module_& module) {
+  module.def("edges_of_triangles", &edges_of_triangles, "triangles"_a.noconvert(), "neighbours"_a.noconvert(),
+             "threads"_a, "progress"_a.none());
+  module.def("alpha_complex", &alpha_complex, "points"_a.noconvert(), "triangles"_a.noconvert(),
+             "edges"_a.noconvert(), "sides"_a.noconvert(), "printed"_a, "threads"_a, "progress"_a.none());
+  module.def("shape_edges", &shape_edges, "rank_min"_a.noconvert(), "rank_mid"_a.noconvert(),
+             "rank_max"_a.noconvert(), "reached"_a, "entered"_a, "threads"_a, "progress"_a.none());
+  module.def("connected_triangles", &connected_triangles, "inside"_a.noconvert(), "sides"_a.noconvert(),
+             "progress"_a.none());
+  module.def("trace_rings", &trace_rings, "points"_a.noconvert(), "a"_a.noconvert(), "b"_a.noconvert(),
+             "region"_a.noconvert(), "progress"_a.none());
+  module.def("alpha_curves", &alpha_curves, "spectrum"_a, "triangle_rank"_a.noconvert(),
+             "rank_min"_a.noconvert(), "rank_mid"_a.noconvert(), "rank_max"_a.noconvert(),
+             "sides"_a.noconvert(), "area"_a.noconvert(), "length"_a.noconvert(), "progress"_a.none());
+  module.def("critical_radii", &critical_radii, "supports"_a.noconvert());
+  module.def("compare_radii", &compare_radii, "p"_a.noconvert(), "q"_a.noconvert());
+}
+
+}  // namespace vorotool::bindings

@@ -1,0 +1,110 @@
+// Placement on the lattice, the planar graph of polygons and lines, and its check.
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "core/placement.hpp"
+#include "core/planar_graph.hpp"
+#include "core/verify_planar_graph.hpp"
+#include "interrupts.hpp"
+
+namespace vorotool::bindings {
+namespace {
+
+namespace nb = nanobind;
+using namespace nb::literals;
+using core::LatticePoint;
+using core::Monitor;
+using IndexRows = Matrix<const std::int32_t>;
+
+static_assert(sizeof(LatticePoint) == 2 * sizeof(std::int32_t));
+
+std::span<const LatticePoint> as_lattice_points(const IndexRows& array) {
+  if (array.shape(1) != 2) throw std::invalid_argument("points must have two columns");
+  return {reinterpret_cast<const LatticePoint*>(array.data()), array.shape(0)};
+}
+
+// An (n, 2) array of the values, which come in pairs.
+nb::object pairs(std::span<const std::int32_t> values) {
+  core::LargeArray<std::int32_t> kept(values.size());
+  std::copy(values.begin(), values.end(), kept.data());
+  return to_numpy(std::move(kept), {values.size() / 2, 2});
+}
+
+nb::object pairs(const std::vector<LatticePoint>& points) {
+  return pairs({reinterpret_cast<const std::int32_t*>(points.data()), 2 * points.size()});
+}
+
+// Lattice points, origin, exponent and the largest move.
+nb::tuple place_on_lattice(const Matrix<const double>& array, unsigned threads, nb::handle progress) {
+  if (array.shape(1) != 2) throw std::invalid_argument("points must have two columns");
+  const std::span<const core::Point> points{reinterpret_cast<const core::Point*>(array.data()),
+                                            array.shape(0)};
+  const core::Placement placed = run_interruptible(
+      progress, [&](const Monitor& monitor) { return core::place_on_lattice(points, threads, monitor); });
+  return nb::make_tuple(pairs(placed.points), nb::make_tuple(placed.origin_x, placed.origin_y),
+                        placed.exponent, placed.largest_move);
+}
+
+nb::dict make_planar_graph(const IndexRows& array, const Vector<const std::int64_t>& ring_start,
+                           const Vector<const std::int8_t>& ring_kind,
+                           const Vector<const std::int32_t>& ring_polygon, nb::handle progress) {
+  const std::span<const LatticePoint> vertices = as_lattice_points(array);
+  const core::Rings rings{view(ring_start), view(ring_kind), view(ring_polygon)};
+  if (rings.start.size() != rings.kind.size() + 1 || rings.kind.size() != rings.polygon.size() ||
+      static_cast<std::size_t>(rings.start.back()) != vertices.size()) {
+    throw std::invalid_argument("the arrays of rings have lengths that do not go together");
+  }
+  core::PlanarGraph graph = run_interruptible(
+      progress, [&](const Monitor& monitor) { return core::make_planar_graph(vertices, rings, monitor); });
+  nb::dict result;
+  result["points"] = pairs(graph.points);
+  result["point_vertex"] = to_numpy(std::move(graph.point_vertex));
+  result["segments"] = pairs(graph.segments);
+  result["source_start"] = to_numpy(std::move(graph.source_start));
+  result["source_edge"] = to_numpy(std::move(graph.source_edge));
+  result["segment_faces"] = pairs(graph.segment_faces);
+  result["face_start"] = to_numpy(std::move(graph.face_polygons.start));
+  result["face_polygon"] = to_numpy(std::move(graph.face_polygons.polygon));
+  nb::list repairs;
+  for (const core::RepairCount& repair : graph.repairs) {
+    repairs.append(nb::make_tuple(repair.count, repair.edge, repair.other));
+  }
+  result["repairs"] = repairs;
+  return result;
+}
+
+std::optional<std::string> planar_graph_fault(const IndexRows& points, const IndexRows& segments,
+                                              const std::optional<IndexRows>& faces, nb::handle progress) {
+  if (segments.shape(1) != 2 || (faces && (faces->shape(1) != 2 || faces->size() != segments.size()))) {
+    throw std::invalid_argument("segments and their faces must have two columns and as many rows");
+  }
+  const core::GraphArrays graph{as_lattice_points(points), view(segments),
+                                faces ? view(*faces) : std::span<const std::int32_t>{}};
+  return run_interruptible(progress,
+                           [&](const Monitor& monitor) { return core::find_fault(graph, monitor); });
+}
+
+}  // namespace
+
+void bind_planar_graph(nb::module_& module) {
+  nb::exception<core::TooManyCrossings>(module, "TooManyCrossingsError", PyExc_ValueError);
+  nb::exception<core::TooManyOverlaps>(module, "TooManyOverlapsError", PyExc_ValueError);
+  module.def("place_on_lattice", &place_on_lattice, "points"_a.noconvert(), "threads"_a, "progress"_a.none());
+  module.def("make_planar_graph", &make_planar_graph, "vertices"_a.noconvert(), "ring_start"_a.noconvert(),
+             "ring_kind"_a.noconvert(), "ring_polygon"_a.noconvert(), "progress"_a.none());
+  module.def("planar_graph_fault", &planar_graph_fault, "points"_a.noconvert(), "segments"_a.noconvert(),
+             "faces"_a.noconvert().none(), "progress"_a.none());
+}
+
+}  // namespace vorotool::bindings

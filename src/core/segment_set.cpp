@@ -1,0 +1,82 @@
+#include "core/segment_set.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/radix_sort.hpp"
+
+namespace vorotool::core {
+
+SortedPoints sort_points(std::span<const LatticePoint> points, const Monitor& monitor) {
+  const auto shifted = [](std::int32_t c) {
+    return static_cast<std::uint64_t>(std::int64_t{c} + lattice_limit);
+  };
+  std::vector<Keyed> keyed;
+  keyed.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    keyed.push_back({shifted(points[i].x) << 31 | shifted(points[i].y), static_cast<std::uint32_t>(i)});
+  }
+  radix_sort(keyed, 62);  // stable: of equal points the smallest index comes first
+  if (monitor && !monitor(0)) throw Interrupted();
+  SortedPoints result;
+  result.rank.resize(points.size());
+  result.points.reserve(points.size());
+  result.first.reserve(points.size());
+  for (std::size_t i = 0; i < keyed.size(); ++i) {
+    if (i == 0 || keyed[i].key != keyed[i - 1].key) {
+      result.points.push_back(points[keyed[i].value]);
+      result.first.push_back(static_cast<std::int32_t>(keyed[i].value));
+    }
+    result.rank[keyed[i].value] = static_cast<std::int32_t>(result.points.size()) - 1;
+  }
+  return result;
+}
+
+namespace {
+
+// Links by their lower ends, as a counting sort; link k of the result may have any place among those of its
+// end.
+std::vector<std::int32_t> sort_by_lower_end(std::vector<Link>& links, std::size_t points) {
+  std::vector<std::int32_t> start(points + 1, 0);
+  for (const Link& link : links) ++start[static_cast<std::size_t>(link.lower) + 1];
+  for (std::size_t i = 0; i < points; ++i) start[i + 1] += start[i];
+  std::vector<std::int32_t> next(start.begin(), start.end() - 1);
+  std::vector<Link> sorted(links.size());
+  for (const Link& link : links) {
+    sorted[static_cast<std::size_t>(next[static_cast<std::size_t>(link.lower)]++)] = link;
+  }
+  links.swap(sorted);
+  return start;
+}
+
+}  // namespace
+
+SegmentSet join_links(std::vector<LatticePoint> points, std::vector<Link> links) {
+  SegmentSet set;
+  set.points = std::move(points);
+  const auto point = [&](std::int32_t i) { return set.points[static_cast<std::size_t>(i)]; };
+  const std::vector<std::int32_t> begin = sort_by_lower_end(links, set.points.size());
+  set.start.reserve(set.points.size() + 1);
+  for (std::size_t i = 0; i < set.points.size(); ++i) {
+    set.start.push_back(static_cast<std::int32_t>(set.lower_end.size()));
+    const auto first = links.begin() + begin[i], last = links.begin() + begin[i + 1];
+    std::sort(first, last, [&](const Link& a, const Link& b) {
+      if (a.upper == b.upper) return a.source < b.source;
+      const std::int64_t area = turn(set.points[i], point(a.upper), point(b.upper));
+      return area != 0 ? area > 0 : a.upper < b.upper;
+    });
+    for (auto link = first; link != last; ++link) {
+      if (link == first || link->upper != std::prev(link)->upper) {
+        set.lower_end.push_back(link->lower);
+        set.upper_end.push_back(link->upper);
+        set.source_start.push_back(static_cast<std::int32_t>(set.source.size()));
+      }
+      set.source.push_back(link->source);
+    }
+  }
+  set.start.push_back(static_cast<std::int32_t>(set.lower_end.size()));
+  set.source_start.push_back(static_cast<std::int32_t>(set.source.size()));
+  return set;
+}
+
+}  // namespace vorotool::core

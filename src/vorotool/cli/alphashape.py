@@ -1,0 +1,191 @@
+"""``vorotool alphashape``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from vorotool.cli.inputs import naming, read_seed_input, refuse
+from vorotool.cli.options import Decimal, Names, Radius, layers_option, shared, single_input
+from vorotool.cli.run import Run
+from vorotool.cli.targets import Target, check_picture_options, check_stats, check_targets, plan_targets
+
+if TYPE_CHECKING:
+    from vorotool.geometry.points import PointSet
+    from vorotool.geometry.seeds import SeedSet
+
+METHODS = ("exact", "digital", "digital-valid")
+_TABLES = ("csv", "json", "npz")
+_PICTURES = ("svg", "png")
+FORMATS = {
+    "edges": ("csv", "json", "geojson", "npz", *_PICTURES, "html"),
+    "polygons": ("geojson", "wkt", "json", *_PICTURES, "html"),
+    "complex": ("csv", "json", "geojson", "npz", *_PICTURES, "html"),
+    "general": ("geojson", "wkt", *_PICTURES, "html"),
+    "family": (*_TABLES, "html"),
+    "spectrum": _TABLES,
+    "curves": (*_TABLES, "svg", "html"),
+    "hull": ("geojson", *_TABLES, *_PICTURES),
+    "points": _TABLES,
+    "table": _TABLES,
+}
+OF_ONE_SHAPE = frozenset({"edges", "polygons", "complex", "general", "hull", "points", "table"})
+"""Results that are of one radius; the others are of all."""
+OF_DIGITAL_RULE = frozenset({"edges", "complex", "family", "spectrum"})
+"""Results that need no more than edges and the triangles beside them."""
+LAYERS = ("polygons", "delaunay", "interior", "boundary", "singular", "hull", "points", "labels")
+"""Layers of pictures, from below."""
+PICTURE_LAYERS = {"svg": LAYERS, "png": tuple(layer for layer in LAYERS if layer != "labels")}
+_WITH_LAYERS = frozenset({"edges", "polygons", "complex", "general", "hull"})
+_WITHOUT_DIGITS = frozenset({"npz", "html", *_PICTURES})
+
+
+@click.command("alphashape")
+@click.argument("inputs", metavar="INPUT", nargs=-1)
+@click.option("-r", "r", type=Radius(), help="Radius, in units of the input; inf gives the convex hull.")
+@click.option("--alpha", type=Decimal(), metavar="A", help="The paper's α = −1/r, negative.")
+@click.option("--auto", is_flag=True, help="The smallest r whose shape is one region with every point: the default.")
+@click.option("--regions", type=click.IntRange(min=1), metavar="K", help="Regions that --auto allows; by default 1.")
+@shared("output", "format")
+@click.option("--what", type=Names(tuple(FORMATS)), help=f"What to write: {', '.join(FORMATS)}; several separated by "
+              "commas. By default edges; polygons for GeoJSON and WKT.")  # fmt: skip
+@click.option(
+    "--rule",
+    type=click.Choice(["corrected", "printed"]),
+    default="corrected",
+    show_default=True,
+    help="printed: r_min and open intervals to the letter of the paper.",
+)
+@click.option("--hole-threshold", type=Decimal(), metavar="AREA", help="Fill holes of at most this area.")
+@click.option("--region-threshold", type=Decimal(), metavar="AREA", help="Then leave out regions of at most this area.")
+@click.option(
+    "--method",
+    type=click.Choice(METHODS),
+    default="exact",
+    show_default=True,
+    help="How points are triangulated, as in delaunay.",
+)
+@shared("size", "window", "columns", "input-format", "page", "seeds", "connectivity", "threshold", "invert")
+@layers_option(LAYERS)
+@shared("width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels", "max-sites")
+@shared("no-clobber", "no-properties", "quiet", "verbose")
+def command(**options: Any) -> None:
+    """Find the alpha shape of points: edges that an empty disc of radius r touches at both ends, and what they bound.
+
+    \b
+    Example:
+      vorotool alphashape data/dots.csv -r 60 -o shape.csv
+
+    INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, PBM,
+    NPY), whose components or labels count as points at their centroids; - is standard input. Label i is the i-th
+    point; labels of the input are kept.
+
+    --what family, spectrum and curves are about the shapes of all radii. -f html makes a page with a slider over r.
+    """
+    o = SimpleNamespace(**options)
+    source = single_input(o.inputs)
+    o.what = o.what or (_default_what(o),)
+    targets = plan_targets(FORMATS, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=source)
+    check_stats(o.stats, targets, source)
+    _check_options(o, targets)
+    with Run("alphashape", quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber) as run:
+        from vorotool.cli.shapes import ShapeProducts
+        from vorotool.engines.alphashape import chosen_radius
+        from vorotool.formats.outputs import make_folder
+
+        o.radius = chosen_radius(o.r, o.alpha, o.auto)
+        check_targets(o, targets, source)
+        with naming(source), run.phase("read"):
+            points = _read_points(run, o, source)
+        with naming(source):
+            products = ShapeProducts(points, o, run)
+        for target in targets:
+            products.check(target)
+        if o.verify:
+            with run.phase("verify"):
+                products.verify()
+        if o.out_dir is not None:
+            make_folder(o.out_dir)
+        for target in targets:
+            with run.phase(f"write {target.what}"):
+                products.write(target, inputs=(source,))
+        run.stats.update(products.stats())
+
+
+def _default_what(o: SimpleNamespace) -> str:
+    name = o.format or Path(o.output or "").suffix
+    return "polygons" if name.lower().lstrip(".") in ("geojson", "wkt") else "edges"
+
+
+def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
+    if o.connectivity is not None and o.seeds in ("pixels", "labels"):
+        raise click.UsageError(f"--connectivity is for components: leave it out with --seeds {o.seeds}")
+    if o.regions is not None and (o.r is not None or o.alpha is not None):
+        raise click.UsageError("--regions is for the automatic choice of r: leave out -r and --alpha")
+    _check_method(o, {target.fmt for target in targets})
+    if "hull" in o.what and (o.hole_threshold is not None or o.region_threshold is not None):
+        raise click.UsageError("the hull has no thresholds: leave out --hole-threshold and --region-threshold")
+    formats = {target.fmt for target in targets}
+    if o.precision is not None and formats <= _WITHOUT_DIGITS:
+        raise click.UsageError("--precision is for numbers in text: use -f csv, json, geojson or wkt, or leave it out")
+    pictures = sorted({target.fmt for target in targets if target.what in _WITH_LAYERS} & set(_PICTURES))
+    if o.layers is not None and not pictures:
+        raise click.UsageError("--layers is for pictures of a shape: use -f svg or -f png, or leave it out")
+    plots = ["svg"] if ("curves", "svg") in {(target.what, target.fmt) for target in targets} else []
+    check_picture_options(o, pictures or plots, PICTURE_LAYERS, png_has_width=True)
+
+
+def _check_method(o: SimpleNamespace, formats: set[str]) -> None:
+    """Refuse what the way of triangulating or the rule cannot give, or would not look at."""
+    if o.size is not None and o.window is not None:
+        raise click.UsageError("give --size or --window, not both")
+    for name in ("size", "window"):
+        if getattr(o, name) is not None and o.method == "exact":
+            raise click.UsageError(f"--{name} is the frame of a tessellation: use --method digital or digital-valid")
+    is_automatic = o.r is None and o.alpha is None
+    needs_corrected = (is_automatic and set(o.what) & OF_ONE_SHAPE) or "curves" in o.what or "html" in formats
+    if o.rule == "printed" and needs_corrected:
+        raise click.UsageError("curves, pages and the automatic r need --rule corrected: give -r, or leave out --rule")
+    if o.rule == "printed" and o.verify:
+        raise click.UsageError("the printed rule fails the check, as it should: leave out --verify or --rule")
+    if o.method == "digital":
+        _check_digital_rule(o, formats)
+
+
+def _check_digital_rule(o: SimpleNamespace, formats: set[str]) -> None:
+    if "html" in formats:
+        raise click.UsageError("--method digital has no curves for a page: use --method exact or digital-valid")
+    for name in o.what:
+        if name not in OF_DIGITAL_RULE:
+            raise click.UsageError(
+                "--method digital finds edges and triangles that need be no triangulation: "
+                f"{name} needs --method exact or digital-valid"
+            )
+    if set(o.what) & OF_ONE_SHAPE and o.r is None and o.alpha is None:
+        raise click.UsageError("--method digital has no regions to choose r by: give -r or --alpha")
+    if o.hole_threshold is not None or o.region_threshold is not None or o.verify:
+        raise click.UsageError("--method digital has no regions: leave out thresholds and --verify")
+
+
+def _read_points(run: Run, o: SimpleNamespace, source: str) -> PointSet | SeedSet:
+    from vorotool.engines.seeding import seeds_from_raster
+    from vorotool.geometry.points import PointSet
+
+    value = read_seed_input(run, o, source, properties="points" in o.what)
+    if isinstance(value, PointSet):
+        return value
+    refuse(o, ("columns",), "is for lists of points, but the input is an image")
+    refuse(o, ("size", "window"), "is for lists of points, but the input is an image, which brings its own frame")
+    mode = None if o.seeds == "centroids" and o.method == "exact" else o.seeds  # sites of objects are their centroids
+    return seeds_from_raster(
+        value,
+        mode=mode,
+        connectivity=int(o.connectivity or 8),
+        threshold=o.threshold,
+        invert=o.invert,
+        max_sites=o.max_sites,
+        allow_empty=True,
+    )

@@ -1,0 +1,99 @@
+"""Planar graphs of rings of every family: `--cases 100000 --seed 1`.
+
+Each case is checked by the shipped checker, and its segments given again as lines must come back as they are; small
+ones are compared with the definition in rationals: segments, the edges that each is part of, the polygons of its sides.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+import warnings
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+import planar_graph_oracle as oracle
+from polygon_families import FAMILIES, LINE, draw
+from vorotool import PlanarGraph, PolygonSet, VorotoolError, _core, verify_planar_graph
+from vorotool.geometry.planar_graph import REPAIRS
+
+SMALL = 11
+
+
+def graph_of(vertices: np.ndarray, rings: list[tuple[int, int, int, int]]) -> PlanarGraph:
+    """The graph of vertices that are on the lattice: placed so that one unit is one step."""
+    columns = np.array(rings).reshape(-1, 4)
+    shapes = PolygonSet(vertices, [0, *columns[:, 1]], columns[:, 2], columns[:, 3])
+    made = _core.make_planar_graph(vertices, shapes.ring_start, shapes.ring_kind, shapes.ring_polygon, None)
+    counts = [count for count, _, _ in made.pop("repairs")]
+    return PlanarGraph(**made, repairs=dict(zip(REPAIRS, counts, strict=True)))
+
+
+def described(graph: PlanarGraph) -> dict[tuple, tuple]:
+    """Segments as the oracle has them."""
+    found = {}
+    inside = [set(graph.polygons_of(face).tolist()) for face in range(graph.faces)]
+    for k, (pair, faces) in enumerate(zip(graph.points[graph.segments].tolist(), graph.segment_faces, strict=True)):
+        a, b = map(tuple, pair)
+        left, right = faces if a < b else faces[::-1]
+        found[tuple(sorted((a, b)))] = (graph.sources_of(k).tolist(), inside[left], inside[right])
+    return found
+
+
+def failure(vertices: np.ndarray, rings: list[tuple[int, int, int, int]]) -> str | None:
+    """What is wrong with the graph of these rings, if anything."""
+    graph = graph_of(vertices, rings)
+    try:
+        verify_planar_graph(graph)
+    except VorotoolError as error:
+        return str(error)
+    if len(graph):
+        ends = np.ascontiguousarray(graph.points[graph.segments].reshape(-1, 2))
+        lines = [(2 * i, 2 * i + 2, LINE, i) for i in range(len(graph))]
+        again = graph_of(ends, lines)
+        if any(again.repairs.values()) or not np.array_equal(again.points[again.segments].reshape(-1, 2), ends):
+            return "its segments do not come back as they are"
+    if len(vertices) <= SMALL:
+        expected, moved = oracle.planar_graph(vertices.tolist(), rings)
+        if described(graph) != expected or graph.repairs["moved_edges"] != moved:
+            return "not what the definition gives"
+    return None
+
+
+def main() -> int:
+    """Run all cases; exit 1 if any failed."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--cases", type=int, default=10**5)
+    parser.add_argument("--seed", type=int, default=1)
+    arguments = parser.parse_args()
+    warnings.simplefilter("ignore")
+    names = list(FAMILIES)
+    cases: Counter[str] = Counter()
+    failed = 0
+    start = time.monotonic()
+    for case in range(arguments.cases):
+        rng = np.random.default_rng([arguments.seed, case])
+        name = names[case % len(names)]
+        n = int(rng.integers(1, SMALL + 1)) if rng.random() < 0.5 else int(2 ** rng.uniform(3, 8))
+        vertices, rings = draw(name, n, [arguments.seed, case])
+        try:
+            wrong = failure(vertices, rings)
+        except Exception as error:  # whatever it is, the case is to be known
+            wrong = repr(error)
+        if wrong:
+            print(f"wrong: seed {arguments.seed}, case {case}, {name}, {len(vertices)} vertices: {wrong}")
+        cases[name] += 1
+        failed += wrong is not None
+    for name, count in cases.items():
+        print(f"{name:18} {count:10,} cases")
+    seconds = time.monotonic() - start
+    print(f"{arguments.cases:,} cases, {failed} failures, {seconds:.0f} s")
+    return int(failed > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
