@@ -54,6 +54,7 @@ bench: build ## measure beside the peers, in one run
 	$(RUN) tests/benchmarks/delaunay.py
 	$(RUN) tests/benchmarks/alphashape.py
 	$(RUN) tests/benchmarks/mesh_files.py
+	$(RUN) tests/benchmarks/segment_voronoi.py
 
 .PHONY: fuzz
 fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CASES=..., SETS=..., SEED=...)
@@ -64,6 +65,8 @@ fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CAS
 	$(RUN) tests/fuzz/alphashape.py --cases $(or $(CASES),20000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/digital.py --sets $(or $(SETS),500) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/planar_graph.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/segment_voronoi.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/segment_voronoi.py --cases 10000 --seed $(or $(SEED),1) --family clusters --largest 100
 
 .PHONY: sanitize
 sanitize: build ## run the engine tests on a build with address and undefined-behaviour sanitizers

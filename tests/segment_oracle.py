@@ -319,6 +319,8 @@ def find_vertices(sites):
     doubles = Doubles(sites)
     vertices = {}
     for triple in itertools.combinations(range(len(sites)), 3):
+        if all(sites[k].is_point for k in triple) and any(set(triple) <= set(ring) for ring in vertices):
+            continue  # three points have one circle
         for vertex in certain(functools.partial(vertices_of, sites, triple, doubles)):
             vertices.setdefault(vertex.ring, vertex)
     return list(vertices.values())

@@ -33,7 +33,9 @@ Row point_row(const DiscCondition& condition, const CertifiedDisc& disc) {
 
 Row line_row(const DiscCondition& condition, const CertifiedDisc& disc) {
   // seen from the nearer end, so that little is lost in a long segment
-  auto apart = [&](const LatticePoint& p) { return std::hypot(disc.x.head - p.x, disc.y.head - p.y); };
+  auto apart = [&](const LatticePoint& p) {
+    return std::abs(disc.x.head - p.x) + std::abs(disc.y.head - p.y);
+  };
   const bool across = condition.kind == DiscCondition::Kind::across;
   const LatticePoint& end = across || apart(condition.a) <= apart(condition.b) ? condition.a : condition.b;
   const LatticeVector u = condition.b - condition.a;

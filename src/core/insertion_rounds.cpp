@@ -11,6 +11,7 @@ namespace {
 constexpr std::size_t piece_size = 512;  // insertions of a piece of work, some ms
 // Shorter rounds are not worth sharing: threads would often be in each other's way.
 constexpr std::size_t pieces_to_share = 16;
+constexpr std::int32_t ahead = 3;  // insertions: how early memory is called for
 
 }  // namespace
 
@@ -41,6 +42,9 @@ void InsertionRounds::run(const Monitor& monitor) {
 bool InsertionRounds::insert(SegmentInsertion& worker, std::int32_t place) const {
   const auto first_segment = static_cast<SiteIndex>(sites_.point_count());
   const auto count = static_cast<std::int32_t>(order_.items.size());
+  if (place + ahead < count) {
+    worker.prefetch(first_segment + order_.items[static_cast<std::size_t>(place + ahead)]);
+  }
   const std::int32_t number = 1 + place + (&worker == &alone_ ? count : 0);
   return worker.insert(first_segment + order_.items[static_cast<std::size_t>(place)], number,
                        first_fresh_ + 2 * place);

@@ -107,13 +107,16 @@ std::int32_t SegmentInsertion::find_first(const SegmentQuery& query) {
 
 void SegmentInsertion::collect(std::int32_t first, const SegmentQuery& query) {
   conflicts_.assign(1, first);
+  for (const Corner next : records_[first].twins) records_.prefetch(record_of(next));
   for (std::size_t k = 0; k < conflicts_.size(); ++k) {
     VoronoiRecord& v = records_[conflicts_[k]];
     v.survives = 0;
     for (const Corner twin : v.twins) {
       const std::int32_t other = record_of(twin);
       if (!take(other)) return;
-      if (!has_stamp(other) && is_in_conflict(other, query)) conflicts_.push_back(other);
+      if (has_stamp(other) || !is_in_conflict(other, query)) continue;
+      conflicts_.push_back(other);
+      for (const Corner next : records_[other].twins) records_.prefetch(record_of(next));
     }
   }
 }

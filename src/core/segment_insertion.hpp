@@ -21,6 +21,9 @@ struct VoronoiRecords {
   VoronoiRecord& operator[](std::int32_t record) { return all[static_cast<std::size_t>(record)]; }
   const VoronoiRecord& operator[](std::int32_t record) const { return all[static_cast<std::size_t>(record)]; }
 
+  // Tells the processor that a record will be looked at soon.
+  void prefetch(std::int32_t record) const { __builtin_prefetch(&all[static_cast<std::size_t>(record)]); }
+
   // A corner of a point's cell. Threads that share the diagram see a record no later than its corner.
   Corner corner_at(SiteIndex point) {
     return std::atomic_ref(corner_of_point[static_cast<std::size_t>(point)]).load(std::memory_order_acquire);
@@ -50,6 +53,13 @@ class SegmentInsertion {
   // Every attempt has a number of its own, from 1; two records from `fresh` on are those of the segment.
   // Returns false, with nothing changed, if another thread is in the way.
   bool insert(SiteIndex segment, std::int32_t number, std::int32_t fresh);
+
+  // Tells the processor that a segment will be inserted soon.
+  void prefetch(SiteIndex segment) const {
+    for (const SiteIndex end : sites_.segment(segment).ends) {
+      records_.prefetch(record_of(records_.corner_at(end)));
+    }
+  }
 
   std::int64_t visited() const { return visited_; }
   std::int64_t cyclic() const { return cyclic_; }

@@ -1,7 +1,8 @@
 // Points and closed segments in a tree of oriented boxes: which of them are near a place?
 //
-// Boxes follow the longest segment that they hold, so that the long thin bundles of spikes and combs do not
-// overlap as boxes along the axes would.
+// Boxes follow the longest segment that they hold, or the way in which its ends are spread, and long segments
+// are told apart across their direction: so the thin bundles of spikes and combs do not overlap as boxes
+// along the axes would.
 #pragma once
 
 #include <algorithm>
@@ -16,16 +17,20 @@
 
 namespace vorotool::core {
 
+struct OrientedBox {
+  double ux, uy;                            // about a unit vector
+  double t_least, t_most, n_least, n_most;  // along it, and across
+};
+
 class SiteHierarchy {
  public:
-  // No two items have the same middle (where segments do not cross, and hold no point inside, none have).
   SiteHierarchy(std::span<const LatticeSite> items, unsigned threads, const Monitor& monitor);
 
   // Calls visit(item) for every item not farther than reach from (x, y), and for some others. It stops where
   // visit gives false.
   template <class Visit>
   void near(double x, double y, double reach, const Visit& visit) const {
-    if (items_.empty()) return;
+    if (index_.empty()) return;
     // t and n below have errors of at most 2^-51 (|x| + |y|), and what bounds the boxes has 2^-20
     const double wide = reach + 0x1p-18 + 0x1p-49 * (std::abs(x) + std::abs(y));
     near(levels_.size() - 1, 0, x, y, wide * wide * (1 + 0x1p-50), visit);
@@ -33,23 +38,17 @@ class SiteHierarchy {
 
  private:
   static constexpr std::size_t leaf_size = 4;
-  struct Box {
-    double ux, uy;                            // about a unit vector
-    double t_least, t_most, n_least, n_most;  // along it, and across
-  };
-
-  Box box_around(std::size_t first, std::size_t last, std::size_t longest) const;
 
   template <class Visit>
   bool near(std::size_t level, std::size_t node, double x, double y, double reach2,
             const Visit& visit) const {
-    const Box& box = levels_[level][node];
+    const OrientedBox& box = levels_[level][node];
     const double t = box.ux * x + box.uy * y, n = box.ux * y - box.uy * x;
     const double dt = std::max(std::max(box.t_least - t, t - box.t_most), 0.0);
     const double dn = std::max(std::max(box.n_least - n, n - box.n_most), 0.0);
     if (dt * dt + dn * dn > reach2) return true;
     if (level == 0) {
-      const std::size_t last = std::min(items_.size(), (node + 1) * leaf_size);
+      const std::size_t last = std::min(index_.size(), (node + 1) * leaf_size);
       for (std::size_t i = node * leaf_size; i < last; ++i) {
         if (!visit(index_[i])) return false;
       }
@@ -59,9 +58,10 @@ class SiteHierarchy {
     return 2 * node + 1 >= levels_[level - 1].size() || near(level - 1, 2 * node + 1, x, y, reach2, visit);
   }
 
-  std::vector<LatticeSite> items_;        // along a Morton curve through their middles
-  std::vector<std::uint32_t> index_;      // of each among those given
-  std::vector<std::vector<Box>> levels_;  // the leaves first; node i holds nodes 2 i and 2 i + 1 below
+  std::vector<std::uint32_t> index_;  // of the items, in the order of the leaves
+  // The leaves first; node i holds nodes 2 i and 2 i + 1 of the level below, which holds the first half of
+  // what node i has room for, and the rest.
+  std::vector<std::vector<OrientedBox>> levels_;
 };
 
 }  // namespace vorotool::core

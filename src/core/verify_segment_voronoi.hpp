@@ -43,15 +43,17 @@ struct SegmentVoronoiArrays {
   }
 };
 
+// The relative errors that values may have: of radii, and of coordinates by the largest of both and the
+// radius. That is what the engine proves of its values (core/polished_disc.hpp); nearly all are right to two
+// or three ulp.
+inline constexpr double value_error_bound = 0x1p-47;
+
 // What is wrong, in words: the first fault of the first check that fails. Nothing if the arrays are the
-// Voronoi diagram of the sites, its values right to `few_ulps`.
+// Voronoi diagram of the sites, its values right to `value_error_bound`.
 //
 // That points are distinct is checked; that segments do not cross and hold no point inside is taken for
 // granted.
 std::optional<std::string> find_fault(const SegmentVoronoiArrays& arrays, unsigned threads,
                                       const Monitor& monitor);
-
-// Radii may be wrong by so many ulp of the radius; coordinates by as much, and two ulp of their own.
-inline constexpr double few_ulps = 8;
 
 }  // namespace vorotool::core

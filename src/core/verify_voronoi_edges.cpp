@@ -67,8 +67,7 @@ class Bisector {
     return {};
   }
 
-  // The sign of the difference of two vertices' places: vertices are right to `few_ulps`, and two of their
-  // own.
+  // The sign of the difference of two vertices' places: values are right to `value_error_bound`.
   int compare(Site v, Site w, const LatticeVector& u) const {
     const double ux = static_cast<double>(u.x), uy = static_cast<double>(u.y);
     double place[2], size = 0;
@@ -173,7 +172,7 @@ class InnerPoints {
 
   Fault check(std::size_t edge) const {
     const auto [source, target] = in_.edges[edge];
-    for (const double part : {0.25, 0.5, 0.75}) {
+    for (const double part : {0.375, 0.75}) {
       const Place place = source < 0 || target < 0 ? place_on_ray(edge, part) : place_between(edge, part);
       if (Fault fault = check_place(edge, place)) return fault;
     }
@@ -218,7 +217,7 @@ class InnerPoints {
     const auto outwards_y = -static_cast<double>((l.a - r.a).x + (l.b - r.b).x);
     const auto [source, target] = in_.edges[edge];
     const double scale = extent_ * 4 * (part - (source < 0 && target < 0 ? 0.4 : 0)) *
-                         (source < 0 && target >= 0 ? -1 : 1) / std::hypot(outwards_x, outwards_y);
+                         (source < 0 && target >= 0 ? -1 : 1) / length(outwards_x, outwards_y);
     const Place start = source >= 0 ? centre(source) : target >= 0 ? centre(target) : middle(left, right);
     return {start.x + scale * outwards_x, start.y + scale * outwards_y};
   }
@@ -229,17 +228,19 @@ class InnerPoints {
     return {0.5 * p.x + 0.5 * q.x, 0.5 * p.y + 0.5 * q.y};
   }
 
+  static double length(double x, double y) { return std::sqrt(x * x + y * y); }
+
   double distance(const Place& c, Site site) const {
     const LatticeSite s = in_.site(site);
-    if (s.is_point()) return std::hypot(c.x - s.a.x, c.y - s.a.y);
+    if (s.is_point()) return length(c.x - s.a.x, c.y - s.a.y);
     const auto ux = static_cast<double>((s.b - s.a).x), uy = static_cast<double>((s.b - s.a).y);
     const double ax = c.x - s.a.x, ay = c.y - s.a.y, bx = c.x - s.b.x, by = c.y - s.b.y;
-    if (ux * ax + uy * ay <= 0) return std::hypot(ax, ay);
-    if (ux * bx + uy * by >= 0) return std::hypot(bx, by);
-    return std::abs(ux * ay - uy * ax) / std::hypot(ux, uy);
+    if (ux * ax + uy * ay <= 0) return length(ax, ay);
+    if (ux * bx + uy * by >= 0) return length(bx, by);
+    return std::abs(ux * ay - uy * ax) / length(ux, uy);
   }
 
-  // The ends of the edge are wrong by a few ulp of their coordinates and radii, the rest by a few roundings.
+  // The ends of the edge are wrong by `value_error_bound`, the rest by a few roundings.
   Fault check_place(std::size_t edge, const Place& place) const {
     const auto [left, right] = in_.edge_sites[edge];
     const double r = distance(place, left), other = distance(place, right);

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 
 #include "core/arithmetic.hpp"
 #include "core/certified_disc.hpp"
@@ -22,10 +21,6 @@ std::string number_text(double value) {
   std::array<char, 32> buffer;
   std::snprintf(buffer.data(), buffer.size(), "%.17g", value);
   return buffer.data();
-}
-
-double ulp(double value) {
-  return std::nextafter(std::abs(value), std::numeric_limits<double>::infinity()) - std::abs(value);
 }
 
 // A length along a circle of radius 1, as it were: grows from 0 to 4 with the angle, continuously.
@@ -170,8 +165,9 @@ class Vertex {
 
   Fault check_values() {
     const double x = in_.vertices[2 * vertex_], y = in_.vertices[2 * vertex_ + 1], r = in_.radius[vertex_];
-    const double r_bound = few_ulps * ulp(disc_.radius.head);
-    const double bound = r_bound + 2 * ulp(std::max(std::abs(disc_.x.head), std::abs(disc_.y.head)));
+    const double r_bound = value_error_bound * disc_.radius.head;
+    const double bound = std::max(
+        {r_bound, value_error_bound * std::abs(disc_.x.head), value_error_bound * std::abs(disc_.y.head)});
     auto apart = [](double value, const DoubleDouble& right) {
       return std::abs((DoubleDouble(value) - right).head);
     };

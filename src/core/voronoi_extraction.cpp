@@ -42,18 +42,21 @@ VoronoiExtraction::VoronoiExtraction(const SegmentSites& sites, const VoronoiRec
       vertex_of_(static_cast<std::size_t>(records.size)),
       merged_(static_cast<std::size_t>(records.size)) {
   merge_coincident(threads, monitor);
-  count();
+  choose_leads();
   put_in_order(threads, monitor);
 }
 
-std::int32_t VoronoiExtraction::root(std::int32_t record) const {
-  while (vertex_of_[static_cast<std::size_t>(record)] != record) {
-    record = vertex_of_[static_cast<std::size_t>(record)];
+// With every step the way is halved for those who come after.
+std::int32_t VoronoiExtraction::root(std::int32_t record) {
+  const auto above = [&](std::int32_t v) -> std::int32_t& { return vertex_of_[static_cast<std::size_t>(v)]; };
+  while (above(record) != record) {
+    above(record) = above(above(record));
+    record = above(record);
   }
   return record;
 }
 
-// The smaller number becomes the root: no chain is longer than a place has vertices.
+// The smaller number becomes the root.
 void VoronoiExtraction::unite(std::int32_t u, std::int32_t w) {
   merged_[static_cast<std::size_t>(u)] = merged_[static_cast<std::size_t>(w)] = true;
   u = root(u);
@@ -145,69 +148,85 @@ std::int32_t VoronoiExtraction::target_of(Corner corner) const {
   return vertex_of_[static_cast<std::size_t>(record_of(twin))];
 }
 
-// Calls visit(record) for one record of each place, on its border.
-template <class Visit>
-void VoronoiExtraction::for_places(Visit visit) const {
+// The first record of each place that is on its border stands for it.
+void VoronoiExtraction::choose_leads() {
+  leads_.assign(vertex_of_.size(), false);
   std::vector<bool> seen(vertex_of_.size());
   for (std::int32_t v = 0; v < records_.size; ++v) {
-    if (records_[v].is_infinite()) continue;
-    if (merged_[static_cast<std::size_t>(v)]) {
-      const auto place = static_cast<std::size_t>(vertex_of_[static_cast<std::size_t>(v)]);
-      if (seen[place] || border_size(v) == 0) continue;
-      seen[place] = true;
-    }
-    visit(v);
+    if (!merged_[static_cast<std::size_t>(v)]) continue;
+    const auto place = static_cast<std::size_t>(vertex_of_[static_cast<std::size_t>(v)]);
+    if (seen[place] || border_size(v) == 0) continue;
+    seen[place] = leads_[static_cast<std::size_t>(v)] = true;
   }
 }
 
-void VoronoiExtraction::count() {
-  for (std::int32_t v = 0; v < records_.size; ++v) {
-    if (records_[v].is_infinite()) {
-      ++infinite_;
-    } else {
-      ring_size_ += static_cast<std::size_t>(border_size(v));
-    }
-  }
+// What a record says of its vertex: nothing (first = -1) if another one stands for its place.
+VoronoiExtraction::Key VoronoiExtraction::key_of(std::int32_t record, Ring& ring) const {
+  const auto v = static_cast<std::size_t>(record);
+  if (records_[record].is_infinite() || (merged_[v] && !leads_[v])) return {-1, -1, -1, record};
+  gather_ring(record, ring);
+  return {ring[0].site, ring[1].site, ring[2].site, record};
 }
 
 // Vertices are sorted by their first three sites: no others have these three, in this order.
 void VoronoiExtraction::put_in_order(unsigned threads, const Monitor& monitor) {
-  const auto sites = static_cast<std::size_t>(sites_.infinite());
-  std::vector<std::uint32_t> begin(sites + 2);
-  Ring ring;
-  for_places([&](std::int32_t record) {
-    gather_ring(record, ring);
-    ++begin[static_cast<std::size_t>(ring[0].site) + 2];
-  });
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  LargeArray<Keyed> keyed(begin[sites + 1]);
-  for_places([&](std::int32_t record) {
-    gather_ring(record, ring);
-    keyed[begin[static_cast<std::size_t>(ring[0].site) + 1]++] = {ring[1].site, ring[2].site, record};
-  });
-  order_.resize(keyed.size());
-  for_pieces(sites, threads, monitor, [&](std::size_t, std::size_t first, std::size_t last) {
-    for (std::size_t site = first; site < last; ++site) {
-      std::sort(keyed.data() + begin[site], keyed.data() + begin[site + 1]);
+  const std::size_t records = vertex_of_.size();
+  LargeArray<Key> keys(records);
+  std::vector<std::size_t> rings(piece_count(records, piece_size)), infinite(rings.size());
+  for_pieces(records, threads, monitor, [&](std::size_t piece, std::size_t begin, std::size_t end) {
+    Ring ring;
+    for (std::size_t v = begin; v < end; ++v) {
+      const auto record = static_cast<std::int32_t>(v);
+      keys[v] = key_of(record, ring);
+      infinite[piece] += records_[record].is_infinite();
+      if (keys[v].first >= 0) rings[piece] += ring.size();
     }
-    for (std::size_t k = begin[first]; k < begin[last]; ++k) order_[k] = keyed[k].record;
   });
-  number_vertices();
+  ring_size_ = std::accumulate(rings.begin(), rings.end(), std::size_t{0});
+  infinite_ = std::accumulate(infinite.begin(), infinite.end(), std::size_t{0});
+  sort_keys(keys, threads, monitor);
+  number_vertices(threads, monitor);
 }
 
-// Turns places into numbers of vertices: the root of each place first, marked by its complement.
-void VoronoiExtraction::number_vertices() {
-  for (std::size_t k = 0; k < order_.size(); ++k) {
-    const std::int32_t place = vertex_of_[static_cast<std::size_t>(order_[k])];
-    vertex_of_[static_cast<std::size_t>(place)] = ~static_cast<std::int32_t>(k);
+// By the first site in one go, and by the others among the few that share it.
+void VoronoiExtraction::sort_keys(const LargeArray<Key>& keys, unsigned threads, const Monitor& monitor) {
+  const auto sites = static_cast<std::size_t>(sites_.infinite());
+  std::vector<std::uint32_t> begin(sites + 2);
+  const std::span all(keys.data(), keys.size());
+  for (const Key& key : all) {
+    if (key.first >= 0) ++begin[static_cast<std::size_t>(key.first) + 2];
   }
-  for (std::int32_t& place : vertex_of_) {
-    if (place >= 0) place = vertex_of_[static_cast<std::size_t>(place)];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  LargeArray<Key> sorted(begin[sites + 1]);
+  for (const Key& key : all) {
+    if (key.first >= 0) sorted[begin[static_cast<std::size_t>(key.first) + 1]++] = key;
   }
-  for (std::int32_t v = 0; v < records_.size; ++v) {
-    std::int32_t& vertex = vertex_of_[static_cast<std::size_t>(v)];
-    vertex = records_[v].is_infinite() ? -1 : ~vertex;
-  }
+  order_.resize(sorted.size());
+  for_pieces(sites, threads, monitor, [&](std::size_t, std::size_t first, std::size_t last) {
+    for (std::size_t site = first; site < last; ++site) {
+      std::sort(sorted.data() + begin[site], sorted.data() + begin[site + 1]);
+    }
+    for (std::size_t k = begin[first]; k < begin[last]; ++k) order_[k] = sorted[k].record;
+  });
+}
+
+// Turns places into numbers of vertices: the root of each place first, marked by its complement. No two
+// vertices have a place in common, and no root changes in the second round.
+void VoronoiExtraction::number_vertices(unsigned threads, const Monitor& monitor) {
+  const auto of = [&](auto record) -> std::int32_t& { return vertex_of_[static_cast<std::size_t>(record)]; };
+  for_pieces(order_.size(), threads, monitor, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) of(of(order_[k])) = ~static_cast<std::int32_t>(k);
+  });
+  for_pieces(vertex_of_.size(), threads, monitor, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      if (of(v) >= 0) of(v) = of(of(v));
+    }
+  });
+  for_pieces(vertex_of_.size(), threads, monitor, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      of(v) = records_[static_cast<std::int32_t>(v)].is_infinite() ? -1 : ~of(v);
+    }
+  });
 }
 
 // Half-edges from infinity to infinity, each edge once, in the order of the sites on their left.

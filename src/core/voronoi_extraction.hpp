@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/large_array.hpp"
 #include "core/monitor.hpp"
 #include "core/segment_insertion.hpp"
 #include "core/segment_sites.hpp"
@@ -50,11 +51,11 @@ class VoronoiExtraction {
   };
   // The sites around a vertex counter-clockwise, the first of the engine's order first.
   using Ring = std::vector<Spoke>;
-  // A record whose vertex has a known first site, with the sites that follow.
-  struct Keyed {
-    SiteIndex second, third;
+  // The first three sites around a vertex, and a record of it.
+  struct Key {
+    SiteIndex first, second, third;
     std::int32_t record;
-    auto operator<=>(const Keyed&) const = default;
+    auto operator<=>(const Key&) const = default;
   };
   struct Edge {
     std::int32_t source, target, left, right;
@@ -73,13 +74,13 @@ class VoronoiExtraction {
   };
 
   void merge_coincident(unsigned threads, const Monitor& monitor);
-  std::int32_t root(std::int32_t record) const;
+  std::int32_t root(std::int32_t record);
   void unite(std::int32_t u, std::int32_t w);
-  template <class Visit>
-  void for_places(Visit visit) const;
-  void count();
+  void choose_leads();
+  Key key_of(std::int32_t record, Ring& ring) const;
   void put_in_order(unsigned threads, const Monitor& monitor);
-  void number_vertices();
+  void sort_keys(const LargeArray<Key>& keys, unsigned threads, const Monitor& monitor);
+  void number_vertices(unsigned threads, const Monitor& monitor);
 
   Corner next_spoke(Corner corner) const;
   Corner border_of(std::int32_t record) const;
@@ -106,6 +107,7 @@ class VoronoiExtraction {
   std::vector<std::int32_t> vertex_of_;
   std::vector<std::int32_t> order_;  // [vertices] a record of each
   std::vector<bool> merged_;         // [records] whether it shares its place with others
+  std::vector<bool> leads_;          // [records] of these, whether it stands for its place
   std::size_t ring_size_ = 0, infinite_ = 0;
 };
 

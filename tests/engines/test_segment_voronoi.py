@@ -77,7 +77,7 @@ def test_numbers_of_sites_change_nothing_else(name):
     assert np.array_equal(number[diagram.edge_sites], other.edge_sites)
 
 
-@pytest.mark.parametrize("name", ["star_smooth", "star_rough", "comb", "hilbert"])
+@pytest.mark.parametrize("name", ["star_smooth", "star_rough", "comb", "hilbert", "wheel"])
 def test_threads_change_nothing(name):
     """Rounds long enough to be shared."""
     points, segments = draw(name, 40_000, 2)
