@@ -2,8 +2,8 @@
 //
 // The bounds of the relative errors, with u = 2^-53, are those of Joldes, Muller and Popescu 2017 ("Tight and
 // rigorous error bounds for basic building blocks of double-word arithmetic"): sum 3 u^2 + 13 u^3 (algorithm
-// 6), product 7 u^2 (algorithm 10 without a fused operation), quotient 15 u^2 + 56 u^3 (algorithm 17), where
-// nothing overflows or underflows. For the square root see there.
+// 6), product 7 u^2 (algorithm 10 without a fused operation), quotient 15 u^2 + 56 u^3 (algorithm 17). For
+// the square root see there.
 #pragma once
 
 #include <cmath>
