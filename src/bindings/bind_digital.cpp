@@ -22,7 +22,7 @@ using core::DigitalTriangulationScan;
 using core::LabelPair;
 using core::LabelTriple;
 using core::Monitor;
-using core::MortonOrder;
+using core::OrderedPoints;
 using core::Point;
 using Coordinates = Vector<const std::int64_t>;
 
@@ -78,8 +78,8 @@ nb::tuple digital_mesh(const Matrix<const double>& points, const Coordinates& x,
   const core::PixelFrame frame{frame_x, frame_y, image.shape(1), image.shape(0)};
   DigitalRepair repair;
   DelaunayMesh mesh = run_interruptible(progress, [&](const Monitor& monitor) {
-    const auto triangulate = [&](MortonOrder& order) {
-      return core::digital_delaunay(view(image), frame, {view(x), view(y), scale}, order, repair, threads,
+    const auto triangulate = [&](const OrderedPoints& ordered) {
+      return core::digital_delaunay(view(image), frame, {view(x), view(y), scale}, ordered, repair, threads,
                                     monitor);
     };
     return DelaunayMesh(as_points(points), triangulate, threads, monitor);
@@ -89,7 +89,9 @@ nb::tuple digital_mesh(const Matrix<const double>& points, const Coordinates& x,
 
 DelaunayMesh inserted_mesh(const Matrix<const double>& points, unsigned threads, nb::handle progress) {
   return run_interruptible(progress, [&](const Monitor& monitor) {
-    const auto triangulate = [&](MortonOrder& order) { return core::delaunay_by_insertion(order, monitor); };
+    const auto triangulate = [&](const OrderedPoints& ordered) {
+      return core::delaunay_by_insertion(ordered, monitor);
+    };
     return DelaunayMesh(as_points(points), triangulate, threads, monitor);
   });
 }

@@ -52,10 +52,16 @@ nb::object signs(const PointTuples<n>& tuples, Sign sign) {
   return to_numpy(std::move(result));
 }
 
+// The filter of orient2d that the triangulation uses.
+int seen_side(const Point& a, const Point& b, const Point& c) {
+  return core::side_filter(core::seen_from(a, b, c));
+}
+
 nb::object orient2d(PointTuples<3> points, const std::string& name) {
   using Predicate = int (*)(const Point&, const Point&, const Point&);
   static constexpr Level<Predicate> levels[] = {{"auto", core::orient2d},
                                                 {"filter", core::orient2d_filter},
+                                                {"seen", seen_side},
                                                 {"integers", core::orient2d_integers},
                                                 {"expansions", core::orient2d_expansions},
                                                 {"wide", core::orient2d_wide}};
@@ -67,6 +73,7 @@ nb::object incircle(PointTuples<4> points, const std::string& name) {
   using Predicate = int (*)(const Point&, const Point&, const Point&, const Point&);
   static constexpr Level<Predicate> levels[] = {{"auto", core::incircle},
                                                 {"filter", core::incircle_filter},
+                                                {"seen", core::incircle_filter},
                                                 {"integers", core::incircle_integers},
                                                 {"expansions", core::incircle_expansions},
                                                 {"wide", core::incircle_wide}};

@@ -17,6 +17,7 @@ bool are_apart(double dx, double dy, double error) { return std::max(std::abs(dx
 bool are_apart_in_double_double(const SegmentSites& sites, const VoronoiRecord& u, const VoronoiRecord& w) {
   const auto a = tangent_disc<DoubleDouble>(sites, u.sites, u.left);
   const auto b = tangent_disc<DoubleDouble>(sites, w.sites, w.left);
+  if (!a.known_within(1) || !b.known_within(1)) return false;
   const auto difference = [](const DoubleDouble& p, const DoubleDouble& q, double anchors) {
     return (p - q + DoubleDouble(anchors)).head;
   };

@@ -1,11 +1,9 @@
 #include "core/delaunay_mesh.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <stdexcept>
 #include <utility>
 
-#include "core/cocircular_fans.hpp"
 #include "core/large_array.hpp"
 #include "core/parallel.hpp"
 
@@ -16,12 +14,9 @@ namespace {
 constexpr std::size_t most_points = std::size_t{1} << 28;  // six half-edges a point are counted in 32 bits
 constexpr int piece_bits = 14;                             // vertices of a piece, some 0.5 ms of work
 constexpr std::size_t piece_size = std::size_t{1} << piece_bits;
-constexpr std::size_t ahead = 256;             // vertices: how early half-edges are called for
 constexpr std::uint32_t no_slot = 0xffffffff;  // fewer than 2^29 triangles, times four, stay below
 
 Vertex neighbour(Vertex entry) { return entry < 0 ? ~entry : entry; }
-
-OrderedPoints as_ordered(MortonOrder& order) { return {order.points, order.index, order.code, order.fine}; }
 
 // Calls body(item) for all items, those of a piece one after the other.
 template <class Body>
@@ -37,7 +32,7 @@ void for_all(std::size_t count, unsigned threads, const Monitor& monitor, Body b
 
 DelaunayMesh::DelaunayMesh(std::span<const Point> points, unsigned threads, const Monitor& monitor)
     : DelaunayMesh(
-          points, [&](MortonOrder& order) { return divide_and_conquer(as_ordered(order), threads, monitor); },
+          points, [&](const OrderedPoints& ordered) { return divide_and_conquer(ordered, threads, monitor); },
           threads, monitor) {}
 
 DelaunayMesh::DelaunayMesh(std::span<const Point> points, const Triangulate& triangulate, unsigned threads,
@@ -45,53 +40,41 @@ DelaunayMesh::DelaunayMesh(std::span<const Point> points, const Triangulate& tri
     : first_(points.size()) {
   if (points.size() > most_points) throw std::length_error("more than 268435456 points");
   MortonOrder order = morton_order(points, first_, threads, monitor);
-  permute_equal_codes(as_ordered(order));
-  Subdivision mesh = triangulate(order);
   index_ = std::move(order.index);
-  const std::vector<bool> outer = walk_hull(mesh);
-  if (mesh.degenerate) make_fans(mesh.edges, outer, order.points, threads, monitor);
-  gather_rings(mesh, outer, threads, monitor);
+  const std::span<RingVertex> vertices{order.vertices.data(), index_.size()};
+  const Subdivision mesh = triangulate({vertices, index_, order.code, order.fine});
+  walk_hull(mesh, vertices);
+  gather_rings(vertices, threads, monitor);
 }
 
-// Tells which half-edges have the unbounded face on their left.
-std::vector<bool> DelaunayMesh::walk_hull(const Subdivision& mesh) {
-  const HalfEdges& edges = mesh.edges;
-  std::vector<bool> outer(static_cast<std::size_t>(edges.size()), false);
-  if (index_.size() == 1) hull_ = {given(0)};
-  if (mesh.hull == no_edge) return outer;
-  const HalfEdge start =
-      HalfEdges::twin(mesh.hull);  // the unbounded face is on its left, gone round clockwise
-  HalfEdge e = start;
-  do {
-    outer[static_cast<std::size_t>(e)] = true;
-    hull_.push_back(given(edges.origin(e)));
-    e = edges.next_left(e);
-  } while (e != start);
-  // The walk began at the vertex after the first one.
-  std::reverse(hull_.begin(), hull_.end());
-  std::rotate(hull_.begin(), hull_.end() - 2, hull_.end());
-  // A chain is gone along both ways, from one end; one way is enough.
-  const bool chain = hull_.size() == 2 * (index_.size() - 1);
-  if (chain) hull_.resize(index_.size());
-  return outer;
+// Lists the hull, and marks in the rings where the unbounded face follows.
+void DelaunayMesh::walk_hull(const Subdivision& mesh, std::span<RingVertex> vertices) {
+  Vertex from = -1;
+  for (Vertex v = mesh.start; v >= 0;) {
+    outline_.push_back(v);
+    hull_.push_back(given(v));
+    RingVertex& vertex = vertices[static_cast<std::size_t>(v)];
+    Vertex next = mesh.start;
+    for (Vertex& entry : std::span(vertex.ring(), vertex.degree())) {
+      if (mesh.is_chain && entry != from) next = entry;
+      if (mesh.is_chain) entry = ~entry;
+    }
+    if (!mesh.is_chain) {
+      next = vertex.front();
+      Vertex& last = vertex.ring()[vertex.degree() - 1];
+      last = ~last;
+    }
+    from = v;
+    v = next == mesh.start ? -1 : next;
+  }
 }
 
-void DelaunayMesh::gather_rings(const Subdivision& mesh, const std::vector<bool>& outer, unsigned threads,
+void DelaunayMesh::gather_rings(std::span<const RingVertex> vertices, unsigned threads,
                                 const Monitor& monitor) {
-  const HalfEdges& edges = mesh.edges;
-  const std::size_t vertices = index_.size();
-  ring_end_.resize(vertices);
-  edge_start_.resize(vertices);
-  pieces_.resize(piece_count(vertices, piece_size) + 1);
-  if (mesh.hull == no_edge) return;
-  // Which of its half-edges a vertex gets depends on the threads; the ring made from it does not.
-  std::vector<HalfEdge> leaving(vertices);
-  for_all(static_cast<std::size_t>(edges.size()), threads, monitor, [&](std::size_t i) {
-    const auto e = static_cast<HalfEdge>(i);
-    if (!edges.exists(e)) return;
-    std::atomic_ref(leaving[static_cast<std::size_t>(edges.origin(e))]).store(e, std::memory_order_relaxed);
-  });
-  const auto gather = [&](std::size_t piece) { pieces_[piece] = gather_piece(piece, edges, outer, leaving); };
+  ring_end_.resize(vertices.size());
+  edge_start_.resize(vertices.size());
+  pieces_.resize(piece_count(vertices.size(), piece_size) + 1);
+  const auto gather = [&](std::size_t piece) { pieces_[piece] = gather_piece(piece, vertices); };
   parallel_for(pieces_.size() - 1, threads, gather, monitor);
   std::size_t triangles = 0;
   for (Piece& piece : pieces_) {
@@ -100,38 +83,29 @@ void DelaunayMesh::gather_rings(const Subdivision& mesh, const std::vector<bool>
   }
 }
 
-DelaunayMesh::Piece DelaunayMesh::gather_piece(std::size_t number, const HalfEdges& edges,
-                                               const std::vector<bool>& outer,
-                                               std::span<const HalfEdge> leaving) {
-  Piece piece;
-  piece.rings.reserve(6 * piece_size);
-  std::vector<Vertex> ring(64);
-  const std::size_t end = std::min(index_.size(), (number + 1) << piece_bits);
-  for (std::size_t place = number << piece_bits; place < end; ++place) {
+DelaunayMesh::Piece DelaunayMesh::gather_piece(std::size_t number, std::span<const RingVertex> vertices) {
+  const std::size_t begin = number << piece_bits;
+  const std::size_t end = std::min(vertices.size(), begin + piece_size);
+  std::size_t entries = 0;
+  for (std::size_t place = begin; place < end; ++place) entries += vertices[place].degree();
+  Piece piece{LargeArray<Vertex>(entries)};
+  Vertex* next = piece.rings.data();
+  for (std::size_t place = begin; place < end; ++place) {
     const auto v = static_cast<Vertex>(place);
-    // Edges are numbered much as vertices are, three for each.
-    edges.prefetch(6 * (place + ahead));
-    edges.prefetch(6 * (place + ahead) + 5);
-    std::size_t degree = 0;
-    HalfEdge e = leaving[place];
-    do {
-      if (degree == ring.size()) ring.resize(2 * degree);
-      const Vertex w = edges.target(e);
-      ring[degree++] = outer[static_cast<std::size_t>(e)] ? ~w : w;
-      e = edges.next_around(e);
-    } while (e != leaving[place]);
+    const std::span ring(vertices[place].ring(), vertices[place].degree());
     std::size_t from = 0;
-    for (std::size_t k = 1; k < degree; ++k) from = neighbour(ring[k]) < neighbour(ring[from]) ? k : from;
+    for (std::size_t k = 1; k < ring.size(); ++k)
+      from = neighbour(ring[k]) < neighbour(ring[from]) ? k : from;
     edge_start_[place] = static_cast<std::uint32_t>(piece.edges);
-    for (std::size_t k = 0; k < degree; ++k) {
+    for (std::size_t k = 0; k < ring.size(); ++k) {
       const Vertex entry = ring[from];
-      from = from + 1 == degree ? 0 : from + 1;
+      from = from + 1 == ring.size() ? 0 : from + 1;
       const Vertex w = neighbour(entry);
-      piece.rings.push_back(entry);
+      *next++ = entry;
       piece.edges += w > v;
       piece.triangles += (w > v) & (neighbour(ring[from]) > v) & (entry >= 0);
     }
-    ring_end_[place] = static_cast<std::uint32_t>(piece.rings.size());
+    ring_end_[place] = static_cast<std::uint32_t>(next - piece.rings.data());
   }
   return piece;
 }
@@ -139,7 +113,7 @@ DelaunayMesh::Piece DelaunayMesh::gather_piece(std::size_t number, const HalfEdg
 std::span<const Vertex> DelaunayMesh::ring(Vertex v) const {
   const auto place = static_cast<std::size_t>(v);
   const std::size_t begin = place % piece_size == 0 ? 0 : ring_end_[place - 1];
-  return std::span(pieces_[place >> piece_bits].rings).subspan(begin, ring_end_[place] - begin);
+  return {pieces_[place >> piece_bits].rings.data() + begin, ring_end_[place] - begin};
 }
 
 // A triangle is written at its earliest vertex v: what links it to its neighbours.
@@ -175,15 +149,14 @@ void DelaunayMesh::visit_spokes(std::size_t piece, Visit visit) const {
 
 void DelaunayMesh::write(const MeshArrays& out, unsigned threads, const Monitor& monitor) const {
   if (edge_count_ == 0) return;
-  const bool link = out.neighbours != nullptr;
+  const bool link = out.neighbours != nullptr && triangle_count() > 0;
   LargeArray<std::uint32_t> slots(link ? 2 * edge_count_ : 0);
-  if (link) for_all(2 * edge_count_, threads, monitor, [&](std::size_t i) { slots[i] = no_slot; });
-  const auto write_piece = [&](std::size_t piece) {
-    if (out.triangles) write_triangles(piece, out.triangles, link ? slots.data() : nullptr);
-    if (out.edges) write_edges(piece, out.edges);
-  };
-  parallel_for(pieces_.size() - 1, threads, write_piece, monitor);
+  const auto write = [&](std::size_t piece) { write_piece(piece, out, link ? slots.data() : nullptr); };
+  parallel_for(pieces_.size() - 1, threads, write, monitor);
   if (!link) return;
+  for (std::size_t i = 0; i < outline_.size(); ++i) {
+    slots[slot_of(outline_[i], outline_[i == 0 ? outline_.size() - 1 : i - 1])] = no_slot;
+  }
   const auto put = [&](std::uint32_t slot, std::uint32_t across) {
     if (slot == no_slot) return;
     out.neighbours[3 * std::size_t{slot / 4} + slot % 4] =
@@ -195,33 +168,30 @@ void DelaunayMesh::write(const MeshArrays& out, unsigned threads, const Monitor&
   });
 }
 
-// Here and in write_triangles every candidate is written, and the next one over it unless it counts: faster
-// than a branch that cannot be foretold. At the end of a piece nothing more is written.
-void DelaunayMesh::write_edges(std::size_t piece, std::int32_t* edges) const {
-  std::int32_t* next = edges + 2 * pieces_[piece].edges;
-  const std::int32_t* last = edges + 2 * pieces_[piece + 1].edges;
-  visit_spokes(piece, [&](Vertex v, Vertex w, Vertex, std::uint32_t, std::uint32_t, bool edge, bool) {
-    if (next == last) return;
-    const std::int32_t a = given(v), b = given(w);
-    next[0] = std::min(a, b);
-    next[1] = std::max(a, b);
-    next += edge ? 2 : 0;
-  });
-}
-
-void DelaunayMesh::write_triangles(std::size_t piece, std::int32_t* triangles, std::uint32_t* slots) const {
+// Every candidate is written, and the next one over it unless it counts: faster than a branch that cannot be
+// foretold. At the end of a piece nothing more is written.
+void DelaunayMesh::write_piece(std::size_t piece, const MeshArrays& out, std::uint32_t* slots) const {
   const std::size_t first = pieces_[piece].triangles;
-  std::vector<Lead> leads(pieces_[piece + 1].triangles - first);
+  std::vector<Lead> leads(out.triangles ? pieces_[piece + 1].triangles - first : 0);
   std::size_t count = 0;
-  visit_spokes(piece, [&](Vertex v, Vertex w, Vertex u, std::uint32_t edge_w, std::uint32_t edge_u, bool,
+  std::int32_t* next = out.edges ? out.edges + 2 * pieces_[piece].edges : nullptr;
+  const std::int32_t* last = out.edges ? out.edges + 2 * pieces_[piece + 1].edges : nullptr;
+  visit_spokes(piece, [&](Vertex v, Vertex w, Vertex u, std::uint32_t edge_w, std::uint32_t edge_u, bool edge,
                           bool triangle) {
-    if (count == leads.size()) return;
-    std::int32_t* corners = triangles + 3 * (first + count);
-    corners[0] = given(v);
-    corners[1] = given(w);
-    corners[2] = given(u);
-    leads[count] = {w, u, edge_w, edge_u};
-    count += triangle;
+    const std::int32_t a = given(v), b = given(w);
+    if (next != last) {
+      next[0] = std::min(a, b);
+      next[1] = std::max(a, b);
+      next += edge ? 2 : 0;
+    }
+    if (count != leads.size()) {
+      std::int32_t* corners = out.triangles + 3 * (first + count);
+      corners[0] = a;
+      corners[1] = b;
+      corners[2] = given(u);
+      leads[count] = {w, u, edge_w, edge_u};
+      count += triangle;
+    }
   });
   if (slots) fill_slots(leads, first, slots);
 }
@@ -234,8 +204,12 @@ void DelaunayMesh::fill_slots(const std::vector<Lead>& leads, std::size_t first,
     const auto slot = static_cast<std::uint32_t>(4 * (first + i));
     slots[2 * std::size_t{edge_w}] = slot + 2;
     slots[2 * std::size_t{edge_u} + 1] = slot + 1;
-    slots[2 * edge_between(std::min(w, u), std::max(w, u)) + (u < w)] = slot;
+    slots[slot_of(w, u)] = slot;
   }
+}
+
+std::size_t DelaunayMesh::slot_of(Vertex from, Vertex to) const {
+  return 2 * edge_between(std::min(from, to), std::max(from, to)) + (to < from);
 }
 
 std::size_t DelaunayMesh::first_edge(Vertex v) const {

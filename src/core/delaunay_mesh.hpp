@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/divide_and_conquer.hpp"
+#include "core/large_array.hpp"
 #include "core/monitor.hpp"
 #include "core/point_order.hpp"
 #include "core/predicates.hpp"
@@ -31,10 +32,11 @@ class DelaunayMesh {
   // Finite points. Throws std::length_error for more than 2^28 of them.
   DelaunayMesh(std::span<const Point> points, unsigned threads, const Monitor& monitor);
 
-  // The same from a Delaunay triangulation that is made in another way.
-  using Triangulate = std::function<Subdivision(MortonOrder&)>;
+  // The same from the rings of divide_and_conquer that are made in another way, after permute_equal_codes.
+  using Triangulate = std::function<Subdivision(const OrderedPoints&)>;
   DelaunayMesh(std::span<const Point> points, const Triangulate& triangulate, unsigned threads,
                const Monitor& monitor);
+  DelaunayMesh(DelaunayMesh&&) = default;  // and no copy
 
   // [n] for each point the first one at the same place: itself if it is the only one.
   std::span<const std::int32_t> first() const { return first_; }
@@ -52,16 +54,14 @@ class DelaunayMesh {
   // each, its ring, go counter-clockwise from the earliest one; ~w instead of w where the unbounded face
   // follows.
   struct Piece {
-    std::vector<Vertex> rings;
+    LargeArray<Vertex> rings;
     std::size_t edges = 0, triangles = 0;  // of the piece; once all are made, of those before it
   };
   struct Lead;
 
-  std::vector<bool> walk_hull(const Subdivision& mesh);
-  void gather_rings(const Subdivision& mesh, const std::vector<bool>& outer, unsigned threads,
-                    const Monitor& monitor);
-  Piece gather_piece(std::size_t piece, const HalfEdges& edges, const std::vector<bool>& outer,
-                     std::span<const HalfEdge> leaving);
+  void walk_hull(const Subdivision& mesh, std::span<RingVertex> vertices);
+  void gather_rings(std::span<const RingVertex> vertices, unsigned threads, const Monitor& monitor);
+  Piece gather_piece(std::size_t piece, std::span<const RingVertex> vertices);
 
   std::int32_t given(Vertex v) const {
     return static_cast<std::int32_t>(index_[static_cast<std::size_t>(v)]);
@@ -69,15 +69,16 @@ class DelaunayMesh {
   std::span<const Vertex> ring(Vertex v) const;
   template <class Visit>
   void visit_spokes(std::size_t piece, Visit visit) const;
-  void write_edges(std::size_t piece, std::int32_t* edges) const;
-  void write_triangles(std::size_t piece, std::int32_t* triangles, std::uint32_t* slots) const;
+  void write_piece(std::size_t piece, const MeshArrays& out, std::uint32_t* slots) const;
   void fill_slots(const std::vector<Lead>& leads, std::size_t first, std::uint32_t* slots) const;
   std::size_t first_edge(Vertex v) const;
-  std::size_t edge_between(Vertex a, Vertex b) const;
+  std::size_t slot_of(Vertex from, Vertex to) const;
+  std::size_t edge_between(Vertex earlier, Vertex later) const;
 
   std::vector<std::uint32_t> index_;  // [vertices] of the points given
   std::vector<std::int32_t> first_;
   std::vector<std::int32_t> hull_;
+  std::vector<Vertex> outline_;            // the same as vertices
   std::vector<Piece> pieces_;              // one more than there are, with the totals
   std::vector<std::uint32_t> ring_end_;    // [vertices] in the rings of its piece
   std::vector<std::uint32_t> edge_start_;  // [vertices] edges of its piece before the first one written at it

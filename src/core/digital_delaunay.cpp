@@ -57,19 +57,14 @@ bool assemble(const DigitalDual& dual, TriangleMesh& mesh, const Monitor& monito
   return open == 0;
 }
 
-bool are_collinear(std::span<const Point> points) {
-  for (std::size_t i = 2; i < points.size(); ++i) {
-    if (orient2d(points[0], points[1], points[i]) != 0) return false;
+bool are_collinear(std::span<const RingVertex> vertices) {
+  for (std::size_t i = 2; i < vertices.size(); ++i) {
+    if (orient2d(vertices[0].point, vertices[1].point, vertices[i].point) != 0) return false;
   }
   return true;
 }
 
-// Divide and conquer gives the chain of collinear points.
-Subdivision chain_of(MortonOrder& ordered, const Monitor& monitor) {
-  return divide_and_conquer({ordered.points, ordered.index, ordered.code, ordered.fine}, 1, monitor);
-}
-
-std::vector<Vertex> vertices_of_labels(const MortonOrder& ordered, std::size_t sites) {
+std::vector<Vertex> vertices_of_labels(const OrderedPoints& ordered, std::size_t sites) {
   std::vector<Vertex> vertex(sites, -1);  // of duplicates: they have no region
   for (std::size_t i = 0; i < ordered.index.size(); ++i) vertex[ordered.index[i]] = as_vertex(i);
   return vertex;
@@ -86,16 +81,16 @@ std::uint64_t insert_missing(TriangleMesh& mesh, const std::vector<bool>& used) 
   return inserted;
 }
 
-std::optional<Subdivision> repaired(const DigitalDual& dual, std::span<const Point> points,
+std::optional<Subdivision> repaired(const DigitalDual& dual, std::span<RingVertex> vertices,
                                     DigitalRepair& repair, const Monitor& monitor) {
-  TriangleMesh mesh(points, monitor);
+  TriangleMesh mesh(vertices, monitor);
   if (!assemble(dual, mesh, monitor)) return {};
   repair.straightened = mesh.straighten();
   if (!mesh.is_positive()) return {};
   mesh.make_delaunay();
   repair.filled = mesh.fills();
   repair.flipped = mesh.flips();
-  std::vector<bool> used(points.size(), false);
+  std::vector<bool> used(vertices.size(), false);
   for (const auto& triangle : dual.triangles) {
     for (const Vertex v : triangle) used[static_cast<std::size_t>(v)] = true;
   }
@@ -107,14 +102,15 @@ std::optional<Subdivision> repaired(const DigitalDual& dual, std::span<const Poi
 
 }  // namespace
 
-Subdivision delaunay_by_insertion(MortonOrder& ordered, const Monitor& monitor) {
-  const std::span<const Point> points = ordered.points;
-  if (are_collinear(points)) return chain_of(ordered, monitor);
+Subdivision delaunay_by_insertion(const OrderedPoints& ordered, const Monitor& monitor) {
+  const std::span<RingVertex> vertices = ordered.vertices;
+  if (are_collinear(vertices)) return divide_and_conquer(ordered, 1, monitor);
+  permute_equal_codes(ordered);
   std::size_t third = 2;
-  while (orient2d(points[0], points[1], points[third]) == 0) ++third;
-  TriangleMesh mesh(points, monitor);
+  while (orient2d(vertices[0].point, vertices[1].point, vertices[third].point) == 0) ++third;
+  TriangleMesh mesh(vertices, monitor);
   mesh.start(0, 1, as_vertex(third));
-  std::vector<bool> used(points.size(), false);
+  std::vector<bool> used(vertices.size(), false);
   used[0] = used[1] = used[third] = true;
   insert_missing(mesh, used);
   std::optional<Subdivision> result = mesh.subdivision();
@@ -123,23 +119,24 @@ Subdivision delaunay_by_insertion(MortonOrder& ordered, const Monitor& monitor) 
 }
 
 Subdivision digital_delaunay(std::span<std::uint32_t> image, const PixelFrame& frame,
-                             const DigitalSites& sites, MortonOrder& ordered, DigitalRepair& repair,
+                             const DigitalSites& sites, const OrderedPoints& ordered, DigitalRepair& repair,
                              unsigned threads, const Monitor& monitor) {
-  if (are_collinear(ordered.points)) return chain_of(ordered, monitor);
+  if (are_collinear(ordered.vertices)) return divide_and_conquer(ordered, 1, monitor);
+  permute_equal_codes(ordered);
   const Reconnection moved = connect_regions(image, frame, sites.x, sites.y, sites.scale, threads, monitor);
   repair.split_regions = moved.regions;
   repair.moved_pixels = moved.pixels;
   const std::vector<Vertex> vertex = vertices_of_labels(ordered, sites.x.size());
-  DigitalDual dual = find_dual(image, frame.width, vertex, ordered.points, monitor);
+  DigitalDual dual = find_dual(image, frame.width, vertex, ordered.vertices, monitor);
   repair.three_label_corners = dual.three_label_corners;
   repair.four_label_corners = dual.four_label_corners;
-  repair.twins = remove_twins(dual, ordered.points.size());
-  if (std::optional<Subdivision> result = repaired(dual, ordered.points, repair, monitor)) {
+  repair.twins = remove_twins(dual, ordered.vertices.size());
+  if (std::optional<Subdivision> result = repaired(dual, ordered.vertices, repair, monitor)) {
     repair.route = DigitalRepair::repaired;
     return std::move(*result);
   }
   repair.route = DigitalRepair::rebuilt;
-  repair.inserted = ordered.points.size();
+  repair.inserted = ordered.vertices.size();
   return delaunay_by_insertion(ordered, monitor);
 }
 

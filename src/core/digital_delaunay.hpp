@@ -16,7 +16,6 @@
 #include "core/connected_regions.hpp"
 #include "core/divide_and_conquer.hpp"
 #include "core/monitor.hpp"
-#include "core/point_order.hpp"
 
 namespace vorotool::core {
 
@@ -42,10 +41,10 @@ struct DigitalSites {
 // `image` holds the exact tessellation of the sites, every pixel labelled; its regions are changed. `ordered`
 // holds the distinct ones of the same sites as points.
 Subdivision digital_delaunay(std::span<std::uint32_t> image, const PixelFrame& frame,
-                             const DigitalSites& sites, MortonOrder& ordered, DigitalRepair& repair,
+                             const DigitalSites& sites, const OrderedPoints& ordered, DigitalRepair& repair,
                              unsigned threads, const Monitor& monitor);
 
 // The same by insertion of all points one by one.
-Subdivision delaunay_by_insertion(MortonOrder& ordered, const Monitor& monitor);
+Subdivision delaunay_by_insertion(const OrderedPoints& ordered, const Monitor& monitor);
 
 }  // namespace vorotool::core

@@ -12,8 +12,8 @@ using Triangle = std::array<Vertex, 3>;
 
 class DualReader {
  public:
-  DualReader(std::span<const Vertex> vertex, std::span<const Point> points)
-      : vertex_(vertex), points_(points) {}
+  DualReader(std::span<const Vertex> vertex, std::span<const RingVertex> vertices)
+      : vertex_(vertex), vertices_(vertices) {}
 
   void add(const Corner& corner) {
     const int labels = corner.labels();
@@ -38,7 +38,7 @@ class DualReader {
   DigitalDual dual;
 
  private:
-  const Point& at(Vertex v) const { return points_[static_cast<std::size_t>(v)]; }
+  const Point& at(Vertex v) const { return vertices_[static_cast<std::size_t>(v)].point; }
   int sign(const Triangle& t) const { return orient2d(at(t[0]), at(t[1]), at(t[2])); }
 
   // The diagonal that leaves two counter-clockwise triangles; of two such, the Delaunay one.
@@ -55,7 +55,7 @@ class DualReader {
   }
 
   std::span<const Vertex> vertex_;
-  std::span<const Point> points_;
+  std::span<const RingVertex> vertices_;
 };
 
 // The labels along the frame: right along the first row, down, left along the last row, up.
@@ -202,8 +202,8 @@ class TwinRemover {
 }  // namespace
 
 DigitalDual find_dual(std::span<const std::uint32_t> image, std::size_t width, std::span<const Vertex> vertex,
-                      std::span<const Point> points, const Monitor& monitor) {
-  DualReader reader(vertex, points);
+                      std::span<const RingVertex> vertices, const Monitor& monitor) {
+  DualReader reader(vertex, vertices);
   RowPair pair(width);
   const std::size_t height = image.size() / width;
   const std::size_t rows = rows_per_piece(width);

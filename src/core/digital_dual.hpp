@@ -7,9 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "core/half_edges.hpp"
 #include "core/monitor.hpp"
-#include "core/predicates.hpp"
+#include "core/rings.hpp"
 
 namespace vorotool::core {
 
@@ -20,10 +19,10 @@ struct DigitalDual {
   std::uint64_t four_label_corners = 0;
 };
 
-// Reads the dual off an image of labels 1, 2, ...: vertex[label - 1] is at points[vertex]. Where four labels
-// meet there are two triangles; their diagonal is the Delaunay one.
+// Reads the dual off an image of labels 1, 2, ...: vertex[label - 1] is at vertices[vertex]. Where four
+// labels meet there are two triangles; their diagonal is the Delaunay one.
 DigitalDual find_dual(std::span<const std::uint32_t> image, std::size_t width, std::span<const Vertex> vertex,
-                      std::span<const Point> points, const Monitor& monitor);
+                      std::span<const RingVertex> vertices, const Monitor& monitor);
 
 // Takes out the sites that have two neighbours only: their two triangles are the same, once each way round.
 // Others may have two neighbours only after that. Returns how many were taken out.

@@ -3,34 +3,32 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
-#include "core/half_edges.hpp"
 #include "core/monitor.hpp"
-#include "core/predicates.hpp"
+#include "core/rings.hpp"
 
 namespace vorotool::core {
 
 // Points in Morton order with the code of each; points of equal codes are together, in any order.
 struct OrderedPoints {
-  std::span<Point> points;              // [n] distinct; may be permuted within equal codes
+  std::span<RingVertex> vertices;       // [n] distinct points; may be permuted within equal codes
   std::span<std::uint32_t> index;       // [n] permuted along
   std::span<const std::uint32_t> code;  // [n] not decreasing: bits of x and y in turn, x the higher of two
   std::span<const std::uint32_t> fine;  // [n] the same among points of equal code; or empty
 };
 
-// A Delaunay triangulation of the points. Vertices are positions in `points`; edges of fewer than three or of
-// collinear points are a chain. Which diagonals are taken among cocircular points is left open.
+// What else there is to know about the rings that were made. The ring of a vertex on the hull begins with the
+// next vertex of the hull, counter-clockwise, and ends with the one before: the unbounded face follows its
+// last neighbour.
 struct Subdivision {
-  HalfEdges edges{0};
-  HalfEdge hull =
-      no_edge;  // leaves its origin counter-clockwise along the hull; none for fewer than two points
-
-  // Whether any predicate was zero. If none was, no four points of two neighbouring triangles are cocircular:
-  // otherwise one of them could be moved a little, into the circle, and the same signs would have led to the
-  // same edges, which then are not Delaunay.
-  bool degenerate = false;
+  std::vector<RingStore> stores;  // of long rings: to be kept along with the vertices
+  Vertex start = -1;              // lexicographically smallest; none if there are no points
+  bool is_chain = true;           // fewer than three or collinear points: a chain of edges
 };
 
+// Makes the rings of the Delaunay triangulation of the points, in which every cocircular polygon is a fan
+// from its lexicographically smallest vertex.
 Subdivision divide_and_conquer(const OrderedPoints& ordered, unsigned threads, const Monitor& monitor);
 
 // Permutes points of equal code as divide_and_conquer does, for triangulations made in another way: then

@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "core/large_array.hpp"
+#include "core/rings.hpp"
 
 namespace vorotool::core {
 
 using HalfEdge = std::int32_t;
-using Vertex = std::int32_t;
 
 inline constexpr HalfEdge no_edge = -1;
 

@@ -20,6 +20,7 @@ class LargeArray {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
 
  public:
+  LargeArray() = default;
   explicit LargeArray(std::size_t size) : size_(size), data_(allocate(size)) {}
 
   std::size_t size() const { return size_; }
@@ -49,7 +50,7 @@ class LargeArray {
     return static_cast<T*>(data);
   }
 
-  std::size_t size_;
+  std::size_t size_ = 0;
   std::unique_ptr<T[], Free> data_;
 };
 

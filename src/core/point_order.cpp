@@ -13,6 +13,7 @@ namespace vorotool::core {
 namespace {
 
 constexpr std::size_t piece_size = std::size_t{1} << 14;  // words of a piece of work
+constexpr std::size_t ahead = 32;                         // words: how early points are called for
 
 // A word holds the code of a point above its index.
 std::uint32_t code_of(std::uint64_t word) { return static_cast<std::uint32_t>(word >> 32); }
@@ -31,7 +32,7 @@ class Orderer {
     std::vector<std::uint64_t> words(count);
     for (std::size_t i = 0; i < count; ++i) words[i] = i;
     sort_along_curve(words);
-    order_.points.resize(count);
+    order_.vertices = LargeArray<RingVertex>(count);
     order_.index.resize(count);
     order_.code.resize(count);
     repeated_.resize(count);
@@ -80,6 +81,8 @@ class Orderer {
   void put_cells(std::vector<std::uint64_t>& words, std::size_t piece) {
     const Range within{piece * piece_size, std::min(words.size(), (piece + 1) * piece_size)};
     for_cells(words, within, [&](Range cell) {
+      if (cell.begin + ahead < words.size())
+        __builtin_prefetch(&points_[index_of(words[cell.begin + ahead])]);
       std::fill(order_.code.begin() + offset(cell.begin), order_.code.begin() + offset(cell.end),
                 code_of(words[cell.begin]));
       if (cell.end - cell.begin > morton_crowd) {
@@ -122,8 +125,8 @@ class Orderer {
     for (std::size_t i = 0; i < cell.size(); ++i) {
       const std::size_t here = place + i;
       order_.index[here] = index_of(cell[i]);
-      order_.points[here] = points_[index_of(cell[i])];
-      const bool repeated = i > 0 && same_place(order_.points[here], order_.points[original]);
+      order_.vertices[here].clear(points_[index_of(cell[i])]);
+      const bool repeated = i > 0 && same_place(order_.vertices[here].point, order_.vertices[original].point);
       if (repeated) any_repeated_.store(true, std::memory_order_relaxed);
       if (!repeated) original = here;
       repeated_[here] = repeated;
@@ -135,13 +138,12 @@ class Orderer {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < repeated_.size(); ++i) {
       if (repeated_[i]) continue;
-      order_.points[kept] = order_.points[i];
+      order_.vertices[kept] = order_.vertices[i];
       order_.index[kept] = order_.index[i];
       order_.code[kept] = order_.code[i];
       if (!order_.fine.empty()) order_.fine[kept] = order_.fine[i];
       ++kept;
     }
-    order_.points.resize(kept);
     order_.index.resize(kept);
     order_.code.resize(kept);
     if (!order_.fine.empty()) order_.fine.resize(kept);

@@ -5,15 +5,16 @@
 #include <span>
 #include <vector>
 
+#include "core/large_array.hpp"
 #include "core/monitor.hpp"
-#include "core/predicates.hpp"
+#include "core/rings.hpp"
 
 namespace vorotool::core {
 
 // Distinct points along a Morton curve through the cells of a grid. In a cell with many points they follow a
 // finer curve; points that share a cell of that, or one with few points, are sorted by (x, y).
 struct MortonOrder {
-  std::vector<Point> points;
+  LargeArray<RingVertex> vertices;   // with empty rings; as many as there are indices count
   std::vector<std::uint32_t> index;  // of each point among those given; of equal points, the smallest
   std::vector<std::uint32_t> code;   // not decreasing; bits of x and y in turn, x the higher of two
   std::vector<std::uint32_t>

@@ -98,10 +98,10 @@ void Dual::link(HalfEdge e) {
 
 }  // namespace
 
-VoronoiRecords point_voronoi(const SegmentSites& sites, const Subdivision& mesh, std::size_t room,
-                             unsigned threads, const Monitor& monitor) {
+VoronoiRecords point_voronoi(const SegmentSites& sites, const HalfEdges& edges, HalfEdge hull,
+                             std::size_t room, unsigned threads, const Monitor& monitor) {
   VoronoiRecords records(room, sites.point_count());
-  if (mesh.hull != no_edge) Dual(sites, mesh.edges, records).run(mesh.hull, threads, monitor);
+  if (hull != no_edge) Dual(sites, edges, records).run(hull, threads, monitor);
   return records;
 }
 

@@ -40,19 +40,6 @@ int incircle_beyond_filter(const Point& a, const Point& b, const Point& c, const
 inline constexpr double unit_roundoff = 0x1p-53;
 inline constexpr double orient2d_bound = (3 + 32 * unit_roundoff) * unit_roundoff;
 
-// incircle: the determinant is a sum of 12 monomials, each a square times a product of two differences. One
-// meets at most 11 roundings: 4 differences, 1 square, 1 product, 1 sum of squares, 1 difference of
-// products, 1 product of both, and 2 sums. P is computed by the same operations on absolute values, so
-// without underflow, S being the exact sum of the absolute monomials,
-//   |det - D| <= S ((1 + u)^11 - 1) and P >= S (1 - u)^11, hence |det - D| <= P (11 u + 180 u^2).
-// Underflow puts at most 2 h (1 + u) into each lift and each minor, and h into each product of both. With T
-// the sum of the lifts, and the sum of the absolute products in the minors at most T as well (each difference
-// is in two of them, and |p q| <= (p^2 + q^2) / 2), it puts at most
-//   (2 h T + 2 h T + 3 h) (1 + 20 u) < 8 h (T + 1)
-// into det, and as much into P, where a factor k makes it vanish. The bound as computed,
-// fl(k fl(P + fl(2^-1020 fl(T + 1)))), loses at most a factor (1 - u)^6, T having two roundings, and h. With
-// k = 11 u + 256 u^2 it is at least P (11 u + 185 u^2) + (43 (T + 1) - 1) h: enough for both terms.
-inline constexpr double incircle_bound = (11 + 256 * unit_roundoff) * unit_roundoff;
 inline constexpr double underflow_scale = 0x1p-1020;
 
 inline int sign_of(double value) { return (value > 0) - (value < 0); }
@@ -66,17 +53,58 @@ inline int orient2d_filter(const Point& a, const Point& b, const Point& c) {
   return std::abs(determinant) > bound ? sign_of(determinant) : undecided;
 }
 
+// A point as it is seen from the ends l and r of an edge: with L = l - p and R = r - p, the sine and the
+// cosine of the angle from L to R, times the lengths of both.
+struct Apex {
+  double cross, dot;                      // L.x R.y - L.y R.x and L.x R.x + L.y R.y
+  double cross_permanent, dot_permanent;  // sums of the absolute products, and `underflow_guard`
+};
+
+// The angle is larger inside a circle through l and r than on it, so for p and q to the left of l r
+//   D = dot(p) cross(q) - cross(p) dot(q)
+// is positive if q lies inside the circle through l, r and p. As polynomials D and the determinant of the
+// circle are the same: each vanishes where the four points are cocircular, and both have degree four.
+//
+// Bounds: a cross or dot product has two monomials, each with four roundings at most (two differences, the
+// product, the sum), its permanent P the same and that of the guard g, and each product may underflow by h.
+//   |cross - C| <= P ((1 + u)^4 - 1) (1 - u)^-5 + 2 h (1 + u) <= P (4 u + 27 u^2) + 3 h
+// A factor k = 4 u + 64 u^2 loses 4 u^2 P in the rounding of k P; what is left, 33 u^2 P >= 33 u^2 g, is
+// above 3 h, since P >= g = 2^-450. A monomial of D meets 4 + 4 roundings, one in the product and one in the
+// difference, and one of P = dot_permanent(p) cross_permanent(q) + cross_permanent(p) dot_permanent(q) two
+// more for the guards:
+//   |det - D| <= P ((1 + u)^10 - 1) (1 - u)^-12 + underflow <= P (10 u + 180 u^2) + underflow
+// With e = 3 h for what cross and dot lose to underflow and S the sum of the four permanents, that is at most
+// (e S + 2 e^2 + 2 h) (1 + 4 u). A factor k = 10 u + 256 u^2 leaves 60 u^2 P, and as permanents are at least
+// g, P >= g S / 2 and P >= 2 g^2: 30 u^2 P >= 15 u^2 g S > 2 e S, and 30 u^2 P >= 60 u^2 g^2 > 2^-1001 > 4 h.
+inline constexpr double underflow_guard = 0x1p-450;
+inline constexpr double cross_bound = (4 + 64 * unit_roundoff) * unit_roundoff;
+inline constexpr double incircle_bound = (10 + 256 * unit_roundoff) * unit_roundoff;
+
+inline Apex seen_from(const Point& l, const Point& r, const Point& p) {
+  const double lx = l.x - p.x, ly = l.y - p.y, rx = r.x - p.x, ry = r.y - p.y;
+  const double xy = lx * ry, yx = ly * rx, xx = lx * rx, yy = ly * ry;
+  return {xy - yx, xx + yy, std::abs(xy) + std::abs(yx) + underflow_guard,
+          std::abs(xx) + std::abs(yy) + underflow_guard};
+}
+
+// The sign of orient2d(l, r, p) for a point seen from l and r. Where the products cannot have been rounded,
+// since the permanent is at most `exact`, zero is one as well.
+inline int side_filter(const Apex& p, double exact = 0) {
+  if (std::abs(p.cross) > cross_bound * p.cross_permanent || p.cross_permanent <= exact)
+    return sign_of(p.cross);
+  return undecided;
+}
+
+// The sign of incircle(l, r, p, q) for points seen from l and r; likewise.
+inline int incircle_filter(const Apex& p, const Apex& q, double exact = 0) {
+  const double determinant = p.dot * q.cross - p.cross * q.dot;
+  const double permanent = p.dot_permanent * q.cross_permanent + p.cross_permanent * q.dot_permanent;
+  if (std::abs(determinant) > incircle_bound * permanent || permanent <= exact) return sign_of(determinant);
+  return undecided;
+}
+
 inline int incircle_filter(const Point& a, const Point& b, const Point& c, const Point& d) {
-  const double ax = a.x - d.x, bx = b.x - d.x, cx = c.x - d.x;
-  const double ay = a.y - d.y, by = b.y - d.y, cy = c.y - d.y;
-  const double a_lift = ax * ax + ay * ay, b_lift = bx * bx + by * by, c_lift = cx * cx + cy * cy;
-  const double bc = bx * cy, cb = cx * by, ca = cx * ay, ac = ax * cy, ab = ax * by, ba = bx * ay;
-  const double determinant = a_lift * (bc - cb) + b_lift * (ca - ac) + c_lift * (ab - ba);
-  const double permanent = a_lift * (std::abs(bc) + std::abs(cb)) + b_lift * (std::abs(ca) + std::abs(ac)) +
-                           c_lift * (std::abs(ab) + std::abs(ba));
-  const double underflow = underflow_scale * (a_lift + b_lift + c_lift + 1);
-  const double bound = incircle_bound * (permanent + underflow);
-  return std::abs(determinant) > bound ? sign_of(determinant) : undecided;
+  return incircle_filter(seen_from(a, b, c), seen_from(a, b, d));
 }
 
 // Sign of the area of the triangle a, b, c: 1 if it is counter-clockwise (y upwards), -1 if clockwise, 0 if

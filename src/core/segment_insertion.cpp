@@ -6,6 +6,7 @@
 
 #include "core/double_double.hpp"
 #include "core/predicates.hpp"
+#include "core/segment_exact.hpp"
 #include "core/tangent_disc.hpp"
 
 namespace vorotool::core {
@@ -25,8 +26,17 @@ void put_disc(const TangentDisc<Real>& disc, VoronoiRecord& record) {
   record.radius_error = rounded_up(disc.radius_error + unit_roundoff * record.radius);
 }
 
-// Where a disc is known worse than this, relative to its radius, its tests would fail too often: then numbers
-// of 106 bits are taken at once. Nothing depends on the choice but speed.
+// Each number errs by at most 2^-52 of itself.
+void put_disc(const RoundedDisc& disc, VoronoiRecord& record) {
+  record.x = disc.x;
+  record.y = disc.y;
+  record.radius = disc.radius;
+  record.position_error = rounded_up(2 * unit_roundoff * (std::abs(disc.x) + std::abs(disc.y)));
+  record.radius_error = rounded_up(2 * unit_roundoff * disc.radius);
+}
+
+// Where a disc is known worse than this, relative to its radius, its tests would fail too often: then more
+// digits are taken at once. Nothing depends on the choice but speed.
 constexpr double coarse = 0x1p-20;
 
 }  // namespace
@@ -37,11 +47,11 @@ void compute_disc(const SegmentSites& sites, VoronoiRecord& record) {
     record.radius = std::numeric_limits<double>::infinity();
     return;
   }
-  const TangentDisc<double> disc = tangent_disc<double>(sites, record.sites, record.left);
-  put_disc(disc, record);
-  if (disc.position_error + disc.radius_error <= coarse * disc.radius) return;
-  put_disc(tangent_disc<DoubleDouble>(sites, record.sites, record.left), record);
-  if (!(record.radius > 0)) throw std::logic_error("three sites of a Voronoi vertex have no disc");
+  const auto disc = tangent_disc<double>(sites, record.sites, record.left);
+  if (disc.radius == 0 || disc.known_within(coarse)) return put_disc(disc, record);
+  const auto finer = tangent_disc<DoubleDouble>(sites, record.sites, record.left);
+  if (finer.known_within(coarse)) return put_disc(finer, record);
+  put_disc(exact_disc_rounded(sites.triple(record.sites)), record);
 }
 
 // Whether this thread may look at a record. What others did to it before is visible then.

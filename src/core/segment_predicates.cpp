@@ -35,7 +35,7 @@ int sign_beyond(const DoubleDouble& value, double error) {
 }
 
 // As SegmentPredicates::sign, for a disc that does not touch the ends of the query.
-int sign_in_double_double(const TangentDisc<DoubleDouble>& disc, const SegmentSite& s) {
+int clearance_sign(const TangentDisc<DoubleDouble>& disc, const SegmentSite& s) {
   const LatticeVector d = s.direction();
   const Offset offset = offset_of(disc, s.a, d, s.length);
   const DoubleDouble length = sqrt(DoubleDouble(int128{dot(d, d)}));
@@ -131,6 +131,18 @@ int SegmentPredicates::end_sign(const VoronoiRecord& v, int i, const SegmentQuer
   return sign_beyond_filter(v, query);
 }
 
+int SegmentPredicates::sign_in_double_double(const VoronoiRecord& v, const SegmentQuery& query) const {
+  const auto disc = tangent_disc<DoubleDouble>(sites_, v.sites, v.left);
+  if (!disc.known_within(1)) return undecided;
+  const int at_p = v.find(query.p), at_q = v.find(query.q);
+  if (at_p < 0 && at_q < 0) return clearance_sign(disc, query.segment);
+  const SiteIndex end = at_p >= 0 ? query.p : query.q;
+  const Offset offset =
+      offset_of(disc, sites_.point(end), sites_.direction_from(end, query.site), query.segment.length);
+  const int forward = sign_beyond(offset.along, offset.error);
+  return forward == undecided ? undecided : forward > 0 ? -1 : 0;
+}
+
 int SegmentPredicates::sign_beyond_filter(const VoronoiRecord& v, const SegmentQuery& query) {
   if (const std::optional<DyadicDisc> disc = dyadic_disc(sites_, v)) {
     const int sign = disc->sign(query.segment);
@@ -139,18 +151,7 @@ int SegmentPredicates::sign_beyond_filter(const VoronoiRecord& v, const SegmentQ
       return sign;
     }
   }
-  const TangentDisc<DoubleDouble> disc = tangent_disc<DoubleDouble>(sites_, v.sites, v.left);
-  const int at_p = v.find(query.p), at_q = v.find(query.q);
-  int sign = undecided;
-  if (at_p < 0 && at_q < 0) {
-    sign = sign_in_double_double(disc, query.segment);
-  } else {
-    const SiteIndex end = at_p >= 0 ? query.p : query.q;
-    const Offset offset =
-        offset_of(disc, sites_.point(end), sites_.direction_from(end, query.site), query.segment.length);
-    const int forward = sign_beyond(offset.along, offset.error);
-    if (forward != undecided) sign = forward > 0 ? -1 : 0;
-  }
+  const int sign = sign_in_double_double(v, query);
   if (sign != undecided) {
     ++counts_.double_double;
     return sign;

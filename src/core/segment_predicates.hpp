@@ -59,6 +59,7 @@ class SegmentPredicates {
  private:
   int corner_sign(const VoronoiRecord& vertex, int i, const SegmentQuery& query) const;
   int end_sign(const VoronoiRecord& vertex, int i, const SegmentQuery& query);
+  int sign_in_double_double(const VoronoiRecord& vertex, const SegmentQuery& query) const;
   int sign_beyond_filter(const VoronoiRecord& vertex, const SegmentQuery& query);
 
   // An edge between a point and another site; seen from the point it turns counter-clockwise.

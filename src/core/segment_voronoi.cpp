@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/divide_and_conquer.hpp"
+#include "core/half_edges_of_rings.hpp"
 #include "core/insertion_rounds.hpp"
 #include "core/point_order.hpp"
 #include "core/point_voronoi.hpp"
@@ -87,13 +88,16 @@ SegmentVoronoi::SegmentVoronoi(const PlanarGraph& graph, unsigned threads, const
 // The triangulation is gone when segments are inserted.
 void SegmentVoronoi::make_point_diagram(const PlanarGraph& graph, unsigned threads, const Monitor& monitor) {
   MortonOrder order = ordered(graph.points, threads, monitor);
-  const Subdivision mesh =
-      divide_and_conquer({order.points, order.index, order.code, order.fine}, threads, monitor);
+  const std::span<RingVertex> vertices{order.vertices.data(), order.index.size()};
+  Subdivision mesh = divide_and_conquer({vertices, order.index, order.code, order.fine}, threads, monitor);
+  const HalfEdges edges = half_edges_of(vertices);
+  const HalfEdge hull = vertices.empty() ? no_edge : front_edge(vertices, edges, mesh.start);
   const std::vector<std::uint32_t> index = std::move(order.index);
   order = {};
+  mesh = {};
   number_sites(graph, index);
   const std::size_t room = 2 * (graph.points.size() + graph.segments.size());
-  records_ = point_voronoi(sites_, mesh, room, threads, monitor);
+  records_ = point_voronoi(sites_, edges, hull, room, threads, monitor);
 }
 
 // Points in the order of the triangulation, and the segments along them.

@@ -22,7 +22,14 @@ struct TangentDisc {
   LatticePoint anchor;
   Real x, y;  // the centre less the anchor
   Real radius;
-  double position_error, radius_error;  // bounds; infinite or NaN where the numbers mean nothing
+  double position_error, radius_error;  // bounds, if known_within()
+
+  // Whether the disc is known, and within this part of its radius. Where the formulas fail numbers are
+  // infinite, NaN or negative.
+  bool known_within(double part) const {
+    const double size = static_cast<double>(radius);
+    return size > 0 && position_error + radius_error <= part * size;
+  }
 };
 
 // The disc whose touching points with the sites follow each other counter-clockwise as the sites do, to the

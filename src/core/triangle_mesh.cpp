@@ -14,7 +14,7 @@ bool comes_before(const Point& a, const Point& b) { return a.x != b.x ? a.x < b.
 TriangleMesh::Side TriangleMesh::add_triangle(Vertex a, Vertex b, Vertex c) {
   const Side first = sides();
   origins_.insert(origins_.end(), {a, b, c});
-  twins_.insert(twins_.end(), 3, no_edge);
+  twins_.insert(twins_.end(), 3, -1);
   return first;
 }
 
@@ -80,13 +80,17 @@ void TriangleMesh::poll() {
 }
 
 // Of a side that ends at infinity: whether its other end is a reflex turn of the hull. Of a side of the hull:
-// never. Of any other: whether the circle of one of its triangles holds the apex of the other.
+// never. Of any other: whether the circle of one of its triangles holds the apex of the other; if this is on
+// the circle, the diagonal belongs to the lexicographically smallest of the four, by the same symbolic lift
+// as in divide and conquer.
 bool TriangleMesh::is_wrong(Side s) const {
   if (origin(s) == infinity) s = twin(s);
   const Vertex a = origin(s), b = target(s), c = apex(s), d = apex(twin(s));
   if (b == infinity) return c != infinity && d != infinity && orient2d(at(d), at(a), at(c)) < 0;
   if (c == infinity || d == infinity) return false;
-  return incircle(at(a), at(b), at(c), at(d)) > 0;
+  if (const int sign = incircle(at(a), at(b), at(c), at(d)); sign != 0) return sign > 0;
+  const auto earlier = [&](Vertex v, Vertex w) { return std::min(at(v), at(w), comes_before); };
+  return comes_before(earlier(c, d), earlier(a, b));
 }
 
 // Replaces the side a, b of the triangles a, b, c and b, a, d: they become d, b, c and c, a, d. Sides keep
@@ -102,8 +106,8 @@ void TriangleMesh::flip(Side s) {
   doubtful_.insert(doubtful_.end(), {s, following(s), t, following(t)});
 }
 
-// Every flip lowers the triangulation lifted to the paraboloid, or fills a part of the hull: it comes to an
-// end.
+// Every flip lowers the triangulation lifted to the paraboloid, if only symbolically, or fills a part of the
+// hull: it comes to an end.
 void TriangleMesh::settle() {
   while (!doubtful_.empty()) {
     poll();
@@ -173,57 +177,40 @@ void TriangleMesh::insert(Vertex v) {
   settle();
 }
 
-// The half-edges that leave a vertex, counter-clockwise; those of all vertices together must be all.
-bool TriangleMesh::make_rings(HalfEdges& edges, std::span<const HalfEdge> number) const {
-  std::vector<bool> done(points_.size(), false);
-  std::size_t vertices = 0;
-  Side ringed = 0;
-  for (Side start = 0; start < sides(); ++start) {
-    const Vertex v = origin(start);
-    if (v == infinity || target(start) == infinity || done[static_cast<std::size_t>(v)]) continue;
-    done[static_cast<std::size_t>(v)] = true;
-    ++vertices;
-    HalfEdge last = number[static_cast<std::size_t>(start)];
-    Side s = start;
-    do {
-      ++ringed;
-      const HalfEdge e = number[static_cast<std::size_t>(s)];
-      if (e != no_edge && e != last) {
-        edges.splice(last, e);
-        last = e;
-      }
-      s = twin(preceding(s));
-    } while (s != start);
-  }
-  const auto at_infinity = std::count(origins_.begin(), origins_.end(), infinity);
-  return vertices == points_.size() && ringed + at_infinity == sides();
+// Lists the neighbours of the vertex that a side leaves, from that of the side on. Returns how many sides
+// leave it, one to infinity among them.
+TriangleMesh::Side TriangleMesh::make_ring(Side start, RingStore& store) {
+  RingVertex& vertex = vertices_[static_cast<std::size_t>(origin(start))];
+  Side count = 0;
+  Side s = start;
+  do {
+    if (target(s) != infinity) vertex.insert(vertex.degree(), target(s), store);
+    s = twin(preceding(s));
+    ++count;
+  } while (s != start);
+  return count;
 }
 
-std::optional<Subdivision> TriangleMesh::subdivision() const {
+std::optional<Subdivision> TriangleMesh::subdivision() {
   // Euler's relation on the sphere, with the vertex at infinity.
-  if (static_cast<std::size_t>(sides()) != 6 * points_.size() - 6) return {};
-  std::vector<HalfEdge> number(origins_.size(), no_edge);
-  HalfEdge count = 0;
-  for (Side s = 0; s < sides(); ++s) {
-    if (s > twin(s) || origin(s) == infinity || target(s) == infinity) continue;
-    number[static_cast<std::size_t>(s)] = count;
-    number[static_cast<std::size_t>(twin(s))] = HalfEdges::twin(count);
-    count += 2;
-  }
+  if (static_cast<std::size_t>(sides()) != 6 * vertices_.size() - 6) return {};
+  for (RingVertex& vertex : vertices_) vertex.clear(vertex.point);
   Subdivision result;
-  result.edges = HalfEdges(static_cast<std::size_t>(count) / 2);
-  for (Side s = 0; s < sides(); ++s) {
-    const HalfEdge e = number[static_cast<std::size_t>(s)];
-    if (e != no_edge && e % 2 == 0) result.edges.make(e, origin(s), target(s));
+  result.is_chain = false;
+  RingStore& store = result.stores.emplace_back();
+  // The sides that leave a vertex must be one ring. That of a vertex of the hull begins after infinity.
+  auto ringed = static_cast<Side>(std::count(origins_.begin(), origins_.end(), infinity));
+  for (const bool on_hull : {true, false}) {
+    for (Side s = 0; s < sides(); ++s) {
+      const Vertex v = origin(s);
+      if (v == infinity || (on_hull && target(s) != infinity)) continue;
+      if (vertices_[static_cast<std::size_t>(v)].degree() > 0) continue;
+      ringed += make_ring(on_hull ? twin(preceding(s)) : s, store);
+      if (result.start < 0 || comes_before(at(v), at(result.start))) result.start = v;
+    }
   }
-  if (!make_rings(result.edges, number)) return {};
-  for (Side s = 0; s < sides(); ++s) {
-    if (apex(s) != infinity) continue;
-    const HalfEdge e = number[static_cast<std::size_t>(twin(s))];
-    const bool first = result.hull == no_edge;
-    if (first || comes_before(at(target(s)), at(result.edges.origin(result.hull)))) result.hull = e;
-  }
-  result.degenerate = true;
+  const auto has_ring = [](const RingVertex& vertex) { return vertex.degree() > 0; };
+  if (ringed != sides() || !std::all_of(vertices_.begin(), vertices_.end(), has_ring)) return {};
   return result;
 }
 

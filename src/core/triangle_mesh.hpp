@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "core/divide_and_conquer.hpp"
-#include "core/half_edges.hpp"
 #include "core/monitor.hpp"
 #include "core/predicates.hpp"
+#include "core/rings.hpp"
 
 namespace vorotool::core {
 
@@ -22,7 +22,8 @@ class TriangleMesh {
   static constexpr Vertex infinity = -1;
 
   // Distinct points; none is in the mesh yet.
-  TriangleMesh(std::span<const Point> points, const Monitor& monitor) : points_(points), monitor_(monitor) {}
+  TriangleMesh(std::span<RingVertex> vertices, const Monitor& monitor)
+      : vertices_(vertices), monitor_(monitor) {}
 
   // Adds a triangle, ghosts included; its sides have no twins yet. Returns its first side.
   Side add_triangle(Vertex a, Vertex b, Vertex c);
@@ -41,14 +42,14 @@ class TriangleMesh {
   bool has_triangle() const;  // other than ghosts
 
   // Fills the reflex turns of the hull, as Graham's scan does, and flips all sides that are not locally
-  // Delaunay (Lawson).
+  // Delaunay (Lawson). Cocircular polygons become fans from their lexicographically smallest vertices.
   void make_delaunay();
   // Inserts a point, near the last one if possible, into a Delaunay triangulation with a triangle; the mesh
   // is Delaunay after it.
   void insert(Vertex v);
 
-  // The same as half-edges; nothing if the mesh is no sphere that has all points as vertices.
-  std::optional<Subdivision> subdivision() const;
+  // Makes the rings of the vertices; nothing if the mesh is no sphere that has all points as vertices.
+  std::optional<Subdivision> subdivision();
 
   std::uint64_t flips() const { return flips_; }
   std::uint64_t fills() const { return fills_; }
@@ -63,7 +64,7 @@ class TriangleMesh {
   Vertex apex(Side s) const { return origin(preceding(s)); }
   Side& twin(Side s) { return twins_[static_cast<std::size_t>(s)]; }
   Side twin(Side s) const { return twins_[static_cast<std::size_t>(s)]; }
-  const Point& at(Vertex v) const { return points_[static_cast<std::size_t>(v)]; }
+  const Point& at(Vertex v) const { return vertices_[static_cast<std::size_t>(v)].point; }
   int side_of(Side s, Vertex v) const { return orient2d(at(origin(s)), at(target(s)), at(v)); }
   bool is_ghost(Side s) const {
     return origin(s) == infinity || target(s) == infinity || apex(s) == infinity;
@@ -77,9 +78,9 @@ class TriangleMesh {
   Side find(Vertex v) const;
   void split(Side s, Vertex v);
   void poll();
-  bool make_rings(HalfEdges& edges, std::span<const HalfEdge> number) const;
+  Side make_ring(Side start, RingStore& store);
 
-  std::span<const Point> points_;
+  std::span<RingVertex> vertices_;
   const Monitor& monitor_;
   std::vector<Vertex> origins_;
   std::vector<Side> twins_;

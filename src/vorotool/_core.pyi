@@ -99,7 +99,6 @@ def colour_graph(
 ) -> NDArray[np.uint32]: ...
 
 # ---- text (bind_text.cpp): a delimiter is one of "," ";" "\t" " " ---------------------------------------------
-# ---- text (bind_text.cpp): a delimiter is one of "," ";" "\t" " " --------------------------------
 
 class TextError(ValueError):
     """Args: kind (not_number, not_finite, field_count, open_quote), line, column, text, found, expected."""
@@ -152,6 +151,7 @@ class PolygonTexts:
     def __len__(self) -> int: ...
 
 # ---- predicates (bind_predicates.cpp): a level is "auto", "filter", "integers", "expansions" or "wide"; the sign
+
 # ---- is 2 where a level other than "auto" and "wide" cannot tell. The points must be finite. -----------------------
 
 def orient2d(points: NDArray[np.float64], level: str = "auto") -> NDArray[np.int8]: ...
@@ -305,6 +305,39 @@ def nearest_neighbours(
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Index of the nearest point of each, -1 without any, and its number of neighbours."""
 
+# ---- skeletons (bind_skeleton.cpp): the first six arguments are the arrays of a segment Voronoi diagram -------------
+
+def skeleton_edges(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    vertices: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    edges: NDArray[np.int32],
+    edge_sites: NDArray[np.int32],
+    segment_faces: NDArray[np.int32],
+    threads: int,
+    progress: _Progress,
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Edges that are not deleted, and the face that each lies in."""
+
+def extract_skeleton(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    vertices: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    edges: NDArray[np.int32],
+    edge_sites: NDArray[np.int32],
+    kept: NDArray[np.int32],
+    groups: NDArray[np.int32],
+    clipped: tuple[int, tuple[float, float, float, float]] | None,
+    origin_x: float,
+    origin_y: float,
+    scale: float,
+    threads: int,
+    progress: _Progress,
+) -> dict[str, NDArray[Any]]:
+    """Frames are (least x, most x, least y, most y) on the lattice."""
+
 # ---- planar graphs (bind_planar_graph.cpp): arrays are C-contiguous; lattice points are int32 rows ------------------
 
 class TooManyCrossingsError(ValueError): ...
@@ -387,39 +420,6 @@ class SegmentVoronoi:
         NDArray[np.int32],
     ]:
         """Vertices, radii, where the sites of each begin, these, edges, and the sites beside them."""
-
-# ---- skeletons (bind_skeleton.cpp): the first six arguments are the arrays of a segment Voronoi diagram -------------
-
-def skeleton_edges(
-    points: NDArray[np.int32],
-    segments: NDArray[np.int32],
-    vertices: NDArray[np.float64],
-    radius: NDArray[np.float64],
-    edges: NDArray[np.int32],
-    edge_sites: NDArray[np.int32],
-    segment_faces: NDArray[np.int32],
-    threads: int,
-    progress: _Progress,
-) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Edges that are not deleted, and the face that each lies in."""
-
-def extract_skeleton(
-    points: NDArray[np.int32],
-    segments: NDArray[np.int32],
-    vertices: NDArray[np.float64],
-    radius: NDArray[np.float64],
-    edges: NDArray[np.int32],
-    edge_sites: NDArray[np.int32],
-    kept: NDArray[np.int32],
-    groups: NDArray[np.int32],
-    clipped: tuple[int, tuple[float, float, float, float]] | None,
-    origin_x: float,
-    origin_y: float,
-    scale: float,
-    threads: int,
-    progress: _Progress,
-) -> dict[str, NDArray[Any]]:
-    """Frames are (least x, most x, least y, most y) on the lattice."""
 
 # ---- distances from sites (bind_skeleton.cpp) --------------------------------------------------------------------
 

@@ -2,14 +2,17 @@
 
 Nanoseconds a point, the least of several runs; ratios are what to compare, since machines differ. `mesh` makes the
 structure, `arrays` writes triangles, neighbours and edges from it; `delaunay` is the function of the library, which
-checks its input too. Peers give triangles: scipy (Qhull) with neighbours, shapely (GEOS) and `triangle` (Shewchuk).
-A peer that is not installed is left out.
+checks its input too. Peers give triangles: scipy (Qhull) with neighbours, shapely (GEOS), `triangle` (Shewchuk) and
+CGAL, which is given its own points: making them from an array takes longer still. A peer that is not installed is left
+out. MB are those that a process of its own takes at its peak, above what it had with the points loaded.
 """
 
 from __future__ import annotations
 
 import argparse
+import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable
 from importlib.util import find_spec
@@ -58,7 +61,57 @@ def triangle_triangles(points: np.ndarray) -> object:
     return triangle.triangulate({"vertices": points}, "Q")["triangles"]
 
 
-PEERS = {"scipy": scipy_triangles, "shapely": shapely_triangles, "triangle": triangle_triangles}
+def cgal_points(points: np.ndarray) -> object:
+    """The list that CGAL's package takes."""
+    from CGAL.CGAL_Kernel import Point_2
+
+    return [Point_2(x, y) for x, y in points.tolist()]
+
+
+def cgal_triangles(points: object) -> object:
+    """CGAL, by its Python package."""
+    from CGAL.CGAL_Triangulation_2 import Delaunay_triangulation_2
+
+    triangulation = Delaunay_triangulation_2()
+    triangulation.insert(points)
+    return triangulation
+
+
+PEERS = {
+    "scipy": scipy_triangles,
+    "shapely": shapely_triangles,
+    "triangle": triangle_triangles,
+    "CGAL": cgal_triangles,
+}
+PREPARED = {"CGAL": cgal_points}
+
+
+def peak_of_process() -> float:
+    """The most memory this process has had, in MB; by Linux, since what `resource` tells may be a parent's."""
+    status = Path("/proc/self/status").read_text()
+    return float(status.split("VmHWM:")[1].split()[0]) / 1024
+
+
+def peak(who: str, path: str) -> float:
+    """Peak memory of triangulating the points of a file, above that of having loaded them, in MB."""
+    triangulate = PEERS.get(who, vorotool.delaunay)
+    prepare = PREPARED.get(who, np.asarray)
+    triangulate(prepare(np.random.default_rng(0).random((10, 2))))  # imports what it needs
+    points = prepare(np.load(path))
+    before = peak_of_process()
+    result = triangulate(points)
+    after = peak_of_process()
+    del result
+    return after - before
+
+
+def measured_peak(who: str, points: np.ndarray) -> str:
+    """The same, in a process of its own."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "points.npy"
+        np.save(path, points)
+        command = [sys.executable, __file__, "--peak", who, str(path)]
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
 
 
 def best(function: Callable[[], object], n: int, runs: int) -> float:
@@ -83,9 +136,11 @@ def measure(name: str, n: int, threads: int, runs: int, peers: list[str]) -> str
         written = best(lambda mesh=mesh, count=count: mesh.arrays(count, None), n, runs)
         whole = best(lambda count=count: vorotool.delaunay(points, threads=count), n, runs)
         row += f" {made:.0f} + {written:.0f} | {whole:.0f} |"
+    row += f" {measured_peak('vorotool', points)} |"
     for peer in peers:
-        taken = best(lambda peer=peer: PEERS[peer](points), n, 1 if n >= 10**6 else 2)
-        row += f" {taken:,.0f} ({taken / whole:,.1f} ×) |"
+        given = PREPARED.get(peer, np.asarray)(points)
+        taken = best(lambda peer=peer, given=given: PEERS[peer](given), n, 1 if n >= 10**6 else 2)
+        row += f" {taken:,.0f} ({taken / whole:,.1f} ×) | {measured_peak(peer, points)} |"
     return row
 
 
@@ -96,13 +151,17 @@ def main() -> None:
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--no-peers", action="store_true")
+    parser.add_argument("--peak", nargs=2, help=argparse.SUPPRESS)
     arguments = parser.parse_args()
+    if arguments.peak:
+        print(f"{peak(*arguments.peak):.0f}")
+        return
     peers = [] if arguments.no_peers else [name for name in PEERS if find_spec(name)]
     threads = sorted({1, arguments.threads})
     print("nanoseconds a point; in brackets: how many times ours on the most threads\n")
     print("| points | n |" + "".join(f" mesh + arrays, {t} threads | delaunay, {t} threads |" for t in threads), end="")
-    print("".join(f" {name} |" for name in peers))
-    print("|---" * (2 + 2 * len(threads) + len(peers)) + "|")
+    print(" MB |" + "".join(f" {name} | MB |" for name in peers))
+    print("|---" * (3 + 2 * len(threads) + 2 * len(peers)) + "|")
     for n in arguments.points:
         for name in INPUTS:
             print(measure(name, n, arguments.threads, arguments.runs, peers), flush=True)

@@ -41,7 +41,7 @@ def test_sign_is_exact(n, name):
 
 @sizes
 @families
-@pytest.mark.parametrize("level", ["filter", "integers", "expansions", "wide"])
+@pytest.mark.parametrize("level", ["filter", "seen", "integers", "expansions", "wide"])
 def test_a_level_alone_is_right_or_undecided(n, name, level):
     points, right = cases.calls(name, CALLS, n, seed=1)
     signs = PREDICATES[n](points, level)

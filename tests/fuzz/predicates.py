@@ -18,7 +18,7 @@ from predicate_cases import FAMILIES, NEAR_DEGENERATE, exact_signs
 from vorotool import _core
 
 UNDECIDED = 2
-LEVELS = ("auto", "filter", "integers", "expansions", "wide")
+LEVELS = ("auto", "filter", "seen", "integers", "expansions", "wide")
 BATCH = 500
 
 

@@ -29,8 +29,7 @@ def read_seed_input(run: Run, o: SimpleNamespace, source: str, *, properties: bo
     """
     from vorotool.formats import read
     from vorotool.geometry.points import PointSet
-    from vorotool.geometry.polygons import PolygonSet
-    from vorotool.geometry.skeleton import Skeleton
+    from vorotool.geometry.raster import Raster
 
     value = read(
         source,
@@ -44,9 +43,10 @@ def read_seed_input(run: Run, o: SimpleNamespace, source: str, *, properties: bo
         threads=o.threads,
         note=run.note,
     )
-    assert not isinstance(value, PolygonSet | Skeleton)  # points are asked for
     if isinstance(value, PointSet):
         refuse(o, IMAGE_OPTIONS, "is for images, but the input is a list of points")
+        return value
+    assert isinstance(value, Raster)  # what is asked for is points, or an image
     return value
 
 

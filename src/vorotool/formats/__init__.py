@@ -124,15 +124,15 @@ def write(
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    """Write a label image, a table, polygons, Voronoi cells, a triangulation, an alpha shape or a skeleton.
+    """Write a label image, a table, polygons and lines, Voronoi cells, a triangulation, an alpha shape or a skeleton.
 
     Parameters
     ----------
-    value : LabelImage, Table, PolygonSet, CellSet, Triangulation, AlphaShape, AlphaComplex, Skeleton
-        What to write (a DigitalTriangulation, too): images as PNG, TIFF, NPY or text, tables as CSV, JSON or NPZ,
-        polygons as JSON, GeoJSON, WKT or .poly, cells as GeoJSON, CSV, JSON, NPZ or WKT, a triangulation as a table,
-        GeoJSON, OBJ, or a file of Triangle, an alpha shape as a table or GeoJSON of its edges or as polygons, an alpha
-        complex as a table, a skeleton as JSON, CSV, GeoJSON, WKT or NPZ.
+    value : value of the library
+        What to write: a `LabelImage` as PNG, TIFF, NPY or text, a `Table` as CSV, JSON or NPZ, a `PolygonSet` as JSON,
+        GeoJSON, WKT or .poly, a `CellSet` as GeoJSON, CSV, JSON, NPZ or WKT, a `Triangulation` or a
+        `DigitalTriangulation` as a table, GeoJSON, OBJ, or a file of Triangle, an `AlphaShape` as a table or GeoJSON of
+        its edges or as polygons, an `AlphaComplex` as a table, a `Skeleton` as JSON, CSV, GeoJSON, WKT or NPZ.
     path : str or path
         The file, replaced atomically.
     fmt : str, optional
@@ -163,24 +163,14 @@ def write(
     >>> write(vorotool.alpha_shape([[0, 0], [4, 0], [0, 3]], r=2.5), "build/shape.geojson")
     """
     from vorotool.formats.outputs import open_output
-    from vorotool.geometry.alpha_complex import AlphaComplex
-    from vorotool.geometry.alpha_shape import AlphaShape
-    from vorotool.geometry.digital_triangulation import DigitalTriangulation
     from vorotool.geometry.label_image import LabelImage
-    from vorotool.geometry.skeleton import Skeleton
-    from vorotool.geometry.triangulation import Triangulation
 
     name = (fmt or Path(path).suffix).lower().lstrip(".")
     chosen: Any = {"tif": "tiff", "txt": "text"}.get(name, name)
     threads = checked_threads(threads)
-    has_parts = isinstance(value, Triangulation | DigitalTriangulation | AlphaComplex | AlphaShape | Skeleton)
-    if what is not None and not has_parts:
-        raise UsageError(
-            f"what={what!r} is for triangulations and skeletons: leave it out with a {type(value).__name__}"
-        )
-    if flatten is not None and not isinstance(value, Skeleton):
-        raise UsageError(f"flatten is for skeletons: leave it out with a {type(value).__name__}")
     if isinstance(value, LabelImage):
+        if what is not None:
+            raise UsageError(f"what={what!r} is for what has parts: leave it out with a LabelImage")
         _write_image(value, fspath(path), chosen, threads)
         return
     writer, options = _writer_of(value, chosen, what, flatten, threads)
@@ -189,7 +179,7 @@ def write(
 
 
 def to_geojson(value: Any, *, what: str | None = None, flatten: float | None = None) -> dict[str, Any]:
-    """Give polygons and lines, cells, edges or triangles of a triangulation, alpha shapes or skeletons as GeoJSON.
+    """Give polygons and lines, Voronoi cells, a triangulation, an alpha shape or a skeleton as GeoJSON.
 
     Parameters
     ----------
@@ -227,12 +217,37 @@ def _writer_of(
     """Give the function that writes a value, and its further options."""
     from vorotool.geometry.alpha_complex import AlphaComplex
     from vorotool.geometry.alpha_shape import AlphaShape
-    from vorotool.geometry.cells import CellSet
     from vorotool.geometry.digital_triangulation import DigitalTriangulation
-    from vorotool.geometry.polygons import PolygonSet
     from vorotool.geometry.skeleton import Skeleton
-    from vorotool.geometry.table import Table
     from vorotool.geometry.triangulation import Triangulation
+
+    if flatten is not None and not isinstance(value, Skeleton):
+        raise UsageError(f"flatten is for skeletons: leave it out with a {type(value).__name__}")
+    if isinstance(value, Skeleton):
+        from vorotool.formats.skeleton_files import write_skeleton
+
+        return write_skeleton, {"what": what or "skeleton", "flatten": flatten, "threads": threads}
+    if isinstance(value, AlphaComplex | AlphaShape):
+        from vorotool.formats.alpha_files import write_shape
+
+        return write_shape, {"what": what, "threads": threads}
+    if isinstance(value, Triangulation | DigitalTriangulation):
+        from vorotool.formats.mesh_files import write_mesh
+
+        return write_mesh, {"what": what or {"ele": "triangles", "node": "table"}.get(fmt, "edges"), "threads": threads}
+    if what is not None:
+        raise UsageError(
+            f"what={what!r} is for triangulations, alpha shapes and skeletons: "
+            f"leave it out with a {type(value).__name__}"
+        )
+    return _plain_writer(value, threads)
+
+
+def _plain_writer(value: Any, threads: int) -> tuple[Callable[..., None], dict[str, Any]]:
+    """Give the function that writes a value of which there is one thing to write."""
+    from vorotool.geometry.cells import CellSet
+    from vorotool.geometry.polygons import PolygonSet
+    from vorotool.geometry.table import Table
 
     if isinstance(value, Table):
         from vorotool.formats.tables import write_table
@@ -246,18 +261,6 @@ def _writer_of(
         from vorotool.formats.cell_files import write_cells
 
         return write_cells, {"threads": threads}
-    if isinstance(value, AlphaComplex | AlphaShape):
-        from vorotool.formats.alpha_files import write_shape
-
-        return write_shape, {"what": what, "threads": threads}
-    if isinstance(value, Triangulation | DigitalTriangulation):
-        from vorotool.formats.mesh_files import write_mesh
-
-        return write_mesh, {"what": what or {"ele": "triangles", "node": "table"}.get(fmt, "edges"), "threads": threads}
-    if isinstance(value, Skeleton):
-        from vorotool.formats.skeleton_files import write_skeleton
-
-        return write_skeleton, {"what": what or "skeleton", "flatten": flatten, "threads": threads}
     raise UsageError(
         f"a {type(value).__name__} cannot be written: give a LabelImage, Table, PolygonSet, CellSet, Triangulation, "
         "AlphaShape or Skeleton"

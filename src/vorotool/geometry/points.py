@@ -58,7 +58,8 @@ class PointSet:
             xy = xy.reshape(0, 2)
         if xy.ndim != 2 or xy.shape[1] != 2:
             raise InputError(f"points must have shape (n, 2), but have shape {xy.shape}")
-        bad = np.flatnonzero(~np.isfinite(xy).all(axis=1))
+        finite = np.isfinite(xy)
+        bad = np.flatnonzero(~(finite[:, 0] & finite[:, 1]))  # an `all` along rows this short is slow
         if bad.size:
             row = int(bad[0])
             raise InputError(
