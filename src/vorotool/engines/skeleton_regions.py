@@ -20,7 +20,7 @@ AREA_ULPS = 8
 
 
 @dataclass(frozen=True)
-class _Sectors:
+class CornerSectors:
     """Corners under 180 degrees: counter-clockwise from one segment of the graph to the next."""
 
     point: Indices
@@ -29,7 +29,8 @@ class _Sectors:
     face: Indices
 
 
-def _sectors(graph: PlanarGraph) -> _Sectors:
+def corner_sectors(graph: PlanarGraph) -> CornerSectors:
+    """Find the corners under 180 degrees, exactly."""
     count = len(graph)
     at = graph.segments.T.reshape(-1).astype(np.int64)
     to = graph.segments[:, ::-1].T.reshape(-1)
@@ -43,7 +44,7 @@ def _sectors(graph: PlanarGraph) -> _Sectors:
     following[np.append(new[1:], len(at))[: len(new)] - 1] = new
     cross = way[:, 0] * way[following, 1] - way[:, 1] * way[following, 0]
     sharp = (cross > 0) & (following != np.arange(len(at)))
-    return _Sectors(at[sharp], segment[sharp], segment[following[sharp]], left_face[sharp])
+    return CornerSectors(at[sharp], segment[sharp], segment[following[sharp]], left_face[sharp])
 
 
 def _by_angle(at: Indices, way: Indices) -> Indices:
@@ -67,7 +68,7 @@ class SkeletonRegions:
     def __init__(self, skeleton: Skeleton, graph: PlanarGraph, sites: SitePlaces) -> None:
         self.skeleton, self.graph, self.sites = skeleton, graph, sites
         self.lattice_site = self._graph_sites()
-        self.sectors = _sectors(graph)
+        self.sectors = corner_sectors(graph)
         self.root = connected_roots(skeleton.arcs, len(skeleton.vertices))
         self.face = self._faces()
         framed = np.unique(self.root[skeleton.touches_frame])
