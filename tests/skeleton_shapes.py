@@ -41,7 +41,7 @@ def tiles(rng):
 def holed(rng):
     """A square with holes that may touch or overlap."""
     corners = rng.integers(0, 9, (rng.integers(1, 5), 2))
-    holes = [(corner + [[0, 0], [0, 2], [2, 1]]).tolist() for corner in corners]
+    holes = [np.add(corner, [[0, 0], [0, 2], [2, 1]]).tolist() for corner in corners]
     return [{"shell": [[0, 0], [10, 0], [10, 10], [0, 10]], "holes": holes}]
 
 

@@ -100,7 +100,7 @@ void spread_faces(const SegmentDiagram& diagram, LargeArray<std::int32_t>& face)
       if (v >= 0 && diagram.radius[at(v)] > 0) of_vertex[at(v)] = face[e];
     }
   }
-  DisjointSets together(diagram.radius.size());
+  DisjointSets<std::int32_t> together(diagram.radius.size());
   for (const std::size_t e : left_over) together.join(diagram.edges[e][0], diagram.edges[e][1]);
   for (std::size_t v = 0; v < of_vertex.size(); ++v) {
     if (of_vertex[v] != unknown) of_vertex[at(together.find(static_cast<std::int32_t>(v)))] = of_vertex[v];

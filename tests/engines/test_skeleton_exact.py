@@ -216,9 +216,10 @@ def test_powers_of_two_scale_everything(exponent):
 
 
 def test_moving_moves_everything():
-    plain, moved = holed(lambda xy: xy), holed(lambda xy: xy + [1024, -4096])
+    move = np.array([1024, -4096])
+    plain, moved = holed(lambda xy: xy), holed(lambda xy: xy + move)
     assert np.array_equal(plain.arcs, moved.arcs)
-    assert np.abs(plain.vertices + [1024, -4096] - moved.vertices).max() < 1e-11
+    assert np.abs(plain.vertices + move - moved.vertices).max() < 1e-11
     assert np.array_equal(plain.length, moved.length)
 
 

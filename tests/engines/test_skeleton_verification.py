@@ -127,7 +127,7 @@ def test_a_diagram_without_an_edge_outside_is_found():
     broken = replace(
         diagram, edges=np.delete(diagram.edges, lost, axis=0), edge_sites=np.delete(diagram.edge_sites, lost, axis=0)
     )
-    with pytest.raises(VerificationError, match="connected parts|cycles"):
+    with pytest.raises(VerificationError, match=r"connected parts|cycles"):
         verify_exterior(replace(shapes, diagram=broken))
 
 

@@ -106,8 +106,10 @@ def test_nothing_is_written_too(what):
             json.loads(text)
 
 
-@pytest.mark.parametrize(("fmt", "what", "words"), [("svg", "skeleton", "vorotool draw"), ("wkt", "table", "csv, json, npz"),
-                                                    ("csv", "arcs", "skeleton")])  # fmt: skip
+@pytest.mark.parametrize(
+    ("fmt", "what", "words"),
+    [("svg", "skeleton", "vorotool draw"), ("wkt", "table", "csv, json, npz"), ("csv", "arcs", "skeleton")],
+)
 def test_what_cannot_be_written(fmt, what, words):
     with pytest.raises(UsageError, match=words):
         text_of(fmt, what=what)

@@ -1,5 +1,6 @@
 """The value type of skeletons, and its tables."""
 
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -36,7 +37,7 @@ def test_no_tolerance_is_refused():
 def test_flattened_lengths_are_the_lengths():
     points, start = MADE.flattened(1e-7)
     steps = np.hypot(*np.diff(points, axis=0).T)
-    sums = [steps[a : b - 1].sum() for a, b in zip(start[:-1], start[1:], strict=True)]
+    sums = [steps[a : b - 1].sum() for a, b in pairwise(start)]
     assert np.abs(np.array(sums) - MADE.length).max() < 1e-6
 
 

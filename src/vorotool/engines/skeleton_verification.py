@@ -90,8 +90,8 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
 def verify_exterior(shapes: ShapeDiagram, *, threads: int = 0) -> None:
     """Check the unbounded part of a skeleton before it is clipped, as a graph.
 
-    With one node at infinity it is connected, and has as many independent cycles as the closed shape has components less
-    one.
+    With one node at infinity it is connected, and has as many independent cycles as the closed shape has components
+    less one.
 
     Parameters
     ----------
@@ -336,7 +336,7 @@ class _Regions:
         self.sectors = _sectors(graph)
         self.root = connected_roots(skeleton.arcs, len(skeleton.vertices))
         self.face = self._faces()
-        framed = np.unique(self.root[skeleton.on_frame])
+        framed = np.unique(self.root[skeleton.touches_frame])
         framed = framed[self.face[framed] <= 0]
         if len(framed):  # all that leads to infinity is connected there
             self.root[np.isin(self.root, framed)] = framed[0]
@@ -490,8 +490,6 @@ def _check_cycles(regions: _Regions, roots: Indices, face: Indices) -> None:
     """Independent cycles of each part: components of the complement of its region less one."""
     skeleton, graph = regions.skeleton, regions.graph
     nodes = np.bincount(regions.root, minlength=len(regions.root))
-    framed = int(np.count_nonzero(skeleton.on_frame))
-    nodes[regions.root[skeleton.on_frame][:1]] -= max(framed - 1, 0)  # these are one node, at infinity
     arcs = np.bincount(regions.root[skeleton.arcs[:, 0]], minlength=len(regions.root))
     cycles = (arcs - nodes + 1)[roots]
     borders = _border_components(graph)
@@ -502,7 +500,7 @@ def _check_cycles(regions: _Regions, roots: Indices, face: Indices) -> None:
     pairs = np.unique(np.stack([regions.root[skeleton.arcs[arc, 0]], numbers[arc, hand]], axis=1), axis=0)
     points = np.bincount(pairs[:, 0], minlength=len(regions.root))[roots]
     expected = np.where(face > 0, borders[np.maximum(face, 0)], borders[0]) + points - 1
-    cut = (face <= 0) & skeleton.on_frame.any()  # what is beyond the frame is unknown: see verify_exterior
+    cut = (face <= 0) & skeleton.touches_frame.any()  # what is beyond the frame is unknown: see verify_exterior
     uncut = _uncut_faces(skeleton, graph)[np.maximum(face, 0)] | graph.is_inside[np.maximum(face, 0)]
     at = _first(~cut & uncut & (cycles != expected))
     if at is not None:

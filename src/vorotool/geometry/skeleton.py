@@ -172,11 +172,21 @@ class Skeleton:
     @cached_property
     def on_frame(self) -> NDArray[np.bool_]:
         """(v,) whether each node is an end on the frame."""
+        ends: NDArray[np.bool_] = self.touches_frame & (self.degree == 1)
+        return ends
+
+    @cached_property
+    def touches_frame(self) -> NDArray[np.bool_]:
+        """(v,) whether each node is on the border of the frame: what goes on beyond is cut off.
+
+        Arcs are cut exactly there; a node that happens to be there may be rounded by some ulp.
+        """
         if self.frame is None:
             return np.zeros(len(self.vertices), dtype=bool)
         x, y, w, h = self.frame
-        sides = np.equal(self.vertices[:, :1], [x, x + w]) | np.equal(self.vertices[:, 1:], [y, y + h])
-        return np.asarray(sides.any(axis=1) & (self.degree == 1))
+        sides = np.array([x, x + w, y, y + h])
+        apart = np.abs(self.vertices[:, [0, 0, 1, 1]] - sides)
+        return np.asarray((apart <= 8 * np.spacing(np.abs(sides).max())).any(axis=1))
 
     @property
     def y_up(self) -> bool:
