@@ -299,7 +299,7 @@ def two_boxes(rng, n):
     distance = int(rng.choice([100, 10**6, LIMIT - 40]))
     box = np.array([int(rng.choice([1, 2, 3, 8])), int(rng.choice([2, 5, 12, 30]))])
     near, far = (rng.integers(0, box + 1, (max(2, n // k), 2)) for k in (4, 2))
-    return graph_on(rng, np.concatenate([near, far + [distance, 0]]), 3 * n)
+    return graph_on(rng, np.concatenate([near, far + np.array([distance, 0])]), 3 * n)
 
 
 def fan(rng, n):

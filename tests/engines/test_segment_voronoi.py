@@ -59,7 +59,10 @@ def test_graphs_that_were_wrong_once(points, segments):
         assert_right(turned, np.array(segments, np.int32))
 
 
-@given(st.sampled_from(["two_boxes", "fan", "clusters", "crowded", "scattered", "star_small", "jittered_grid"]), st.integers(0, 2**32))
+@given(
+    st.sampled_from(["two_boxes", "fan", "clusters", "crowded", "scattered", "star_small", "jittered_grid"]),
+    st.integers(0, 2**32),
+)
 @settings(max_examples=25)
 def test_brute_force_agrees_on_graphs_of_any_kind(name, seed):
     points, segments = draw(name, 8, seed)
