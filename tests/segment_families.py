@@ -294,6 +294,23 @@ def crowded(rng, n):
     return graph_on(rng, rng.integers(-side, side + 1, (max(2, n // 2), 2)), 3 * n)
 
 
+def two_boxes(rng, n):
+    """A graph on two small boxes of points far apart: long segments that are nearly parallel, and nearly touch."""
+    distance = int(rng.choice([100, 10**6, LIMIT - 40]))
+    box = np.array([int(rng.choice([1, 2, 3, 8])), int(rng.choice([2, 5, 12, 30]))])
+    near, far = (rng.integers(0, box + 1, (max(2, n // k), 2)) for k in (4, 2))
+    return graph_on(rng, np.concatenate([near, far + np.array([distance, 0])]), 3 * n)
+
+
+def fan(rng, n):
+    """Needles from one point to points of a narrow strip at the edge of the lattice."""
+    reach = int(rng.choice([10, 1000, LIMIT]))
+    rows = np.arange(max(2, n)) * int(rng.choice([1, 2, 7]))
+    tips = np.stack([reach - rng.choice([0, 0, 1, reach // 2], len(rows)), -rows], axis=1)
+    points = np.concatenate([[[0, 0]], tips]).astype(np.int32)
+    return points, joined(points, [(0, i) for i in range(1, len(points))])
+
+
 def scattered(rng, n):
     """A graph on random points."""
     extent = int(rng.choice([30, 10**4, LIMIT]))
@@ -323,6 +340,8 @@ FAMILIES = {
         contour,
         clusters,
         crowded,
+        two_boxes,
+        fan,
         scattered,
     )
 }

@@ -37,7 +37,7 @@ std::optional<bool> by_common_end(const SegmentSites& sites, const VoronoiRecord
     if (!sites.is_point(end)) continue;
     const SiteIndex s = u.sites[static_cast<std::size_t>(i)];
     for (const SiteIndex t : w.sites) {
-      if (t == right || t == left || !sites.is_end(s, end) || !sites.is_end(t, end)) continue;
+      if (t == s || t == right || t == left || !sites.is_end(s, end) || !sites.is_end(t, end)) continue;
       return cross(sites.segment(s).direction(), sites.segment(t).direction()) == 0;
     }
   }

@@ -43,8 +43,10 @@ int clearance_sign(const TangentDisc<DoubleDouble>& disc, const SegmentSite& s) 
   const double error = offset.error + s.length * disc.radius_error + 16 * roundoff<DoubleDouble> * reach.head;
   const int sign = sign_beyond(abs(offset.across) - reach, error);
   if (sign != -1) return sign;
-  // The line enters the disc, along a chord that holds neither end.
-  const bool between = offset.along.head > 0 && offset.along.head < s.length * s.length;
+  // The line enters the disc, along a chord that holds neither end; half of it is longer than the error of
+  // the foot: (reach - |across|) (reach + |across|) > error reach > error^2. Doubles would not do: the foot
+  // may be nearer to an end than they tell.
+  const bool between = offset.along.head > 0 && (DoubleDouble(int128{dot(d, d)}) - offset.along).head > 0;
   return between ? -1 : 1;
 }
 

@@ -165,7 +165,7 @@ def test_a_photograph_is_not_taken_for_labels(run, folder):
             ["--layers labels: a picture in PNG has cells, diagram, seeds"],
         ),
         (
-            ["draw", "missing.png", "-o", "a.png", "--layers", "labels"],
+            ["draw", "mask.pbm", "-o", "a.png", "--layers", "labels"],
             ["--layers labels: a picture in PNG has cells, diagram"],
         ),
         (
