@@ -286,6 +286,14 @@ def test_a_gap_leaves_the_corners_out():
     assert np.isnan(complete.error_bound).all()
 
 
+def test_a_corner_of_nearly_180_degrees_is_joined_too():
+    shape = [[0, 0], [10, -0.5], [20, 0], [20, 10], [0, 10]]
+    for made in (skeleton_of(shape), skeleton_of(shape, gap=1)):
+        corners = made.vertices[made.radius == 0]
+        assert sorted(map(tuple, corners.tolist())) == sorted(map(tuple, shape))
+    assert len(skeleton_of([[0, 0], [9, 0], [9, 9], [0, 9]], gap=1, side="exterior")) == 0
+
+
 def test_an_edge_that_a_gap_would_remove_is_named():
     with pytest.raises(InputError, match=r"polygon 1, shell, edge 2 from \(8\.0, 0\.0\) to \(8\.0, 3\.0\) is 3 long"):
         vorotool.skeleton_exact([[0, 0], [8, 0], [8, 3], [0, 9]], gap=1.5)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -22,6 +23,7 @@ from vorotool.engines.skeleton_exact import (
     skeleton_of,
     whole_diagram,
 )
+from vorotool.engines.skeleton_regions import corner_sectors
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.planar_graph import PlanarGraph
@@ -242,7 +244,10 @@ def _sector_faces(shapes: PlanarGraph, vertex: NDArray[np.int64], place: NDArray
 def _missing_portions(
     elements: ElementDiagram, kept: NDArray[np.int32]
 ) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]]:
-    """Vertices of the diagram where one arc ends beside a corner: (k, 2) the vertex and the corner, sites, faces.
+    """Vertices of the diagram and corners to join, (k, 2), the sites beside the lines between, and their faces.
+
+    A vertex is where one arc ends beside the corner. Of a corner of nearly 180 degrees the cell may reach to other arcs
+    instead: then it is the end of one of these in whose direction the middle of the corner points most.
 
     The sites, left and right, are those beside the corner's around the vertex.
     """
@@ -260,10 +265,45 @@ def _missing_portions(
             if (edges >= 0).all() and (elements.shapes.segments[edges] == corner).any(axis=1).all():
                 portions.append((vertex, int(corner)))
                 sites.append((after, before))
+    done = elements.element[np.array(sites, dtype=np.int64).reshape(-1, 2)]
+    for portion, beside in _portions_to_arcs(elements, kept, set(map(tuple, done.tolist()))):
+        portions.append(portion)
+        sites.append(beside)
     pairs = np.array(portions, dtype=np.int32).reshape(-1, 2)
     places = _in_shapes(elements, diagram.vertices[pairs[:, 0]])
     faces = _sector_faces(elements.shapes, pairs[:, 1].astype(np.int64), places)
     return pairs, np.array(sites, dtype=np.int32).reshape(-1, 2), faces
+
+
+def _portions_to_arcs(
+    elements: ElementDiagram, kept: NDArray[np.int32], done: set[tuple[int, ...]]
+) -> Iterator[tuple[tuple[int, int], tuple[int, int]]]:
+    """For corners between edges that are not done yet: vertex and corner, and the sites left and right of the line."""
+    shapes, diagram = elements.shapes, elements.diagram
+    corners = len(shapes.points)
+    sectors = corner_sectors(shapes)
+    first_site = len(diagram.points)
+    site_of = dict(zip(elements.element[first_site:].tolist(), range(first_site, len(elements.element)), strict=True))
+    ends = diagram.edges[kept]
+    beside = elements.element[diagram.edge_sites[kept]]
+    for point, right, left in zip(sectors.point.tolist(), sectors.right.tolist(), sectors.left.tolist(), strict=True):
+        if (corners + right, corners + left) in done:
+            continue
+        around = np.unique(ends[(beside == point).any(axis=1)])
+        around = around[around >= 0]
+        way = _in_shapes(elements, diagram.vertices[around]) - shapes.points[point]
+        a, b = (_way_from(shapes, point, segment) for segment in (right, left))
+        inside = (a[0] * way[:, 1] > a[1] * way[:, 0]) & (b[0] * way[:, 1] < b[1] * way[:, 0])
+        if inside.any():
+            towards = way @ (a / np.sqrt(a @ a) + b / np.sqrt(b @ b)) / np.sqrt((way * way).sum(axis=1))
+            vertex = int(around[np.where(inside, towards, -np.inf).argmax()])
+            yield (vertex, point), (site_of[corners + right], site_of[corners + left])
+
+
+def _way_from(shapes: PlanarGraph, point: int, segment: int) -> NDArray[np.float64]:
+    a, b = shapes.segments[segment]
+    way: NDArray[np.float64] = shapes.points[b if a == point else a].astype(np.float64) - shapes.points[point]
+    return way
 
 
 def _with_portions(
