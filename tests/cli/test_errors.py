@@ -170,7 +170,7 @@ def test_a_photograph_is_not_taken_for_labels(run, folder):
         ),
         (
             ["tessellate", "dots.csv", "-o", "a.png", "--input-format", "xyz"],
-            ["'xyz' is no format of inputs: use one of csv, tsv, txt, node, npy, geojson, wkt, json, poly, png, tiff"],
+            ["'xyz' is no format of inputs: use one of csv, tsv, txt, node, npy, geojson, wkt, json, png, tiff"],
         ),
         (
             ["draw", "mask.pbm", "-o", "a.png", "--input-format", "xyz"],
