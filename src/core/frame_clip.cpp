@@ -74,10 +74,14 @@ class Clipper {
     const LatticeVector across{middle_of(left).x - middle_of(right).x,
                                middle_of(left).y - middle_of(right).y};
     const Place way{static_cast<double>(across.y), -static_cast<double>(across.x)};
-    if (arc.source >= 0) return {graph_.end(arc.source).place, way, 0, infinity};
-    if (arc.target >= 0) return {graph_.end(arc.target).place, way, -infinity, 0};
     const Place middle{(static_cast<double>(p.x) + q.x) / 2, (static_cast<double>(p.y) + q.y) / 2};
-    return {middle, way, -infinity, infinity};
+    const auto parameter = [&](std::int32_t node) {
+      const Place end = graph_.end(node).place;
+      return ((end[0] - middle[0]) * way[0] + (end[1] - middle[1]) * way[1]) /
+             (way[0] * way[0] + way[1] * way[1]);
+    };
+    return {middle, way, arc.source >= 0 ? parameter(arc.source) : -infinity,
+            arc.target >= 0 ? parameter(arc.target) : infinity};
   }
 
   void clip_line(const GraphArc& arc, const Line& line) {
