@@ -44,7 +44,7 @@ std::span<const std::array<std::int32_t, 2>> as_segments(const Rows& array) {
 
 void make_diagram(SegmentVoronoi* self, const Rows& points, const Rows& segments, unsigned threads,
                   nb::handle progress) {
-  const core::PlanarGraph graph{as_points(points), as_segments(segments)};
+  const core::SegmentGraph graph{as_points(points), as_segments(segments)};
   run_interruptible(progress,
                     [&](const Monitor& monitor) { new (self) SegmentVoronoi(graph, threads, monitor); });
 }

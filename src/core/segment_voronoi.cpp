@@ -20,7 +20,7 @@ constexpr std::size_t most_sites = (std::size_t{1} << 28) - 1;
 
 using Segment = std::array<std::int32_t, 2>;
 
-void check(const PlanarGraph& graph) {
+void check(const SegmentGraph& graph) {
   const std::size_t points = graph.points.size();
   if (points + graph.segments.size() > most_sites) throw std::length_error("more than 268435455 sites");
   for (std::size_t j = 0; j < graph.segments.size(); ++j) {
@@ -73,7 +73,7 @@ std::vector<std::uint32_t> along_points(std::span<const Segment> segments,
 
 }  // namespace
 
-SegmentVoronoi::SegmentVoronoi(const PlanarGraph& graph, unsigned threads, const Monitor& monitor) {
+SegmentVoronoi::SegmentVoronoi(const SegmentGraph& graph, unsigned threads, const Monitor& monitor) {
   check(graph);
   make_point_diagram(graph, threads, monitor);
   InsertionRounds rounds(sites_, records_, threads);
@@ -86,7 +86,7 @@ SegmentVoronoi::SegmentVoronoi(const PlanarGraph& graph, unsigned threads, const
 }
 
 // The triangulation is gone when segments are inserted.
-void SegmentVoronoi::make_point_diagram(const PlanarGraph& graph, unsigned threads, const Monitor& monitor) {
+void SegmentVoronoi::make_point_diagram(const SegmentGraph& graph, unsigned threads, const Monitor& monitor) {
   MortonOrder order = ordered(graph.points, threads, monitor);
   const std::span<RingVertex> vertices{order.vertices.data(), order.index.size()};
   Subdivision mesh = divide_and_conquer({vertices, order.index, order.code, order.fine}, threads, monitor);
@@ -101,7 +101,7 @@ void SegmentVoronoi::make_point_diagram(const PlanarGraph& graph, unsigned threa
 }
 
 // Points in the order of the triangulation, and the segments along them.
-void SegmentVoronoi::number_sites(const PlanarGraph& graph, std::span<const std::uint32_t> order) {
+void SegmentVoronoi::number_sites(const SegmentGraph& graph, std::span<const std::uint32_t> order) {
   const std::size_t points = graph.points.size(), segments = graph.segments.size();
   given_.resize(points + segments);
   std::vector<std::int32_t> rank(points);

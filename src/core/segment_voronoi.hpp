@@ -16,7 +16,7 @@ namespace vorotool::core {
 
 // A planar straight-line graph: distinct points; segments between them that meet at their ends only, no two
 // alike and none of length zero.
-struct PlanarGraph {
+struct SegmentGraph {
   std::span<const LatticePoint> points;
   std::span<const std::array<std::int32_t, 2>> segments;
 };
@@ -26,7 +26,7 @@ class SegmentVoronoi {
   // Throws std::length_error for more than 2^28 - 1 sites, std::invalid_argument for an index that is out of
   // range, a segment of length zero and two points at one place, and std::logic_error where the diagram would
   // not be planar: the graph is not, or the engine has a defect.
-  SegmentVoronoi(const PlanarGraph& graph, unsigned threads, const Monitor& monitor);
+  SegmentVoronoi(const SegmentGraph& graph, unsigned threads, const Monitor& monitor);
 
   const SegmentVoronoiCounts& counts() const { return counts_; }
   const SegmentSites& sites() const { return sites_; }
@@ -35,8 +35,8 @@ class SegmentVoronoi {
   std::span<const std::int32_t> given() const { return given_; }
 
  private:
-  void make_point_diagram(const PlanarGraph& graph, unsigned threads, const Monitor& monitor);
-  void number_sites(const PlanarGraph& graph, std::span<const std::uint32_t> order);
+  void make_point_diagram(const SegmentGraph& graph, unsigned threads, const Monitor& monitor);
+  void number_sites(const SegmentGraph& graph, std::span<const std::uint32_t> order);
 
   SegmentSites sites_;
   std::vector<std::int32_t> given_;
