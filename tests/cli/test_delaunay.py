@@ -15,9 +15,10 @@ import shapely
 from PIL import Image
 
 import vorotool
-from vorotool.cli.delaunay import FORMATS, LAYERS
+from vorotool.cli.delaunay import FORMATS
 from vorotool.cli.digital_meshes import DigitalProducts
 from vorotool.cli.meshes import DEFAULT_LAYERS
+from vorotool.cli.results import MESH_LAYERS
 from vorotool.render import cell_layers, mesh_layers
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -366,8 +367,8 @@ def test_pictures(run, folder):
 
 
 def test_layers_are_those_of_the_renderer():
-    assert set(LAYERS) == {*mesh_layers.LAYERS, *cell_layers.LAYERS}
-    assert all(set(layers) <= set(LAYERS) for layers in DEFAULT_LAYERS.values())
+    assert set(MESH_LAYERS) == {*mesh_layers.LAYERS, *cell_layers.LAYERS}
+    assert all(set(layers) <= set(MESH_LAYERS) for layers in DEFAULT_LAYERS.values())
 
 
 def test_broken_pipe_is_quiet(process, folder):

@@ -10,6 +10,7 @@ import click
 
 from vorotool.cli.inputs import naming, read_seed_input, refuse
 from vorotool.cli.options import Decimal, Names, Radius, layers_option, shared, single_input
+from vorotool.cli.results import OF_ONE_SHAPE
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options, check_stats, check_targets, plan_targets
 
@@ -32,8 +33,6 @@ FORMATS = {
     "points": _TABLES,
     "table": _TABLES,
 }
-OF_ONE_SHAPE = frozenset({"edges", "polygons", "complex", "general", "hull", "points", "table"})
-"""Results that are of one radius; the others are of all."""
 OF_DIGITAL_RULE = frozenset({"edges", "complex", "family", "spectrum"})
 """Results that need no more than edges and the triangles beside them."""
 LAYERS = ("polygons", "delaunay", "interior", "boundary", "singular", "hull", "points", "labels")

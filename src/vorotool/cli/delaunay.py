@@ -9,6 +9,7 @@ import click
 
 from vorotool.cli.inputs import naming, read_clip, read_seed_input, refuse
 from vorotool.cli.options import Rectangle, layers_option, shared, single_input, what_option
+from vorotool.cli.results import MESH_LAYERS
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options, check_stats, check_targets, plan_targets
 
@@ -31,9 +32,7 @@ OF_TRIANGULATIONS = frozenset(
     {("edges", "edge"), ("triangles", "ele")} | {(what, fmt) for what in ("cells", "table") for fmt in FORMATS[what]}
 )
 """Results and formats that what the digital rule finds has no place in."""
-LAYERS = ("cells", "triangles", "diagram", "edges", "points", "labels")
-"""Layers of pictures, from below."""
-PICTURE_LAYERS = {"svg": LAYERS, "png": tuple(layer for layer in LAYERS if layer != "labels")}
+PICTURE_LAYERS = {"svg": MESH_LAYERS, "png": tuple(layer for layer in MESH_LAYERS if layer != "labels")}
 
 _WITHOUT_DIGITS = frozenset({"npz", "edge", "ele", *_PICTURES})
 
@@ -57,7 +56,7 @@ _WITHOUT_DIGITS = frozenset({"npz", "edge", "ele", *_PICTURES})
 )
 @click.option("--clip", metavar="POLYGONS", help="File of polygons that cells are clipped to as well.")
 @shared("size", "window", "columns", "input-format", "page", "seeds", "connectivity", "threshold", "invert")
-@layers_option(LAYERS)
+@layers_option(MESH_LAYERS)
 @shared("width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels", "max-sites")
 @shared("no-clobber", "no-properties", "quiet", "verbose")
 def command(**options: Any) -> None:

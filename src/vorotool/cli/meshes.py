@@ -8,8 +8,8 @@ from functools import cached_property
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from vorotool.cli.delaunay import LAYERS
 from vorotool.cli.pictures import write_layers
+from vorotool.cli.results import MESH_LAYERS
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
 from vorotool.engines.cells import cell_colours, verify_cells, voronoi_cells
@@ -150,7 +150,7 @@ class MeshProducts:
             made["cells"] = cell_polygons(self.cells, cell_colours(self.mesh), page)
         if "diagram" in wanted:
             made["diagram"] = cell_lines(self.cells, page)
-        layers = [made[name] for name in LAYERS if name in made]
+        layers = [made[name] for name in MESH_LAYERS if name in made]
         write_layers(out, layers, page, fmt=fmt, threads=self.options.threads)
 
     def verify(self) -> None:

@@ -12,8 +12,8 @@ from math import inf
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from vorotool.cli.alphashape import OF_ONE_SHAPE
 from vorotool.cli.pictures import write_layers
+from vorotool.cli.results import OF_ONE_SHAPE
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
 from vorotool.engines.alphashape import alpha_complex, alpha_curves, alpha_edges, alpha_shape

@@ -1,0 +1,8 @@
+"""Names that a command and what makes its results share; nothing heavy is imported for them."""
+
+from __future__ import annotations
+
+MESH_LAYERS = ("cells", "triangles", "diagram", "edges", "points", "labels")
+"""Layers of pictures of a triangulation, from below."""
+OF_ONE_SHAPE = frozenset({"edges", "polygons", "complex", "general", "hull", "points", "table"})
+"""Results of `alphashape` that are of one radius; the others are of all."""
