@@ -347,6 +347,10 @@ FAMILIES = {
 }
 
 
+JOINED = ("clusters", "crowded", "two_boxes", "fan", "scattered")
+"""Families that take time in the square of n to draw."""
+
+
 def draw(name, n, seed):
     """The graph of a family, the same for the same arguments."""
     points, segments = FAMILIES[name](np.random.default_rng(seed), n)
