@@ -360,6 +360,13 @@ def draw(name, n, seed):
     return np.ascontiguousarray(points), np.ascontiguousarray(segments)
 
 
+def coarse(points, segments, limit):
+    """The graph on a lattice so small, without what crosses there; points that no segment ends at may be left."""
+    small = lattice(points * min(1, limit / np.abs(points.astype(np.float64)).max(initial=1)))
+    places, number = np.unique(small, axis=0, return_inverse=True)
+    return places, joined(places, number.reshape(-1)[segments])
+
+
 def symmetries(points):
     """The points under the 8 symmetries of the square."""
     for turned in (points, points[:, ::-1]):
