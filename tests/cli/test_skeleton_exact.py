@@ -11,7 +11,7 @@ import pytest
 from PIL import Image
 
 import vorotool
-from vorotool.cli.skeleton_exact import FORMATS, LAYERS
+from vorotool.cli.skeleton_options import FORMATS, LAYERS
 from vorotool.render import skeleton_layers
 
 sys.path.insert(0, str(Path(__file__).parent))
