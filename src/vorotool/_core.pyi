@@ -305,6 +305,11 @@ def nearest_neighbours(
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Index of the nearest point of each, -1 without any, and its number of neighbours."""
 
+# ---- outlines (bind_outlines.cpp): labels are C-contiguous uint8, uint16 or uint32 -----------------------------------
+
+def count_crack_vertices(labels: NDArray[Any], threads: int, progress: _Progress) -> int: ...
+def trace_cracks(labels: NDArray[Any], rule: str, vertices: int, progress: _Progress) -> dict[str, NDArray[Any]]: ...
+
 # ---- skeletons (bind_skeleton.cpp): the first six arguments are the arrays of a segment Voronoi diagram -------------
 
 def skeleton_edges(
