@@ -25,8 +25,7 @@ constexpr int turned(int direction, int quarters) { return (direction + quarters
 // Which labels are around a corner, and which cracks end there.
 class Quadrants {
  public:
-  explicit Quadrants(const Corner& c)
-      : label_{c.lower_right, c.lower_left, c.upper_left, c.upper_right} {}
+  explicit Quadrants(const Corner& c) : label_{c.lower_right, c.lower_left, c.upper_left, c.upper_right} {}
 
   std::uint32_t operator[](int quadrant) const { return label_[static_cast<std::size_t>(quadrant & 3)]; }
   bool has_crack(int direction) const { return (*this)[direction] != (*this)[direction + 3]; }
@@ -135,7 +134,10 @@ struct CrackRing {
 class RingWalk {
  public:
   RingWalk(std::vector<CrackVertex>& vertices, CornerRule rule, const Monitor& monitor)
-      : vertices_(vertices), divides_(rule == CornerRule::apart), monitor_(monitor), north_(vertices.size(), -1) {
+      : vertices_(vertices),
+        divides_(rule == CornerRule::apart),
+        monitor_(monitor),
+        north_(vertices.size(), -1) {
     if (divides_) place_.assign(vertices.size(), -1);
   }
 
@@ -186,8 +188,7 @@ class RingWalk {
     const auto first = std::min_element(begin, steps_.end(),
                                         [](const Step& a, const Step& b) { return a.vertex < b.vertex; });
     const auto number = static_cast<std::int32_t>(rings.size());
-    rings.push_back(
-        {path.size(), path.size() + (steps_.size() - from), first->direction == kSouth, number});
+    rings.push_back({path.size(), path.size() + (steps_.size() - from), first->direction == kSouth, number});
     const auto append = [this, number](const Step& step) {
       path.push_back(step.vertex);
       if (step.direction == kNorth) north_[at(step.vertex)] = number;
@@ -286,9 +287,8 @@ CrackOutlines trace_cracks(std::span<const Label> image, std::size_t width, Corn
   const std::size_t lines = image.size() / width + 1, piece_lines = rows_per_piece(width);
   CrackGraph graph(width, rule, vertices);
   for (std::size_t first = 0; first < lines; first += piece_lines) {
-    scan_corners(
-        image, width, first, std::min(lines, first + piece_lines),
-        [&](std::size_t x, std::size_t y, const Quadrants& around) { graph.add(x, y, around); });
+    scan_corners(image, width, first, std::min(lines, first + piece_lines),
+                 [&](std::size_t x, std::size_t y, const Quadrants& around) { graph.add(x, y, around); });
     if (monitor && !monitor(0.5 * static_cast<double>(first) / static_cast<double>(lines)))
       throw Interrupted();
   }

@@ -335,13 +335,14 @@ def extract_skeleton(
     kept: NDArray[np.int32],
     groups: NDArray[np.int32],
     clipped: tuple[int, tuple[float, float, float, float]] | None,
+    joined: tuple[int, int],
     origin_x: float,
     origin_y: float,
     scale: float,
     threads: int,
     progress: _Progress,
 ) -> dict[str, NDArray[Any]]:
-    """Frames are (least x, most x, least y, most y) on the lattice."""
+    """Frames are (least x, most x, least y, most y) on the lattice; joined are groups from one to before another."""
 
 # ---- planar graphs (bind_planar_graph.cpp): arrays are C-contiguous; lattice points are int32 rows ------------------
 

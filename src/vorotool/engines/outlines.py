@@ -22,7 +22,6 @@ from vorotool.engines.raster_objects import (
 )
 from vorotool.engines.simplification import simplified_polygons
 from vorotool.errors import LimitError, UsageError, VorotoolWarning
-from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.label_image import LabelImage
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.raster import Raster
