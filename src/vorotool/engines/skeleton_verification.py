@@ -149,7 +149,9 @@ def _with_corners_apart(skeleton: Skeleton) -> Skeleton:
     np.minimum.at(first, corner, node)
     at = first_wrong(node != first[corner])
     if at is not None:
-        fail(f"arcs of one side end in nodes {first[corner[at]]} and {node[at]} at one corner, but should be joined there")
+        fail(
+            f"arcs of one side end in nodes {first[corner[at]]} and {node[at]} at one corner, but should be joined there"
+        )
     _, owner = np.unique(np.stack([node, corner]), axis=1, return_index=True)
     at = first_wrong(np.bincount(node[owner], minlength=1) > 1)
     if at is not None:
