@@ -80,11 +80,8 @@ class Products:
             check_png(self.dtype, self.rows.seeds.largest_label)
         elif what == "distance2":
             _ = self._exact_rows().square_dtype
-        if (
-            what in ("colour", "table", "neighbours")
-            or fmt == "svg"
-            or (what == "diagram" and (self.options.layers or self.options.backdrop))
-        ):
+        draws = what == "diagram" and (self.options.layers or self.options.backdrop)
+        if what in ("colour", "table", "neighbours") or fmt == "svg" or draws:
             require_memory(self.rows.frame, self.options.max_pixels)
 
     def write(self, target: Target, *, inputs: Sequence[str]) -> None:

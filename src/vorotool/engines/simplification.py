@@ -18,8 +18,9 @@ def simplified_polygons(polygons: PolygonSet, tolerance: float) -> PolygonSet:
 
     Their edges are divided into chains, at the vertices where more than two of them meet, and where lines end. Each
     chain keeps its ends and is simplified once, however many rings it is a part of, so that polygons that share a
-    border still do: by the Douglas-Peucker rule, which moves it by no more than the tolerance, and only as far as no two
-    chains come to cross (shapely's `simplify` with ``preserve_topology``). Where four edges or more meet, these stay.
+    border still do: by the Douglas-Peucker rule, which moves it by no more than the tolerance, and only as far as no
+    two chains come to cross (shapely's `simplify` with ``preserve_topology``). Where four edges or more meet, these
+    stay.
 
     Parameters
     ----------

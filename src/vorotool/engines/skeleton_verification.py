@@ -34,7 +34,7 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
     components less one, and one end in each corner under 180 degrees, which nothing else shares; the regions between
     the arcs and their feet sum to its area within 1e-9 of it and 8 ulp of the extent times its perimeter. Outside, all
     is connected with the frame. Branches are chains that end where they should. Where pixels hang together at corners
-    (`PolygonSet.connectivity`), arcs of one polygon, or outside, share a node there, and all else is as if they did not.
+    (`PolygonSet.connectivity`), arcs of one polygon, or outside, share a node there; all else is as if they did not.
 
     Parameters
     ----------
@@ -149,9 +149,7 @@ def _with_corners_apart(skeleton: Skeleton) -> Skeleton:
     np.minimum.at(first, corner, node)
     at = first_wrong(node != first[corner])
     if at is not None:
-        fail(
-            f"arcs of one side end in nodes {first[corner[at]]} and {node[at]} at one corner, but should be joined there"
-        )
+        fail(f"nodes {first[corner[at]]} and {node[at]} are at one corner, where pixels hang together, but not joined")
     _, owner = np.unique(np.stack([node, corner]), axis=1, return_index=True)
     at = first_wrong(np.bincount(node[owner], minlength=1) > 1)
     if at is not None:
