@@ -46,7 +46,8 @@ nb::dict extract_skeleton(const IndexRows& points, const IndexRows& segments, co
                           const Vector<const double>& radius, const IndexRows& edges,
                           const IndexRows& edge_sites, const Vector<const std::int32_t>& kept,
                           const Vector<const std::int32_t>& groups,
-                          const std::optional<std::pair<std::int32_t, Box>>& clipped, double origin_x,
+                          const std::optional<std::pair<std::int32_t, Box>>& clipped,
+                          const std::pair<std::int32_t, std::int32_t>& joined, double origin_x,
                           double origin_y, double scale, unsigned threads, nb::handle progress) {
   const DiagramArrays arrays{points, segments, vertices, radius, edges, edge_sites};
   const core::SegmentDiagram diagram = arrays.diagram();
@@ -67,8 +68,8 @@ nb::dict extract_skeleton(const IndexRows& points, const IndexRows& segments, co
     }
   }
   core::SkeletonArrays made = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::extract_skeleton(diagram, view(kept), view(groups), frame, {origin_x, origin_y, scale},
-                                  core::resolve_threads(threads), monitor);
+    return core::extract_skeleton(diagram, view(kept), view(groups), frame, {joined.first, joined.second},
+                                  {origin_x, origin_y, scale}, core::resolve_threads(threads), monitor);
   });
   nb::dict result;
   result["vertices"] = two_columns(std::move(made.vertices));
@@ -117,7 +118,7 @@ void bind_skeleton(nb::module_& module) {
   module.def("extract_skeleton", &extract_skeleton, "points"_a.noconvert(), "segments"_a.noconvert(),
              "vertices"_a.noconvert(), "radius"_a.noconvert(), "edges"_a.noconvert(),
              "edge_sites"_a.noconvert(), "kept"_a.noconvert(), "groups"_a.noconvert(), "clipped"_a.none(),
-             "origin_x"_a, "origin_y"_a, "scale"_a, "threads"_a, "progress"_a.none());
+             "joined"_a, "origin_x"_a, "origin_y"_a, "scale"_a, "threads"_a, "progress"_a.none());
   module.def("clearances", &clearances, "points"_a.noconvert(), "segments"_a.noconvert(),
              "places"_a.noconvert(), "reach"_a.noconvert(), "threads"_a, "progress"_a.none());
 }

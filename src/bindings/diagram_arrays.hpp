@@ -1,14 +1,11 @@
-// The arrays of a segment Voronoi diagram as they come in from Python, and pairs of columns that go out.
+// The arrays of a segment Voronoi diagram as they come in from Python.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <stdexcept>
-#include <utility>
-#include <vector>
 
 #include "arrays.hpp"
 #include "core/bisector_arc.hpp"
@@ -28,17 +25,6 @@ template <class Row, class Array>
 std::span<const Row> rows(const Array& array) {
   if (array.shape(1) != 2) throw std::invalid_argument("an array that should have two columns has not");
   return {reinterpret_cast<const Row*>(array.data()), array.shape(0)};
-}
-
-// An (n, 2) array that takes over the values.
-template <class Value>
-nanobind::object two_columns(std::vector<std::array<Value, 2>>&& values) {
-  auto kept = std::make_unique<std::vector<std::array<Value, 2>>>(std::move(values));
-  Value* data = kept->empty() ? nullptr : kept->front().data();
-  const std::size_t size = kept->size();
-  const nanobind::capsule owner(
-      kept.release(), [](void* p) noexcept { delete static_cast<std::vector<std::array<Value, 2>>*>(p); });
-  return nanobind::cast(nanobind::ndarray<nanobind::numpy, Value>(data, {size, 2}, owner));
 }
 
 // The arrays of a diagram, kept while the core works on views of them.

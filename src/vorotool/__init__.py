@@ -57,6 +57,7 @@ _HOME = {
     "cell_colours": "vorotool.engines.cells",
     "voronoi_cells": "vorotool.engines.cells",
     "verify_cells": "vorotool.engines.cells",
+    "outlines": "vorotool.engines.outlines",
     "planar_graph": "vorotool.engines.planar_graph",
     "verify_planar_graph": "vorotool.engines.planar_graph",
     "skeleton_exact": "vorotool.engines.skeleton_exact",

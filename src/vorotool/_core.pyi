@@ -305,6 +305,11 @@ def nearest_neighbours(
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Index of the nearest point of each, -1 without any, and its number of neighbours."""
 
+# ---- outlines (bind_outlines.cpp): labels are C-contiguous uint8, uint16 or uint32 -----------------------------------
+
+def count_crack_vertices(labels: NDArray[Any], threads: int, progress: _Progress) -> int: ...
+def trace_cracks(labels: NDArray[Any], rule: str, vertices: int, progress: _Progress) -> dict[str, NDArray[Any]]: ...
+
 # ---- skeletons (bind_skeleton.cpp): the first six arguments are the arrays of a segment Voronoi diagram -------------
 
 def skeleton_edges(
@@ -330,13 +335,14 @@ def extract_skeleton(
     kept: NDArray[np.int32],
     groups: NDArray[np.int32],
     clipped: tuple[int, tuple[float, float, float, float]] | None,
+    joined: tuple[int, int],
     origin_x: float,
     origin_y: float,
     scale: float,
     threads: int,
     progress: _Progress,
 ) -> dict[str, NDArray[Any]]:
-    """Frames are (least x, most x, least y, most y) on the lattice."""
+    """Frames are (least x, most x, least y, most y) on the lattice; joined are groups from one to before another."""
 
 def offset_curves(
     points: NDArray[np.int32],
