@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from vorotool.cli.commands import run_command
 from vorotool.cli.inputs import naming, read_seed_input, refuse
-from vorotool.cli.options import Decimal, layers_option, shared, single_input, what_option
+from vorotool.cli.options import Decimal, batch_options, layers_option, shared, what_option
+from vorotool.cli.recipes import Recipe
 from vorotool.cli.run import Run
-from vorotool.cli.targets import Target, check_picture_options, check_stats, check_targets, plan_targets
+from vorotool.cli.targets import Target, check_picture_options
 
 if TYPE_CHECKING:
     from vorotool.cli.products import Products
@@ -32,7 +34,7 @@ FORMATS = {
 
 
 @click.command("tessellate")
-@click.argument("inputs", metavar="INPUT", nargs=-1)
+@click.argument("inputs", metavar="INPUT...", nargs=-1)
 @shared("output", "format")
 @what_option(tuple(FORMATS))
 @click.option(
@@ -54,6 +56,7 @@ FORMATS = {
 @shared("size", "window", "columns", "input-format", "page", "seeds", "connectivity", "threshold", "invert")
 @layers_option(("cells", "diagram", "seeds", "labels"))
 @shared("width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels", "max-sites")
+@batch_options()
 @shared("no-clobber", "no-properties", "quiet", "verbose")
 def command(**options: Any) -> None:
     """Label every pixel with its nearest seed, exactly; ties go to the smallest label.
@@ -65,30 +68,7 @@ def command(**options: Any) -> None:
     INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, PBM,
     NPY); - is standard input. Label i is the i-th point; an image's own labels are kept.
     """
-    o = SimpleNamespace(**options)
-    source = single_input(o.inputs)
-    targets = plan_targets(FORMATS, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=source)
-    check_stats(o.stats, targets, source)
-    _check_options(o, targets)
-    with Run("tessellate", quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber) as run:
-        from vorotool.formats.outputs import make_folder
-
-        check_targets(o, targets, source)
-        with naming(source), run.phase("read"):
-            seeds = _read_seeds(run, o, source)
-        with naming(source), run.phase("prepare"):
-            products = _prepare(run, o, seeds)
-        for target in targets:
-            products.check(target)
-        if o.verify:
-            with run.phase("verify"):
-                products.verify()
-        if o.out_dir is not None:
-            make_folder(o.out_dir)
-        for target in targets:
-            with run.phase(f"write {target.what}"):
-                products.write(target, inputs=(source,))
-        _fill_stats(run, o, products)
+    run_command(RECIPE, SimpleNamespace(**options))
 
 
 def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
@@ -146,6 +126,13 @@ def _frame(o: SimpleNamespace) -> Frame | None:
     return None if o.size is None else Frame(0, 0, *o.size)
 
 
+def _products(run: Run, o: SimpleNamespace, source: str) -> Products:
+    with naming(source), run.phase("read"):
+        seeds = _read_seeds(run, o, source)
+    with naming(source), run.phase("prepare"):
+        return _prepare(run, o, seeds)
+
+
 def _prepare(run: Run, o: SimpleNamespace, seeds: SeedSet) -> Products:
     from vorotool.cli.products import Products
     from vorotool.engines.propagation import PropagatedRows
@@ -167,7 +154,4 @@ def _prepare(run: Run, o: SimpleNamespace, seeds: SeedSet) -> Products:
     return Products(rows, o, run)
 
 
-def _fill_stats(run: Run, o: SimpleNamespace, products: Products) -> None:
-    if o.stats is not None:
-        with run.phase("count"):
-            run.stats.update(products.stats())
+RECIPE = Recipe("tessellate", FORMATS, _check_options, _products, "points")
