@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import csv
 import hashlib
-import io
 import json
 import os
-import sys
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, BinaryIO
 
 TABLE_FORMATS = ("csv", "json")
 """Formats that are joined row by row."""
-
-INPUT_COLUMN = "input"
 
 
 def part_path(folder: str | os.PathLike[str], source: str, fmt: str) -> str:
@@ -44,6 +40,7 @@ def join_tables(out: BinaryIO, parts: Sequence[tuple[str, str]], fmt: str) -> No
 
     Examples
     --------
+    >>> import io
     >>> out = io.BytesIO()
     >>> join_tables(out, [("dots", "data/six-seeds.csv"), ("again", "data/six-seeds.csv")], "csv")
     >>> out.getvalue()[:26]
@@ -53,36 +50,46 @@ def join_tables(out: BinaryIO, parts: Sequence[tuple[str, str]], fmt: str) -> No
     join(out, parts)
 
 
-def _columns(headers: Iterable[Sequence[str]]) -> list[str]:
+def _columns(headers: Iterable[Iterable[bytes]]) -> list[bytes]:
     """All columns; ours takes the prefix ``voro_`` where an input has one of its name."""
     names = list(dict.fromkeys(name for header in headers for name in header))
-    return [f"voro_{INPUT_COLUMN}" if INPUT_COLUMN in names else INPUT_COLUMN, *names]
+    return [b"voro_input" if b"input" in names else b"input", *names]
 
 
 # ---- CSV -----------------------------------------------------------------------------------------
+# The texts of fields stay as they were written, with their quotes.
+_RECORD = re.compile(rb'(?:[^"\n]+|"[^"]*")*\n')
+_FIELDS = re.compile(rb'(?:^|,)((?:[^",]+|"[^"]*")*)')
+
+
 def _join_csv(out: BinaryIO, parts: Sequence[tuple[str, str]]) -> None:
-    csv.field_size_limit(sys.maxsize)
-    names = _columns(next(_csv_rows(path), []) for _, path in parts)
-    out.write(_csv_text([names]))
+    name, *names = _columns(tuple(_header(path)) for _, path in parts)
+    out.write(b",".join([name, *names]) + b"\n")
     for source, path in parts:
-        rows = _csv_rows(path)
-        header = next(rows, [])
-        if header == names[1:]:
-            out.write(_csv_text([source, *row] for row in rows))
-        else:
-            place = [header.index(name) if name in header else None for name in names[1:]]
-            out.write(_csv_text([source, *("" if at is None else row[at] for at in place)] for row in rows))
+        header, *records = _RECORD.findall(Path(path).read_bytes())
+        before = _quoted(source) + b","
+        place = _places(_FIELDS.findall(header[:-1]), names)
+        for record in records:
+            if place is None:
+                out.write(before + record)
+            else:
+                fields = [*_FIELDS.findall(record[:-1]), b""]
+                out.write(before + b",".join(fields[at] for at in place) + b"\n")
 
 
-def _csv_rows(path: str) -> Iterator[list[str]]:
-    with Path(path).open(encoding="utf-8", errors="surrogateescape", newline="") as file:
-        yield from csv.reader(file)
+def _header(path: str) -> list[bytes]:
+    found = _RECORD.match(Path(path).read_bytes())
+    return [] if found is None else _FIELDS.findall(found[0][:-1])
 
 
-def _csv_text(rows: Iterable[Sequence[str]]) -> bytes:
-    text = io.StringIO(newline="")
-    csv.writer(text, lineterminator="\n").writerows(rows)
-    return text.getvalue().encode("utf-8", "surrogateescape")
+def _places(header: list[bytes], names: list[bytes]) -> list[int] | None:
+    """Where each column is, at the end those that are not; None if all are where they should be."""
+    return None if header == names else [header.index(name) if name in header else -1 for name in names]
+
+
+def _quoted(name: str) -> bytes:
+    text = os.fsencode(name)
+    return text if re.fullmatch(rb"[\w./+@=~%-]+", text) else b'"' + text.replace(b'"', b'""') + b'"'
 
 
 # ---- JSON ----------------------------------------------------------------------------------------
@@ -91,10 +98,10 @@ def _join_json(out: BinaryIO, parts: Sequence[tuple[str, str]]) -> None:
     before = b"[\n"
     for source, path in parts:
         header = _json_header(path)
-        begin = f"{{{json.dumps(name)}:{json.dumps(source)},".encode()
-        absent = "".join(f",{json.dumps(each, ensure_ascii=False)}:null" for each in names if each not in header)
+        begin = b'{"%b":%b,' % (name, json.dumps(source).encode())
+        absent = b"".join(b',"%b":null' % each for each in names if each not in header)
         for row in _json_rows(path):
-            out.write(before + begin + row[1:-1] + absent.encode() + b"}")
+            out.write(before + begin + row[1:-1] + absent + b"}")
             before = b",\n"
     out.write(b"[]\n" if before == b"[\n" else b"\n]\n")
 
@@ -105,6 +112,7 @@ def _json_rows(path: str) -> Iterator[bytes]:
         yield from (line.rstrip(b",\n") for line in file if line.startswith(b"{"))
 
 
-def _json_header(path: str) -> list[str]:
+def _json_header(path: str) -> list[bytes]:
+    """Names of columns, as they are written."""
     row: dict[str, Any] = json.loads(next(_json_rows(path), b"{}"))
-    return list(row)
+    return [json.dumps(name, ensure_ascii=False)[1:-1].encode() for name in row]

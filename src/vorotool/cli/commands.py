@@ -11,6 +11,7 @@ from vorotool.cli.options import BATCH_OPTIONS
 from vorotool.cli.recipes import Recipe, process_input
 from vorotool.cli.run import Run
 from vorotool.cli.targets import check_stats, plan_targets
+from vorotool.cli.units import check_units
 
 
 def run_command(recipe: Recipe, o: SimpleNamespace) -> None:
@@ -39,5 +40,6 @@ def run_command(recipe: Recipe, o: SimpleNamespace) -> None:
     targets = plan_targets(recipe.formats, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=source)
     check_stats(o.stats, targets, source)
     recipe.check_options(o, targets)
+    check_units(o, targets)
     with Run(recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber) as run:
         process_input(recipe, run, o, source, targets)

@@ -14,6 +14,7 @@ from vorotool.cli.recipes import Recipe
 from vorotool.cli.results import MESH_LAYERS
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options
+from vorotool.cli.units import pixel_size_option
 
 if TYPE_CHECKING:
     from vorotool.cli.meshes import MeshProducts
@@ -60,6 +61,7 @@ _WITHOUT_DIGITS = frozenset({"npz", "edge", "ele", *_PICTURES})
 @shared("size", "window", "columns", "input-format", "page", "seeds", "connectivity", "threshold", "invert")
 @layers_option(MESH_LAYERS)
 @shared("width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels", "max-sites")
+@pixel_size_option()
 @batch_options()
 @shared("no-clobber", "no-properties", "quiet", "verbose")
 def command(**options: Any) -> None:

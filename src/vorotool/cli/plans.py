@@ -17,6 +17,7 @@ from vorotool.batch.tasks import Task, digest_of
 from vorotool.cli.options import BATCH_OPTIONS
 from vorotool.cli.recipes import Recipe
 from vorotool.cli.targets import EXTENSIONS, Target, plan_targets
+from vorotool.cli.units import check_units
 
 WITHOUT_EFFECT = frozenset(
     {"inputs", "output", "out_dir", "threads", "quiet", "verbose", "stats", "no_clobber", *BATCH_OPTIONS}
@@ -85,6 +86,7 @@ def plan_batch(recipe: Recipe, o: SimpleNamespace) -> Plan:
         o.what = tuple(dict.fromkeys((*o.what, "table")))
         targets.append(Target("table", f"part.{table}", table))
     recipe.check_options(o, targets)
+    check_units(o, targets)
     return Plan(tasks, targets, table, manifest, history)
 
 

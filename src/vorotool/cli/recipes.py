@@ -10,6 +10,7 @@ from typing import Any, Protocol
 
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_targets
+from vorotool.cli.units import unit_stats
 
 
 class Products(Protocol):
@@ -87,4 +88,4 @@ def process_input(recipe: Recipe, run: Run, o: SimpleNamespace, source: str, tar
             products.write(target, inputs=(source,))
     if o.stats is not None:
         with run.phase("count"):
-            run.stats.update(products.stats())
+            run.stats.update({**products.stats(), **unit_stats(o)})

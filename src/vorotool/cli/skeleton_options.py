@@ -17,6 +17,7 @@ from vorotool.cli.options import Decorator, Rectangle, batch_options, layers_opt
 from vorotool.cli.recipes import Recipe
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options
+from vorotool.cli.units import pixel_size_option
 
 if TYPE_CHECKING:
     from vorotool.cli.skeletons import SkeletonProducts
@@ -84,6 +85,7 @@ _AFTER: tuple[Decorator, ...] = (
     shared("input-format"),
     layers_option(LAYERS),
     shared("width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels", "max-sites"),
+    pixel_size_option(),
     batch_options(),
     shared("no-clobber", "no-properties", "quiet", "verbose"),
 )

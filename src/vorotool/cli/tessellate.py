@@ -13,6 +13,7 @@ from vorotool.cli.options import Decimal, batch_options, layers_option, shared, 
 from vorotool.cli.recipes import Recipe
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options
+from vorotool.cli.units import pixel_size_option
 
 if TYPE_CHECKING:
     from vorotool.cli.products import Products
@@ -56,6 +57,7 @@ FORMATS = {
 @shared("size", "window", "columns", "input-format", "page", "seeds", "connectivity", "threshold", "invert")
 @layers_option(("cells", "diagram", "seeds", "labels"))
 @shared("width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels", "max-sites")
+@pixel_size_option()
 @batch_options()
 @shared("no-clobber", "no-properties", "quiet", "verbose")
 def command(**options: Any) -> None:
@@ -107,6 +109,7 @@ def _read_seeds(run: Run, o: SimpleNamespace, source: str) -> SeedSet:
         o.y_up = value.y_up if o.y_up is None else o.y_up
         return seeds_from_points(value, strict=o.strict)
     refuse(o, ("columns", "size", "window"), "is for lists of points, but the input is an image, which brings its own")
+    o.resolution = value.resolution
     return seeds_from_raster(
         value,
         mode=o.seeds,
