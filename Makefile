@@ -16,7 +16,7 @@ $(BUILD)/.venv: pyproject.toml
 	@mkdir -p $(BUILD)
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/pip install --quiet --disable-pip-version-check \
-	    $$($(PYTHON) -c 'import tomllib; p = tomllib.load(open("pyproject.toml", "rb"))["project"]; print(*p["dependencies"], *p["optional-dependencies"]["dev"])')
+	    $$($(PYTHON) -c 'import tomllib; p = tomllib.load(open("pyproject.toml", "rb"))["project"]; print(*p["dependencies"], *(name for extra in ("dev", "distributed") for name in p["optional-dependencies"][extra]))')
 	@touch $@
 
 $(BUILD)/.installed: $(BUILD)/.venv $(CORE_SOURCES)

@@ -14,6 +14,7 @@ import numpy as np
 from vorotool.cli.pictures import write_layers
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
+from vorotool.cli.units import in_units, length_in_units
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.skeleton import EXTERIOR, Skeleton
@@ -100,10 +101,10 @@ class SkeletonProducts(ABC):
 
         write_skeleton(
             out,
-            self._value(target.what),
+            in_units(self.options, self._value(target.what)),
             target.fmt,
             what="skeleton" if target.what == "diagram" else target.what,
-            flatten=self.options.flatten,
+            flatten=length_in_units(self.options, self.options.flatten),
             precision=self.options.precision,
             threads=self.options.threads,
         )
