@@ -5,10 +5,13 @@ from __future__ import annotations
 import numpy as np
 from skimage.measure import label
 
-STEPS = {"east": (0, (0, 0), (1, 0)), "south": (1, (1, 0), (1, 1)), "west": (2, (1, 1), (0, 1)), "north": (3, (0, 1), (0, 0))}  # fmt: skip
-"""Sides of a pixel with the pixel on the right hand as shown: where each begins and ends, from its corner (x, y)."""
-BESIDE = {"east": (-1, 0), "south": (0, 1), "west": (1, 0), "north": (0, -1)}
-"""Row and column of the pixel on the other side."""
+SIDES = (
+    ((0, 0), (1, 0), (-1, 0)),
+    ((1, 0), (1, 1), (0, 1)),
+    ((1, 1), (0, 1), (1, 0)),
+    ((0, 1), (0, 0), (0, -1)),
+)
+"""Of a pixel: where each begins and ends, x and y from the pixel's corner; row and column of the pixel across."""
 
 
 def numbered_objects(labels, connectivity):
@@ -26,10 +29,9 @@ def pixel_sides(objects):
     """Rows of object (from 0), x and y where a side begins and ends: what is between an object and anything else."""
     padded = np.pad(objects, 1)
     rows = []
-    for name, (down, right) in BESIDE.items():
+    for (ax, ay), (bx, by), (down, right) in SIDES:
         other = padded[1 + down : padded.shape[0] - 1 + down, 1 + right : padded.shape[1] - 1 + right]
         y, x = np.nonzero((objects > 0) & (objects != other))
-        (ax, ay), (bx, by) = STEPS[name][1:]
         rows.append(np.stack([objects[y, x] - 1, x + ax, y + ay, x + bx, y + by], axis=1))
     return np.unique(np.concatenate(rows), axis=0)
 

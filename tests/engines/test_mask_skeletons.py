@@ -153,7 +153,7 @@ def test_the_checker_finds_corners_that_are_not_joined_or_should_not_be():
     joined, apart = vorotool.skeleton_exact(PAIR), vorotool.skeleton_exact(replace(PAIR, connectivity=None))
     with pytest.raises(VerificationError, match="but not joined"):
         vorotool.verify_skeleton(replace(apart, polygons=PAIR))
-    with pytest.raises(VerificationError, match="several arcs end there|could go on"):
+    with pytest.raises(VerificationError, match=r"does not go on|several arcs end there"):
         vorotool.verify_skeleton(replace(joined, polygons=replace(PAIR, connectivity=None)))
 
 
