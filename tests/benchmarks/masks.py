@@ -61,9 +61,8 @@ def main():
         thin, _ = seconds(lambda mask=mask: skeletonize(mask))
         total = outlined + made + listed
         print(f"  {name}: {len(polygons)} objects, {len(polygons.xy)} vertices, {100 * mask.mean():.0f} % foreground")
-        print(
-            f"    {outlined:.3f} / {made:.3f} / {listed:.3f} / {total:.3f}; medial_axis {axis:.1f}, skeletonize {thin:.1f}"
-        )
+        parts = f"{outlined:.3f} / {made:.3f} / {listed:.3f} / {total:.3f}"
+        print(f"    {parts}; medial_axis {axis:.1f}, skeletonize {thin:.1f}")
         print(f"    1/{axis / total:.1f} of the medial axis, 1/{(axis + thin) / total:.1f} of both")
 
 
