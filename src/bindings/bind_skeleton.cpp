@@ -15,6 +15,7 @@
 #include "core/parallel.hpp"
 #include "core/skeleton_edges.hpp"
 #include "core/skeleton_extraction.hpp"
+#include "diagram_arrays.hpp"
 #include "interrupts.hpp"
 
 namespace vorotool::bindings {
@@ -22,55 +23,7 @@ namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using core::LatticePoint;
 using core::Monitor;
-using core::Place;
-using Pair = std::array<std::int32_t, 2>;
-using IndexRows = Matrix<const std::int32_t>;
-using Places = Matrix<const double>;
-
-static_assert(sizeof(LatticePoint) == 2 * sizeof(std::int32_t) && sizeof(Place) == 2 * sizeof(double));
-
-template <class Row, class Array>
-std::span<const Row> rows(const Array& array) {
-  if (array.shape(1) != 2) throw std::invalid_argument("an array that should have two columns has not");
-  return {reinterpret_cast<const Row*>(array.data()), array.shape(0)};
-}
-
-// The arrays of a diagram, kept while the core works on views of them.
-struct DiagramArrays {
-  IndexRows points, segments;
-  Places vertices;
-  Vector<const double> radius;
-  IndexRows edges, edge_sites;
-
-  core::SegmentDiagram diagram() const {
-    const core::SegmentDiagram d{rows<LatticePoint>(points), rows<Pair>(segments),
-                                 rows<Place>(vertices),      view(radius),
-                                 rows<Pair>(edges),          rows<Pair>(edge_sites)};
-    check(d);
-    return d;
-  }
-
- private:
-  static void check(const core::SegmentDiagram& d) {
-    if (d.vertices.size() != d.radius.size() || d.edges.size() != d.edge_sites.size()) {
-      throw std::invalid_argument("the arrays of a diagram have lengths that do not go together");
-    }
-    check_range(d.segments, 0, d.points.size());
-    check_range(d.edges, -1, d.radius.size());
-    check_range(d.edge_sites, 0, d.points.size() + d.segments.size());
-  }
-  static void check_range(std::span<const Pair> pairs, std::int32_t least, std::size_t count) {
-    for (const Pair& pair : pairs) {
-      for (const std::int32_t index : pair) {
-        if (index < least || (index >= 0 && static_cast<std::size_t>(index) >= count)) {
-          throw std::invalid_argument("an index of the diagram is out of range");
-        }
-      }
-    }
-  }
-};
 
 nb::tuple skeleton_edges(const IndexRows& points, const IndexRows& segments, const Places& vertices,
                          const Vector<const double>& radius, const IndexRows& edges,

@@ -15,6 +15,7 @@ NB_MODULE(_core, module) {
   vorotool::bindings::bind_segment_exact(module);
   vorotool::bindings::bind_outlines(module);
   vorotool::bindings::bind_skeleton(module);
+  vorotool::bindings::bind_offsets(module);
   vorotool::bindings::bind_segment_verification(module);
   vorotool::bindings::bind_segment_voronoi(module);
 }

@@ -62,6 +62,8 @@ _HOME = {
     "verify_planar_graph": "vorotool.engines.planar_graph",
     "skeleton_exact": "vorotool.engines.skeleton_exact",
     "verify_skeleton": "vorotool.engines.skeleton_verification",
+    "Offsets": "vorotool.geometry.offsets",
+    "offset": "vorotool.engines.offsets",
     "arc_table": "vorotool.geometry.skeleton_tables",
     "branch_table": "vorotool.geometry.skeleton_tables",
     "element_table": "vorotool.geometry.skeleton_tables",

@@ -344,6 +344,27 @@ def extract_skeleton(
 ) -> dict[str, NDArray[Any]]:
     """Frames are (least x, most x, least y, most y) on the lattice; joined are groups from one to before another."""
 
+def offset_curves(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    vertices: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    edges: NDArray[np.int32],
+    edge_sites: NDArray[np.int32],
+    vertex_start: NDArray[np.int32],
+    vertex_sites: NDArray[np.int32],
+    edge_face: NDArray[np.int32],
+    segment_faces: NDArray[np.int32],
+    face_polygon: NDArray[np.int32],
+    site_polygon: NDArray[np.int32],
+    distances: list[float],
+    origin_x: float,
+    origin_y: float,
+    scale: float,
+    progress: _Progress,
+) -> list[dict[str, NDArray[Any]]]:
+    """For each distance (> 0 outwards) the arrays of core/offset_curves.hpp by their names there (bind_offsets.cpp)."""
+
 # ---- planar graphs (bind_planar_graph.cpp): arrays are C-contiguous; lattice points are int32 rows ------------------
 
 class TooManyCrossingsError(ValueError): ...
