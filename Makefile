@@ -55,6 +55,7 @@ bench: build ## measure beside the peers, in one run
 	$(RUN) tests/benchmarks/alphashape.py
 	$(RUN) tests/benchmarks/mesh_files.py
 	$(RUN) tests/benchmarks/skeleton_exact.py
+	$(RUN) tests/benchmarks/masks.py
 	$(RUN) tests/benchmarks/segment_voronoi.py
 
 .PHONY: fuzz
@@ -68,6 +69,7 @@ fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CAS
 	$(RUN) tests/fuzz/planar_graph.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/skeletons.py --data
 	$(RUN) tests/fuzz/skeletons.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/outlines.py --cases $(or $(CASES),20000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/segment_voronoi.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/segment_voronoi.py --cases 10000 --seed $(or $(SEED),1) --family clusters --largest 100
 

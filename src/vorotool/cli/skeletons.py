@@ -154,6 +154,8 @@ class SkeletonProducts(ABC):
         }
         if skeleton.frame is not None:
             found["frame"] = list(skeleton.frame)
+        if self.options.is_mask:
+            found |= {"outline": self.options.outline or "crack", "connectivity": int(self.options.connectivity or 8)}
         return found | self._more_stats()
 
     @abstractmethod

@@ -30,6 +30,14 @@ KINDS = ("crack", "contour")
 MOST_VERTICES = 2**28
 """As many as a planar graph may have."""
 
+_CORNER_RULES = {
+    ("crack", 4): "divided",
+    ("crack", 8): "joined",
+    ("contour", 4): "apart",
+    ("contour", 8): "yielding",
+}
+"""What the core does where two pixels of an object meet at a corner only."""
+
 
 def outlines(
     image: Raster | LabelImage | NDArray[Any],
@@ -132,8 +140,7 @@ def outlines(
     values = foreground_values(raster, threshold, invert=invert)
     by_label = (mode or default_objects(values)) == "labels"
     labels = label_values(values) if by_label else values != 0
-    rule = "apart" if connectivity == 4 else "joined" if outline == "crack" else "yielding"
-    made = _traced(labels, rule, max_sites, threads, progress)
+    made = _traced(labels, _CORNER_RULES[outline, connectivity], max_sites, threads, progress)
     if not len(made["labels"]):
         warnings.warn("the image has no foreground: use --invert or --threshold", VorotoolWarning, stacklevel=2)
     if outline == "crack":
