@@ -114,9 +114,7 @@ def _feet(skeleton: Skeleton, contours: Contours) -> _Feet:
     follows = is_edge[before] & contours.is_joined[before]
     leads = is_edge[after] & contours.is_joined
     choices = np.stack([common, last[before], first[after]])
-    cost = np.stack(
-        [factor, np.where(follows, factors[1][before], np.inf), np.where(leads, factors[0][after], np.inf)]
-    )
+    cost = np.stack([factor, np.where(follows, factors[1][before], np.inf), np.where(leads, factors[0][after], np.inf)])
     best = np.argmin(cost, axis=0)
     runs = np.arange(len(best))
     vertex, least = choices[best, runs], cost[best, runs]

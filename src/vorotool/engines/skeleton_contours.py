@@ -111,7 +111,10 @@ class _HalfEdges:
         self.is_corner = skeleton.radius == 0
         # at corners arcs have nothing in common
         own = np.arange(len(self.tail)) + len(skeleton.vertices)
-        tail, head = np.where(self.is_corner[self.tail], own, self.tail), np.where(self.is_corner[self.head], own, self.head)
+        tail, head = (
+            np.where(self.is_corner[self.tail], own, self.tail),
+            np.where(self.is_corner[self.head], own, self.head),
+        )
         self.part = connected_roots(np.stack([tail, head], axis=1), len(skeleton.vertices) + len(own))[tail]
         self.arcs = arcs
 
@@ -178,7 +181,9 @@ class _HalfEdges:
         skeleton, arcs = self.skeleton, self.arcs
         bent = skeleton.is_parabola[arcs, None]
         source, target = (skeleton.vertices[skeleton.arcs[arcs, end]] for end in (0, 1))
-        ways = [np.where(bent, skeleton.control[arcs], end) - begin for begin, end in ((source, target), (target, source))]
+        ways = [
+            np.where(bent, skeleton.control[arcs], end) - begin for begin, end in ((source, target), (target, source))
+        ]
         x, y = np.stack(ways, axis=1).reshape(-1, 2).T
         angles: NDArray[np.float64] = np.arctan2(y, x)
         return angles

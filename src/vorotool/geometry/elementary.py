@@ -46,7 +46,7 @@ def inverse_sinh(z: ArrayLike) -> Floats:
 
 
 def _by_halves(z: Floats, sign: int) -> Floats:
-    """f(z) = 2 f(z / sqrt(2 (1 + sqrt(1 + sign z^2)))) brings z below 1/4, where z (1 - sign z^2 / 6 + ...) is summed."""
+    """f(z) = 2 f(z / sqrt(2 (1 + sqrt(1 + sign z^2)))) brings z below 1/4, where the series is summed."""
     factor = np.ones_like(z)
     while True:
         large = np.abs(z) > 0.25
