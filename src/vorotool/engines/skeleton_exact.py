@@ -43,7 +43,8 @@ def skeleton_exact(
 
     The polygons are placed on a lattice of 31 bits, and from there on every decision is exact: the Voronoi diagram of
     the vertices and open edges is made, and of its edges those between an edge and its own end are deleted. With holes
-    the result is exact just the same; several polygons, and open lines, are boundaries of one diagram.
+    the result is exact just the same; several polygons, and open lines, are boundaries of one diagram. The skeleton of
+    crack outlines goes through corners that pixels hang together at: see :func:`vorotool.outlines`.
 
     Parameters
     ----------
