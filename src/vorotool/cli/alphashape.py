@@ -73,7 +73,8 @@ _WITHOUT_DIGITS = frozenset({"npz", "html", *_PICTURES})
 )
 @shared("size", "window", "columns", "input-format", "page", "seeds", "connectivity", "threshold", "invert")
 @layers_option(LAYERS)
-@shared("width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels", "max-sites")
+@shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels")
+@shared("max-sites")
 @pixel_size_option()
 @batch_options()
 @shared("no-clobber", "no-properties", "quiet", "verbose")
@@ -125,6 +126,8 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     pictures = sorted({target.fmt for target in targets if target.what in _WITH_LAYERS} & set(_PICTURES))
     if o.layers is not None and not pictures:
         raise click.UsageError("--layers is for pictures of a shape: use -f svg or -f png, or leave it out")
+    if o.overlay is not None and not pictures:
+        raise click.UsageError("--overlay is for pictures of a shape: use -f svg or -f png, or leave it out")
     plots = ["svg"] if ("curves", "svg") in {(target.what, target.fmt) for target in targets} else []
     check_picture_options(o, pictures or plots, PICTURE_LAYERS, png_has_width=True)
 

@@ -34,7 +34,7 @@ _SKELETON_PICTURES = {"svg": SKELETON_LAYERS, "png": SKELETON_LAYERS[:-1]}
 @click.argument("inputs", metavar="INPUT...", nargs=-1)
 @shared("output", "format", "input-format", "page")
 @layers_option(("cells", "diagram", *SKELETON_LAYERS))
-@shared("width", "y-up", "out-dir", "threads", "stats", "max-pixels")
+@shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "max-pixels")
 @batch_options(table=False)
 @shared("no-clobber", "quiet", "verbose")
 def command(**options: Any) -> None:
@@ -102,6 +102,7 @@ def _label_picture(run: Run, o: SimpleNamespace, source: Source, fmt: str) -> Dr
         layers=o.layers or (("cells", "labels") if fmt == "svg" else ("cells",)),
         width=o.width or 1000,
         y_up=bool(o.y_up),
+        backdrop=o.backdrop,
         threads=o.threads,
     )
     return draw, {"shape": image.shape, "colours": int(colours[1].max(initial=0))}
@@ -111,6 +112,7 @@ def _skeleton_picture(run: Run, o: SimpleNamespace, source: Source, fmt: str) ->
     """Read a skeleton, and give what draws it."""
     from vorotool.cli.pictures import write_layers
     from vorotool.formats.skeleton_json import read_skeleton
+    from vorotool.render.layers import ImagePage
     from vorotool.render.layers_png import check_picture_size
     from vorotool.render.skeleton_layers import skeleton_layers, skeleton_page
 
@@ -118,10 +120,10 @@ def _skeleton_picture(run: Run, o: SimpleNamespace, source: Source, fmt: str) ->
     refuse(o, ("page",), "is for images, but the input is a skeleton")
     with run.phase("read"):
         skeleton = read_skeleton(source, properties=False)
-    page = skeleton_page(skeleton, width=o.width or 1000, y_up=o.y_up)
+    page = ImagePage(o.backdrop) if o.backdrop else skeleton_page(skeleton, width=o.width or 1000, y_up=o.y_up)
     if fmt == "png":
         check_picture_size(page, o.max_pixels)
-    layers = skeleton_layers(skeleton, page, o.layers or ("polygons", "skeleton"))
+    layers = skeleton_layers(skeleton, page, o.layers or (("skeleton",) if o.backdrop else ("polygons", "skeleton")))
     draw = partial(write_layers, layers=layers, page=page, fmt=fmt, threads=o.threads)
     return draw, {"arcs": len(skeleton), "nodes": len(skeleton.vertices)}
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, Protocol
 
+from vorotool.cli.inputs import read_backdrop
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_targets
 from vorotool.cli.units import unit_stats
@@ -75,6 +76,8 @@ def process_input(recipe: Recipe, run: Run, o: SimpleNamespace, source: str, tar
     from vorotool.formats.outputs import make_folder
 
     check_targets(o, targets, source)
+    with run.phase("read"):
+        o.backdrop = read_backdrop(o)
     products = recipe.make(run, o, source)
     for target in targets:
         products.check(target)

@@ -56,7 +56,8 @@ FORMATS = {
 )
 @shared("size", "window", "columns", "input-format", "page", "seeds", "connectivity", "threshold", "invert")
 @layers_option(("cells", "diagram", "seeds", "labels"))
-@shared("width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels", "max-sites")
+@shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels")
+@shared("max-sites")
 @pixel_size_option()
 @batch_options()
 @shared("no-clobber", "no-properties", "quiet", "verbose")
@@ -96,7 +97,7 @@ def _check_output_options(o: SimpleNamespace, outputs: set[tuple[str, str]]) -> 
         raise click.UsageError("--precision is for tables in CSV and JSON: use --what table, or leave it out")
     if o.layers is not None and not outputs & _PICTURES:
         raise click.UsageError("--layers is for pictures: --what colour, labels as SVG, or the diagram as PNG")
-    pictures = sorted(outputs & _PICTURES - ({("diagram", "png")} if o.layers is None else set()))
+    pictures = sorted(outputs & _PICTURES - ({("diagram", "png")} if o.layers is None and o.overlay is None else set()))
     check_picture_options(o, [fmt for _, fmt in pictures])
 
 

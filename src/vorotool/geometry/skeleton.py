@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.geometry.arc_radii import arc_radii
 from vorotool.geometry.polygons import PolygonSet
 
 INTERIOR, EXTERIOR = 0, 1
@@ -208,6 +209,18 @@ class Skeleton:
             way = np.divide(self.gap * (b - a), length, out=np.zeros_like(a), where=length > 0)
             a, b = a + way, b - way
         return np.stack([a, b], axis=1)
+
+    @cached_property
+    def arc_radii(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Smallest and largest radius on each arc, and the integral of the radius along it."""
+        return arc_radii(
+            self.vertices[self.arcs],
+            self.radius[self.arcs],
+            self.control,
+            self.site_ends[self.sites.T],
+            self.site_table.kind[self.sites.T] == EDGE,
+            self.length,
+        )
 
     def flattened(self, tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
         """Arcs as polylines, parabolas divided evenly in their parameter.
