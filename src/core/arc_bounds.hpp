@@ -8,7 +8,6 @@
 
 #include "core/axis_bound.hpp"
 #include "core/monitor.hpp"
-#include "core/near_edges.hpp"
 #include "core/seed_diagram.hpp"
 
 namespace vorotool::core {

@@ -176,15 +176,30 @@ double AxisBound::bound_by_edge(const Nearest& c, const Seen& d, const Stretch& 
   const Place normal{-sign * d.way[1], sign * d.way[0]};
   const double s = norm(c.normal - normal) - relative_error;
   if (!(s > 0)) return infinity;
-  const double more = std::max(std::abs(height[0]) - c.distance[0], std::abs(height[1]) - c.distance[1]);
-  const double difference = std::max(more, 0.0) + c.edge.error + d.error;
-  const double room = std::min({foot[0], foot[1], d.length - foot[0], d.length - foot[1]}) - d.error;
-  const double across = difference / s;
-  if (across < c.reach && across <= room) return across;
-  const double grown = 2 * difference / (s * s);  // until the disc touches the line of D, not beyond its ends
-  if (grown <= room) return grown;
+  const double error = c.edge.error + d.error;
+  std::array<double, 2> more{std::abs(height[0]) - c.distance[0], std::abs(height[1]) - c.distance[1]};
+  const bool is_farther =
+      std::min(more[0], more[1]) > -2 * error;  // its line might be nearer, if its feet are not
+  for (double& distance : more) distance = std::max(distance, 0.0) + error;
+  // whether, moved along a vector by so much of this, both ends have feet inside d, and so has what is
+  // between
+  const auto stays_inside = [&](const Place& way) {
+    const double along = dot(way, d.way);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double after = foot[i] + along * more[i];
+      if (after < d.error || after > d.length - d.error) return false;
+    }
+    return is_farther;
+  };
+  const double most = std::max(more[0], more[1]);
+  const Place across{(c.normal[0] - normal[0]) / (s * s), (c.normal[1] - normal[1]) / (s * s)};
+  if (most / s < c.reach && stays_inside(across)) return most / s;
+  // until the disc that grows touches the line of d
+  const Place grown{2 * c.normal[0] / (s * s), 2 * c.normal[1] / (s * s)};
+  if (stays_inside(grown)) return 2 * most / (s * s);
   const double middle = std::clamp((foot[0] + foot[1]) / 2, 0.0, d.length);
-  return c.by_growth(moved(d.a, middle, d.way));
+  return std::min(
+      {c.by_growth(moved(d.a, middle, d.way)), c.by_growth(d.a), c.by_growth(moved(d.a, d.length, d.way))});
 }
 
 double AxisBound::bound_by_seed(const Nearest& c, const Place& g) {

@@ -1,14 +1,17 @@
-// The edges of shapes near a Voronoi edge of seeds on them.
+// The edges of shapes near a part of a Voronoi edge of seeds on them.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "core/axis_bound.hpp"
-#include "core/seed_diagram.hpp"
+#include "core/shape_graph.hpp"
 #include "core/site_hierarchy.hpp"
 
 namespace vorotool::core {
@@ -17,34 +20,28 @@ namespace vorotool::core {
 // seeds or, squared, its radius is larger than that by the same for all.
 struct DiscPair {
   std::array<Place, 2> centre;
-  std::array<double, 2> square;  // of the radii
+  std::array<double, 2> radius;
 };
 
 // Finds edges one time after the other: memory is used again.
 class NearEdges {
  public:
-  // Reaches across the sides of the triangulation that meet the discs. No seed is in them, but for a margin,
-  // so that these are few unless the shape is round about a disc. A piece that no side has as its own may be
-  // missed in this way: if there are any, `hierarchy` holds all edges by their numbers.
-  NearEdges(const SeedDiagram& diagram, const SiteHierarchy* hierarchy)
-      : diagram_(diagram), hierarchy_(hierarchy) {}
+  // Segments of a graph, then all of its points that no segment ends at.
+  static std::vector<NearEdge> items(const ShapeGraph& graph);
 
-  // All edges, and points without edges, that meet the discs, and perhaps others; nothing where there are too
-  // many. The centres are on the Voronoi edge of the side.
-  std::optional<std::span<const NearEdge>> find(Side side, const DiscPair& discs);
-  // The sides that the last search found to meet the discs and to have pieces of their own.
-  std::span<const Side> pieces() const { return pieces_; }
-  // Triangles that the last search came to.
-  std::span<const Triangle> triangles() const { return triangles_; }
+  // `hierarchy` holds the items by their numbers.
+  NearEdges(std::span<const NearEdge> items, const SiteHierarchy& hierarchy)
+      : items_(items), hierarchy_(hierarchy) {}
+
+  // All that meet the discs; nothing if these are too many, as where a shape is round.
+  std::optional<std::span<const NearEdge>> find(const DiscPair& discs);
 
  private:
-  void look_at(Triangle t, const DiscPair& discs);
-  void add(std::int32_t segment);
+  static constexpr std::size_t most = 64;
 
-  const SeedDiagram& diagram_;
-  const SiteHierarchy* hierarchy_;
-  std::vector<Triangle> triangles_;
-  std::vector<Side> pieces_;
+  std::span<const NearEdge> items_;
+  const SiteHierarchy& hierarchy_;
+  std::vector<std::uint32_t> numbers_;
   std::vector<NearEdge> found_;
 };
 

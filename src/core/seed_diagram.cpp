@@ -58,7 +58,7 @@ SeedDiagram::SeedDiagram(Triangulation&& made, const ShapeGraph& graph, std::spa
       first_(std::move(made.first)),
       chain_(std::move(made.chain)),
       mesh_{seeds, {triangles_.data(), triangles_.size()}, {neighbours_.data(), neighbours_.size()}},
-      labels_(graph, start, segment, first_),
+      labels_(graph, seeds, start, segment, first_),
       state_(mesh_.sides()) {
   std::vector<std::uint8_t> has_side(labels_.piece_count());
   classify_sides(has_side, threads, monitor);

@@ -9,11 +9,13 @@ std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 
-SeedLabels::SeedLabels(const ShapeGraph& graph, std::span<const std::int32_t> start,
-                       std::span<const std::int32_t> segment, std::span<const std::int32_t> first)
+SeedLabels::SeedLabels(const ShapeGraph& graph, std::span<const Point> seeds,
+                       std::span<const std::int32_t> start, std::span<const std::int32_t> segment,
+                       std::span<const std::int32_t> first)
     : graph_(graph),
       arrays_{graph.points, graph.segments, {}, {}, {}, {}, {}, {}},
       incident_(arrays_),
+      seeds_(seeds),
       start_(start),
       segment_(segment),
       first_(first) {
@@ -80,6 +82,20 @@ EdgePiece SeedLabels::piece(std::int32_t number) const {
   const std::int32_t k = number - first_piece(low), begin = start_[at(low)], end = start_[at(low) + 1];
   const auto [a, b] = graph_.ends(low);
   return {first(k == 0 ? a : begin + k - 1), first(k == end - begin ? b : begin + k), low};
+}
+
+std::int32_t SeedLabels::piece_at(std::int32_t segment, double share) const {
+  const LatticeSite site = graph_.site(segment);
+  const LatticeVector along = site.b - site.a;
+  const double ux = static_cast<double>(along.x), uy = static_cast<double>(along.y);
+  const double wanted = share * (ux * ux + uy * uy);
+  const auto seeds =
+      seeds_.subspan(at(start_[at(segment)]), at(start_[at(segment) + 1] - start_[at(segment)]));
+  const auto after =
+      std::upper_bound(seeds.begin(), seeds.end(), wanted, [&](double value, const Point& seed) {
+        return value < ux * (seed.x - site.a.x) + uy * (seed.y - site.a.y);
+      });
+  return first_piece(segment) + static_cast<std::int32_t>(after - seeds.begin());
 }
 
 std::int32_t SeedLabels::seed_beside(std::int32_t end, std::int32_t segment) const {

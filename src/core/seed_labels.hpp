@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/incident_segments.hpp"
+#include "core/predicates.hpp"
 #include "core/shape_graph.hpp"
 
 namespace vorotool::core {
@@ -21,9 +22,10 @@ struct EdgePiece {
 // Of seeds as core/edge_samples.hpp numbers them.
 class SeedLabels {
  public:
-  // `first` names for each seed the first one at the same place. Nearly all are that themselves; seeds on
-  // segments that meet at a very small angle may be rounded to one place, and the first then has all labels.
-  SeedLabels(const ShapeGraph& graph, std::span<const std::int32_t> start,
+  // `first` names for each of the seeds the first one at the same place. Nearly all are that themselves;
+  // seeds on segments that meet at a very small angle may be rounded to one place, and the first then has all
+  // labels.
+  SeedLabels(const ShapeGraph& graph, std::span<const Point> seeds, std::span<const std::int32_t> start,
              std::span<const std::int32_t> segment, std::span<const std::int32_t> first);
 
   const ShapeGraph& graph() const { return graph_; }
@@ -50,6 +52,10 @@ class SeedLabels {
   EdgePiece piece(std::int32_t number) const;
   // The segment that a piece between two seeds belongs to, and whether it goes from the first to the second.
   std::pair<std::int32_t, bool> segment_of_piece(std::int32_t p, std::int32_t q) const;
+  // Calls visit(piece) for the pieces of a segment between two places on it, as shares of its length; where
+  // one is beyond an end, up to that.
+  template <class Visit>
+  void visit_pieces(std::int32_t segment, double from, double to, const Visit& visit) const;
   // The seed next to an end of a segment.
   std::int32_t seed_beside(std::int32_t end, std::int32_t segment) const;
   // Calls visit(seed) for the seeds next to one along its segments.
@@ -76,10 +82,12 @@ class SeedLabels {
     return graph_.ends(segment)[0] == point || graph_.ends(segment)[1] == point;
   }
   std::span<const ExtraLabel> extra(std::int32_t seed) const;
+  std::int32_t piece_at(std::int32_t segment, double share) const;
 
   ShapeGraph graph_;
   SegmentVoronoiArrays arrays_;  // of which only the graph is there
   IncidentSegments incident_;
+  std::span<const Point> seeds_;
   std::span<const std::int32_t> start_, segment_, first_;
   std::vector<ExtraLabel> extra_;  // sorted
 };
@@ -93,6 +101,14 @@ void SeedLabels::visit(std::int32_t seed, const Visit& visit) const {
     visit(inside(seed));
   }
   for (const ExtraLabel& label : extra(seed)) visit(label.segment);
+}
+
+template <class Visit>
+void SeedLabels::visit_pieces(std::int32_t segment, double from, double to, const Visit& visit) const {
+  if (from > to) std::swap(from, to);
+  if (to < 0 || from > 1) return;
+  const std::int32_t last = piece_at(segment, to);
+  for (std::int32_t piece = piece_at(segment, from); piece <= last; ++piece) visit(piece);
 }
 
 template <class Visit>
