@@ -59,6 +59,7 @@ _HOME = {
     "verify_cells": "vorotool.engines.cells",
     "planar_graph": "vorotool.engines.planar_graph",
     "verify_planar_graph": "vorotool.engines.planar_graph",
+    "skeleton_approx": "vorotool.engines.skeleton_approx",
     "skeleton_exact": "vorotool.engines.skeleton_exact",
     "verify_skeleton": "vorotool.engines.skeleton_verification",
     "arc_table": "vorotool.geometry.skeleton_tables",

@@ -83,7 +83,8 @@ def skeleton_approx(
     Returns
     -------
     Skeleton
-        Of straight arcs. Radii are clearances: distances from the polygons.
+        Of straight arcs. Radii are clearances: distances from the polygons. Error bounds are NaN where nothing is
+        proved, which is so in a few places where edges are much nearer to each other than samples.
 
     Raises
     ------
@@ -246,7 +247,9 @@ def sampled_graph(
         else:
             made = _core.sample_by_step(*graph_arrays(graph), step, most, threads, progress)
     except _core.TooManySeedsError as error:
-        raise LimitError(f"a step of {options.step:g} gives {error} seeds, more than {most}: use a larger one") from None
+        raise LimitError(
+            f"a step of {options.step:g} gives {error} seeds, more than {most}: use a larger one"
+        ) from None
     return diagram_of_samples(graph, placed, made, threads=threads, progress=progress)
 
 
@@ -295,8 +298,9 @@ def approximate_skeleton(
         progress,
     )
     seeds, parts, open_corners = made.pop("seeds"), made.pop("parts"), made.pop("open_corners")
-    largest = max(np.abs(graph.origin).max() + graph.scale * 2.0**30, 0.0)
-    made["error_bound"] = made["error_bound"] + ROUNDING_ULPS * np.spacing(largest)
+    largest = np.abs(graph.origin).max() + graph.scale * 2.0**30
+    bound = made["error_bound"] + ROUNDING_ULPS * np.spacing(largest)
+    made["error_bound"] = np.where(np.isinf(bound), np.nan, bound)
     return ApproximateSkeleton(skeleton_of_arrays(made, placed, clip), seeds, shapes, open_corners, parts)
 
 
@@ -308,7 +312,7 @@ def whole_sampled_diagram(
     Examples
     --------
     >>> len(whole_sampled_diagram(sampled_shapes([[0, 0], [2, 0], [0, 2]], step=1)))
-    9
+    11
     """
     check_skeleton_options("both", 0, frame)
     graph, placed = shapes.graph, shapes.placed

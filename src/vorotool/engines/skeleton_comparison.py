@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import warnings
+from dataclasses import asdict, dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.engines.segment_voronoi import segment_voronoi
+from vorotool.engines.skeleton_approx import ApproximateSkeleton, approximate_skeleton
+from vorotool.engines.skeleton_exact import Frame, ShapeDiagram, skeleton_of
+from vorotool.errors import VorotoolWarning
 from vorotool.geometry.skeleton import Skeleton
 
 Places = NDArray[np.float64]
@@ -26,15 +32,16 @@ class Deviation:
     ----------
     largest, mean : float
         In input units.
-    place : (x, y)
-        On the first skeleton.
+    x, y : float
+        A place on the first skeleton.
     arc : int
         Of the first skeleton.
     """
 
     largest: float
     mean: float
-    place: tuple[float, float]
+    x: float
+    y: float
     arc: int
 
 
@@ -58,7 +65,7 @@ def deviation(skeleton: Skeleton, other: Skeleton, *, per_arc: int = 16) -> Devi
     >>> from vorotool import skeleton_approx, skeleton_exact
     >>> shape = [[0, 0], [8, 0], [8, 3], [4, 1], [0, 3]]
     >>> approximate, exact = skeleton_approx(shape, step=0.5), skeleton_exact(shape)
-    >>> deviation(approximate, exact).largest <= approximate.error_bound.max()
+    >>> bool(deviation(approximate, exact).largest <= approximate.error_bound.max())
     True
     """
     if not len(skeleton) or not len(other):
@@ -67,7 +74,68 @@ def deviation(skeleton: Skeleton, other: Skeleton, *, per_arc: int = 16) -> Devi
     distance = distances_to(other, places.reshape(-1, 2))
     at = int(distance.argmax())
     x, y = places.reshape(-1, 2)[at].tolist()
-    return Deviation(float(distance[at]), float(distance.mean()), (x, y), at // places.shape[1])
+    return Deviation(float(distance[at]), float(distance.mean()), x, y, at // places.shape[1])
+
+
+def compare_with_exact(found: ApproximateSkeleton, *, side: str = "interior", threads: int = 0) -> dict[str, Any]:
+    """Measure how far an approximate skeleton is from the exact one, both ways.
+
+    Parameters
+    ----------
+    found : ApproximateSkeleton
+        Of this side.
+    side : {"interior", "exterior", "both"}
+        See `vorotool.skeleton_approx`.
+    threads : int
+        0 uses all.
+
+    Returns
+    -------
+    dict
+        ``from_approximate_to_exact`` and ``from_exact_to_approximate``, each a `Deviation` as a dict, or None where one
+        has no arcs. Outside, what lies within the frame is measured from all that lies within a larger one.
+
+    Examples
+    --------
+    >>> from vorotool.engines.skeleton_approx import sampled_shapes
+    >>> found = approximate_skeleton(sampled_shapes([[0, 0], [8, 0], [8, 3], [0, 3]], step=1), complete=True)
+    >>> [bool(way["largest"] < 1e-12) for way in compare_with_exact(found).values()]
+    [True, True]
+    """
+    approximate, wide = found.skeleton, found.skeleton
+    frame = approximate.frame
+    exact = exact_skeleton(found, side=side, frame=frame, threads=threads)
+    wide_exact = exact
+    if frame is not None:
+        larger = widened(frame)
+        complete = bool((found.seeds < 0).any())
+        wide = approximate_skeleton(found.shapes, side=side, frame=larger, complete=complete, threads=threads).skeleton
+        wide_exact = exact_skeleton(found, side=side, frame=larger, threads=threads)
+    return {
+        "from_approximate_to_exact": _as_dict(deviation(approximate, wide_exact)),
+        "from_exact_to_approximate": _as_dict(deviation(exact, wide)),
+    }
+
+
+def exact_skeleton(
+    found: ApproximateSkeleton, *, side: str = "interior", frame: Frame | None = None, threads: int = 0
+) -> Skeleton:
+    """Compute the exact skeleton of the shapes that were sampled."""
+    graph, placed = found.shapes.graph, found.shapes.placed
+    diagram = segment_voronoi(graph.points, graph.segments, threads=threads)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", VorotoolWarning)  # that there is no interior was told before
+        return skeleton_of(ShapeDiagram(graph, diagram, placed), side=side, frame=frame, threads=threads)
+
+
+def widened(frame: Frame) -> Frame:
+    """Give a frame three times as large around the same middle."""
+    x, y, w, h = frame
+    return (x - w, y - h, 3 * w, 3 * h)
+
+
+def _as_dict(found: Deviation | None) -> dict[str, Any] | None:
+    return None if found is None else asdict(found)
 
 
 def places_on_arcs(skeleton: Skeleton, parameters: NDArray[np.float64]) -> Places:

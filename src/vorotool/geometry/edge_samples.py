@@ -105,7 +105,7 @@ def sample_table(samples: EdgeSamples) -> Table:
     >>> from vorotool.engines.skeleton_approx import sampled_shapes
     >>> table = sample_table(sampled_shapes([[0, 0], [4, 0], [0, 3]], step=2).samples)
     >>> table["x"].tolist()[3:], table["label_a"].tolist()
-    ([2.0, 2.4, 0.0], [1, 1, 2, 1, 2, 3])
+    ([2.0, 2.4000000000000004, 0.7999999999999998, 0.0], [1, 1, 2, 1, 2, 2, 3])
     """
     site, labels, xy = samples.site, samples.labels, samples.xy
     sites = samples.sites
