@@ -46,6 +46,12 @@ class HalfEdges {
     at(twin(e)) = {b, twin(e), twin(e)};
   }
 
+  // Makes b the half-edge after a, while a ring is made anew: each of its half-edges must get one after it.
+  void link(HalfEdge a, HalfEdge b) {
+    at(a).next = b;
+    at(b).previous = a;
+  }
+
   // Joins the rings of a and b into one, or cuts one ring in two: the successors of a and b change places.
   void splice(HalfEdge a, HalfEdge b) {
     const HalfEdge a_next = at(a).next;
