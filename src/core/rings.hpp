@@ -60,26 +60,47 @@ class alignas(64) RingVertex {
   std::uint32_t after(std::uint32_t place) const { return place + 1 == degree_ ? 0 : place + 1; }
   std::uint32_t before(std::uint32_t place) const { return (place == 0 ? degree_ : place) - 1; }
 
+  // Also while the ring is open.
+  Vertex operator[](std::uint32_t place) const {
+    if (!is_long_) return short_[place];
+    return long_.entries[place < long_.gap ? place : place + gap_size()];
+  }
+
   // The place of a neighbour in the ring.
   std::uint32_t find(Vertex neighbour) const {
-    const Vertex* entries = ring();
     std::uint32_t place = 0;
-    while (entries[place] != neighbour) ++place;
+    while ((*this)[place] != neighbour) ++place;
     return place;
   }
 
+  // Opens a long ring.
   void insert(std::uint32_t place, Vertex neighbour, RingStore& store) {
     if (degree_ == capacity()) grow(store);
-    Vertex* entries = ring();
-    std::copy_backward(entries + place, entries + degree_, entries + degree_ + 1);
-    entries[place] = neighbour;
+    if (is_long_) {
+      move_gap(place);
+      long_.entries[long_.gap++] = neighbour;
+    } else {
+      std::copy_backward(short_.data() + place, short_.data() + degree_, short_.data() + degree_ + 1);
+      short_[place] = neighbour;
+    }
     ++degree_;
   }
 
   void erase(std::uint32_t place) {
     Vertex* entries = ring();
-    std::copy(entries + place + 1, entries + degree_, entries + place);
+    if (is_long_ && place >= long_.gap) {
+      Vertex* after = entries + long_.gap + gap_size();
+      std::copy_backward(after, entries + place + gap_size(), entries + place + gap_size() + 1);
+    } else {
+      const std::uint32_t end = is_long_ ? long_.gap-- : degree_;
+      std::copy(entries + place + 1, entries + end, entries + place);
+    }
     --degree_;
+  }
+
+  // Makes all entries follow each other, as ring(), front() and back() need them.
+  void close() {
+    if (is_long_) move_gap(degree_);
   }
 
  private:
@@ -87,17 +108,34 @@ class alignas(64) RingVertex {
     return is_long_ ? long_.capacity : static_cast<std::uint32_t>(short_.size());
   }
 
+  // Of a full ring, which has no gap.
   void grow(RingStore& store) {
     const std::uint32_t capacity = 2 * degree_;
     Vertex* entries = store.take(capacity);
     std::copy_n(ring(), degree_, entries);
     is_long_ = true;
-    long_ = {entries, capacity};
+    long_ = {entries, capacity, degree_};
   }
 
+  std::uint32_t gap_size() const { return long_.capacity - degree_; }
+
+  void move_gap(std::uint32_t place) {
+    Vertex *low = long_.entries + std::min(place, long_.gap),
+           *high = long_.entries + std::max(place, long_.gap);
+    if (gap_size() == 0) {
+      // nothing is in the way
+    } else if (place < long_.gap) {
+      std::copy_backward(low, high, high + gap_size());
+    } else {
+      std::copy(low + gap_size(), high + gap_size(), low);
+    }
+    long_.gap = place;
+  }
+
+  // Entries that are free follow the first `gap` ones: to put many neighbours in, side by side, moves few.
   struct Long {
     Vertex* entries;
-    std::uint32_t capacity;
+    std::uint32_t capacity, gap;
   };
   std::uint32_t degree_ : 31, is_long_ : 1;
   union {
