@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "core/lattice_vector.hpp"
 
@@ -86,7 +87,7 @@ int middle_of_parabola(const LatticePoint& p, const LatticeSite& segment, const 
   const std::int64_t h1 = dot(n1, p - segment.a);
   auto side = [&](const ExactDisc& disc) {
     RootTower tower;
-    const std::size_t lifted = tower.adjoin_all(*disc.tower);
+    const std::vector<RootNumber> lifted = tower.adjoin_all(*disc.tower);
     const RootNumber m = tower.adjoin_root(big(norm2(n1)) * big(norm2(n2))) - big(dot(n1, n2));
     const RootNumber along = tower.lift(CentreSeen(disc, p).along(left_of(n1)), lifted);
     return (m * along - big(h1) * big(cross(n1, n2)) * tower.lift(disc.w, lifted)).sign();
@@ -148,8 +149,8 @@ int clearance_sign(const ExactDisc& disc, const LatticeSite& query) {
 
 int compare_along(const ExactDisc& first, const ExactDisc& second, const LatticeVector& direction) {
   RootTower tower;
-  const std::size_t lifted_first = tower.adjoin_all(*first.tower),
-                    lifted_second = tower.adjoin_all(*second.tower);
+  const std::vector<RootNumber> lifted_first = tower.adjoin_all(*first.tower),
+                                lifted_second = tower.adjoin_all(*second.tower);
   const RootNumber a = tower.lift(CentreSeen(first, first.origin).along(direction), lifted_first);
   const RootNumber b = tower.lift(CentreSeen(second, first.origin).along(direction), lifted_second);
   return (a * tower.lift(second.w, lifted_second) - b * tower.lift(first.w, lifted_first)).sign();
