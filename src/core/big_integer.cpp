@@ -142,8 +142,9 @@ BigInteger operator*(const BigInteger& a, const BigInteger& b) {
   return product;
 }
 
-// An approximation of 106 bits errs by less than 2^24 in a root of 127. The remainder a - root^2 is twice the root
-// times the error, nearly: so the error is known to less than 1/2, and the square tells whether a is one.
+// An approximation of 106 bits errs by less than 2^24 in a root of 127. The remainder a - root^2 is twice the
+// root times the error, nearly: so the error is known to less than 1/2, and the square tells whether a is
+// one.
 std::optional<BigInteger> integer_root(const BigInteger& a) {
   constexpr std::uint64_t squares = 0x0202021202030213;  // modulo 64
   if (a.sign() <= 0 || a.bits() > 254 || (squares >> (a.limbs()[0] % 64) & 1) == 0) return std::nullopt;

@@ -42,8 +42,8 @@ int128 DyadicDisc::square_distance(const LatticePoint& p) const {
   return dx * dx + dy * dy;
 }
 
-// The square of the distance from a site, rounded down: touches() is false if that was no integer. A corner of
-// radius 0 is not meant here.
+// The square of the distance from a site, rounded down: touches() is false if that was no integer. A corner
+// of radius 0 is not meant here.
 bool DyadicDisc::take_radius(const SegmentSites& sites, SiteIndex site) {
   if (sites.is_point(site)) {
     square_ = square_distance(sites.point(site));
@@ -72,9 +72,9 @@ LatticeVector DyadicDisc::contact(const SegmentSites& sites, SiteIndex site, boo
   return is_left ? -normal : normal;
 }
 
-// Whether the contacts follow each other counter-clockwise: of the angles between three directions, which sum up
-// to 360 degrees then and to 720 else, two at least are under 180. Where a point and its own segment are touched,
-// at one place, there is no other disc, and the order does not matter.
+// Whether the contacts follow each other counter-clockwise: of the angles between three directions, which sum
+// up to 360 degrees then and to 720 else, two at least are under 180. Where a point and its own segment are
+// touched, at one place, there is no other disc, and the order does not matter.
 bool DyadicDisc::is_in_order(const SegmentSites& sites, const VoronoiRecord& v) const {
   std::array<LatticeVector, 3> way;
   for (int i = 0; i < 3; ++i) {

@@ -36,8 +36,9 @@ class DyadicDisc {
   int128 square_;       // of the radius, times the square of `scale`
 };
 
-// The disc of a vertex if it is one of these: it is that of the vertex because it touches the sites exactly, on the
-// sides and in the order of the vertex, and no other disc does. The vertex's numbers only tell where to look.
+// The disc of a vertex if it is one of these: it is that of the vertex because it touches the sites exactly,
+// on the sides and in the order of the vertex, and no other disc does. The vertex's numbers only tell where
+// to look.
 std::optional<DyadicDisc> dyadic_disc(const SegmentSites& sites, const VoronoiRecord& vertex);
 
 }  // namespace vorotool::core

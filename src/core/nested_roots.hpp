@@ -11,13 +11,15 @@
 // Sizes: let |x| be the sum of the absolute values of all terms of x, each root taken as the square root of
 // |a|. Then |x + y| <= |x| + |y|, |x y| <= |x| |y|, no integer in x exceeds |x|, and
 // |low^2 - a high^2| <= |x|^2: the sign of a number of level k meets integers of at most |x|^(2^k).
-// No level is added for a root that is an integer, nor for the root of an integer that has one already. So where lengths are commensurable, as those of parallel,
-// mirrored and congruent segments are, numbers stay short.
+// No level is added for a root that is an integer, nor for the root of an integer that has one already. So
+// where lengths are commensurable, as those of parallel, mirrored and congruent segments are, numbers stay
+// short.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/big_integer.hpp"

@@ -17,12 +17,12 @@ namespace vorotool::core {
 
 // How many decisions needed more than a filter in floating point.
 struct EscalationCounts {
-  std::int64_t dyadic = 0;         // settled by integers: the centre is a dyadic number
+  std::int64_t integer = 0;        // settled by a few integers: the centre is dyadic, or two ends are touched
   std::int64_t double_double = 0;  // settled by numbers of 106 bits
   std::int64_t exact = 0;          // settled by multiprecision
 
   EscalationCounts& operator+=(const EscalationCounts& other) {
-    dyadic += other.dyadic;
+    integer += other.integer;
     double_double += other.double_double;
     exact += other.exact;
     return *this;
@@ -59,6 +59,7 @@ class SegmentPredicates {
  private:
   int corner_sign(const VoronoiRecord& vertex, int i, const SegmentQuery& query) const;
   int end_sign(const VoronoiRecord& vertex, int i, const SegmentQuery& query);
+  int end_sign_at_other_end(const VoronoiRecord& vertex, int i, int own, const SegmentQuery& query) const;
   int sign_in_double_double(const VoronoiRecord& vertex, const SegmentQuery& query) const;
   int sign_beyond_filter(const VoronoiRecord& vertex, const SegmentQuery& query);
 
