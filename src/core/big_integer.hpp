@@ -14,7 +14,8 @@ namespace vorotool::core {
 
 class BigInteger {
  public:
-  // Integers of up to 1 152 bits lie in the object itself: segment_exact.cpp derives how long they get.
+  // Integers of up to 1 152 bits lie in the object itself, longer ones elsewhere (sizes:
+  // core/segment_exact.cpp).
   static constexpr std::size_t short_limbs = 18;
 
   BigInteger() {}  // zero; limbs beyond the size have no value

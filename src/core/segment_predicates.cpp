@@ -6,6 +6,7 @@
 #include "core/dyadic_disc.hpp"
 #include "core/predicates.hpp"
 #include "core/segment_exact.hpp"
+#include "core/touched_ends.hpp"
 
 namespace vorotool::core {
 namespace {
@@ -130,27 +131,11 @@ int SegmentPredicates::end_sign(const VoronoiRecord& v, int i, const SegmentQuer
   const double error =
       static_cast<double>(v.position_error) + 7 * unit_roundoff * (std::abs(dx) + std::abs(dy));
   if (std::abs(along) > error) return along > 0 ? -1 : 0;
-  for (const int k : {following(i), preceding(i)}) {
-    const SiteIndex own = v.sites[static_cast<std::size_t>(k)],
-                    other = v.sites[static_cast<std::size_t>(3 - i - k)];
-    if (!sites_.is_end(own, other)) continue;
+  if (const std::optional<int> forward = sign_along_from_end(sites_, v, end, query.site)) {
     ++counts_.integer;
-    return end_sign_at_other_end(v, i, k, query);
+    return *forward > 0 ? -1 : 0;
   }
   return sign_beyond_filter(v, query);
-}
-
-// The disc goes through q, site i, and touches segment `own` at its end p: with n across that segment and w =
-// q - p the centre is p + t n where t = |w|^2 / (2 n w) > 0, and (centre - q) d has the sign of |w|^2 (n d) -
-// 2 (n w) (w d). Both products are below 2^127 (core/lattice.hpp).
-int SegmentPredicates::end_sign_at_other_end(const VoronoiRecord& v, int i, int own,
-                                             const SegmentQuery& query) const {
-  const SiteIndex q = v.sites[static_cast<std::size_t>(i)],
-                  p = v.sites[static_cast<std::size_t>(3 - i - own)];
-  const LatticeVector d = sites_.direction_from(q, query.site), w = sites_.point(q) - sites_.point(p);
-  const LatticeVector left = left_of(sites_.segment(v.sites[static_cast<std::size_t>(own)]).direction());
-  const LatticeVector n = v.is_left(own) ? left : -left;
-  return int128{norm2(w)} * dot(n, d) > 2 * int128{dot(n, w)} * dot(w, d) ? -1 : 0;
 }
 
 int SegmentPredicates::sign_in_double_double(const VoronoiRecord& v, const SegmentQuery& query) const {

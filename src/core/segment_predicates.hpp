@@ -59,7 +59,6 @@ class SegmentPredicates {
  private:
   int corner_sign(const VoronoiRecord& vertex, int i, const SegmentQuery& query) const;
   int end_sign(const VoronoiRecord& vertex, int i, const SegmentQuery& query);
-  int end_sign_at_other_end(const VoronoiRecord& vertex, int i, int own, const SegmentQuery& query) const;
   int sign_in_double_double(const VoronoiRecord& vertex, const SegmentQuery& query) const;
   int sign_beyond_filter(const VoronoiRecord& vertex, const SegmentQuery& query);
 
