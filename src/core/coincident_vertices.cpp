@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/common_circle.hpp"
 #include "core/dyadic_disc.hpp"
 #include "core/segment_exact.hpp"
 #include "core/tangent_disc.hpp"
@@ -58,6 +59,22 @@ std::optional<bool> by_two_ends(const SegmentSites& sites, const VoronoiRecord& 
   return std::nullopt;
 }
 
+// Two vertices of three segments each, which share those beside edge i of u.
+bool by_four_lines(const SegmentSites& sites, const VoronoiRecord& u, int i, const VoronoiRecord& w) {
+  const auto [right, left] = sites_of_edge(u, i);
+  const auto line_of = [&](const VoronoiRecord& v, SiteIndex site) {
+    return sites.turned(site, v.is_left(v.find(site)));
+  };
+  const auto third =
+      std::ranges::find_if(w.sites, [&](SiteIndex site) { return site != right && site != left; });
+  if (third == w.sites.end()) return false;
+  for (const SiteIndex site : {u.sites[static_cast<std::size_t>(i)], right, left, *third}) {
+    if (!sites.is_segment(site)) return false;
+  }
+  return is_one_circle({line_of(u, u.sites[static_cast<std::size_t>(i)]), line_of(u, right), line_of(u, left),
+                        line_of(w, *third)});
+}
+
 }  // namespace
 
 bool are_coincident(const SegmentSites& sites, const VoronoiRecord& u, int i, const VoronoiRecord& w) {
@@ -71,7 +88,7 @@ bool are_coincident(const SegmentSites& sites, const VoronoiRecord& u, int i, co
   const std::optional<DyadicDisc> a = dyadic_disc(sites, u), b = dyadic_disc(sites, w);
   if (a && b) return a->same_centre(*b);
   if (are_apart_in_double_double(sites, u, w)) return false;
-  return exact_same_disc(sites.triple(u.sites), sites.triple(w.sites));
+  return by_four_lines(sites, u, i, w) || exact_same_disc(sites.triple(u.sites), sites.triple(w.sites));
 }
 
 }  // namespace vorotool::core
