@@ -404,7 +404,7 @@ def planar_graph_fault(
 def segment_clearance_signs(sites: NDArray[np.int32]) -> NDArray[np.int8]:
     """(k, 4, 4): a disc, and the query."""
 
-def segment_same_centre(sites: NDArray[np.int32]) -> NDArray[np.int8]:
+def segment_same_disc(sites: NDArray[np.int32]) -> NDArray[np.int8]:
     """(k, 6, 4): two discs."""
 
 def segment_edge_clearance_signs(sites: NDArray[np.int32]) -> NDArray[np.int8]:
