@@ -4,6 +4,7 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
+#include <array>
 #include <cstddef>
 #include <initializer_list>
 #include <memory>
@@ -35,6 +36,17 @@ nanobind::object to_numpy(std::vector<T>&& values) {
   const nanobind::capsule owner(kept.release(),
                                 [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
   return nanobind::cast(nanobind::ndarray<nanobind::numpy, T, nanobind::ndim<1>>(data, {size}, owner));
+}
+
+// An (n, 2) array that takes over the values.
+template <class Value>
+nanobind::object two_columns(std::vector<std::array<Value, 2>>&& values) {
+  auto kept = std::make_unique<std::vector<std::array<Value, 2>>>(std::move(values));
+  Value* data = kept->empty() ? nullptr : kept->front().data();
+  const std::size_t size = kept->size();
+  const nanobind::capsule owner(
+      kept.release(), [](void* p) noexcept { delete static_cast<std::vector<std::array<Value, 2>>*>(p); });
+  return nanobind::cast(nanobind::ndarray<nanobind::numpy, Value>(data, {size, 2}, owner));
 }
 
 // A NumPy array of the given shape that takes over the values.

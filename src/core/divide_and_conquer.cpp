@@ -271,23 +271,17 @@ class Builder {
       const auto [left, right, in_left, in_right] = base;
       const Candidate l = candidate<Turn::counter_clockwise>(base, left, right, base.in_left);
       const Candidate r = candidate<Turn::clockwise>(base, right, left, base.in_right);
-      if (!l.is_valid && !r.is_valid) {
-        at(left).close();
-        at(right).close();
-        return any;
-      }
+      if (!l.is_valid && !r.is_valid) return any;
       if (!l.is_valid || (r.is_valid && is_inside(left, right, l, r))) {
         const std::uint32_t place = at(r.vertex).find(right);
         at(r.vertex).insert(place, left, store);
         at(left).insert(++base.in_left, r.vertex, store);
-        at(right).close();
         base.right = r.vertex;
         base.in_right = place;
       } else {
         const std::uint32_t place = at(l.vertex).find(left) + 1;
         at(l.vertex).insert(place, right, store);
         at(right).insert(base.in_right, l.vertex, store);
-        at(left).close();
         base.left = l.vertex;
         base.in_left = place;
       }
@@ -300,13 +294,13 @@ class Builder {
   Candidate candidate(const Base& base, Vertex end, Vertex other_end, std::uint32_t& base_place) {
     RingVertex& vertex = at(end);
     std::uint32_t place = turned<turn>(vertex, base_place);
-    Candidate chosen = seen(base, vertex[place]);
+    Candidate chosen = seen(base, vertex.ring()[place]);
     // An end without other neighbours turns back to the base itself.
     chosen.is_valid =
         chosen.vertex != other_end && side_of(base.left, base.right, chosen.vertex, chosen.apex) > 0;
     if (!chosen.is_valid) return chosen;
     for (;;) {
-      const Vertex following = vertex[turned<turn>(vertex, place)];
+      const Vertex following = vertex.ring()[turned<turn>(vertex, place)];
       if (following == other_end) return chosen;
       Candidate next = seen(base, following);
       if (!is_inside(base.left, base.right, chosen, next)) return chosen;

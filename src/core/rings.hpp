@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -60,82 +61,76 @@ class alignas(64) RingVertex {
   std::uint32_t after(std::uint32_t place) const { return place + 1 == degree_ ? 0 : place + 1; }
   std::uint32_t before(std::uint32_t place) const { return (place == 0 ? degree_ : place) - 1; }
 
-  // Also while the ring is open.
-  Vertex operator[](std::uint32_t place) const {
-    if (!is_long_) return short_[place];
-    return long_.entries[place < long_.gap ? place : place + gap_size()];
-  }
-
   // The place of a neighbour in the ring.
   std::uint32_t find(Vertex neighbour) const {
+    if (is_long_) return find_outwards(neighbour);
     std::uint32_t place = 0;
-    while ((*this)[place] != neighbour) ++place;
+    while (short_[place] != neighbour) ++place;
     return place;
   }
 
-  // Opens a long ring.
   void insert(std::uint32_t place, Vertex neighbour, RingStore& store) {
-    if (degree_ == capacity()) grow(store);
-    if (is_long_) {
-      move_gap(place);
-      long_.entries[long_.gap++] = neighbour;
+    const bool in_front = is_long_ && 2 * place < degree_;
+    if (!has_room(in_front)) make_room(store);
+    Vertex* entries = ring();
+    if (in_front) {
+      std::copy(entries, entries + place, entries - 1);
+      --long_.entries;
     } else {
-      std::copy_backward(short_.data() + place, short_.data() + degree_, short_.data() + degree_ + 1);
-      short_[place] = neighbour;
+      std::copy_backward(entries + place, entries + degree_, entries + degree_ + 1);
     }
     ++degree_;
+    ring()[place] = neighbour;
+    if (is_long_) long_.changed = place;
   }
 
   void erase(std::uint32_t place) {
     Vertex* entries = ring();
-    if (is_long_ && place >= long_.gap) {
-      Vertex* after = entries + long_.gap + gap_size();
-      std::copy_backward(after, entries + place + gap_size(), entries + place + gap_size() + 1);
-    } else {
-      const std::uint32_t end = is_long_ ? long_.gap-- : degree_;
-      std::copy(entries + place + 1, entries + end, entries + place);
-    }
     --degree_;
-  }
-
-  // Makes all entries follow each other, as ring(), front() and back() need them.
-  void close() {
-    if (is_long_) move_gap(degree_);
+    if (is_long_ && 2 * place < degree_) {
+      std::copy_backward(entries, entries + place, entries + place + 1);
+      ++long_.entries;
+    } else {
+      std::copy(entries + place + 1, entries + degree_ + 1, entries + place);
+    }
+    if (is_long_) long_.changed = place;
   }
 
  private:
-  std::uint32_t capacity() const {
-    return is_long_ ? long_.capacity : static_cast<std::uint32_t>(short_.size());
-  }
-
-  // Of a full ring, which has no gap.
-  void grow(RingStore& store) {
-    const std::uint32_t capacity = 2 * degree_;
-    Vertex* entries = store.take(capacity);
-    std::copy_n(ring(), degree_, entries);
-    is_long_ = true;
-    long_ = {entries, capacity, degree_};
-  }
-
-  std::uint32_t gap_size() const { return long_.capacity - degree_; }
-
-  void move_gap(std::uint32_t place) {
-    Vertex *low = long_.entries + std::min(place, long_.gap),
-           *high = long_.entries + std::max(place, long_.gap);
-    if (gap_size() == 0) {
-      // nothing is in the way
-    } else if (place < long_.gap) {
-      std::copy_backward(low, high, high + gap_size());
-    } else {
-      std::copy(low + gap_size(), high + gap_size(), low);
+  // In a long ring it is mostly near the place of the last change.
+  std::uint32_t find_outwards(Vertex neighbour) const {
+    std::uint32_t high = std::min<std::uint32_t>(long_.changed, degree_ - 1), low = high;
+    for (;;) {
+      if (long_.entries[high] == neighbour) return high;
+      if (long_.entries[low] == neighbour) return low;
+      high += high + 1 < degree_;
+      low -= low > 0;
     }
-    long_.gap = place;
   }
 
-  // Entries that are free follow the first `gap` ones: to put many neighbours in, side by side, moves few.
+  bool has_room(bool in_front) const {
+    if (!is_long_) return degree_ < short_.size();
+    return in_front ? long_.entries > long_.memory
+                    : long_.entries + degree_ < long_.memory + long_.capacity;
+  }
+
+  // At both ends of the ring, in new memory unless enough of what it has is free.
+  void make_room(RingStore& store) {
+    const bool is_enough = is_long_ && 4 * (long_.capacity - degree_) >= degree_;
+    const std::uint32_t capacity = is_enough ? long_.capacity : 2 * degree_;
+    Vertex* memory = is_enough ? long_.memory : store.take(capacity);
+    Vertex* entries = memory + (capacity - degree_) / 2;
+    std::memmove(entries, ring(), degree_ * sizeof(Vertex));
+    is_long_ = true;
+    long_ = {entries, memory, capacity, 0};
+  }
+
+  // Both ends move, so that few entries do.
   struct Long {
     Vertex* entries;
-    std::uint32_t capacity, gap;
+    Vertex* memory;
+    std::uint32_t capacity;
+    std::uint32_t changed;  // where the last change was
   };
   std::uint32_t degree_ : 31, is_long_ : 1;
   union {

@@ -305,6 +305,11 @@ def nearest_neighbours(
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Index of the nearest point of each, -1 without any, and its number of neighbours."""
 
+# ---- outlines (bind_outlines.cpp): labels are C-contiguous uint8, uint16 or uint32 -----------------------------------
+
+def count_crack_vertices(labels: NDArray[Any], threads: int, progress: _Progress) -> int: ...
+def trace_cracks(labels: NDArray[Any], rule: str, vertices: int, progress: _Progress) -> dict[str, NDArray[Any]]: ...
+
 # ---- skeletons (bind_skeleton.cpp): the first six arguments are the arrays of a segment Voronoi diagram -------------
 
 def skeleton_edges(
@@ -330,13 +335,35 @@ def extract_skeleton(
     kept: NDArray[np.int32],
     groups: NDArray[np.int32],
     clipped: tuple[int, tuple[float, float, float, float]] | None,
+    joined: tuple[int, int],
     origin_x: float,
     origin_y: float,
     scale: float,
     threads: int,
     progress: _Progress,
 ) -> dict[str, NDArray[Any]]:
-    """Frames are (least x, most x, least y, most y) on the lattice."""
+    """Frames are (least x, most x, least y, most y) on the lattice; joined are groups from one to before another."""
+
+def offset_curves(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    vertices: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    edges: NDArray[np.int32],
+    edge_sites: NDArray[np.int32],
+    vertex_start: NDArray[np.int32],
+    vertex_sites: NDArray[np.int32],
+    edge_face: NDArray[np.int32],
+    segment_faces: NDArray[np.int32],
+    face_polygon: NDArray[np.int32],
+    site_polygon: NDArray[np.int32],
+    distances: list[float],
+    origin_x: float,
+    origin_y: float,
+    scale: float,
+    progress: _Progress,
+) -> list[dict[str, NDArray[Any]]]:
+    """For each distance (> 0 outwards) the arrays of core/offset_curves.hpp by their names there (bind_offsets.cpp)."""
 
 # ---- planar graphs (bind_planar_graph.cpp): arrays are C-contiguous; lattice points are int32 rows ------------------
 
@@ -440,3 +467,83 @@ def clearances(
     progress: _Progress,
 ) -> NDArray[np.float64]:
     """Of the nearest site within reach; infinite where there is none."""
+
+# ---- approximate skeletons (bind_seed_skeleton.cpp): the first three arguments are the arrays of a planar graph ------
+
+class TooManySeedsError(Exception): ...
+
+_Samples = tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]
+_Steps = tuple[NDArray[np.uint64], NDArray[np.float64]]
+
+def sample_by_step(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    faces: NDArray[np.int32],
+    step: float,
+    most: int,
+    threads: int,
+    progress: _Progress,
+) -> _Samples:
+    """Seeds, the segment that each is inside of (-1: a point), and where those of each segment begin."""
+
+def corner_steps(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    faces: NDArray[np.int32],
+    step: float,
+    is_even: bool,
+    most: int,
+) -> _Steps:
+    """Where the distances of each point begin, and how far from it seeds are: at even steps, or doubling up to one."""
+
+def sample_from_corners(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    faces: NDArray[np.int32],
+    steps: _Steps,
+    most: int,
+    threads: int,
+    progress: _Progress,
+) -> _Samples: ...
+def refined_steps(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    faces: NDArray[np.int32],
+    steps: _Steps,
+    start: NDArray[np.int32],
+    parts: NDArray[np.int32],
+    most: int,
+) -> _Steps:
+    """Distances with each piece of an edge divided into so many parts."""
+
+class SampledDiagram:
+    def __init__(
+        self,
+        points: NDArray[np.int32],
+        segments: NDArray[np.int32],
+        faces: NDArray[np.int32],
+        seeds: NDArray[np.float64],
+        segment: NDArray[np.int32],
+        start: NDArray[np.int32],
+        threads: int,
+        progress: _Progress,
+    ) -> None: ...
+    @property
+    def counts(self) -> dict[str, int]: ...
+    @property
+    def walked_pieces(self) -> NDArray[np.int32]:
+        """Pieces of edges that may meet the cells of other seeds than their ends."""
+    def skeleton(
+        self,
+        face_group: NDArray[np.int32],
+        clipped: tuple[int, tuple[float, float, float, float]] | None,
+        whole: bool,
+        complete: bool,
+        tolerance: float,
+        origin_x: float,
+        origin_y: float,
+        scale: float,
+        threads: int,
+        progress: _Progress,
+    ) -> dict[str, Any]:
+        """Arrays as of extract_skeleton, with error_bound, seeds and parts, and the number of open_corners."""

@@ -11,7 +11,7 @@ import pytest
 from PIL import Image
 
 import vorotool
-from vorotool.cli.skeleton_exact import FORMATS, LAYERS
+from vorotool.cli.skeleton_options import FORMATS, LAYERS
 from vorotool.render import skeleton_layers
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -133,12 +133,6 @@ def test_bad_input(run, folder, name):
     assert words in done.err
     assert not (folder / "b.svg").exists()
     assert leftovers(folder) == []
-
-
-def test_an_image_is_for_later(run, folder):
-    done = run("skeleton-exact", "mask.pbm")
-    assert done.code == 3
-    assert "mask.pbm: this is an image" in done.err
 
 
 def test_too_many_vertices(run):

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
+from vorotool.cli.units import table_in_units
 from vorotool.engines.digital import band_limits, label_dtype, require_memory
 from vorotool.engines.propagation import PropagatedRows
 from vorotool.engines.regions import (
@@ -80,7 +81,8 @@ class Products:
             check_png(self.dtype, self.rows.seeds.largest_label)
         elif what == "distance2":
             _ = self._exact_rows().square_dtype
-        if what in ("colour", "table", "neighbours") or fmt == "svg" or (what == "diagram" and self.options.layers):
+        draws = what == "diagram" and (self.options.layers or self.options.backdrop)
+        if what in ("colour", "table", "neighbours") or fmt == "svg" or draws:
             require_memory(self.rows.frame, self.options.max_pixels)
 
     def write(self, target: Target, *, inputs: Sequence[str]) -> None:
@@ -104,8 +106,8 @@ class Products:
     def _write_diagram(self, out: BinaryIO, fmt: str) -> None:
         from vorotool.render.palettes import LINE_ON_PAPER
 
-        if self.options.layers and fmt == "png":
-            self._write_picture(out, fmt, self.options.layers)
+        if (self.options.layers or self.options.backdrop) and fmt == "png":
+            self._write_picture(out, fmt, ("diagram",))
             return
 
         def rows_of(first: int, rows: int) -> NDArray[Any]:
@@ -134,10 +136,12 @@ class Products:
         image, measures = self.image, self.measures  # refuses a frame that is too large, before distances are taken
         squares = self.rows.squared_distances() if isinstance(self.rows, Tessellator) else None
         table = region_table(image, distance2=squares, measures=measures, threads=self.options.threads)
-        self._write_columns(out, fmt, table)
+        own = self.rows.seeds.properties
+        self._write_columns(out, fmt, table_in_units(self.options, table, properties=own))
 
     def _write_neighbours(self, out: BinaryIO, fmt: str) -> None:
-        self._write_columns(out, fmt, neighbour_table(self.image, measures=self.measures))
+        table = neighbour_table(self.image, measures=self.measures)
+        self._write_columns(out, fmt, table_in_units(self.options, table))
 
     def _write_columns(self, out: BinaryIO, fmt: str, table: Any) -> None:
         from vorotool.formats.tables import write_table
@@ -154,7 +158,8 @@ class Products:
             fmt=fmt,
             layers=self.options.layers or layers,
             width=self.options.width or 1000,
-            y_up=bool(self.options.y_up),
+            y_up=bool(self.options.y_up) and self.options.backdrop is None,
+            backdrop=self.options.backdrop,
             threads=self.options.threads,
         )
 
@@ -176,6 +181,7 @@ class Products:
             dtype=dtype,
             fmt=fmt,
             largest_label=largest,
+            resolution=getattr(self.options, "resolution", None),
             threads=self.options.threads,
             **kind,
         )

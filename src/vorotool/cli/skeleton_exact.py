@@ -2,93 +2,34 @@
 
 from __future__ import annotations
 
-import warnings
-from functools import partial
-from math import isfinite
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from vorotool.cli.inputs import naming
-from vorotool.cli.options import Rectangle, layers_option, shared, single_input, what_option
-from vorotool.cli.run import Run
-from vorotool.cli.targets import Target, check_picture_options, check_stats, check_targets, plan_targets
+from vorotool.cli.skeleton_options import Length, run_skeletons, skeleton_options
 
 if TYPE_CHECKING:
+    from vorotool.cli.exact_skeletons import ExactProducts
+    from vorotool.cli.run import Run
     from vorotool.geometry.polygons import PolygonSet
-
-_TABLES = ("csv", "json", "npz")
-_PICTURES = ("svg", "png")
-FORMATS = {
-    "skeleton": ("json", "csv", "geojson", "npz", "wkt", *_PICTURES),
-    "diagram": ("json", "csv", "geojson", "npz", "wkt", *_PICTURES),
-    "elements": (*_TABLES, *_PICTURES),
-    "branches": _TABLES,
-    "table": _TABLES,
-}
-LAYERS = ("polygons", "elements", "points", "skeleton", "nodes", "labels")
-"""Layers of pictures, from below."""
-
-PICTURE_LAYERS = {"svg": LAYERS, "png": tuple(layer for layer in LAYERS if layer != "labels")}
-
-_WITHOUT_DIGITS = frozenset({"npz", *_PICTURES})
-_WITHOUT_CURVES = frozenset({"geojson", "wkt"})
-
-
-class Length(click.ParamType[float]):
-    """A finite length, 0 only where that is allowed."""
-
-    name = "LENGTH"
-
-    def __init__(self, *, zero: bool) -> None:
-        self._zero = zero
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        """Parse the number."""
-        try:
-            number = float(value)
-        except ValueError:
-            self.fail(f"{value!r} is no length: give a number such as 0.5", param, ctx)
-        if not isfinite(number) or number < 0 or (number == 0 and not self._zero):
-            self.fail(f"{value!r} is no length: it must be {'0 or more' if self._zero else 'above 0'}", param, ctx)
-        return number
 
 
 @click.command("skeleton-exact")
-@click.argument("inputs", metavar="INPUT", nargs=-1)
-@shared("output", "format")
-@what_option(tuple(FORMATS))
-@click.option(
-    "--side",
-    type=click.Choice(["interior", "exterior", "both"]),
-    default="interior",
-    show_default=True,
-    help="Inside polygons, outside all of them, or both.",
+@skeleton_options(
+    click.option(
+        "--gap",
+        type=Length(zero=True),
+        metavar="STEP",
+        default=0.0,
+        help="Shorten each edge by STEP at both ends, as the paper does; by default 0, which is exact.",
+    ),
+    click.option(
+        "--complete/--no-complete",
+        default=None,
+        help="With a gap, add the straight portions that lead to the corners (default) or leave them out.",
+    ),
 )
-@click.option("--frame", type=Rectangle(), help="Cuts what is outside; by default the bounds and a tenth around them.")
-@click.option(
-    "--gap",
-    type=Length(zero=True),
-    metavar="STEP",
-    default=0.0,
-    help="Shorten each edge by STEP at both ends, as the paper does; by default 0, which is exact.",
-)
-@click.option(
-    "--complete/--no-complete",
-    default=None,
-    help="With a gap, add the straight portions that lead to the corners (default) or leave them out.",
-)
-@click.option(
-    "--flatten",
-    type=Length(zero=False),
-    metavar="TOLERANCE",
-    help="How far lines of GeoJSON and WKT may be from parabolas; by default 1/4096 of the extent.",
-)
-@shared("input-format")
-@layers_option(LAYERS)
-@shared("width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels", "max-sites")
-@shared("no-clobber", "no-properties", "quiet", "verbose")
 def command(**options: Any) -> None:
     """Compute the exact skeleton (medial axis) of polygons: straight lines and parabolas, each with its radius.
 
@@ -96,79 +37,19 @@ def command(**options: Any) -> None:
     Example:
       vorotool skeleton-exact data/two-shapes.json -o skeleton.svg
 
-    INPUT holds polygons or open lines (JSON, GeoJSON, WKT, Triangle .poly); - is standard input. Polygons are placed on
-    a lattice of 31 bits over their extent; where they cross, touch or overlap they are cut, with a warning. Of the
+    INPUT holds polygons or open lines (JSON, GeoJSON, WKT, Triangle .poly), or is a mask or a label image (PNG, TIFF,
+    PGM, PBM, NPY), whose objects have outlines; - is standard input. Polygons are placed on a lattice of 31 bits over
+    their extent; where they cross, touch or overlap they are cut, with a warning. Of the
     Voronoi diagram of vertices and open edges, the edges between an edge and its own end are left out. What is drawn
     inside polygons comes first, polygon by polygon; arcs of a branch follow each other.
     """
     o = SimpleNamespace(**options)
-    source = single_input(o.inputs)
-    targets = plan_targets(FORMATS, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=source)
-    check_stats(o.stats, targets, source)
-    _check_options(o, targets)
-    with Run("skeleton-exact", quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber) as run:
-        from vorotool.cli.skeletons import SkeletonProducts
-        from vorotool.formats.outputs import make_folder
-
-        check_targets(o, targets, source)
-        with naming(source), run.phase("read"):
-            polygons = _read_polygons(run, o, source)
-        with naming(source):
-            products = SkeletonProducts(polygons, o, run)
-        for target in targets:
-            products.check(target)
-        if o.verify:
-            with run.phase("verify"):
-                products.verify()
-        if o.out_dir is not None:
-            make_folder(o.out_dir)
-        for target in targets:
-            with run.phase(f"write {target.what}"):
-                products.write(target, inputs=(source,))
-        run.stats.update(products.stats())
-
-
-def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
-    formats = {target.fmt for target in targets}
-    if o.precision is not None and formats <= _WITHOUT_DIGITS:
-        raise click.UsageError("--precision is for numbers in text: use -f json, csv, geojson or wkt, or leave it out")
-    if o.flatten is not None and not formats & _WITHOUT_CURVES:
-        raise click.UsageError("--flatten is for formats without curves: use -f geojson or -f wkt, or leave it out")
-    if o.frame is not None and o.side == "interior" and "diagram" not in o.what:
-        raise click.UsageError("--frame cuts what is outside: use --side exterior or both, or leave it out")
     if o.complete is not None and not o.gap:
         raise click.UsageError("nothing is missing without a gap: use --gap STEP, or leave --complete out")
-    pictures = sorted(formats & set(_PICTURES))
-    if o.layers is not None and not pictures:
-        raise click.UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
-    check_picture_options(o, pictures, PICTURE_LAYERS, png_has_width=True)
+    run_skeletons("skeleton-exact", o, _products)
 
 
-def _read_polygons(run: Run, o: SimpleNamespace, source: str) -> PolygonSet:
-    from vorotool.errors import InputError
-    from vorotool.formats import read
-    from vorotool.geometry.polygons import PolygonSet
+def _products(polygons: PolygonSet, o: SimpleNamespace, run: Run) -> ExactProducts:
+    from vorotool.cli.exact_skeletons import ExactProducts
 
-    value = read(
-        source,
-        geometry="polygons",
-        input_format=o.input_format,
-        max_pixels=o.max_pixels,
-        max_sites=o.max_sites,
-        properties=not o.no_properties,
-        threads=o.threads,
-        note=partial(_note, run),
-    )
-    if not isinstance(value, PolygonSet):
-        raise InputError("this is an image: skeletons of masks are not made yet; give polygons or open lines")
-    return value
-
-
-def _note(run: Run, message: str) -> None:
-    """Say what the reader noticed; that lengths are in degrees is a warning, as it is about the result."""
-    if "degrees" in message:
-        from vorotool.errors import VorotoolWarning
-
-        warnings.warn(message, VorotoolWarning, stacklevel=2)
-    else:
-        run.note(message)
+    return ExactProducts(polygons, o, run)

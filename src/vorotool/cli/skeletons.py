@@ -3,23 +3,24 @@
 from __future__ import annotations
 
 import warnings
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from functools import cached_property
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vorotool.cli.pictures import write_layers
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
-from vorotool.engines.skeleton_exact import ShapeDiagram, shape_diagram, skeleton_of, whole_diagram
+from vorotool.cli.units import in_units, length_in_units
 from vorotool.errors import VorotoolWarning
-from vorotool.geometry.polygons import PolygonSet
+from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.skeleton import EXTERIOR, Skeleton
 
 if TYPE_CHECKING:
-    from vorotool.engines.skeleton_elements import ElementDiagram
     from vorotool.render.layers import Page
 
 DEFAULT_LAYERS = {
@@ -30,56 +31,51 @@ DEFAULT_LAYERS = {
 """Layers of the picture of each result."""
 
 
-class SkeletonProducts:
-    """Results of one skeleton.
+class SkeletonProducts(ABC):
+    """Results of one skeleton, however it is made.
 
     Parameters
     ----------
-    polygons : PolygonSet
-        Of what.
     options : namespace
         Options of the command line.
     run : Run
         Takes notes and seconds.
     """
 
-    def __init__(self, polygons: PolygonSet, options: SimpleNamespace, run: Run) -> None:
+    def __init__(self, options: SimpleNamespace, run: Run) -> None:
         self.options, self.run = options, run
-        progress = run.progress("diagram")
-        common = {"strict": options.strict, "threads": options.threads, "progress": progress}
-        self.shapes: ShapeDiagram | None = None
-        self.elements: ElementDiagram | None = None
-        with run.phase("diagram"):
-            if options.gap:
-                from vorotool.engines.skeleton_elements import element_diagram
-
-                self.elements = element_diagram(polygons, options.gap, **common)
-            else:
-                self.shapes = shape_diagram(polygons, **common)
 
     @cached_property
     def skeleton(self) -> Skeleton:
         """Of the side that is asked for."""
-        o = self.options
-        common: dict[str, Any] = {"side": o.side, "frame": o.frame, "threads": o.threads}
         with self.run.phase("skeleton"):
-            if self.shapes is not None:
-                return skeleton_of(self.shapes, **common)
-            from vorotool.engines.skeleton_elements import skeleton_of_elements
-
-            assert self.elements is not None
-            return skeleton_of_elements(self.elements, complete=o.complete is not False, **common)
+            return self._make_skeleton()
 
     @cached_property
     def diagram(self) -> Skeleton:
         """All edges of the diagram, cut by the frame."""
         with self.run.phase("skeleton"):
-            if self.shapes is not None:
-                return whole_diagram(self.shapes, frame=self.options.frame, threads=self.options.threads)
-            from vorotool.engines.skeleton_elements import whole_element_diagram
+            return self._make_diagram()
 
-            assert self.elements is not None
-            return whole_element_diagram(self.elements, frame=self.options.frame, threads=self.options.threads)
+    @abstractmethod
+    def _make_skeleton(self) -> Skeleton: ...
+
+    @abstractmethod
+    def _make_diagram(self) -> Skeleton: ...
+
+    @property
+    @abstractmethod
+    def graph(self) -> PlanarGraph:
+        """The shapes as they were placed."""
+
+    @property
+    def _points(self) -> NDArray[np.float64] | None:
+        """What pictures show as points, if not the ends of edges."""
+        return None
+
+    @abstractmethod
+    def verify(self) -> None:
+        """Check the diagram and the skeleton, from their arrays alone."""
 
     def _value(self, what: str) -> Skeleton:
         return self.diagram if what == "diagram" else self.skeleton
@@ -111,17 +107,20 @@ class SkeletonProducts:
 
         write_skeleton(
             out,
-            self._value(target.what),
+            in_units(self.options, self._value(target.what)),
             target.fmt,
             what="skeleton" if target.what == "diagram" else target.what,
-            flatten=self.options.flatten,
+            flatten=length_in_units(self.options, self.options.flatten),
             precision=self.options.precision,
             threads=self.options.threads,
         )
 
     def _page(self, value: Skeleton) -> Page:
+        from vorotool.render.layers import ImagePage
         from vorotool.render.skeleton_layers import skeleton_page
 
+        if self.options.backdrop is not None:
+            return ImagePage(self.options.backdrop)
         return skeleton_page(value, width=self.options.width or 1000, y_up=self.options.y_up)
 
     def _write_picture(self, out: BinaryIO, target: Target) -> None:
@@ -129,28 +128,18 @@ class SkeletonProducts:
 
         value = self._value(target.what)
         page = self._page(value)
-        layers = picture_layers(value, page, self.options.layers or DEFAULT_LAYERS[target.what], what=target.what)
+        layers = picture_layers(value, page, self._layers(target.what), what=target.what, points=self._points)
         write_layers(out, layers, page, fmt=target.fmt, threads=self.options.threads)
 
-    def verify(self) -> None:
-        """Check the diagram and the skeleton, from their arrays alone."""
-        from vorotool.engines.segment_verification import verify_segment_voronoi
-        from vorotool.engines.skeleton_verification import verify_exterior, verify_skeleton
-
-        part = self.shapes if self.shapes is not None else self.elements
-        assert part is not None
-        progress = self.run.progress("verifying")
-        verify_segment_voronoi(part.diagram, threads=self.options.threads, progress=progress)
-        if self.shapes is not None and self.options.side != "interior":
-            verify_exterior(self.shapes, threads=self.options.threads)
-        verify_skeleton(self.skeleton, threads=self.options.threads, progress=progress)
+    def _layers(self, what: str) -> Sequence[str]:
+        """Layers of a picture: over an image the shapes are to be seen already."""
+        if self.options.layers is not None or self.options.backdrop is None:
+            return self.options.layers or DEFAULT_LAYERS[what]
+        return [layer for layer in DEFAULT_LAYERS[what] if layer != "polygons"]
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""
-        part = self.shapes if self.shapes is not None else self.elements
-        assert part is not None
-        graph = part.graph if self.elements is None else self.elements.shapes
-        skeleton, options = self.skeleton, self.options
+        graph, skeleton = self.graph, self.skeleton
         assert graph.polygons is not None
         found: dict[str, Any] = {
             "polygons": len(graph.polygons),
@@ -160,29 +149,23 @@ class SkeletonProducts:
             "lattice_step": graph.scale,
             "largest_move": graph.largest_move,
             "repairs": graph.repairs,
-            "diagram_vertices": len(part.diagram),
-            "diagram_edges": len(part.diagram.edges),
-            "decisions": part.diagram.counts,
+            **self._diagram_stats(),
             "arcs": len(skeleton),
             "parabolas": int(np.count_nonzero(skeleton.is_parabola)),
             "exterior_arcs": int(np.count_nonzero(skeleton.side == EXTERIOR)),
             "branches": int(skeleton.branch[-1]) + 1 if len(skeleton) else 0,
             "nodes": len(skeleton.vertices),
-            "side": options.side,
-            "threads": options.threads,
+            "side": self.options.side,
+            "threads": self.options.threads,
         }
         if skeleton.frame is not None:
             found["frame"] = list(skeleton.frame)
-        if self.elements is not None:
-            found |= self._gap_stats(self.elements)
-        return found
+        if self.options.is_mask:
+            found |= {"outline": self.options.outline or "crack", "connectivity": int(self.options.connectivity or 8)}
+        return found | self._more_stats()
 
-    def _gap_stats(self, elements: ElementDiagram) -> dict[str, Any]:
-        """How far the skeleton is from the exact one: that takes a second diagram, so only for whom it is written."""
-        found: dict[str, Any] = {"gap": elements.gap, "complete": self.options.complete is not False}
-        if self.options.stats is not None:
-            from vorotool.engines.skeleton_elements import exact_for, gap_deviation
+    @abstractmethod
+    def _diagram_stats(self) -> dict[str, Any]: ...
 
-            exact = exact_for(elements, self.options.side, frame=self.skeleton.frame, threads=self.options.threads)
-            found["gap_deviation"] = gap_deviation(self.skeleton, exact)
-        return found
+    def _more_stats(self) -> dict[str, Any]:
+        return {}

@@ -33,7 +33,8 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
     hole if the exterior is there: its skeleton is connected, has as many independent cycles as the complement has
     components less one, and one end in each corner under 180 degrees, which nothing else shares; the regions between
     the arcs and their feet sum to its area within 1e-9 of it and 8 ulp of the extent times its perimeter. Outside, all
-    is connected with the frame. Branches are chains that end where they should.
+    is connected with the frame. Branches are chains that end where they should. Where pixels hang together at corners
+    (`PolygonSet.connectivity`), arcs of one polygon, or outside, share a node there; all else is as if they did not.
 
     Parameters
     ----------
@@ -67,8 +68,8 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
     threads = checked_threads(threads)
     if not len(skeleton):
         return
-    _check_arrays(skeleton)
-    _check_branches(skeleton)
+    check_arrays(skeleton)
+    check_branches(skeleton)
     sites = SitePlaces(skeleton)
     if skeleton.gap:  # the lines that lead to the corners are no bisectors of the shortened edges
         skeleton = _without_portions(skeleton)
@@ -78,7 +79,7 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
         graph = planar_graph(skeleton.polygons, threads=threads, progress=progress)
         check_nothing_nearer(skeleton, sites, _elements(skeleton, graph, threads), threads, progress)
     if not skeleton.gap:
-        check_regions(SkeletonRegions(skeleton, graph, sites))
+        check_regions(SkeletonRegions(_with_corners_apart(skeleton), graph, sites))
 
 
 def verify_exterior(shapes: ShapeDiagram, *, threads: int = 0) -> None:
@@ -133,6 +134,38 @@ def _without_portions(skeleton: Skeleton) -> Skeleton:
     return replace(skeleton, **{name: getattr(skeleton, name)[kept] for name in per_arc})
 
 
+def _with_corners_apart(skeleton: Skeleton) -> Skeleton:
+    """Give each arc a node of its own at corners where arcs are joined, after a check that just these are."""
+    inside = {8: True, 4: False}.get(skeleton.polygons.connectivity or 0)
+    if inside is None:
+        return skeleton
+    on_side = (skeleton.polygon >= 0) == inside
+    arc, end = np.nonzero((skeleton.radius[skeleton.arcs] == 0) & on_side[:, None])
+    node = skeleton.arcs[arc, end]
+    keys = np.column_stack([skeleton.vertices[node], skeleton.polygon[arc]])
+    _, corner = np.unique(keys, axis=0, return_inverse=True)
+    corner = corner.reshape(-1)
+    first = np.full(corner.max(initial=-1) + 1, len(skeleton.vertices))
+    np.minimum.at(first, corner, node)
+    at = first_wrong(node != first[corner])
+    if at is not None:
+        fail(f"nodes {first[corner[at]]} and {node[at]} are at one corner, where pixels hang together, but not joined")
+    _, owner = np.unique(np.stack([node, corner]), axis=1, return_index=True)
+    at = first_wrong(np.bincount(node[owner], minlength=1) > 1)
+    if at is not None:
+        fail(f"node {at} is a corner that arcs in different polygons share")
+    arcs = skeleton.arcs.copy()
+    arcs[arc, end] = len(skeleton.vertices) + np.arange(len(arc))
+    used, numbers = np.unique(arcs, return_inverse=True)
+    origin = np.concatenate([np.arange(len(skeleton.vertices)), node])[used]
+    return replace(
+        skeleton,
+        arcs=numbers.reshape(-1, 2).astype(np.int32),
+        vertices=skeleton.vertices[origin],
+        radius=skeleton.radius[origin],
+    )
+
+
 def _elements(skeleton: Skeleton, graph: PlanarGraph, threads: int) -> PlanarGraph:
     """The points and segments that nothing may be nearer than."""
     if not skeleton.gap:
@@ -142,7 +175,8 @@ def _elements(skeleton: Skeleton, graph: PlanarGraph, threads: int) -> PlanarGra
     return element_diagram(skeleton.polygons, skeleton.gap, threads=threads).graph
 
 
-def _check_arrays(skeleton: Skeleton) -> None:
+def check_arrays(skeleton: Skeleton) -> None:
+    """Raise unless indices exist, nodes are finite and used, and sides go with polygons."""
     for name, limit in (("arcs", len(skeleton.vertices)), ("sites", len(skeleton.site_table))):
         at = first_wrong(((getattr(skeleton, name) < 0) | (getattr(skeleton, name) >= limit)).any(axis=1))
         if at is not None:
@@ -160,7 +194,8 @@ def _check_arrays(skeleton: Skeleton) -> None:
         )
 
 
-def _check_branches(skeleton: Skeleton) -> None:
+def check_branches(skeleton: Skeleton) -> None:
+    """Raise unless branches are chains that end where they should."""
     step = np.diff(skeleton.branch, prepend=-1)
     at = first_wrong((step < 0) | (step > 1))
     if at is not None:

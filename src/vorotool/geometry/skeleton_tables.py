@@ -164,7 +164,7 @@ def branch_table(skeleton: Skeleton) -> Table:
         return Table(dict.fromkeys(names, empty))
     last = np.append(start[1:], len(skeleton)) - 1
     a, b = skeleton.arcs[start, 0], skeleton.arcs[last, 1]
-    least, most, integral = _arc_radii(skeleton)
+    least, most, integral = skeleton.arc_radii
     length = np.add.reduceat(skeleton.length, start)
     integral = np.add.reduceat(integral, start)
     mean = np.divide(integral, length, out=skeleton.radius[a].copy(), where=length > 0)
@@ -195,44 +195,6 @@ def _branch_starts(skeleton: Skeleton) -> NDArray[np.int64]:
 def _distance(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
     way = b - a
     return np.asarray(np.sqrt((way * way).sum(axis=-1)))  # the same on every machine, as hypot is not
-
-
-def _arc_radii(skeleton: Skeleton) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Smallest and largest radius on each arc, and the integral of the radius along it."""
-    source, target = skeleton.vertices[skeleton.arcs].swapaxes(0, 1)
-    r = skeleton.radius[skeleton.arcs]
-    ends = skeleton.site_ends[skeleton.sites]  # arc, left and right, end, coordinate
-    is_edge = skeleton.site_table.kind[skeleton.sites] == EDGE
-    control = np.where(skeleton.is_parabola[:, None], skeleton.control, (source + target) / 2)
-    least, most = r.min(axis=1), r.max(axis=1)
-    # nearest to a vertex the arc may be in its middle, half-way between the two sites
-    has_vertex = ~is_edge.all(axis=1)
-    other = np.where(is_edge[:, 1, None], _foot(ends[:, 1], ends[:, 0, 0]), ends[:, 1, 0])
-    first = np.where(is_edge[:, 0, None], _foot(ends[:, 0], ends[:, 1, 0]), ends[:, 0, 0])
-    middle, half = (first + other) / 2, _distance(first, other) / 2
-    way = target - source
-    within = ((middle - source) * way).sum(axis=1) * ((middle - target) * way).sum(axis=1) < 0
-    least = np.where(has_vertex & within, np.minimum(least, half), least)
-    nodes, weights = np.polynomial.legendre.leggauss(8)
-    integral = np.zeros(len(skeleton))
-    for t, weight in zip((nodes + 1) / 2, weights / 2, strict=True):
-        place = (1 - t) ** 2 * source + 2 * t * (1 - t) * control + t * t * target
-        speed = 2 * ((1 - t) * (control - source) + t * (target - control))
-        at = np.where(is_edge[:, 0], _height(ends[:, 0], place), _distance(ends[:, 0, 0], place))
-        integral += weight * at * _distance(speed, np.zeros(2))
-    return least, most, integral
-
-
-def _foot(ends: NDArray[np.float64], place: NDArray[np.float64]) -> NDArray[np.float64]:
-    way = ends[:, 1] - ends[:, 0]
-    square = np.maximum((way * way).sum(axis=1), np.finfo(float).tiny)
-    t = ((place - ends[:, 0]) * way).sum(axis=1) / square
-    foot: NDArray[np.float64] = ends[:, 0] + t[:, None] * way
-    return foot
-
-
-def _height(ends: NDArray[np.float64], place: NDArray[np.float64]) -> NDArray[np.float64]:
-    return _distance(_foot(ends, place), place)
 
 
 def polygon_table(skeleton: Skeleton) -> Table:
@@ -269,7 +231,7 @@ def polygon_table(skeleton: Skeleton) -> Table:
 
     arcs = np.bincount(of_arc, minlength=count)
     length = np.bincount(of_arc, skeleton.length[inside], count)
-    _, most, integral = _arc_radii(skeleton)
+    _, most, integral = skeleton.arc_radii
     widest = np.zeros(count)
     np.maximum.at(widest, of_arc, 2 * most[inside])
     mean = np.divide(2 * np.bincount(of_arc, integral[inside], count), length, out=np.zeros(count), where=length > 0)
@@ -346,7 +308,8 @@ def _measures(polygons: PolygonSet) -> tuple[NDArray[np.float64], NDArray[np.flo
     twice = np.where(polygons.ring_kind == 1, -twice, twice)
     area = np.add.reduceat(twice, polygons.polygon_start[:-1]) / 2
     area[polygons.is_line] = 0
-    return _with_valid_areas(polygons, area), perimeter
+    # crack outlines touch themselves, but never cross
+    return area if polygons.connectivity is not None else _with_valid_areas(polygons, area), perimeter
 
 
 def _with_valid_areas(polygons: PolygonSet, area: NDArray[np.float64]) -> NDArray[np.float64]:

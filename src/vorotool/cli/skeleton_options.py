@@ -1,0 +1,213 @@
+"""What the commands that make skeletons have in common: options, formats, layers, and how they read and write."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from functools import partial
+from math import isfinite
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from vorotool.cli.commands import run_command
+from vorotool.cli.inputs import IMAGE_OPTIONS, naming, refuse
+from vorotool.cli.options import Decorator, Rectangle, batch_options, layers_option, shared, what_option
+from vorotool.cli.recipes import Recipe
+from vorotool.cli.run import Run
+from vorotool.cli.targets import Target, check_picture_options
+from vorotool.cli.units import pixel_size_option
+
+if TYPE_CHECKING:
+    from vorotool.cli.skeletons import SkeletonProducts
+    from vorotool.geometry.polygons import PolygonSet
+    from vorotool.geometry.raster import Raster
+
+_TABLES = ("csv", "json", "npz")
+_PICTURES = ("svg", "png")
+FORMATS = {
+    "skeleton": ("json", "csv", "geojson", "npz", "wkt", *_PICTURES),
+    "diagram": ("json", "csv", "geojson", "npz", "wkt", *_PICTURES),
+    "elements": (*_TABLES, *_PICTURES),
+    "branches": _TABLES,
+    "table": _TABLES,
+}
+LAYERS = ("polygons", "elements", "points", "skeleton", "nodes", "labels")
+"""Layers of pictures, from below."""
+
+PICTURE_LAYERS = {"svg": LAYERS, "png": tuple(layer for layer in LAYERS if layer != "labels")}
+
+_WITHOUT_DIGITS = frozenset({"npz", *_PICTURES})
+_WITHOUT_CURVES = frozenset({"geojson", "wkt"})
+
+
+class Length(click.ParamType[float]):
+    """A finite length, 0 only where that is allowed."""
+
+    name = "LENGTH"
+
+    def __init__(self, *, zero: bool) -> None:
+        self._zero = zero
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Parse the number."""
+        try:
+            number = float(value)
+        except ValueError:
+            self.fail(f"{value!r} is no length: give a number such as 0.5", param, ctx)
+        if not isfinite(number) or number < 0 or (number == 0 and not self._zero):
+            self.fail(f"{value!r} is no length: it must be {'0 or more' if self._zero else 'above 0'}", param, ctx)
+        return number
+
+
+_BEFORE: tuple[Decorator, ...] = (
+    click.argument("inputs", metavar="INPUT...", nargs=-1),
+    shared("output", "format"),
+    what_option(tuple(FORMATS)),
+    click.option(
+        "--side",
+        type=click.Choice(["interior", "exterior", "both"]),
+        default="interior",
+        show_default=True,
+        help="Inside polygons, outside all of them, or both.",
+    ),
+    click.option(
+        "--frame", type=Rectangle(), help="Cuts what is outside; by default the bounds and a tenth around them."
+    ),
+)
+_AFTER: tuple[Decorator, ...] = (
+    click.option(
+        "--flatten",
+        type=Length(zero=False),
+        metavar="TOLERANCE",
+        help="How far lines of GeoJSON and WKT may be from parabolas; by default 1/4096 of the extent.",
+    ),
+    click.option(
+        "--simplify",
+        type=Length(zero=False),
+        metavar="TOLERANCE",
+        help="Leave out vertices first, where outlines move by no more than this; what touches still does.",
+    ),
+    shared("input-format", "page"),
+    click.option(
+        "--outline",
+        type=click.Choice(["crack", "contour"]),
+        help="Of an image: around pixels (default), or half-way between the centres of pixels.",
+    ),
+    shared("seeds", "connectivity", "threshold", "invert"),
+    layers_option(LAYERS),
+    shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels"),
+    shared("max-sites"),
+    pixel_size_option(),
+    batch_options(),
+    shared("no-clobber", "no-properties", "quiet", "verbose"),
+)
+"""Options before and after a command's own."""
+
+
+def skeleton_options(*own: Decorator) -> Decorator:
+    """Add the options that skeletons have in common, and a command's own among them."""
+
+    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
+        for option in reversed((*_BEFORE, *own, *_AFTER)):
+            function = option(function)
+        return function
+
+    return decorate
+
+
+def run_skeletons(
+    name: str, o: SimpleNamespace, make: Callable[[PolygonSet, SimpleNamespace, Run], SkeletonProducts]
+) -> None:
+    """Read polygons, make what a command makes of them, check it, and write it."""
+    run_command(Recipe(name, FORMATS, _check_options, partial(_products, make), "polygons"), o)
+
+
+def _products(
+    make: Callable[[PolygonSet, SimpleNamespace, Run], SkeletonProducts], run: Run, o: SimpleNamespace, source: str
+) -> SkeletonProducts:
+    with naming(source), run.phase("read"):
+        polygons = _read_polygons(run, o, source)
+    with naming(source):
+        return make(polygons, o, run)
+
+
+def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
+    formats = {target.fmt for target in targets}
+    if o.precision is not None and formats <= _WITHOUT_DIGITS:
+        raise click.UsageError("--precision is for numbers in text: use -f json, csv, geojson or wkt, or leave it out")
+    if o.flatten is not None and not formats & _WITHOUT_CURVES:
+        raise click.UsageError("--flatten is for formats without curves: use -f geojson or -f wkt, or leave it out")
+    if o.frame is not None and o.side == "interior" and "diagram" not in o.what:
+        raise click.UsageError("--frame cuts what is outside: use --side exterior or both, or leave it out")
+    if o.seeds in ("pixels", "centroids"):
+        raise click.UsageError(f"--seeds {o.seeds} have no outlines: use --seeds components or labels")
+    pictures = sorted(formats & set(_PICTURES))
+    if o.layers is not None and not pictures:
+        raise click.UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
+    check_picture_options(o, pictures, PICTURE_LAYERS, png_has_width=True)
+
+
+def _read_polygons(run: Run, o: SimpleNamespace, source: str) -> PolygonSet:
+    """Read polygons, or the outlines of an image; ``o.is_mask`` tells which it was."""
+    from vorotool.formats import read
+    from vorotool.geometry.polygons import PolygonSet
+    from vorotool.geometry.raster import Raster
+
+    value = read(
+        source,
+        geometry="polygons",
+        input_format=o.input_format,
+        page=o.page,
+        max_pixels=o.max_pixels,
+        max_sites=o.max_sites,
+        properties=not o.no_properties,
+        threads=o.threads,
+        note=partial(_note, run),
+    )
+    o.is_mask = isinstance(value, Raster)
+    if isinstance(value, Raster):
+        return _outlines(run, o, value)
+    assert isinstance(value, PolygonSet)  # what is asked for is polygons, or an image
+    refuse(o, (*IMAGE_OPTIONS, "outline"), "is for images, but the input is polygons or lines")
+    return value if o.simplify is None else _simplified(run, o, value)
+
+
+def _outlines(run: Run, o: SimpleNamespace, image: Raster) -> PolygonSet:
+    from vorotool.engines.outlines import outlines
+
+    with run.phase("outline"):
+        return outlines(
+            image,
+            outline=o.outline or "crack",
+            mode=o.seeds,
+            connectivity=int(o.connectivity or 8),
+            threshold=o.threshold,
+            invert=o.invert,
+            simplify=o.simplify,
+            max_sites=o.max_sites,
+            threads=o.threads,
+            progress=run.progress("outlines"),
+        )
+
+
+def _simplified(run: Run, o: SimpleNamespace, polygons: PolygonSet) -> PolygonSet:
+    """Simplify polygons once they are cut where they meet."""
+    from vorotool.engines.placed_rings import placed_shapes
+    from vorotool.engines.planar_graph import planar_graph
+    from vorotool.engines.simplification import simplified_polygons
+
+    with run.phase("simplify"):
+        graph = planar_graph(polygons, strict=o.strict, threads=o.threads)
+        return simplified_polygons(placed_shapes(graph, threads=o.threads).polygons, o.simplify)
+
+
+def _note(run: Run, message: str) -> None:
+    """Say what the reader noticed; that lengths are in degrees is a warning, as it is about the result."""
+    if "degrees" in message:
+        from vorotool.errors import VorotoolWarning
+
+        warnings.warn(message, VorotoolWarning, stacklevel=2)
+    else:
+        run.note(message)
