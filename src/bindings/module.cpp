@@ -13,6 +13,7 @@ NB_MODULE(_core, module) {
   vorotool::bindings::bind_cells(module);
   vorotool::bindings::bind_planar_graph(module);
   vorotool::bindings::bind_segment_exact(module);
+  vorotool::bindings::bind_segment_predicates(module);
   vorotool::bindings::bind_outlines(module);
   vorotool::bindings::bind_skeleton(module);
   vorotool::bindings::bind_offsets(module);
