@@ -19,7 +19,10 @@ from vorotool.formats.outputs import remove_temporaries
 
 LOCAL = "local"
 PATIENCE = 10.0
-"""Seconds for a scheduler to answer, and to have a first worker."""
+"""Seconds for a scheduler to answer."""
+
+FIRST_WORKER = 120.0
+"""Seconds for a first worker to come: a cluster may just have been asked for some."""
 
 CLOSING = 0.1
 """Seconds for taking leave: an interrupt is over within 0.2 s."""
@@ -83,19 +86,20 @@ def cluster_results(
             if not outcome.code:
                 give()
             yield number, outcome
-            if outcome.code:
+            if outcome.code and future.status in ("finished", "error"):  # else there is no scheduler to give it to
                 give()
 
 
 def _connected(distributed: Any, address: str, jobs: int | None, stack: ExitStack) -> Any:
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what it would say is in the outcomes
+    for name in ("distributed", "distributed.client"):
+        logging.getLogger(name).setLevel(logging.CRITICAL)  # what it would say is in the outcomes
     cluster = stack.enter_context(_started(distributed, jobs)) if address == LOCAL else address
     try:
         client = distributed.Client(cluster, timeout=PATIENCE, set_as_default=False)
-        stack.callback(client.close, timeout=CLOSING)
-        client.wait_for_workers(1, timeout=PATIENCE)
+        stack.callback(_close, client)
+        client.wait_for_workers(1, timeout=FIRST_WORKER)
     except TimeoutError:
-        raise UsageError(f"--cluster {address}: nobody works there; check the address, or start workers") from None
+        raise UsageError(f"--cluster {address}: nobody works there; start workers") from None
     except (OSError, ValueError) as error:
         raise UsageError(f"--cluster {address}: no scheduler answers there ({error}); check the address") from None
     return client
@@ -118,8 +122,12 @@ def _started(distributed: Any, jobs: int | None) -> Iterator[Any]:
             nanny.auto_restart = False
             with suppress(OSError, TypeError):  # it has gone already
                 os.kill(nanny.pid, signal.SIGKILL)
-        with suppress(TimeoutError):
-            cluster.close(timeout=CLOSING)
+        _close(cluster)
+
+
+def _close(connected: Any) -> None:
+    with suppress(OSError):  # nobody answers any more, or not so fast
+        connected.close(timeout=CLOSING)
 
 
 def _carry_out(process: Process, task: Task) -> Outcome:
@@ -137,7 +145,7 @@ def _absolute(task: Task) -> Task:
 def _outcome(task: Task, future: Any, result: Any) -> Outcome:
     """What became of a task, in the words of this process."""
     if not isinstance(result, Outcome):
-        reason = result[1] if future.status == "error" else "the connection to the scheduler is lost"
+        reason = result[1] if future.status == "error" else "the scheduler does not answer any more"
         return Outcome(code=1, message=f"the cluster gave it up: {reason}")
     if result.version != __version__:
         return Outcome(code=1, message=f"a worker has vorotool {result.version}, but this is {__version__}")
@@ -147,7 +155,8 @@ def _outcome(task: Task, future: Any, result: Any) -> Outcome:
 def _give_up(client: Any, given: dict[Any, tuple[int, Task]]) -> None:
     """Forget the tasks that are not done when the batch ends, and remove what they have begun."""
     if given:
-        client.cancel(list(given))
+        with suppress(OSError):
+            client.cancel(list(given))
     for _, task in given.values():
         for folder in {Path(path).parent for path in task.outputs}:
             remove_temporaries(folder, task.tag)

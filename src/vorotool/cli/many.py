@@ -24,6 +24,7 @@ from vorotool.cli.recipes import Recipe, process_input
 from vorotool.cli.reports import Report
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
+from vorotool.cli.units import unit_stats
 from vorotool.errors import OutputError
 from vorotool.formats.outputs import check_output, open_output
 
@@ -95,7 +96,8 @@ def run_many(recipe: Recipe, o: SimpleNamespace) -> None:
             with run.phase("write --table"):
                 _write_table(o, plan.table, tasks, outcomes)
         report.finish([task.source for task in tasks])
-    if (failure := report.failure()) is not None:
+        run.stats |= unit_stats(o)
+    if (failure := report.failure(keep_going=o.keep_going)) is not None:
         raise failure
 
 

@@ -85,12 +85,12 @@ class Report:
             "failures": self._failures,
         }
 
-    def failure(self) -> BatchError | None:
+    def failure(self, *, keep_going: bool) -> BatchError | None:
         """What the program ends with, if inputs failed."""
         if not self._failures:
             return None
         left = self._total - self._counts.total()
-        rest = f"; {left} were not started: --keep-going goes on" if left else ""
+        rest = f"; {left} were not started{'' if keep_going else ': --keep-going goes on'}" if left else ""
         return BatchError(f"{len(self._failures)} of {self._total} inputs failed{rest}")
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.arc_measures import ArcMeasures
+
 Floats = NDArray[np.float64]
 
 CHUNK = 1 << 14
@@ -74,22 +76,9 @@ def _radii_of_part(
     least = np.where(has_vertex & within, np.minimum(least, half), least)
     integral = length * (r0 + r1) / 2  # between two edges the radius is linear
     rest = np.flatnonzero(has_vertex)
-    focus = np.where(on_left[rest], right[0][:, rest], left[0][:, rest])
-    source, target = source[:, rest] - focus, target[:, rest] - focus
-    control = np.where(np.isnan(control[rest, 0]), (source + target) / 2, control[rest].T - focus)
-    integral[rest] = _integral_of_distance(source, 2 * (control - source), source - 2 * control + target)
+    measures = ArcMeasures(ends[rest], radius[rest], control[rest], sites[:, rest], is_edge[:, rest], length[rest])
+    integral[rest] = measures.integral
     return least, most, integral
-
-
-def _integral_of_distance(a: Floats, b: Floats, c: Floats) -> Floats:
-    """Of the distance from the origin along curves a + b t + c t^2, t from 0 to 1: by Gauss and Legendre."""
-    nodes, weights = np.polynomial.legendre.leggauss(8)
-    integral = np.zeros(a.shape[1])
-    for t, weight in zip(((nodes + 1) / 2).tolist(), (weights / 2).tolist(), strict=True):
-        step = t * c
-        place, speed = a + t * (b + step), b + (step + step)
-        integral += weight * np.sqrt(_dot(place, place) * _dot(speed, speed))
-    return integral
 
 
 def _columns(places: Floats) -> Floats:
