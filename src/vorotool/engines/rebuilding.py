@@ -12,14 +12,12 @@ from numpy.typing import NDArray
 from vorotool.engines.skeleton_contours import Contours, contours_of
 from vorotool.errors import UsageError
 from vorotool.geometry.circular_arcs import chords_of, middles_of
+from vorotool.geometry.flattening import checked_flatten
 from vorotool.geometry.polygons import HOLE, SHELL, PolygonSet
 from vorotool.geometry.skeleton import EDGE, INTERIOR, Skeleton
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
-
-FLATTEN = 2.0**-12
-"""Of the larger side of the bounds: how far chords may be from arcs where nothing else is asked for."""
 
 _ULPS = 8
 """Of the largest coordinate: what two feet of one disc may differ by, times how much each is magnified."""
@@ -59,17 +57,10 @@ def rebuild(skeleton: Skeleton, *, flatten: float | None = None) -> PolygonSet:
     """
     if skeleton.gap:
         raise UsageError(f"a skeleton with a gap of {skeleton.gap:g} leaves the corners out: use one without a gap")
-    if flatten is not None and not flatten > 0:
-        raise UsageError(f"the tolerance is {flatten}: it must be positive")
     contours = contours_of(skeleton, np.flatnonzero(skeleton.side == INTERIOR))
-    xy, point, start = _outline(skeleton, contours, flatten or _default_tolerance(skeleton))
+    xy, point, start = _outline(skeleton, contours, checked_flatten(flatten, skeleton.polygons))
     rings = _simple_rings(xy, point, start)
     return _assembled(skeleton, contours, rings)
-
-
-def _default_tolerance(skeleton: Skeleton) -> float:
-    xy = skeleton.polygons.xy
-    return FLATTEN * (float(np.ptp(xy, axis=0).max()) or 1.0) if len(xy) else 1.0
 
 
 # ---- feet ----------------------------------------------------------------------------------------

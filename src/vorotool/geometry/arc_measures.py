@@ -82,7 +82,9 @@ class ArcMeasures:
         across, between = sites[0] - sites[1], (sites[0] + sites[1]) / 2
         self.half = np.where(self.is_parting, _norm(across) / 2, 0)
         way = np.stack([across[:, 1], -across[:, 0]], axis=1)
-        slopes = [_ratio(((end - between) * way).sum(axis=1), 2 * self.half * self.half) for end in (self.source, self.target)]
+        slopes = [
+            _ratio(((end - between) * way).sum(axis=1), 2 * self.half * self.half) for end in (self.source, self.target)
+        ]
         self.slope0 = np.where(self.is_parting, slopes[0], middle - half_way)
         self.slope1 = np.where(self.is_parting, slopes[1], middle + half_way)
 
@@ -139,14 +141,14 @@ class ArcMeasures:
         points = self.half * self.length * mean_root(self.slope0, self.slope1)
         found = np.where(self.is_parting, points, linear)
         bent = np.flatnonzero(self.is_parabola)
-        found[bent] = self[bent]._integral_along_parabolas()  # noqa: SLF001 - one of its own kind
+        found[bent] = self[bent]._integral_along_parabolas()
         return found
 
     def _integral_along_parabolas(self) -> Floats:
         """h^2 / 2 times the integral of (1 + s^2)^(3/2) over the slope s, where h = d / (s1 - s0)."""
         flat = self.slope1 - self.slope0 < _FLAT
         found = np.empty_like(self.length)
-        found[flat] = self[flat]._quadrature()  # noqa: SLF001
+        found[flat] = self[flat]._quadrature()
         steep = self[~flat]
         s, t = steep.slope0, steep.slope1
         v, w = np.sqrt(1 + s * s), np.sqrt(1 + t * t)

@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.skeleton import EDGE, Skeleton
 from vorotool.geometry.skeleton_tables import site_labels
 from vorotool.render.label_png import checked_layers
-from vorotool.render.layers import Curves, Layer, Lines, Page, Points, Polygons, Texts, bounds_of
-from vorotool.render.palettes import FAINT, INK, LIGHT, RESULT, SEED
+from vorotool.render.layers import Curves, Layer, Lines, Page, Points, Texts, bounds_of
+from vorotool.render.palettes import INK, RESULT, SEED
+from vorotool.render.polygon_layers import polygon_layers
 
 LAYERS = ("polygons", "elements", "points", "skeleton", "nodes", "labels")
 """From below."""
@@ -61,7 +61,7 @@ def skeleton_layers(
     width = min(max(spacing / 16, 0.2), 1.5)
     radius = min(max(spacing / 16, 0.3), 3.0)
     make: dict[str, Callable[[], list[Layer]]] = {
-        "polygons": lambda: _polygon_layers(skeleton.polygons, width),
+        "polygons": lambda: polygon_layers(skeleton.polygons, width),
         "elements": lambda: [_edges(skeleton, width)],
         "points": lambda: [Points("points", places, radius=radius)],
         "skeleton": lambda: [_arcs(skeleton, name, colour, width)],
@@ -111,28 +111,6 @@ def skeleton_page(
         shown.append(np.array([[x, y], [x + w, y + h]]))
     up = skeleton.y_up if y_up is None else y_up
     return Page(bounds or bounds_of([Points("shown", np.concatenate(shown))]), width=width, y_up=up)
-
-
-def _polygon_layers(polygons: PolygonSet, width: float) -> list[Layer]:
-    """Closed rings filled, open lines drawn."""
-    closed = ~polygons.is_line[polygons.ring_polygon]
-    corner_is_closed = np.repeat(closed, np.diff(polygons.ring_start))
-    corners = np.flatnonzero(corner_is_closed).astype(np.int32)
-    sizes = np.diff(polygons.ring_start)[closed]
-    per_polygon = np.bincount(polygons.ring_polygon[closed], minlength=len(polygons))
-    filled = Polygons(
-        "polygons",
-        polygons.xy,
-        corners,
-        np.concatenate([[0], np.cumsum(sizes)]),
-        first_rings=np.concatenate([[0], np.cumsum(per_polygon)]),
-        colours=[LIGHT],
-    )
-    first = np.flatnonzero(~corner_is_closed)
-    last = np.isin(first, polygons.ring_start[1:] - 1)
-    pairs = np.stack([first[~last], first[~last] + 1], axis=1).astype(np.int32)
-    lines = Lines("lines", polygons.xy, pairs, FAINT, width)
-    return [filled, lines] if len(pairs) else [filled]
 
 
 def _edges(skeleton: Skeleton, width: float) -> Lines:
