@@ -107,7 +107,8 @@ void SeedArcs::place_nodes(unsigned threads, const Monitor& monitor) {
       monitor);
 }
 
-std::size_t SeedArcs::add_lines(std::span<const CornerLine> lines, std::span<const std::int32_t> face_group) {
+std::size_t SeedArcs::add_lines(std::span<const CornerLine> lines, std::span<const std::int32_t> face_group,
+                                const JoinedGroups& joined) {
   std::vector<Division> divisions;
   std::size_t open = 0;
   for (const CornerLine& line : lines) {
@@ -126,12 +127,23 @@ std::size_t SeedArcs::add_lines(std::span<const CornerLine> lines, std::span<con
       ++open;
       continue;
     }
-    const std::int32_t source = add_node(corner, FrameSide::none);
-    add_arc({source, target, line.left, line.right, face_group[at(line.face)]},
+    const std::int32_t group = face_group[at(line.face)];
+    std::optional<std::int32_t> source;
+    if (joined.contain(group)) source = node_at_corner(line.corner, group);
+    if (!source) source = add_node(corner, FrameSide::none);
+    add_arc({*source, target, line.left, line.right, group},
             {line.node >= 0 ? 3 * line.node : line.side, line.corner});
   }
   divide(divisions);
   return open;
+}
+
+// Of the lines from a corner, which are the last arcs.
+std::optional<std::int32_t> SeedArcs::node_at_corner(std::int32_t corner, std::int32_t group) const {
+  for (std::size_t arc = arcs_.size(); arc > 0 && origin_[arc - 1].corner == corner; --arc) {
+    if (arcs_[arc - 1].group == group) return arcs_[arc - 1].source;
+  }
+  return {};
 }
 
 // Arcs were added in the order of the first sides of edges.

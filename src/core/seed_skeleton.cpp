@@ -140,7 +140,7 @@ SeedSkeleton extract_seed_skeleton(const SeedDiagram& diagram, const SeedSkeleto
   arcs.place_nodes(threads, monitor);
   if (options.complete) {
     const CornerLines lines = corner_lines(diagram, options.face_group, threads, monitor);
-    made.open_corners = lines.open + arcs.add_lines(lines.lines, options.face_group);
+    made.open_corners = lines.open + arcs.add_lines(lines.lines, options.face_group, options.joined);
   }
   if (options.clipped) arcs.clip(options.clipped->group, options.clipped->frame);
   const Writer writer(diagram, arcs, place, monitor);

@@ -540,6 +540,7 @@ class SampledDiagram:
         whole: bool,
         complete: bool,
         tolerance: float,
+        joined: tuple[int, int],
         origin_x: float,
         origin_y: float,
         scale: float,

@@ -176,3 +176,14 @@ def test_turning_a_mask_turns_its_skeleton():
     assert turned.length.sum() == pytest.approx(made.length.sum(), rel=1e-12)
     back = np.stack([image.shape[1] - 1 - turned.vertices[:, 1], turned.vertices[:, 0]], axis=1)
     assert sorted(map(tuple, np.round(back, 9).tolist())) == sorted(map(tuple, np.round(made.vertices, 9).tolist()))
+
+
+@pytest.mark.parametrize("connectivity", [4, 8])
+def test_the_approximate_skeleton_within_a_tolerance_has_the_same_topology(connectivity):
+    masks = MASKS[:SIDE, : 4 * SIDE]
+    polygons = vorotool.outlines(masks, connectivity=connectivity)
+    exact = vorotool.polygon_table(vorotool.skeleton_exact(polygons))
+    made = vorotool.skeleton_approx(polygons, tolerance=0.05)
+    assert vorotool.polygon_table(made)["cycles"].tolist() == exact["cycles"].tolist()
+    root = connected_roots(made.arcs, len(made.vertices))
+    assert np.count_nonzero(root == np.arange(len(root))) == len(polygons)
