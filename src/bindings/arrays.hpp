@@ -4,10 +4,12 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
+#include <array>
 #include <cstddef>
 #include <initializer_list>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -44,6 +46,25 @@ nanobind::object to_numpy(core::LargeArray<T>&& values, std::initializer_list<st
   const nanobind::capsule owner(data,
                                 [](void* p) noexcept { core::LargeArray<T>::free(static_cast<T*>(p)); });
   return nanobind::cast(nanobind::ndarray<nanobind::numpy, T>(data, shape, owner));
+}
+
+// The rows of an array with so many columns of numbers.
+template <class Row, std::size_t columns = 2, class Array>
+std::span<const Row> rows(const Array& array) {
+  static_assert(sizeof(Row) == columns * sizeof(*array.data()));
+  if (array.shape(1) != columns) throw std::invalid_argument("an array has a wrong number of columns");
+  return {reinterpret_cast<const Row*>(array.data()), array.shape(0)};
+}
+
+// An (n, 2) array that takes over the values.
+template <class Value>
+nanobind::object two_columns(std::vector<std::array<Value, 2>>&& values) {
+  auto kept = std::make_unique<std::vector<std::array<Value, 2>>>(std::move(values));
+  Value* data = kept->empty() ? nullptr : kept->front().data();
+  const std::size_t size = kept->size();
+  const nanobind::capsule owner(
+      kept.release(), [](void* p) noexcept { delete static_cast<std::vector<std::array<Value, 2>>*>(p); });
+  return nanobind::cast(nanobind::ndarray<nanobind::numpy, Value>(data, {size, 2}, owner));
 }
 
 // A 1-D NumPy array of `field(item)` for every item.

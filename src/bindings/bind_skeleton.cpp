@@ -29,25 +29,6 @@ using Pair = std::array<std::int32_t, 2>;
 using IndexRows = Matrix<const std::int32_t>;
 using Places = Matrix<const double>;
 
-static_assert(sizeof(LatticePoint) == 2 * sizeof(std::int32_t) && sizeof(Place) == 2 * sizeof(double));
-
-template <class Row, class Array>
-std::span<const Row> rows(const Array& array) {
-  if (array.shape(1) != 2) throw std::invalid_argument("an array that should have two columns has not");
-  return {reinterpret_cast<const Row*>(array.data()), array.shape(0)};
-}
-
-// An (n, 2) array that takes over the values.
-template <class Value>
-nb::object two_columns(std::vector<std::array<Value, 2>>&& values) {
-  auto kept = std::make_unique<std::vector<std::array<Value, 2>>>(std::move(values));
-  Value* data = kept->empty() ? nullptr : kept->front().data();
-  const std::size_t size = kept->size();
-  const nb::capsule owner(
-      kept.release(), [](void* p) noexcept { delete static_cast<std::vector<std::array<Value, 2>>*>(p); });
-  return nb::cast(nb::ndarray<nb::numpy, Value>(data, {size, 2}, owner));
-}
-
 // The arrays of a diagram, kept while the core works on views of them.
 struct DiagramArrays {
   IndexRows points, segments;

@@ -338,6 +338,43 @@ def extract_skeleton(
 ) -> dict[str, NDArray[Any]]:
     """Frames are (least x, most x, least y, most y) on the lattice."""
 
+# ---- pruning (bind_pruning.cpp): a skeleton is its vertices, radii, arcs, control points, sites, lengths, the ends of
+# ---- sites as (s, 4), which nodes are anchored (uint8), and whether sites are closed; criteria are numbered -----------
+
+_SkeletonArrays = tuple[
+    NDArray[np.float64],
+    NDArray[np.float64],
+    NDArray[np.int32],
+    NDArray[np.float64],
+    NDArray[np.int32],
+    NDArray[np.float64],
+    NDArray[np.float64],
+    NDArray[np.uint8],
+    bool,
+]
+
+def critical_values(
+    skeleton: _SkeletonArrays, criterion: int, progress: _Progress
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int32], NDArray[np.float64]]:
+    """Values at the ends of arcs and the largest of each; arcs on which a place is kept, and where. Of the angle: the
+    tangent of half of it."""
+
+def prune_skeleton(
+    skeleton: _SkeletonArrays,
+    ends: NDArray[np.float64],
+    most: NDArray[np.float64],
+    kept_arc: NDArray[np.int32],
+    kept_place: NDArray[np.float64],
+    criterion: int,
+    threshold: float,
+    group: NDArray[np.int32],
+    progress: _Progress,
+) -> dict[str, NDArray[Any]]: ...
+def arc_profiles(
+    skeleton: _SkeletonArrays,
+) -> tuple[NDArray[np.int8], NDArray[np.float64], NDArray[np.float64]]:
+    """Kinds (between lines, between points, parabola), x at the ends, and h or the tangent of half the angle."""
+
 # ---- planar graphs (bind_planar_graph.cpp): arrays are C-contiguous; lattice points are int32 rows ------------------
 
 class TooManyCrossingsError(ValueError): ...
