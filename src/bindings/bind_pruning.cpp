@@ -147,6 +147,36 @@ nb::tuple arc_profiles(const nb::tuple& arrays) {
   return nb::make_tuple(to_numpy(std::move(kind)), two_columns(std::move(ends)), to_numpy(std::move(size)));
 }
 
+nb::dict part_geometry(const nb::tuple& arrays, const Vector<const std::int32_t>& arc,
+                       const Vector<const double>& first, const Vector<const double>& last) {
+  const SkeletonInput input(arrays);
+  const core::SkeletonView skeleton = input.skeleton();
+  if (first.size() != arc.size() || last.size() != arc.size())
+    throw std::invalid_argument("each part must have an arc and two ends");
+  std::vector<Place> from, to, control;
+  std::vector<double> from_radius, to_radius, length;
+  for (std::size_t k = 0; k < arc.size(); ++k) {
+    const core::ArcPart part{view(arc)[k], view(first)[k], view(last)[k]};
+    if (part.arc < 0 || static_cast<std::size_t>(part.arc) >= skeleton.arcs.size())
+      throw std::invalid_argument("an arc is out of range");
+    const core::PartGeometry geometry = core::part_geometry(skeleton, part);
+    from.push_back(geometry.first.place);
+    to.push_back(geometry.last.place);
+    control.push_back(geometry.control);
+    from_radius.push_back(geometry.first.radius);
+    to_radius.push_back(geometry.last.radius);
+    length.push_back(geometry.length);
+  }
+  nb::dict result;
+  result["first"] = two_columns(std::move(from));
+  result["last"] = two_columns(std::move(to));
+  result["first_radius"] = to_numpy(std::move(from_radius));
+  result["last_radius"] = to_numpy(std::move(to_radius));
+  result["control"] = two_columns(std::move(control));
+  result["length"] = to_numpy(std::move(length));
+  return result;
+}
+
 }  // namespace
 
 void bind_pruning(nb::module_& module) {
@@ -155,6 +185,8 @@ void bind_pruning(nb::module_& module) {
              "kept_arc"_a.noconvert(), "kept_place"_a.noconvert(), "criterion"_a, "threshold"_a,
              "group"_a.noconvert(), "progress"_a.none());
   module.def("arc_profiles", &arc_profiles, "skeleton"_a);
+  module.def("part_geometry", &part_geometry, "skeleton"_a, "arc"_a.noconvert(), "first"_a.noconvert(),
+             "last"_a.noconvert());
 }
 
 }  // namespace vorotool::bindings

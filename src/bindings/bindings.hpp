@@ -13,6 +13,7 @@ void bind_delaunay(nanobind::module_& module);
 void bind_alpha(nanobind::module_& module);
 void bind_digital(nanobind::module_& module);
 void bind_cells(nanobind::module_& module);
+void bind_paths(nanobind::module_& module);
 void bind_planar_graph(nanobind::module_& module);
 void bind_pruning(nanobind::module_& module);
 void bind_segment_exact(nanobind::module_& module);

@@ -11,6 +11,7 @@ NB_MODULE(_core, module) {
   vorotool::bindings::bind_alpha(module);
   vorotool::bindings::bind_digital(module);
   vorotool::bindings::bind_cells(module);
+  vorotool::bindings::bind_paths(module);
   vorotool::bindings::bind_planar_graph(module);
   vorotool::bindings::bind_pruning(module);
   vorotool::bindings::bind_segment_exact(module);

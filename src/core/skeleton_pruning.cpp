@@ -41,6 +41,34 @@ Place between(const Place& a, const Place& b, double u) {
   return {a[0] + u * (b[0] - a[0]), a[1] + u * (b[1] - a[1])};
 }
 
+ArcEnd end_at(const SkeletonView& skeleton, std::int32_t arc, double u) {
+  const Place source = skeleton.source(at(arc)), target = skeleton.target(at(arc));
+  if (u == 0) return {source, skeleton.source_radius(at(arc))};
+  if (u == 1) return {target, skeleton.target_radius(at(arc))};
+  Place place = between(source, target, u);
+  if (skeleton.is_curved(at(arc))) {
+    const Place& control = skeleton.control[at(arc)];
+    place = between(between(source, control, u), between(control, target, u), u);
+  }
+  return {place, ArcProfile(skeleton, at(arc)).radius(u)};
+}
+
+bool is_whole(const ArcPart& part) { return part.first == 0 && part.last == 1; }
+
+// Of a part of a quadratic Bezier curve: its blossom. A single place is no curve.
+Place control_of(const SkeletonView& skeleton, const ArcPart& part) {
+  const Place& whole = skeleton.control[at(part.arc)];
+  if (is_whole(part)) return whole;
+  if (!skeleton.is_curved(at(part.arc)) || part.first == part.last) return {nan, nan};
+  return between(between(skeleton.source(at(part.arc)), whole, part.first),
+                 between(whole, skeleton.target(at(part.arc)), part.first), part.last);
+}
+
+double length_of(const SkeletonView& skeleton, const ArcPart& part) {
+  if (is_whole(part)) return skeleton.length[at(part.arc)];
+  return ArcProfile(skeleton, at(part.arc)).length(part.first, part.last);
+}
+
 class PartWriter {
  public:
   PartWriter(const SkeletonView& skeleton, std::span<const ArcPart> parts) : skeleton_(skeleton), parts_(parts) {
@@ -72,9 +100,8 @@ class PartWriter {
     for (const OrderedArc& arc : order.arcs) {
       const ArcPart& part = parts_[at(arc.arc)];
       out.arcs.push_back({arc.source, arc.target});
-      out.control.push_back(control(part));
-      out.length.push_back(is_whole(part) ? skeleton_.length[at(part.arc)]
-                                          : ArcProfile(skeleton_, at(part.arc)).length(part.first, part.last));
+      out.control.push_back(control_of(skeleton_, part));
+      out.length.push_back(length_of(skeleton_, part));
       out.branch.push_back(arc.branch);
       out.original.push_back(part.arc);
       out.is_reversed.push_back(arc.is_reversed ? 1 : 0);
@@ -83,26 +110,9 @@ class PartWriter {
   }
 
  private:
-  static bool is_whole(const ArcPart& part) { return part.first == 0 && part.last == 1; }
-
   std::int32_t add_node(std::int32_t arc, double u) {
-    const Place source = skeleton_.source(at(arc)), target = skeleton_.target(at(arc));
-    Place place = between(source, target, u);
-    if (skeleton_.is_curved(at(arc))) {
-      const Place& control = skeleton_.control[at(arc)];
-      place = between(between(source, control, u), between(control, target, u), u);
-    }
-    extra_.push_back({place, ArcProfile(skeleton_, at(arc)).radius(u)});
+    extra_.push_back(end_at(skeleton_, arc, u));
     return static_cast<std::int32_t>(node_count() - 1);
-  }
-
-  // Of a part of a quadratic Bezier curve: its blossom. A single place is no curve.
-  Place control(const ArcPart& part) const {
-    const Place& whole = skeleton_.control[at(part.arc)];
-    if (is_whole(part)) return whole;
-    if (!skeleton_.is_curved(at(part.arc)) || part.first == part.last) return {nan, nan};
-    return between(between(skeleton_.source(at(part.arc)), whole, part.first),
-                   between(whole, skeleton_.target(at(part.arc)), part.first), part.last);
   }
 
   const SkeletonView& skeleton_;
@@ -112,6 +122,11 @@ class PartWriter {
 };
 
 }  // namespace
+
+PartGeometry part_geometry(const SkeletonView& skeleton, const ArcPart& part) {
+  return {end_at(skeleton, part.arc, part.first), end_at(skeleton, part.arc, part.last),
+          control_of(skeleton, part), length_of(skeleton, part)};
+}
 
 namespace {
 

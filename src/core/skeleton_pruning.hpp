@@ -18,6 +18,14 @@ struct ArcPart {
   double first, last;
 };
 
+// Its ends, its control point (NaN where it is straight), and its length.
+struct PartGeometry {
+  ArcEnd first, last;
+  Place control;
+  double length;
+};
+PartGeometry part_geometry(const SkeletonView& skeleton, const ArcPart& part);
+
 // By arc: the places whose critical value is at least the threshold.
 std::vector<ArcPart> parts_left(const SkeletonView& skeleton, const CriticalValues& values,
                                 Criterion criterion, double threshold);

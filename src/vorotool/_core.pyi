@@ -375,6 +375,28 @@ def arc_profiles(
 ) -> tuple[NDArray[np.int8], NDArray[np.float64], NDArray[np.float64]]:
     """Kinds (between lines, between points, parabola), x at the ends, and h or the tangent of half the angle."""
 
+def part_geometry(
+    skeleton: _SkeletonArrays, arc: NDArray[np.int32], first: NDArray[np.float64], last: NDArray[np.float64]
+) -> dict[str, NDArray[np.float64]]:
+    """Places and radii of both ends, control points and lengths of parts of arcs."""
+
+# ---- paths (bind_paths.cpp): arcs are pairs of nodes ----------------------------------------------------------------
+
+def longest_paths(
+    arcs: NDArray[np.int32],
+    length: NDArray[np.float64],
+    group: NDArray[np.int32],
+    groups: int,
+    nodes: int,
+    progress: _Progress,
+) -> tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.int32]]:
+    """Where the arcs of each group's path begin, the arcs, and the node that each leads to."""
+
+def path_from(
+    arcs: NDArray[np.int32], length: NDArray[np.float64], nodes: int, first: int, last: int, progress: _Progress
+) -> tuple[NDArray[np.int32], NDArray[np.int32]] | None:
+    """Arcs of the shortest path, and the node that each leads to; with last -1 to the farthest leaf."""
+
 # ---- planar graphs (bind_planar_graph.cpp): arrays are C-contiguous; lattice points are int32 rows ------------------
 
 class TooManyCrossingsError(ValueError): ...
