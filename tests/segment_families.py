@@ -6,6 +6,8 @@ Segments meet at shared ends only, and no point lies inside one.
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 
 HALF = 2**29 - 1
@@ -317,6 +319,26 @@ def scattered(rng, n):
     return graph_on(rng, rng.integers(-extent, extent + 1, (max(2, n // 2), 2)), 3 * n)
 
 
+def cells_of_a_map(rng, n):
+    """Quadrangles that share their corners and sides, some left out; or digitised one by one, off by 1."""
+    side, extent = max(2, round(np.sqrt(n / 3))), float(rng.choice([20, 10**6, 10**9]))
+    corners = np.stack(np.meshgrid(np.arange(side + 1), np.arange(side + 1), indexing="ij"), axis=-1)
+    corners = np.rint((corners + rng.uniform(-0.3, 0.3, corners.shape)) * extent / side)
+    off = int(rng.integers(0, 2))
+    kept = np.argwhere(rng.random((side, side)) < 0.9)
+    cells = [corners[[i, i + 1, i + 1, i], [j, j, j + 1, j + 1]] for i, j in kept]
+    return [cell + rng.integers(-off, off + 1, (4, 2)) for cell in cells]
+
+
+def partition(rng, n):
+    """A map, cut where its cells overlap: nodes of degree 3 and more, and slivers a unit wide."""
+    from vorotool.engines.planar_graph import planar_graph
+
+    with warnings.catch_warnings(action="ignore"):
+        graph = planar_graph(cells_of_a_map(rng, n), threads=1)
+    return graph.points, graph.segments
+
+
 FAMILIES = {
     family.__name__: family
     for family in (
@@ -343,8 +365,13 @@ FAMILIES = {
         two_boxes,
         fan,
         scattered,
+        partition,
     )
 }
+
+
+JOINED = ("clusters", "crowded", "two_boxes", "fan", "scattered")
+"""Families that take time in the square of n to draw."""
 
 
 def draw(name, n, seed):
@@ -354,6 +381,13 @@ def draw(name, n, seed):
     assert np.abs(points.astype(np.int64)).max(initial=0) <= LIMIT
     assert len(np.unique(points, axis=0)) == len(points)
     return np.ascontiguousarray(points), np.ascontiguousarray(segments)
+
+
+def coarse(points, segments, limit):
+    """The graph on a lattice so small, without what crosses there; points that no segment ends at may be left."""
+    small = lattice(points * min(1, limit / np.abs(points.astype(np.float64)).max(initial=1)))
+    places, number = np.unique(small, axis=0, return_inverse=True)
+    return places, joined(places, number.reshape(-1)[segments])
 
 
 def symmetries(points):

@@ -1,6 +1,30 @@
 """Random polygons and lines, most of them broken: inputs of the skeleton tests."""
 
+from dataclasses import replace
+from pathlib import Path
+
 import numpy as np
+
+from segment_families import cells_of_a_map, draw, symmetries
+from vorotool.geometry.polygon_conversion import as_polygons
+
+DATA = sorted(path for end in ("json", "geojson") for path in (Path(__file__).parents[1] / "data").glob(f"*.{end}"))
+"""Polygons that come with the project; each of these files is one."""
+
+RINGS = (
+    "star_smooth",
+    "star_rough",
+    "star_small",
+    "rectilinear",
+    "jittered_grid",
+    "comb",
+    "comb_tapered",
+    "spiral",
+    "koch",
+    "regular",
+    "chains",
+)
+"""Families of graphs that are one ring."""
 
 
 def star(rng):
@@ -45,7 +69,25 @@ def holed(rng):
     return [{"shell": [[0, 0], [10, 0], [10, 10], [0, 10]], "holes": holes}]
 
 
-FAMILIES = (star, crossing, fractions, several, with_lines, tiles, holed)
+def valid(rng):
+    """A ring that needs no repair."""
+    points, _ = draw(RINGS[int(rng.integers(len(RINGS)))], int(rng.integers(3, 60)), rng)
+    return points.astype(float)
+
+
+def partition(rng):
+    """Cells of a map."""
+    return cells_of_a_map(rng, int(rng.integers(6, 60)))
+
+
+FAMILIES = (star, crossing, fractions, several, with_lines, tiles, holed, valid, partition)
+
+
+def under_symmetries(shape):
+    """A shape under the 8 symmetries of the square."""
+    polygons = as_polygons(shape)
+    for xy in symmetries(polygons.xy):
+        yield replace(polygons, xy=xy)
 
 
 def regular(count, radius=1000.0):

@@ -39,6 +39,17 @@ nanobind::object to_numpy(std::vector<T>&& values) {
   return nanobind::cast(nanobind::ndarray<nanobind::numpy, T, nanobind::ndim<1>>(data, {size}, owner));
 }
 
+// An (n, 2) array that takes over the values.
+template <class Value>
+nanobind::object two_columns(std::vector<std::array<Value, 2>>&& values) {
+  auto kept = std::make_unique<std::vector<std::array<Value, 2>>>(std::move(values));
+  Value* data = kept->empty() ? nullptr : kept->front().data();
+  const std::size_t size = kept->size();
+  const nanobind::capsule owner(
+      kept.release(), [](void* p) noexcept { delete static_cast<std::vector<std::array<Value, 2>>*>(p); });
+  return nanobind::cast(nanobind::ndarray<nanobind::numpy, Value>(data, {size, 2}, owner));
+}
+
 // A NumPy array of the given shape that takes over the values.
 template <class T>
 nanobind::object to_numpy(core::LargeArray<T>&& values, std::initializer_list<std::size_t> shape) {
@@ -54,17 +65,6 @@ std::span<const Row> rows(const Array& array) {
   static_assert(sizeof(Row) == columns * sizeof(*array.data()));
   if (array.shape(1) != columns) throw std::invalid_argument("an array has a wrong number of columns");
   return {reinterpret_cast<const Row*>(array.data()), array.shape(0)};
-}
-
-// An (n, 2) array that takes over the values.
-template <class Value>
-nanobind::object two_columns(std::vector<std::array<Value, 2>>&& values) {
-  auto kept = std::make_unique<std::vector<std::array<Value, 2>>>(std::move(values));
-  Value* data = kept->empty() ? nullptr : kept->front().data();
-  const std::size_t size = kept->size();
-  const nanobind::capsule owner(
-      kept.release(), [](void* p) noexcept { delete static_cast<std::vector<std::array<Value, 2>>*>(p); });
-  return nanobind::cast(nanobind::ndarray<nanobind::numpy, Value>(data, {size, 2}, owner));
 }
 
 // A 1-D NumPy array of `field(item)` for every item.

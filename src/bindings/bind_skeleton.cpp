@@ -15,6 +15,7 @@
 #include "core/parallel.hpp"
 #include "core/skeleton_edges.hpp"
 #include "core/skeleton_extraction.hpp"
+#include "diagram_arrays.hpp"
 #include "interrupts.hpp"
 
 namespace vorotool::bindings {
@@ -22,47 +23,7 @@ namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using core::LatticePoint;
 using core::Monitor;
-using core::Place;
-using Pair = std::array<std::int32_t, 2>;
-using IndexRows = Matrix<const std::int32_t>;
-using Places = Matrix<const double>;
-
-// The arrays of a diagram, kept while the core works on views of them.
-struct DiagramArrays {
-  IndexRows points, segments;
-  Places vertices;
-  Vector<const double> radius;
-  IndexRows edges, edge_sites;
-
-  core::SegmentDiagram diagram() const {
-    const core::SegmentDiagram d{rows<LatticePoint>(points), rows<Pair>(segments),
-                                 rows<Place>(vertices),      view(radius),
-                                 rows<Pair>(edges),          rows<Pair>(edge_sites)};
-    check(d);
-    return d;
-  }
-
- private:
-  static void check(const core::SegmentDiagram& d) {
-    if (d.vertices.size() != d.radius.size() || d.edges.size() != d.edge_sites.size()) {
-      throw std::invalid_argument("the arrays of a diagram have lengths that do not go together");
-    }
-    check_range(d.segments, 0, d.points.size());
-    check_range(d.edges, -1, d.radius.size());
-    check_range(d.edge_sites, 0, d.points.size() + d.segments.size());
-  }
-  static void check_range(std::span<const Pair> pairs, std::int32_t least, std::size_t count) {
-    for (const Pair& pair : pairs) {
-      for (const std::int32_t index : pair) {
-        if (index < least || (index >= 0 && static_cast<std::size_t>(index) >= count)) {
-          throw std::invalid_argument("an index of the diagram is out of range");
-        }
-      }
-    }
-  }
-};
 
 nb::tuple skeleton_edges(const IndexRows& points, const IndexRows& segments, const Places& vertices,
                          const Vector<const double>& radius, const IndexRows& edges,
@@ -85,7 +46,8 @@ nb::dict extract_skeleton(const IndexRows& points, const IndexRows& segments, co
                           const Vector<const double>& radius, const IndexRows& edges,
                           const IndexRows& edge_sites, const Vector<const std::int32_t>& kept,
                           const Vector<const std::int32_t>& groups,
-                          const std::optional<std::pair<std::int32_t, Box>>& clipped, double origin_x,
+                          const std::optional<std::pair<std::int32_t, Box>>& clipped,
+                          const std::pair<std::int32_t, std::int32_t>& joined, double origin_x,
                           double origin_y, double scale, unsigned threads, nb::handle progress) {
   const DiagramArrays arrays{points, segments, vertices, radius, edges, edge_sites};
   const core::SegmentDiagram diagram = arrays.diagram();
@@ -106,8 +68,8 @@ nb::dict extract_skeleton(const IndexRows& points, const IndexRows& segments, co
     }
   }
   core::SkeletonArrays made = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::extract_skeleton(diagram, view(kept), view(groups), frame, {origin_x, origin_y, scale},
-                                  core::resolve_threads(threads), monitor);
+    return core::extract_skeleton(diagram, view(kept), view(groups), frame, {joined.first, joined.second},
+                                  {origin_x, origin_y, scale}, core::resolve_threads(threads), monitor);
   });
   nb::dict result;
   result["vertices"] = two_columns(std::move(made.vertices));
@@ -156,7 +118,7 @@ void bind_skeleton(nb::module_& module) {
   module.def("extract_skeleton", &extract_skeleton, "points"_a.noconvert(), "segments"_a.noconvert(),
              "vertices"_a.noconvert(), "radius"_a.noconvert(), "edges"_a.noconvert(),
              "edge_sites"_a.noconvert(), "kept"_a.noconvert(), "groups"_a.noconvert(), "clipped"_a.none(),
-             "origin_x"_a, "origin_y"_a, "scale"_a, "threads"_a, "progress"_a.none());
+             "joined"_a, "origin_x"_a, "origin_y"_a, "scale"_a, "threads"_a, "progress"_a.none());
   module.def("clearances", &clearances, "points"_a.noconvert(), "segments"_a.noconvert(),
              "places"_a.noconvert(), "reach"_a.noconvert(), "threads"_a, "progress"_a.none());
 }

@@ -1,6 +1,7 @@
 // How a long kernel reports progress and learns that it should stop.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <stdexcept>
 
@@ -13,5 +14,10 @@ using Monitor = std::function<bool(double)>;
 struct Interrupted : std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
 };
+
+// Lets the monitor know at every 2^16th item, which should take some tens of nanoseconds each.
+inline void report_item(const Monitor& monitor, std::size_t item) {
+  if (item % (std::size_t{1} << 16) == 0 && monitor && !monitor(0)) throw Interrupted();
+}
 
 }  // namespace vorotool::core

@@ -85,9 +85,10 @@ void for_each(std::size_t count, unsigned threads, const Monitor& monitor, const
 
 SkeletonArrays extract_skeleton(const SegmentDiagram& diagram, std::span<const std::int32_t> edges,
                                 std::span<const std::int32_t> groups,
-                                const std::optional<ClippedGroup>& clipped, const LatticeToInput& place,
-                                unsigned threads, const Monitor& monitor) {
+                                const std::optional<ClippedGroup>& clipped, const JoinedGroups& joined,
+                                const LatticeToInput& place, unsigned threads, const Monitor& monitor) {
   SkeletonGraph graph(diagram, edges, groups);
+  graph.join_corners(joined.first, joined.last);
   if (clipped) clip_to_frame(graph, clipped->group, clipped->frame, monitor);
   const SkeletonOrder order = order_by_branches(graph.arcs, graph.node_count(), monitor);
   ArrayWriter writer(graph, order, place);

@@ -24,6 +24,11 @@ struct ClippedGroup {
   Frame frame;  // on the lattice
 };
 
+// Groups from `first` to before `last`, in which arcs that end in corners at one place are connected there.
+struct JoinedGroups {
+  std::int32_t first = 0, last = 0;
+};
+
 struct SkeletonArrays {
   std::vector<Place> vertices;                     // [v] in input units, as lengths and control points are
   std::vector<double> radius;                      // [v]
@@ -39,7 +44,7 @@ struct SkeletonArrays {
 // frame none may be unbounded.
 SkeletonArrays extract_skeleton(const SegmentDiagram& diagram, std::span<const std::int32_t> edges,
                                 std::span<const std::int32_t> groups,
-                                const std::optional<ClippedGroup>& clipped, const LatticeToInput& place,
-                                unsigned threads, const Monitor& monitor);
+                                const std::optional<ClippedGroup>& clipped, const JoinedGroups& joined,
+                                const LatticeToInput& place, unsigned threads, const Monitor& monitor);
 
 }  // namespace vorotool::core

@@ -41,6 +41,10 @@ class SkeletonGraph {
     return {diagram_.site(arc.left), diagram_.site(arc.right)};
   }
 
+  // Gives one node to the corners at one place where arcs of one group end, for groups from `first` to before
+  // `last`.
+  void join_corners(std::int32_t first, std::int32_t last);
+
   // Gives the number of a new node.
   std::int32_t add_node(const ArcEnd& end, FrameSide side);
 

@@ -305,6 +305,11 @@ def nearest_neighbours(
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Index of the nearest point of each, -1 without any, and its number of neighbours."""
 
+# ---- outlines (bind_outlines.cpp): labels are C-contiguous uint8, uint16 or uint32 -----------------------------------
+
+def count_crack_vertices(labels: NDArray[Any], threads: int, progress: _Progress) -> int: ...
+def trace_cracks(labels: NDArray[Any], rule: str, vertices: int, progress: _Progress) -> dict[str, NDArray[Any]]: ...
+
 # ---- skeletons (bind_skeleton.cpp): the first six arguments are the arrays of a segment Voronoi diagram -------------
 
 def skeleton_edges(
@@ -330,13 +335,35 @@ def extract_skeleton(
     kept: NDArray[np.int32],
     groups: NDArray[np.int32],
     clipped: tuple[int, tuple[float, float, float, float]] | None,
+    joined: tuple[int, int],
     origin_x: float,
     origin_y: float,
     scale: float,
     threads: int,
     progress: _Progress,
 ) -> dict[str, NDArray[Any]]:
-    """Frames are (least x, most x, least y, most y) on the lattice."""
+    """Frames are (least x, most x, least y, most y) on the lattice; joined are groups from one to before another."""
+
+def offset_curves(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    vertices: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    edges: NDArray[np.int32],
+    edge_sites: NDArray[np.int32],
+    vertex_start: NDArray[np.int32],
+    vertex_sites: NDArray[np.int32],
+    edge_face: NDArray[np.int32],
+    segment_faces: NDArray[np.int32],
+    face_polygon: NDArray[np.int32],
+    site_polygon: NDArray[np.int32],
+    distances: list[float],
+    origin_x: float,
+    origin_y: float,
+    scale: float,
+    progress: _Progress,
+) -> list[dict[str, NDArray[Any]]]:
+    """For each distance (> 0 outwards) the arrays of core/offset_curves.hpp by their names there (bind_offsets.cpp)."""
 
 # ---- pruning (bind_pruning.cpp): a skeleton is its vertices, radii, arcs, control points, sites, lengths, the ends of
 # ---- sites as (s, 4), which nodes are anchored (uint8), and whether sites are closed; criteria are numbered -----------

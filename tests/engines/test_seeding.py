@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from vorotool.engines.seeding import _fragments, seeds_from_raster
+from vorotool.engines.raster_objects import _fragments
+from vorotool.engines.seeding import seeds_from_raster
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.geometry.raster import Raster
 

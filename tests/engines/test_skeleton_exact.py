@@ -9,10 +9,11 @@ import pytest
 import shapely
 
 import vorotool
-from skeleton_shapes import FAMILIES, regular
+from skeleton_shapes import FAMILIES, regular, under_symmetries
 from vorotool.engines.segment_verification import verify_segment_voronoi
 from vorotool.engines.skeleton_elements import element_diagram, exact_for, gap_deviation
 from vorotool.engines.skeleton_exact import default_frame, shape_diagram, whole_diagram
+from vorotool.engines.skeleton_exact import skeleton_of as skeleton_of_shapes
 from vorotool.engines.skeleton_verification import verify_exterior
 from vorotool.errors import InputError, UsageError, VorotoolWarning
 from vorotool.geometry.skeleton import EXTERIOR, INTERIOR
@@ -171,6 +172,21 @@ def test_random_shapes(family):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", VorotoolWarning)
             verify_exterior(shape_diagram(shape))
+
+
+@pytest.mark.parametrize("name", ["shape.json", "two-shapes.json", "ne_110m_lakes.geojson", "great-lakes.geojson"])
+def test_shapes_of_data_under_the_symmetries_of_the_square(name):
+    counts = set()
+    for turned in under_symmetries(vorotool.read(DATA / name)):
+        with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
+            shapes = shape_diagram(turned)
+        verify_segment_voronoi(shapes.diagram)
+        verify_exterior(shapes)
+        skeletons = [skeleton_of_shapes(shapes, side=side) for side in SIDES]
+        for made in skeletons:
+            vorotool.verify_skeleton(made)
+        counts.add((len(shapes.diagram), len(shapes.diagram.edges), *map(len, skeletons)))
+    assert len(counts) == 1
 
 
 def test_natural_earth():

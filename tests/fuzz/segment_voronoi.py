@@ -1,7 +1,10 @@
 """Compute segment diagrams of every family under symmetries and check them exactly: `--cases 10000 --seed 1`.
 
-Each case is checked by the shipped checker. Its points and segments are also permuted, and another number of threads is
-used, which must give the same diagram but for the numbers.
+Cases 8 k to 8 k + 7 are one graph under the 8 symmetries of the square; `--first` and `--seconds` do the work in
+pieces. Each diagram is checked by the shipped checker. It must be the same but for the numbers when points and segments
+are numbered anew, segments reversed and another number of threads is used, and the same but for its place when it is
+moved and scaled by a power of two. A share of the cases, placed on a coarse lattice, is compared with Boost's diagram;
+a share of those with few sites with brute force.
 """
 
 from __future__ import annotations
@@ -10,26 +13,30 @@ import argparse
 import sys
 import time
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from segment_families import FAMILIES, draw, renumbered, symmetries
+import boost_oracle
+import segment_oracle
+from segment_families import FAMILIES, LIMIT, coarse, draw, renumbered, symmetries
 from vorotool import VorotoolError
 from vorotool.engines.segment_verification import verify_segment_voronoi
 from vorotool.engines.segment_voronoi import segment_voronoi
+from vorotool.geometry.segment_voronoi import SegmentVoronoiDiagram
+
+MOVED = 1 / 4
+BESIDE_BOOST = 1 / 8
+BESIDE_BRUTE_FORCE = ((26, 1 / 40), (60, 1 / 1000))
+"""Shares of the cases; the last ones of those with up to so many sites."""
 
 
-def failure(points: np.ndarray, segments: np.ndarray, rng: np.random.Generator) -> str | None:
-    """What is wrong with the diagram of this graph, if anything."""
-    try:
-        diagram = segment_voronoi(points, segments, threads=1)
-        verify_segment_voronoi(diagram, threads=1)
-        new_points, new_segments, number = renumbered(points, segments, rng)
-        other = segment_voronoi(new_points, new_segments, threads=int(rng.integers(1, 4)))
-    except (VorotoolError, RuntimeError) as error:
-        return str(error)
+def changed_by_numbers(diagram: SegmentVoronoiDiagram, rng: np.random.Generator) -> str | None:
+    """What changes with the numbers of points and segments, the direction of segments and the number of threads."""
+    points, segments, number = renumbered(diagram.points, diagram.segments, rng)
+    other = segment_voronoi(points, segments, threads=int(rng.choice([1, 2, 3, 8])))
     for name in ("vertices", "radius", "vertex_start", "edges"):
         if not np.array_equal(getattr(diagram, name), getattr(other, name)):
             return f"a permutation changes {name}"
@@ -38,34 +45,88 @@ def failure(points: np.ndarray, segments: np.ndarray, rng: np.random.Generator) 
     return None
 
 
+def changed_by_motion(diagram: SegmentVoronoiDiagram, rng: np.random.Generator) -> str | None:
+    """What changes, but for the place, when a graph is scaled by a power of two or moved on the lattice."""
+    low, high = diagram.points.min(axis=0).astype(np.int64), diagram.points.max(axis=0).astype(np.int64)
+    scale = 2 ** int(rng.integers(0, int(LIMIT // max(1, -low.min(), high.max())).bit_length()))
+    shift = rng.integers(-LIMIT - low, LIMIT - high + 1)
+    for name, factor, step in (("scaling", scale, np.zeros(2, np.int64)), ("moving", 1, shift)):
+        moved = segment_voronoi((diagram.points * factor + step).astype(np.int32), diagram.segments, threads=1)
+        expected = replace(diagram, vertices=diagram.vertices * factor + step, radius=diagram.radius * factor)
+        verify_segment_voronoi(moved, threads=1)
+        # Where values cancel, moving shows the rounding of the larger ones: then only the checker knows.
+        wrong = segment_oracle.differences(moved, expected, 8 if factor > 1 else np.inf)
+        if wrong:
+            return f"{name} by {factor} and {step.tolist()} changes the diagram: {wrong[0]}"
+    return None
+
+
+def unlike_others(points: np.ndarray, segments: np.ndarray, rng: np.random.Generator, done: Counter[str]) -> str | None:
+    """What Boost or brute force say otherwise, for a share of the cases."""
+    if rng.random() < BESIDE_BOOST:
+        graph = coarse(points, segments, 2**12)
+        wrong = boost_oracle.differences(segment_voronoi(*graph, threads=1), boost_oracle.boost_edges(*graph))
+        done["Boost"] += 1
+        if wrong:
+            return f"on a coarse lattice Boost differs: {wrong[0]}"
+    share = next((share for most, share in BESIDE_BRUTE_FORCE if len(points) + len(segments) <= most), 0)
+    if rng.random() < share:
+        right = segment_oracle.voronoi_diagram(points, segments)
+        wrong = segment_oracle.differences(segment_voronoi(points, segments, threads=1), right)
+        done["brute force"] += 1
+        if wrong:
+            return f"brute force differs: {wrong[0]}"
+    return None
+
+
+def failure(points: np.ndarray, segments: np.ndarray, rng: np.random.Generator, done: Counter[str]) -> str | None:
+    """What is wrong with the diagram of this graph, if anything."""
+    try:
+        diagram = segment_voronoi(points, segments, threads=1)
+        verify_segment_voronoi(diagram, threads=1)
+        wrong = changed_by_numbers(diagram, rng)
+        if wrong is None and rng.random() < MOVED:
+            done["moved"] += 1
+            wrong = changed_by_motion(diagram, rng)
+        return wrong or unlike_others(points, segments, rng, done)
+    except (VorotoolError, RuntimeError) as error:
+        return str(error)
+
+
 def main() -> int:
-    """Run all cases; exit 1 if any failed."""
+    """Run the cases; exit 1 if any failed."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--cases", type=int, default=10**4)
+    parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--seconds", type=float, default=np.inf, help="begin no case after so many")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--largest", type=int, default=400)
     parser.add_argument("--family", choices=FAMILIES, nargs="+", default=list(FAMILIES))
     arguments = parser.parse_args()
-    cases: Counter[str] = Counter()
+    done: Counter[str] = Counter()
     seconds: Counter[str] = Counter()
     segments_seen = failed = 0
-    for case in range(arguments.cases):
-        rng = np.random.default_rng([arguments.seed, case])
-        name = arguments.family[case % len(arguments.family)]
-        n = int(np.exp(rng.uniform(0, np.log(arguments.largest))))
-        points, segments = draw(name, n, [arguments.seed, case])
-        turned = list(symmetries(points))[int(rng.integers(0, 8))]
-        start = time.monotonic()
-        wrong = failure(turned, segments, rng)
-        seconds[name] += time.monotonic() - start
+    start = time.monotonic()
+    case = arguments.first
+    while case < arguments.first + arguments.cases and time.monotonic() < start + arguments.seconds:
+        drawing, symmetry = divmod(case, 8)
+        name = arguments.family[drawing % len(arguments.family)]
+        n = int(np.exp(np.random.default_rng([arguments.seed, drawing]).uniform(0, np.log(arguments.largest))))
+        points, segments = draw(name, n, [arguments.seed, drawing])
+        points = list(symmetries(points))[symmetry]
+        begin = time.monotonic()
+        wrong = failure(points, segments, np.random.default_rng([arguments.seed, drawing, symmetry]), done)
+        seconds[name] += time.monotonic() - begin
         if wrong:
             print(f"wrong: seed {arguments.seed}, case {case}, {name}, {len(segments)} segments: {wrong}", flush=True)
-        cases[name] += 1
+        done[name] += 1
         segments_seen += len(segments)
         failed += wrong is not None
-    for name, count in cases.items():
-        print(f"{name:14} {count:8,} cases {seconds[name]:8.1f} s")
-    print(f"{arguments.cases:,} cases, {segments_seen:,} segments, {failed} failures")
+        case += 1
+    for name, count in done.items():
+        print(f"{name:14} {count:8,} cases {f'{seconds[name]:8.1f} s' if name in seconds else ''}")
+    count = case - arguments.first
+    print(f"cases {arguments.first} to {case - 1}: {count:,} cases, {segments_seen:,} segments, {failed} failures")
     return int(failed > 0)
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vorotool.cli.inputs import naming, read_seed_input, refuse
+from vorotool.cli.inputs import naming, read_backdrop, read_seed_input, refuse
 from vorotool.cli.options import Decimal, Names, Radius, layers_option, shared, single_input
 from vorotool.cli.results import OF_ONE_SHAPE
 from vorotool.cli.run import Run
@@ -69,8 +69,8 @@ _WITHOUT_DIGITS = frozenset({"npz", "html", *_PICTURES})
 )
 @shared("size", "window", "columns", "input-format", "page", "seeds", "connectivity", "threshold", "invert")
 @layers_option(LAYERS)
-@shared("width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels", "max-sites")
-@shared("no-clobber", "no-properties", "quiet", "verbose")
+@shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels")
+@shared("max-sites", "no-clobber", "no-properties", "quiet", "verbose")
 def command(**options: Any) -> None:
     """Find the alpha shape of points: edges that an empty disc of radius r touches at both ends, and what they bound.
 
@@ -99,6 +99,8 @@ def command(**options: Any) -> None:
         check_targets(o, targets, source)
         with naming(source), run.phase("read"):
             points = _read_points(run, o, source)
+        with run.phase("read"):
+            o.backdrop = read_backdrop(o)
         with naming(source):
             products = ShapeProducts(points, o, run)
         for target in targets:
@@ -133,6 +135,8 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     pictures = sorted({target.fmt for target in targets if target.what in _WITH_LAYERS} & set(_PICTURES))
     if o.layers is not None and not pictures:
         raise click.UsageError("--layers is for pictures of a shape: use -f svg or -f png, or leave it out")
+    if o.overlay is not None and not pictures:
+        raise click.UsageError("--overlay is for pictures of a shape: use -f svg or -f png, or leave it out")
     plots = ["svg"] if ("curves", "svg") in {(target.what, target.fmt) for target in targets} else []
     check_picture_options(o, pictures or plots, PICTURE_LAYERS, png_has_width=True)
 

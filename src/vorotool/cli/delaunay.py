@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vorotool.cli.inputs import naming, read_clip, read_seed_input, refuse
+from vorotool.cli.inputs import naming, read_backdrop, read_clip, read_seed_input, refuse
 from vorotool.cli.options import Rectangle, layers_option, shared, single_input, what_option
 from vorotool.cli.results import MESH_LAYERS
 from vorotool.cli.run import Run
@@ -57,8 +57,8 @@ _WITHOUT_DIGITS = frozenset({"npz", "edge", "ele", *_PICTURES})
 @click.option("--clip", metavar="POLYGONS", help="File of polygons that cells are clipped to as well.")
 @shared("size", "window", "columns", "input-format", "page", "seeds", "connectivity", "threshold", "invert")
 @layers_option(MESH_LAYERS)
-@shared("width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels", "max-sites")
-@shared("no-clobber", "no-properties", "quiet", "verbose")
+@shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels")
+@shared("max-sites", "no-clobber", "no-properties", "quiet", "verbose")
 def command(**options: Any) -> None:
     """Triangulate points exactly: no circle through a triangle's vertices holds another point.
 
@@ -83,6 +83,8 @@ def command(**options: Any) -> None:
         check_targets(o, targets, source)
         with naming(source), run.phase("read"):
             points = _read_points(run, o, source)
+        with run.phase("read"):
+            o.backdrop = read_backdrop(o)
         if o.clip is not None:
             with run.phase("read polygons"):
                 o.clip = read_clip(run, o, o.clip)

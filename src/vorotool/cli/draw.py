@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 import click
 
-from vorotool.cli.inputs import refuse
+from vorotool.cli.inputs import read_backdrop, refuse
 from vorotool.cli.options import layers_option, shared, single_input
 from vorotool.cli.run import Run
 from vorotool.cli.targets import check_picture_options, check_stats, check_targets, plan_targets
@@ -29,7 +29,7 @@ _SKELETON_PICTURES = {"svg": SKELETON_LAYERS, "png": SKELETON_LAYERS[:-1]}
 @click.argument("inputs", metavar="INPUT", nargs=-1)
 @shared("output", "format", "input-format", "page")
 @layers_option(("cells", "diagram", *SKELETON_LAYERS))
-@shared("width", "y-up", "out-dir", "threads", "stats", "max-pixels", "no-clobber", "quiet", "verbose")
+@shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "max-pixels", "no-clobber", "quiet", "verbose")
 def command(**options: Any) -> None:
     """Draw a label image, in which neighbouring regions never share a colour, or a skeleton.
 
@@ -53,6 +53,8 @@ def command(**options: Any) -> None:
         with run.phase("read"):
             content = read_source(source)
         prepare = _skeleton_picture if says_skeleton(content.data) else _label_picture
+        with run.phase("read"):
+            o.backdrop = read_backdrop(o)
         write = prepare(run, o, content, target.fmt)
         if o.out_dir is not None:
             make_folder(o.out_dir)
@@ -83,6 +85,7 @@ def _label_picture(run: Run, o: SimpleNamespace, source: Source, fmt: str) -> Ca
         layers=o.layers or (("cells", "labels") if fmt == "svg" else ("cells",)),
         width=o.width or 1000,
         y_up=bool(o.y_up),
+        backdrop=o.backdrop,
         threads=o.threads,
     )
 
@@ -91,6 +94,7 @@ def _skeleton_picture(run: Run, o: SimpleNamespace, source: Source, fmt: str) ->
     """Read a skeleton, and give what draws it."""
     from vorotool.cli.pictures import write_layers
     from vorotool.formats.skeleton_json import read_skeleton
+    from vorotool.render.layers import ImagePage
     from vorotool.render.layers_png import check_picture_size
     from vorotool.render.skeleton_layers import skeleton_layers, skeleton_page
 
@@ -98,9 +102,9 @@ def _skeleton_picture(run: Run, o: SimpleNamespace, source: Source, fmt: str) ->
     refuse(o, ("page",), "is for images, but the input is a skeleton")
     with run.phase("read"):
         skeleton = read_skeleton(source, properties=False)
-    page = skeleton_page(skeleton, width=o.width or 1000, y_up=o.y_up)
+    page = ImagePage(o.backdrop) if o.backdrop else skeleton_page(skeleton, width=o.width or 1000, y_up=o.y_up)
     if fmt == "png":
         check_picture_size(page, o.max_pixels)
-    layers = skeleton_layers(skeleton, page, o.layers or ("polygons", "skeleton"))
+    layers = skeleton_layers(skeleton, page, o.layers or (("skeleton",) if o.backdrop else ("polygons", "skeleton")))
     run.stats.update({"arcs": len(skeleton), "nodes": len(skeleton.vertices)})
     return partial(write_layers, layers=layers, page=page, fmt=fmt, threads=o.threads)

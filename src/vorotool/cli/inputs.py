@@ -15,6 +15,7 @@ from vorotool.errors import InputError
 if TYPE_CHECKING:
     from vorotool.geometry.points import PointSet
     from vorotool.geometry.raster import Raster
+    from vorotool.render.layers import Backdrop
 
 IMAGE_OPTIONS = ("page", "seeds", "connectivity", "threshold", "invert")
 
@@ -71,6 +72,28 @@ def read_clip(run: Run, o: SimpleNamespace, path: str) -> Sequence[Any]:
     if lines == len(value):
         raise InputError(f"{path} holds no polygons: give --clip a file that does")
     return list(to_shapely(value)[~value.is_line])
+
+
+def read_backdrop(o: SimpleNamespace) -> Backdrop | None:
+    """Read the image of ``--overlay``, if there is one."""
+    import io
+
+    from vorotool.formats.picture_images import read_picture
+    from vorotool.formats.png import write_png
+    from vorotool.formats.sources import read_source
+    from vorotool.render.layers import Backdrop
+
+    if o.overlay is None:
+        return None
+    pixels = read_picture(read_source(o.overlay), page=o.page, max_pixels=o.max_pixels)
+    height, width = pixels.shape[:2]
+
+    def encode() -> bytes:
+        out = io.BytesIO()
+        write_png(out, [pixels.reshape(height, 3 * width)], (height, width), rgb=True, threads=o.threads)
+        return out.getvalue()
+
+    return Backdrop(pixels, encode)
 
 
 def refuse(o: SimpleNamespace, names: tuple[str, ...], reason: str) -> None:

@@ -134,8 +134,11 @@ class MeshProducts:
 
     def _page(self, what: str) -> Page:
         """Where the picture of a result shows what: the frame of cells, where it has any."""
+        from vorotool.render.layers import ImagePage
         from vorotool.render.mesh_layers import mesh_page
 
+        if self.options.backdrop is not None:
+            return ImagePage(self.options.backdrop)
         bounds = self.cells.frame.sides if {"cells", "diagram"} & set(self._layers(what)) else None
         return mesh_page(self.mesh, width=self.options.width or 1000, y_up=self.options.y_up, bounds=bounds)
 

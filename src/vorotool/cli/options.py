@@ -182,6 +182,9 @@ OPTIONS: dict[str, Decorator] = {
     "width": click.option(
         "--width", type=click.IntRange(min=16), help="Pixels across an SVG picture; by default 1000."
     ),
+    "overlay": click.option(
+        "--overlay", metavar="IMAGE", help="Draw pictures over this image, at its size: coordinates are its pixels."
+    ),
     "y-up": click.option("--y-up/--y-down", default=None, help="Draw pictures with y upwards or downwards."),
 }
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vorotool.geometry.label_image import LabelImage
 
 if TYPE_CHECKING:
-    from vorotool.render.layers import Layer, Page
+    from vorotool.render.layers import Backdrop, Layer, Page
 
 BAND_ROWS = 256
 """Rows of a picture that are composed at a time."""
@@ -29,9 +29,10 @@ def write_label_picture(
     layers: Sequence[str],
     width: int = 1000,
     y_up: bool = False,
+    backdrop: Backdrop | None = None,
     threads: int = 0,
 ) -> None:
-    """Draw a label image as SVG or as a palette PNG of its own size.
+    """Draw a label image as SVG or as a palette PNG of its own size, or over an image.
 
     Parameters
     ----------
@@ -49,6 +50,8 @@ def write_label_picture(
         Pixels across an SVG.
     y_up : bool
         Draw the last row on top.
+    backdrop : Backdrop, optional
+        The image, whose size the picture has.
     threads : int
         0 uses all.
     """
@@ -58,9 +61,9 @@ def write_label_picture(
         from vorotool.render.label_svg import write_label_svg
 
         by_label = dict(zip(colours[0].tolist(), colours[1].tolist(), strict=True))
-        write_label_svg(out, image, colour_of_label=by_label, width=width, layers=layers)
+        write_label_svg(out, image, colour_of_label=by_label, width=width, layers=layers, backdrop=backdrop)
     else:
-        _write_png(out, image, colours, layers, threads)
+        _write_png(out, image, colours, layers, backdrop, threads)
 
 
 def _write_png(
@@ -68,11 +71,12 @@ def _write_png(
     image: LabelImage,
     colours: tuple[NDArray[Any], NDArray[Any]],
     layers: Sequence[str],
+    backdrop: Backdrop | None,
     threads: int,
 ) -> None:
     from vorotool.engines.regions import voronoi_diagram
     from vorotool.formats.png import write_png
-    from vorotool.render.label_png import picture_bands
+    from vorotool.render.label_png import over_image, picture_bands
     from vorotool.render.palettes import picture_palette
 
     palette = picture_palette(int(colours[1].max(initial=0)))
@@ -89,6 +93,11 @@ def _write_png(
         frame=image.frame,
         layers=layers,
     )
+    if backdrop is not None:
+        assert image.frame is not None  # LabelImage has filled it in
+        made = over_image(bands, backdrop, palette, image.frame)
+        write_png(out, [made], backdrop.pixels.shape[:2], rgb=True, threads=threads)
+        return
     write_png(out, bands, image.shape, bit_depth=palette.bit_depth, palette=palette.colours, threads=threads)
 
 

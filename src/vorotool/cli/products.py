@@ -80,7 +80,8 @@ class Products:
             check_png(self.dtype, self.rows.seeds.largest_label)
         elif what == "distance2":
             _ = self._exact_rows().square_dtype
-        if what in ("colour", "table", "neighbours") or fmt == "svg" or (what == "diagram" and self.options.layers):
+        draws = what == "diagram" and (self.options.layers or self.options.backdrop)
+        if what in ("colour", "table", "neighbours") or fmt == "svg" or draws:
             require_memory(self.rows.frame, self.options.max_pixels)
 
     def write(self, target: Target, *, inputs: Sequence[str]) -> None:
@@ -104,8 +105,8 @@ class Products:
     def _write_diagram(self, out: BinaryIO, fmt: str) -> None:
         from vorotool.render.palettes import LINE_ON_PAPER
 
-        if self.options.layers and fmt == "png":
-            self._write_picture(out, fmt, self.options.layers)
+        if (self.options.layers or self.options.backdrop) and fmt == "png":
+            self._write_picture(out, fmt, ("diagram",))
             return
 
         def rows_of(first: int, rows: int) -> NDArray[Any]:
@@ -154,7 +155,8 @@ class Products:
             fmt=fmt,
             layers=self.options.layers or layers,
             width=self.options.width or 1000,
-            y_up=bool(self.options.y_up),
+            y_up=bool(self.options.y_up) and self.options.backdrop is None,
+            backdrop=self.options.backdrop,
             threads=self.options.threads,
         )
 

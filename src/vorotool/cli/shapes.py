@@ -231,8 +231,11 @@ class ShapeProducts:
     @cached_property
     def page(self) -> Page:
         """Where pictures show what."""
+        from vorotool.render.layers import ImagePage
         from vorotool.render.mesh_layers import mesh_page
 
+        if self.options.backdrop is not None:
+            return ImagePage(self.options.backdrop)
         return mesh_page(self.family.mesh, width=self.options.width or 1000, y_up=self.options.y_up)
 
     def _write_picture(self, out: BinaryIO, fmt: str, layers: Sequence[str]) -> None:

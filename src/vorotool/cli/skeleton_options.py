@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vorotool.cli.inputs import naming
+from vorotool.cli.inputs import IMAGE_OPTIONS, naming, read_backdrop, refuse
 from vorotool.cli.options import Decorator, Rectangle, layers_option, shared, single_input, what_option
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options, check_stats, check_targets, plan_targets
@@ -19,6 +19,7 @@ from vorotool.cli.targets import Target, check_picture_options, check_stats, che
 if TYPE_CHECKING:
     from vorotool.cli.skeletons import SkeletonProducts
     from vorotool.geometry.polygons import PolygonSet
+    from vorotool.geometry.raster import Raster
 
 _TABLES = ("csv", "json", "npz")
 _PICTURES = ("svg", "png")
@@ -79,10 +80,22 @@ _AFTER: tuple[Decorator, ...] = (
         metavar="TOLERANCE",
         help="How far lines of GeoJSON and WKT may be from parabolas; by default 1/4096 of the extent.",
     ),
-    shared("input-format"),
+    click.option(
+        "--simplify",
+        type=Length(zero=False),
+        metavar="TOLERANCE",
+        help="Leave out vertices first, where outlines move by no more than this; what touches still does.",
+    ),
+    shared("input-format", "page"),
+    click.option(
+        "--outline",
+        type=click.Choice(["crack", "contour"]),
+        help="Of an image: around pixels (default), or half-way between the centres of pixels.",
+    ),
+    shared("seeds", "connectivity", "threshold", "invert"),
     layers_option(LAYERS),
-    shared("width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels", "max-sites"),
-    shared("no-clobber", "no-properties", "quiet", "verbose"),
+    shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels"),
+    shared("max-sites", "no-clobber", "no-properties", "quiet", "verbose"),
 )
 """Options before and after a command's own."""
 
@@ -112,6 +125,8 @@ def run_skeletons(
         check_targets(o, targets, source)
         with naming(source), run.phase("read"):
             polygons = _read_polygons(run, o, source)
+        with run.phase("read"):
+            o.backdrop = read_backdrop(o)
         with naming(source):
             products = make(polygons, o, run)
         for target in targets:
@@ -135,6 +150,8 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
         raise click.UsageError("--flatten is for formats without curves: use -f geojson or -f wkt, or leave it out")
     if o.frame is not None and o.side == "interior" and "diagram" not in o.what:
         raise click.UsageError("--frame cuts what is outside: use --side exterior or both, or leave it out")
+    if o.seeds in ("pixels", "centroids"):
+        raise click.UsageError(f"--seeds {o.seeds} have no outlines: use --seeds components or labels")
     pictures = sorted(formats & set(_PICTURES))
     if o.layers is not None and not pictures:
         raise click.UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
@@ -142,23 +159,57 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
 
 
 def _read_polygons(run: Run, o: SimpleNamespace, source: str) -> PolygonSet:
-    from vorotool.errors import InputError
+    """Read polygons, or the outlines of an image; ``o.is_mask`` tells which it was."""
     from vorotool.formats import read
     from vorotool.geometry.polygons import PolygonSet
+    from vorotool.geometry.raster import Raster
 
     value = read(
         source,
         geometry="polygons",
         input_format=o.input_format,
+        page=o.page,
         max_pixels=o.max_pixels,
         max_sites=o.max_sites,
         properties=not o.no_properties,
         threads=o.threads,
         note=partial(_note, run),
     )
-    if not isinstance(value, PolygonSet):
-        raise InputError("this is an image: skeletons of masks are not made yet; give polygons or open lines")
-    return value
+    o.is_mask = isinstance(value, Raster)
+    if isinstance(value, Raster):
+        return _outlines(run, o, value)
+    assert isinstance(value, PolygonSet)  # what is asked for is polygons, or an image
+    refuse(o, (*IMAGE_OPTIONS, "outline"), "is for images, but the input is polygons or lines")
+    return value if o.simplify is None else _simplified(run, o, value)
+
+
+def _outlines(run: Run, o: SimpleNamespace, image: Raster) -> PolygonSet:
+    from vorotool.engines.outlines import outlines
+
+    with run.phase("outline"):
+        return outlines(
+            image,
+            outline=o.outline or "crack",
+            mode=o.seeds,
+            connectivity=int(o.connectivity or 8),
+            threshold=o.threshold,
+            invert=o.invert,
+            simplify=o.simplify,
+            max_sites=o.max_sites,
+            threads=o.threads,
+            progress=run.progress("outlines"),
+        )
+
+
+def _simplified(run: Run, o: SimpleNamespace, polygons: PolygonSet) -> PolygonSet:
+    """Simplify polygons once they are cut where they meet."""
+    from vorotool.engines.placed_rings import placed_shapes
+    from vorotool.engines.planar_graph import planar_graph
+    from vorotool.engines.simplification import simplified_polygons
+
+    with run.phase("simplify"):
+        graph = planar_graph(polygons, strict=o.strict, threads=o.threads)
+        return simplified_polygons(placed_shapes(graph, threads=o.threads).polygons, o.simplify)
 
 
 def _note(run: Run, message: str) -> None:

@@ -109,8 +109,11 @@ class SkeletonProducts(ABC):
         )
 
     def _page(self, value: Skeleton) -> Page:
+        from vorotool.render.layers import ImagePage
         from vorotool.render.skeleton_layers import skeleton_page
 
+        if self.options.backdrop is not None:
+            return ImagePage(self.options.backdrop)
         return skeleton_page(value, width=self.options.width or 1000, y_up=self.options.y_up)
 
     def _write_picture(self, out: BinaryIO, target: Target) -> None:
@@ -118,8 +121,14 @@ class SkeletonProducts(ABC):
 
         value = self._value(target.what)
         page = self._page(value)
-        layers = picture_layers(value, page, self.options.layers or DEFAULT_LAYERS[target.what], what=target.what)
+        layers = picture_layers(value, page, self._layers(target.what), what=target.what)
         write_layers(out, layers, page, fmt=target.fmt, threads=self.options.threads)
+
+    def _layers(self, what: str) -> Sequence[str]:
+        """Layers of a picture: over an image the shapes are to be seen already."""
+        if self.options.layers is not None or self.options.backdrop is None:
+            return self.options.layers or DEFAULT_LAYERS[what]
+        return [layer for layer in DEFAULT_LAYERS[what] if layer != "polygons"]
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""

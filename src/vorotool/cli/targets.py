@@ -131,12 +131,12 @@ def check_picture_options(
     *,
     png_has_width: bool = False,
 ) -> None:
-    """Refuse layers and a width that no picture would show.
+    """Refuse layers, a width and an image beneath that no picture would show.
 
     Parameters
     ----------
     options : namespace
-        With ``layers`` and ``width`` as given, or None.
+        With ``layers``, ``width``, ``overlay`` and ``y_up`` as given, or None.
     pictures : sequence of str
         Formats of the pictures that are to be written.
     layers : mapping of str to sequence of str
@@ -149,6 +149,8 @@ def check_picture_options(
     click.UsageError
         If a layer is none of a picture's format, or the width is for SVG only.
     """
+    if options.overlay is not None:
+        _check_overlay(options, pictures)
     if options.width is not None and png_has_width and not pictures:
         raise click.UsageError("--width is for pictures: use -f svg or -f png, or leave it out")
     if options.width is not None and not png_has_width and "svg" not in pictures:
@@ -163,26 +165,38 @@ def check_picture_options(
                 )
 
 
+def _check_overlay(options: Any, pictures: Sequence[str]) -> None:
+    if not pictures:
+        raise click.UsageError("--overlay is for pictures: use -f svg or -f png, or leave it out")
+    if options.width is not None:
+        raise click.UsageError("a picture over an image has its size: leave out --width or --overlay")
+    if options.y_up is not None:
+        raise click.UsageError("a picture over an image has y downwards: leave out --y-up, --y-down or --overlay")
+
+
 def check_targets(options: Any, targets: Sequence[Target], source: str) -> None:
     """Find out before any work whether the outputs and the statistics can be written.
 
     Parameters
     ----------
     options : namespace
-        With ``stats``, ``out_dir`` and ``no_clobber``.
+        With ``stats``, ``out_dir``, ``no_clobber`` and ``overlay``.
     targets : sequence of Target
         The outputs.
     source : str
-        The input, which is never replaced.
+        The input, which is never replaced; neither is the image beneath a picture.
     """
     from vorotool.formats.outputs import check_output
 
+    overlay = [] if options.overlay is None else [options.overlay]
+    if source == "-" and overlay == ["-"]:
+        raise click.UsageError("--overlay - is the input: name a file for one of the two")
     for target in targets:
         check_output(
             target.path,
             binary=target.is_binary,
             no_clobber=options.no_clobber,
-            inputs=(source,),
+            inputs=(source, *overlay),
             makes_folder=options.out_dir is not None,
         )
     if options.stats is not None:

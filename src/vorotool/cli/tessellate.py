@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vorotool.cli.inputs import naming, read_seed_input, refuse
+from vorotool.cli.inputs import naming, read_backdrop, read_seed_input, refuse
 from vorotool.cli.options import Decimal, layers_option, shared, single_input, what_option
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options, check_stats, check_targets, plan_targets
@@ -53,8 +53,8 @@ FORMATS = {
 )
 @shared("size", "window", "columns", "input-format", "page", "seeds", "connectivity", "threshold", "invert")
 @layers_option(("cells", "diagram", "seeds", "labels"))
-@shared("width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels", "max-sites")
-@shared("no-clobber", "no-properties", "quiet", "verbose")
+@shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels")
+@shared("max-sites", "no-clobber", "no-properties", "quiet", "verbose")
 def command(**options: Any) -> None:
     """Label every pixel with its nearest seed, exactly; ties go to the smallest label.
 
@@ -76,6 +76,8 @@ def command(**options: Any) -> None:
         check_targets(o, targets, source)
         with naming(source), run.phase("read"):
             seeds = _read_seeds(run, o, source)
+        with run.phase("read"):
+            o.backdrop = read_backdrop(o)
         with naming(source), run.phase("prepare"):
             products = _prepare(run, o, seeds)
         for target in targets:
@@ -114,7 +116,7 @@ def _check_output_options(o: SimpleNamespace, outputs: set[tuple[str, str]]) -> 
         raise click.UsageError("--precision is for tables in CSV and JSON: use --what table, or leave it out")
     if o.layers is not None and not outputs & _PICTURES:
         raise click.UsageError("--layers is for pictures: --what colour, labels as SVG, or the diagram as PNG")
-    pictures = sorted(outputs & _PICTURES - ({("diagram", "png")} if o.layers is None else set()))
+    pictures = sorted(outputs & _PICTURES - ({("diagram", "png")} if o.layers is None and o.overlay is None else set()))
     check_picture_options(o, [fmt for _, fmt in pictures])
 
 

@@ -10,7 +10,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool import _core
+from vorotool.engines.raster_objects import LARGEST_LABEL, default_objects, foreground_values, label_values
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
 from vorotool.geometry.frame import Frame
 from vorotool.geometry.points import PointSet
@@ -22,12 +22,8 @@ SeedMode = Literal["pixels", "components", "labels", "centroids"]
 LARGEST_COORDINATE = float(2**44)
 """Coordinates up to here, times 256, are exact in a double."""
 
-LARGEST_LABEL = 0xFFFFFFFF
 CHUNK = 1 << 22
 """Pixels that are counted at a time."""
-
-_LUMINANCE = (0.2125, 0.7154, 0.0721)
-"""Weights of red, green and blue (ITU-R BT.709, as scikit-image has them)."""
 
 
 def seeds_from_points(points: PointSet, *, strict: bool = False) -> SeedSet:
@@ -181,8 +177,8 @@ def seeds_from_raster(
     if connectivity not in (4, 8):
         raise UsageError(f"connectivity is {connectivity}: it must be 4 or 8")
     raster = raster if isinstance(raster, Raster) else Raster(raster)
-    values = _foreground_values(raster, threshold, invert=invert)
-    mode = mode or _default_mode(values)
+    values = foreground_values(raster, threshold, invert=invert)
+    mode = mode or default_objects(values)
     if mode not in get_args(SeedMode):
         raise UsageError(f"mode is {mode!r}: it must be one of {', '.join(get_args(SeedMode))}")
     frame = Frame(0, 0, values.shape[1], values.shape[0])
@@ -194,88 +190,9 @@ def seeds_from_raster(
         labels = np.arange(1, len(x) + 1, dtype=np.uint32)
         sites = np.stack([x, y], axis=1).astype(np.float64)
         return SeedSet(x, y, labels, frame=frame, sites=sites, site_labels=labels)
-    by_value = mode == "labels" or (mode == "centroids" and _default_mode(values) == "labels")
-    objects = _checked_label_values(values) if by_value else _components(values, connectivity)
+    by_value = mode == "labels" or (mode == "centroids" and default_objects(values) == "labels")
+    objects = label_values(values) if by_value else _components(values, connectivity)
     return _seeds_of_objects(objects, frame, centroids_only=mode == "centroids", max_sites=max_sites, strict=strict)
-
-
-def _foreground_values(raster: Raster, threshold: Any, *, invert: bool) -> NDArray[Any]:
-    values = raster.values
-    if threshold is not None:
-        grey = _grey(raster)
-        values = grey > (_otsu(grey) if threshold == "otsu" else threshold)
-    elif raster.is_colour:
-        raise InputError("a colour image holds no seeds by itself: use --threshold T or --threshold otsu")
-    if values.dtype.kind == "f" and not np.isfinite(values).all():
-        raise InputError("the image holds NaN or infinite values: use --threshold T, a number, or repair them")
-    return values == 0 if invert else values
-
-
-def _grey(raster: Raster) -> NDArray[Any]:
-    """Luminance of a colour image; transparency does not count."""
-    values = raster.values
-    if not raster.is_colour:
-        return values
-    return values[:, :, :3] @ np.array(_LUMINANCE) if values.shape[2] > 2 else values[:, :, 0]
-
-
-def _otsu(grey: NDArray[Any]) -> float:
-    from skimage.filters import threshold_otsu
-
-    if grey.dtype.kind == "f" and not np.isfinite(grey).all():
-        raise InputError("the image holds NaN or infinite values: use --threshold T, a number, or repair them")
-    if grey.min() == grey.max():
-        raise InputError(f"all pixels have the value {grey.flat[0]}: --threshold otsu needs two values")
-    return float(threshold_otsu(grey))
-
-
-def _default_mode(values: NDArray[Any]) -> SeedMode:
-    """Two values of which one is 0 are a mask; more are labels, unless they look like a photograph."""
-    if values.dtype == bool:
-        return "components"
-    nonzero = values[values != 0]
-    if nonzero.size == 0 or (nonzero.min() == nonzero.max() and nonzero.size < values.size):
-        return "components"
-    _refuse_photograph(values)
-    return "labels"
-
-
-def _refuse_photograph(values: NDArray[Any]) -> None:
-    """A label image has about as many fragments as labels; a photograph falls into far more."""
-    fractional = values.dtype.kind == "f" and bool((values != np.floor(values)).any())
-    distinct, fragments = (len(np.unique(values)),) * 2 if fractional else _fragments(_checked_label_values(values))
-    if fractional or (fragments > 4 * distinct and fragments > 256):
-        raise InputError(
-            f"the image holds {distinct} values in {fragments} fragments: a photograph? use --threshold otsu, "
-            f"or --seeds labels if these are labels"
-        )
-
-
-def _fragments(labels: NDArray[Any]) -> tuple[int, int]:
-    """Count the values of an image, and the 4-connected pieces of those that are not 0."""
-    steps = sum(int(np.count_nonzero(row[1:] != row[:-1])) for row in labels)
-    if 8 * steps < labels.size:  # the borders between the regions of noise would take more memory than labels do
-        found = _core.measure_regions(np.ascontiguousarray(labels), 0, None)
-        return len(found["labels"]) + bool((labels == 0).any()), int(found["components"].sum())
-    from skimage.measure import label
-
-    return len(np.unique(labels)), int(label(labels.astype(np.int64), connectivity=1).max())
-
-
-def _checked_label_values(values: NDArray[Any]) -> NDArray[Any]:
-    """Give labels in an unsigned type; the first value that is none is named with its place."""
-    if values.dtype in (np.bool_, np.uint8, np.uint16, np.uint32):
-        return values
-    bad = (values < 0) | (values > LARGEST_LABEL)
-    if values.dtype.kind == "f":
-        bad |= values != np.floor(values)
-    if bad.any():
-        row, column = np.unravel_index(int(bad.argmax()), bad.shape)
-        raise InputError(
-            f"the image holds the value {values[row, column]} in row {row}, column {column}: labels must be "
-            f"integers from 0 to {LARGEST_LABEL}; use --threshold T for a mask"
-        )
-    return values.astype(np.uint32)
 
 
 def _components(values: NDArray[Any], connectivity: int) -> NDArray[Any]:

@@ -209,6 +209,7 @@ def whole_diagram(
         shapes.placed,
         frame=frame,
         clips=True,
+        joins=False,
         threads=checked_threads(threads),
         progress=progress,
     )
@@ -247,15 +248,28 @@ def assembled(
     *,
     frame: Frame | None,
     clips: bool,
+    joins: bool = True,
     threads: int,
     progress: Progress = None,
 ) -> Skeleton:
-    """Make a skeleton of edges of a diagram, each in the group of its polygon; those outside are the last group."""
+    """Make a skeleton of edges of a diagram, each in the group of its polygon; those outside are the last group.
+
+    Where pixels are connected at corners only, so are the arcs that end there, if `joins`.
+    """
     outside = len(placed.polygons)
     frame = (frame or default_frame(placed.polygons)) if clips else None
     clipped = None if frame is None else (outside, _on_lattice(frame, graph))
+    joined = {8: (0, outside), 4: (outside, outside + 1)}.get(placed.polygons.connectivity or 0, (0, 0))
     made: dict[str, Any] = _core.extract_skeleton(
-        *_arrays(diagram), edges, group, clipped, *graph.origin, graph.scale, threads, progress
+        *_arrays(diagram),
+        edges,
+        group,
+        clipped,
+        joined if joins else (0, 0),
+        *graph.origin,
+        graph.scale,
+        threads,
+        progress,
     )
     vertices, cut = made["vertices"], made.pop("frame_side")
     if frame is not None:  # rounding must not move what was cut off the frame

@@ -33,7 +33,8 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
     hole if the exterior is there: its skeleton is connected, has as many independent cycles as the complement has
     components less one, and one end in each corner under 180 degrees, which nothing else shares; the regions between
     the arcs and their feet sum to its area within 1e-9 of it and 8 ulp of the extent times its perimeter. Outside, all
-    is connected with the frame. Branches are chains that end where they should.
+    is connected with the frame. Branches are chains that end where they should. Where pixels hang together at corners
+    (`PolygonSet.connectivity`), arcs of one polygon, or outside, share a node there; all else is as if they did not.
 
     Parameters
     ----------
@@ -78,7 +79,7 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
         graph = planar_graph(skeleton.polygons, threads=threads, progress=progress)
         check_nothing_nearer(skeleton, sites, _elements(skeleton, graph, threads), threads, progress)
     if not skeleton.gap:
-        check_regions(SkeletonRegions(skeleton, graph, sites))
+        check_regions(SkeletonRegions(_with_corners_apart(skeleton), graph, sites))
 
 
 def verify_exterior(shapes: ShapeDiagram, *, threads: int = 0) -> None:
@@ -131,6 +132,38 @@ def _without_portions(skeleton: Skeleton) -> Skeleton:
     kept = (skeleton.radius[skeleton.arcs] > 0).all(axis=1)
     per_arc = ("arcs", "control", "sites", "polygon", "side", "branch", "length", "error_bound")
     return replace(skeleton, **{name: getattr(skeleton, name)[kept] for name in per_arc})
+
+
+def _with_corners_apart(skeleton: Skeleton) -> Skeleton:
+    """Give each arc a node of its own at corners where arcs are joined, after a check that just these are."""
+    inside = {8: True, 4: False}.get(skeleton.polygons.connectivity or 0)
+    if inside is None:
+        return skeleton
+    on_side = (skeleton.polygon >= 0) == inside
+    arc, end = np.nonzero((skeleton.radius[skeleton.arcs] == 0) & on_side[:, None])
+    node = skeleton.arcs[arc, end]
+    keys = np.column_stack([skeleton.vertices[node], skeleton.polygon[arc]])
+    _, corner = np.unique(keys, axis=0, return_inverse=True)
+    corner = corner.reshape(-1)
+    first = np.full(corner.max(initial=-1) + 1, len(skeleton.vertices))
+    np.minimum.at(first, corner, node)
+    at = first_wrong(node != first[corner])
+    if at is not None:
+        fail(f"nodes {first[corner[at]]} and {node[at]} are at one corner, where pixels hang together, but not joined")
+    _, owner = np.unique(np.stack([node, corner]), axis=1, return_index=True)
+    at = first_wrong(np.bincount(node[owner], minlength=1) > 1)
+    if at is not None:
+        fail(f"node {at} is a corner that arcs in different polygons share")
+    arcs = skeleton.arcs.copy()
+    arcs[arc, end] = len(skeleton.vertices) + np.arange(len(arc))
+    used, numbers = np.unique(arcs, return_inverse=True)
+    origin = np.concatenate([np.arange(len(skeleton.vertices)), node])[used]
+    return replace(
+        skeleton,
+        arcs=numbers.reshape(-1, 2).astype(np.int32),
+        vertices=skeleton.vertices[origin],
+        radius=skeleton.radius[origin],
+    )
 
 
 def _elements(skeleton: Skeleton, graph: PlanarGraph, threads: int) -> PlanarGraph:

@@ -18,7 +18,7 @@ from vorotool.formats.png import SIGNATURE
 _CHANNELS = {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}
 _DEPTHS = {0: (1, 2, 4, 8, 16), 2: (8, 16), 3: (1, 2, 4, 8), 4: (8, 16), 6: (8, 16)}
 _GREY_STEP = {2: 85, 4: 17}  # Pillow spreads 2 and 4-bit grey over 0..255 in these steps
-_GREY_ALPHA, _COLOUR_ALPHA = 4, 6
+_PALETTE, _GREY_ALPHA, _COLOUR_ALPHA = 3, 4, 6
 _MOST_EXPANSION = 1032  # deflate codes 258 bytes in 2 bits at best
 
 
@@ -62,6 +62,20 @@ def read_png(source: SourceLike, max_pixels: int) -> NDArray[Any]:
         if header.colour_type == _GREY_ALPHA:
             return _read_grey_alpha_16(source.data)
         return _read_colour_16(source.data)
+
+
+def png_palette(source: SourceLike) -> NDArray[np.uint8] | None:
+    """Give the (256, 3) colours of the indices of a palette PNG, black beyond its own; None of another PNG."""
+    from PIL.PngImagePlugin import PngImageFile
+
+    if png_header(source).colour_type != _PALETTE:
+        return None
+    with decoding(source.name, "PNG"), PngImageFile(io.BytesIO(source.data)) as image:
+        image.load()
+        colours = np.frombuffer(bytes(image.getpalette("RGB") or []), np.uint8).reshape(-1, 3)
+    palette = np.zeros((256, 3), np.uint8)
+    palette[: len(colours)] = colours
+    return palette
 
 
 def _chunks(source: SourceLike) -> Iterator[tuple[bytes, int]]:

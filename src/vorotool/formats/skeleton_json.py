@@ -32,7 +32,7 @@ def write_json(out: BinaryIO, skeleton: Skeleton, *, precision: int | None = Non
     """Write polygons, sites, vertices and arcs, one object a line of text; all indices are 0-based.
 
     Beside what the format must have, arcs tell ``polygon`` (null outside), ``branch`` and ``length``, and the object
-    ``frame``, ``gap``, ``y_up`` and ``crs`` where there are such.
+    ``frame``, ``gap``, ``y_up``, ``crs`` and ``connectivity`` where there are such.
     """
     polygons = skeleton.polygons
     head: dict[str, Any] = {"type": TYPE, "version": VERSION}
@@ -44,6 +44,8 @@ def write_json(out: BinaryIO, skeleton: Skeleton, *, precision: int | None = Non
         head["y_up"] = True
     if polygons.crs is not None:
         head["crs"] = polygons.crs
+    if polygons.connectivity is not None:
+        head["connectivity"] = polygons.connectivity
     out.write(json_text(head).removesuffix("}").encode() + b",\n")
     write_items(out, polygons, precision)
     for name, rows, write in (
@@ -266,6 +268,7 @@ def _described(polygons: PolygonSet, document: Mapping[str, Any]) -> PolygonSet:
         polygons.properties,
         y_up=document.get("y_up") is True,
         crs=document.get("crs"),
+        connectivity=document.get("connectivity"),
     )
 
 

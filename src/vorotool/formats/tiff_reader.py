@@ -24,6 +24,12 @@ def tiff_size(source: SourceLike, page: int | None) -> tuple[int, int]:
         return int(chosen.imagewidth), int(chosen.imagelength)
 
 
+def tiff_pages(source: SourceLike) -> int:
+    """Count the pages."""
+    with _opened(source) as file, decoding(source.name, "TIFF"):
+        return len(file.pages)
+
+
 def read_tiff(source: SourceLike, *, page: int | None, max_pixels: int) -> tuple[NDArray[Any], Resolution | None]:
     """Return the stored values, (H, W) or (H, W, C), and pixels a unit, where the file states them."""
     with _opened(source) as file:

@@ -45,6 +45,9 @@ class PolygonSet:
         Pictures of this input are drawn y upwards (GeoJSON and WKT).
     crs : object, optional
         The ``crs`` member of a GeoJSON input, copied to GeoJSON outputs.
+    connectivity : {8, 4}, optional
+        Of the pixels that these are the crack outlines of. 8: pieces of a polygon that meet at a vertex only hang
+        together there; rings run along both, and no two cross. 4: what is outside does. By default neither.
 
     Raises
     ------
@@ -68,6 +71,7 @@ class PolygonSet:
     properties: dict[str, Any] = field(default_factory=dict)
     y_up: bool = False
     crs: Any = None
+    connectivity: int | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "xy", _checked_vertices(self.xy))
@@ -80,6 +84,8 @@ class PolygonSet:
         for name, values in [*self.properties.items(), ("ids", self.ids)]:
             if values is not None and len(values) != count:
                 raise InputError(f"{name} must hold one value a polygon, {count}, but holds {len(values)}")
+        if self.connectivity not in (None, 4, 8):
+            raise InputError(f"connectivity is {self.connectivity}: it must be 4 or 8, or left out")
         bad = np.flatnonzero(~np.isfinite(self.xy).all(axis=1))
         if bad.size:
             at = int(bad[0])

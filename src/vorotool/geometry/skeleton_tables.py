@@ -193,46 +193,59 @@ def _branch_starts(skeleton: Skeleton) -> NDArray[np.int64]:
 
 
 def _distance(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    way = b - a
-    return np.asarray(np.sqrt((way * way).sum(axis=-1)))  # the same on every machine, as hypot is not
+    return _length((b - a).T)
 
 
 def _arc_radii(skeleton: Skeleton) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Smallest and largest radius on each arc, and the integral of the radius along it."""
-    source, target = skeleton.vertices[skeleton.arcs].swapaxes(0, 1)
-    r = skeleton.radius[skeleton.arcs]
-    ends = skeleton.site_ends[skeleton.sites]  # arc, left and right, end, coordinate
-    is_edge = skeleton.site_table.kind[skeleton.sites] == EDGE
-    control = np.where(skeleton.is_parabola[:, None], skeleton.control, (source + target) / 2)
-    least, most = r.min(axis=1), r.max(axis=1)
+    source, target = _columns(skeleton.vertices[skeleton.arcs])
+    r0, r1 = skeleton.radius[skeleton.arcs].T
+    left, right = (_columns(skeleton.site_ends[sites]) for sites in skeleton.sites.T)
+    on_left, on_right = skeleton.site_table.kind[skeleton.sites.T] == EDGE
+    least, most = np.minimum(r0, r1), np.maximum(r0, r1)
     # nearest to a vertex the arc may be in its middle, half-way between the two sites
-    has_vertex = ~is_edge.all(axis=1)
-    other = np.where(is_edge[:, 1, None], _foot(ends[:, 1], ends[:, 0, 0]), ends[:, 1, 0])
-    first = np.where(is_edge[:, 0, None], _foot(ends[:, 0], ends[:, 1, 0]), ends[:, 0, 0])
-    middle, half = (first + other) / 2, _distance(first, other) / 2
+    has_vertex = ~(on_left & on_right)
+    other = np.where(on_right, _foot(right, left[0]), right[0])
+    first = np.where(on_left, _foot(left, right[0]), left[0])
+    middle, half = (first + other) / 2, _length(other - first) / 2
     way = target - source
-    within = ((middle - source) * way).sum(axis=1) * ((middle - target) * way).sum(axis=1) < 0
+    within = _dot(middle - source, way) * _dot(middle - target, way) < 0
     least = np.where(has_vertex & within, np.minimum(least, half), least)
+    integral = skeleton.length * (r0 + r1) / 2  # between two edges the radius is linear
+    rest = np.flatnonzero(has_vertex)
+    source, target, left, on_left = source[:, rest], target[:, rest], left[..., rest], on_left[rest]
+    control = np.where(skeleton.is_parabola[rest], skeleton.control[rest].T, (source + target) / 2)
     nodes, weights = np.polynomial.legendre.leggauss(8)
-    integral = np.zeros(len(skeleton))
+    integral[rest] = 0
     for t, weight in zip((nodes + 1) / 2, weights / 2, strict=True):
         place = (1 - t) ** 2 * source + 2 * t * (1 - t) * control + t * t * target
         speed = 2 * ((1 - t) * (control - source) + t * (target - control))
-        at = np.where(is_edge[:, 0], _height(ends[:, 0], place), _distance(ends[:, 0, 0], place))
-        integral += weight * at * _distance(speed, np.zeros(2))
+        radius = _length(place - np.where(on_left, _foot(left, place), left[0]))
+        integral[rest] += weight * radius * _length(speed)
     return least, most, integral
 
 
+def _columns(places: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(2, 2, n) of (n, 2, 2): the first and the second of each pair, x and y."""
+    return np.ascontiguousarray(np.moveaxis(places, 0, -1))
+
+
+def _dot(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    product: NDArray[np.float64] = a[0] * b[0] + a[1] * b[1]
+    return product
+
+
+def _length(way: NDArray[np.float64]) -> NDArray[np.float64]:
+    length: NDArray[np.float64] = np.sqrt(_dot(way, way))  # the same on every machine, as hypot is not
+    return length
+
+
 def _foot(ends: NDArray[np.float64], place: NDArray[np.float64]) -> NDArray[np.float64]:
-    way = ends[:, 1] - ends[:, 0]
-    square = np.maximum((way * way).sum(axis=1), np.finfo(float).tiny)
-    t = ((place - ends[:, 0]) * way).sum(axis=1) / square
-    foot: NDArray[np.float64] = ends[:, 0] + t[:, None] * way
+    way = ends[1] - ends[0]
+    foot: NDArray[np.float64] = (
+        ends[0] + _dot(place - ends[0], way) / np.maximum(_dot(way, way), np.finfo(float).tiny) * way
+    )
     return foot
-
-
-def _height(ends: NDArray[np.float64], place: NDArray[np.float64]) -> NDArray[np.float64]:
-    return _distance(_foot(ends, place), place)
 
 
 def polygon_table(skeleton: Skeleton) -> Table:
@@ -346,7 +359,8 @@ def _measures(polygons: PolygonSet) -> tuple[NDArray[np.float64], NDArray[np.flo
     twice = np.where(polygons.ring_kind == 1, -twice, twice)
     area = np.add.reduceat(twice, polygons.polygon_start[:-1]) / 2
     area[polygons.is_line] = 0
-    return _with_valid_areas(polygons, area), perimeter
+    # crack outlines touch themselves, but never cross
+    return area if polygons.connectivity is not None else _with_valid_areas(polygons, area), perimeter
 
 
 def _with_valid_areas(polygons: PolygonSet, area: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vorotool.errors import UsageError
 from vorotool.geometry.frame import Frame
 from vorotool.geometry.seeds import SeedSet
+from vorotool.render.layers import Backdrop
 from vorotool.render.palettes import PicturePalette
 
 LAYERS = ("cells", "diagram", "seeds")
@@ -81,6 +82,50 @@ def picture_bands(
             discs.draw(picture, top, palette.seed)
         top += len(labels)
         yield picture
+
+
+def over_image(
+    bands: Iterable[NDArray[np.uint8]], backdrop: Backdrop, palette: PicturePalette, frame: Frame
+) -> NDArray[np.uint8]:
+    """Draw a picture over an image: cells half see-through, lines and seeds not.
+
+    Parameters
+    ----------
+    bands : iterable of (rows, W) uint8 arrays
+        What `picture_bands` gives.
+    backdrop : Backdrop
+        The image.
+    palette : PicturePalette
+        Of the bands.
+    frame : Frame
+        Where the picture lies in the image; what is beside it is left out.
+
+    Returns
+    -------
+    (H, 3 W) uint8 array
+        Red, green and blue of each pixel of the image.
+
+    Examples
+    --------
+    >>> from vorotool.render.palettes import picture_palette
+    >>> grey = Backdrop(np.full((1, 2, 3), 100, np.uint8), bytes)
+    >>> over_image([np.array([[13]], np.uint8)], grey, picture_palette(2), Frame(1, 0, 1, 1)).tolist()
+    [[100, 100, 100, 0, 0, 0]]
+    """
+    made = backdrop.pixels.copy()
+    height, width = made.shape[:2]
+    left, right = (min(max(x, 0), width) for x in (frame.x, frame.x + frame.width))
+    row = frame.y
+    for band in bands:
+        top, bottom = (min(max(y, 0), height) for y in (row, row + len(band)))
+        index = band[top - row : bottom - row, left - frame.x : right - frame.x]
+        beneath = made[top:bottom, left:right]
+        colour = palette.colours[index]
+        mixed = ((beneath.astype(np.uint16) + colour + 1) // 2).astype(np.uint8)
+        is_line = (index == palette.line) | (index == palette.seed)
+        beneath[...] = np.where(is_line[..., None], colour, np.where(index[..., None] > 0, mixed, beneath))
+        row += len(band)
+    return made.reshape(height, -1)
 
 
 def checked_layers(layers: Iterable[str], known: tuple[str, ...]) -> frozenset[str]:

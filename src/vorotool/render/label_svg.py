@@ -12,6 +12,8 @@ from vorotool.errors import LimitError
 from vorotool.geometry.label_image import LabelImage
 from vorotool.render.crack_outline import Loop, crack_loops
 from vorotool.render.label_png import checked_layers, disc_radius
+from vorotool.render.layers import Backdrop
+from vorotool.render.layers_svg import fill_style, image_element
 from vorotool.render.palettes import EDGE, FAINT, INK, SEED, WHITE, cell_colour
 
 LAYERS = ("cells", "labels", "seeds")
@@ -27,6 +29,7 @@ def write_label_svg(
     colour_of_label: NDArray[Any] | Mapping[int, int],
     width: int = 1000,
     layers: Iterable[str] = LAYERS,
+    backdrop: Backdrop | None = None,
 ) -> None:
     """Draw a label image with one path a label, and numbers in the pixels of images of at most 40 x 40.
 
@@ -45,6 +48,8 @@ def write_label_svg(
         Width of the picture in px.
     layers : iterable of str
         Which of "cells", "labels", "seeds" to draw; each is a named group.
+    backdrop : Backdrop, optional
+        An image to draw over, at its size: cells are half see-through then.
 
     Raises
     ------
@@ -63,17 +68,23 @@ def write_label_svg(
     """
     check_size(image.shape)
     wanted = checked_layers(layers, LAYERS)
-    page = _Page(image, width)
+    page = _Page(image, width, backdrop)
     numbered = "labels" in wanted and max(image.shape) <= MOST_NUMBERED
-    size = f'width="{width}" height="{page.height}"'
-    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="0 0 {width} {page.height}">']
+    size = f'width="{page.width}" height="{page.height}"'
+    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="0 0 {page.width} {page.height}">']
     parts.append(f'<rect {size} fill="{WHITE}"/>')
+    if backdrop is not None:
+        parts.append(image_element(backdrop).decode().rstrip())
+        assert image.frame is not None  # LabelImage has filled it in
+        parts.append(f'<g transform="translate({image.frame.x} {image.frame.y})">')
     if "cells" in wanted:
         parts += _cells(page, colour_of_label)
     if numbered:
         parts += _numbers(page, "seeds" in wanted)
     if "seeds" in wanted and image.seeds is not None and not numbered:
         parts += _discs(page)
+    if backdrop is not None:
+        parts.append("</g>")
     out.write(("\n".join([*parts, "</svg>"]) + "\n").encode())
 
 
@@ -94,12 +105,19 @@ def check_size(shape: tuple[int, int]) -> None:
 
 
 class _Page:
-    """Where pixels are on the page: it is as wide as the image and 2 % of its larger side as a margin."""
+    """Where pixels are on the page: it is as wide as the image and 2 % of its larger side as a margin.
 
-    def __init__(self, image: LabelImage, width: int) -> None:
+    Over another image it has that one's size.
+    """
+
+    def __init__(self, image: LabelImage, width: int, backdrop: Backdrop | None) -> None:
         rows, columns = image.shape
         margin = _MARGIN * max(rows, columns)
-        self.image = image
+        self.image, self.width, self.backdrop = image, width, backdrop
+        if backdrop is not None:
+            self.height, self.width = backdrop.pixels.shape[:2]
+            self.scale, self.offset = 1.0, 0.0
+            return
         self.scale = width / (columns + 2 * margin)
         self.offset = margin * self.scale
         self.height = max(1, round((rows + 2 * margin) * self.scale))
@@ -130,7 +148,8 @@ def _short(value: float) -> str:
 def _cells(page: _Page, colour_of_label: NDArray[Any] | Mapping[int, int]) -> Iterator[str]:
     # page coordinates, not a transform: not every renderer knows strokes that do not scale
     corners = [page.corner(index) for index in range(max(page.image.shape) + 1)]
-    yield f'<g id="cells" fill-rule="evenodd" stroke="{EDGE}" stroke-width="1.5" stroke-linejoin="round">'
+    style = fill_style(page.backdrop)
+    yield f'<g id="cells" fill-rule="evenodd"{style} stroke="{EDGE}" stroke-width="1.5" stroke-linejoin="round">'
     for label, loops in crack_loops(page.image.labels):
         colour = cell_colour(int(colour_of_label[label]))
         path = "".join(_loop_path(loop, corners) for loop in loops)

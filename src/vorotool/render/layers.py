@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -283,6 +283,11 @@ class Page:
         self.width, self.height = width, max(1, round(float(down * self.scale)))
         self.y_up, self._middle = y_up, low + span / 2
 
+    @property
+    def backdrop(self) -> Backdrop | None:
+        """What lies beneath the layers."""
+        return None
+
     def place(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """(n, 2) px from the left and from the top."""
         scale = np.array([self.scale, -self.scale if self.y_up else self.scale])
@@ -297,3 +302,53 @@ class Page:
     def spacing(self, count: int) -> float:
         """Distance in px between neighbours of so many points, spread evenly over the page."""
         return math.sqrt(self.width * self.height / max(count, 1))
+
+
+@dataclass(frozen=True, eq=False)
+class Backdrop:
+    """An image to draw over.
+
+    Parameters
+    ----------
+    pixels : (H, W, 3) uint8 array
+        Red, green and blue.
+    encode : callable
+        Gives the image as the bytes of a PNG file.
+    """
+
+    pixels: NDArray[np.uint8]
+    encode: Callable[[], bytes]
+
+
+class ImagePage(Page):
+    """The page of an image: a px is a pixel, whose centre is at integers of the data; y downwards.
+
+    Parameters
+    ----------
+    backdrop : Backdrop
+        The image, which lies beneath the layers. Areas are half see-through over it.
+
+    Examples
+    --------
+    >>> page = ImagePage(Backdrop(np.zeros((2, 3, 3), np.uint8), bytes))
+    >>> (page.width, page.height), page.place(np.array([[0.0, 1.0]])).tolist()
+    ((3, 2), [[0.5, 1.5]])
+    """
+
+    def __init__(self, backdrop: Backdrop) -> None:
+        height, width = backdrop.pixels.shape[:2]
+        super().__init__((-0.5, -0.5, width - 0.5, height - 0.5), width=width, y_up=False)
+        self.height, self._backdrop = height, backdrop
+
+    @property
+    def backdrop(self) -> Backdrop:
+        """The image."""
+        return self._backdrop
+
+    def place(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(n, 2) px from the left and from the top."""
+        return points + 0.5
+
+    def length(self, distance: float) -> float:
+        """Px of a distance."""
+        return distance

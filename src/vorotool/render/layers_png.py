@@ -18,6 +18,8 @@ FLATNESS = 0.25
 """Pixels of the drawing that lines may be off the curves that they stand for."""
 
 MOST_COLOURS = 255
+NOTHING = "#000000"
+"""What adds nothing to the image beneath."""
 BAND_ROWS = 64
 _PIXELS = 1 << 22  # of the drawing, that are set at a time
 _ITEMS = 1 << 18  # lines or corners that are taken at a time
@@ -40,7 +42,7 @@ def check_picture_size(page: Page, max_pixels: int) -> None:
 
 
 def layer_bands(layers: Iterable[Layer], page: Page) -> Iterator[NDArray[np.uint8]]:
-    """Draw layers from below; texts are left out.
+    """Draw layers from below, over the page's image if it has one; texts are left out.
 
     Parameters
     ----------
@@ -71,8 +73,8 @@ class _Canvas:
 
     def __init__(self, page: Page) -> None:
         self.page = page
-        self.indices = np.zeros((page.height * FINE, page.width * FINE), np.uint8)
-        self.colours = {WHITE: 0}
+        self.indices = np.zeros((page.height * FINE, page.width * FINE), np.uint8)  # 0: nothing
+        self.colours: dict[str, int] = {}
 
     def draw(self, layer: Layer) -> None:
         if isinstance(layer, Arcs):
@@ -91,18 +93,25 @@ class _Canvas:
             self._discs(places, layer.radius * FINE, self._colour(layer.colour))
 
     def bands(self) -> Iterator[NDArray[np.uint8]]:
-        """Means of the colours of FINE x FINE pixels."""
-        palette = np.array([list(bytes.fromhex(name[1:])) for name in self.colours], dtype=np.uint16)
+        """Means of the colours of FINE x FINE pixels; where nothing is drawn, that is white or the image."""
+        backdrop = self.page.backdrop
+        names = [WHITE if backdrop is None else NOTHING, *self.colours]
+        palette = np.array([list(bytes.fromhex(name[1:])) for name in names], dtype=np.uint16)
         for top in range(0, self.page.height, BAND_ROWS):
             fine = self.indices[top * FINE : (top + BAND_ROWS) * FINE]
             rows = len(fine) // FINE
             sums = np.zeros((rows, self.page.width, 3), np.uint16)
+            bare = np.zeros((rows, self.page.width, 1), np.uint16)
             for k in range(FINE**2):
-                sums += palette[fine[k // FINE :: FINE, k % FINE :: FINE]]
+                part = fine[k // FINE :: FINE, k % FINE :: FINE]
+                sums += palette[part]
+                bare[:, :, 0] += part == 0
+            if backdrop is not None:
+                sums += bare * backdrop.pixels[top : top + rows]
             yield ((sums + FINE**2 // 2) // FINE**2).astype(np.uint8).reshape(rows, -1)
 
     def _colour(self, name: str) -> int:
-        number = self.colours.setdefault(name, len(self.colours))
+        number = self.colours.setdefault(name, len(self.colours) + 1)
         if number > MOST_COLOURS:
             raise LimitError(f"a PNG picture has at most {MOST_COLOURS} colours: use -f svg")
         return number
@@ -135,7 +144,7 @@ class _Canvas:
         x = a[side, 0] + (row + 0.5 - a[side, 1]) * slope
         order = np.lexsort((x, row, owner[side]))
         row, x, of = row[order], np.ceil(x[order] - 0.5), owner[side][order]
-        self._set_rows(row[::2], x[::2], x[1::2], fills[of[::2]])
+        self._set_rows(row[::2], x[::2], x[1::2], fills[of[::2]], every_other=self.page.backdrop is not None)
 
     def _stroke(self, places: NDArray[np.float64], pairs: NDArray[np.int32], width: float, value: int) -> None:
         """Draw lines as runs of pixels across them: a column of pixels where they are flat, else a row."""
@@ -189,8 +198,13 @@ class _Canvas:
         right: NDArray[np.float64],
         values: NDArray[np.uint8] | int,
         target: NDArray[np.uint8] | None = None,
+        *,
+        every_other: bool = False,
     ) -> None:
-        """Set pixels from ``left`` to before ``right`` of rows, each with its value; what is outside is left out."""
+        """Set pixels from ``left`` to before ``right`` of rows, each with its value; what is outside is left out.
+
+        Every other one, as on a chessboard, leaves half of what is beneath.
+        """
         drawing = self.indices if target is None else target
         height, width = drawing.shape
         start = np.clip(left, 0, width).astype(np.int64)
@@ -202,6 +216,9 @@ class _Canvas:
             before = int(done[begin - 1]) if begin else 0
             end = max(begin + 1, int(np.searchsorted(done, before + _PIXELS, "right")))
             run, x = _expanded(start[begin:end], counts[begin:end])
+            if every_other:
+                chosen = (row[begin:end][run] + x) % 2 == 0
+                run, x = run[chosen], x[chosen]
             drawing[row[begin:end][run], x] = values if isinstance(values, int) else values[begin:end][run]
             begin = end
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from base64 import b64encode
 from collections.abc import Iterable, Iterator
 from html import escape
 from typing import Any, BinaryIO
@@ -10,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.render.layers import Arcs, Curves, Layer, Lines, Page, Points, Polygons, Texts
+from vorotool.render.layers import Arcs, Backdrop, Curves, Layer, Lines, Page, Points, Polygons, Texts
 from vorotool.render.palettes import WHITE
 
 PATH_ROWS = 4096
@@ -50,10 +51,24 @@ def write_layers_svg(out: BinaryIO, layers: Iterable[Layer], page: Page, *, thre
         f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="0 0 {page.width} {page.height}">\n'
         f'<rect {size} fill="{WHITE}"/>\n'.encode()
     )
+    if page.backdrop is not None:
+        out.write(image_element(page.backdrop))
     for layer in layers:
         for part in _parts(layer, page, threads):
             out.write(part)
     out.write(b"</svg>\n")
+
+
+def image_element(backdrop: Backdrop) -> bytes:
+    """The image as an element with its pixels in it."""
+    height, width = backdrop.pixels.shape[:2]
+    head = f'<image id="image" width="{width}" height="{height}" style="image-rendering:pixelated" href="data:image/png'
+    return head.encode() + b";base64," + b64encode(backdrop.encode()) + b'"/>\n'
+
+
+def fill_style(backdrop: Backdrop | None) -> str:
+    """Attribute of a group whose areas the image shows through, if there is one."""
+    return "" if backdrop is None else ' fill-opacity="0.5"'
 
 
 def _parts(layer: Layer, page: Page, threads: int) -> Iterator[bytes]:
@@ -65,7 +80,7 @@ def _parts(layer: Layer, page: Page, threads: int) -> Iterator[bytes]:
     if isinstance(layer, Curves):
         return _curves(layer, x, y, threads)
     if isinstance(layer, Polygons):
-        return _polygons(layer, x, y, threads)
+        return _polygons(layer, x, y, fill_style(page.backdrop), threads)
     return _points(layer, x, y, threads) if isinstance(layer, Points) else _texts(layer, x, y, threads)
 
 
@@ -113,11 +128,11 @@ def _curves(layer: Curves, x: NDArray[Any], y: NDArray[Any], threads: int) -> It
 _COMMANDS = ["M", "L", "Q", " "]
 
 
-def _polygons(layer: Polygons, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
+def _polygons(layer: Polygons, x: NDArray[Any], y: NDArray[Any], style: str, threads: int) -> Iterator[bytes]:
     """One row a corner: what stands before it is L, the end of a ring, or the end of a path and another's begin."""
     across, down = _core.NumberTexts(x, 0, threads), _core.NumberTexts(y, 0, threads)
     stroke = "" if layer.edge is None else f" {_stroke(layer.edge, layer.width)}"
-    yield f'<g id="{escape(layer.name)}" fill-rule="evenodd"{stroke}>\n'.encode()
+    yield f'<g id="{escape(layer.name)}" fill-rule="evenodd"{style}{stroke}>\n'.encode()
     texts, before = _openings(layer)
     for rows in _chunks(len(layer.corners), SLICE_ROWS):
         corners = layer.corners[rows]
@@ -194,7 +209,8 @@ def _arcs(layer: Arcs, page: Page) -> Iterator[bytes]:
             radius = f"{page.length(radii[arc]):.3f}".rstrip("0").rstrip(".")
             steps.append(f"A{radius} {radius} 0 0 {sweep} {end[arc, 0]:g} {end[arc, 1]:g}")
         paths.append("".join(steps) + "Z")
-    style = f'fill="{layer.fill}" fill-rule="evenodd" {_stroke(layer.edge, layer.width)}'
+    seen = fill_style(page.backdrop)
+    style = f'fill="{layer.fill}" fill-rule="evenodd"{seen} {_stroke(layer.edge, layer.width)}'
     yield f'<g id="{escape(layer.name)}" {style}>\n'.encode()
     if paths:
         yield f'<path {_UNSCALED} d="{"".join(paths)}"/>\n'.encode()

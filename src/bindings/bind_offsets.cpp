@@ -1,0 +1,105 @@
+// Offset curves, from segment Voronoi diagrams.
+#include <nanobind/stl/vector.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "core/offset_curves.hpp"
+#include "diagram_arrays.hpp"
+#include "interrupts.hpp"
+
+namespace vorotool::bindings {
+namespace {
+
+namespace nb = nanobind;
+using namespace nb::literals;
+using core::Monitor;
+using core::OffsetCurves;
+using Indices = Vector<const std::int32_t>;
+
+// What the sites around vertices and the polygons of all parts must be for the core to index by them.
+void check(const core::SegmentDiagram& diagram, const Indices& vertex_start, const Indices& edge_face,
+           std::span<const Pair> segment_faces, const Indices& face_polygon, const Indices& site_polygon) {
+  const std::span<const std::int32_t> starts = view(vertex_start);
+  if (starts.size() != diagram.radius.size() + 1 || edge_face.size() != diagram.edges.size() ||
+      segment_faces.size() != diagram.segments.size() ||
+      site_polygon.size() != diagram.points.size() + diagram.segments.size()) {
+    throw std::invalid_argument("arrays of a domain do not go with the diagram");
+  }
+  const auto is_face = [&](std::int32_t face) {
+    return face >= 0 && static_cast<std::size_t>(face) < face_polygon.size();
+  };
+  for (const std::int32_t face : view(edge_face)) {
+    if (face >= 0 && !is_face(face)) throw std::invalid_argument("the face of an edge is out of range");
+  }
+  for (const Pair& pair : segment_faces) {
+    if (!is_face(pair[0]) || !is_face(pair[1]))
+      throw std::invalid_argument("the face of a segment is out of range");
+  }
+}
+
+void check_rings(const Indices& vertex_start, const Indices& vertex_sites) {
+  const std::span<const std::int32_t> starts = view(vertex_start);
+  for (std::size_t v = 0; v < starts.size(); ++v) {
+    const std::int32_t least = v == 0 ? 0 : starts[v - 1];
+    if (starts[v] < least || static_cast<std::size_t>(starts[v]) > vertex_sites.size()) {
+      throw std::invalid_argument("the sites of a vertex are out of range");
+    }
+  }
+}
+
+nb::dict as_dict(OffsetCurves&& curves) {
+  nb::dict result;
+  result["start"] = two_columns(std::move(curves.start));
+  result["end"] = two_columns(std::move(curves.end));
+  result["centre"] = two_columns(std::move(curves.centre));
+  result["site"] = to_numpy(std::move(curves.site));
+  result["ring_start"] = to_numpy(std::move(curves.ring_start));
+  result["shape_start"] = to_numpy(std::move(curves.shape_start));
+  result["polygon"] = to_numpy(std::move(curves.shape_polygon));
+  return result;
+}
+
+nb::list offset_curves(const IndexRows& points, const IndexRows& segments, const Places& vertices,
+                       const Vector<const double>& radius, const IndexRows& edges,
+                       const IndexRows& edge_sites, const Indices& vertex_start, const Indices& vertex_sites,
+                       const Indices& edge_face, const IndexRows& segment_faces, const Indices& face_polygon,
+                       const Indices& site_polygon, const std::vector<double>& distances, double origin_x,
+                       double origin_y, double scale, nb::handle progress) {
+  const DiagramArrays arrays{points, segments, vertices, radius, edges, edge_sites};
+  const core::SegmentDiagram diagram = arrays.diagram();
+  const std::span<const Pair> faces = rows<Pair>(segment_faces);
+  check(diagram, vertex_start, edge_face, faces, face_polygon, site_polygon);
+  check_rings(vertex_start, vertex_sites);
+  std::vector<OffsetCurves> made = run_interruptible(progress, [&](const Monitor& monitor) {
+    const core::CellBorders borders(diagram, view(vertex_start), view(vertex_sites));
+    std::vector<OffsetCurves> all;
+    for (const double distance : distances) {
+      const core::OffsetDomain domain{view(edge_face), faces, view(face_polygon), view(site_polygon),
+                                      distance > 0};
+      all.push_back(
+          core::offset_curves(borders, domain, std::abs(distance), {origin_x, origin_y, scale}, monitor));
+    }
+    return all;
+  });
+  nb::list result;
+  for (OffsetCurves& curves : made) result.append(as_dict(std::move(curves)));
+  return result;
+}
+
+}  // namespace
+
+void bind_offsets(nb::module_& module) {
+  module.def("offset_curves", &offset_curves, "points"_a.noconvert(), "segments"_a.noconvert(),
+             "vertices"_a.noconvert(), "radius"_a.noconvert(), "edges"_a.noconvert(),
+             "edge_sites"_a.noconvert(), "vertex_start"_a.noconvert(), "vertex_sites"_a.noconvert(),
+             "edge_face"_a.noconvert(), "segment_faces"_a.noconvert(), "face_polygon"_a.noconvert(),
+             "site_polygon"_a.noconvert(), "distances"_a, "origin_x"_a, "origin_y"_a, "scale"_a,
+             "progress"_a.none());
+}
+
+}  // namespace vorotool::bindings

@@ -1,0 +1,67 @@
+// Outlines of the objects of label images.
+#include <nanobind/stl/string.h>
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "core/crack_outlines.hpp"
+#include "core/parallel.hpp"
+#include "interrupts.hpp"
+
+namespace vorotool::bindings {
+namespace {
+
+namespace nb = nanobind;
+using namespace nb::literals;
+using core::Monitor;
+
+template <class Label>
+std::size_t count_crack_vertices(const Matrix<const Label>& labels, unsigned threads, nb::object progress) {
+  return run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::count_crack_vertices<Label>(view(labels), labels.shape(1), core::resolve_threads(threads),
+                                             monitor);
+  });
+}
+
+core::CornerRule corner_rule(const std::string& name) {
+  if (name == "apart") return core::CornerRule::apart;
+  if (name == "joined") return core::CornerRule::joined;
+  if (name == "yielding") return core::CornerRule::yielding;
+  throw std::invalid_argument("a corner rule is apart, joined or yielding");
+}
+
+template <class Label>
+nb::dict trace_cracks(const Matrix<const Label>& labels, const std::string& rule, std::size_t vertices,
+                      nb::object progress) {
+  core::CrackOutlines made = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::trace_cracks<Label>(view(labels), labels.shape(1), corner_rule(rule), vertices, monitor);
+  });
+  nb::dict result;
+  result["corners"] = two_columns(std::move(made.corners));
+  result["start"] = to_numpy(std::move(made.start));
+  result["is_hole"] = to_numpy(std::move(made.is_hole));
+  result["ring_object"] = to_numpy(std::move(made.ring_object));
+  result["labels"] = to_numpy(std::move(made.labels));
+  return result;
+}
+
+template <class Label>
+void bind_label_image(nb::module_& module) {
+  module.def("count_crack_vertices", &count_crack_vertices<Label>, "labels"_a.noconvert(), "threads"_a,
+             "progress"_a.none());
+  module.def("trace_cracks", &trace_cracks<Label>, "labels"_a.noconvert(), "rule"_a, "vertices"_a,
+             "progress"_a.none());
+}
+
+}  // namespace
+
+void bind_outlines(nb::module_& module) {
+  bind_label_image<std::uint8_t>(module);
+  bind_label_image<std::uint16_t>(module);
+  bind_label_image<std::uint32_t>(module);
+}
+
+}  // namespace vorotool::bindings

@@ -1,0 +1,142 @@
+"""Contours of marching squares, from the cracks between the pixels inside and outside."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+
+Corners = NDArray[np.int32]
+Rings = tuple[NDArray[np.float64], NDArray[np.int64]]
+"""Vertices, and where each ring begins among them."""
+
+
+@dataclass(frozen=True, eq=False)
+class GreyLevel:
+    """Grey values, of which those above a level are inside; none is at the level.
+
+    Parameters
+    ----------
+    values : (H, W) array
+        Finite.
+    level : float
+        Between two values.
+    """
+
+    values: NDArray[Any]
+    level: float
+
+
+def grey_level(grey: NDArray[Any], threshold: float) -> GreyLevel:
+    """Give the level of a threshold: where pixels have just this value, half-way to the next larger one.
+
+    Raises
+    ------
+    InputError
+        If a value is not finite.
+
+    Examples
+    --------
+    >>> grey_level(np.array([[1, 2, 5]]), 2).level, grey_level(np.array([[1, 2, 5]]), 1.5).level
+    (3.5, 1.5)
+    """
+    if grey.dtype.kind == "f" and not np.isfinite(grey).all():
+        raise InputError("the image holds NaN or infinite values: contours need numbers; use --outline crack")
+    above = grey > threshold
+    if above.any() and (grey == threshold).any():
+        return GreyLevel(grey, threshold + (float(grey[above].min()) - threshold) / 2)
+    return GreyLevel(grey, threshold)
+
+
+def half_way_contours(corners: Corners, start: NDArray[np.int64]) -> Rings:
+    """Contours of a mask or of labels: through the middles of the cracks between pixels.
+
+    Parameters
+    ----------
+    corners : (n, 2) int32 array
+        Corners of pixels along crack outlines, as the core traces them.
+    start : (r + 1,) int64 array
+        Where each ring begins.
+
+    Returns
+    -------
+    Rings
+        Vertices with pixel centres at integers. One that the contours go straight through is left out, unless one of
+        two that have it turns there.
+
+    Examples
+    --------
+    >>> pixel = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=np.int32)
+    >>> half_way_contours(pixel, np.array([0, 4]))[0].tolist()
+    [[0.0, -0.5], [0.5, 0.0], [0.0, 0.5], [-0.5, 0.0]]
+    """
+    following = _following(start)
+    a, b = corners.astype(np.int64), corners[following].astype(np.int64)
+    way = np.sign(b - a)
+    is_long = np.abs(b - a).sum(axis=1) > 1
+    count = 1 + is_long
+    at = np.cumsum(count) - count
+    doubled = np.empty((int(count.sum()), 2), dtype=np.int64)  # the first and the last middle along each crack
+    doubled[at] = 2 * a + way
+    doubled[(at + 1)[is_long]] = (2 * b - way)[is_long]
+    start = np.append(at, len(doubled))[start]
+    kept = ~_is_straight(doubled, start)
+    first = np.concatenate([[0], np.cumsum(kept)])
+    return doubled[kept] / 2 - 0.5, first[start]
+
+
+def grey_contours(corners: Corners, start: NDArray[np.int64], grey: GreyLevel) -> Rings:
+    """Contours of grey values: a vertex where the line between two pixels' centres reaches the level.
+
+    On the border of the image it is on the border.
+
+    Parameters
+    ----------
+    corners, start
+        As of `half_way_contours`: the crack outlines of what is above the level, or of what is not.
+    grey : GreyLevel
+        The image.
+
+    Examples
+    --------
+    >>> pixel = np.array([[1, 0], [2, 0], [2, 1], [1, 1]], dtype=np.int32)
+    >>> grey_contours(pixel, np.array([0, 4]), GreyLevel(np.array([[0, 8, 0]]), 2.0))[0].tolist()
+    [[1.0, -0.5], [1.75, 0.0], [1.0, 0.5], [0.25, 0.0]]
+    """
+    a, b = corners.astype(np.int64), corners[_following(start)].astype(np.int64)
+    length = np.abs(b - a).sum(axis=1)
+    along = np.arange(int(length.sum())) - np.repeat(np.cumsum(length) - length, length)
+    way = np.repeat(np.sign(b - a), length, axis=0)
+    here = np.repeat(a, length, axis=0) + along[:, None] * way
+    after = np.minimum(here, here + way)  # the pixel below or on the right of each crack of unit length
+    across = (way == 0).astype(np.int64)
+    before = after - across
+    height, width = grey.values.shape
+    is_inner = ((before >= 0) & (after < [width, height])).all(axis=1)
+    share = np.full(len(here), 0.5)
+    low, high = (grey.values[places[is_inner, 1], places[is_inner, 0]].astype(float) for places in (before, after))
+    share[is_inner] = (grey.level - low) / (high - low)
+    return before + share[:, None] * across, np.concatenate([[0], np.cumsum(length)])[start]
+
+
+def _following(start: NDArray[np.int64]) -> NDArray[np.int64]:
+    """The vertex after each one of closed rings."""
+    following = np.arange(1, start[-1] + 1)
+    following[start[1:] - 1] = start[:-1]
+    return following
+
+
+def _is_straight(places: NDArray[np.int64], start: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Whether all rings that have a place go straight through it."""
+    following = _following(start)
+    before = np.empty_like(following)
+    before[following] = np.arange(len(places))
+    (ax, ay), (bx, by) = (places - places[before]).T, (places[following] - places).T
+    turns = ax * by != ay * bx
+    _, place = np.unique(places[:, 1] << 32 | places[:, 0] & 0xFFFFFFFF, return_inverse=True)
+    straight: NDArray[np.bool_] = np.bincount(place, turns)[place] == 0
+    return straight

@@ -1,0 +1,89 @@
+"""Chords of circular arcs, by halving: square roots alone give the same bits on every machine."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+MOST_HALVINGS = 12
+"""Of an arc: 4^12 times nearer than its chord."""
+
+
+def chords_of(
+    start: Floats, end: Floats, centre: Floats, is_left: NDArray[np.bool_], tolerance: float
+) -> tuple[Floats, NDArray[np.int64]]:
+    """Replace arcs by chords between places on them, each at most a quarter of a circle.
+
+    Parameters
+    ----------
+    start, end, centre : (k, 2) float64 array
+        Of arcs of at most half a circle; the centre of a straight line is NaN.
+    is_left : (k,) bool array
+        Whether each arc turns left: counter-clockwise, y upwards.
+    tolerance : float
+        How far a chord may be from its arc.
+
+    Returns
+    -------
+    points : (n, 2) float64 array
+        The start of each piece, and places inside the arcs; no end.
+    first : (k + 1,) int64 array
+        Where the points of each piece begin.
+
+    Examples
+    --------
+    >>> places = np.array([[[1.0, 0.0]], [[-1.0, 0.0]], [[0.0, 0.0]]])
+    >>> chords_of(*places, np.array([True]), 0.5)[0].tolist()
+    [[1.0, 0.0], [0.0, 1.0]]
+    """
+    halvings = _halvings(start, end, centre, tolerance)
+    first = np.concatenate([[0], np.cumsum(2**halvings)])
+    points = np.empty((first[-1], 2))
+    points[first[:-1]] = start
+    for count in range(1, int(halvings.max(initial=0)) + 1):
+        arcs = np.flatnonzero(halvings == count)
+        inner = _halved(start[arcs], end[arcs], centre[arcs], is_left[arcs], count)
+        points[(first[arcs, None] + np.arange(1, 2**count)).reshape(-1)] = inner.reshape(-1, 2)
+    return points, first
+
+
+def _halvings(start: Floats, end: Floats, centre: Floats, tolerance: float) -> NDArray[np.int64]:
+    """(k,) how often each arc is halved."""
+    is_arc = ~np.isnan(centre[:, 0])
+    a, b = np.where(is_arc[:, None], [start - centre, end - centre], 0)
+    square = (a * a).sum(axis=1)
+    quarter = ((b - a) ** 2).sum(axis=1) / 4
+    halvings = np.zeros(len(a), dtype=np.int64)
+    is_wide = (a * b).sum(axis=1) < 0
+    for _ in range(MOST_HALVINGS):
+        radius = np.sqrt(square)
+        # the height of the arc over its chord, and a quarter of the square of the chord of its half
+        height = quarter / np.maximum(radius + np.sqrt(np.maximum(square - quarter, 0)), np.finfo(float).tiny)
+        more = is_arc & (is_wide | (height > tolerance))
+        if not more.any():
+            break
+        halvings += more
+        quarter = np.where(more, radius * height / 2, quarter)
+        is_wide[:] = False
+    return halvings
+
+
+def _halved(start: Floats, end: Floats, centre: Floats, is_left: NDArray[np.bool_], count: int) -> Floats:
+    """(k, 2^count - 1, 2) places inside arcs that divide them evenly."""
+    ways = np.empty((len(start), 2**count + 1, 2))
+    ways[:, 0], ways[:, -1] = start - centre, end - centre
+    radius = np.sqrt((ways[:, 0] ** 2).sum(axis=1))
+    step = 2**count
+    while step > 1:
+        a, b = ways[:, :-1:step], ways[:, step::step]
+        middle = a + b
+        if step == 2**count:  # of a wide arc the chord tells more than the sum of its ends
+            across = (b - a)[..., ::-1] * np.where(is_left[:, None, None], [1, -1], [-1, 1])
+            middle = np.where((a * b).sum(axis=-1, keepdims=True) < 0, across, middle)
+        scale = radius[:, None] / np.sqrt((middle * middle).sum(axis=-1))
+        ways[:, step // 2 :: step] = scale[..., None] * middle
+        step //= 2
+    places: Floats = centre[:, None] + ways[:, 1:-1]
+    return places
