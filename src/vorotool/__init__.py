@@ -60,6 +60,8 @@ _HOME = {
     "outlines": "vorotool.engines.outlines",
     "planar_graph": "vorotool.engines.planar_graph",
     "verify_planar_graph": "vorotool.engines.planar_graph",
+    "Centerlines": "vorotool.geometry.centerline",
+    "centerline": "vorotool.engines.centerline",
     "CriticalValues": "vorotool.geometry.critical_values",
     "critical_values": "vorotool.engines.pruning",
     "prune": "vorotool.engines.pruning",

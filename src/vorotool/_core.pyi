@@ -366,7 +366,7 @@ def offset_curves(
     """For each distance (> 0 outwards) the arrays of core/offset_curves.hpp by their names there (bind_offsets.cpp)."""
 
 # ---- pruning (bind_pruning.cpp): a skeleton is its vertices, radii, arcs, control points, sites, lengths, the ends of
-# ---- sites as (s, 4), which nodes are anchored (uint8), and whether sites are closed; criteria are numbered -----------
+# ---- sites as (s, 4), which nodes are anchored (uint8), and whether sites are closed; criteria are numbered ----------
 
 _SkeletonArrays = tuple[
     NDArray[np.float64],
@@ -383,8 +383,10 @@ _SkeletonArrays = tuple[
 def critical_values(
     skeleton: _SkeletonArrays, criterion: int, progress: _Progress
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int32], NDArray[np.float64]]:
-    """Values at the ends of arcs and the largest of each; arcs on which a place is kept, and where. Of the angle: the
-    tangent of half of it."""
+    """Values at the ends of arcs and the largest of each; arcs on which a place is kept, and where.
+
+    Of the angle: the tangent of half of it.
+    """
 
 def prune_skeleton(
     skeleton: _SkeletonArrays,

@@ -13,6 +13,7 @@ from vorotool import _core
 from vorotool.engines.label_arrays import Progress
 from vorotool.errors import UsageError
 from vorotool.geometry.critical_values import CRITERIA, CriticalValues
+from vorotool.geometry.elementary import inverse_sine
 from vorotool.geometry.skeleton import Skeleton
 
 Floats = NDArray[np.float64]
@@ -102,7 +103,7 @@ def prune(
     values = _core.critical_values(arrays, number, progress)
     compared = half_tangent(threshold) if criterion == "angle" else float(threshold)
     group = np.where(skeleton.polygon < 0, len(skeleton.polygons), skeleton.polygon).astype(np.int32)
-    left = _core.prune_skeleton(arrays, *values, number, compared, group, progress)
+    left: dict[str, Any] = _core.prune_skeleton(arrays, *values, number, compared, group, progress)
     original, is_reversed = left.pop("original"), left.pop("is_reversed") != 0
     sites = skeleton.sites[original]
     return replace(
@@ -137,7 +138,7 @@ def critical_values(skeleton: Skeleton, criterion: str, *, progress: Progress = 
     >>> from vorotool import skeleton_exact
     >>> skeleton = skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])
     >>> critical_values(skeleton, "ratio").most.round(9).tolist()
-    [1.414213562, 1.414213562, inf, 1.414213562, 1.414213562]
+    [1.414213562, 1.414213562, 1.414213562, 1.414213562, inf]
     """
     if criterion not in CRITERIA:
         raise UsageError(f"{criterion!r} is nothing to prune by: use {', '.join(CRITERIA)}")
@@ -222,14 +223,9 @@ def half_tangent(degrees: float) -> float:
 
 
 def _doubled_degrees(tangent: Floats) -> Floats:
-    """Twice the angles, in degrees, by basic operations: they give the same bits on every machine."""
+    """Twice the angles of tangents, in degrees."""
     is_steep = tangent > 1
     with np.errstate(divide="ignore"):
-        t = np.where(is_steep, 1 / tangent, tangent)
-    for _ in range(3):  # atan t = 2 atan(t / (1 + sqrt(1 + t^2))): below 0.1 then
-        t = t / (1 + np.sqrt(1 + t * t))
-    total = np.zeros_like(t)
-    for k in range(17, -1, -1):  # the next term is below 1e-36
-        total = total * -(t * t) + 1 / (2 * k + 1)
-    angle = 8 * t * total
+        smaller = np.where(is_steep, 1 / tangent, tangent)
+    angle = inverse_sine(smaller / np.sqrt(1 + smaller * smaller))
     return np.asarray(np.where(np.isinf(tangent), np.inf, 360 / np.pi * np.where(is_steep, np.pi / 2 - angle, angle)))

@@ -39,7 +39,7 @@ class CriticalValues:
     >>> from vorotool import critical_values, skeleton_exact
     >>> values = critical_values(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]), "angle")
     >>> values.most.round(9).tolist()
-    [90.0, 90.0, inf, 90.0, 90.0]
+    [90.0, 90.0, 90.0, 90.0, inf]
     """
 
     criterion: str

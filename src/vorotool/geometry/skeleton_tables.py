@@ -164,7 +164,7 @@ def branch_table(skeleton: Skeleton) -> Table:
         return Table(dict.fromkeys(names, empty))
     last = np.append(start[1:], len(skeleton)) - 1
     a, b = skeleton.arcs[start, 0], skeleton.arcs[last, 1]
-    least, most, integral = _arc_radii(skeleton)
+    least, most, integral = arc_radii(skeleton)
     length = np.add.reduceat(skeleton.length, start)
     integral = np.add.reduceat(integral, start)
     mean = np.divide(integral, length, out=skeleton.radius[a].copy(), where=length > 0)
@@ -196,8 +196,15 @@ def _distance(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.floa
     return _length((b - a).T)
 
 
-def _arc_radii(skeleton: Skeleton) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Smallest and largest radius on each arc, and the integral of the radius along it."""
+def arc_radii(skeleton: Skeleton) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Give the smallest and the largest radius on each arc, and the integral of the radius along it.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> [values.max().tolist() for values in arc_radii(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]))]
+    [1.0, 1.0, 2.0]
+    """
     source, target = _columns(skeleton.vertices[skeleton.arcs])
     r0, r1 = skeleton.radius[skeleton.arcs].T
     left, right = (_columns(skeleton.site_ends[sites]) for sites in skeleton.sites.T)
@@ -282,7 +289,7 @@ def polygon_table(skeleton: Skeleton) -> Table:
 
     arcs = np.bincount(of_arc, minlength=count)
     length = np.bincount(of_arc, skeleton.length[inside], count)
-    _, most, integral = _arc_radii(skeleton)
+    _, most, integral = arc_radii(skeleton)
     widest = np.zeros(count)
     np.maximum.at(widest, of_arc, 2 * most[inside])
     mean = np.divide(2 * np.bincount(of_arc, integral[inside], count), length, out=np.zeros(count), where=length > 0)
