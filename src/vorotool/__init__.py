@@ -63,6 +63,7 @@ _HOME = {
     "Centerlines": "vorotool.geometry.centerline",
     "centerline": "vorotool.engines.centerline",
     "CriticalValues": "vorotool.geometry.critical_values",
+    "arc_profiles": "vorotool.engines.pruning",
     "critical_values": "vorotool.engines.pruning",
     "prune": "vorotool.engines.pruning",
     "skeleton_exact": "vorotool.engines.skeleton_exact",

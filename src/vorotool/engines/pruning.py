@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.label_arrays import Progress
 from vorotool.errors import UsageError
-from vorotool.geometry.critical_values import CRITERIA, CriticalValues
+from vorotool.geometry.critical_values import CRITERIA, ArcProfiles, CriticalValues
 from vorotool.geometry.elementary import inverse_sine
 from vorotool.geometry.skeleton import Skeleton
 
@@ -148,6 +148,18 @@ def critical_values(skeleton: Skeleton, criterion: str, *, progress: Progress = 
     if criterion == "angle":
         ends, most = _doubled_degrees(ends), _doubled_degrees(most)
     return CriticalValues(criterion, ends, most, kept_arc, kept_place)
+
+
+def arc_profiles(skeleton: Skeleton) -> ArcProfiles:
+    """Tell how the two nearest places on the boundary lie along each arc.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> arc_profiles(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])).kind.tolist()
+    [0, 0, 0, 0, 0]
+    """
+    return ArcProfiles(*_core.arc_profiles(skeleton_arrays(skeleton)))
 
 
 def default_pruning_for_masks() -> tuple[str, float]:
