@@ -16,7 +16,7 @@ $(BUILD)/.venv: pyproject.toml
 	@mkdir -p $(BUILD)
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/pip install --quiet --disable-pip-version-check \
-	    $$($(PYTHON) -c 'import tomllib; p = tomllib.load(open("pyproject.toml", "rb"))["project"]; print(*p["dependencies"], *p["optional-dependencies"]["dev"])')
+	    $$($(PYTHON) -c 'import tomllib; p = tomllib.load(open("pyproject.toml", "rb"))["project"]; print(*p["dependencies"], *(name for extra in ("dev", "distributed") for name in p["optional-dependencies"][extra]))')
 	@touch $@
 
 $(BUILD)/.installed: $(BUILD)/.venv $(CORE_SOURCES)
@@ -55,10 +55,12 @@ bench: build ## measure beside the peers, in one run
 	$(RUN) tests/benchmarks/alphashape.py
 	$(RUN) tests/benchmarks/mesh_files.py
 	$(RUN) tests/benchmarks/skeleton_exact.py
+	$(RUN) tests/benchmarks/masks.py
 	$(RUN) tests/benchmarks/segment_voronoi.py
+	$(RUN) tests/benchmarks/batch.py
 
 .PHONY: fuzz
-fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CASES=..., SETS=..., SEED=...)
+fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CASES=..., SETS=..., KILLS=..., SEED=...)
 	$(RUN) tests/fuzz/tessellate.py --pixels $(or $(PIXELS),100000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/predicates.py --calls $(or $(CALLS),1000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/delaunay.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
@@ -68,8 +70,10 @@ fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CAS
 	$(RUN) tests/fuzz/planar_graph.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/skeletons.py --data
 	$(RUN) tests/fuzz/skeletons.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/outlines.py --cases $(or $(CASES),20000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/segment_voronoi.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
-	$(RUN) tests/fuzz/segment_voronoi.py --cases 10000 --seed $(or $(SEED),1) --family clusters --largest 100
+	$(RUN) tests/fuzz/segment_voronoi.py --cases 10000 --seed $(or $(SEED),1) --family clusters --largest 100 --symmetries 1
+	$(RUN) tests/fuzz/batch.py --kills $(or $(KILLS),20) --seed $(or $(SEED),1)
 
 .PHONY: sanitize
 sanitize: build ## run the engine tests on a build with address and undefined-behaviour sanitizers

@@ -1,7 +1,8 @@
 """Boost's diagram of points and segments, through pyvoronoi, beside ours.
 
-Boost is right for small coordinates. It has vertices that coincide where more than three sites tie, and edges of length
-zero between them: vertices are merged by their places.
+Boost is right for small coordinates, but for one graph in some thousands that has points beside segments. It has
+vertices that coincide where more than three sites tie, and edges of length zero between them: vertices are merged by
+their places.
 """
 
 from __future__ import annotations

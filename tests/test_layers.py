@@ -14,7 +14,8 @@ BELOW = {
     "engines": {"errors", "geometry"},
     "formats": {"errors", "geometry"},
     "render": {"errors", "geometry"},
-    "cli": {"errors", "geometry", "engines", "formats", "render"},
+    "batch": {"errors", "geometry", "engines", "formats", "render"},
+    "cli": {"errors", "geometry", "engines", "formats", "render", "batch"},
 }
 MAY_IMPORT_CORE = {"engines", "formats", "render"}
 

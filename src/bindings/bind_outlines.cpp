@@ -28,9 +28,10 @@ std::size_t count_crack_vertices(const Matrix<const Label>& labels, unsigned thr
 
 core::CornerRule corner_rule(const std::string& name) {
   if (name == "apart") return core::CornerRule::apart;
+  if (name == "divided") return core::CornerRule::divided;
   if (name == "joined") return core::CornerRule::joined;
   if (name == "yielding") return core::CornerRule::yielding;
-  throw std::invalid_argument("a corner rule is apart, joined or yielding");
+  throw std::invalid_argument("a corner rule is apart, divided, joined or yielding");
 }
 
 template <class Label>

@@ -20,6 +20,7 @@ void bind_segment_exact(nanobind::module_& module);
 void bind_outlines(nanobind::module_& module);
 void bind_skeleton(nanobind::module_& module);
 void bind_offsets(nanobind::module_& module);
+void bind_seed_skeleton(nanobind::module_& module);
 void bind_segment_verification(nanobind::module_& module);
 void bind_segment_voronoi(nanobind::module_& module);
 

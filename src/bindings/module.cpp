@@ -18,6 +18,7 @@ NB_MODULE(_core, module) {
   vorotool::bindings::bind_outlines(module);
   vorotool::bindings::bind_skeleton(module);
   vorotool::bindings::bind_offsets(module);
+  vorotool::bindings::bind_seed_skeleton(module);
   vorotool::bindings::bind_segment_verification(module);
   vorotool::bindings::bind_segment_voronoi(module);
 }

@@ -135,7 +135,7 @@ class RingWalk {
  public:
   RingWalk(std::vector<CrackVertex>& vertices, CornerRule rule, const Monitor& monitor)
       : vertices_(vertices),
-        divides_(rule == CornerRule::apart),
+        divides_(rule == CornerRule::divided),
         monitor_(monitor),
         north_(vertices.size(), -1) {
     if (divides_) place_.assign(vertices.size(), -1);

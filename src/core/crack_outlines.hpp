@@ -14,6 +14,7 @@ namespace vorotool::core {
 // What happens where two pixels of a label meet at a corner only.
 enum class CornerRule : std::uint8_t {
   apart,    // 4-connectivity: they do not belong together by that
+  divided,  // the same, and a ring that would visit the corner twice is divided there
   joined,   // 8-connectivity: they do, also where two labels cross at the corner
   yielding  // 8-connectivity, but where two labels cross only the smaller one goes through
 };
@@ -25,8 +26,8 @@ enum class CornerRule : std::uint8_t {
 // Objects are the connected parts of each label but 0, by label and then by their first pixels, row by row.
 // Each has one shell, and then its holes, by their first pixels. The object is on the left of its rings as x
 // and y are stored: shells have a positive area, holes a negative one. A ring begins with its first vertex,
-// row by row. With CornerRule::apart no ring visits a vertex twice; otherwise rings run along where parts
-// hang together, so that they may touch themselves and each other in vertices. No two ever cross.
+// row by row. With CornerRule::divided no ring visits a vertex twice; otherwise each runs along one component
+// of what is not its object, so that it may touch itself in vertices. No two ever cross.
 struct CrackOutlines {
   std::vector<std::array<std::int32_t, 2>> corners;  // along the rings
   std::vector<std::int64_t> start;                   // [r + 1]

@@ -37,5 +37,11 @@ class LimitError(VorotoolError):
     exit_code = 5
 
 
+class BatchError(VorotoolError):
+    """A batch in which some inputs failed (exit 6)."""
+
+    exit_code = 6
+
+
 class VorotoolWarning(UserWarning):
     """Something was repaired, snapped or guessed; one line that counts what was done."""

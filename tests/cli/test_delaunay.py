@@ -271,7 +271,7 @@ def test_bad_input(run, folder, name):
         (["--stats", "-"], "--stats - needs -o FILE"),
         (["--stats", "dots.csv", "-o", "a.csv"], "is also the input"),
         (["-o", "dots.csv"], "is also an input"),
-        (["dots.csv"], "one input at a time"),
+        (["dots.csv"], "2 inputs are given: name a folder"),
     ],
 )
 def test_bad_options(run, folder, options, words):

@@ -192,7 +192,7 @@ def test_missing_input(run):
     done = run("tessellate", "nowhere.csv", "-o", "a.png")
     assert done.code == 3
     assert "nowhere.csv" in done.err
-    assert run("tessellate", ".", "-o", "a.png").code == 3
+    assert run("tessellate", ".", "-o", "a.png").code == 2
 
 
 def test_limits_are_known_before_memory_is_taken(run, folder):

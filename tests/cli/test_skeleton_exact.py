@@ -135,12 +135,6 @@ def test_bad_input(run, folder, name):
     assert leftovers(folder) == []
 
 
-def test_an_image_is_for_later(run, folder):
-    done = run("skeleton-exact", "mask.pbm")
-    assert done.code == 3
-    assert "mask.pbm: this is an image" in done.err
-
-
 def test_too_many_vertices(run):
     done = run("skeleton-exact", SHAPES, "--max-sites", "10")
     assert done.code == 5

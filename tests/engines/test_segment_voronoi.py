@@ -46,9 +46,18 @@ def test_boost_agrees_on_small_coordinates(name):
         assert not boost_oracle.differences(diagram, boost_oracle.boost_edges(points, segments))
 
 
-def test_the_polygon_on_which_boost_is_wrong():
-    """Not as it is alone: the sweep depends on the direction."""
-    points, segments = polygon(BOOST_FAILURE)
+@pytest.mark.parametrize(
+    ("points", "segments"),
+    [
+        polygon(BOOST_FAILURE),
+        # Points beside a segment, small coordinates.
+        ([[-11, 29], [0, 28], [1, 27], [5, 26], [6, -25], [6, 1], [6, 27]], [[0, 3]]),
+        ([[-3802, 3390], [-3283, -1014], [-3236, -172], [-2901, -2183]], [[3, 0]]),
+    ],
+)
+def test_graphs_on_which_boost_is_wrong(points, segments):
+    """Not in every direction of its sweep."""
+    points, segments = np.array(points, np.int32), np.array(segments, np.int32)
     assert_right(points, segments)
     wrong = 0
     for turned in symmetries(points):

@@ -1,6 +1,7 @@
 import io
 import itertools
 import tracemalloc
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from PIL import Image
 from vorotool.errors import LimitError
 from vorotool.formats import tiff
 from vorotool.formats.tiff import write_tiff
+from vorotool.formats.tiff_reader import read_tiff
 
 
 def written(bands: object, shape: tuple[int, int], **options: object) -> bytes:
@@ -92,3 +94,23 @@ def test_memory_stays_bounded(dtype: str, tmp_path: object) -> None:
             assert tracemalloc.get_traced_memory()[1] < 40e6
         finally:
             tracemalloc.stop()
+
+
+@pytest.mark.parametrize(
+    ("given", "kept"),
+    [
+        ((300.0, 150.0, "inch"), (300, 150, "inch")),
+        ((40.0, 40.0, "cm"), (40, 40, "cm")),
+        ((1 / 0.325, 1 / 0.325, "um"), (1e4 / 0.325, 1e4 / 0.325, "cm")),
+        ((2.0, 3.0, "mm"), (20, 30, "cm")),
+        ((2.0, 3.0, "furlong"), None),
+        (None, None),
+    ],
+)
+def test_resolution(given, kept):
+    data = written([np.ones((2, 3), np.uint8)], (2, 3), dtype=np.uint8, resolution=given)
+    _, found = read_tiff(SimpleNamespace(name="a.tif", data=data), page=None, max_pixels=10)
+    assert (found is None) == (kept is None)
+    if kept is not None:
+        assert found[2] == kept[2]
+        assert np.allclose(found[:2], kept[:2], rtol=1e-6)

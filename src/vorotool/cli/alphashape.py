@@ -8,13 +8,17 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vorotool.cli.inputs import naming, read_backdrop, read_seed_input, refuse
-from vorotool.cli.options import Decimal, Names, Radius, layers_option, shared, single_input
+from vorotool.cli.commands import run_command
+from vorotool.cli.inputs import naming, read_seed_input, refuse
+from vorotool.cli.options import Decimal, Names, Radius, batch_options, layers_option, shared
+from vorotool.cli.recipes import Recipe
 from vorotool.cli.results import OF_ONE_SHAPE
 from vorotool.cli.run import Run
-from vorotool.cli.targets import Target, check_picture_options, check_stats, check_targets, plan_targets
+from vorotool.cli.targets import Target, check_picture_options
+from vorotool.cli.units import pixel_size_option
 
 if TYPE_CHECKING:
+    from vorotool.cli.shapes import ShapeProducts
     from vorotool.geometry.points import PointSet
     from vorotool.geometry.seeds import SeedSet
 
@@ -43,7 +47,7 @@ _WITHOUT_DIGITS = frozenset({"npz", "html", *_PICTURES})
 
 
 @click.command("alphashape")
-@click.argument("inputs", metavar="INPUT", nargs=-1)
+@click.argument("inputs", metavar="INPUT...", nargs=-1)
 @click.option("-r", "r", type=Radius(), help="Radius, in units of the input; inf gives the convex hull.")
 @click.option("--alpha", type=Decimal(), metavar="A", help="The paper's α = −1/r, negative.")
 @click.option("--auto", is_flag=True, help="The smallest r whose shape is one region with every point: the default.")
@@ -70,7 +74,10 @@ _WITHOUT_DIGITS = frozenset({"npz", "html", *_PICTURES})
 @shared("size", "window", "columns", "input-format", "page", "seeds", "connectivity", "threshold", "invert")
 @layers_option(LAYERS)
 @shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels")
-@shared("max-sites", "no-clobber", "no-properties", "quiet", "verbose")
+@shared("max-sites")
+@pixel_size_option()
+@batch_options()
+@shared("no-clobber", "no-properties", "quiet", "verbose")
 def command(**options: Any) -> None:
     """Find the alpha shape of points: edges that an empty disc of radius r touches at both ends, and what they bound.
 
@@ -85,35 +92,19 @@ def command(**options: Any) -> None:
     --what family, spectrum and curves are about the shapes of all radii. -f html makes a page with a slider over r.
     """
     o = SimpleNamespace(**options)
-    source = single_input(o.inputs)
     o.what = o.what or (_default_what(o),)
-    targets = plan_targets(FORMATS, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=source)
-    check_stats(o.stats, targets, source)
-    _check_options(o, targets)
-    with Run("alphashape", quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber) as run:
-        from vorotool.cli.shapes import ShapeProducts
-        from vorotool.engines.alphashape import chosen_radius
-        from vorotool.formats.outputs import make_folder
+    run_command(RECIPE, o)
 
-        o.radius = chosen_radius(o.r, o.alpha, o.auto)
-        check_targets(o, targets, source)
-        with naming(source), run.phase("read"):
-            points = _read_points(run, o, source)
-        with run.phase("read"):
-            o.backdrop = read_backdrop(o)
-        with naming(source):
-            products = ShapeProducts(points, o, run)
-        for target in targets:
-            products.check(target)
-        if o.verify:
-            with run.phase("verify"):
-                products.verify()
-        if o.out_dir is not None:
-            make_folder(o.out_dir)
-        for target in targets:
-            with run.phase(f"write {target.what}"):
-                products.write(target, inputs=(source,))
-        run.stats.update(products.stats())
+
+def _products(run: Run, o: SimpleNamespace, source: str) -> ShapeProducts:
+    from vorotool.cli.shapes import ShapeProducts
+    from vorotool.engines.alphashape import chosen_radius
+
+    o.radius = chosen_radius(o.r, o.alpha, o.auto)
+    with naming(source), run.phase("read"):
+        points = _read_points(run, o, source)
+    with naming(source):
+        return ShapeProducts(points, o, run)
 
 
 def _default_what(o: SimpleNamespace) -> str:
@@ -192,3 +183,6 @@ def _read_points(run: Run, o: SimpleNamespace, source: str) -> PointSet | SeedSe
         max_sites=o.max_sites,
         allow_empty=True,
     )
+
+
+RECIPE = Recipe("alphashape", FORMATS, _check_options, _products, "points")

@@ -7,11 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vorotool.cli.inputs import naming, read_backdrop, read_clip, read_seed_input, refuse
-from vorotool.cli.options import Rectangle, layers_option, shared, single_input, what_option
+from vorotool.cli.commands import run_command
+from vorotool.cli.inputs import naming, read_clip, read_seed_input, refuse
+from vorotool.cli.options import Rectangle, batch_options, layers_option, shared, what_option
+from vorotool.cli.recipes import Recipe
 from vorotool.cli.results import MESH_LAYERS
 from vorotool.cli.run import Run
-from vorotool.cli.targets import Target, check_picture_options, check_stats, check_targets, plan_targets
+from vorotool.cli.targets import Target, check_picture_options
+from vorotool.cli.units import pixel_size_option
 
 if TYPE_CHECKING:
     from vorotool.cli.meshes import MeshProducts
@@ -38,7 +41,7 @@ _WITHOUT_DIGITS = frozenset({"npz", "edge", "ele", *_PICTURES})
 
 
 @click.command("delaunay")
-@click.argument("inputs", metavar="INPUT", nargs=-1)
+@click.argument("inputs", metavar="INPUT...", nargs=-1)
 @shared("output", "format")
 @what_option(tuple(FORMATS))
 @click.option(
@@ -58,7 +61,10 @@ _WITHOUT_DIGITS = frozenset({"npz", "edge", "ele", *_PICTURES})
 @shared("size", "window", "columns", "input-format", "page", "seeds", "connectivity", "threshold", "invert")
 @layers_option(MESH_LAYERS)
 @shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels")
-@shared("max-sites", "no-clobber", "no-properties", "quiet", "verbose")
+@shared("max-sites")
+@pixel_size_option()
+@batch_options()
+@shared("no-clobber", "no-properties", "quiet", "verbose")
 def command(**options: Any) -> None:
     """Triangulate points exactly: no circle through a triangle's vertices holds another point.
 
@@ -72,38 +78,20 @@ def command(**options: Any) -> None:
 
     --what compare lists where the digital rule differs from the exact triangulation, each with its cause.
     """
-    o = SimpleNamespace(**options)
-    source = single_input(o.inputs)
-    targets = plan_targets(FORMATS, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=source)
-    check_stats(o.stats, targets, source)
-    _check_options(o, targets)
-    with Run("delaunay", quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber) as run:
-        from vorotool.formats.outputs import make_folder
-
-        check_targets(o, targets, source)
-        with naming(source), run.phase("read"):
-            points = _read_points(run, o, source)
-        with run.phase("read"):
-            o.backdrop = read_backdrop(o)
-        if o.clip is not None:
-            with run.phase("read polygons"):
-                o.clip = read_clip(run, o, o.clip)
-        with naming(source):
-            products = _products(o)(points, o, run)
-        for target in targets:
-            products.check(target)
-        if o.verify:
-            with run.phase("verify"):
-                products.verify()
-        if o.out_dir is not None:
-            make_folder(o.out_dir)
-        for target in targets:
-            with run.phase(f"write {target.what}"):
-                products.write(target, inputs=(source,))
-        run.stats.update(products.stats())
+    run_command(RECIPE, SimpleNamespace(**options))
 
 
-def _products(o: SimpleNamespace) -> type[MeshProducts]:
+def _products(run: Run, o: SimpleNamespace, source: str) -> MeshProducts:
+    with naming(source), run.phase("read"):
+        points = _read_points(run, o, source)
+    if o.clip is not None:
+        with run.phase("read polygons"):
+            o.clip = read_clip(run, o, o.clip)
+    with naming(source):
+        return _kind(o)(points, o, run)
+
+
+def _kind(o: SimpleNamespace) -> type[MeshProducts]:
     """Give the maker of the results that are wanted."""
     if not _is_digital(o):
         from vorotool.cli.meshes import MeshProducts
@@ -176,3 +164,6 @@ def _read_points(run: Run, o: SimpleNamespace, source: str) -> PointSet | SeedSe
         max_sites=o.max_sites,
         allow_empty=True,
     )
+
+
+RECIPE = Recipe("delaunay", FORMATS, _check_options, _products, "points")

@@ -9,6 +9,7 @@ from typing import Any, BinaryIO
 
 from vorotool.cli.meshes import MeshProducts
 from vorotool.cli.run import Run
+from vorotool.cli.units import table_in_units
 from vorotool.engines.digital_comparison import compare_digital
 from vorotool.engines.digital_triangulation import DigitalRepair, digital_triangulation, repair_digital
 from vorotool.engines.seeding import seeds_from_points
@@ -57,7 +58,7 @@ class DigitalProducts(MeshProducts):
     def _write_compare(self, out: BinaryIO, fmt: str) -> None:
         from vorotool.formats.tables import write_table
 
-        table = self.comparison.table
+        table = table_in_units(self.options, self.comparison.table)
         write_table(out, table, fmt, precision=self.options.precision, threads=self.options.threads)
 
     def _shape(self) -> str:

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 import click
 
-from vorotool.cli.inputs import read_backdrop, refuse
-from vorotool.cli.options import layers_option, shared, single_input
+from vorotool.cli.commands import run_command
+from vorotool.cli.inputs import refuse
+from vorotool.cli.options import batch_options, layers_option, shared
+from vorotool.cli.recipes import Recipe
 from vorotool.cli.run import Run
-from vorotool.cli.targets import check_picture_options, check_stats, check_targets, plan_targets
+from vorotool.cli.targets import Target, check_picture_options
 
 if TYPE_CHECKING:
     from vorotool.formats.sources import Source
@@ -21,15 +23,20 @@ FORMATS = {"picture": ("png", "svg")}
 LAYERS = {"png": ("cells", "diagram"), "svg": ("cells", "labels")}
 """A label image from a file has no seeds."""
 
+Drawing = tuple[Callable[[BinaryIO], None], dict[str, Any]]
+"""What draws, and what it draws in numbers."""
+
 SKELETON_LAYERS = ("polygons", "elements", "points", "skeleton", "nodes", "labels")
 _SKELETON_PICTURES = {"svg": SKELETON_LAYERS, "png": SKELETON_LAYERS[:-1]}
 
 
 @click.command("draw")
-@click.argument("inputs", metavar="INPUT", nargs=-1)
+@click.argument("inputs", metavar="INPUT...", nargs=-1)
 @shared("output", "format", "input-format", "page")
 @layers_option(("cells", "diagram", *SKELETON_LAYERS))
-@shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "max-pixels", "no-clobber", "quiet", "verbose")
+@shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "max-pixels")
+@batch_options(table=False)
+@shared("no-clobber", "quiet", "verbose")
 def command(**options: Any) -> None:
     """Draw a label image, in which neighbouring regions never share a colour, or a skeleton.
 
@@ -40,32 +47,43 @@ def command(**options: Any) -> None:
     INPUT is a label image (PNG, TIFF, PGM, NPY), such as tessellate writes, or the JSON of a skeleton; - is standard
     input.
     """
-    o = SimpleNamespace(**options)
-    source = single_input(o.inputs)
-    (target,) = plan_targets(FORMATS, ["picture"], output=o.output, fmt=o.format, out_dir=o.out_dir, source=source)
-    check_stats(o.stats, [target], source)
-    with Run("draw", quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber) as run:
-        from vorotool.formats.outputs import make_folder, open_output
-        from vorotool.formats.skeleton_json import says_skeleton
+    run_command(RECIPE, SimpleNamespace(**options, what=("picture",)))
+
+
+class _Picture:
+    """The picture of one input: what is in it is told when the format is known."""
+
+    def __init__(self, run: Run, o: SimpleNamespace, source: str) -> None:
         from vorotool.formats.sources import read_source
 
-        check_targets(o, [target], source)
+        self._run, self._options = run, o
         with run.phase("read"):
-            content = read_source(source)
-        prepare = _skeleton_picture if says_skeleton(content.data) else _label_picture
-        with run.phase("read"):
-            o.backdrop = read_backdrop(o)
-        write = prepare(run, o, content, target.fmt)
-        if o.out_dir is not None:
-            make_folder(o.out_dir)
-        with (
-            run.phase("write"),
-            open_output(target.path, binary=target.is_binary, no_clobber=o.no_clobber, inputs=(source,)) as out,
-        ):
-            write(out)
+            self._content = read_source(source)
+
+    def check(self, target: Target) -> None:
+        """Read the rest, and prepare what draws it."""
+        from vorotool.formats.skeleton_json import says_skeleton
+
+        prepare = _skeleton_picture if says_skeleton(self._content.data) else _label_picture
+        self._draw, self._counts = prepare(self._run, self._options, self._content, target.fmt)
+
+    def verify(self) -> None:
+        """There is nothing to check in a picture."""
+
+    def write(self, target: Target, *, inputs: Sequence[str]) -> None:
+        """Draw."""
+        from vorotool.formats.outputs import open_output
+
+        no_clobber = self._options.no_clobber
+        with open_output(target.path, binary=target.is_binary, no_clobber=no_clobber, inputs=inputs) as out:
+            self._draw(out)
+
+    def stats(self) -> dict[str, Any]:
+        """Counts and sizes."""
+        return self._counts
 
 
-def _label_picture(run: Run, o: SimpleNamespace, source: Source, fmt: str) -> Callable[[BinaryIO], None]:
+def _label_picture(run: Run, o: SimpleNamespace, source: Source, fmt: str) -> Drawing:
     """Read a label image, and give what draws it."""
     from vorotool.cli.pictures import write_label_picture
     from vorotool.engines.regions import region_colours
@@ -76,8 +94,7 @@ def _label_picture(run: Run, o: SimpleNamespace, source: Source, fmt: str) -> Ca
         image = read_label_image(source, input_format=o.input_format, page=o.page, max_pixels=o.max_pixels)
     with run.phase("colour"):
         colours = region_colours(image, threads=o.threads)
-    run.stats.update({"shape": image.shape, "colours": int(colours[1].max(initial=0))})
-    return partial(
+    draw = partial(
         write_label_picture,
         image=image,
         colours=colours,
@@ -88,9 +105,10 @@ def _label_picture(run: Run, o: SimpleNamespace, source: Source, fmt: str) -> Ca
         backdrop=o.backdrop,
         threads=o.threads,
     )
+    return draw, {"shape": image.shape, "colours": int(colours[1].max(initial=0))}
 
 
-def _skeleton_picture(run: Run, o: SimpleNamespace, source: Source, fmt: str) -> Callable[[BinaryIO], None]:
+def _skeleton_picture(run: Run, o: SimpleNamespace, source: Source, fmt: str) -> Drawing:
     """Read a skeleton, and give what draws it."""
     from vorotool.cli.pictures import write_layers
     from vorotool.formats.skeleton_json import read_skeleton
@@ -106,5 +124,12 @@ def _skeleton_picture(run: Run, o: SimpleNamespace, source: Source, fmt: str) ->
     if fmt == "png":
         check_picture_size(page, o.max_pixels)
     layers = skeleton_layers(skeleton, page, o.layers or (("skeleton",) if o.backdrop else ("polygons", "skeleton")))
-    run.stats.update({"arcs": len(skeleton), "nodes": len(skeleton.vertices)})
-    return partial(write_layers, layers=layers, page=page, fmt=fmt, threads=o.threads)
+    draw = partial(write_layers, layers=layers, page=page, fmt=fmt, threads=o.threads)
+    return draw, {"arcs": len(skeleton), "nodes": len(skeleton.vertices)}
+
+
+def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
+    """What there can be in a picture depends on the input."""
+
+
+RECIPE = Recipe("draw", FORMATS, _check_options, _Picture)

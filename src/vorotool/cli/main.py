@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import signal
 import sys
-import traceback
 from contextlib import suppress
 from importlib import import_module
 from typing import Any, NoReturn, TextIO
@@ -13,18 +12,20 @@ from typing import Any, NoReturn, TextIO
 import click
 
 from vorotool import __version__
+from vorotool.cli.failures import explained
 from vorotool.errors import VorotoolError
 
 COMMANDS = {
     "tessellate": "Digital Voronoi tessellation of points or of an image.",
     "delaunay": "Exact Delaunay triangulation of points or of an image.",
     "alphashape": "Alpha shapes of points, of one radius or of all.",
+    "skeleton-approx": "Skeleton of polygons and lines from samples, with certified errors.",
     "skeleton-exact": "Exact skeleton (medial axis) of polygons and lines.",
     "draw": "Draw a label image or a skeleton again, without computing it again.",
 }
 """Commands and what they do; the module of a command is imported when it is called."""
 
-EXIT_DEFECT, EXIT_OUTPUT, EXIT_LIMIT, EXIT_INTERRUPTED, EXIT_BROKEN_PIPE = 1, 4, 5, 130, 141
+EXIT_OUTPUT, EXIT_INTERRUPTED, EXIT_BROKEN_PIPE = 4, 130, 141
 
 
 class SignalledError(Exception):
@@ -128,8 +129,6 @@ def _run(arguments: list[str] | None) -> int:
     try:
         result: Any = vorotool.main(args=arguments, prog_name="vorotool", standalone_mode=False)
         return result if isinstance(result, int) else 0
-    except VorotoolError as error:
-        return _fail(str(error), error.exit_code)
     except click.ClickException as error:
         with suppress(OSError):
             error.show()
@@ -137,18 +136,14 @@ def _run(arguments: list[str] | None) -> int:
     except SignalledError as error:
         return error.code
     except Exception as error:
-        return _unforeseen(error)
+        if isinstance(error, OSError) and not isinstance(error, VorotoolError):
+            return _fail(_of_streams(error), EXIT_OUTPUT)
+        return _fail(*explained(error))
 
 
-def _unforeseen(error: Exception) -> int:
-    """Report what no command has words of its own for."""
-    if isinstance(error, MemoryError):
-        return _fail("there is not enough memory: use a smaller frame, or an output that is streamed", EXIT_LIMIT)
-    if isinstance(error, OSError):  # files have their own message: this is the help, or a warning
-        stream = "standard output or standard error cannot be written"
-        return _fail(f"{stream}: {error.strerror or error}; redirect it elsewhere", EXIT_OUTPUT)
-    traceback.print_exception(error)  # a defect of ours: say so, with what is needed to mend it
-    return _fail(f"a defect of vorotool, please report it with the lines above: {error}", EXIT_DEFECT)
+def _of_streams(error: OSError) -> str:
+    """Files have their own messages: this is about the help, or a warning."""
+    return f"standard output or standard error cannot be written: {error.strerror or error}; redirect it elsewhere"
 
 
 def _fail(message: str, code: int) -> int:

@@ -12,6 +12,7 @@ from vorotool.cli.pictures import write_layers
 from vorotool.cli.results import MESH_LAYERS
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
+from vorotool.cli.units import in_units, table_in_units
 from vorotool.engines.cells import cell_colours, verify_cells, voronoi_cells
 from vorotool.engines.delaunay import delaunay, verify_triangulation
 from vorotool.engines.site_table import site_table
@@ -96,6 +97,7 @@ class MeshProducts:
             self._write_mesh(out, fmt, "table")
             return
         table = site_table(self.mesh, self.cells, threads=self.options.threads)
+        table = table_in_units(self.options, table, properties=self.mesh.properties)
         write_table(out, table, fmt, precision=self.options.precision, threads=self.options.threads)
 
     def _write_cells(self, out: BinaryIO, fmt: str) -> None:
@@ -104,7 +106,8 @@ class MeshProducts:
         if fmt in ("svg", "png"):
             self._write_picture(out, fmt, "cells")
             return
-        write_cells(out, self.cells, fmt, precision=self.options.precision, threads=self.options.threads)
+        cells = in_units(self.options, self.cells)
+        write_cells(out, cells, fmt, precision=self.options.precision, threads=self.options.threads)
 
     def _write_mesh(self, out: BinaryIO, fmt: str, what: str) -> None:
         from vorotool.formats.mesh_files import write_mesh
@@ -112,7 +115,8 @@ class MeshProducts:
         if fmt in ("svg", "png"):
             self._write_picture(out, fmt, what)
             return
-        write_mesh(out, self.mesh, fmt, what=what, precision=self.options.precision, threads=self.options.threads)
+        mesh = in_units(self.options, self.mesh)
+        write_mesh(out, mesh, fmt, what=what, precision=self.options.precision, threads=self.options.threads)
 
     @cached_property
     def cells(self) -> CellSet:

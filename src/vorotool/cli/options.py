@@ -120,6 +120,21 @@ class Radius(Decimal):
         return inf if value in ("inf", inf) else super().convert(value, param, ctx)
 
 
+class Shard(click.ParamType[tuple[int, int]]):
+    """``I/N``, the I-th of N parts."""
+
+    name = "I/N"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[int, int]:
+        """Parse both numbers."""
+        if isinstance(value, tuple):
+            return value
+        match = re.fullmatch("([0-9]{1,9})/([0-9]{1,9})", value)
+        if match is None or not 1 <= int(match[1]) <= int(match[2]):
+            self.fail(f"{value!r} is no part: give I/N with I from 1 to N, such as 2/8", param, ctx)
+        return (int(match[1]), int(match[2]))
+
+
 class Names(click.ParamType[tuple[str, ...]]):
     """Names from a list, separated by commas."""
 
@@ -143,7 +158,16 @@ OPTIONS: dict[str, Decorator] = {
     "output": click.option("-o", "--output", metavar="FILE", help="Where to write; - is standard output."),
     "format": click.option("-f", "--format", metavar="FORMAT", help="Format of the output; by default its extension."),
     "input-format": click.option("--input-format", metavar="FORMAT", help="Format of the input, where it is unclear."),
-    "out-dir": click.option("--out-dir", metavar="DIR", help="Folder for outputs named after the input."),
+    "out-dir": click.option("--out-dir", metavar="DIR", help="Folder for outputs named after the inputs."),
+    "jobs": click.option("-j", "--jobs", type=click.IntRange(0, 1024), help="Worker processes; 0 uses all cores."),
+    "table": click.option("--table", metavar="FILE", help="Write the tables of all inputs as one (CSV, JSON)."),
+    "files-from": click.option("--files-from", metavar="FILE|-", help="Read the names of further inputs, one a line."),
+    "null": click.option("-0", "--null", is_flag=True, help="Names of --files-from end with NUL bytes."),
+    "keep-going": click.option("--keep-going", is_flag=True, help="Go on with the others when an input fails."),
+    "dry-run": click.option("--dry-run", is_flag=True, help="Print the plan as JSON lines, and write nothing."),
+    "resume": click.option("--resume", is_flag=True, help="Leave out inputs that were done before."),
+    "shard": click.option("--shard", type=Shard(), help="Take the I-th of N parts of the inputs."),
+    "cluster": click.option("--cluster", metavar="ADDRESS|local", help="Work on a Dask cluster."),
     "threads": click.option(
         "--threads", type=click.IntRange(0, 1024), default=0, show_default=True, help="Threads; 0 uses all."
     ),
@@ -189,6 +213,10 @@ OPTIONS: dict[str, Decorator] = {
 }
 
 
+BATCH_OPTIONS = ("files_from", "null", "jobs", "keep_going", "dry_run", "resume", "shard", "table", "cluster")
+"""Options that make a batch of one input, too."""
+
+
 def shared(*names: str) -> Decorator:
     """Add options of the registry to a command, in this order."""
 
@@ -198,6 +226,11 @@ def shared(*names: str) -> Decorator:
         return function
 
     return decorate
+
+
+def batch_options(*, table: bool = True) -> Decorator:
+    """Add the options of many inputs."""
+    return shared(*(name.replace("_", "-") for name in BATCH_OPTIONS if table or name != "table"))
 
 
 def what_option(choices: tuple[str, ...]) -> Decorator:
@@ -214,12 +247,3 @@ def what_option(choices: tuple[str, ...]) -> Decorator:
 def layers_option(choices: tuple[str, ...]) -> Decorator:
     """Add ``--layers`` of pictures."""
     return click.option("--layers", type=Names(choices), help=f"Layers of pictures: {', '.join(choices)}.")
-
-
-def single_input(inputs: tuple[str, ...]) -> str:
-    """Give the one input of a command that takes one."""
-    if len(inputs) != 1:
-        raise click.UsageError(
-            f"{len(inputs)} inputs are given: this command takes one input at a time (- is standard input)"
-        )
-    return inputs[0]

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
+from vorotool.cli.units import table_in_units
 from vorotool.engines.digital import band_limits, label_dtype, require_memory
 from vorotool.engines.propagation import PropagatedRows
 from vorotool.engines.regions import (
@@ -135,10 +136,12 @@ class Products:
         image, measures = self.image, self.measures  # refuses a frame that is too large, before distances are taken
         squares = self.rows.squared_distances() if isinstance(self.rows, Tessellator) else None
         table = region_table(image, distance2=squares, measures=measures, threads=self.options.threads)
-        self._write_columns(out, fmt, table)
+        own = self.rows.seeds.properties
+        self._write_columns(out, fmt, table_in_units(self.options, table, properties=own))
 
     def _write_neighbours(self, out: BinaryIO, fmt: str) -> None:
-        self._write_columns(out, fmt, neighbour_table(self.image, measures=self.measures))
+        table = neighbour_table(self.image, measures=self.measures)
+        self._write_columns(out, fmt, table_in_units(self.options, table))
 
     def _write_columns(self, out: BinaryIO, fmt: str, table: Any) -> None:
         from vorotool.formats.tables import write_table
@@ -178,6 +181,7 @@ class Products:
             dtype=dtype,
             fmt=fmt,
             largest_label=largest,
+            resolution=getattr(self.options, "resolution", None),
             threads=self.options.threads,
             **kind,
         )

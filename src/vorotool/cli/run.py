@@ -32,6 +32,15 @@ class Run:
         File for the statistics, ``-`` for standard output.
     no_clobber : bool
         Refuse to replace that file.
+
+    Attributes
+    ----------
+    stats : dict
+        Statistics, beside seconds and warnings.
+    seconds : dict of str to float
+        By phases.
+    warnings, notes : list of str
+        What was said, or would have been.
     """
 
     def __init__(
@@ -39,8 +48,9 @@ class Run:
     ) -> None:
         self._quiet, self._verbose = quiet, verbose and not quiet
         self._target, self._no_clobber = stats, no_clobber
-        self._warnings: list[str] = []
-        self._seconds: dict[str, float] = {}
+        self.warnings: list[str] = []
+        self.notes: list[str] = []
+        self.seconds: dict[str, float] = {}
         self._inner: list[float] = []
         self._stack = ExitStack()
         self.stats: dict[str, Any] = {"command": command, "version": __version__}
@@ -58,15 +68,22 @@ class Run:
         """Write the statistics of a run that went well."""
         self._stack.close()
         if self._verbose:
-            for name, seconds in self._seconds.items():
+            for name, seconds in self.seconds.items():
                 click.echo(f"{name}: {seconds:.3f} s", err=True)
         if kind is None and self._target is not None:
             self._write_stats(self._target)
 
     def note(self, message: str) -> None:
         """Say something useful on standard error."""
+        self.notes.append(message)
         if not self._quiet:
             click.echo(f"note: {message}", err=True)
+
+    def warn(self, message: str) -> None:
+        """Say what was repaired, snapped or guessed: on standard error and in the statistics."""
+        self.warnings.append(message)
+        if not self._quiet:
+            click.echo(f"warning: {message}", err=True)
 
     @contextmanager
     def phase(self, name: str) -> Iterator[None]:
@@ -77,7 +94,7 @@ class Run:
             yield
         finally:
             elapsed = time.perf_counter() - start
-            self._seconds[name] = self._seconds.get(name, 0.0) + elapsed - self._inner.pop()
+            self.seconds[name] = self.seconds.get(name, 0.0) + elapsed - self._inner.pop()
             if self._inner:
                 self._inner[-1] += elapsed
 
@@ -98,19 +115,15 @@ class Run:
         return show
 
     def _show_warning(self, message: Warning | str, category: type[Warning], *_: Any, **__: Any) -> None:
-        text = str(message)
-        if not issubclass(category, VorotoolWarning):
-            return  # a library's own remark says nothing about the user's data
-        self._warnings.append(text)
-        if not self._quiet:
-            click.echo(f"warning: {text}", err=True)
+        if issubclass(category, VorotoolWarning):  # a library's own remark says nothing about the user's data
+            self.warn(str(message))
 
     def _write_stats(self, target: str) -> None:
         import orjson
 
         from vorotool.formats.outputs import open_output
 
-        self.stats["seconds"] = {name: round(value, 6) for name, value in self._seconds.items()}
-        self.stats["warnings"] = self._warnings
+        self.stats["seconds"] = {name: round(value, 6) for name, value in self.seconds.items()}
+        self.stats["warnings"] = self.warnings
         with open_output(target, no_clobber=self._no_clobber) as out:
             out.write(orjson.dumps(self.stats, option=orjson.OPT_INDENT_2 | orjson.OPT_APPEND_NEWLINE))

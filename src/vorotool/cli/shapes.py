@@ -16,9 +16,10 @@ from vorotool.cli.pictures import write_layers
 from vorotool.cli.results import OF_ONE_SHAPE
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
+from vorotool.cli.units import in_units, length_in_units, table_in_units
 from vorotool.engines.alphashape import alpha_complex, alpha_curves, alpha_edges, alpha_shape
 from vorotool.errors import VorotoolWarning
-from vorotool.geometry.alpha_complex import Radius
+from vorotool.geometry.alpha_complex import AlphaComplex, Radius
 from vorotool.geometry.alpha_shape import AlphaShape
 from vorotool.geometry.points import PointSet
 from vorotool.geometry.polygons import PolygonSet
@@ -120,6 +121,22 @@ class ShapeProducts:
 
         return alpha_hull(self.shape)
 
+    @property
+    def written(self) -> AlphaShape:
+        """The shape in the units of files."""
+        return in_units(self.options, self.shape)
+
+    @property
+    def written_family(self) -> AlphaComplex:
+        """The family in the units of files."""
+        return in_units(self.options, self.family)
+
+    @property
+    def written_curves(self) -> Table:
+        """The curves in the units of files."""
+        table: Table = table_in_units(self.options, self.curves)
+        return table
+
     def check(self, target: Target) -> None:
         """Refuse what cannot be written, and say what will be empty, before anything is written."""
         if target.fmt == "png":
@@ -170,9 +187,9 @@ class ShapeProducts:
 
         if fmt == "geojson":
             o = self.options
-            write_shape_edges(out, self.shape, interior=interior, precision=o.precision, threads=o.threads)
+            write_shape_edges(out, self.written, interior=interior, precision=o.precision, threads=o.threads)
         else:
-            self._write_table_of(out, shape_edge_table(self.shape, interior=interior), fmt)
+            self._write_table_of(out, shape_edge_table(self.written, interior=interior), fmt)
 
     def _write_complex(self, out: BinaryIO, fmt: str) -> None:
         self._write_edges(out, fmt, interior=True)
@@ -181,52 +198,53 @@ class ShapeProducts:
         from vorotool.formats.polygons import write_polygons
         from vorotool.geometry.alpha_tables import described_polygons
 
-        write_polygons(out, described_polygons(self.shape), fmt, precision=self.options.precision)
+        write_polygons(out, described_polygons(self.written), fmt, precision=self.options.precision)
 
     def _write_general(self, out: BinaryIO, fmt: str) -> None:
         from vorotool.formats.alpha_files import write_general
 
-        write_general(out, self.shape, fmt, precision=self.options.precision)
+        write_general(out, self.written, fmt, precision=self.options.precision)
 
     def _write_family(self, out: BinaryIO, fmt: str) -> None:
         from vorotool.geometry.alpha_tables import family_table
 
-        self._write_table_of(out, family_table(self.family), fmt)
+        self._write_table_of(out, family_table(self.written_family), fmt)
 
     def _write_spectrum(self, out: BinaryIO, fmt: str) -> None:
-        self._write_table_of(out, Table({"r": self.family.spectrum}), fmt)
+        self._write_table_of(out, Table({"r": self.written_family.spectrum}), fmt)
 
     def _write_curves(self, out: BinaryIO, fmt: str) -> None:
         if fmt == "svg":
             from vorotool.render.alpha_plot import write_curves_svg
 
-            write_curves_svg(out, self.curves, width=self.options.width or 1000)
+            write_curves_svg(out, self.written_curves, width=self.options.width or 1000)
         else:
-            self._write_table_of(out, self.curves, fmt)
+            self._write_table_of(out, self.written_curves, fmt)
 
     def _write_hull(self, out: BinaryIO, fmt: str) -> None:
         from vorotool.formats.alpha_files import write_hull_geojson
 
         if fmt == "geojson":
-            write_hull_geojson(out, self.hull, precision=self.options.precision)
+            write_hull_geojson(out, in_units(self.options, self.hull), precision=self.options.precision)
         else:
-            self._write_table_of(out, self.hull.table(), fmt)
+            self._write_table_of(out, in_units(self.options, self.hull).table(), fmt)
 
     def _write_points(self, out: BinaryIO, fmt: str) -> None:
         from vorotool.geometry.alpha_tables import shape_point_table
 
-        self._write_table_of(out, shape_point_table(self.shape), fmt)
+        self._write_table_of(out, shape_point_table(self.written), fmt)
 
     def _write_table(self, out: BinaryIO, fmt: str) -> None:
         from vorotool.geometry.alpha_tables import region_table
 
-        self._write_table_of(out, region_table(self.shape), fmt)
+        self._write_table_of(out, region_table(self.written), fmt)
 
     def _write_html(self, out: BinaryIO) -> None:
         from vorotool.render.alpha_html import write_alpha_html
 
         r = self.shape.r if hasattr(self, "shape") else self.options.radius
-        write_alpha_html(out, self.family, self.curves, r=r, y_up=self.options.y_up)
+        r = None if r is None else length_in_units(self.options, r)
+        write_alpha_html(out, self.written_family, self.written_curves, r=r, y_up=self.options.y_up)
 
     @cached_property
     def page(self) -> Page:

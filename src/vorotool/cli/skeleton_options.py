@@ -11,10 +11,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vorotool.cli.inputs import IMAGE_OPTIONS, naming, read_backdrop, refuse
-from vorotool.cli.options import Decorator, Rectangle, layers_option, shared, single_input, what_option
+from vorotool.cli.commands import run_command
+from vorotool.cli.inputs import IMAGE_OPTIONS, naming, refuse
+from vorotool.cli.options import Decorator, Rectangle, batch_options, layers_option, shared, what_option
+from vorotool.cli.recipes import Recipe
 from vorotool.cli.run import Run
-from vorotool.cli.targets import Target, check_picture_options, check_stats, check_targets, plan_targets
+from vorotool.cli.targets import Target, check_picture_options
+from vorotool.cli.units import pixel_size_option
 
 if TYPE_CHECKING:
     from vorotool.cli.skeletons import SkeletonProducts
@@ -59,7 +62,7 @@ class Length(click.ParamType[float]):
 
 
 _BEFORE: tuple[Decorator, ...] = (
-    click.argument("inputs", metavar="INPUT", nargs=-1),
+    click.argument("inputs", metavar="INPUT...", nargs=-1),
     shared("output", "format"),
     what_option(tuple(FORMATS)),
     click.option(
@@ -95,7 +98,10 @@ _AFTER: tuple[Decorator, ...] = (
     shared("seeds", "connectivity", "threshold", "invert"),
     layers_option(LAYERS),
     shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels"),
-    shared("max-sites", "no-clobber", "no-properties", "quiet", "verbose"),
+    shared("max-sites"),
+    pixel_size_option(),
+    batch_options(),
+    shared("no-clobber", "no-properties", "quiet", "verbose"),
 )
 """Options before and after a command's own."""
 
@@ -115,31 +121,16 @@ def run_skeletons(
     name: str, o: SimpleNamespace, make: Callable[[PolygonSet, SimpleNamespace, Run], SkeletonProducts]
 ) -> None:
     """Read polygons, make what a command makes of them, check it, and write it."""
-    source = single_input(o.inputs)
-    targets = plan_targets(FORMATS, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=source)
-    check_stats(o.stats, targets, source)
-    _check_options(o, targets)
-    with Run(name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber) as run:
-        from vorotool.formats.outputs import make_folder
+    run_command(Recipe(name, FORMATS, _check_options, partial(_products, make), "polygons"), o)
 
-        check_targets(o, targets, source)
-        with naming(source), run.phase("read"):
-            polygons = _read_polygons(run, o, source)
-        with run.phase("read"):
-            o.backdrop = read_backdrop(o)
-        with naming(source):
-            products = make(polygons, o, run)
-        for target in targets:
-            products.check(target)
-        if o.verify:
-            with run.phase("verify"):
-                products.verify()
-        if o.out_dir is not None:
-            make_folder(o.out_dir)
-        for target in targets:
-            with run.phase(f"write {target.what}"):
-                products.write(target, inputs=(source,))
-        run.stats.update(products.stats())
+
+def _products(
+    make: Callable[[PolygonSet, SimpleNamespace, Run], SkeletonProducts], run: Run, o: SimpleNamespace, source: str
+) -> SkeletonProducts:
+    with naming(source), run.phase("read"):
+        polygons = _read_polygons(run, o, source)
+    with naming(source):
+        return make(polygons, o, run)
 
 
 def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:

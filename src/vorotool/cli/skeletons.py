@@ -10,10 +10,12 @@ from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vorotool.cli.pictures import write_layers
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
+from vorotool.cli.units import in_units, length_in_units
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.skeleton import EXTERIOR, Skeleton
@@ -66,6 +68,11 @@ class SkeletonProducts(ABC):
     def graph(self) -> PlanarGraph:
         """The shapes as they were placed."""
 
+    @property
+    def _points(self) -> NDArray[np.float64] | None:
+        """What pictures show as points, if not the ends of edges."""
+        return None
+
     @abstractmethod
     def verify(self) -> None:
         """Check the diagram and the skeleton, from their arrays alone."""
@@ -100,10 +107,10 @@ class SkeletonProducts(ABC):
 
         write_skeleton(
             out,
-            self._value(target.what),
+            in_units(self.options, self._value(target.what)),
             target.fmt,
             what="skeleton" if target.what == "diagram" else target.what,
-            flatten=self.options.flatten,
+            flatten=length_in_units(self.options, self.options.flatten),
             precision=self.options.precision,
             threads=self.options.threads,
         )
@@ -121,7 +128,7 @@ class SkeletonProducts(ABC):
 
         value = self._value(target.what)
         page = self._page(value)
-        layers = picture_layers(value, page, self._layers(target.what), what=target.what)
+        layers = picture_layers(value, page, self._layers(target.what), what=target.what, points=self._points)
         write_layers(out, layers, page, fmt=target.fmt, threads=self.options.threads)
 
     def _layers(self, what: str) -> Sequence[str]:
@@ -153,6 +160,8 @@ class SkeletonProducts(ABC):
         }
         if skeleton.frame is not None:
             found["frame"] = list(skeleton.frame)
+        if self.options.is_mask:
+            found |= {"outline": self.options.outline or "crack", "connectivity": int(self.options.connectivity or 8)}
         return found | self._more_stats()
 
     @abstractmethod

@@ -7,10 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vorotool.cli.inputs import naming, read_backdrop, read_seed_input, refuse
-from vorotool.cli.options import Decimal, layers_option, shared, single_input, what_option
+from vorotool.cli.commands import run_command
+from vorotool.cli.inputs import naming, read_seed_input, refuse
+from vorotool.cli.options import Decimal, batch_options, layers_option, shared, what_option
+from vorotool.cli.recipes import Recipe
 from vorotool.cli.run import Run
-from vorotool.cli.targets import Target, check_picture_options, check_stats, check_targets, plan_targets
+from vorotool.cli.targets import Target, check_picture_options
+from vorotool.cli.units import pixel_size_option
 
 if TYPE_CHECKING:
     from vorotool.cli.products import Products
@@ -32,7 +35,7 @@ FORMATS = {
 
 
 @click.command("tessellate")
-@click.argument("inputs", metavar="INPUT", nargs=-1)
+@click.argument("inputs", metavar="INPUT...", nargs=-1)
 @shared("output", "format")
 @what_option(tuple(FORMATS))
 @click.option(
@@ -54,7 +57,10 @@ FORMATS = {
 @shared("size", "window", "columns", "input-format", "page", "seeds", "connectivity", "threshold", "invert")
 @layers_option(("cells", "diagram", "seeds", "labels"))
 @shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels")
-@shared("max-sites", "no-clobber", "no-properties", "quiet", "verbose")
+@shared("max-sites")
+@pixel_size_option()
+@batch_options()
+@shared("no-clobber", "no-properties", "quiet", "verbose")
 def command(**options: Any) -> None:
     """Label every pixel with its nearest seed, exactly; ties go to the smallest label.
 
@@ -65,32 +71,7 @@ def command(**options: Any) -> None:
     INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, PBM,
     NPY); - is standard input. Label i is the i-th point; an image's own labels are kept.
     """
-    o = SimpleNamespace(**options)
-    source = single_input(o.inputs)
-    targets = plan_targets(FORMATS, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=source)
-    check_stats(o.stats, targets, source)
-    _check_options(o, targets)
-    with Run("tessellate", quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber) as run:
-        from vorotool.formats.outputs import make_folder
-
-        check_targets(o, targets, source)
-        with naming(source), run.phase("read"):
-            seeds = _read_seeds(run, o, source)
-        with run.phase("read"):
-            o.backdrop = read_backdrop(o)
-        with naming(source), run.phase("prepare"):
-            products = _prepare(run, o, seeds)
-        for target in targets:
-            products.check(target)
-        if o.verify:
-            with run.phase("verify"):
-                products.verify()
-        if o.out_dir is not None:
-            make_folder(o.out_dir)
-        for target in targets:
-            with run.phase(f"write {target.what}"):
-                products.write(target, inputs=(source,))
-        _fill_stats(run, o, products)
+    run_command(RECIPE, SimpleNamespace(**options))
 
 
 def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
@@ -129,6 +110,7 @@ def _read_seeds(run: Run, o: SimpleNamespace, source: str) -> SeedSet:
         o.y_up = value.y_up if o.y_up is None else o.y_up
         return seeds_from_points(value, strict=o.strict)
     refuse(o, ("columns", "size", "window"), "is for lists of points, but the input is an image, which brings its own")
+    o.resolution = value.resolution
     return seeds_from_raster(
         value,
         mode=o.seeds,
@@ -146,6 +128,13 @@ def _frame(o: SimpleNamespace) -> Frame | None:
     if o.window is not None:
         return Frame(*o.window)
     return None if o.size is None else Frame(0, 0, *o.size)
+
+
+def _products(run: Run, o: SimpleNamespace, source: str) -> Products:
+    with naming(source), run.phase("read"):
+        seeds = _read_seeds(run, o, source)
+    with naming(source), run.phase("prepare"):
+        return _prepare(run, o, seeds)
 
 
 def _prepare(run: Run, o: SimpleNamespace, seeds: SeedSet) -> Products:
@@ -169,7 +158,4 @@ def _prepare(run: Run, o: SimpleNamespace, seeds: SeedSet) -> Products:
     return Products(rows, o, run)
 
 
-def _fill_stats(run: Run, o: SimpleNamespace, products: Products) -> None:
-    if o.stats is not None:
-        with run.phase("count"):
-            run.stats.update(products.stats())
+RECIPE = Recipe("tessellate", FORMATS, _check_options, _products, "points")

@@ -216,20 +216,16 @@ def _extended(lines: Centerlines, wanted: NDArray[np.bool_]) -> Floats:
 
 
 def _places_before(lines: Centerlines) -> Floats:
-    """(k, 2, 2) places on each path, about one radius after its start and before its end, or at its other end."""
+    """(k, 2, 2) places on each path, one radius after its start and before its end, or its other end."""
     path, start = lines.path, lines.arc_start
     along = np.concatenate([[0], np.cumsum(path.length)])
     first, last = along[start[:-1]], along[start[1:]]
     radius = path.radius[lines.end_nodes]
     position = np.stack([np.minimum(first + radius[:, 0], last), np.maximum(last - radius[:, 1], first)], axis=1)
-    arc = np.searchsorted(along, position, side="right") - 1
-    arc = np.clip(arc, start[:-1, None], start[1:, None] - 1)
-    u = np.divide(position - along[arc], path.length[arc], out=np.zeros(arc.shape), where=path.length[arc] > 0)
-    a, b = np.moveaxis(path.vertices[path.arcs[arc]], 2, 0)
-    c = np.where(path.is_parabola[arc][..., None], path.control[arc], (a + b) / 2)
-    u = np.clip(u, 0, 1)[..., None]
-    places: Floats = (1 - u) ** 2 * a + 2 * u * (1 - u) * c + u * u * b
-    return places
+    arc = np.clip(np.searchsorted(along, position, side="right") - 1, start[:-1, None], start[1:, None] - 1).reshape(-1)
+    measures = path.measures(arc)
+    places: Floats = measures.place(measures.parameter(position.reshape(-1) - along[arc]))
+    return places.reshape(-1, 2, 2)
 
 
 def _boundary(skeleton: Skeleton) -> Floats:

@@ -17,7 +17,12 @@ from vorotool.geometry.skeleton import Skeleton
 
 
 def offset(
-    shapes: Any, distances: float | Sequence[float], *, strict: bool = False, threads: int = 0, progress: Progress = None
+    shapes: Any,
+    distances: float | Sequence[float],
+    *,
+    strict: bool = False,
+    threads: int = 0,
+    progress: Progress = None,
 ) -> Offsets:
     """Compute the curves at some distances from polygons and lines, as exact lines and circular arcs.
 
@@ -114,7 +119,10 @@ def _offsets_of(shapes: ShapeDiagram, distances: list[float], threads: int, prog
     )
     shape_counts = [len(curves["polygon"]) for curves in made]
     return Offsets(
-        **{name: np.concatenate([curves[name] for curves in made]) for name in ("start", "end", "centre", "site", "polygon")},
+        **{
+            name: np.concatenate([curves[name] for curves in made])
+            for name in ("start", "end", "centre", "site", "polygon")
+        },
         ring_start=_joined([curves["ring_start"] for curves in made]),
         shape_start=_joined([curves["shape_start"] for curves in made]),
         distance=np.repeat(distances, shape_counts),

@@ -30,6 +30,17 @@ KINDS = ("crack", "contour")
 MOST_VERTICES = 2**28
 """As many as a planar graph may have."""
 
+LARGEST_SIDE = 2**31 - 2
+"""Corners of pixels are numbered in 31 bits."""
+
+_CORNER_RULES = {
+    ("crack", 4): "divided",
+    ("crack", 8): "joined",
+    ("contour", 4): "apart",
+    ("contour", 8): "yielding",
+}
+"""What the core does where two pixels of an object meet at a corner only."""
+
 
 def outlines(
     image: Raster | LabelImage | NDArray[Any],
@@ -132,8 +143,7 @@ def outlines(
     values = foreground_values(raster, threshold, invert=invert)
     by_label = (mode or default_objects(values)) == "labels"
     labels = label_values(values) if by_label else values != 0
-    rule = "apart" if connectivity == 4 else "joined" if outline == "crack" else "yielding"
-    made = _traced(labels, rule, max_sites, threads, progress)
+    made = _traced(labels, _CORNER_RULES[outline, connectivity], max_sites, threads, progress)
     if not len(made["labels"]):
         warnings.warn("the image has no foreground: use --invert or --threshold", VorotoolWarning, stacklevel=2)
     if outline == "crack":
@@ -159,6 +169,10 @@ def _traced(
     labels: NDArray[Any], rule: str, max_sites: int, threads: int, progress: Progress
 ) -> dict[str, NDArray[Any]]:
     """Crack outlines as the core gives them: SHELL is 0 there and HOLE 1, too."""
+    if max(labels.shape) > LARGEST_SIDE:
+        raise LimitError(
+            f"the image is {labels.shape[1]} x {labels.shape[0]} pixels: a side has at most {LARGEST_SIDE}"
+        )
     labels = np.ascontiguousarray(labels)
     labels = labels.view(np.uint8) if labels.dtype == bool else labels
     most = min(max_sites, MOST_VERTICES)

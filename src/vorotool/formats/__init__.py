@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from vorotool.errors import UsageError
-from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.frame import MAX_PIXELS
 
 NPY_MAGIC = b"\x93NUMPY"
@@ -85,6 +84,7 @@ def read(
     from vorotool.formats.polygons import read_polygons, recognise
     from vorotool.formats.skeleton_json import read_skeleton, says_skeleton
     from vorotool.formats.sources import read_source
+    from vorotool.geometry.checks import checked_threads
 
     if geometry not in NAMES_WITH:
         raise UsageError(f"geometry is {geometry!r}: use points or polygons, or leave it out")
@@ -164,6 +164,7 @@ def write(
     >>> write(vorotool.alpha_shape([[0, 0], [4, 0], [0, 3]], r=2.5), "build/shape.geojson")
     """
     from vorotool.formats.outputs import open_output
+    from vorotool.geometry.checks import checked_threads
     from vorotool.geometry.label_image import LabelImage
 
     name = (fmt or Path(path).suffix).lower().lstrip(".")

@@ -34,6 +34,7 @@ def write_label_image(
     largest_label: int,
     palette: NDArray[np.uint8] | None = None,
     bit_depth: int | None = None,
+    resolution: tuple[float, float, str] | None = None,
     threads: int = 0,
 ) -> None:
     r"""Write an image from bands of rows; what the format cannot hold is refused before anything is written.
@@ -57,6 +58,8 @@ def write_label_image(
         the indices.
     bit_depth : {1, 2, 4, 8, 16}, optional
         Of a PNG; by default 16, with a palette 8.
+    resolution : (float, float, str), optional
+        Pixels a unit in x and y, and the unit, for TIFF.
     threads : int
         0 for all processors.
 
@@ -84,7 +87,7 @@ def write_label_image(
         check_png(kind, largest_label, depth)
         write_png(out, bands, shape, bit_depth=depth, palette=palette, threads=threads)
     elif fmt == "tiff":
-        write_tiff(out, bands, shape, dtype=kind, palette=palette, threads=threads)
+        write_tiff(out, bands, shape, dtype=kind, palette=palette, resolution=resolution, threads=threads)
     elif fmt == "npy":
         write_npy(out, bands, shape, dtype=kind)
     elif fmt == "text":

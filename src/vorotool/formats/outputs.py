@@ -9,12 +9,16 @@ import stat
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
+from contextvars import ContextVar
 from pathlib import Path
 from typing import BinaryIO
 
 from vorotool.errors import OutputError, UsageError, VorotoolError
 
 STANDARD_OUTPUT = "standard output"
+
+_TAG: ContextVar[str] = ContextVar("tag", default="")
+"""In the names of temporary files."""
 
 
 @contextmanager
@@ -137,6 +141,36 @@ def make_folder(path: str | os.PathLike[str]) -> None:
         raise OutputError(f"the folder {os.fspath(path)!r} cannot be made: {reason}; name another") from error
 
 
+@contextmanager
+def tagged_temporaries(tag: str) -> Iterator[None]:
+    """Put a tag in the names of the temporary files that are made within.
+
+    Whoever knows it can remove what a process that was killed has left: `remove_temporaries`.
+
+    Parameters
+    ----------
+    tag : str
+        Letters, digits and hyphens.
+    """
+    token = _TAG.set(tag)
+    try:
+        yield
+    finally:
+        _TAG.reset(token)
+
+
+def remove_temporaries(folder: str | os.PathLike[str], tag: str) -> None:
+    """Remove temporary files with a tag that nobody writes any more.
+
+    Examples
+    --------
+    >>> remove_temporaries("build", "run-1-")
+    """
+    with suppress(OSError):
+        for path in Path(folder).glob(f".vorotool-{tag}*.tmp"):
+            path.unlink(missing_ok=True)
+
+
 def _refuse_terminal(binary: bool) -> None:
     if binary and sys.stdout.isatty():
         raise UsageError("binary output is not written to a terminal: name a file with -o, or a text format with -f")
@@ -217,7 +251,7 @@ def _direct(name: str, target: Path) -> Iterator[BinaryIO]:
 @contextmanager
 def _replacing(name: str, target: Path, no_clobber: bool) -> Iterator[BinaryIO]:
     # A name of 64 random bits is nobody else's: whatever happens, it is ours to remove.
-    temporary = target.with_name(f".vorotool-{secrets.token_hex(8)}.tmp")
+    temporary = target.with_name(f".vorotool-{_TAG.get()}{secrets.token_hex(8)}.tmp")
     try:
         with _explained(name):
             with _create(temporary, target) as out:

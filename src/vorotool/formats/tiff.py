@@ -20,6 +20,9 @@ from numpy.typing import DTypeLike, NDArray
 from vorotool.formats.bands import BLOCK_BYTES, blocks, in_order
 from vorotool.formats.npy import stored
 
+_CENTIMETRES = {"m": 0.01, "cm": 1, "mm": 10, "um": 1e4, "µm": 1e4, "μm": 1e4, "micron": 1e4, "microns": 1e4, "nm": 1e7}
+"""How many of each unit a centimetre has."""
+
 _CLASSIC_LIMIT = 2**32 - 2**25
 """Bytes of pixels from which offsets may need BigTIFF; the rest is room for tags and tables of strips."""
 
@@ -31,6 +34,7 @@ def write_tiff(
     *,
     dtype: DTypeLike,
     palette: NDArray[np.uint8] | None = None,
+    resolution: tuple[float, float, str] | None = None,
     threads: int = 0,
 ) -> None:
     r"""Write a single-page TIFF from bands of rows, in bounded memory; a BigTIFF where the pixels need it.
@@ -48,6 +52,8 @@ def write_tiff(
         uint8, uint16, uint32, uint64, int32 or float32.
     palette : (k, 3) uint8 array, optional
         Colours of uint8 indices.
+    resolution : (float, float, str), optional
+        Pixels a unit in x and y, and the unit; lengths of the metric system become centimetres.
     threads : int
         0 for all processors.
 
@@ -65,10 +71,10 @@ def write_tiff(
     b'II*\x00'
     """
     if out.seekable():
-        _write(out, bands, shape, np.dtype(dtype), palette, threads)
+        _write(out, bands, shape, np.dtype(dtype), palette, resolution, threads)
         return
     with tempfile.TemporaryFile() as spool:
-        _write(spool, bands, shape, np.dtype(dtype), palette, threads)
+        _write(spool, bands, shape, np.dtype(dtype), palette, resolution, threads)
         spool.seek(0)
         shutil.copyfileobj(spool, out)
 
@@ -79,6 +85,7 @@ def _write(
     shape: tuple[int, int],
     dtype: np.dtype[Any],
     palette: NDArray[np.uint8] | None,
+    resolution: tuple[float, float, str] | None,
     threads: int,
 ) -> None:
     import tifffile
@@ -102,7 +109,21 @@ def _write(
             rowsperstrip=rows,
             metadata=None,
             software=False,
+            **_resolution_tags(resolution),
         )
+
+
+def _resolution_tags(resolution: tuple[float, float, str] | None) -> dict[str, Any]:
+    """What tifffile is told of pixels a unit; TIFF knows inches, centimetres and units without a name."""
+    if resolution is None:
+        return {}
+    x, y, unit = resolution
+    if unit == "inch":
+        return {"resolution": (x, y), "resolutionunit": 2}
+    in_centimetres = _CENTIMETRES.get(unit)
+    if in_centimetres is None:
+        return {"resolution": (x, y), "resolutionunit": 1}
+    return {"resolution": (x * in_centimetres, y * in_centimetres), "resolutionunit": 3}
 
 
 def _strips(

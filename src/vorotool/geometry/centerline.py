@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.geometry.skeleton import KINDS, Skeleton
-from vorotool.geometry.skeleton_tables import arc_radii, ids_of
+from vorotool.geometry.skeleton_tables import ids_of
 from vorotool.geometry.table import Lookup, Table
 
 Floats = NDArray[np.float64]
@@ -96,7 +96,7 @@ class Centerlines:
     @cached_property
     def width_mean(self) -> Floats:
         """(k,) twice the mean of the radius over the length of each path, without what leads to the boundary."""
-        mean: Floats = 2 * self._summed(arc_radii(self.path)[2]) / self._summed(self.path.length)
+        mean: Floats = 2 * self._summed(self.path.arc_radii[2]) / self._summed(self.path.length)
         return mean
 
     @cached_property
@@ -104,7 +104,7 @@ class Centerlines:
         """(k,) twice the smallest and twice the largest radius on each path."""
         if not len(self):
             return np.zeros(0), np.zeros(0)
-        least, most, _ = arc_radii(self.path)
+        least, most, _ = self.path.arc_radii
         start = self.arc_start[:-1]
         return 2 * np.minimum.reduceat(least, start), 2 * np.maximum.reduceat(most, start)
 

@@ -49,6 +49,23 @@ def chords_of(
     return points, first
 
 
+def middles_of(start: Floats, end: Floats, centre: Floats, is_long: NDArray[np.bool_]) -> Floats:
+    """Middles of arcs that turn left, over half a circle where they are long.
+
+    Examples
+    --------
+    >>> a, b, c = (np.array([place]) for place in ([1.0, 0.0], [0.0, -1.0], [0.0, 0.0]))
+    >>> middles_of(a, b, c, np.array([True])).round(3).tolist()
+    [[-0.707, 0.707]]
+    """
+    u, v = start - centre, end - centre
+    is_wide = (u * v).sum(axis=1) < 0  # then the chord tells more than the sum of the ends
+    across = np.stack([(v - u)[:, 1], (u - v)[:, 0]], axis=1)
+    middle = np.where(is_wide[:, None], across, np.where(is_long[:, None], -u - v, u + v))
+    square = np.maximum((middle * middle).sum(axis=1), np.finfo(float).tiny)
+    return np.asarray(centre + np.sqrt((u * u).sum(axis=1) / square)[:, None] * middle)
+
+
 def _halvings(start: Floats, end: Floats, centre: Floats, tolerance: float) -> NDArray[np.int64]:
     """(k,) how often each arc is halved."""
     is_arc = ~np.isnan(centre[:, 0])

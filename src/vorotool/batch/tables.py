@@ -1,0 +1,118 @@
+"""One table of those of all inputs."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import Any, BinaryIO
+
+TABLE_FORMATS = ("csv", "json")
+"""Formats that are joined row by row."""
+
+
+def part_path(folder: str | os.PathLike[str], source: str, fmt: str) -> str:
+    """Where the table of an input is kept until all are there.
+
+    Examples
+    --------
+    >>> part_path("parts", "masks/a.png", "csv")
+    'parts/a25a19930b8515062e0e5216a1a5cbe8.csv'
+    """
+    return str(Path(folder) / f"{hashlib.sha256(os.fsencode(source)).hexdigest()[:32]}.{fmt}")
+
+
+def join_tables(out: BinaryIO, parts: Sequence[tuple[str, str]], fmt: str) -> None:
+    r"""Write the rows of several tables as one, after a first column that names their input.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable.
+    parts : sequence of (str, str)
+        Name of each input and path of its table, in the order of the rows. Columns that a table does not have are
+        empty; all come in the order in which they are first met. One part is in memory at a time.
+    fmt : {"csv", "json"}
+        Of the tables, and of what is written.
+
+    Examples
+    --------
+    >>> import io
+    >>> out = io.BytesIO()
+    >>> join_tables(out, [("dots", "data/six-seeds.csv"), ("again", "data/six-seeds.csv")], "csv")
+    >>> out.getvalue()[:26]
+    b'input,x,y\ndots,4,2\ndots,12'
+    """
+    join = _join_csv if fmt == "csv" else _join_json
+    join(out, parts)
+
+
+def _columns(headers: Iterable[Iterable[bytes]]) -> list[bytes]:
+    """All columns; ours takes the prefix ``voro_`` where an input has one of its name."""
+    names = list(dict.fromkeys(name for header in headers for name in header))
+    return [b"voro_input" if b"input" in names else b"input", *names]
+
+
+# ---- CSV -----------------------------------------------------------------------------------------
+# The texts of fields stay as they were written, with their quotes.
+_RECORD = re.compile(rb'(?:[^"\n]+|"[^"]*")*\n')
+_FIELDS = re.compile(rb'(?:^|,)((?:[^",]+|"[^"]*")*)')
+
+
+def _join_csv(out: BinaryIO, parts: Sequence[tuple[str, str]]) -> None:
+    name, *names = _columns(tuple(_header(path)) for _, path in parts)
+    out.write(b",".join([name, *names]) + b"\n")
+    for source, path in parts:
+        header, *records = _RECORD.findall(Path(path).read_bytes())
+        before = _quoted(source) + b","
+        place = _places(_FIELDS.findall(header[:-1]), names)
+        for record in records:
+            if place is None:
+                out.write(before + record)
+            else:
+                fields = [*_FIELDS.findall(record[:-1]), b""]
+                out.write(before + b",".join(fields[at] for at in place) + b"\n")
+
+
+def _header(path: str) -> list[bytes]:
+    found = _RECORD.match(Path(path).read_bytes())
+    return [] if found is None else _FIELDS.findall(found[0][:-1])
+
+
+def _places(header: list[bytes], names: list[bytes]) -> list[int] | None:
+    """Where each column is, at the end those that are not; None if all are where they should be."""
+    return None if header == names else [header.index(name) if name in header else -1 for name in names]
+
+
+def _quoted(name: str) -> bytes:
+    text = os.fsencode(name)
+    return text if re.fullmatch(rb"[\w./+@=~%-]+", text) else b'"' + text.replace(b'"', b'""') + b'"'
+
+
+# ---- JSON ----------------------------------------------------------------------------------------
+def _join_json(out: BinaryIO, parts: Sequence[tuple[str, str]]) -> None:
+    name, *names = _columns(_json_header(path) for _, path in parts)
+    before = b"[\n"
+    for source, path in parts:
+        header = _json_header(path)
+        begin = b'{"%b":%b,' % (name, json.dumps(source).encode())
+        absent = b"".join(b',"%b":null' % each for each in names if each not in header)
+        for row in _json_rows(path):
+            out.write(before + begin + row[1:-1] + absent + b"}")
+            before = b",\n"
+    out.write(b"[]\n" if before == b"[\n" else b"\n]\n")
+
+
+def _json_rows(path: str) -> Iterator[bytes]:
+    """Text of each object: our tables have one a line."""
+    with Path(path).open("rb") as file:
+        yield from (line.rstrip(b",\n") for line in file if line.startswith(b"{"))
+
+
+def _json_header(path: str) -> list[bytes]:
+    """Names of columns, as they are written."""
+    row: dict[str, Any] = json.loads(next(_json_rows(path), b"{}"))
+    return [json.dumps(name, ensure_ascii=False)[1:-1].encode() for name in row]

@@ -1,0 +1,128 @@
+"""One input of a batch, and what became of it: what is sent to those who do the work and what they send back."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from vorotool import __version__
+from vorotool.formats.outputs import tagged_temporaries
+
+INPUT = ""
+"""Stands for the input where digests are by the paths of outputs."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """What is to be done with one input.
+
+    Parameters
+    ----------
+    source : str
+        Path of the input.
+    outputs : tuple of str
+        Paths of its outputs.
+    tag : str
+        In the names of temporary files, so that those of a killed process can be told.
+    done : mapping of str to str, optional
+        Digests of the input (at `INPUT`) and of outputs when it was done before, with the same options.
+    """
+
+    source: str
+    outputs: tuple[str, ...]
+    tag: str = ""
+    done: Mapping[str, str] | None = None
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of one input.
+
+    Parameters
+    ----------
+    code : int
+        The exit code that it would have alone; 0 is done.
+    message : str
+        What went wrong.
+    warnings, notes : tuple of str
+        What was said.
+    stats : dict
+        Counts and sizes.
+    seconds : dict of str to float
+        Seconds a phase.
+    digest : str
+        SHA-256 of the input.
+    outputs : dict of str to str
+        SHA-256 of the outputs, by their paths.
+    kept : bool
+        Nothing was done, as all was there.
+    version : str
+        Of the package that did it.
+    """
+
+    code: int = 0
+    message: str = ""
+    warnings: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+    stats: Mapping[str, Any] = field(default_factory=dict)
+    seconds: Mapping[str, float] = field(default_factory=dict)
+    digest: str = ""
+    outputs: Mapping[str, str] = field(default_factory=dict)
+    kept: bool = False
+    version: str = __version__
+
+
+Process = Callable[[str, Sequence[str]], Outcome]
+"""``process(source, outputs)`` does what a command does with one input, and tells what became of it: of what goes
+wrong it raises only what ends the whole program. It can be pickled."""
+
+
+def carry_out(process: Process, task: Task) -> Outcome:
+    """Do what is to be done with one input, unless it is done already, and take the digests of what is there then.
+
+    Parameters
+    ----------
+    process : callable
+        Reads the input and writes the outputs.
+    task : Task
+        The input.
+    """
+    digest = digest_of(task.source)
+    if task.done is not None and is_done(task, digest):
+        return Outcome(digest=digest, outputs={path: task.done[path] for path in task.outputs}, kept=True)
+    with tagged_temporaries(task.tag):
+        outcome = process(task.source, task.outputs)
+    outputs = {} if outcome.code else {path: digest_of(path) for path in task.outputs}
+    return replace(outcome, digest=digest, outputs=outputs)
+
+
+def is_done(task: Task, digest: str) -> bool:
+    """Whether an input with this digest was done before, and its outputs are still what they were then.
+
+    Examples
+    --------
+    >>> is_done(Task("a.csv", ("a.png",)), "e391362d")
+    False
+    """
+    done = task.done
+    if not digest or done is None or done[INPUT] != digest or not all(path in done for path in task.outputs):
+        return False
+    return all(digest_of(path) == done[path] for path in task.outputs)
+
+
+def digest_of(path: str) -> str:
+    """SHA-256 of a file, as text; empty where there is none that can be read.
+
+    Examples
+    --------
+    >>> digest_of("data/six-seeds.csv")[:8], digest_of("data/no-such-file")
+    ('e391362d', '')
+    """
+    try:
+        with Path(path).open("rb") as file:
+            return hashlib.file_digest(file, "sha256").hexdigest()
+    except (OSError, ValueError):
+        return ""

@@ -1,0 +1,45 @@
+"""Where a command goes: one input is processed here and now, several are a batch."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import click
+
+from vorotool.batch.inputs import is_several
+from vorotool.cli.options import BATCH_OPTIONS
+from vorotool.cli.recipes import Recipe, process_input
+from vorotool.cli.run import Run
+from vorotool.cli.targets import check_stats, plan_targets
+from vorotool.cli.units import check_units
+
+
+def run_command(recipe: Recipe, o: SimpleNamespace) -> None:
+    """Do what a command line asks for.
+
+    Parameters
+    ----------
+    recipe : Recipe
+        Of the command.
+    o : namespace
+        Options of the command line, ``inputs`` among them.
+
+    Raises
+    ------
+    click.UsageError
+        If there is no input, or options do not go together.
+    """
+    if any(getattr(o, name, None) for name in BATCH_OPTIONS) or len(o.inputs) > 1 or any(map(is_several, o.inputs)):
+        from vorotool.cli.many import run_many
+
+        run_many(recipe, o)
+        return
+    if not o.inputs:
+        raise click.UsageError("0 inputs are given: name files, a folder, or - for standard input")
+    (source,) = o.inputs
+    targets = plan_targets(recipe.formats, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=source)
+    check_stats(o.stats, targets, source)
+    recipe.check_options(o, targets)
+    check_units(o, targets)
+    with Run(recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber) as run:
+        process_input(recipe, run, o, source, targets)

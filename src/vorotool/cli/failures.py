@@ -1,0 +1,28 @@
+"""What is said when a command fails, and its exit code."""
+
+from __future__ import annotations
+
+import traceback
+
+import click
+
+from vorotool.errors import LimitError, VorotoolError
+
+
+def explained(error: Exception) -> tuple[str, int]:
+    """Give the message and the exit code of an error; of a defect of ours the lines that help to mend it are printed.
+
+    Examples
+    --------
+    >>> explained(LimitError("too large"))
+    ('too large', 5)
+    """
+    if isinstance(error, VorotoolError):
+        return str(error), error.exit_code
+    if isinstance(error, click.ClickException):
+        return error.format_message(), error.exit_code
+    if isinstance(error, MemoryError):
+        text = "there is not enough memory: use a smaller frame, or an output that is streamed"
+        return text, LimitError.exit_code
+    traceback.print_exception(error)
+    return f"a defect of vorotool, please report it with the lines above: {error}", VorotoolError.exit_code

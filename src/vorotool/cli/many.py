@@ -1,0 +1,161 @@
+"""Many inputs: what each command does with one, done with all of them."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import click
+
+from vorotool.batch.run import Results, run_batch
+from vorotool.batch.tables import join_tables, part_path
+from vorotool.batch.tasks import Outcome, Process, Task, digest_of, is_done
+from vorotool.cli.failures import explained
+from vorotool.cli.plans import Plan, plan_batch
+from vorotool.cli.recipes import Recipe, process_input
+from vorotool.cli.reports import Report
+from vorotool.cli.run import Run
+from vorotool.cli.targets import Target
+from vorotool.cli.units import unit_stats
+from vorotool.errors import OutputError
+from vorotool.formats.outputs import check_output, open_output
+
+
+def process_one(
+    recipe: Recipe, options: Mapping[str, Any], kinds: Sequence[tuple[str, str]], source: str, outputs: Sequence[str]
+) -> Outcome:
+    """Process one input, and say nothing but in the outcome.
+
+    Parameters
+    ----------
+    recipe : Recipe
+        Of the command.
+    options : mapping
+        Of the command line.
+    kinds : sequence of (str, str)
+        What is written, and in which format.
+    source : str
+        The input.
+    outputs : sequence of str
+        Their paths.
+    """
+    targets = [Target(what, path, fmt) for (what, fmt), path in zip(kinds, outputs, strict=True)]
+    message, code = "", 0
+    with Run(recipe.name, quiet=True, verbose=False, stats=None) as run:
+        try:
+            process_input(recipe, run, SimpleNamespace(**options), source, targets)
+        except Exception as error:
+            message, code = explained(error)
+    return Outcome(code, message, tuple(run.warnings), tuple(run.notes), run.stats, run.seconds)
+
+
+def run_many(recipe: Recipe, o: SimpleNamespace) -> None:
+    """Process many inputs.
+
+    Parameters
+    ----------
+    recipe : Recipe
+        Of the command.
+    o : namespace
+        Options of the command line.
+
+    Raises
+    ------
+    BatchError
+        If some inputs failed.
+    """
+    plan = plan_batch(recipe, o)
+    if o.dry_run:
+        _print_plan(plan)
+        return
+    _check_files(o)
+    with ExitStack() as stack:
+        tasks = _with_parts(plan, _folder_of_parts(recipe, o, stack)) if plan.table else plan.tasks
+        run = stack.enter_context(
+            Run(recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber)
+        )
+        with Report(run, len(tasks), quiet=o.quiet) as report:
+            outcomes = run_batch(
+                recipe.name,
+                tasks,
+                _results(recipe, o, plan, len(tasks)),
+                manifest=plan.manifest,
+                history=plan.history,
+                keep_going=o.keep_going,
+                told=report.tell,
+            )
+        if plan.table and None not in outcomes:
+            with run.phase("write --table"):
+                _write_table(o, plan.table, tasks, outcomes)
+        report.finish([task.source for task in tasks])
+        run.stats |= unit_stats(o)
+    if (failure := report.failure(keep_going=o.keep_going)) is not None:
+        raise failure
+
+
+def _print_plan(plan: Plan) -> None:
+    for task in plan.tasks:
+        kept = task.done is not None and is_done(task, digest_of(task.source))
+        record = {"input": task.source, "status": "kept" if kept else "planned", "outputs": task.outputs}
+        click.echo(json.dumps(record))
+
+
+def _check_files(o: SimpleNamespace) -> None:
+    """Find out before any work whether the files of all inputs can be written."""
+    for path in (o.stats, getattr(o, "table", None)):
+        if path is not None:
+            is_inside = o.out_dir is not None and Path(path).parent == Path(o.out_dir)
+            check_output(path, no_clobber=o.no_clobber and not o.resume, makes_folder=is_inside)
+
+
+def _folder_of_parts(recipe: Recipe, o: SimpleNamespace, stack: ExitStack) -> str:
+    """Where the tables of inputs are kept: with the record of what was done, else until the end."""
+    if o.out_dir is not None:
+        return str(Path(o.out_dir) / f".{recipe.name}.tables")
+    folder = None if o.table == "-" else Path(o.table).parent
+    try:
+        return stack.enter_context(tempfile.TemporaryDirectory(prefix=".vorotool-", suffix=".tmp", dir=folder))
+    except OSError as error:
+        raise OutputError(f"tables cannot be written in {folder}: {error.strerror}; choose another name") from error
+
+
+def _with_parts(plan: Plan, folder: str) -> list[Task]:
+    assert plan.table is not None
+    return [replace(task, outputs=(*task.outputs, part_path(folder, task.source, plan.table))) for task in plan.tasks]
+
+
+def _results(recipe: Recipe, o: SimpleNamespace, plan: Plan, count: int) -> Results:
+    """Who does the work."""
+    jobs = (os.cpu_count() or 1) if o.jobs == 0 else o.jobs
+    options = {
+        **vars(o),
+        "threads": o.threads or int(o.cluster is not None or (jobs or 1) > 1),
+        "stats": None if o.stats is None else os.devnull,  # statistics are made, and sent to this process
+    }
+    kinds = [(target.what, target.fmt) for target in plan.targets]
+    process: Process = partial(process_one, recipe, options, kinds)
+    if o.cluster is None:
+        from vorotool.batch.workers import local_results
+
+        return partial(local_results, process, jobs=min(jobs or 1, count))
+    from vorotool.batch.cluster import cluster_results
+
+    return partial(cluster_results, process, address=o.cluster, jobs=jobs)
+
+
+def _write_table(o: SimpleNamespace, fmt: str, tasks: Sequence[Task], outcomes: Sequence[Outcome | None]) -> None:
+    parts = [
+        (task.source, task.outputs[-1])
+        for task, outcome in zip(tasks, outcomes, strict=True)
+        if outcome is not None and not outcome.code
+    ]
+    with open_output(o.table, no_clobber=o.no_clobber) as out:
+        join_tables(out, parts, fmt)

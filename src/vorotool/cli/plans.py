@@ -1,0 +1,166 @@
+"""What the options of a batch ask for: its inputs and their outputs, the record, the table of all."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from types import SimpleNamespace
+
+import click
+from click.core import ParameterSource
+
+from vorotool.batch.inputs import Input, expand_inputs, read_names
+from vorotool.batch.manifest import History, Manifest, digest_of_values, read_history
+from vorotool.batch.plan import check_outputs, output_paths, share
+from vorotool.batch.tables import TABLE_FORMATS
+from vorotool.batch.tasks import Task, digest_of
+from vorotool.cli.options import BATCH_OPTIONS
+from vorotool.cli.recipes import Recipe
+from vorotool.cli.targets import EXTENSIONS, Target, plan_targets
+from vorotool.cli.units import check_units
+
+WITHOUT_EFFECT = frozenset(
+    {"inputs", "output", "out_dir", "threads", "quiet", "verbose", "stats", "no_clobber", *BATCH_OPTIONS}
+)
+"""Options that change no byte of an output."""
+
+INPUT_FILES = ("clip",)
+"""Options that name files which are read."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is to be done.
+
+    Parameters
+    ----------
+    tasks : list of Task
+        One an input.
+    targets : list of Target
+        What each gives, in which format; the paths are those of no input.
+    table : str, optional
+        Format of the table of all inputs.
+    manifest : Manifest, optional
+        Where it is recorded what was done.
+    history : History
+        What was done before.
+    """
+
+    tasks: list[Task]
+    targets: list[Target]
+    table: str | None
+    manifest: Manifest | None
+    history: History
+
+
+def plan_batch(recipe: Recipe, o: SimpleNamespace) -> Plan:
+    """Lay out a batch; nothing is written.
+
+    Parameters
+    ----------
+    recipe : Recipe
+        Of the command.
+    o : namespace
+        Options of the command line; ``what`` is made to tell what is computed.
+
+    Raises
+    ------
+    click.UsageError
+        If options do not go together.
+    VorotoolError
+        If there are no inputs, or outputs would replace something that they must not.
+    """
+    _check_options(o)
+    table = _table_format(o)
+    if o.out_dir is None:
+        _check_table_only(o)
+        o.what = ()
+    targets = [] if o.out_dir is None else plan_targets(
+        recipe.formats, o.what, output=None, fmt=o.format, out_dir=o.out_dir, source="input"
+    )  # fmt: skip
+    manifest, history = _record(recipe, o, targets)
+    tasks = _tasks(recipe, o, targets)
+    if manifest is not None:
+        tasks = [replace(task, done=manifest.done_before(task.source, history)) for task in tasks]
+    if table is not None:
+        o.what = tuple(dict.fromkeys((*o.what, "table")))
+        targets.append(Target("table", f"part.{table}", table))
+    recipe.check_options(o, targets)
+    check_units(o, targets)
+    return Plan(tasks, targets, table, manifest, history)
+
+
+def _check_options(o: SimpleNamespace) -> None:
+    table = getattr(o, "table", None)
+    given = f"{len(o.inputs)} inputs are given" if len(o.inputs) > 1 else "many inputs are asked for"
+    if o.output is not None:
+        raise click.UsageError(f"{given}, but -o names one output: name a folder for all with --out-dir")
+    if o.out_dir is None and table is None:
+        raise click.UsageError(f"{given}: name a folder for their outputs with --out-dir")
+    if o.out_dir is None and o.resume:
+        raise click.UsageError("--resume needs --out-dir DIR, where it is recorded what was done")
+    if o.null and o.files_from is None:
+        raise click.UsageError("-0 is about the list of --files-from: leave it out")
+    if table == "-" and o.stats == "-":
+        raise click.UsageError("--stats - needs --table FILE: standard output holds the table")
+    if o.cluster not in (None, "local") and o.jobs is not None:
+        raise click.UsageError("-j is for this machine: a cluster has the workers that it has")
+
+
+def _check_table_only(o: SimpleNamespace) -> None:
+    source = click.get_current_context().get_parameter_source("what")
+    if source != ParameterSource.DEFAULT and o.what != ("table",):
+        raise click.UsageError(f"--what {','.join(o.what)} needs --out-dir DIR: --table is a file of tables alone")
+
+
+def _table_format(o: SimpleNamespace) -> str | None:
+    """Format of the table of all inputs: what its name says, unless there is no other output for -f."""
+    path = getattr(o, "table", None)
+    if path is None:
+        return None
+    if o.out_dir is None and o.format is not None:
+        fmt = o.format.lower()
+    else:
+        fmt = "csv" if path == "-" else EXTENSIONS.get(Path(path).suffix.lower(), "")
+    if fmt not in TABLE_FORMATS:
+        raise click.UsageError(f"--table {path} is written as CSV or JSON: name it .csv or .json")
+    return str(fmt)
+
+
+def _record(recipe: Recipe, o: SimpleNamespace, targets: list[Target]) -> tuple[Manifest | None, History]:
+    """Give where it is recorded what is done, and what was done before by the same options."""
+    if o.out_dir is None:
+        return None, History()
+    digest = digest_of_values(
+        {
+            "options": {name: value for name, value in vars(o).items() if name not in WITHOUT_EFFECT},
+            "files": {name: digest_of(getattr(o, name)) for name in INPUT_FILES if getattr(o, name, None)},
+            "outputs": [(target.what, target.fmt) for target in targets],
+        }
+    )
+    shard = "" if o.shard is None else f".{o.shard[0]}-of-{o.shard[1]}"
+    folder = Path(o.out_dir)
+    manifest = Manifest(folder / f"{recipe.name}{shard}.manifest.jsonl", digest, folder)
+    history = read_history(sorted(folder.glob(f"{recipe.name}*.manifest.jsonl"))) if o.resume else History()
+    return manifest, history
+
+
+def _tasks(recipe: Recipe, o: SimpleNamespace, targets: list[Target]) -> list[Task]:
+    inputs = _inputs(recipe, o)
+    endings = [target.path.removeprefix(str(Path(o.out_dir) / "input")) for target in targets]
+    tasks = [Task(each.source, output_paths(each.name, endings, o.out_dir or "")) for each in inputs]
+    check_outputs(tasks, o.out_dir or "", others={"--stats": o.stats, "--table": getattr(o, "table", None)})
+    if o.shard is None:
+        return tasks
+    chosen = {each.source for each in share(inputs, *o.shard)}
+    return [task for task in tasks if task.source in chosen]
+
+
+def _inputs(recipe: Recipe, o: SimpleNamespace) -> list[Input]:
+    from vorotool.formats.input_formats import IMAGE_NAMES, NAMES_WITH
+
+    known = {**IMAGE_NAMES, "json": "json"} if recipe.geometry is None else NAMES_WITH[recipe.geometry]
+    names = [*o.inputs, *(read_names(o.files_from, null=o.null) if o.files_from is not None else ())]
+    if not names:
+        raise click.UsageError("0 inputs are given: name files, folders, or a list of them with --files-from")
+    return expand_inputs(names, extensions=known, without=o.out_dir)

@@ -1,0 +1,279 @@
+"""Polygons rebuilt from their skeletons: the envelopes of the discs along the arcs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.skeleton_contours import Contours, contours_of
+from vorotool.errors import UsageError
+from vorotool.geometry.circular_arcs import chords_of, middles_of
+from vorotool.geometry.polygons import HOLE, SHELL, PolygonSet
+from vorotool.geometry.skeleton import EDGE, INTERIOR, Skeleton
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+FLATTEN = 2.0**-12
+"""Of the larger side of the bounds: how far chords may be from arcs where nothing else is asked for."""
+
+_ULPS = 8
+"""Of the largest coordinate: what two feet of one disc may differ by, times how much each is magnified."""
+
+
+def rebuild(skeleton: Skeleton, *, flatten: float | None = None) -> PolygonSet:
+    """Rebuild polygons from the arcs inside them: what the discs of all points of the skeleton cover.
+
+    Edges are the common tangents of discs, vertices the common points of discs, both from places and radii of the
+    skeleton alone. Where it was pruned the border is the circle of the disc that is left. Without pruning the polygons
+    come back as they were used, to some ulp of their extent times radius over edge length where an edge is short beside
+    the discs that touch it.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Without a gap; pruned or not. Arcs outside make no difference.
+    flatten : float, optional
+        How far chords may be from circles, in input units; by default 1/4096 of the larger side of the bounds.
+
+    Returns
+    -------
+    PolygonSet
+        Shells counter-clockwise (y upwards), holes clockwise; one polygon for each connected part, with the id and the
+        properties of its own.
+
+    Raises
+    ------
+    UsageError
+        If the skeleton has a gap, or the tolerance is not positive.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> rebuild(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])).xy.tolist()
+    [[4.0, 0.0], [4.0, 2.0], [0.0, 2.0], [0.0, 0.0]]
+    """
+    if skeleton.gap:
+        raise UsageError(f"a skeleton with a gap of {skeleton.gap:g} leaves the corners out: use one without a gap")
+    if flatten is not None and not flatten > 0:
+        raise UsageError(f"the tolerance is {flatten}: it must be positive")
+    contours = contours_of(skeleton, np.flatnonzero(skeleton.side == INTERIOR))
+    xy, point, start = _outline(skeleton, contours, flatten or _default_tolerance(skeleton))
+    rings = _simple_rings(xy, point, start)
+    return _assembled(skeleton, contours, rings)
+
+
+def _default_tolerance(skeleton: Skeleton) -> float:
+    xy = skeleton.polygons.xy
+    return FLATTEN * (float(np.ptp(xy, axis=0).max()) or 1.0) if len(xy) else 1.0
+
+
+# ---- feet ----------------------------------------------------------------------------------------
+def _turned(way: Floats) -> Floats:
+    """By 90 degrees, counter-clockwise."""
+    return np.stack([-way[:, 1], way[:, 0]], axis=1)
+
+
+def _norm(way: Floats) -> Floats:
+    length: Floats = np.sqrt((way * way).sum(axis=-1))
+    return length
+
+
+@dataclass(frozen=True)
+class _Feet:
+    """Where the discs at the ends of each run touch its site, and by how much an edge magnifies errors of the discs."""
+
+    first: Floats
+    last: Floats
+    first_factor: Floats
+    last_factor: Floats
+
+
+def _feet(skeleton: Skeleton, contours: Contours) -> _Feet:
+    """Feet on each run's site, on its right: of an edge by the common tangent, of a vertex by the best of several."""
+    discs = [_Discs(skeleton, node) for node in (contours.first_node, contours.middle_node, contours.last_node)]
+    first, last, factors = _edge_feet(discs[0], discs[2])
+    is_edge = skeleton.site_table.kind[contours.site] == EDGE
+    before, after = contours.before, contours.after
+    common = [_common_point(a, b) for a, b in combinations(discs, 2)]
+    follows = np.where(is_edge[before] & contours.is_joined[before], factors[1][before], np.inf)
+    leads = np.where(is_edge[after] & contours.is_joined, factors[0][after], np.inf)
+    choices = np.stack([*(place for place, _ in common), last[before], first[after]])
+    costs = np.stack([*(factor for _, factor in common), follows, leads])
+    runs = np.arange(len(is_edge))
+    best = np.argmin(costs, axis=0)
+    vertex = choices[best, runs]
+    edge = is_edge[:, None]
+    return _Feet(np.where(edge, first, vertex), np.where(edge, last, vertex), *factors)
+
+
+class _Discs:
+    """Of nodes."""
+
+    def __init__(self, skeleton: Skeleton, node: Indices) -> None:
+        self.centre, self.r = skeleton.vertices[node], skeleton.radius[node]
+
+
+def _edge_feet(a: _Discs, b: _Discs) -> tuple[Floats, Floats, list[Floats]]:
+    """Where the common tangent on the right of a -> b touches the discs, and by how much that magnifies errors."""
+    way, growth = b.centre - a.centre, b.r - a.r
+    square = np.maximum((way * way).sum(axis=1), np.finfo(float).tiny)
+    distance = np.sqrt(square)
+    along = np.sqrt(np.maximum(distance - np.abs(growth), 0) * (distance + np.abs(growth)))
+    inward = _turned((along[:, None] * way - growth[:, None] * _turned(way)) / square[:, None])
+    factors = [np.divide(disc.r, along, out=np.zeros_like(along), where=along > 0) for disc in (a, b)]
+    return a.centre - a.r[:, None] * inward, b.centre - b.r[:, None] * inward, factors
+
+
+def _common_point(a: _Discs, b: _Discs) -> tuple[Floats, Floats]:
+    """The point on the right of a -> b that is on both circles, and by how much that magnifies errors."""
+    way = b.centre - a.centre
+    square = np.maximum((way * way).sum(axis=1), np.finfo(float).tiny)
+    distance = np.sqrt(square)
+    part = (square + (a.r - b.r) * (a.r + b.r)) / (2 * square)
+    height = np.sqrt(np.maximum((a.r - part * distance) * (a.r + part * distance), 0))
+    place = a.centre + part[:, None] * way - (height / distance)[:, None] * _turned(way)
+    factor = np.full(len(height), np.finfo(float).max)
+    return place, np.divide(a.r * b.r, distance * height, out=factor, where=distance * height > 0)
+
+
+# ---- outlines ------------------------------------------------------------------------------------
+def _outline(skeleton: Skeleton, contours: Contours, tolerance: float) -> tuple[Floats, Indices, Indices]:
+    """Vertices of each contour, the point of the polygons that each is, -1 for none, and where contours begin."""
+    feet = _feet(skeleton, contours)
+    is_edge = skeleton.site_table.kind[contours.site] == EDGE
+    node, after = contours.last_node, contours.after
+    centre, r = skeleton.vertices[node], skeleton.radius[node]
+    start, end = feet.last, feet.first[after]
+    scale = np.spacing(max(np.abs(skeleton.vertices).max(initial=0), np.abs(skeleton.radius).max(initial=0)))
+    noise = _ULPS * scale * (1 + feet.last_factor + feet.first_factor[after])
+    is_corner = r == 0
+    between_edges = is_edge & is_edge[after]
+    is_same = ~is_corner & (contours.is_joined | (between_edges & (_norm(end - start) <= noise)))
+    is_cap = ~is_corner & ~is_same
+    better = (feet.last_factor <= feet.first_factor[after])[:, None]
+    single = np.where(is_corner[:, None], centre, np.where(better, start, end))
+    plain = between_edges & ~is_cap
+    pieces = [
+        # a vertex stands where its run begins; between two edges there is one at a corner, or where they go on
+        _Places(np.flatnonzero(~is_edge), 0, feet.first[~is_edge], contours.point[~is_edge]),
+        _Places(np.flatnonzero(plain), 1, single[plain], contours.shared_point[plain]),
+        *_caps(is_cap, is_edge, after, start, end, centre, tolerance),
+    ]
+    return _in_order(pieces, contours)
+
+
+@dataclass(frozen=True)
+class _Places:
+    """Places at runs: at the beginning (0) or after the end (1 and more) of each."""
+
+    run: Indices
+    rank: Any
+    xy: Floats
+    point: Indices
+
+
+def _caps(
+    is_cap: NDArray[np.bool_],
+    is_edge: NDArray[np.bool_],
+    after: Indices,
+    start: Floats,
+    end: Floats,
+    centre: Floats,
+    tolerance: float,
+) -> list[_Places]:
+    """Chords of circles between feet; a foot on a vertex is there already."""
+    run = np.flatnonzero(is_cap)
+    a, b, c = start[run], end[run], centre[run]
+    u, v = a - c, b - c
+    is_long = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] < 0  # over half a circle
+    middle = middles_of(a, b, c, is_long)
+    starts = np.concatenate([a, middle[is_long]])
+    ends = np.concatenate([np.where(is_long[:, None], middle, b), b[is_long]])
+    centres, runs = np.concatenate([c, c[is_long]]), np.concatenate([run, run[is_long]])
+    rank = np.concatenate([np.ones(len(run)), np.full(int(is_long.sum()), 2)]).astype(np.int64)
+    xy, first = chords_of(starts, ends, centres, np.ones(len(runs), dtype=bool), tolerance)
+    piece = np.repeat(np.arange(len(runs)), np.diff(first))
+    kept = (np.arange(len(xy)) > first[piece]) | (rank[piece] == 2) | is_edge[runs[piece]]
+    to_edge = is_edge[after[run]]
+    none = np.full(len(xy), -1)
+    return [
+        _Places(runs[piece[kept]], rank[piece[kept]], xy[kept], none[kept]),
+        _Places(run[to_edge], 3, b[to_edge], np.full(int(to_edge.sum()), -1)),
+    ]
+
+
+def _in_order(pieces: list[_Places], contours: Contours) -> tuple[Floats, Indices, Indices]:
+    run = np.concatenate([piece.run for piece in pieces])
+    rank = np.concatenate([np.broadcast_to(piece.rank, piece.run.shape) for piece in pieces])
+    order = np.lexsort((rank, run))
+    xy, point = (np.concatenate([getattr(piece, name) for piece in pieces])[order] for name in ("xy", "point"))
+    start = np.searchsorted(run[order], contours.start)
+    return xy, point.astype(np.int64), start
+
+
+# ---- rings ---------------------------------------------------------------------------------------
+def _simple_rings(xy: Floats, point: Indices, start: Indices) -> list[tuple[int, Floats]]:
+    """Contour and vertices of each ring: a contour that visits a point twice is cut in two there."""
+    rings = []
+    for contour, (first, last) in enumerate(zip(start[:-1].tolist(), start[1:].tolist(), strict=True)):
+        names = point[first:last]
+        known = names[names >= 0]
+        if len(np.unique(known)) == len(known):
+            parts = [np.arange(first, last)]
+        else:
+            parts = [np.array(part) + first for part in _cut_at_repetitions(names.tolist())]
+        rings += [(contour, xy[part]) for part in parts if len(part) > 2]
+    return rings
+
+
+def _cut_at_repetitions(names: list[int]) -> list[list[int]]:
+    """Indices of each part of a closed walk between two visits of one name; -1 is no name."""
+    parts: list[list[int]] = []
+    path: list[int] = []
+    at: dict[int, int] = {}
+    for index, name in enumerate(names):
+        if name in at:
+            cut = at[name]
+            parts.append(path[cut:])
+            for passed in path[cut:]:
+                at.pop(names[passed], None)
+            del path[cut:]
+        if name >= 0:
+            at[name] = len(path)
+        path.append(index)
+    return [*parts, path]
+
+
+def _twice_area(ring: Floats) -> float:
+    x, y = (ring - ring[0]).T
+    return float((x * np.roll(y, -1) - y * np.roll(x, -1)).sum())
+
+
+def _assembled(skeleton: Skeleton, contours: Contours, rings: list[tuple[int, Floats]]) -> PolygonSet:
+    """Polygons of rings: in each connected part of the skeleton one goes counter-clockwise, around the others."""
+    given = skeleton.polygons
+    part = contours.part[[contour for contour, _ in rings]]
+    is_hole = np.array([_twice_area(ring) < 0 for _, ring in rings], dtype=bool)
+    source = contours.polygon[[contour for contour, _ in rings]]
+    order = np.lexsort((is_hole, part, source))
+    source, is_hole = source[order], is_hole[order]
+    number = np.cumsum(~is_hole) - 1
+    own = source[~is_hole].tolist()
+    places = [rings[k][1] for k in order.tolist()]
+    assert given.feature is not None
+    return PolygonSet(
+        np.concatenate([np.empty((0, 2)), *places]),
+        np.concatenate([[0], np.cumsum([len(ring) for ring in places], dtype=np.int64)]),
+        np.where(is_hole, HOLE, SHELL),
+        number,  # type: ignore[arg-type]
+        None if given.ids is None else [given.ids[p] for p in own],
+        given.feature[own],
+        {name: [values[p] for p in own] for name, values in given.properties.items()},
+        y_up=given.y_up,
+        crs=given.crs,
+    )

@@ -1,0 +1,114 @@
+"""The record of what was done survives kills, and is believed only where files are as it says."""
+
+import json
+
+import pytest
+
+from vorotool import OutputError
+from vorotool.batch.manifest import Manifest, digest_of_values, read_history
+from vorotool.batch.tasks import INPUT, Outcome, Task, carry_out, digest_of
+
+DONE = Outcome(digest="d", outputs={"out/x/a.csv": "e"}, warnings=("moved",))
+
+
+@pytest.fixture
+def manifest(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return Manifest("out/t.manifest.jsonl", "options", "out")
+
+
+def lines(manifest):
+    return [json.loads(line) for line in manifest.path.read_text().splitlines()]
+
+
+def test_what_was_written_is_read(manifest):
+    with manifest:
+        manifest.begin("run", "tessellate", 3)
+        manifest.add(Task("a", ()), DONE)
+        manifest.add(Task("b", ()), Outcome(code=3, message="bad", digest="f"))
+        manifest.add(Task("c", ()), Outcome(kept=True))
+        assert len(lines(manifest)) == 3  # nothing waits in a buffer
+    assert lines(manifest)[1:] == [
+        {"input": "a", "status": "done", "options": "options", "sha256": "d", "outputs": {"x/a.csv": "e"}}
+        | {"warnings": ["moved"]},
+        {"input": "b", "status": "failed", "exit": 3, "error": "bad", "options": "options", "sha256": "f"},
+    ]
+    history = read_history([manifest.path, "missing"])
+    assert history.runs == ["run"]
+    assert manifest.done_before("a", history) == {INPUT: "d", "out/x/a.csv": "e"}
+    assert manifest.done_before("b", history) is None
+    assert Manifest("out/t", "others", "out").done_before("a", history) is None
+
+
+def test_the_last_line_of_an_input_counts(manifest):
+    for outcomes, known in (((DONE,), True), ((Outcome(code=1),), False), ((DONE,), True)):
+        with manifest:
+            for outcome in outcomes:
+                manifest.add(Task("a", ()), outcome)
+        assert (manifest.done_before("a", read_history([manifest.path])) is not None) is known
+    assert len(lines(manifest)) == 3
+
+
+def test_any_torn_line_is_left_out(manifest):
+    with manifest:
+        manifest.begin("run", "t", 1)
+        manifest.add(Task("a", ()), DONE)
+    whole = manifest.path.read_bytes()
+    for size in range(len(whole) + 1):
+        manifest.path.write_bytes(whole[:size])
+        with manifest:
+            manifest.add(Task("b", ()), DONE)
+        history = read_history([manifest.path])
+        assert set(history.done) == ({"a", "b"} if size >= len(whole) - 1 else {"b"})
+
+
+@pytest.mark.parametrize("line", ["[]", "1", "null", '{"input": [], "status": "done"}', '{"status": "done"}', "\xff"])
+def test_lines_that_are_none_of_ours(tmp_path, line):
+    (tmp_path / "m").write_text(line + "\n", encoding="latin-1")
+    assert read_history([tmp_path / "m"]).done == {}
+
+
+def test_names_that_are_no_text(manifest):
+    with manifest:
+        manifest.add(Task("\udcff.csv", ()), DONE)
+    assert "\udcff.csv" in read_history([manifest.path]).done
+
+
+def test_a_manifest_that_cannot_be_written(tmp_path):
+    (tmp_path / "file").write_text("x")
+    with pytest.raises(OutputError), Manifest(tmp_path / "file/m", "o", tmp_path / "file"):
+        pass
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(OutputError, match="cannot be written"), Manifest(tmp_path / "folder", "o", tmp_path):
+        pass
+    with pytest.raises(OutputError, match="cannot be read"):
+        read_history([tmp_path / "folder"])
+
+
+def test_options_have_one_digest():
+    assert digest_of_values({"a": 1, "b": (2,)}) == digest_of_values({"b": [2], "a": 1})
+    assert digest_of_values({"a": 1}) != digest_of_values({"a": 2})
+
+
+def test_kept_only_if_all_is_as_it_was(tmp_path):
+    source, output = tmp_path / "a", tmp_path / "b"
+    source.write_text("in")
+    output.write_text("out")
+    calls = []
+
+    def process(path, outputs):
+        calls.append(path)
+        output.write_text("out")
+        return Outcome()
+
+    done = {INPUT: digest_of(str(source)), str(output): digest_of(str(output))}
+    task = Task(str(source), (str(output),), done=done)
+    assert carry_out(process, task).kept
+    for spoil in (lambda: source.write_text("other"), lambda: output.write_text("other"), output.unlink):
+        spoil()
+        outcome = carry_out(process, task)
+        assert not outcome.kept
+        assert outcome.outputs == {str(output): done[str(output)]}
+        source.write_text("in")
+    assert not carry_out(process, Task(str(source), (str(output), "c"), done=done)).kept
+    assert len(calls) == 4

@@ -1,0 +1,65 @@
+"""Outputs replace neither inputs nor one another, and stay in their folder."""
+
+import os
+
+import pytest
+
+from vorotool import OutputError, UsageError
+from vorotool.batch.inputs import Input
+from vorotool.batch.plan import check_outputs, output_paths, share
+from vorotool.batch.tasks import Task
+
+
+def test_names_of_outputs():
+    assert output_paths("a.b.png", [".csv"], "out") == ("out/a.b.csv",)
+    assert output_paths("x/plain", [".table.csv", ".labels.png"], "o/p") == (
+        *("o/p/x/plain.table.csv", "o/p/x/plain.labels.png"),
+    )
+
+
+def test_two_inputs_with_one_output(tmp_path):
+    tasks = [Task("x/a.png", (f"{tmp_path}/a.csv",)), Task("y/a.tif", (f"{tmp_path}/./a.csv",))]
+    with pytest.raises(UsageError, match=r"x/a\.png and y/a\.tif would both be written"):
+        check_outputs(tasks, tmp_path)
+    check_outputs(tasks[:1], tmp_path, others={"--table": None, "--stats": "-"})
+    with pytest.raises(UsageError, match=r"--table .* is also the output of x/a\.png"):
+        check_outputs(tasks[:1], tmp_path, others={"--table": f"{tmp_path}/b/../a.csv"})
+
+
+def test_capitals_are_no_difference_on_macos(tmp_path, monkeypatch):
+    tasks = [Task("a.png", (f"{tmp_path}/a.csv",)), Task("A.tif", (f"{tmp_path}/A.csv",))]
+    check_outputs(tasks, tmp_path)
+    monkeypatch.setattr("sys.platform", "darwin")
+    with pytest.raises(UsageError, match="both"):
+        check_outputs(tasks, tmp_path)
+
+
+@pytest.mark.parametrize("link", [os.link, os.symlink])
+def test_an_output_that_is_an_input(tmp_path, link):
+    (tmp_path / "a.csv").write_text("x")
+    link(tmp_path / "a.csv", tmp_path / "b.csv")
+    task = Task(str(tmp_path / "a.csv"), (str(tmp_path / "b.csv"),))
+    with pytest.raises(UsageError, match=r"b\.csv is also the input"):
+        check_outputs([task], tmp_path)
+    with pytest.raises(UsageError, match=r"--stats .*b\.csv is also the input"):
+        check_outputs([Task(task.source, ())], tmp_path, others={"--stats": str(tmp_path / "b.csv")})
+
+
+def test_outputs_stay_in_their_folder(tmp_path):
+    (tmp_path / "out").mkdir()
+    (tmp_path / "else").mkdir()
+    (tmp_path / "out/sub").symlink_to(tmp_path / "else")
+    (tmp_path / "out/file.csv").symlink_to(tmp_path / "else/file.csv")
+    for name in ("sub/a.csv", "file.csv"):
+        with pytest.raises(OutputError, match="outside"):
+            check_outputs([Task("a.png", (f"{tmp_path}/out/{name}",))], tmp_path / "out")
+    check_outputs([Task("a.png", (f"{tmp_path}/out/new/a.csv",))], tmp_path / "out")
+
+
+def test_shares_are_a_partition():
+    inputs = [Input(f"masks/{number}.png", f"{number}.png") for number in range(300)]
+    parts = [share(inputs, part, 7) for part in range(1, 8)]
+    assert sorted(each.source for part in parts for each in part) == sorted(each.source for each in inputs)
+    assert all(20 <= len(part) <= 80 for part in parts)
+    moved = [Input(f"/elsewhere/{each.name}", each.name) for each in parts[3]]
+    assert share(moved, 4, 7) == moved

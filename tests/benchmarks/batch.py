@@ -1,0 +1,55 @@
+"""Inputs a second through one process an input, one worker and two: ``batch.py [INPUTS]``, by default 1000."""
+
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from mask_folders import write_masks, write_outlines
+
+TOOL = Path(sys.executable).parent / "vorotool"
+RUNS = 3
+ALONE = 20
+"""Inputs that are given to a process of their own."""
+
+
+def seconds(*arguments, **options):
+    """Of one process."""
+    begin = time.perf_counter()
+    subprocess.run([TOOL, *map(str, arguments), "-q"], check=True, **options)
+    return time.perf_counter() - begin
+
+
+def rates(folder, command, inputs):
+    """Inputs a second: a loop, one worker, two workers; the best of some rounds, in which they take turns."""
+    best = [0.0, 0.0, 0.0]
+    files = sorted(inputs.iterdir())
+    for number in range(RUNS):
+        alone = sum(seconds(command, path, "--out-dir", folder / "alone") for path in files[:ALONE])
+        many = [
+            seconds(command, inputs, "--out-dir", folder / f"{number}-{jobs}", "-j", jobs, "--threads", 1)
+            for jobs in (1, 2)
+        ]
+        found = (ALONE / alone, *(len(files) / each for each in many))
+        best = [max(pair) for pair in zip(best, found, strict=True)]
+    return best
+
+
+def main():
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 1000
+    print(f"{count} masks of 256 x 256, and their outlines: inputs a second")
+    for command, write in (("tessellate", write_masks), ("skeleton-exact", write_outlines)):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            write(folder / "inputs", count)
+            loop, one, two = rates(folder, command, folder / "inputs")
+        print(
+            f"  {command}: a process each {loop:.1f}, -j 1 {one:.0f}, -j 2 {two:.0f}: "
+            f"{two / one:.2f} x one worker (at least 1.8), {two / loop:.0f} x the loop (at least 20)"
+        )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,101 @@
+"""A Dask cluster does what one machine does."""
+
+import json
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+pytest.importorskip("distributed")
+
+
+@pytest.fixture
+def many(tmp_path):
+    """A folder of inputs that take some milliseconds each."""
+    (tmp_path / "many").mkdir()
+    for number in range(40):
+        xy = np.random.default_rng(number).integers(0, 300, (3, 2))
+        np.savetxt(tmp_path / f"many/p{number:03}.csv", xy, fmt="%d", delimiter=",", header="x,y", comments="")
+    (tmp_path / "many/p013.csv").write_text("x,y\n1,nan\n")
+    return tmp_path
+
+
+@pytest.fixture
+def cluster(tmp_path):
+    """A scheduler and two workers, in another folder."""
+    (tmp_path / "elsewhere").mkdir()
+    options = {"cwd": tmp_path / "elsewhere", "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    common = ["--scheduler-file", tmp_path / "scheduler.json", "--no-dashboard", "--host", "127.0.0.1"]
+    commands = [
+        ["distributed.cli.dask_scheduler", "--port", "0"],
+        *2 * [["distributed.cli.dask_worker", "--no-nanny", "--nthreads", "1"]],
+    ]
+    started = [subprocess.Popen([sys.executable, "-m", *command, *common], **options) for command in commands]
+    try:
+        wait_until(lambda: address_in(tmp_path / "scheduler.json"))
+        yield address_in(tmp_path / "scheduler.json"), started[1:]
+    finally:
+        for each in started:
+            each.kill()
+            each.wait()
+
+
+def address_in(path):
+    try:
+        return json.loads(path.read_text())["address"]
+    except (OSError, ValueError):  # it is not there, or not all of it
+        return None
+
+
+def wait_until(condition):
+    deadline = time.monotonic() + 60
+    while not condition():
+        assert time.monotonic() < deadline, "it does not come"
+        time.sleep(0.02)
+
+
+def files(folder):
+    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*.csv")}
+
+
+def done(manifest):
+    records = [json.loads(line) for line in manifest.read_text().splitlines()] if manifest.exists() else []
+    return [record["input"] for record in records if record.get("status") == "done"]
+
+
+def test_a_lost_worker_loses_nothing(run, process, many, cluster):
+    address, workers = cluster
+    options = ("tessellate", "many", "--keep-going", "-q", "--what", "table", "--out-dir")
+    assert run(*options, "here", "--table", "here.csv").code == 6
+    child = process(*options, "there", "--table", "there.csv", "--cluster", address)
+    manifest = many / "there/tessellate.manifest.jsonl"
+    wait_until(lambda: len(done(manifest)) >= 10 or child.poll() is not None)
+    workers[0].kill()
+    out, err = child.communicate(timeout=60)
+    assert (child.returncode, out) == (6, b""), err
+    assert [line.split(b": ")[0] for line in err.splitlines()] == [b"error", b"error"]
+    assert b"p013.csv, line 2" in err
+    assert files(many / "there") == files(many / "here")
+    assert (many / "there.csv").read_bytes() == (many / "here.csv").read_bytes()
+    assert sorted(done(manifest)) == [f"many/p{number:03}.csv" for number in range(40) if number != 13]
+
+
+def test_a_cluster_that_is_started_here(run, many):
+    options = ("tessellate", "many", "--keep-going", "-q", "-f", "npy", "--out-dir")
+    assert run(*options, "there", "--cluster", "local", "-j", "1").code == 6
+    assert run(*options, "there", "--resume", "--stats", "s.json").code == 6
+    stats = json.loads((many / "s.json").read_text())
+    assert (stats["done"], stats["kept"], stats["failed"]) == (0, 39, 1)
+
+
+def test_what_a_cluster_needs(run, many, monkeypatch):
+    monkeypatch.setattr("vorotool.batch.cluster.PATIENCE", 0.2)
+    failed = run("tessellate", "many", "--out-dir", "out", "--cluster", "tcp://127.0.0.1:1")
+    assert failed.code == 2
+    assert "--cluster tcp://127.0.0.1:1: no scheduler answers there" in failed.err
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    failed = run("tessellate", "many", "--out-dir", "out", "--cluster", "local")
+    assert failed.code == 2
+    assert "pip install vorotool[distributed]" in failed.err

@@ -1,0 +1,332 @@
+"""Many inputs: each gives what it gives alone, whoever does it, and however often it is interrupted."""
+
+import json
+import os
+import signal
+import time
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+POINTS = "x,y,name\n{0},1,a\n7,5,b\n1,6,c\n4,{0},d\n"
+SQUARES = [
+    [[0, 0], [9, 0], [9, 5], [0, 5]],
+    [[0, 0], [4, 0], [4, 4]],
+    [[0, 0], [9, 0], [9, 9], [5, 3], [0, 9]],
+]
+
+
+@pytest.fixture
+def inputs(tmp_path):
+    """Folders of points and of shapes; some are in subfolders."""
+    for number, square in enumerate(SQUARES):
+        place = "sub/" if number == 1 else ""
+        for folder in ("points", "shapes"):
+            (tmp_path / folder / place).mkdir(parents=True, exist_ok=True)
+        (tmp_path / f"points/{place}p{number}.csv").write_text(POINTS.format(number + 2))
+        (tmp_path / f"shapes/{place}s{number}.json").write_text(json.dumps(square))
+    return tmp_path
+
+
+def files(folder):
+    """Contents by paths, but those that tell how it went."""
+    return {
+        str(path.relative_to(folder)): path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file() and not path.name.endswith(".jsonl") and ".tables" not in str(path)
+    }
+
+
+def records(path):
+    return [json.loads(line) for line in path.read_text().splitlines()]
+
+
+COMMANDS = {
+    "tessellate": ["points", "--what", "labels,table,colour"],
+    "delaunay": ["points", "--what", "edges", "-f", "geojson"],
+    "alphashape": ["points", "-f", "svg", "--what", "polygons,hull"],
+    "skeleton-exact": ["shapes", "--what", "skeleton,branches"],
+    "draw": ["pictures"],
+}
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_each_input_gives_what_it_gives_alone(run, inputs, command):
+    folder, *options = COMMANDS[command]
+    if command == "draw":
+        assert run("tessellate", "points", "--out-dir", "pictures", "-q", "-f", "npy").code == 0
+    done = run(command, folder, "--out-dir", "many", "-j", "2", *options)
+    assert done.code == 0, done.err
+    lines = done.err.splitlines()
+    assert sorted(line.split("/")[0] for line in lines) == ["1", "2", "3"]
+    assert all(line.endswith(": done") for line in lines)
+    for path in [path for path in (inputs / folder).rglob("*.*") if path.is_file() and path.suffix != ".jsonl"]:
+        place = path.parent.relative_to(inputs / folder)
+        assert run(command, path, "--out-dir", Path("alone") / place, "-q", *options).code == 0
+    assert files(inputs / "many") == files(inputs / "alone")
+    assert sum(record.get("status") == "done" for record in records(inputs / f"many/{command}.manifest.jsonl")) == 3
+
+
+def test_one_table_of_all(run, inputs):
+    whole = run("tessellate", "points", "--table", "-", "-q")
+    assert whole.code == 0, whole.err
+    expected = ""
+    for path in ("points/p0.csv", "points/p2.csv", "points/sub/p1.csv"):
+        head, *rows = run("tessellate", path, "--what", "table", "-q").out.splitlines(keepends=True)
+        expected += "".join(f"{path},{row}" for row in rows)
+    assert whole.out == f"input,{head}{expected}"
+    done = run("tessellate", "points", "--table", "all.csv", "--out-dir", "out", "-j", "2", "-q", "--stats", "s.json")
+    assert done.code == 0, done.err
+    assert (inputs / "all.csv").read_text() == whole.out
+    stats = json.loads((inputs / "s.json").read_text())
+    assert (stats["inputs"], stats["done"], stats["kept"], stats["failed"], stats["failures"]) == (3, 3, 0, 0, [])
+    assert stats["totals"]["seeds"] == 12
+    assert {"read", "tessellate", "write labels", "write table"} <= set(stats["seconds"])
+    assert [path.name for path in inputs.iterdir() if path.name.startswith(".")] == []
+
+
+def test_a_table_after_resuming(run, inputs):
+    rows = run("delaunay", "points", "--table", "-", "-f", "json", "-q").out
+    bad = inputs / "points/p2.csv"
+    good = bad.read_text()
+    bad.write_text("x,y\n1,nan\n")
+    options = ("delaunay", "points", "--table", "all.json", "--out-dir", "out", "-q")
+    assert run(*options).code == 6
+    assert not (inputs / "all.json").exists()  # an input was not started, as one failed
+    assert run(*options, "--resume", "--keep-going").code == 6
+    assert [row["input"] for row in json.loads((inputs / "all.json").read_text())] == [
+        *4 * ["points/p0.csv"], *4 * ["points/sub/p1.csv"]
+    ]  # fmt: skip
+    bad.write_text(good)
+    done = run(*options[:-1], "--resume")
+    assert done.code == 0
+    assert sorted(line.split(": ")[1] for line in done.err.splitlines()) == ["done", "kept", "kept"]
+    assert (inputs / "all.json").read_text() == rows
+    (inputs / "all.json").unlink()
+    assert run(*options, "--resume").code == 0
+    assert (inputs / "all.json").read_text() == rows
+    statuses = Counter(
+        (record["input"], record["status"])
+        for record in records(inputs / "out/delaunay.manifest.jsonl")
+        if "input" in record
+    )
+    assert statuses == {
+        ("points/p0.csv", "done"): 1, ("points/sub/p1.csv", "done"): 1,
+        ("points/p2.csv", "failed"): 2, ("points/p2.csv", "done"): 1,
+    }  # fmt: skip
+
+
+def test_what_was_done_by_other_options_is_done_again(run, inputs):
+    options = ("alphashape", "points", "--out-dir", "out", "--resume")
+    for more, status in (([], "done"), ([], "kept"), (["-r", "2"], "done"), (["-r", "2", "--threads", "1"], "kept")):
+        done = run(*options, *more)
+        assert done.code == 0, done.err
+        assert {line.split(": ")[1] for line in done.err.splitlines() if "r =" not in line} == {status}
+    (inputs / "out/p0.csv").write_text("changed")
+    plan = [json.loads(line) for line in run(*options, "-r", "2", "--dry-run").out.splitlines()]
+    assert [record["status"] for record in plan] == ["planned", "kept", "kept"]
+
+
+def test_failures_are_told(run, inputs):
+    (inputs / "points/p1.csv").write_text("x,y\n1,2\n3,abc\n")
+    done = run("tessellate", "points", "--out-dir", "out", "--stats", "s.json", "--keep-going")
+    assert done.code == 6
+    assert "error: points/p1.csv, line 3" in done.err
+    assert done.err.splitlines()[-1] == "error: 1 of 4 inputs failed"
+    assert len(files(inputs / "out")) == 3
+    failures = json.loads((inputs / "s.json").read_text())["failures"]
+    assert [(failure["input"], failure["exit"]) for failure in failures] == [("points/p1.csv", 3)]
+    assert [record["input"] for record in records(inputs / "out/tessellate.manifest.jsonl") if "error" in record] == [
+        "points/p1.csv"
+    ]
+    done = run("tessellate", "points", "--out-dir", "other", "-q")
+    assert done.code == 6
+    assert "1 of 4 inputs failed; 2 were not started: --keep-going goes on" in done.err
+    assert set(files(inputs / "other")) == {"p0.png"}
+    done = run(
+        "tessellate", "points/p0.csv", "missing.csv", "--seeds", "labels", "--out-dir", "out", "--keep-going", "-q"
+    )
+    assert [line.split(": ")[1] for line in done.err.splitlines()] == [
+        *("points/p0.csv", "missing.csv", "2 of 2 inputs failed")
+    ]
+
+
+def test_warnings_name_the_input(run, inputs):
+    (inputs / "points/p0.csv").write_text("x,y\n0.3,1\n5,5\n")
+    done = run("tessellate", "points", "--out-dir", "out", "--stats", "s.json")
+    assert done.code == 0
+    (warning,) = [line for line in done.err.splitlines() if line.startswith("warning: ")]
+    assert warning.startswith("warning: points/p0.csv: 1 of 2 seeds moved")
+    assert json.loads((inputs / "s.json").read_text())["warnings"] == [warning.removeprefix("warning: ")]
+    assert "warnings" in next(
+        record for record in records(inputs / "out/tessellate.manifest.jsonl") if record.get("input") == "points/p0.csv"
+    )
+
+
+def test_the_plan_is_printed(run, inputs):
+    (inputs / "list").write_text("points/p2.csv\nshapes/s0.json\n")
+    done = run("draw", "points", "--files-from", "list", "--out-dir", "out", "--dry-run", "-f", "svg")
+    assert done.code == 3  # draw reads no points
+    done = run("delaunay", "points", "--files-from", "list", "--out-dir", "out", "--dry-run")
+    assert done.code == 2
+    assert "points/p2.csv and points/p2.csv would both be written to out/p2.csv" in done.err
+    done = run("delaunay", "shapes", "--files-from", "list", "--out-dir", "out", "--dry-run", "--what", "edges,table")
+    assert done.code == 2  # s0.json twice
+    (inputs / "list").write_bytes(b"points/p2.csv\0")
+    done = run(
+        "delaunay", "shapes", "--files-from", "list", "-0", "--out-dir", "o", "--dry-run", "--what", "edges,table"
+    )
+    assert [json.loads(line) for line in done.out.splitlines()] == [
+        {"input": source, "status": "planned", "outputs": [f"o/{stem}.edges.csv", f"o/{stem}.table.csv"]}
+        for source, stem in [
+            *(("shapes/s0.json", "s0"), ("shapes/s2.json", "s2"), ("shapes/sub/s1.json", "sub/s1")),
+            ("points/p2.csv", "p2"),
+        ]
+    ]
+    assert sorted(path.name for path in inputs.iterdir()) == ["list", "points", "shapes"]
+
+
+def test_shards_make_the_whole(run, inputs):
+    assert run("delaunay", "points", "--out-dir", "whole", "-q").code == 0
+    for part in (1, 2):
+        assert run("delaunay", "points", "--out-dir", "parts", "-q", "--shard", f"{part}/2").code == 0
+    assert files(inputs / "whole") == files(inputs / "parts")
+    done = run("delaunay", "points", "--out-dir", "parts", "--resume")
+    assert {line.split(": ")[1] for line in done.err.splitlines()} == {"kept"}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "words"),
+    [
+        ("points", 2, "many inputs are asked for: name a folder for their outputs with --out-dir"),
+        ("points/p0.csv points/p2.csv", 2, "2 inputs are given: name a folder"),
+        ("points/p0.csv points/p2.csv -o out.png", 2, "2 inputs are given, but -o names one output"),
+        ("points/p0.csv -j 2 -o out.png", 2, "-o names one output"),
+        ("points - --out-dir out", 2, "- is standard input"),
+        ("points --out-dir out --shard 3/2", 2, "'3/2' is no part"),
+        ("points --out-dir out -0", 2, "-0 is about the list"),
+        ("points --out-dir out -j -1", 2, "-1"),
+        ("points --out-dir out -j 2 --cluster tcp://127.0.0.1:1", 2, "-j is for this machine"),
+        ("points --table all.csv --resume", 2, "--resume needs --out-dir"),
+        ("points --table all.png", 2, "written as CSV or JSON"),
+        ("points --table all.csv --what labels", 2, "--what labels needs --out-dir"),
+        ("points --table - --stats -", 2, "--stats - needs --table FILE"),
+        ("points --table points/p0.csv", 2, "--table points/p0.csv is also the input"),
+        ("points --table out/p0.csv --what table --out-dir out", 2, "--table out/p0.csv is also the output"),
+        ("points --out-dir out --stats points/p0.csv", 2, "--stats points/p0.csv is also the input"),
+        ("points --what table --out-dir points", 2, "points/p0.csv is also the input points/p0.csv"),
+        ("points points/p0.csv --out-dir out", 2, "would both be written to out/p0.png"),
+        ("points --out-dir out -f svg --precision 3", 2, "--precision is for tables"),
+        ("points --out-dir out --what table -f png", 2, "table cannot be written as png"),
+        ("--files-from missing --out-dir out", 3, "the list missing cannot be read"),
+        ("--files-from /dev/null --out-dir out", 2, "0 inputs are given"),
+        ("points/*.png --out-dir out", 3, "no file matches points/*.png"),
+        ("nothing --out-dir out", 3, "nothing holds no file that is read here (csv, "),
+        ("points --out-dir points/p0.csv", 4, "points/p0.csv"),
+        ("points --table no/such/all.csv", 4, "no/such/all.csv"),
+        ("points --out-dir out --stats no/such/s.json", 4, "no/such/s.json"),
+        ("points --table old.csv --no-clobber", 4, "old.csv exists already"),
+    ],
+)
+def test_what_does_not_go(run, inputs, arguments, code, words):
+    (inputs / "nothing").mkdir()
+    (inputs / "old.csv").write_text("old")
+    before = files(inputs)
+    done = run("tessellate", *arguments.split())
+    assert done.code == code, done.err
+    assert words in done.err
+    assert files(inputs) == before
+
+
+def test_an_existing_output_is_a_failure_of_its_input(run, inputs):
+    (inputs / "out").mkdir()
+    (inputs / "out/p0.csv").write_text("old")
+    done = run("delaunay", "points", "--out-dir", "out", "--no-clobber", "--keep-going", "-q")
+    assert done.code == 6
+    assert "out/p0.csv exists already" in done.err
+    assert (inputs / "out/p0.csv").read_text() == "old"
+    assert set(files(inputs / "out")) == {"p0.csv", "p2.csv", "sub/p1.csv"}
+
+
+def test_a_terminal_shows_a_bar(inputs):
+    import pty
+    import subprocess
+    import sys
+
+    (inputs / "points/p1.csv").write_text("x,y\n1,nan\n")
+    master, slave = pty.openpty()
+    command = ["tessellate", "points", "--out-dir", "out", "--keep-going"]
+    with subprocess.Popen([sys.executable, "-m", "vorotool", *command], cwd=inputs, stderr=slave) as child:
+        os.close(slave)
+        shown = b""
+        try:
+            while piece := os.read(master, 4096):
+                shown += piece
+        except OSError:  # the other end is closed
+            pass
+    os.close(master)
+    assert child.returncode == 6
+    assert b"100%" in shown
+    assert b"\x1b[Kerror: points/p1.csv" in shown
+
+
+# ---- interrupts ------------------------------------------------------------------------------------------------
+def many_points(folder, count, seeds=3):
+    """Inputs that take some milliseconds each."""
+    (folder / "many").mkdir()
+    for number in range(count):
+        xy = np.random.default_rng(number).integers(0, 300, (seeds, 2))
+        np.savetxt(folder / f"many/p{number:03}.csv", xy, fmt="%d", delimiter=",", header="x,y", comments="")
+
+
+def wait_until(child, condition):
+    deadline = time.monotonic() + 60
+    while not condition() and child.poll() is None:
+        assert time.monotonic() < deadline, "it does not come"
+        time.sleep(0.005)
+
+
+def lines_of(path):
+    return path.read_bytes().count(b"\n") if path.exists() else 0
+
+
+def children(pid):
+    return [int(each) for each in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+
+
+@pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="looks for processes in /proc")
+def test_an_interrupt_leaves_nothing_half_done(process, tmp_path):
+    many_points(tmp_path, 2, seeds=20_000)
+    options = ("--size", "60000x60000", "-f", "npy", "--out-dir", "out", "-j", "2", "-q")
+    child = process("tessellate", "many", *options)
+    wait_until(child, lambda: len(list(tmp_path.glob("out/.*.tmp"))) == 2)
+    workers = children(child.pid)
+    assert len(workers) == 2
+    sent = time.monotonic()
+    child.send_signal(signal.SIGINT)
+    assert child.communicate(timeout=30) == (b"", b"")
+    assert child.returncode == 130
+    assert time.monotonic() - sent < 5  # 0.2 s is the aim; a loaded machine must not fail the test
+    assert not any(Path(f"/proc/{pid}").exists() for pid in workers)
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["tessellate.manifest.jsonl"]
+
+
+def test_killed_and_resumed(process, tmp_path):
+    many_points(tmp_path, 40)
+    options = ("delaunay", "many", "-q", "-j", "2", "--table", "all.csv", "--out-dir")
+    assert process(*options, "whole").communicate() == (b"", b"")
+    whole = files(tmp_path / "whole") | {"all.csv": (tmp_path / "all.csv").read_bytes()}
+    (tmp_path / "all.csv").unlink()
+    manifest = tmp_path / "out/delaunay.manifest.jsonl"
+    for kill in range(2):
+        child = process(*options, "out", "--resume")
+        wait_until(child, lambda kill=kill: lines_of(manifest) >= 14 * kill + 7)
+        child.kill()
+        child.communicate()
+    assert process(*options, "out", "--resume").communicate() == (b"", b"")
+    assert files(tmp_path / "out") | {"all.csv": (tmp_path / "all.csv").read_bytes()} == whole
+    done = Counter(record["input"] for record in records(manifest) if record.get("status") == "done")
+    assert len(done) == 40
+    assert set(done.values()) == {1}

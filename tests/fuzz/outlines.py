@@ -1,0 +1,64 @@
+"""Outlines of random label images, all kinds, and their skeletons through the checker: `--cases 20000 --seed 1`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from outline_oracle import numbered_objects, pixel_sides, random_labels, ring_areas, unit_sides
+from vorotool import VorotoolError, VorotoolWarning, outlines, planar_graph, skeleton_exact, verify_skeleton
+
+
+def failure(random: np.random.Generator) -> str | None:
+    """What is wrong with the outlines or the skeleton of an image, if anything."""
+    labels = random_labels(random)
+    connectivity = int(random.choice([4, 8]))
+    kind = str(random.choice(["crack", "contour"]))
+    simplify = [None, 0.5, 0.8, 1.5, 4.0, 12.0][int(random.integers(6))]
+    if not labels.any():
+        return None
+    try:
+        given = outlines(labels, mode="labels", connectivity=connectivity, outline=kind)
+        if kind == "crack":
+            objects, values = numbered_objects(labels, connectivity)
+            assert given.ids == values
+            assert np.array_equal(unit_sides(given), pixel_sides(objects))
+            assert np.array_equal(ring_areas(given)[1], np.bincount(objects.ravel())[1:])
+        made = outlines(labels, mode="labels", connectivity=connectivity, outline=kind, simplify=simplify)
+        assert faces_of(planar_graph(made, strict=True)) == faces_of(planar_graph(given, strict=True))
+        verify_skeleton(skeleton_exact(made, side=str(random.choice(["interior", "exterior", "both"]))))
+    except (VorotoolError, VorotoolWarning, AssertionError) as error:
+        return f"{kind}, {connectivity}, simplify {simplify}: {type(error).__name__} {error}"
+    return None
+
+
+def faces_of(graph: object) -> list[tuple[int, ...]]:
+    """The polygons of each face."""
+    return sorted(tuple(graph.polygons_of(face).tolist()) for face in range(graph.faces))
+
+
+def main() -> int:
+    """Run all cases; exit 1 if any failed."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--cases", type=int, default=20000)
+    parser.add_argument("--seed", type=int, default=1)
+    arguments = parser.parse_args()
+    warnings.simplefilter("error", VorotoolWarning)
+    start, failed = time.monotonic(), 0
+    for case in range(arguments.cases):
+        wrong = failure(np.random.default_rng([arguments.seed, case]))
+        if wrong:
+            print(f"wrong: seed {arguments.seed}, case {case}: {wrong}")
+        failed += wrong is not None
+    print(f"{arguments.cases:,} images, {failed} failures, {time.monotonic() - start:.0f} s")
+    return int(failed > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
