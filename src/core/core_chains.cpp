@@ -28,6 +28,7 @@ struct Component {
   std::vector<Terminal> junctions;  // leaf -1 where nothing hangs
   std::vector<Chain> chains;
   std::vector<Terminal> terminals;
+  std::int32_t lone = -1;  // the node at which the only leaf hangs
 };
 
 class ComponentWalk {
@@ -47,8 +48,13 @@ class ComponentWalk {
     Component found;
     if (is_seen_[at(node)] || core_.arcs_at(node).empty()) return found;
     const std::vector<std::int32_t> nodes = connected(node);
-    has_leaves_ = std::any_of(nodes.begin(), nodes.end(),
-                              [&](std::int32_t n) { return hanging_[at(n)].leaf >= 0; });
+    std::int32_t leaves = 0;
+    for (const std::int32_t n : nodes) {
+      leaves += hanging_[at(n)].leaves;
+      if (hanging_[at(n)].leaves > 0) found.lone = n;
+    }
+    if (leaves != 1) found.lone = -1;
+    has_leaves_ = leaves > 0;
     for (const std::int32_t n : nodes) {
       if (core_.arcs_at(n).size() > 2) add_junction(found, n);
     }
@@ -97,7 +103,9 @@ class ComponentWalk {
     component.chains.push_back({first, junction_[at(node)], offset, begin, component.terminals.size()});
   }
 
-  Hanging hanging_at(std::int32_t node) const { return has_leaves_ ? hanging_[at(node)] : Hanging{0, node}; }
+  Hanging hanging_at(std::int32_t node) const {
+    return has_leaves_ ? hanging_[at(node)] : Hanging{0, node, 1};
+  }
   std::int32_t other_end(std::int32_t arc, std::int32_t node) const {
     const auto [a, b] = arcs_[at(arc)];
     return a == node ? b : a;
@@ -283,6 +291,19 @@ class FarthestPair {
   LeafPair best_;
 };
 
+LeafPair with_farthest_node(ShortestPaths& paths, std::int32_t node, const Hanging& hanging,
+                            const Monitor& monitor) {
+  const ShortestPaths::Start start{node, 0};
+  paths.find(std::span(&start, 1), monitor);
+  LeafPair best;
+  for (const std::int32_t other : paths.reached()) {
+    if (other == node) continue;
+    const LeafPair pair = leaf_pair(hanging, node, {0, other, 1}, other, paths.distance(other));
+    if (pair.is_better_than(best)) best = pair;
+  }
+  return best;
+}
+
 }  // namespace
 
 bool LeafPair::is_better_than(const LeafPair& other) const {
@@ -302,10 +323,13 @@ std::vector<LeafPair> farthest_pairs(std::span<const std::array<std::int32_t, 2>
                                      std::span<const Hanging> hanging, const Monitor& monitor) {
   std::vector<LeafPair> pairs;
   ComponentWalk walk(arcs, lengths, core, hanging);
+  ShortestPaths paths(arcs, lengths, core, hanging.size());
   for (std::size_t node = 0; node < hanging.size(); ++node) {
     const Component component = walk.component(static_cast<std::int32_t>(node));
     if (component.junctions.empty()) continue;
-    const LeafPair pair = FarthestPair(component, monitor).find();
+    const LeafPair pair = component.lone >= 0
+                              ? with_farthest_node(paths, component.lone, hanging[at(component.lone)], monitor)
+                              : FarthestPair(component, monitor).find();
     if (pair.first >= 0) pairs.push_back(pair);
   }
   return pairs;

@@ -51,6 +51,18 @@ class Pruner {
     values_.kept.push_back({arc, parameter});
   }
 
+  // What hangs on an anchored end alone leaves this end.
+  void keep_lone_ends() {
+    std::vector<bool> is_lone(skeleton_.vertices.size());
+    for (const std::int32_t node : forest_.lone_ends()) is_lone[at(node)] = true;
+    for (const auto& [arc, outer, inner] : forest_.hanging()) {
+      if (!is_lone[at(inner)]) continue;
+      is_lone[at(inner)] = false;  // one arc is enough, should there be more
+      const auto [source, target] = values_.ends[at(arc)];
+      keep(arc, skeleton_.arcs[at(arc)][0] == inner ? 0 : 1, source, target);
+    }
+  }
+
   void poll_at(std::size_t k, std::size_t count, double from, double to) const {
     constexpr std::size_t often = 1 << 14;  // arcs between two looks at the monitor: some milliseconds
     if (k % often == 0) poll(monitor_, from + (to - from) * static_cast<double>(k) / static_cast<double>(count));
@@ -90,6 +102,7 @@ class LargestInPiece : public Pruner {
       keep(arc, course.peak, std::max(beyond[at(source)], course.at_source),
            std::max(beyond[at(target)], course.at_target));
     }
+    keep_lone_ends();
   }
 
  private:
@@ -268,6 +281,7 @@ class EnlargedDiscs : public Pruner {
       poll_at(k, hanging_count(), 1, 0.4);
     }
     keep_roots();
+    keep_lone_ends();
   }
 
  private:

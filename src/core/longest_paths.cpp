@@ -56,11 +56,11 @@ class PathFinder {
   void pairs_in_trees() {
     for (std::size_t k = 0; k < deepest_.size(); ++k) {
       const auto node = static_cast<std::int32_t>(k);
-      if (forest_.degree(node) == 1) deepest_[k] = {0, node};
+      if (forest_.degree(node) == 1) deepest_[k] = {0, node, 1};
     }
     for (const auto& [arc, outer, inner] : forest_.hanging()) {
       const Hanging& beyond = deepest_[at(outer)];
-      add(inner, {beyond.depth + lengths_[at(arc)], beyond.leaf});
+      add(inner, {beyond.depth + lengths_[at(arc)], beyond.leaf, beyond.leaves});
     }
     for (std::size_t k = 0; k < deepest_.size(); ++k) {
       const auto node = static_cast<std::int32_t>(k);
@@ -73,11 +73,13 @@ class PathFinder {
       return a.depth != b.depth ? a.depth > b.depth : a.leaf < b.leaf;
     };
     Hanging &first = deepest_[at(node)], &second = second_[at(node)];
+    const std::int32_t leaves = first.leaves + hanging.leaves;
     if (is_deeper(hanging, first)) {
       second = std::exchange(first, hanging);
     } else if (is_deeper(hanging, second)) {
       second = hanging;
     }
+    first.leaves = leaves;
   }
 
   GraphPath path_of(const LeafPair& pair) {

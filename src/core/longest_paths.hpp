@@ -11,8 +11,8 @@
 
 namespace vorotool::core {
 
-// For each group of arcs the longest among the shortest paths between two leaves of one component, and
-// between two nodes of components without a leaf; from the end with the smaller number. Of equally long ones
+// For each group of arcs the longest among the shortest paths between two leaves of one component, between two
+// nodes of components without a leaf, and from a single leaf to a node; from the end with the smaller number. Of equally long ones
 // that whose ends have the smallest numbers. No path where a group has no arcs.
 //
 // Trees take linear time. With cycles, let K be the nodes on them at which trees hang (all, where none does)

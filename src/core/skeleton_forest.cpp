@@ -41,7 +41,9 @@ void SkeletonForest::peel(std::span<const std::array<std::int32_t, 2>> arcs,
     }
   }
   for (std::size_t k = 0; k < left.size(); ++k) {
-    if (is_anchored[k]) left[k] = 1;
+    if (!is_anchored[k]) continue;
+    if (left[k] == 0 && degree_[k] > 0) lone_ends_.push_back(static_cast<std::int32_t>(k));
+    left[k] = 1;  // no root that could be another
   }
   number_trees(left);
 }

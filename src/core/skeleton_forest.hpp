@@ -17,7 +17,8 @@ struct HangingArc {
 
 // Leaves are peeled from a graph until none is left. What stays of a component is its core: its cycles, what
 // leads from one to another, and from there to anchored ends, or between these. Where there is neither a
-// cycle nor an anchored end, the component is a tree, and one node stays, its root, which can be chosen.
+// cycle nor an anchored end, the component is a tree, and one node stays, its root, which can be chosen. Where
+// there is one anchored end and no cycle, this end is all that stays.
 class SkeletonForest {
  public:
   SkeletonForest(std::span<const std::array<std::int32_t, 2>> arcs,
@@ -35,6 +36,9 @@ class SkeletonForest {
   std::size_t tree_count() const { return roots_.size(); }
   std::int32_t tree(std::int32_t node) const { return tree_[static_cast<std::size_t>(node)]; }
 
+  // Anchored ends that are all that stays of a component.
+  const std::vector<std::int32_t>& lone_ends() const { return lone_ends_; }
+
   // Makes a node of each tree its root.
   void set_roots(std::span<const std::int32_t> roots);
 
@@ -44,7 +48,7 @@ class SkeletonForest {
   void number_arcs();
 
   std::vector<HangingArc> hanging_;
-  std::vector<std::int32_t> above_, degree_, tree_, roots_;
+  std::vector<std::int32_t> above_, degree_, tree_, roots_, lone_ends_;
 };
 
 }  // namespace vorotool::core

@@ -66,6 +66,7 @@ _HOME = {
     "arc_profiles": "vorotool.engines.pruning",
     "critical_values": "vorotool.engines.pruning",
     "prune": "vorotool.engines.pruning",
+    "verify_pruning": "vorotool.engines.pruning_verification",
     "skeleton_approx": "vorotool.engines.skeleton_approx",
     "skeleton_exact": "vorotool.engines.skeleton_exact",
     "verify_skeleton": "vorotool.engines.skeleton_verification",

@@ -139,14 +139,14 @@ class ArcMeasures:
         points = self.half * self.length * mean_root(self.slope0, self.slope1)
         found = np.where(self.is_parting, points, linear)
         bent = np.flatnonzero(self.is_parabola)
-        found[bent] = self[bent]._integral_along_parabolas()  # noqa: SLF001 - one of its own kind
+        found[bent] = self[bent]._integral_along_parabolas()
         return found
 
     def _integral_along_parabolas(self) -> Floats:
         """h^2 / 2 times the integral of (1 + s^2)^(3/2) over the slope s, where h = d / (s1 - s0)."""
         flat = self.slope1 - self.slope0 < _FLAT
         found = np.empty_like(self.length)
-        found[flat] = self[flat]._quadrature()  # noqa: SLF001
+        found[flat] = self[flat]._quadrature()
         steep = self[~flat]
         s, t = steep.slope0, steep.slope1
         v, w = np.sqrt(1 + s * s), np.sqrt(1 + t * t)
