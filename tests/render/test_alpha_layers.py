@@ -60,7 +60,7 @@ def test_an_arc_turns_clockwise_in_the_data(y_up):
     places = page.place(start).tolist()
     top = bulge([places[0], places[1]], int(steps[0][1]))
     np.testing.assert_allclose(top, page.place(np.array([[0.0, 1.0]]))[0], atol=1e-9)
-    chords = arcs.chords()
+    chords = arcs.chords(3.1e-4)
     assert np.hypot(*chords.points.T) == pytest.approx(1)
     assert chords.points[32].tolist() == pytest.approx([0, 1])
     assert chords.points[96].tolist() == pytest.approx([0, -1])

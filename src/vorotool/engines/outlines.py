@@ -30,6 +30,9 @@ KINDS = ("crack", "contour")
 MOST_VERTICES = 2**28
 """As many as a planar graph may have."""
 
+LARGEST_SIDE = 2**31 - 2
+"""Corners of pixels are numbered in 31 bits."""
+
 _CORNER_RULES = {
     ("crack", 4): "divided",
     ("crack", 8): "joined",
@@ -166,6 +169,10 @@ def _traced(
     labels: NDArray[Any], rule: str, max_sites: int, threads: int, progress: Progress
 ) -> dict[str, NDArray[Any]]:
     """Crack outlines as the core gives them: SHELL is 0 there and HOLE 1, too."""
+    if max(labels.shape) > LARGEST_SIDE:
+        raise LimitError(
+            f"the image is {labels.shape[1]} x {labels.shape[0]} pixels: a side has at most {LARGEST_SIDE}"
+        )
     labels = np.ascontiguousarray(labels)
     labels = labels.view(np.uint8) if labels.dtype == bool else labels
     most = min(max_sites, MOST_VERTICES)

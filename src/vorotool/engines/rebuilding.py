@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -11,14 +12,12 @@ from numpy.typing import NDArray
 from vorotool.engines.skeleton_contours import Contours, contours_of
 from vorotool.errors import UsageError
 from vorotool.geometry.circular_arcs import chords_of, middles_of
+from vorotool.geometry.flattening import checked_flatten
 from vorotool.geometry.polygons import HOLE, SHELL, PolygonSet
 from vorotool.geometry.skeleton import EDGE, INTERIOR, Skeleton
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
-
-FLATTEN = 2.0**-12
-"""Of the larger side of the bounds: how far chords may be from arcs where nothing else is asked for."""
 
 _ULPS = 8
 """Of the largest coordinate: what two feet of one disc may differ by, times how much each is magnified."""
@@ -54,21 +53,14 @@ def rebuild(skeleton: Skeleton, *, flatten: float | None = None) -> PolygonSet:
     --------
     >>> from vorotool import skeleton_exact
     >>> rebuild(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])).xy.tolist()
-    [[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [0.0, 2.0]]
+    [[4.0, 0.0], [4.0, 2.0], [0.0, 2.0], [0.0, 0.0]]
     """
     if skeleton.gap:
         raise UsageError(f"a skeleton with a gap of {skeleton.gap:g} leaves the corners out: use one without a gap")
-    if flatten is not None and not flatten > 0:
-        raise UsageError(f"the tolerance is {flatten}: it must be positive")
     contours = contours_of(skeleton, np.flatnonzero(skeleton.side == INTERIOR))
-    xy, point, start = _outline(skeleton, contours, flatten or _default_tolerance(skeleton))
+    xy, point, start = _outline(skeleton, contours, checked_flatten(flatten, skeleton.polygons))
     rings = _simple_rings(xy, point, start)
     return _assembled(skeleton, contours, rings)
-
-
-def _default_tolerance(skeleton: Skeleton) -> float:
-    xy = skeleton.polygons.xy
-    return FLATTEN * (float(np.ptp(xy, axis=0).max()) or 1.0) if len(xy) else 1.0
 
 
 # ---- feet ----------------------------------------------------------------------------------------
@@ -84,7 +76,7 @@ def _norm(way: Floats) -> Floats:
 
 @dataclass(frozen=True)
 class _Feet:
-    """Where the discs at the ends of each run touch its site, and by how much that magnifies errors of the discs."""
+    """Where the discs at the ends of each run touch its site, and by how much an edge magnifies errors of the discs."""
 
     first: Floats
     last: Floats
@@ -94,37 +86,50 @@ class _Feet:
 
 def _feet(skeleton: Skeleton, contours: Contours) -> _Feet:
     """Feet on each run's site, on its right: of an edge by the common tangent, of a vertex by the best of several."""
-    a, b = skeleton.vertices[contours.first_node], skeleton.vertices[contours.last_node]
-    ra, rb = skeleton.radius[contours.first_node], skeleton.radius[contours.last_node]
+    discs = [_Discs(skeleton, node) for node in (contours.first_node, contours.middle_node, contours.last_node)]
+    first, last, factors = _edge_feet(discs[0], discs[2])
     is_edge = skeleton.site_table.kind[contours.site] == EDGE
-    way = b - a
+    before, after = contours.before, contours.after
+    common = [_common_point(a, b) for a, b in combinations(discs, 2)]
+    follows = np.where(is_edge[before] & contours.is_joined[before], factors[1][before], np.inf)
+    leads = np.where(is_edge[after] & contours.is_joined, factors[0][after], np.inf)
+    choices = np.stack([*(place for place, _ in common), last[before], first[after]])
+    costs = np.stack([*(factor for _, factor in common), follows, leads])
+    runs = np.arange(len(is_edge))
+    best = np.argmin(costs, axis=0)
+    vertex = choices[best, runs]
+    edge = is_edge[:, None]
+    return _Feet(np.where(edge, first, vertex), np.where(edge, last, vertex), *factors)
+
+
+class _Discs:
+    """Of nodes."""
+
+    def __init__(self, skeleton: Skeleton, node: Indices) -> None:
+        self.centre, self.r = skeleton.vertices[node], skeleton.radius[node]
+
+
+def _edge_feet(a: _Discs, b: _Discs) -> tuple[Floats, Floats, list[Floats]]:
+    """Where the common tangent on the right of a -> b touches the discs, and by how much that magnifies errors."""
+    way, growth = b.centre - a.centre, b.r - a.r
     square = np.maximum((way * way).sum(axis=1), np.finfo(float).tiny)
-    distance, growth = np.sqrt(square), rb - ra
+    distance = np.sqrt(square)
     along = np.sqrt(np.maximum(distance - np.abs(growth), 0) * (distance + np.abs(growth)))
     inward = _turned((along[:, None] * way - growth[:, None] * _turned(way)) / square[:, None])
-    first, last = a - ra[:, None] * inward, b - rb[:, None] * inward
-    with np.errstate(divide="ignore", invalid="ignore"):
-        factors = [np.where(r > 0, r / along, 0) for r in (ra, rb)]
-        # the common point of both circles
-        part = (square + growth * -(ra + rb)) / (2 * square)
-        height = np.sqrt(np.maximum((ra - part * distance) * (ra + part * distance), 0))
-        common = a + part[:, None] * way - (height / distance)[:, None] * _turned(way)
-        factor = np.where(height > 0, ra * rb / (distance * height), np.inf)
-    before, after = contours.before, contours.after
-    follows = is_edge[before] & contours.is_joined[before]
-    leads = is_edge[after] & contours.is_joined
-    choices = np.stack([common, last[before], first[after]])
-    cost = np.stack([factor, np.where(follows, factors[1][before], np.inf), np.where(leads, factors[0][after], np.inf)])
-    best = np.argmin(cost, axis=0)
-    runs = np.arange(len(best))
-    vertex, least = choices[best, runs], cost[best, runs]
-    edge = is_edge[:, None]
-    return _Feet(
-        np.where(edge, first, vertex),
-        np.where(edge, last, vertex),
-        np.where(is_edge, factors[0], least),
-        np.where(is_edge, factors[1], least),
-    )
+    factors = [np.divide(disc.r, along, out=np.zeros_like(along), where=along > 0) for disc in (a, b)]
+    return a.centre - a.r[:, None] * inward, b.centre - b.r[:, None] * inward, factors
+
+
+def _common_point(a: _Discs, b: _Discs) -> tuple[Floats, Floats]:
+    """The point on the right of a -> b that is on both circles, and by how much that magnifies errors."""
+    way = b.centre - a.centre
+    square = np.maximum((way * way).sum(axis=1), np.finfo(float).tiny)
+    distance = np.sqrt(square)
+    part = (square + (a.r - b.r) * (a.r + b.r)) / (2 * square)
+    height = np.sqrt(np.maximum((a.r - part * distance) * (a.r + part * distance), 0))
+    place = a.centre + part[:, None] * way - (height / distance)[:, None] * _turned(way)
+    factor = np.full(len(height), np.finfo(float).max)
+    return place, np.divide(a.r * b.r, distance * height, out=factor, where=distance * height > 0)
 
 
 # ---- outlines ------------------------------------------------------------------------------------
@@ -138,17 +143,16 @@ def _outline(skeleton: Skeleton, contours: Contours, tolerance: float) -> tuple[
     scale = np.spacing(max(np.abs(skeleton.vertices).max(initial=0), np.abs(skeleton.radius).max(initial=0)))
     noise = _ULPS * scale * (1 + feet.last_factor + feet.first_factor[after])
     is_corner = r == 0
-    is_same = ~is_corner & (contours.is_joined | (_norm(end - start) <= noise))
+    between_edges = is_edge & is_edge[after]
+    is_same = ~is_corner & (contours.is_joined | (between_edges & (_norm(end - start) <= noise)))
     is_cap = ~is_corner & ~is_same
     better = (feet.last_factor <= feet.first_factor[after])[:, None]
     single = np.where(is_corner[:, None], centre, np.where(better, start, end))
+    plain = between_edges & ~is_cap
     pieces = [
         # a vertex stands where its run begins; between two edges there is one at a corner, or where they go on
         _Places(np.flatnonzero(~is_edge), 0, feet.first[~is_edge], contours.point[~is_edge]),
-        *[
-            _Places(np.flatnonzero(chosen), 1, single[chosen], contours.shared_point[chosen])
-            for chosen in (~is_cap & is_edge & is_edge[after],)
-        ],
+        _Places(np.flatnonzero(plain), 1, single[plain], contours.shared_point[plain]),
         *_caps(is_cap, is_edge, after, start, end, centre, tolerance),
     ]
     return _in_order(pieces, contours)

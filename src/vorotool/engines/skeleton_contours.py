@@ -23,8 +23,8 @@ class Contours:
         The first run of each contour.
     site : (n,) int32 array
         Of each run.
-    first_node, last_node : (n,) int64 array
-        Where each run begins and ends.
+    first_node, middle_node, last_node : (n,) int64 array
+        Where each run begins, a place about its middle, and where it ends.
     is_joined : (n,) bool array
         Whether the site of the next run is a vertex at the end of this one's, or the other way round: then the border
         goes on from one to the other without a gap.
@@ -39,6 +39,7 @@ class Contours:
     start: Indices
     site: NDArray[np.int32]
     first_node: Indices
+    middle_node: Indices
     last_node: Indices
     is_joined: NDArray[np.bool_]
     point: Indices
@@ -78,7 +79,7 @@ def contours_of(skeleton: Skeleton, arcs: Indices) -> Contours:
     new[begin[:-1]] = True
     runs = np.flatnonzero(new)
     start = np.searchsorted(runs, begin)
-    firsts, lasts = order[runs], order[np.append(runs[1:], len(order))[: len(runs)] - 1]
+    last = np.append(runs[1:], len(order))[: len(runs)] - 1
     following = np.arange(1, len(runs) + 1)
     following[start[1:] - 1] = start[:-1]
     ends = walk.site_points[site[runs]]
@@ -88,8 +89,9 @@ def contours_of(skeleton: Skeleton, arcs: Indices) -> Contours:
     return Contours(
         start,
         site[runs],
-        walk.tail[firsts],
-        walk.head[lasts],
+        walk.tail[order[runs]],
+        walk.head[order[(runs + last) // 2]],
+        walk.head[order[last]],
         (shared >= 0) & (is_edge != is_edge[following]),
         np.where(is_edge, -1, ends[:, 0]),
         np.where(both, shared, -1),

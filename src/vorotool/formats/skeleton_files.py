@@ -9,12 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
+from vorotool.formats.polylines import write_polylines
 from vorotool.formats.skeleton_json import write_json
 from vorotool.formats.tables import TABLE_FORMATS, json_text, write_arrays, write_table
-from vorotool.formats.text_rows import Column, RowShape, write_rows
+from vorotool.geometry.flattening import default_flatten
 from vorotool.geometry.skeleton import SIDES, Skeleton
 from vorotool.geometry.skeleton_tables import arc_table, branch_table, element_table, polygon_table
-from vorotool.geometry.table import Lookup, Table
+from vorotool.geometry.table import Table
 
 SKELETON_FORMATS = ("json", "csv", "geojson", "npz", "wkt")
 _TABLES: dict[str, Callable[[Skeleton], Table]] = {
@@ -23,8 +24,6 @@ _TABLES: dict[str, Callable[[Skeleton], Table]] = {
     "table": polygon_table,
 }
 FORMATS = {"skeleton": SKELETON_FORMATS, **dict.fromkeys(_TABLES, TABLE_FORMATS)}
-FLATTEN = 2.0**-12
-"""Of the larger side of the bounds: how far polylines are from parabolas where nothing else is asked for."""
 
 
 def write_skeleton(
@@ -87,14 +86,8 @@ def write_skeleton(
     elif fmt == "npz":
         write_arrays(out, skeleton_arrays(skeleton), threads=threads)
     else:
-        tolerance = flatten if flatten is not None else default_flatten(skeleton)
+        tolerance = flatten if flatten is not None else default_flatten(skeleton.polygons)
         _write_branches(out, skeleton, _HEADS[fmt], tolerance, precision, threads)
-
-
-def default_flatten(skeleton: Skeleton) -> float:
-    """How far polylines may be from arcs where nothing is asked for."""
-    xy = skeleton.polygons.xy
-    return FLATTEN * (float(np.ptp(xy, axis=0).max()) or 1.0) if len(xy) else 1.0
 
 
 def skeleton_arrays(skeleton: Skeleton) -> dict[str, NDArray[Any]]:
@@ -149,22 +142,17 @@ def _write_branches(
     precision: int | None,
     threads: int,
 ) -> None:
-    """One row a point: what stands before it is a comma, or the end of a branch and the beginning of another."""
+    """One polyline a branch."""
     points, start = skeleton.flattened(tolerance)
     first_arcs = np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
-    before, openings, (comma, space, closing), after = heads(skeleton, first_arcs)
+    before, openings, texts, after = heads(skeleton, first_arcs)
     opens = np.zeros(len(points), dtype=bool)
     opens[start[first_arcs]] = True
     kept = np.ones(len(points), dtype=bool)  # an arc's first point is the last one of the arc before
     kept[start[:-1]] = opens[start[:-1]]
     points, opens = points[kept], opens[kept]
-    texts = [comma, *(closing + text if k else text for k, text in enumerate(openings))]
-    token = np.where(opens, np.cumsum(opens), 0).astype(np.int32)
     out.write(before)
-    if len(points):
-        columns = [Column("", Lookup(texts, token)), Column("", points[:, 0].copy()), Column("", points[:, 1].copy())]
-        write_rows(out, columns, RowShape(("", "", space, "")), precision=precision, threads=threads)
-        out.write(closing.rstrip(",\n").encode() + b"\n")
+    write_polylines(out, points, np.flatnonzero(opens), openings, texts, precision=precision, threads=threads)
     out.write(after)
 
 

@@ -10,6 +10,15 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.formats.geojson import JsonSource, parse_json
+from vorotool.formats.json_lists import (
+    SITE_KINDS,
+    choice,
+    integers,
+    number_or_null,
+    optional_pair,
+    write_list,
+    write_sites,
+)
 from vorotool.formats.point_options import no_note, shortened
 from vorotool.formats.points import text_source
 from vorotool.formats.polygon_json import read_json as read_polygon_json
@@ -17,14 +26,12 @@ from vorotool.formats.polygon_json import write_items
 from vorotool.formats.polygon_options import PolygonOptions
 from vorotool.formats.sources import Source
 from vorotool.formats.tables import json_text
-from vorotool.formats.text_rows import Column, RowShape, write_rows
+from vorotool.formats.text_rows import Column
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.skeleton import KINDS, SIDES, SiteTable, Skeleton
-from vorotool.geometry.table import Lookup
 
 TYPE = "vorotool.skeleton"
 VERSION = 1
-SITE_KINDS = ("vertex", "edge")
 
 
 # ---- writing -------------------------------------------------------------------------------------
@@ -48,37 +55,16 @@ def write_json(out: BinaryIO, skeleton: Skeleton, *, precision: int | None = Non
         head["connectivity"] = polygons.connectivity
     out.write(json_text(head).removesuffix("}").encode() + b",\n")
     write_items(out, polygons, precision)
-    for name, rows, write in (
-        ("sites", len(skeleton.site_table), _write_sites),
-        ("vertices", len(skeleton.vertices), _write_vertices),
-        ("arcs", len(skeleton), _write_arcs),
-    ):
-        out.write(f',\n"{name}":['.encode())
-        if rows:
-            out.write(b"\n")
-            write(out, skeleton, precision, threads)
-            out.write(b"\n")
-        out.write(b"]")
+    write_sites(out, skeleton.site_table, threads=threads)
+    _write_vertices(out, skeleton, precision, threads)
+    _write_arcs(out, skeleton, precision, threads)
     out.write(b"}\n")
-
-
-def _write_sites(out: BinaryIO, skeleton: Skeleton, _precision: int | None, threads: int) -> None:
-    table = skeleton.site_table
-    has_source = table.source_ring >= 0
-    columns = [
-        _choice(SITE_KINDS, table.kind),
-        *(_integers(values) for values in (table.polygon, table.ring, table.index)),
-        *_optional(has_source, [_integers(table.source_ring).values, _integers(table.source_index).values]),
-    ]
-    around = ('{"kind":"', '","polygon":', ',"ring":', ',"index":', ',"source":', "", "", "", "", "}")
-    write_rows(out, columns, RowShape(around, ",\n", ""), threads=threads)
 
 
 def _write_vertices(out: BinaryIO, skeleton: Skeleton, precision: int | None, threads: int) -> None:
     x, y = np.ascontiguousarray(skeleton.vertices.T)
     columns = [Column("", x), Column("", y), Column("", skeleton.radius)]
-    shape = RowShape(('{"x":', ',"y":', ',"r":', "}"), ",\n", "null")
-    write_rows(out, columns, shape, precision=precision, threads=threads)
+    write_list(out, "vertices", columns, ('{"x":', ',"y":', ',"r":', "}"), precision=precision, threads=threads)
 
 
 def _write_arcs(out: BinaryIO, skeleton: Skeleton, precision: int | None, threads: int) -> None:
@@ -87,38 +73,21 @@ def _write_arcs(out: BinaryIO, skeleton: Skeleton, precision: int | None, thread
     if np.isnan(skeleton.error_bound).any():
         bounds = Column("", [json_text(value) for value in skeleton.error_bound.tolist()])
     columns = [
-        *(_integers(values) for values in skeleton.arcs.T),
-        _choice(KINDS, skeleton.is_parabola),
-        *_optional(skeleton.is_parabola, [cx, cy]),
-        *(_integers(values) for values in skeleton.sites.T),
-        _choice(['"interior"', '"exterior"', "null"], np.where(skeleton.side < 0, 2, skeleton.side)),
+        *(integers(values) for values in skeleton.arcs.T),
+        choice(KINDS, skeleton.is_parabola),
+        *optional_pair(skeleton.is_parabola, [cx, cy]),
+        *(integers(values) for values in skeleton.sites.T),
+        choice(['"interior"', '"exterior"', "null"], np.where(skeleton.side < 0, 2, skeleton.side)),
         bounds,
-        Column(
-            "",
-            Lookup([*map(str, range(len(skeleton.polygons))), "null"], skeleton.polygon % (len(skeleton.polygons) + 1)),
-        ),
-        _integers(skeleton.branch),
+        number_or_null(skeleton.polygon, len(skeleton.polygons)),
+        integers(skeleton.branch),
         Column("", skeleton.length),
     ]
     around = (
         '{"source":', ',"target":', ',"kind":"', '","control":', "", "", "", "", ',"sites":[', ",", '],"side":',
         ',"error_bound":', ',"polygon":', ',"branch":', ',"length":', "}",
     )  # fmt: skip
-    write_rows(out, columns, RowShape(around, ",\n", ""), precision=precision, threads=threads)
-
-
-def _integers(values: NDArray[Any]) -> Column:
-    return Column("", np.ascontiguousarray(values, dtype=np.int64))
-
-
-def _choice(names: Any, index: NDArray[Any]) -> Column:
-    return Column("", Lookup(list(names), np.ascontiguousarray(index, dtype=np.int32)))
-
-
-def _optional(exists: NDArray[np.bool_], pair: list[Any]) -> list[Column]:
-    """Columns whose texts together are ``[first,second]``, or ``null``."""
-    first, second = (Column("", values, ~exists) for values in pair)
-    return [_choice(["null", "["], exists), first, _choice(["", ","], exists), second, _choice(["", "]"], exists)]
+    write_list(out, "arcs", columns, around, precision=precision, threads=threads)
 
 
 # ---- reading -------------------------------------------------------------------------------------

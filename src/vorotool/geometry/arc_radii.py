@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.arc_measures import ArcMeasures
+
 Floats = NDArray[np.float64]
 
 CHUNK = 1 << 14
@@ -74,15 +76,8 @@ def _radii_of_part(
     least = np.where(has_vertex & within, np.minimum(least, half), least)
     integral = length * (r0 + r1) / 2  # between two edges the radius is linear
     rest = np.flatnonzero(has_vertex)
-    source, target, left, on_left = source[:, rest], target[:, rest], left[..., rest], on_left[rest]
-    control = np.where(np.isnan(control[rest, 0]), (source + target) / 2, control[rest].T)
-    nodes, weights = np.polynomial.legendre.leggauss(8)
-    integral[rest] = 0
-    for t, weight in zip((nodes + 1) / 2, weights / 2, strict=True):
-        place = (1 - t) ** 2 * source + 2 * t * (1 - t) * control + t * t * target
-        speed = 2 * ((1 - t) * (control - source) + t * (target - control))
-        distance = _length(place - np.where(on_left, _foot(left, place), left[0]))
-        integral[rest] += weight * distance * _length(speed)
+    measures = ArcMeasures(ends[rest], radius[rest], control[rest], sites[:, rest], is_edge[:, rest], length[rest])
+    integral[rest] = measures.integral
     return least, most, integral
 
 

@@ -24,7 +24,7 @@ def inverse_sine(z: ArrayLike) -> Floats:
     Examples
     --------
     >>> inverse_sine([0.5, 1.0]).tolist()
-    [0.5235987755982989, 1.5707963267948966]
+    [0.5235987755982988, 1.5707963267948963]
     """
     return _by_halves(np.clip(np.asarray(z, dtype=np.float64), -1, 1), -1)
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.geometry.arc_measures import ArcMeasures
 from vorotool.geometry.arc_radii import arc_radii
 from vorotool.geometry.polygons import PolygonSet
 
@@ -213,13 +214,22 @@ class Skeleton:
     @cached_property
     def arc_radii(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
         """Smallest and largest radius on each arc, and the integral of the radius along it."""
-        return arc_radii(
-            self.vertices[self.arcs],
-            self.radius[self.arcs],
-            self.control,
-            self.site_ends[self.sites.T],
-            self.site_table.kind[self.sites.T] == EDGE,
-            self.length,
+        return arc_radii(*self._arc_arrays(slice(None)))
+
+    def measures(self, arcs: NDArray[np.integer]) -> ArcMeasures:
+        """Places, radii and lengths along some arcs, which may come more than once."""
+        return ArcMeasures(*self._arc_arrays(arcs))
+
+    def _arc_arrays(self, arcs: Any) -> tuple[NDArray[Any], ...]:
+        """Ends, radii, control points, ends of the sites, whether these are edges, and lengths."""
+        sites = self.sites[arcs].T
+        return (
+            self.vertices[self.arcs[arcs]],
+            self.radius[self.arcs[arcs]],
+            self.control[arcs],
+            self.site_ends[sites],
+            self.site_table.kind[sites] == EDGE,
+            self.length[arcs],
         )
 
     def flattened(self, tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.circular_arcs import chords_of
 from vorotool.render.palettes import INK, SEED
 
 MARGIN = 0.02
@@ -188,20 +189,24 @@ class Texts:
 
 @dataclass(frozen=True, eq=False)
 class Arcs:
-    """Closed curves of circular arcs, filled by the even-odd rule; with y upwards each arc turns clockwise.
+    """Closed curves of circular arcs and straight lines, filled by the even-odd rule or not at all.
 
     Parameters
     ----------
     name : str
         Of the layer.
     start, end, centre : (k, 2) float64 array
-        Of each arc, which is at most half a circle.
+        Of each arc, which is at most half a circle; the centre of a straight line is NaN.
     rings : (r + 1,) integer array
         Where each curve begins among the arcs, and ``k``.
-    fill, edge : str
-        Colours, ``#rrggbb``.
+    fill : str, optional
+        ``#rrggbb``.
+    edge : str
+        ``#rrggbb``.
     width : float
         Of the curves, in px.
+    is_left : (k,) bool array, optional
+        Whether each arc turns counter-clockwise with y upwards; by default none does.
     """
 
     name: str
@@ -209,29 +214,29 @@ class Arcs:
     end: NDArray[np.float64]
     centre: NDArray[np.float64]
     rings: NDArray[np.int64]
-    fill: str
+    fill: str | None
     edge: str
     width: float = 1.5
+    is_left: NDArray[np.bool_] | None = None
 
     @property
     def points(self) -> NDArray[np.float64]:
         """(k, 2) where arcs begin, and so end."""
         return self.start
 
-    def chords(self, pieces: int = 64) -> Polygons:
-        """Polygons instead: so many chords an arc, off by less than 1/3000 of its radius."""
-        offset = self.start - self.centre
-        towards = self.end - self.centre
-        turn = np.arctan2(offset[:, 0] * towards[:, 1] - offset[:, 1] * towards[:, 0], (offset * towards).sum(axis=1))
-        angle = -np.abs(turn)[:, None] * (np.arange(pieces) / pieces)
-        x = offset[:, :1] * np.cos(angle) - offset[:, 1:] * np.sin(angle)
-        y = offset[:, :1] * np.sin(angle) + offset[:, 1:] * np.cos(angle)
-        places = (self.centre[:, None] + np.stack([x, y], axis=-1)).reshape(-1, 2)
-        first = np.array([0, len(self.rings) - 1]) if len(self.rings) > 1 else None
-        corners = np.arange(len(places), dtype=np.int32)
-        return Polygons(
-            self.name, places, corners, self.rings * pieces, first, [self.fill], edge=self.edge, width=self.width
-        )
+    @property
+    def turns_left(self) -> NDArray[np.bool_]:
+        """(k,) whether each arc does."""
+        return np.zeros(len(self.start), dtype=bool) if self.is_left is None else self.is_left
+
+    def chords(self, tolerance: float) -> Polygons | Lines:
+        """Chords instead that are off by no more than a length of the data; only lines if there is no fill."""
+        places, first = chords_of(self.start, self.end, self.centre, self.turns_left, tolerance)
+        corners, rings = np.arange(len(places), dtype=np.int32), first[self.rings]
+        whole = np.array([0, len(self.rings) - 1]) if len(self.rings) > 1 else None
+        colours = [self.edge if self.fill is None else self.fill]
+        filled = Polygons(self.name, places, corners, rings, whole, colours, edge=self.edge, width=self.width)
+        return Lines(self.name, places, filled.sides(), self.edge, self.width) if self.fill is None else filled
 
 
 Layer = Lines | Curves | Polygons | Points | Texts | Arcs
@@ -298,6 +303,10 @@ class Page:
     def length(self, distance: float) -> float:
         """Px of a distance."""
         return float(np.ldexp(distance, -self._exponent) * self.scale)
+
+    def distance(self, length: float) -> float:
+        """Give a length in px as one of the data."""
+        return float(np.ldexp(length / self.scale, self._exponent))
 
     def spacing(self, count: int) -> float:
         """Distance in px between neighbours of so many points, spread evenly over the page."""

@@ -78,7 +78,7 @@ class _Canvas:
 
     def draw(self, layer: Layer) -> None:
         if isinstance(layer, Arcs):
-            layer = layer.chords()
+            layer = layer.chords(self.page.distance(FLATNESS / FINE))
         places = self.page.place(layer.points) * FINE
         if isinstance(layer, Polygons):
             self._fill(layer, places)

@@ -200,21 +200,31 @@ def _texts(layer: Texts, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iter
 def _arcs(layer: Arcs, page: Page) -> Iterator[bytes]:
     """One path of all curves; with y downwards what turned clockwise turns counter-clockwise."""
     start, end = (np.round(page.place(places), DECIMALS) + 0.0 for places in (layer.start, layer.end))
-    radii = np.hypot(*(layer.start - layer.centre).T).tolist()
-    sweep = int(page.y_up)  # 1 is clockwise as seen
+    is_arc = ~np.isnan(layer.centre[:, 0])
+    radii = np.hypot(*np.where(is_arc[:, None], layer.start - layer.centre, 0).T).tolist()
+    sweeps = (layer.turns_left != page.y_up).astype(int).tolist()  # 1 is clockwise as seen
+    commands = []
+    for k, (x, y) in enumerate(end.tolist()):
+        command = "L"
+        if is_arc[k]:
+            radius = f"{page.length(radii[k]):.3f}".rstrip("0").rstrip(".")
+            command = f"A{radius} {radius} 0 0 {sweeps[k]} "
+        commands.append(f"{command}{_short(x)} {_short(y)}")
     paths = []
     for first, last in zip(layer.rings[:-1].tolist(), layer.rings[1:].tolist(), strict=True):
-        steps = [f"M{start[first, 0]:g} {start[first, 1]:g}"]
-        for arc in range(first, last):
-            radius = f"{page.length(radii[arc]):.3f}".rstrip("0").rstrip(".")
-            steps.append(f"A{radius} {radius} 0 0 {sweep} {end[arc, 0]:g} {end[arc, 1]:g}")
-        paths.append("".join(steps) + "Z")
-    seen = fill_style(page.backdrop)
-    style = f'fill="{layer.fill}" fill-rule="evenodd"{seen} {_stroke(layer.edge, layer.width)}'
-    yield f'<g id="{escape(layer.name)}" {style}>\n'.encode()
-    if paths:
-        yield f'<path {_UNSCALED} d="{"".join(paths)}"/>\n'.encode()
+        x, y = start[first].tolist()
+        paths.append(f"M{_short(x)} {_short(y)}{''.join(commands[first:last])}Z")
+    style = 'fill="none"'
+    if layer.fill is not None:
+        style = f'fill="{layer.fill}" fill-rule="evenodd"{fill_style(page.backdrop)}'
+    yield f'<g id="{escape(layer.name)}" {style} {_stroke(layer.edge, layer.width)}>\n'.encode()
+    for begin in range(0, len(paths), PATH_ROWS):
+        yield f'<path {_UNSCALED} d="{"".join(paths[begin : begin + PATH_ROWS])}"/>\n'.encode()
     yield b"</g>\n"
+
+
+def _short(number: float) -> str:
+    return f"{number:.{DECIMALS}f}".rstrip("0").rstrip(".")
 
 
 _UNSCALED = 'vector-effect="non-scaling-stroke"'

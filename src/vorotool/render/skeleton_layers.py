@@ -7,19 +7,25 @@ from collections.abc import Callable, Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.skeleton import EDGE, Skeleton
 from vorotool.geometry.skeleton_tables import site_labels
 from vorotool.render.label_png import checked_layers
-from vorotool.render.layers import Curves, Layer, Lines, Page, Points, Polygons, Texts, bounds_of
-from vorotool.render.palettes import FAINT, INK, LIGHT, RESULT, SEED
+from vorotool.render.layers import Curves, Layer, Lines, Page, Points, Texts, bounds_of
+from vorotool.render.palettes import INK, RESULT, SEED
+from vorotool.render.polygon_layers import polygon_layers
 
 LAYERS = ("polygons", "elements", "points", "skeleton", "nodes", "labels")
 """From below."""
 
 
 def skeleton_layers(
-    skeleton: Skeleton, page: Page, layers: Iterable[str], *, name: str = "skeleton", colour: str = RESULT
+    skeleton: Skeleton,
+    page: Page,
+    layers: Iterable[str],
+    *,
+    name: str = "skeleton",
+    colour: str = RESULT,
+    points: NDArray[np.float64] | None = None,
 ) -> list[Layer]:
     """Make layers of a skeleton; lines get finer where there are many.
 
@@ -34,6 +40,8 @@ def skeleton_layers(
         elements).
     name, colour : str
         Of the layer of arcs: a whole diagram has other ones.
+    points : (s, 2) float64 array, optional
+        Samples of the edges: drawn instead of the ends of edges.
 
     Raises
     ------
@@ -48,13 +56,14 @@ def skeleton_layers(
     ['polygons', 'skeleton']
     """
     wanted = checked_layers(layers, LAYERS)
-    spacing = page.spacing(max(len(skeleton.site_table), 1))
+    places = _site_places(skeleton) if points is None else points
+    spacing = page.spacing(max(len(skeleton.site_table), len(places), 1))
     width = min(max(spacing / 16, 0.2), 1.5)
     radius = min(max(spacing / 16, 0.3), 3.0)
     make: dict[str, Callable[[], list[Layer]]] = {
-        "polygons": lambda: _polygon_layers(skeleton.polygons, width),
+        "polygons": lambda: polygon_layers(skeleton.polygons, width),
         "elements": lambda: [_edges(skeleton, width)],
-        "points": lambda: [Points("points", _site_places(skeleton), radius=radius)],
+        "points": lambda: [Points("points", places, radius=radius)],
         "skeleton": lambda: [_arcs(skeleton, name, colour, width)],
         "nodes": lambda: [Points("nodes", skeleton.vertices, colour=colour, radius=radius)],
         "labels": lambda: [_labels(skeleton, min(max(spacing / 6, 2.0), 16.0))],
@@ -62,11 +71,18 @@ def skeleton_layers(
     return [layer for layer_name in LAYERS if layer_name in wanted for layer in make[layer_name]()]
 
 
-def picture_layers(skeleton: Skeleton, page: Page, layers: Iterable[str], *, what: str = "skeleton") -> list[Layer]:
+def picture_layers(
+    skeleton: Skeleton,
+    page: Page,
+    layers: Iterable[str],
+    *,
+    what: str = "skeleton",
+    points: NDArray[np.float64] | None = None,
+) -> list[Layer]:
     """Make the layers of the picture of a skeleton, or of a whole diagram, which is another layer in another colour."""
     if what == "diagram":
-        return skeleton_layers(skeleton, page, layers, name="diagram", colour=SEED)
-    return skeleton_layers(skeleton, page, layers)
+        return skeleton_layers(skeleton, page, layers, name="diagram", colour=SEED, points=points)
+    return skeleton_layers(skeleton, page, layers, points=points)
 
 
 def skeleton_page(
@@ -95,28 +111,6 @@ def skeleton_page(
         shown.append(np.array([[x, y], [x + w, y + h]]))
     up = skeleton.y_up if y_up is None else y_up
     return Page(bounds or bounds_of([Points("shown", np.concatenate(shown))]), width=width, y_up=up)
-
-
-def _polygon_layers(polygons: PolygonSet, width: float) -> list[Layer]:
-    """Closed rings filled, open lines drawn."""
-    closed = ~polygons.is_line[polygons.ring_polygon]
-    corner_is_closed = np.repeat(closed, np.diff(polygons.ring_start))
-    corners = np.flatnonzero(corner_is_closed).astype(np.int32)
-    sizes = np.diff(polygons.ring_start)[closed]
-    per_polygon = np.bincount(polygons.ring_polygon[closed], minlength=len(polygons))
-    filled = Polygons(
-        "polygons",
-        polygons.xy,
-        corners,
-        np.concatenate([[0], np.cumsum(sizes)]),
-        first_rings=np.concatenate([[0], np.cumsum(per_polygon)]),
-        colours=[LIGHT],
-    )
-    first = np.flatnonzero(~corner_is_closed)
-    last = np.isin(first, polygons.ring_start[1:] - 1)
-    pairs = np.stack([first[~last], first[~last] + 1], axis=1).astype(np.int32)
-    lines = Lines("lines", polygons.xy, pairs, FAINT, width)
-    return [filled, lines] if len(pairs) else [filled]
 
 
 def _edges(skeleton: Skeleton, width: float) -> Lines:

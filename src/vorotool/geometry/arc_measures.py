@@ -1,0 +1,195 @@
+"""Along the arcs of a skeleton: places, radii and lengths, and the integral of the radius."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.elementary import inverse_sinh
+
+Floats = NDArray[np.float64]
+
+_FLAT = 0.125
+"""Slopes that differ by less along an arc: 8 Gauss nodes integrate it to 2^-60, where closed forms cancel."""
+
+_STEPS = 64
+"""Of Newton's method; it ends by itself, since the length is convex in the slope on each side of 0."""
+
+
+class ArcMeasures:
+    """Measures of some arcs of a skeleton, by the parameter u of the Bezier curve that each is: 0 to 1.
+
+    Let the slope of a parabola be that against its directrix: it is linear in u, since the parameter is. With d the
+    way along the directrix, the sum of the slopes at the ends is twice the difference of the radii over d, and their
+    difference twice the height of the Bezier triangle over d: nothing has to be known of the sites. The radius is a
+    quadratic polynomial in u.
+
+    Between two vertices the radius is the root of c^2 + x^2, where c is half their distance and x the way along the
+    arc; on other straight arcs it is linear.
+
+    Parameters
+    ----------
+    ends : (n, 2, 2) float64 array
+        Source and target, x and y.
+    radius : (n, 2) float64 array
+        There.
+    control : (n, 2) float64 array
+        Of parabolas; NaN on straight lines.
+    sites : (2, n, 2, 2) float64 array
+        The ends of the sites left and right; a vertex has one place twice.
+    is_edge : (2, n) bool array
+        Whether these are edges.
+    length : (n,) float64 array
+        Of the arcs.
+
+    Examples
+    --------
+    >>> walls = np.array([[[[0.0, 0.0], [4.0, 0.0]]], [[[0.0, 2.0], [0.0, 2.0]]]])
+    >>> ends, edges = np.array([[[-2.0, 2.0], [2.0, 2.0]]]), np.array([[True], [False]])
+    >>> arc = ArcMeasures(ends, np.array([[2.0, 2.0]]), np.array([[0.0, 0.0]]), walls, edges, np.array([4.5911743]))
+    >>> arc.radius(np.array([0.5])).tolist(), arc.parameter(arc.length / 2).round(6).tolist()
+    ([1.0], [0.5])
+    """
+
+    def __init__(
+        self,
+        ends: Floats,
+        radius: Floats,
+        control: Floats,
+        sites: Floats,
+        is_edge: NDArray[np.bool_],
+        length: Floats,
+    ) -> None:
+        self.source, self.target = ends.swapaxes(0, 1)
+        self.r0, self.r1 = radius.T
+        self.length = length
+        self.is_parabola = ~np.isnan(control[:, 0])
+        self.control = np.where(self.is_parabola[:, None], control, (self.source + self.target) / 2)
+        self.is_parting = ~is_edge.any(axis=0) & ~self.is_parabola
+        self._set_slopes(sites[:, :, 0])
+
+    def _set_slopes(self, sites: Floats) -> None:
+        """Slopes at the source and the target; between two vertices x / c."""
+        growth = self.r1 - self.r0
+        chord = _norm(self.target - self.source)
+        along = np.sqrt(np.maximum(chord - np.abs(growth), 0) * (chord + np.abs(growth)))
+        height = _norm(self.source - 2 * self.control + self.target)
+        self.along = np.where(self.is_parabola, along, 0)
+        middle, half_way = _ratio(growth, self.along), _ratio(height, self.along)
+        # the left site is to the left of the arc
+        across, between = sites[0] - sites[1], (sites[0] + sites[1]) / 2
+        self.half = np.where(self.is_parting, _norm(across) / 2, 0)
+        way = np.stack([across[:, 1], -across[:, 0]], axis=1)
+        slopes = [
+            _ratio(((end - between) * way).sum(axis=1), 2 * self.half * self.half) for end in (self.source, self.target)
+        ]
+        self.slope0 = np.where(self.is_parting, slopes[0], middle - half_way)
+        self.slope1 = np.where(self.is_parting, slopes[1], middle + half_way)
+
+    def __getitem__(self, chosen: NDArray[Any]) -> ArcMeasures:
+        """Measures of some of the arcs."""
+        part = object.__new__(ArcMeasures)
+        part.__dict__ = {name: values[chosen] for name, values in self.__dict__.items()}
+        return part
+
+    def place(self, u: Floats) -> Floats:
+        """(n, 2) a place on each arc."""
+        v = u[:, None]
+        straight = self.source + v * (self.target - self.source)
+        bend = self.source - 2 * self.control + self.target
+        bent = self.source + v * (2 * (self.control - self.source) + v * bend)
+        return np.where(v >= 1, self.target, np.where(self.is_parabola[:, None], bent, straight))
+
+    def radius(self, u: Floats) -> Floats:
+        """(n,) the radius there."""
+        slope = self._slope(u)
+        bent = self.r0 + self.along * u * (self.slope0 + slope) / 2
+        inner = np.where(self.is_parting, self.half * np.sqrt(1 + slope * slope), self.r0 + u * (self.r1 - self.r0))
+        return np.where(u <= 0, self.r0, np.where(u >= 1, self.r1, np.where(self.is_parabola, bent, inner)))
+
+    def _slope(self, u: Floats) -> Floats:
+        slope: Floats = self.slope0 + u * (self.slope1 - self.slope0)
+        return slope
+
+    def parameter(self, distance: Floats) -> Floats:
+        """(n,) u at a distance along each arc from its source.
+
+        The length to u is d times the integral of sqrt(1 + slope^2) over u. Newton's method from the nearer end of
+        the bracket; a step that leaves the bracket halves it.
+        """
+        low, high = np.zeros_like(distance), np.ones_like(distance)
+        u = np.clip(_ratio(distance, self.length), 0, 1)
+        curved = self.is_parabola & (u > 0) & (u < 1)
+        for _ in range(_STEPS):
+            excess = self.along * u * mean_root(self.slope0, self._slope(u)) - distance
+            low, high = np.where(excess < 0, u, low), np.where(excess > 0, u, high)
+            slope = self._slope(u)
+            newton = u - _ratio(excess, self.along * np.sqrt(1 + slope * slope))
+            better = np.where((newton > low) & (newton < high), newton, (low + high) / 2)
+            moves = curved & (excess != 0) & (better != u) & (np.abs(better - u) > np.spacing(u))
+            if not moves.any():
+                break
+            u = np.where(moves, better, u)
+        return u
+
+    @property
+    def integral(self) -> Floats:
+        """(n,) of the radius along each arc."""
+        linear = self.length * (self.r0 + self.r1) / 2
+        points = self.half * self.length * mean_root(self.slope0, self.slope1)
+        found = np.where(self.is_parting, points, linear)
+        bent = np.flatnonzero(self.is_parabola)
+        found[bent] = self[bent]._integral_along_parabolas()
+        return found
+
+    def _integral_along_parabolas(self) -> Floats:
+        """h^2 / 2 times the integral of (1 + s^2)^(3/2) over the slope s, where h = d / (s1 - s0)."""
+        flat = self.slope1 - self.slope0 < _FLAT
+        found = np.empty_like(self.length)
+        found[flat] = self[flat]._quadrature()
+        steep = self[~flat]
+        s, t = steep.slope0, steep.slope1
+        v, w = np.sqrt(1 + s * s), np.sqrt(1 + t * t)
+        # s w^3 at both ends, by (s1 - s0) times a sum of positive numbers
+        cubes = (v**3 + w**3) / 2 + (s + t) ** 2 / 2 * (v * v + v * w + w * w) / (v + w)
+        found[~flat] = steep.along**2 / (2 * (t - s)) * (cubes / 4 + 3 / 4 * mean_root(s, t))
+        return found
+
+    def _quadrature(self) -> Floats:
+        total = np.zeros_like(self.length)
+        for node, weight in zip(*np.polynomial.legendre.leggauss(8), strict=True):
+            u = np.full_like(total, (node + 1) / 2)
+            slope = self._slope(u)
+            total += weight / 2 * self.radius(u) * self.along * np.sqrt(1 + slope * slope)
+        return total
+
+
+def mean_root(s: Floats, t: Floats) -> Floats:
+    """Mean of sqrt(1 + x^2) for x from s to t, by sums of positive numbers.
+
+    Examples
+    --------
+    >>> mean_root(np.array([0.0, 3.0]), np.array([0.0, 3.0])).tolist()
+    [1.0, 3.1622776601683795]
+    """
+    v, w = np.sqrt(1 + s * s), np.sqrt(1 + t * t)
+    products = (v + w) / 2 + (s + t) ** 2 / (2 * (v + w))
+    same = s * t
+    outer = np.where(same > 0, (1 + s * s + t * t) / (v * w + np.abs(same)), v * w - same)
+    factor = (1 + outer) / (v + w)
+    x = np.abs(t - s) * factor
+    ratio = np.where(x > 0, _ratio(inverse_sinh(x), x), 1.0)
+    mean: Floats = (products + factor * ratio) / 2
+    return mean
+
+
+def _norm(way: Floats) -> Floats:
+    length: Floats = np.sqrt(way[..., 0] ** 2 + way[..., 1] ** 2)
+    return length
+
+
+def _ratio(a: Floats, b: Floats) -> Floats:
+    """Quotients, 0 where the divisor is."""
+    return np.divide(a, b, out=np.zeros(np.broadcast(a, b).shape), where=b != 0)

@@ -1,0 +1,69 @@
+"""The layers of a picture of polygons and lines."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from vorotool.geometry.polygons import PolygonSet
+from vorotool.render.layers import Layer, Lines, Page, Points, Polygons, bounds_of
+from vorotool.render.palettes import FAINT, LIGHT
+
+
+def polygon_layers(
+    polygons: PolygonSet, width: float, *, name: str = "polygons", fill: str = LIGHT, edge: str | None = None
+) -> list[Layer]:
+    """Closed rings filled, open lines drawn.
+
+    Parameters
+    ----------
+    polygons : PolygonSet
+        What to draw.
+    width : float
+        Of lines, in px.
+    name, fill : str
+        Of the layer of closed rings.
+    edge : str, optional
+        Colour of their outlines.
+
+    Examples
+    --------
+    >>> square = PolygonSet([[0, 0], [1, 0], [1, 1], [0, 1]], [0, 4], [0], [0])
+    >>> [layer.name for layer in polygon_layers(square, 1.0)]
+    ['polygons']
+    """
+    closed = ~polygons.is_line[polygons.ring_polygon]
+    corner_is_closed = np.repeat(closed, np.diff(polygons.ring_start))
+    corners = np.flatnonzero(corner_is_closed).astype(np.int32)
+    sizes = np.diff(polygons.ring_start)[closed]
+    per_polygon = np.bincount(polygons.ring_polygon[closed], minlength=len(polygons))
+    filled = Polygons(
+        name,
+        polygons.xy,
+        corners,
+        np.concatenate([[0], np.cumsum(sizes)]),
+        first_rings=np.concatenate([[0], np.cumsum(per_polygon)]),
+        colours=[fill],
+        edge=edge,
+        width=width,
+    )
+    first = np.flatnonzero(~corner_is_closed)
+    last = np.isin(first, polygons.ring_start[1:] - 1)
+    pairs = np.stack([first[~last], first[~last] + 1], axis=1).astype(np.int32)
+    lines = Lines("lines", polygons.xy, pairs, FAINT, width)
+    return [filled, lines] if len(pairs) else [filled]
+
+
+def polygon_page(polygons: PolygonSet, *, width: int = 1000, y_up: bool | None = None) -> Page:
+    """The page of a picture: with all polygons and lines.
+
+    Parameters
+    ----------
+    polygons : PolygonSet
+        What to draw; where ``y_up`` is not given, its own decides.
+    width : int
+        In px.
+    y_up : bool, optional
+        Draw y upwards.
+    """
+    up = polygons.y_up if y_up is None else y_up
+    return Page(bounds_of([Points("shown", polygons.xy)]), width=width, y_up=up)
