@@ -365,6 +365,67 @@ def offset_curves(
 ) -> list[dict[str, NDArray[Any]]]:
     """For each distance (> 0 outwards) the arrays of core/offset_curves.hpp by their names there (bind_offsets.cpp)."""
 
+# ---- pruning (bind_pruning.cpp): a skeleton is its vertices, radii, arcs, control points, sites, lengths, the ends of
+# ---- sites as (s, 4), which nodes are anchored (uint8), and whether sites are closed; criteria are numbered ----------
+
+_SkeletonArrays = tuple[
+    NDArray[np.float64],
+    NDArray[np.float64],
+    NDArray[np.int32],
+    NDArray[np.float64],
+    NDArray[np.int32],
+    NDArray[np.float64],
+    NDArray[np.float64],
+    NDArray[np.uint8],
+    bool,
+]
+
+def critical_values(
+    skeleton: _SkeletonArrays, criterion: int, progress: _Progress
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int32], NDArray[np.float64]]:
+    """Values at the ends of arcs and the largest of each; arcs on which a place is kept, and where.
+
+    Of the angle: the tangent of half of it.
+    """
+
+def prune_skeleton(
+    skeleton: _SkeletonArrays,
+    ends: NDArray[np.float64],
+    most: NDArray[np.float64],
+    kept_arc: NDArray[np.int32],
+    kept_place: NDArray[np.float64],
+    criterion: int,
+    threshold: float,
+    group: NDArray[np.int32],
+    progress: _Progress,
+) -> dict[str, NDArray[Any]]: ...
+def arc_profiles(
+    skeleton: _SkeletonArrays,
+) -> tuple[NDArray[np.int8], NDArray[np.float64], NDArray[np.float64]]:
+    """Kinds (between lines, between points, parabola), x at the ends, and h or the tangent of half the angle."""
+
+def part_geometry(
+    skeleton: _SkeletonArrays, arc: NDArray[np.int32], first: NDArray[np.float64], last: NDArray[np.float64]
+) -> dict[str, NDArray[np.float64]]:
+    """Places and radii of both ends, control points and lengths of parts of arcs."""
+
+# ---- paths (bind_paths.cpp): arcs are pairs of nodes ----------------------------------------------------------------
+
+def longest_paths(
+    arcs: NDArray[np.int32],
+    length: NDArray[np.float64],
+    group: NDArray[np.int32],
+    groups: int,
+    nodes: int,
+    progress: _Progress,
+) -> tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.int32]]:
+    """Where the arcs of each group's path begin, the arcs, and the node that each leads to."""
+
+def path_from(
+    arcs: NDArray[np.int32], length: NDArray[np.float64], nodes: int, first: int, last: int, progress: _Progress
+) -> tuple[NDArray[np.int32], NDArray[np.int32]] | None:
+    """Arcs of the shortest path, and the node that each leads to; with last -1 to the farthest leaf."""
+
 # ---- planar graphs (bind_planar_graph.cpp): arrays are C-contiguous; lattice points are int32 rows ------------------
 
 class TooManyCrossingsError(ValueError): ...

@@ -132,7 +132,8 @@ def write(
         What to write: a `LabelImage` as PNG, TIFF, NPY or text, a `Table` as CSV, JSON or NPZ, a `PolygonSet` as JSON,
         GeoJSON, WKT or .poly, a `CellSet` as GeoJSON, CSV, JSON, NPZ or WKT, a `Triangulation` or a
         `DigitalTriangulation` as a table, GeoJSON, OBJ, or a file of Triangle, an `AlphaShape` as a table or GeoJSON of
-        its edges or as polygons, an `AlphaComplex` as a table, a `Skeleton` as JSON, CSV, GeoJSON, WKT or NPZ.
+        its edges or as polygons, an `AlphaComplex` as a table, a `Skeleton` as JSON, CSV, GeoJSON, WKT or NPZ,
+        `Centerlines` as GeoJSON, WKT, CSV, JSON or NPZ.
     path : str or path
         The file, replaced atomically.
     fmt : str, optional
@@ -142,7 +143,7 @@ def write(
         what the format is for, else its edges; of a skeleton ``skeleton`` (the default), ``elements``, ``branches`` or
         ``table``.
     flatten : float, optional
-        Of a skeleton in GeoJSON or WKT: how far lines may be from parabolas.
+        Of a skeleton or centerlines in GeoJSON or WKT: how far lines may be from parabolas.
     precision : int, optional
         Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
     threads : int
@@ -184,7 +185,7 @@ def to_geojson(value: Any, *, what: str | None = None, flatten: float | None = N
 
     Parameters
     ----------
-    value : PolygonSet, CellSet, Triangulation, AlphaShape or Skeleton
+    value : PolygonSet, CellSet, Triangulation, AlphaShape, Skeleton or Centerlines
         With ids and properties, if it has any.
     what, flatten : optional
         As of `write`.
@@ -218,11 +219,12 @@ def _writer_of(
     """Give the function that writes a value, and its further options."""
     from vorotool.geometry.alpha_complex import AlphaComplex
     from vorotool.geometry.alpha_shape import AlphaShape
+    from vorotool.geometry.centerline import Centerlines
     from vorotool.geometry.digital_triangulation import DigitalTriangulation
     from vorotool.geometry.skeleton import Skeleton
     from vorotool.geometry.triangulation import Triangulation
 
-    if flatten is not None and not isinstance(value, Skeleton):
+    if flatten is not None and not isinstance(value, Centerlines | Skeleton):
         raise UsageError(f"flatten is for skeletons: leave it out with a {type(value).__name__}")
     if isinstance(value, Skeleton):
         from vorotool.formats.skeleton_files import write_skeleton
@@ -241,6 +243,10 @@ def _writer_of(
             f"what={what!r} is for triangulations, alpha shapes and skeletons: "
             f"leave it out with a {type(value).__name__}"
         )
+    if isinstance(value, Centerlines):
+        from vorotool.formats.centerline_files import write_centerlines
+
+        return write_centerlines, {"flatten": flatten, "threads": threads}
     return _plain_writer(value, threads)
 
 
@@ -264,7 +270,7 @@ def _plain_writer(value: Any, threads: int) -> tuple[Callable[..., None], dict[s
         return write_cells, {"threads": threads}
     raise UsageError(
         f"a {type(value).__name__} cannot be written: give a LabelImage, Table, PolygonSet, CellSet, Triangulation, "
-        "AlphaShape or Skeleton"
+        "AlphaShape, Skeleton or Centerlines"
     )
 
 

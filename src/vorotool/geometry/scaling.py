@@ -16,6 +16,7 @@ from vorotool.geometry.alpha_hull import AlphaHull
 from vorotool.geometry.alpha_shape import AlphaShape
 from vorotool.geometry.box import Box
 from vorotool.geometry.cells import CellSet
+from vorotool.geometry.centerline import Centerlines
 from vorotool.geometry.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.skeleton import Skeleton
@@ -40,7 +41,8 @@ def scaled(value: Any, factor: Fraction) -> Any:
 
     Parameters
     ----------
-    value : PolygonSet, Triangulation, DigitalTriangulation, CellSet, AlphaComplex, AlphaShape, AlphaHull or Skeleton
+    value : PolygonSet, Triangulation, DigitalTriangulation, CellSet, AlphaComplex, AlphaShape, AlphaHull, Skeleton or
+        Centerlines
         What to scale; for a table see `scaled_table`.
     factor : Fraction
         More than 0.
@@ -110,6 +112,11 @@ def _(value: Skeleton, factor: Fraction) -> Skeleton:
         frame=value.frame and (x * by, y * by, w * by, h * by),
         **{name: getattr(value, name) * by for name in names},
     )
+
+
+@scaled.register
+def _(value: Centerlines, factor: Fraction) -> Centerlines:
+    return replace(value, path=scaled(value.path, factor), ends=value.ends * float(factor))
 
 
 def scaled_table(table: Table, factor: Fraction, *, properties: Collection[str] = ()) -> Table:
