@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
-from vorotool.cli.pictures import write_layers
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
 from vorotool.cli.units import in_units, length_in_units
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.skeleton import EXTERIOR, Skeleton
+from vorotool.pictures import write_layers
 
 if TYPE_CHECKING:
     from vorotool.render.layers import Page
