@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import random
 
@@ -83,6 +84,35 @@ def polygon_sites(rng, count, size):
     if first.b != sites[2].a and not any(crosses(joined, s) or joined.ends == s.ends for s in others):
         sites[2] = joined
     return sites
+
+
+SAME, HALF_TURN = (1, 0, 0, 1), (-1, 0, 0, -1)
+TURNS = [SAME, (0, -1, 1, 0), HALF_TURN, (0, 1, -1, 0)]
+FLIPS = [SAME, (-1, 0, 0, 1), HALF_TURN, (1, 0, 0, -1)]
+"""Groups of symmetries of the square: matrices by rows."""
+
+
+def mirrored_sites(rng):
+    """Two sites and an image of each, or four images of one: ties of any kind, most of them irrational, far out too."""
+    size = rng.choice([2, 3, 10, 1000, 10**6, 10**8])
+    x, y = (rng.randint(-LIMIT + 3 * size, LIMIT - 3 * size) for _ in range(2))
+
+    def image(site, matrix):
+        a, b, c, d = matrix
+        return Site(*((x + a * u + b * v, y + c * u + d * v) for u, v in (site.a, site.b)))
+
+    while True:
+        ends = [random_point(rng, size) for _ in range(4)]
+        if rng.random() < 0.4:
+            ends[2] = rng.choice([ends[0], (ends[0][0], -ends[0][1])])
+        one, other = (Site(p, p if rng.random() < 0.3 else q) for p, q in (ends[:2], ends[2:]))
+        if rng.random() < 0.3:
+            sites = [image(one, matrix) for matrix in rng.choice([TURNS, FLIPS])]
+        else:
+            sites = [image(site, matrix) for matrix in (SAME, rng.choice(FLIPS[1:])) for site in (one, other)]
+        rng.shuffle(sites)
+        if not any(crosses(s, t) or s.ends == t.ends for s, t in itertools.combinations(sites, 2)):
+            return sites
 
 
 def case(rng, count=4):

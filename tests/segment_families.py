@@ -179,6 +179,19 @@ def squares(rng, n):
     return together([polygon(corners + np.array([i, j]) * (size + gap)) for i in range(side) for j in range(side)])
 
 
+def symmetric(rng, n):
+    """A grid of copies of a shape that is its own mirror image, turned: ties of segments of irrational lengths."""
+    a, b = np.sort(rng.choice(np.arange(1, int(rng.choice([8, 100, 10**4]))), 2, replace=False))
+    rhombus = [(b, 0), (0, a), (-b, 0), (0, -a)]
+    octagon = [(b, a), (a, b), (-a, b), (-b, a), (-b, -a), (-a, -b), (a, -b), (b, -a)]
+    corners = np.array(rhombus if n < 8 or rng.random() < 0.5 else octagon)
+    side, step = max(1, round(np.sqrt(n / len(corners)))), int(rng.integers(2, 5)) * b + int(rng.integers(1, 4))
+    shapes = [polygon(corners + np.array([i, j]) * step) for i in range(side) for j in range(side)]
+    points, segments = together(shapes)
+    p, q = [(1, 0), (2, 1), (4, 3)][rng.integers(0, 3)]
+    return lattice(points @ np.array([[p, q], [-q, p]])), segments
+
+
 def tiled(rng, n):
     """A grid of unit squares that share their sides, some left out: nodes of any degree to 4, collinear chains."""
     side = max(1, round(np.sqrt(n / 2)))
@@ -354,6 +367,7 @@ FAMILIES = {
         koch,
         regular,
         squares,
+        symmetric,
         tiled,
         needles,
         strips,

@@ -71,9 +71,9 @@ nb::object clearance_signs(SiteRows<4> rows) {
 }
 
 // Three sites each of two discs.
-nb::object same_centre(SiteRows<6> rows) {
+nb::object same_disc(SiteRows<6> rows) {
   return signs<6>(
-      rows, [](const LatticeSite* s) { return core::exact_same_centre(triple(s), triple(s + 3)) ? 1 : 0; });
+      rows, [](const LatticeSite* s) { return core::exact_same_disc(triple(s), triple(s + 3)) ? 1 : 0; });
 }
 
 // The edge's two sites, three sites each of two discs, then the query.
@@ -103,7 +103,7 @@ nb::object rounded_discs(SiteRows<3> rows) {
 
 void bind_segment_exact(nb::module_& module) {
   module.def("segment_clearance_signs", &clearance_signs, "sites"_a.noconvert());
-  module.def("segment_same_centre", &same_centre, "sites"_a.noconvert());
+  module.def("segment_same_disc", &same_disc, "sites"_a.noconvert());
   module.def("segment_edge_clearance_signs", &edge_clearance_signs, "sites"_a.noconvert());
   module.def("segment_discs", &rounded_discs, "sites"_a.noconvert());
 }

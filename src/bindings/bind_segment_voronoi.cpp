@@ -72,7 +72,7 @@ nb::dict counts_of(const SegmentVoronoi& diagram) {
   nb::dict result;
   result["visited"] = counts.visited;
   result["cyclic"] = counts.cyclic;
-  result["dyadic"] = counts.escalations.dyadic;
+  result["integer"] = counts.escalations.integer;
   result["double_double"] = counts.escalations.double_double;
   result["exact"] = counts.escalations.exact;
   return result;

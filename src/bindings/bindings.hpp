@@ -15,9 +15,11 @@ void bind_digital(nanobind::module_& module);
 void bind_cells(nanobind::module_& module);
 void bind_planar_graph(nanobind::module_& module);
 void bind_segment_exact(nanobind::module_& module);
+void bind_segment_predicates(nanobind::module_& module);
 void bind_outlines(nanobind::module_& module);
 void bind_skeleton(nanobind::module_& module);
 void bind_offsets(nanobind::module_& module);
+void bind_seed_skeleton(nanobind::module_& module);
 void bind_segment_verification(nanobind::module_& module);
 void bind_segment_voronoi(nanobind::module_& module);
 

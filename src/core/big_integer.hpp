@@ -1,9 +1,12 @@
-// Integers of varying length for exact signs: sign and magnitude, no memory taken.
+// Integers of any length for exact signs: sign and magnitude. Short ones take no memory.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include "core/arithmetic.hpp"
 
@@ -11,37 +14,59 @@ namespace vorotool::core {
 
 class BigInteger {
  public:
-  // Enough for every caller (segment_exact.cpp derives 7 264 bits); beyond it std::length_error is thrown.
-  static constexpr std::size_t capacity = 116;
+  // Integers of up to 1 152 bits lie in the object itself, longer ones elsewhere (sizes:
+  // core/segment_exact.cpp).
+  static constexpr std::size_t short_limbs = 18;
 
   BigInteger() {}  // zero; limbs beyond the size have no value
-  BigInteger(std::int64_t value);
+  BigInteger(int128 value);
   BigInteger(const BigInteger& other) { *this = other; }
+  BigInteger(BigInteger&& other) noexcept { *this = std::move(other); }
   BigInteger& operator=(const BigInteger& other);
+  BigInteger& operator=(BigInteger&& other) noexcept;
 
   int sign() const { return size_ == 0 ? 0 : negative_ ? -1 : 1; }
   std::size_t bits() const;  // of the magnitude; 0 for zero
   // The 64 highest bits of the magnitude, the highest set: |value| = leading (1 + e) 2^(bits - 64) with
   // 0 <= e < 2^-63. The value must not be zero.
   std::uint64_t leading_bits() const;
+  // To a relative error of 2^-53; below 2^1023.
+  double rounded() const;
 
-  BigInteger operator-() const;
-  friend BigInteger operator+(const BigInteger& a, const BigInteger& b) { return sum(a, b, b.negative_); }
-  friend BigInteger operator-(const BigInteger& a, const BigInteger& b) { return sum(a, b, !b.negative_); }
+  void negate() { negative_ = !negative_; }
+  BigInteger& operator+=(const BigInteger& other) { return add(other, other.negative_); }
+  BigInteger& operator-=(const BigInteger& other) { return add(other, !other.negative_); }
   friend BigInteger operator*(const BigInteger& a, const BigInteger& b);
+  friend bool operator==(const BigInteger& a, const BigInteger& b) {
+    return a.sign() == b.sign() && compare_magnitudes(a, b) == 0;
+  }
+
+  // The root of a positive square of at most 254 bits; nothing for any other integer.
+  friend std::optional<BigInteger> integer_root(const BigInteger& a);
 
  private:
-  // a + b or a - b: |b| with the given sign is added.
-  static BigInteger sum(const BigInteger& a, const BigInteger& b, bool b_negative);
+  const std::uint64_t* limbs() const { return long_ ? long_.get() : short_.data(); }
+  std::uint64_t* limbs() { return long_ ? long_.get() : short_.data(); }
+  void reserve(std::size_t limbs);
+  BigInteger& add(const BigInteger& other, bool other_negative);
+  void add_magnitude(const BigInteger& other);
   static int compare_magnitudes(const BigInteger& a, const BigInteger& b);
-  static void add_magnitudes(const BigInteger& a, const BigInteger& b, BigInteger& result);
-  static void subtract_magnitudes(const BigInteger& larger, const BigInteger& smaller, BigInteger& result);
-  void append(std::uint64_t limb);
+  // |*this| = |larger| - |smaller|, of which *this may be one.
+  void take_difference(const BigInteger& larger, const BigInteger& smaller);
   void drop_leading_zeros();
 
   std::size_t size_ = 0;
+  std::size_t capacity_ = short_limbs;
   bool negative_ = false;
-  std::array<std::uint64_t, capacity> limb_;  // the lowest first; the last one in use is not zero
+  std::array<std::uint64_t, short_limbs> short_;  // the lowest first; the last one in use is not zero
+  std::unique_ptr<std::uint64_t[]> long_;         // instead, once more are needed
 };
+
+inline BigInteger operator-(BigInteger a) {
+  a.negate();
+  return a;
+}
+inline BigInteger operator+(BigInteger a, const BigInteger& b) { return std::move(a += b); }
+inline BigInteger operator-(BigInteger a, const BigInteger& b) { return std::move(a -= b); }
 
 }  // namespace vorotool::core

@@ -9,11 +9,13 @@
 #include <vector>
 
 #include "core/bisector_arc.hpp"
-#include "core/half_edges.hpp"
 #include "core/large_array.hpp"
 #include "core/segment_diagram.hpp"
 
 namespace vorotool::core {
+
+using HalfEdge = std::int32_t;
+inline constexpr HalfEdge no_edge = -1;
 
 // Half-edge 2k leads from the source of edge k to its target, 2k + 1 back. The cell of the site on the left
 // of a half-edge is gone round counter-clockwise; one that is unbounded is closed at infinity.

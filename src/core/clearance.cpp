@@ -9,9 +9,8 @@
 #include "core/site_hierarchy.hpp"
 
 namespace vorotool::core {
-namespace {
 
-double distance(const LatticeSite& site, const std::array<double, 2>& place) {
+double closed_distance(const LatticeSite& site, const std::array<double, 2>& place) {
   double x = place[0] - site.a.x, y = place[1] - site.a.y;
   if (!site.is_point()) {
     const LatticeVector along = site.b - site.a;
@@ -28,8 +27,6 @@ double distance(const LatticeSite& site, const std::array<double, 2>& place) {
   return std::sqrt(x * x + y * y);
 }
 
-}  // namespace
-
 std::vector<double> clearances(std::span<const LatticeSite> sites,
                                std::span<const std::array<double, 2>> places, std::span<const double> reach,
                                unsigned threads, const Monitor& monitor) {
@@ -42,7 +39,7 @@ std::vector<double> clearances(std::span<const LatticeSite> sites,
         const std::size_t last = std::min(places.size(), (piece + 1) * grain);
         for (std::size_t i = piece * grain; i < last; ++i) {
           hierarchy.near(places[i][0], places[i][1], reach[i], [&](std::uint32_t site) {
-            found[i] = std::min(found[i], distance(sites[site], places[i]));
+            found[i] = std::min(found[i], closed_distance(sites[site], places[i]));
             return true;
           });
         }

@@ -11,6 +11,9 @@
 
 namespace vorotool::core {
 
+// From a closed site, right to a few ulp of the coordinates.
+double closed_distance(const LatticeSite& site, const std::array<double, 2>& place);
+
 // For each place on the lattice, the distance of the nearest closed site that is not farther than its reach
 // (or a little more), or infinity: right to a few ulp of the coordinates.
 std::vector<double> clearances(std::span<const LatticeSite> sites,

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <optional>
 
+#include "core/common_circle.hpp"
 #include "core/dyadic_disc.hpp"
 #include "core/segment_exact.hpp"
 #include "core/tangent_disc.hpp"
+#include "core/touched_ends.hpp"
 
 namespace vorotool::core {
 namespace {
@@ -44,6 +46,35 @@ std::optional<bool> by_common_end(const SegmentSites& sites, const VoronoiRecord
   return std::nullopt;
 }
 
+// u touches a segment at its end and goes through q, w touches another one at q, and both share q and one
+// more site. So u is w if it touches that segment too: on the same side, being near, there is one such disc.
+std::optional<bool> by_two_ends(const SegmentSites& sites, const VoronoiRecord& u, const VoronoiRecord& w) {
+  for (const SiteIndex q : u.sites) {
+    if (!sites.is_point(q) || w.find(q) < 0) continue;
+    for (const SiteIndex t : w.sites) {
+      if (!sites.is_end(t, q)) continue;
+      if (const std::optional<int> along = sign_along_from_end(sites, u, q, t)) return *along == 0;
+    }
+  }
+  return std::nullopt;
+}
+
+// Two vertices of three segments each, which share those beside edge i of u.
+bool by_four_lines(const SegmentSites& sites, const VoronoiRecord& u, int i, const VoronoiRecord& w) {
+  const auto [right, left] = sites_of_edge(u, i);
+  const auto line_of = [&](const VoronoiRecord& v, SiteIndex site) {
+    return sites.turned(site, v.is_left(v.find(site)));
+  };
+  const auto third =
+      std::ranges::find_if(w.sites, [&](SiteIndex site) { return site != right && site != left; });
+  if (third == w.sites.end()) return false;
+  for (const SiteIndex site : {u.sites[static_cast<std::size_t>(i)], right, left, *third}) {
+    if (!sites.is_segment(site)) return false;
+  }
+  return is_one_circle({line_of(u, u.sites[static_cast<std::size_t>(i)]), line_of(u, right), line_of(u, left),
+                        line_of(w, *third)});
+}
+
 }  // namespace
 
 bool are_coincident(const SegmentSites& sites, const VoronoiRecord& u, int i, const VoronoiRecord& w) {
@@ -52,10 +83,12 @@ bool are_coincident(const SegmentSites& sites, const VoronoiRecord& u, int i, co
   // Only corners have radius 0, and those of one point are at one place.
   if (u.radius == 0 || w.radius == 0) return u.radius == w.radius;
   if (const std::optional<bool> known = by_common_end(sites, u, i, w)) return *known;
+  if (const std::optional<bool> known = by_two_ends(sites, u, w)) return *known;
+  if (const std::optional<bool> known = by_two_ends(sites, w, u)) return *known;
   const std::optional<DyadicDisc> a = dyadic_disc(sites, u), b = dyadic_disc(sites, w);
   if (a && b) return a->same_centre(*b);
   if (are_apart_in_double_double(sites, u, w)) return false;
-  return exact_same_centre(sites.triple(u.sites), sites.triple(w.sites));
+  return by_four_lines(sites, u, i, w) || exact_same_disc(sites.triple(u.sites), sites.triple(w.sites));
 }
 
 }  // namespace vorotool::core

@@ -31,32 +31,6 @@ struct Sight {
   int128 across, along;  // times the length of the segment
 };
 
-// Whether the three sites are touched in counter-clockwise order beyond doubt: then the disc that touches
-// them exactly, so near to the vertex, is that of the vertex, since another one touches them in the other
-// order. The unit vectors from the sites to the centre err by less than 2^-30 together with those at the true
-// centre.
-bool is_well_conditioned(const SegmentSites& sites, const VoronoiRecord& v) {
-  if (!(v.position_error < 0x1p-36 * v.radius)) return false;
-  std::array<double, 3> nx, ny;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const SiteIndex site = v.sites[i];
-    for (const SiteIndex other : v.sites) {
-      if (sites.is_point(site) && sites.is_end(other, site)) return true;  // linear: there is no other disc
-    }
-    if (sites.is_point(site)) {
-      nx[i] = (v.x - sites.point(site).x) / v.radius;
-      ny[i] = (v.y - sites.point(site).y) / v.radius;
-    } else {
-      const SegmentSite& s = sites.segment(site);
-      const double turn = v.is_left(static_cast<int>(i)) ? 1 : -1;
-      nx[i] = -turn * s.uy;
-      ny[i] = turn * s.ux;
-    }
-  }
-  const double area = (nx[1] - nx[0]) * (ny[2] - ny[0]) - (nx[2] - nx[0]) * (ny[1] - ny[0]);
-  return area > 0x1p-20;
-}
-
 }  // namespace
 
 double DyadicDisc::x() const { return static_cast<double>(x_) / scale; }
@@ -68,7 +42,8 @@ int128 DyadicDisc::square_distance(const LatticePoint& p) const {
   return dx * dx + dy * dy;
 }
 
-// The square of the distance from a site, rounded down: touches() is false if that was no integer.
+// The square of the distance from a site, rounded down: touches() is false if that was no integer. A corner
+// of radius 0 is not meant here.
 bool DyadicDisc::take_radius(const SegmentSites& sites, SiteIndex site) {
   if (sites.is_point(site)) {
     square_ = square_distance(sites.point(site));
@@ -77,7 +52,7 @@ bool DyadicDisc::take_radius(const SegmentSites& sites, SiteIndex site) {
     if (magnitude(sight.across) >= most_product) return false;
     square_ = sight.across * sight.across / sight.square_length();
   }
-  return square_ < most_square;
+  return square_ > 0 && square_ < most_square;
 }
 
 bool DyadicDisc::touches(const SegmentSites& sites, SiteIndex site, bool is_left) const {
@@ -85,6 +60,35 @@ bool DyadicDisc::touches(const SegmentSites& sites, SiteIndex site, bool is_left
   const Sight sight(x_, y_, sites.segment(site));
   return magnitude(sight.across) < most_product && (sight.across > 0) == is_left &&
          sight.across * sight.across == square_ * sight.square_length();
+}
+
+// The way from the centre to where the disc touches a site, times a positive number: below 2^35.
+LatticeVector DyadicDisc::contact(const SegmentSites& sites, SiteIndex site, bool is_left) const {
+  if (sites.is_point(site)) {
+    const LatticePoint& p = sites.point(site);
+    return {scale * p.x - x_, scale * p.y - y_};
+  }
+  const LatticeVector normal = left_of(sites.segment(site).direction());
+  return is_left ? -normal : normal;
+}
+
+// Whether the contacts follow each other counter-clockwise: of the angles between three directions, which sum
+// up to 360 degrees then and to 720 else, two at least are under 180. Where a point and its own segment are
+// touched, at one place, there is no other disc, and the order does not matter.
+bool DyadicDisc::is_in_order(const SegmentSites& sites, const VoronoiRecord& v) const {
+  std::array<LatticeVector, 3> way;
+  for (int i = 0; i < 3; ++i) {
+    const SiteIndex site = v.sites[static_cast<std::size_t>(i)];
+    if (sites.is_end(v.sites[static_cast<std::size_t>(following(i))], site) ||
+        sites.is_end(v.sites[static_cast<std::size_t>(preceding(i))], site)) {
+      return true;
+    }
+    way[static_cast<std::size_t>(i)] = contact(sites, site, v.is_left(i));
+  }
+  const auto turns_left = [](const LatticeVector& a, const LatticeVector& b) {
+    return int128{a.x} * b.y - int128{a.y} * b.x > 0;
+  };
+  return turns_left(way[0], way[1]) + turns_left(way[1], way[2]) + turns_left(way[2], way[0]) >= 2;
 }
 
 int DyadicDisc::sign(const SegmentSite& query) const {
@@ -99,16 +103,15 @@ std::optional<DyadicDisc> dyadic_disc(const SegmentSites& sites, const VoronoiRe
   if (!(std::abs(v.x) < most_coordinate && std::abs(v.y) < most_coordinate)) return std::nullopt;
   const double x = std::nearbyint(scale * v.x), y = std::nearbyint(scale * v.y);
   const double away = std::abs(x - scale * v.x) + std::abs(y - scale * v.y);
-  if (!(away <= scale * static_cast<double>(v.position_error)) || !is_well_conditioned(sites, v)) {
-    return std::nullopt;
-  }
+  if (!(away <= scale * static_cast<double>(v.position_error))) return std::nullopt;
   DyadicDisc disc;
   disc.x_ = static_cast<std::int64_t>(x);
   disc.y_ = static_cast<std::int64_t>(y);
   if (!disc.take_radius(sites, v.sites[0])) return std::nullopt;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (!disc.touches(sites, v.sites[i], v.is_left(static_cast<int>(i)))) return std::nullopt;
+  for (int i = 0; i < 3; ++i) {
+    if (!disc.touches(sites, v.sites[static_cast<std::size_t>(i)], v.is_left(i))) return std::nullopt;
   }
+  if (!disc.is_in_order(sites, v)) return std::nullopt;
   return disc;
 }
 

@@ -28,14 +28,17 @@ class DyadicDisc {
 
   bool take_radius(const SegmentSites& sites, SiteIndex site);
   bool touches(const SegmentSites& sites, SiteIndex site, bool is_left) const;
+  LatticeVector contact(const SegmentSites& sites, SiteIndex site, bool is_left) const;
+  bool is_in_order(const SegmentSites& sites, const VoronoiRecord& vertex) const;
   int128 square_distance(const LatticePoint& p) const;
 
   std::int64_t x_, y_;  // the centre, times `scale`
   int128 square_;       // of the radius, times the square of `scale`
 };
 
-// The disc of a vertex if it is one of these: known to be that of the vertex because it touches the sites
-// exactly, on the side and in the order of the vertex, and lies within the bounds of its error.
+// The disc of a vertex if it is one of these: it is that of the vertex because it touches the sites exactly,
+// on the sides and in the order of the vertex, and no other disc does. The vertex's numbers only tell where
+// to look.
 std::optional<DyadicDisc> dyadic_disc(const SegmentSites& sites, const VoronoiRecord& vertex);
 
 }  // namespace vorotool::core

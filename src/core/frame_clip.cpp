@@ -7,25 +7,12 @@
 #include <vector>
 
 #include "core/lattice_vector.hpp"
+#include "core/line_clip.hpp"
 
 namespace vorotool::core {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// A place on an arc by its parameter, and the side of the frame that cuts it there.
-struct Cut {
-  double t;
-  FrameSide side;
-};
-
-// A straight arc, or a ray, or a whole line: base + t way.
-struct Line {
-  Place base, way;
-  double from, to;
-
-  Place place(double t) const { return {base[0] + t * way[0], base[1] + t * way[1]}; }
-};
 
 class Clipper {
  public:
@@ -85,21 +72,9 @@ class Clipper {
   }
 
   void clip_line(const GraphArc& arc, const Line& line) {
-    Cut first{line.from, FrameSide::none}, last{line.to, FrameSide::none};
-    const double least[2] = {frame_.least_x, frame_.least_y}, most[2] = {frame_.most_x, frame_.most_y};
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      const double base = line.base[axis], way = line.way[axis];
-      if (way == 0) {
-        if (base < least[axis] || base > most[axis]) return;
-        continue;
-      }
-      Cut enter{(least[axis] - base) / way, axis == 0 ? FrameSide::least_x : FrameSide::least_y};
-      Cut leave{(most[axis] - base) / way, axis == 0 ? FrameSide::most_x : FrameSide::most_y};
-      if (way < 0) std::swap(enter, leave);
-      if (enter.t > first.t) first = enter;
-      if (leave.t < last.t) last = leave;
-    }
-    if (!(first.t < last.t)) return;
+    const auto cuts = cut_line(line, frame_);
+    if (!cuts) return;
+    const auto& [first, last] = *cuts;
     const auto node = [&](const Cut& cut, std::int32_t own) {
       if (cut.side == FrameSide::none) return own;
       const Place place = line.place(cut.t);

@@ -20,10 +20,8 @@ InsertionRounds::InsertionRounds(const SegmentSites& sites, VoronoiRecords& reco
       records_(records),
       threads_(resolve_threads(threads)),
       order_(insertion_order(sites.segment_count())),
-      first_fresh_(records.size),
       alone_(sites, records) {}
 
-// With two fresh records for each segment every record is in use in the end.
 void InsertionRounds::run(const Monitor& monitor) {
   for (std::size_t r = 0; r + 1 < order_.begin.size(); ++r) {
     const std::size_t begin = order_.begin[r], end = order_.begin[r + 1];
@@ -35,19 +33,17 @@ void InsertionRounds::run(const Monitor& monitor) {
       insert_alone(places, monitor);
     }
   }
-  records_.size += 2 * static_cast<std::int32_t>(order_.items.size());
 }
 
 // There are at most two attempts for each place: their numbers, and the stamps made of them, fit in 31 bits.
 bool InsertionRounds::insert(SegmentInsertion& worker, std::int32_t place) const {
   const auto first_segment = static_cast<SiteIndex>(sites_.point_count());
   const auto count = static_cast<std::int32_t>(order_.items.size());
-  if (place + ahead < count) {
-    worker.prefetch(first_segment + order_.items[static_cast<std::size_t>(place + ahead)]);
-  }
+  const auto item = [&](std::int32_t k) { return order_.items[static_cast<std::size_t>(k)]; };
+  if (place + ahead < count) worker.prefetch(first_segment + item(place + ahead));
   const std::int32_t number = 1 + place + (&worker == &alone_ ? count : 0);
-  return worker.insert(first_segment + order_.items[static_cast<std::size_t>(place)], number,
-                       first_fresh_ + 2 * place);
+  const auto fresh = static_cast<std::int32_t>(records_.of_points) + 2 * item(place);
+  return worker.insert(first_segment + item(place), number, fresh);
 }
 
 void InsertionRounds::insert_alone(const Places& places, const Monitor& monitor) {

@@ -22,7 +22,6 @@ struct SegmentVoronoiCounts {
 
 class InsertionRounds {
  public:
-  // The records are those of the points; there is room for two more for each segment.
   InsertionRounds(const SegmentSites& sites, VoronoiRecords& records, unsigned threads);
 
   void run(const Monitor& monitor);
@@ -40,7 +39,6 @@ class InsertionRounds {
   VoronoiRecords& records_;
   unsigned threads_;
   InsertionOrder order_;
-  std::int32_t first_fresh_;  // the record after those of the points
   SegmentInsertion alone_;
   std::mutex mutex_;  // of what follows
   std::vector<std::unique_ptr<SegmentInsertion>> workers_;

@@ -21,6 +21,7 @@ struct LatticeSite {
   LatticePoint a, b;
 
   bool is_point() const { return a == b; }
+  friend bool operator==(const LatticeSite&, const LatticeSite&) = default;
 };
 
 }  // namespace vorotool::core

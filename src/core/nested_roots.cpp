@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "core/arithmetic.hpp"
 
@@ -19,38 +21,41 @@ bool is_zero(Terms terms) {
 Terms low_half(Terms terms) { return terms.first(terms.size() / 2); }
 Terms high_half(Terms terms) { return terms.last(terms.size() / 2); }
 
-std::vector<BigInteger> padded(Terms terms, std::size_t size) {
-  std::vector<BigInteger> result(terms.begin(), terms.end());
-  result.resize(size);
-  return result;
+// The radicand of the root that the higher half of 2 `half` coefficients has in common.
+Terms radicand_of(const RootTower* tower, std::size_t half) {
+  return tower->radicand(static_cast<std::size_t>(std::countr_zero(half))).coefficients();
 }
 
-// result += a b, all of the same level.
+// result += a b; the result has as many coefficients as the longer one, at least.
 void add_product(const RootTower* tower, Terms a, Terms b, MutableTerms result) {
   if (is_zero(a) || is_zero(b)) return;
+  if (a.size() < b.size()) std::swap(a, b);
   if (a.size() == 1) {
-    result[0] = result[0] + a[0] * b[0];
+    result[0] += a[0] * b[0];
     return;
   }
   const std::size_t half = a.size() / 2;
+  if (b.size() <= half) {
+    add_product(tower, low_half(a), b, result.first(half));
+    add_product(tower, high_half(a), b, result.subspan(half, half));
+    return;
+  }
   add_product(tower, low_half(a), low_half(b), result.first(half));
-  add_product(tower, low_half(a), high_half(b), result.last(half));
-  add_product(tower, high_half(a), low_half(b), result.last(half));
-  std::vector<BigInteger> high(half);
+  add_product(tower, low_half(a), high_half(b), result.subspan(half, half));
+  add_product(tower, high_half(a), low_half(b), result.subspan(half, half));
+  RootTerms high(half);
   add_product(tower, high_half(a), high_half(b), high);
-  const Terms radicand = tower->radicand(static_cast<std::size_t>(std::countr_zero(half))).coefficients();
-  add_product(tower, high, padded(radicand, half), result.first(half));
+  add_product(tower, high, radicand_of(tower, half), result.first(half));
 }
 
 // low^2 - a high^2, of the level below.
-std::vector<BigInteger> norm(const RootTower* tower, Terms terms) {
+RootTerms norm(const RootTower* tower, Terms terms) {
   const std::size_t half = terms.size() / 2;
-  std::vector<BigInteger> difference(half), negative(half), high(half);
+  RootTerms difference(half), high(half);
   add_product(tower, high_half(terms), high_half(terms), high);
-  for (std::size_t i = 0; i < half; ++i) negative[i] = -high[i];
+  for (BigInteger& c : MutableTerms(high)) c.negate();
   add_product(tower, low_half(terms), low_half(terms), difference);
-  const Terms radicand = tower->radicand(static_cast<std::size_t>(std::countr_zero(half))).coefficients();
-  add_product(tower, negative, padded(radicand, half), difference);
+  add_product(tower, high, radicand_of(tower, half), difference);
   return difference;
 }
 
@@ -84,52 +89,74 @@ RootMagnitude magnitude_of(const RootTower* tower, Terms terms) {
 
 }  // namespace
 
-int RootNumber::sign() const { return sign_of(tower_, coefficients_); }
+int RootNumber::sign() const { return sign_of(tower_, terms_); }
+
+RootTerms::RootTerms(std::span<const BigInteger> terms, std::size_t size) : RootTerms(size) {
+  std::ranges::copy(terms, std::span<BigInteger>(*this).begin());
+}
+
+void RootNumber::widen(std::size_t size) {
+  if (size > terms_.size()) terms_ = RootTerms(terms_, size);
+}
 
 RootNumber RootNumber::operator-() const {
   RootNumber result = *this;
-  for (BigInteger& c : result.coefficients_) c = -c;
+  for (BigInteger& c : MutableTerms(result.terms_)) c.negate();
   return result;
 }
 
-RootNumber operator+(const RootNumber& a, const RootNumber& b) {
-  const bool a_longer = a.coefficients_.size() >= b.coefficients_.size();
-  RootNumber result = a_longer ? a : b;
-  const Terms other = a_longer ? b.coefficients_ : a.coefficients_;
-  for (std::size_t i = 0; i < other.size(); ++i) {
-    result.coefficients_[i] = result.coefficients_[i] + other[i];
-  }
-  return result;
+RootNumber operator+(RootNumber a, const RootNumber& b) {
+  if (a.tower_ == nullptr) a.tower_ = b.tower_;
+  a.widen(b.terms_.size());
+  const MutableTerms sum(a.terms_);
+  for (std::size_t i = 0; i < b.terms_.size(); ++i) sum[i] += b.coefficients()[i];
+  return a;
 }
 
-RootNumber operator-(const RootNumber& a, const RootNumber& b) { return a + -b; }
+RootNumber operator-(RootNumber a, const RootNumber& b) {
+  if (a.tower_ == nullptr) a.tower_ = b.tower_;
+  a.widen(b.terms_.size());
+  const MutableTerms difference(a.terms_);
+  for (std::size_t i = 0; i < b.terms_.size(); ++i) difference[i] -= b.coefficients()[i];
+  return a;
+}
 
 RootNumber operator*(const RootNumber& a, const RootNumber& b) {
-  const std::size_t size = std::max(a.coefficients_.size(), b.coefficients_.size());
   const RootTower* tower = a.tower_ != nullptr ? a.tower_ : b.tower_;
-  RootNumber product(tower, std::vector<BigInteger>(size));
-  add_product(tower, padded(a.coefficients_, size), padded(b.coefficients_, size), product.coefficients_);
+  RootNumber product(tower, RootTerms(std::max(a.terms_.size(), b.terms_.size())));
+  add_product(tower, a.terms_, b.terms_, product.terms_);
   return product;
 }
 
 RootNumber RootTower::adjoin_root(const RootNumber& radicand) {
-  radicands_.push_back(radicand);
-  std::vector<BigInteger> coefficients(std::size_t{1} << depth());
-  coefficients[coefficients.size() / 2] = 1;
-  return RootNumber(this, std::move(coefficients));
+  std::size_t level = depth();
+  if (radicand.coefficients().size() == 1) {
+    const BigInteger& number = radicand.coefficients()[0];
+    if (const std::optional<BigInteger> root = integer_root(number)) return *root;
+    const auto is_equal = [&](const RootNumber& other) {
+      return other.coefficients().size() == 1 && other.coefficients()[0] == number;
+    };
+    level = static_cast<std::size_t>(std::ranges::find_if(radicands_, is_equal) - radicands_.begin());
+  }
+  if (level == depth()) radicands_.push_back(radicand);
+  RootTerms terms(std::size_t{2} << level);
+  const MutableTerms coefficients(terms);
+  coefficients[terms.size() / 2] = 1;
+  return RootNumber(this, std::move(terms));
 }
 
-RootNumber RootTower::lift(const RootNumber& number, std::size_t first) const {
+std::vector<RootNumber> RootTower::adjoin_all(const RootTower& other) {
+  std::vector<RootNumber> roots;
+  for (const RootNumber& radicand : other.radicands_) roots.push_back(adjoin_root(lift(radicand, roots)));
+  return roots;
+}
+
+RootNumber RootTower::lift(const RootNumber& number, std::span<const RootNumber> roots) {
   const Terms terms = number.coefficients();
-  std::vector<BigInteger> coefficients(terms.size() << first);
-  for (std::size_t i = 0; i < terms.size(); ++i) coefficients[i << first] = terms[i];
-  return RootNumber(this, std::move(coefficients));
-}
-
-std::size_t RootTower::adjoin_all(const RootTower& other) {
-  const std::size_t first = depth();
-  for (const RootNumber& radicand : other.radicands_) adjoin_root(lift(radicand, first));
-  return first;
+  if (terms.size() == 1) return terms[0];
+  const auto level = static_cast<std::size_t>(std::countr_zero(terms.size())) - 1;
+  const auto half = [&](Terms part) { return lift(RootNumber(number.tower(), RootTerms(part)), roots); };
+  return half(low_half(terms)) + half(high_half(terms)) * roots[level];
 }
 
 double RootMagnitude::rounded() const {

@@ -11,10 +11,13 @@
 // Sizes: let |x| be the sum of the absolute values of all terms of x, each root taken as the square root of
 // |a|. Then |x + y| <= |x| + |y|, |x y| <= |x| |y|, no integer in x exceeds |x|, and
 // |low^2 - a high^2| <= |x|^2: the sign of a number of level k meets integers of at most |x|^(2^k).
+// No level is added for a root that is an integer, nor for the root of an integer that has one already. So
+// where lengths are commensurable, as those of parallel, mirrored and congruent segments are, numbers stay
+// short.
 #pragma once
 
+#include <array>
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -25,26 +28,46 @@ namespace vorotool::core {
 
 class RootTower;
 
+// The coefficients of the products of roots: 1, 2, 4, ... integers, of which two take no memory.
+class RootTerms {
+ public:
+  explicit RootTerms(std::size_t size) : size_(size), more_(size > few ? size : 0) {}
+  explicit RootTerms(std::span<const BigInteger> terms) : RootTerms(terms, terms.size()) {}
+  // Followed by zeros.
+  RootTerms(std::span<const BigInteger> terms, std::size_t size);
+
+  std::size_t size() const { return size_; }
+  operator std::span<BigInteger>() { return {size_ > few ? more_.data() : few_.data(), size_}; }
+  operator std::span<const BigInteger>() const { return {size_ > few ? more_.data() : few_.data(), size_}; }
+
+ private:
+  static constexpr std::size_t few = 2;
+  std::size_t size_;
+  std::array<BigInteger, few> few_;
+  std::vector<BigInteger> more_;  // all of them, if they are more
+};
+
 class RootNumber {
  public:
-  RootNumber(std::int64_t value) : RootNumber(BigInteger(value)) {}
-  RootNumber(const BigInteger& value) : coefficients_{value} {}
-  // The size of coefficients is 2^level: bit i of an index tells whether root i is in the product.
-  RootNumber(const RootTower* tower, std::vector<BigInteger> coefficients)
-      : tower_(tower), coefficients_(std::move(coefficients)) {}
+  RootNumber(int128 value) : RootNumber(BigInteger(value)) {}
+  RootNumber(const BigInteger& value) : terms_({&value, 1}) {}
+  // Of 2^level coefficients: bit i of an index tells whether root i is in the product.
+  RootNumber(const RootTower* tower, RootTerms terms) : tower_(tower), terms_(std::move(terms)) {}
 
-  std::span<const BigInteger> coefficients() const { return coefficients_; }
+  std::span<const BigInteger> coefficients() const { return terms_; }
   const RootTower* tower() const { return tower_; }
   int sign() const;
 
   RootNumber operator-() const;
-  friend RootNumber operator+(const RootNumber& a, const RootNumber& b);
-  friend RootNumber operator-(const RootNumber& a, const RootNumber& b);
+  friend RootNumber operator+(RootNumber a, const RootNumber& b);
+  friend RootNumber operator-(RootNumber a, const RootNumber& b);
   friend RootNumber operator*(const RootNumber& a, const RootNumber& b);
 
  private:
+  void widen(std::size_t size);
+
   const RootTower* tower_ = nullptr;  // no matter for integers
-  std::vector<BigInteger> coefficients_;
+  RootTerms terms_;
 };
 
 inline RootNumber square(const RootNumber& a) { return a * a; }
@@ -58,9 +81,9 @@ class RootTower {
 
   // The square root of a positive number of this tower.
   RootNumber adjoin_root(const RootNumber& radicand);
-  // The number of another tower in this one; `first` is what adjoin_all of that tower has given.
-  RootNumber lift(const RootNumber& number, std::size_t first) const;
-  std::size_t adjoin_all(const RootTower& other);
+  // The roots of another tower in this one, and a number of the other one, made of these.
+  std::vector<RootNumber> adjoin_all(const RootTower& other);
+  static RootNumber lift(const RootNumber& number, std::span<const RootNumber> roots);
 
   std::size_t depth() const { return radicands_.size(); }
   const RootNumber& radicand(std::size_t level) const { return radicands_[level]; }

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -62,42 +63,74 @@ class alignas(64) RingVertex {
 
   // The place of a neighbour in the ring.
   std::uint32_t find(Vertex neighbour) const {
-    const Vertex* entries = ring();
+    if (is_long_) return find_outwards(neighbour);
     std::uint32_t place = 0;
-    while (entries[place] != neighbour) ++place;
+    while (short_[place] != neighbour) ++place;
     return place;
   }
 
   void insert(std::uint32_t place, Vertex neighbour, RingStore& store) {
-    if (degree_ == capacity()) grow(store);
+    const bool in_front = is_long_ && 2 * place < degree_;
+    if (!has_room(in_front)) make_room(store);
     Vertex* entries = ring();
-    std::copy_backward(entries + place, entries + degree_, entries + degree_ + 1);
-    entries[place] = neighbour;
+    if (in_front) {
+      std::copy(entries, entries + place, entries - 1);
+      --long_.entries;
+    } else {
+      std::copy_backward(entries + place, entries + degree_, entries + degree_ + 1);
+    }
     ++degree_;
+    ring()[place] = neighbour;
+    if (is_long_) long_.changed = place;
   }
 
   void erase(std::uint32_t place) {
     Vertex* entries = ring();
-    std::copy(entries + place + 1, entries + degree_, entries + place);
     --degree_;
+    if (is_long_ && 2 * place < degree_) {
+      std::copy_backward(entries, entries + place, entries + place + 1);
+      ++long_.entries;
+    } else {
+      std::copy(entries + place + 1, entries + degree_ + 1, entries + place);
+    }
+    if (is_long_) long_.changed = place;
   }
 
  private:
-  std::uint32_t capacity() const {
-    return is_long_ ? long_.capacity : static_cast<std::uint32_t>(short_.size());
+  // In a long ring it is mostly near the place of the last change.
+  std::uint32_t find_outwards(Vertex neighbour) const {
+    std::uint32_t high = std::min<std::uint32_t>(long_.changed, degree_ - 1), low = high;
+    for (;;) {
+      if (long_.entries[high] == neighbour) return high;
+      if (long_.entries[low] == neighbour) return low;
+      high += high + 1 < degree_;
+      low -= low > 0;
+    }
   }
 
-  void grow(RingStore& store) {
-    const std::uint32_t capacity = 2 * degree_;
-    Vertex* entries = store.take(capacity);
-    std::copy_n(ring(), degree_, entries);
+  bool has_room(bool in_front) const {
+    if (!is_long_) return degree_ < short_.size();
+    return in_front ? long_.entries > long_.memory
+                    : long_.entries + degree_ < long_.memory + long_.capacity;
+  }
+
+  // At both ends of the ring, in new memory unless enough of what it has is free.
+  void make_room(RingStore& store) {
+    const bool is_enough = is_long_ && 4 * (long_.capacity - degree_) >= degree_;
+    const std::uint32_t capacity = is_enough ? long_.capacity : 2 * degree_;
+    Vertex* memory = is_enough ? long_.memory : store.take(capacity);
+    Vertex* entries = memory + (capacity - degree_) / 2;
+    std::memmove(entries, ring(), degree_ * sizeof(Vertex));
     is_long_ = true;
-    long_ = {entries, capacity};
+    long_ = {entries, memory, capacity, 0};
   }
 
+  // Both ends move, so that few entries do.
   struct Long {
     Vertex* entries;
+    Vertex* memory;
     std::uint32_t capacity;
+    std::uint32_t changed;  // where the last change was
   };
   std::uint32_t degree_ : 31, is_long_ : 1;
   union {

@@ -3,12 +3,16 @@
 //  - clearance from a segment: (N c)^2 <= (2 2^31 2^226)^2 = 2^516, two roots, so 4 516 = 2 064 bits;
 //  - two centres along a direction: 2^32 (x w' - x' w) <= 2^450, four roots, so 16 450 = 7 200 bits;
 //  - along a parabola: M (left_of(N) v) <= 2^64 2^258, three roots, so 8 323 = 2 584 bits.
-// A sum of two of a size is a bit longer: 7 264 bits are enough for all.
+// A sum of two of a size is a bit longer. With one root, as where lengths are commensurable or points are
+// among the sites, a clearance takes 2 516 = 1 032 bits: that has room in a BigInteger itself.
 #include "core/segment_exact.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
+#include "core/exact_contacts.hpp"
 #include "core/lattice_vector.hpp"
 
 namespace vorotool::core {
@@ -86,7 +90,7 @@ int middle_of_parabola(const LatticePoint& p, const LatticeSite& segment, const 
   const std::int64_t h1 = dot(n1, p - segment.a);
   auto side = [&](const ExactDisc& disc) {
     RootTower tower;
-    const std::size_t lifted = tower.adjoin_all(*disc.tower);
+    const std::vector<RootNumber> lifted = tower.adjoin_all(*disc.tower);
     const RootNumber m = tower.adjoin_root(big(norm2(n1)) * big(norm2(n2))) - big(dot(n1, n2));
     const RootNumber along = tower.lift(CentreSeen(disc, p).along(left_of(n1)), lifted);
     return (m * along - big(h1) * big(cross(n1, n2)) * tower.lift(disc.w, lifted)).sign();
@@ -148,8 +152,8 @@ int clearance_sign(const ExactDisc& disc, const LatticeSite& query) {
 
 int compare_along(const ExactDisc& first, const ExactDisc& second, const LatticeVector& direction) {
   RootTower tower;
-  const std::size_t lifted_first = tower.adjoin_all(*first.tower),
-                    lifted_second = tower.adjoin_all(*second.tower);
+  const std::vector<RootNumber> lifted_first = tower.adjoin_all(*first.tower),
+                                lifted_second = tower.adjoin_all(*second.tower);
   const RootNumber a = tower.lift(CentreSeen(first, first.origin).along(direction), lifted_first);
   const RootNumber b = tower.lift(CentreSeen(second, first.origin).along(direction), lifted_second);
   return (a * tower.lift(second.w, lifted_second) - b * tower.lift(first.w, lifted_first)).sign();
@@ -166,9 +170,18 @@ int exact_clearance_sign(SiteTriple sites, const LatticeSite& query) {
   return clearance_sign(disc_of(sites), query);
 }
 
-bool exact_same_centre(SiteTriple first, SiteTriple second) {
-  const ExactDisc a = disc_of(first), b = disc_of(second);
-  return compare_along(a, b, {1, 0}) == 0 && compare_along(a, b, {0, 1}) == 0;
+// There is one disc that touches three sites in their order. So no number of one disc need meet one of the
+// other: that with fewer segments has shorter ones.
+bool exact_same_disc(SiteTriple first, SiteTriple second) {
+  const auto segments_of = [](SiteTriple sites) {
+    return std::ranges::count(sites, false, &LatticeSite::is_point);
+  };
+  if (segments_of(first) > segments_of(second)) std::swap(first, second);
+  const ExactDisc disc = disc_of(first);
+  const auto is_touched = [&](const LatticeSite& site) {
+    return std::ranges::find(first, site) != first.end() || touches(disc, site);
+  };
+  return std::ranges::all_of(second, is_touched) && contacts_in_order(disc, second);
 }
 
 int exact_edge_clearance_sign(const LatticeSite& left, const LatticeSite& right, SiteTriple first,

@@ -35,8 +35,8 @@ RoundedDisc rounded(const ExactDisc& disc);
 // query enters the disc, 0 if it only touches, 1 if it stays clear.
 int exact_clearance_sign(SiteTriple sites, const LatticeSite& query);
 
-// Whether the discs have one centre: do two Voronoi vertices coincide?
-bool exact_same_centre(SiteTriple first, SiteTriple second);
+// Whether the discs, of positive radius, are one: do two Voronoi vertices coincide?
+bool exact_same_disc(SiteTriple first, SiteTriple second);
 
 // Does a piece of a Voronoi edge survive in its middle when a segment is inserted?
 //

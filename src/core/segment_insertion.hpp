@@ -13,10 +13,12 @@
 
 namespace vorotool::core {
 
-// The vertices of a diagram, in an array with room for all that are to come; a point's cell is found by one
-// of its corners.
+// The vertices of a diagram: first those of the points alone, then room for two more for each segment. All are
+// in use when all segments are. Both follow the order of the sites. A point's cell is found by one of its
+// corners.
 struct VoronoiRecords {
-  explicit VoronoiRecords(std::size_t room, std::size_t points) : all(room), corner_of_point(points) {}
+  VoronoiRecords(std::size_t points, std::size_t segments)
+      : of_points(points < 2 ? 0 : 2 * points - 2), all(of_points + 2 * segments), corner_of_point(points) {}
 
   VoronoiRecord& operator[](std::int32_t record) { return all[static_cast<std::size_t>(record)]; }
   const VoronoiRecord& operator[](std::int32_t record) const { return all[static_cast<std::size_t>(record)]; }
@@ -33,8 +35,8 @@ struct VoronoiRecords {
         .store(corner, std::memory_order_release);
   }
 
+  std::size_t of_points;
   LargeArray<VoronoiRecord> all;
-  std::int32_t size = 0;                // records in use, the first ones
   std::vector<Corner> corner_of_point;  // [points]
 };
 

@@ -3,9 +3,11 @@
 #include <cmath>
 #include <optional>
 
+#include "core/common_circle.hpp"
 #include "core/dyadic_disc.hpp"
 #include "core/predicates.hpp"
 #include "core/segment_exact.hpp"
+#include "core/touched_ends.hpp"
 
 namespace vorotool::core {
 namespace {
@@ -130,6 +132,10 @@ int SegmentPredicates::end_sign(const VoronoiRecord& v, int i, const SegmentQuer
   const double error =
       static_cast<double>(v.position_error) + 7 * unit_roundoff * (std::abs(dx) + std::abs(dy));
   if (std::abs(along) > error) return along > 0 ? -1 : 0;
+  if (const std::optional<int> forward = sign_along_from_end(sites_, v, end, query.site)) {
+    ++counts_.integer;
+    return *forward > 0 ? -1 : 0;
+  }
   return sign_beyond_filter(v, query);
 }
 
@@ -145,11 +151,24 @@ int SegmentPredicates::sign_in_double_double(const VoronoiRecord& v, const Segme
   return forward == undecided ? undecided : forward > 0 ? -1 : 0;
 }
 
+// Whether the line of a segment that nearly touches the disc of three segments does touch it.
+bool SegmentPredicates::is_touched_as_fourth(const VoronoiRecord& v, const SegmentQuery& query) const {
+  std::array<LatticeSite, 4> lines;
+  for (int i = 0; i < 3; ++i) {
+    const SiteIndex site = v.sites[static_cast<std::size_t>(i)];
+    if (!sites_.is_segment(site)) return false;
+    lines[static_cast<std::size_t>(i)] = sites_.turned(site, v.is_left(i));
+  }
+  const SegmentSite& s = query.segment;
+  lines[3] = sites_.turned(query.site, s.ux * (v.y - s.a.y) > s.uy * (v.x - s.a.x));
+  return is_one_circle(lines);
+}
+
 int SegmentPredicates::sign_beyond_filter(const VoronoiRecord& v, const SegmentQuery& query) {
   if (const std::optional<DyadicDisc> disc = dyadic_disc(sites_, v)) {
     const int sign = disc->sign(query.segment);
     if (sign != undecided) {
-      ++counts_.dyadic;
+      ++counts_.integer;
       return sign;
     }
   }
@@ -157,6 +176,10 @@ int SegmentPredicates::sign_beyond_filter(const VoronoiRecord& v, const SegmentQ
   if (sign != undecided) {
     ++counts_.double_double;
     return sign;
+  }
+  if (is_touched_as_fourth(v, query)) {
+    ++counts_.integer;
+    return 0;
   }
   ++counts_.exact;
   return exact_clearance_sign(sites_.triple(v.sites), sites_.lattice_site(query.site));

@@ -17,12 +17,12 @@ namespace vorotool::core {
 
 // How many decisions needed more than a filter in floating point.
 struct EscalationCounts {
-  std::int64_t dyadic = 0;         // settled by integers: the centre is a dyadic number
+  std::int64_t integer = 0;        // settled by a few integers
   std::int64_t double_double = 0;  // settled by numbers of 106 bits
   std::int64_t exact = 0;          // settled by multiprecision
 
   EscalationCounts& operator+=(const EscalationCounts& other) {
-    dyadic += other.dyadic;
+    integer += other.integer;
     double_double += other.double_double;
     exact += other.exact;
     return *this;
@@ -60,6 +60,7 @@ class SegmentPredicates {
   int corner_sign(const VoronoiRecord& vertex, int i, const SegmentQuery& query) const;
   int end_sign(const VoronoiRecord& vertex, int i, const SegmentQuery& query);
   int sign_in_double_double(const VoronoiRecord& vertex, const SegmentQuery& query) const;
+  bool is_touched_as_fourth(const VoronoiRecord& vertex, const SegmentQuery& query) const;
   int sign_beyond_filter(const VoronoiRecord& vertex, const SegmentQuery& query);
 
   // An edge between a point and another site; seen from the point it turns counter-clockwise.

@@ -59,6 +59,11 @@ class SegmentSites {
     if (is_point(site)) return {point(site), point(site)};
     return {segment(site).a, segment(site).b};
   }
+  // A segment so turned that a disc is to its left.
+  LatticeSite turned(SiteIndex site, bool disc_is_left) const {
+    const SegmentSite& s = segment(site);
+    return disc_is_left ? LatticeSite{s.a, s.b} : LatticeSite{s.b, s.a};
+  }
   std::array<LatticeSite, 3> triple(const std::array<SiteIndex, 3>& sites) const {
     return {lattice_site(sites[0]), lattice_site(sites[1]), lattice_site(sites[2])};
   }

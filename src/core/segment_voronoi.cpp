@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/divide_and_conquer.hpp"
-#include "core/half_edges_of_rings.hpp"
 #include "core/insertion_rounds.hpp"
 #include "core/point_order.hpp"
 #include "core/point_voronoi.hpp"
@@ -90,14 +89,10 @@ void SegmentVoronoi::make_point_diagram(const SegmentGraph& graph, unsigned thre
   MortonOrder order = ordered(graph.points, threads, monitor);
   const std::span<RingVertex> vertices{order.vertices.data(), order.index.size()};
   Subdivision mesh = divide_and_conquer({vertices, order.index, order.code, order.fine}, threads, monitor);
-  const HalfEdges edges = half_edges_of(vertices);
-  const HalfEdge hull = vertices.empty() ? no_edge : front_edge(vertices, edges, mesh.start);
-  const std::vector<std::uint32_t> index = std::move(order.index);
-  order = {};
-  mesh = {};
-  number_sites(graph, index);
-  const std::size_t room = 2 * (graph.points.size() + graph.segments.size());
-  records_ = point_voronoi(sites_, edges, hull, room, threads, monitor);
+  order.code = {};
+  order.fine = {};
+  number_sites(graph, order.index);
+  records_ = point_voronoi(sites_, mesh, vertices, threads, monitor);
 }
 
 // Points in the order of the triangulation, and the segments along them.

@@ -6,10 +6,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/lattice.hpp"
@@ -36,8 +39,43 @@ class SiteHierarchy {
     near(levels_.size() - 1, 0, x, y, wide * wide * (1 + 0x1p-50), visit);
   }
 
+  // The distance of (x, y) from the nearest item, less up to `slack` of it: of many that are about as near,
+  // few are looked at. `distance(item)` gives that of one.
+  template <class Distance>
+  double nearest(double x, double y, double slack, const Distance& distance) const {
+    double best = std::numeric_limits<double>::infinity();
+    if (!index_.empty()) nearest(levels_.size() - 1, 0, x, y, 1 - slack, distance, best);
+    return best * (1 - slack);
+  }
+
  private:
   static constexpr std::size_t leaf_size = 4;
+
+  double distance_to_box(std::size_t level, std::size_t node, double x, double y) const {
+    const OrientedBox& box = levels_[level][node];
+    const double t = box.ux * x + box.uy * y, n = box.ux * y - box.uy * x;
+    const double dt = std::max(std::max(box.t_least - t, t - box.t_most), 0.0);
+    const double dn = std::max(std::max(box.n_least - n, n - box.n_most), 0.0);
+    return std::sqrt(dt * dt + dn * dn) - (0x1p-18 + 0x1p-49 * (std::abs(x) + std::abs(y)));
+  }
+
+  template <class Distance>
+  void nearest(std::size_t level, std::size_t node, double x, double y, double share,
+               const Distance& distance, double& best) const {
+    if (level == 0) {
+      const std::size_t last = std::min(index_.size(), (node + 1) * leaf_size);
+      for (std::size_t i = node * leaf_size; i < last; ++i) best = std::min(best, distance(index_[i]));
+      return;
+    }
+    std::array<std::pair<double, std::size_t>, 2> below{std::pair{0.0, 2 * node}, {0.0, 2 * node + 1}};
+    const std::size_t count = below[1].second < levels_[level - 1].size() ? 2 : 1;
+    for (std::size_t i = 0; i < count; ++i)
+      below[i].first = distance_to_box(level - 1, below[i].second, x, y);
+    if (count == 2 && below[1].first < below[0].first) std::swap(below[0], below[1]);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (below[i].first < share * best) nearest(level - 1, below[i].second, x, y, share, distance, best);
+    }
+  }
 
   template <class Visit>
   bool near(std::size_t level, std::size_t node, double x, double y, double reach2,

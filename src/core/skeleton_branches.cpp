@@ -9,7 +9,7 @@ namespace {
 std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 // Numbers of the arcs, group by group.
-std::vector<std::int32_t> by_group(const std::vector<GraphArc>& arcs) {
+std::vector<std::int32_t> by_group(std::span<const GraphArc> arcs) {
   std::int32_t most = -1;
   for (const GraphArc& arc : arcs) most = std::max(most, arc.group);
   std::vector<std::int32_t> begin(at(most + 2)), order(arcs.size());
@@ -23,8 +23,8 @@ std::vector<std::int32_t> by_group(const std::vector<GraphArc>& arcs) {
 
 class BranchWalk {
  public:
-  explicit BranchWalk(const SkeletonGraph& graph)
-      : arcs_(graph.arcs), nodes_(graph.node_count()), is_done_(graph.arcs.size()) {
+  BranchWalk(std::span<const GraphArc> arcs, std::size_t nodes)
+      : arcs_(arcs), nodes_(nodes), is_done_(arcs.size()) {
     for (std::size_t k = 0; k < arcs_.size(); ++k) {
       for (const std::int32_t node : {arcs_[k].source, arcs_[k].target}) {
         ++nodes_[at(node)].degree;
@@ -87,7 +87,7 @@ class BranchWalk {
     return number;
   }
 
-  const std::vector<GraphArc>& arcs_;
+  std::span<const GraphArc> arcs_;
   std::vector<Node> nodes_;
   std::vector<bool> is_done_;
   std::int32_t branches_ = 0;
@@ -96,13 +96,13 @@ class BranchWalk {
 
 }  // namespace
 
-SkeletonOrder order_by_branches(const SkeletonGraph& graph, const Monitor& monitor) {
-  const std::vector<std::int32_t> order = by_group(graph.arcs);
-  BranchWalk walk(graph);
+SkeletonOrder order_by_branches(std::span<const GraphArc> arcs, std::size_t nodes, const Monitor& monitor) {
+  const std::vector<std::int32_t> order = by_group(arcs);
+  BranchWalk walk(arcs, nodes);
   for (std::size_t begin = 0, end; begin < order.size(); begin = end) {
-    const std::int32_t group = graph.arcs[at(order[begin])].group;
+    const std::int32_t group = arcs[at(order[begin])].group;
     end = begin;
-    while (end < order.size() && graph.arcs[at(order[end])].group == group) ++end;
+    while (end < order.size() && arcs[at(order[end])].group == group) ++end;
     walk.walk_all(std::span(order).subspan(begin, end - begin));
     if (monitor && !monitor(static_cast<double>(end) / static_cast<double>(order.size())))
       throw Interrupted();

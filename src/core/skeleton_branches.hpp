@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/monitor.hpp"
@@ -25,6 +26,6 @@ struct SkeletonOrder {
 // direction. Groups follow each other by number. In each, branches with ends come before closed ones,
 // otherwise in the order of their first arcs among those given; a branch begins at its end which that arc's
 // source is nearest to.
-SkeletonOrder order_by_branches(const SkeletonGraph& graph, const Monitor& monitor);
+SkeletonOrder order_by_branches(std::span<const GraphArc> arcs, std::size_t nodes, const Monitor& monitor);
 
 }  // namespace vorotool::core

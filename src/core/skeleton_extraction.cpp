@@ -90,7 +90,7 @@ SkeletonArrays extract_skeleton(const SegmentDiagram& diagram, std::span<const s
   SkeletonGraph graph(diagram, edges, groups);
   graph.join_corners(joined.first, joined.last);
   if (clipped) clip_to_frame(graph, clipped->group, clipped->frame, monitor);
-  const SkeletonOrder order = order_by_branches(graph, monitor);
+  const SkeletonOrder order = order_by_branches(graph.arcs, graph.node_count(), monitor);
   ArrayWriter writer(graph, order, place);
   for_each(order.nodes.size(), threads, monitor, [&](std::size_t i) { writer.write_node(i); });
   for_each(order.arcs.size(), threads, monitor, [&](std::size_t i) { writer.write_arc(i); });

@@ -39,8 +39,8 @@ VoronoiExtraction::VoronoiExtraction(const SegmentSites& sites, const VoronoiRec
     : sites_(sites),
       records_(records),
       given_(given),
-      vertex_of_(static_cast<std::size_t>(records.size)),
-      merged_(static_cast<std::size_t>(records.size)) {
+      vertex_of_(records.all.size()),
+      merged_(records.all.size()) {
   merge_coincident(threads, monitor);
   choose_leads();
   put_in_order(threads, monitor);
@@ -82,7 +82,7 @@ void VoronoiExtraction::merge_coincident(unsigned threads, const Monitor& monito
   for (const std::vector<Pair>& some : pairs) {
     for (const auto& [u, w] : some) unite(u, w);
   }
-  for (std::int32_t v = 0; v < records_.size; ++v) vertex_of_[static_cast<std::size_t>(v)] = root(v);
+  for (std::int32_t v = 0; v < static_cast<std::int32_t>(records_.all.size()); ++v) vertex_of_[static_cast<std::size_t>(v)] = root(v);
 }
 
 bool VoronoiExtraction::is_border(Corner corner) const {
@@ -152,7 +152,7 @@ std::int32_t VoronoiExtraction::target_of(Corner corner) const {
 void VoronoiExtraction::choose_leads() {
   leads_.assign(vertex_of_.size(), false);
   std::vector<bool> seen(vertex_of_.size());
-  for (std::int32_t v = 0; v < records_.size; ++v) {
+  for (std::int32_t v = 0; v < static_cast<std::int32_t>(records_.all.size()); ++v) {
     if (!merged_[static_cast<std::size_t>(v)]) continue;
     const auto place = static_cast<std::size_t>(vertex_of_[static_cast<std::size_t>(v)]);
     if (seen[place] || border_size(v) == 0) continue;
@@ -235,7 +235,7 @@ std::vector<Corner> VoronoiExtraction::edges_without_vertex() const {
   const auto sites = [&](Corner corner) {
     return sites_of_edge(records_[record_of(corner)], place_of(corner));
   };
-  for (std::int32_t v = 0; v < records_.size; ++v) {
+  for (std::int32_t v = 0; v < static_cast<std::int32_t>(records_.all.size()); ++v) {
     if (!records_[v].is_infinite()) continue;
     const Corner corner = corner_of(v, records_[v].find(sites_.infinite()));
     const EdgeSites beside = sites(corner);

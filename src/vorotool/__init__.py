@@ -60,6 +60,7 @@ _HOME = {
     "outlines": "vorotool.engines.outlines",
     "planar_graph": "vorotool.engines.planar_graph",
     "verify_planar_graph": "vorotool.engines.planar_graph",
+    "skeleton_approx": "vorotool.engines.skeleton_approx",
     "skeleton_exact": "vorotool.engines.skeleton_exact",
     "verify_skeleton": "vorotool.engines.skeleton_verification",
     "Offsets": "vorotool.geometry.offsets",

@@ -404,7 +404,7 @@ def planar_graph_fault(
 def segment_clearance_signs(sites: NDArray[np.int32]) -> NDArray[np.int8]:
     """(k, 4, 4): a disc, and the query."""
 
-def segment_same_centre(sites: NDArray[np.int32]) -> NDArray[np.int8]:
+def segment_same_disc(sites: NDArray[np.int32]) -> NDArray[np.int8]:
     """(k, 6, 4): two discs."""
 
 def segment_edge_clearance_signs(sites: NDArray[np.int32]) -> NDArray[np.int8]:
@@ -412,6 +412,14 @@ def segment_edge_clearance_signs(sites: NDArray[np.int32]) -> NDArray[np.int8]:
 
 def segment_discs(sites: NDArray[np.int32]) -> NDArray[np.float64]:
     """(k, 3) x, y and radius of (k, 3, 4) discs; NaN where there is none."""
+
+# ---- decisions of the engine about a few sites (bind_segment_predicates.cpp), for tests: sites as above ---------------
+
+def segment_conflicts(sites: NDArray[np.int32]) -> NDArray[np.int8]:
+    """(k, 2) of (k, 4, 4), a disc and a segment: is it in conflict; told by doubles, integers, double-double, exactly."""
+
+def segment_coincidences(sites: NDArray[np.int32]) -> NDArray[np.int8]:
+    """(k, 6, 4): two discs that share two sites."""
 
 # ---- the check of segment Voronoi diagrams (bind_segment_verification.cpp): arrays as in SegmentVoronoiDiagram ----
 
@@ -459,3 +467,83 @@ def clearances(
     progress: _Progress,
 ) -> NDArray[np.float64]:
     """Of the nearest site within reach; infinite where there is none."""
+
+# ---- approximate skeletons (bind_seed_skeleton.cpp): the first three arguments are the arrays of a planar graph ------
+
+class TooManySeedsError(Exception): ...
+
+_Samples = tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]
+_Steps = tuple[NDArray[np.uint64], NDArray[np.float64]]
+
+def sample_by_step(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    faces: NDArray[np.int32],
+    step: float,
+    most: int,
+    threads: int,
+    progress: _Progress,
+) -> _Samples:
+    """Seeds, the segment that each is inside of (-1: a point), and where those of each segment begin."""
+
+def corner_steps(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    faces: NDArray[np.int32],
+    step: float,
+    is_even: bool,
+    most: int,
+) -> _Steps:
+    """Where the distances of each point begin, and how far from it seeds are: at even steps, or doubling up to one."""
+
+def sample_from_corners(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    faces: NDArray[np.int32],
+    steps: _Steps,
+    most: int,
+    threads: int,
+    progress: _Progress,
+) -> _Samples: ...
+def refined_steps(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    faces: NDArray[np.int32],
+    steps: _Steps,
+    start: NDArray[np.int32],
+    parts: NDArray[np.int32],
+    most: int,
+) -> _Steps:
+    """Distances with each piece of an edge divided into so many parts."""
+
+class SampledDiagram:
+    def __init__(
+        self,
+        points: NDArray[np.int32],
+        segments: NDArray[np.int32],
+        faces: NDArray[np.int32],
+        seeds: NDArray[np.float64],
+        segment: NDArray[np.int32],
+        start: NDArray[np.int32],
+        threads: int,
+        progress: _Progress,
+    ) -> None: ...
+    @property
+    def counts(self) -> dict[str, int]: ...
+    @property
+    def walked_pieces(self) -> NDArray[np.int32]:
+        """Pieces of edges that may meet the cells of other seeds than their ends."""
+    def skeleton(
+        self,
+        face_group: NDArray[np.int32],
+        clipped: tuple[int, tuple[float, float, float, float]] | None,
+        whole: bool,
+        complete: bool,
+        tolerance: float,
+        origin_x: float,
+        origin_y: float,
+        scale: float,
+        threads: int,
+        progress: _Progress,
+    ) -> dict[str, Any]:
+        """Arrays as of extract_skeleton, with error_bound, seeds and parts, and the number of open_corners."""

@@ -127,23 +127,31 @@ def test_coordinates_beyond_the_lattice_are_refused():
         _core.segment_discs(rows([point(2**30, 0), point(0, 1), point(2, 2)]))
 
 
-def test_the_same_centre():
+def has_disc(sites):
+    return not np.isnan(_core.segment_discs(rows(sites))).any()
+
+
+def test_the_same_disc():
+    """Any three sites of a vertex, in the order of its ring, have its disc."""
     rng = random.Random(5)
-    equal = 0
-    for _ in range(300):
-        sites = segment_cases.lattice_sites(rng, 5, rng.choice([2, 3, 4]))
-        discs = [
-            ([sites[t[k]] for k in order], disc)
-            for t in ((0, 1, 2), (0, 1, 3), (2, 3, 4))
-            for order, (disc, *_) in discs_in_order([sites[k] for k in t]).items()
+    seen = {0: 0, 1: 0}
+    for _ in range(30):
+        sites = segment_oracle.sites_of(*segment_cases.random_graph(rng, 7, 4, rng.choice([1, 1, 2, 3])))
+        triples = [
+            (v, case)
+            for v, vertex in enumerate(segment_oracle.find_vertices(sites))
+            if vertex.disc.r > 1e-9
+            for triple in itertools.combinations(vertex.ring, 3)
+            if has_disc(case := [sites[k] for k in triple])
         ]
-        for (first, a), (second, b) in itertools.combinations(discs, 2):
-            right = certain(
-                lambda tie, sure, a=a, b=b: sign(a.x - b.x, tie, sure) == 0 and sign(a.y - b.y, tie, sure) == 0
-            )
-            assert _core.segment_same_centre(rows(first + second)).tolist() == [int(right)], (first, second)
-            equal += right
-    assert equal > 10
+        pairs = list(itertools.combinations(triples, 2))
+        right = [int(v == w) for (v, _), (w, _) in pairs]
+        if pairs:
+            got = _core.segment_same_disc(rows(*(first + second for (_, first), (_, second) in pairs)))
+            assert got.tolist() == right
+        for same in right:
+            seen[same] += 1
+    assert min(seen.values()) > 150
 
 
 # ---- the middle of an edge, against the diagrams before and after ----
@@ -152,7 +160,7 @@ def test_the_same_centre():
 def corner_order(ring, sites, chosen):
     """Three sites of a ring, in its order, that have one disc: not only two collinear segments and their end."""
     for triple in itertools.combinations(ring, 3):
-        if set(chosen) <= set(triple) and not np.isnan(_core.segment_discs(rows([sites[k] for k in triple]))).any():
+        if set(chosen) <= set(triple) and has_disc([sites[k] for k in triple]):
             return [sites[k] for k in triple]
     return None
 

@@ -19,6 +19,7 @@ COMMANDS = {
     "tessellate": "Digital Voronoi tessellation of points or of an image.",
     "delaunay": "Exact Delaunay triangulation of points or of an image.",
     "alphashape": "Alpha shapes of points, of one radius or of all.",
+    "skeleton-approx": "Skeleton of polygons and lines from samples, with certified errors.",
     "skeleton-exact": "Exact skeleton (medial axis) of polygons and lines.",
     "draw": "Draw a label image or a skeleton again, without computing it again.",
 }

@@ -10,6 +10,7 @@ from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
@@ -67,6 +68,11 @@ class SkeletonProducts(ABC):
     def graph(self) -> PlanarGraph:
         """The shapes as they were placed."""
 
+    @property
+    def _points(self) -> NDArray[np.float64] | None:
+        """What pictures show as points, if not the ends of edges."""
+        return None
+
     @abstractmethod
     def verify(self) -> None:
         """Check the diagram and the skeleton, from their arrays alone."""
@@ -122,7 +128,7 @@ class SkeletonProducts(ABC):
 
         value = self._value(target.what)
         page = self._page(value)
-        layers = picture_layers(value, page, self._layers(target.what), what=target.what)
+        layers = picture_layers(value, page, self._layers(target.what), what=target.what, points=self._points)
         write_layers(out, layers, page, fmt=target.fmt, threads=self.options.threads)
 
     def _layers(self, what: str) -> Sequence[str]:

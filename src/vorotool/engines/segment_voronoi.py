@@ -41,7 +41,8 @@ def segment_voronoi(
     -------
     SegmentVoronoiDiagram
         With ``counts``: ``visited`` vertices that were tested, ``cyclic`` segments whose conflict set had to be cut,
-        and tests settled beyond floating point by ``dyadic`` numbers, in ``double_double`` and ``exact``. These
+        and tests settled beyond floating point by ``integer``
+        arithmetic, in ``double_double`` and ``exact``. These
         numbers depend a little on how threads meet; nothing else does.
 
     Raises

@@ -165,7 +165,7 @@ def skeleton_of(
     group = face_groups(shapes.placed, side)[faces]
     kept = group >= 0
     if side != "exterior" and not shapes.graph.is_inside.any():
-        _warn_empty(shapes.placed.polygons)
+        warn_empty(shapes.placed.polygons)
     return assembled(
         shapes.graph,
         shapes.diagram,
@@ -259,7 +259,7 @@ def assembled(
     """
     outside = len(placed.polygons)
     frame = (frame or default_frame(placed.polygons)) if clips else None
-    clipped = None if frame is None else (outside, _on_lattice(frame, graph))
+    clipped = None if frame is None else (outside, on_lattice(frame, graph))
     joined = {8: (0, outside), 4: (outside, outside + 1)}.get(placed.polygons.connectivity or 0, (0, 0))
     made: dict[str, Any] = _core.extract_skeleton(
         *_arrays(diagram),
@@ -272,6 +272,15 @@ def assembled(
         threads,
         progress,
     )
+    return skeleton_of_arrays({**made, "error_bound": np.zeros(len(made["arcs"]))}, placed, frame)
+
+
+def skeleton_of_arrays(made: dict[str, Any], placed: PlacedShapes, frame: Frame | None) -> Skeleton:
+    """Put a skeleton together from the arrays of the core, in which the polygons of arcs are groups.
+
+    Those outside are the last group. `frame` is what they were cut by.
+    """
+    outside = len(placed.polygons)
     vertices, cut = made["vertices"], made.pop("frame_side")
     if frame is not None:  # rounding must not move what was cut off the frame
         x, y, w, h = frame
@@ -285,13 +294,13 @@ def assembled(
         site_table=placed.sites,
         polygon=polygon,
         side=np.where(is_outside, EXTERIOR, INTERIOR).astype(np.int8),
-        error_bound=np.zeros(len(polygon)),
         polygons=placed.polygons,
         frame=frame,
     )
 
 
-def _on_lattice(frame: Frame, graph: PlanarGraph) -> tuple[float, float, float, float]:
+def on_lattice(frame: Frame, graph: PlanarGraph) -> tuple[float, float, float, float]:
+    """Least and most x, then least and most y."""
     x, y, w, h = frame
     (origin_x, origin_y), scale = graph.origin, graph.scale
     return (
@@ -317,7 +326,8 @@ def _arrays(diagram: SegmentVoronoiDiagram) -> tuple[_Rows, _Rows, _Points, _Poi
     )
 
 
-def _warn_empty(polygons: PolygonSet) -> None:
+def warn_empty(polygons: PolygonSet) -> None:
+    """Say why there is no interior."""
     if not len(polygons):
         reason = "there are no polygons"
     elif polygons.is_line.all():

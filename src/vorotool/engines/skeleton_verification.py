@@ -68,8 +68,8 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
     threads = checked_threads(threads)
     if not len(skeleton):
         return
-    _check_arrays(skeleton)
-    _check_branches(skeleton)
+    check_arrays(skeleton)
+    check_branches(skeleton)
     sites = SitePlaces(skeleton)
     if skeleton.gap:  # the lines that lead to the corners are no bisectors of the shortened edges
         skeleton = _without_portions(skeleton)
@@ -175,7 +175,8 @@ def _elements(skeleton: Skeleton, graph: PlanarGraph, threads: int) -> PlanarGra
     return element_diagram(skeleton.polygons, skeleton.gap, threads=threads).graph
 
 
-def _check_arrays(skeleton: Skeleton) -> None:
+def check_arrays(skeleton: Skeleton) -> None:
+    """Raise unless indices exist, nodes are finite and used, and sides go with polygons."""
     for name, limit in (("arcs", len(skeleton.vertices)), ("sites", len(skeleton.site_table))):
         at = first_wrong(((getattr(skeleton, name) < 0) | (getattr(skeleton, name) >= limit)).any(axis=1))
         if at is not None:
@@ -193,7 +194,8 @@ def _check_arrays(skeleton: Skeleton) -> None:
         )
 
 
-def _check_branches(skeleton: Skeleton) -> None:
+def check_branches(skeleton: Skeleton) -> None:
+    """Raise unless branches are chains that end where they should."""
     step = np.diff(skeleton.branch, prepend=-1)
     at = first_wrong((step < 0) | (step > 1))
     if at is not None:

@@ -19,7 +19,13 @@ LAYERS = ("polygons", "elements", "points", "skeleton", "nodes", "labels")
 
 
 def skeleton_layers(
-    skeleton: Skeleton, page: Page, layers: Iterable[str], *, name: str = "skeleton", colour: str = RESULT
+    skeleton: Skeleton,
+    page: Page,
+    layers: Iterable[str],
+    *,
+    name: str = "skeleton",
+    colour: str = RESULT,
+    points: NDArray[np.float64] | None = None,
 ) -> list[Layer]:
     """Make layers of a skeleton; lines get finer where there are many.
 
@@ -34,6 +40,8 @@ def skeleton_layers(
         elements).
     name, colour : str
         Of the layer of arcs: a whole diagram has other ones.
+    points : (s, 2) float64 array, optional
+        Samples of the edges: drawn instead of the ends of edges.
 
     Raises
     ------
@@ -48,13 +56,14 @@ def skeleton_layers(
     ['polygons', 'skeleton']
     """
     wanted = checked_layers(layers, LAYERS)
-    spacing = page.spacing(max(len(skeleton.site_table), 1))
+    places = _site_places(skeleton) if points is None else points
+    spacing = page.spacing(max(len(skeleton.site_table), len(places), 1))
     width = min(max(spacing / 16, 0.2), 1.5)
     radius = min(max(spacing / 16, 0.3), 3.0)
     make: dict[str, Callable[[], list[Layer]]] = {
         "polygons": lambda: polygon_layers(skeleton.polygons, width),
         "elements": lambda: [_edges(skeleton, width)],
-        "points": lambda: [Points("points", _site_places(skeleton), radius=radius)],
+        "points": lambda: [Points("points", places, radius=radius)],
         "skeleton": lambda: [_arcs(skeleton, name, colour, width)],
         "nodes": lambda: [Points("nodes", skeleton.vertices, colour=colour, radius=radius)],
         "labels": lambda: [_labels(skeleton, min(max(spacing / 6, 2.0), 16.0))],
@@ -62,11 +71,18 @@ def skeleton_layers(
     return [layer for layer_name in LAYERS if layer_name in wanted for layer in make[layer_name]()]
 
 
-def picture_layers(skeleton: Skeleton, page: Page, layers: Iterable[str], *, what: str = "skeleton") -> list[Layer]:
+def picture_layers(
+    skeleton: Skeleton,
+    page: Page,
+    layers: Iterable[str],
+    *,
+    what: str = "skeleton",
+    points: NDArray[np.float64] | None = None,
+) -> list[Layer]:
     """Make the layers of the picture of a skeleton, or of a whole diagram, which is another layer in another colour."""
     if what == "diagram":
-        return skeleton_layers(skeleton, page, layers, name="diagram", colour=SEED)
-    return skeleton_layers(skeleton, page, layers)
+        return skeleton_layers(skeleton, page, layers, name="diagram", colour=SEED, points=points)
+    return skeleton_layers(skeleton, page, layers, points=points)
 
 
 def skeleton_page(

@@ -1,0 +1,228 @@
+// Approximate skeletons: seeds on edges, their Voronoi diagram, and what of it is kept.
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/tuple.h>
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "core/edge_samples.hpp"
+#include "core/parallel.hpp"
+#include "core/seed_diagram.hpp"
+#include "core/seed_skeleton.hpp"
+#include "diagram_arrays.hpp"
+#include "interrupts.hpp"
+#include "mesh_arrays.hpp"
+
+namespace vorotool::bindings {
+namespace {
+
+namespace nb = nanobind;
+using namespace nb::literals;
+using core::Monitor;
+
+// The arrays of a graph, kept while the core works on views of them.
+struct GraphArrays {
+  IndexRows points, segments, faces;
+
+  core::ShapeGraph graph() const {
+    const core::ShapeGraph g{rows<LatticePoint>(points), rows<Pair>(segments), rows<Pair>(faces)};
+    if (g.faces.size() != g.segments.size()) throw std::invalid_argument("each segment must have two faces");
+    for (const Pair& ends : g.segments) {
+      for (const std::int32_t end : ends) {
+        if (end < 0 || static_cast<std::size_t>(end) >= g.points.size()) {
+          throw std::invalid_argument("an end of a segment is out of range");
+        }
+      }
+    }
+    return g;
+  }
+};
+
+// Seeds, the segment that each is inside of, and where those of each segment begin.
+nb::tuple to_tuple(core::EdgeSamples&& samples) {
+  const std::size_t count = samples.segment.size();
+  return nb::make_tuple(points_to_numpy(std::move(samples.seeds)),
+                        to_numpy(std::move(samples.segment), {count}), to_numpy(std::move(samples.start)));
+}
+
+nb::tuple sample_by_step(const IndexRows& points, const IndexRows& segments, const IndexRows& faces,
+                         double step, std::size_t most, unsigned threads, nb::handle progress) {
+  const core::ShapeGraph graph = GraphArrays{points, segments, faces}.graph();
+  return to_tuple(run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::sample_by_step(graph, step, most, core::resolve_threads(threads), monitor);
+  }));
+}
+
+using Steps = std::pair<Vector<const std::uint64_t>, Vector<const double>>;
+
+core::CornerSteps steps_of(const Steps& steps, const core::ShapeGraph& graph) {
+  const auto start = view(steps.first);
+  const auto distance = view(steps.second);
+  core::CornerSteps made{{start.begin(), start.end()}, {distance.begin(), distance.end()}};
+  if (made.start.size() != graph.points.size() + 1 || made.start.back() != made.distance.size()) {
+    throw std::invalid_argument("the distances of seeds do not go with the points");
+  }
+  return made;
+}
+
+nb::tuple to_tuple(core::CornerSteps&& steps) {
+  return nb::make_tuple(to_numpy(std::vector<std::uint64_t>(steps.start.begin(), steps.start.end())),
+                        to_numpy(std::move(steps.distance)));
+}
+
+nb::tuple sample_from_corners(const IndexRows& points, const IndexRows& segments, const IndexRows& faces,
+                              const Steps& steps, std::size_t most, unsigned threads, nb::handle progress) {
+  const core::ShapeGraph graph = GraphArrays{points, segments, faces}.graph();
+  const core::CornerSteps wanted = steps_of(steps, graph);
+  return to_tuple(run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::sample_from_corners(graph, wanted, most, core::resolve_threads(threads), monitor);
+  }));
+}
+
+nb::tuple corner_steps(const IndexRows& points, const IndexRows& segments, const IndexRows& faces,
+                       double step, bool is_even, std::size_t most) {
+  const core::ShapeGraph graph = GraphArrays{points, segments, faces}.graph();
+  return to_tuple(is_even ? core::even_steps(graph, step, most) : core::doubled_steps(graph, step, most));
+}
+
+nb::tuple refined_steps(const IndexRows& points, const IndexRows& segments, const IndexRows& faces,
+                        const Steps& steps, const Indices& start, const Indices& parts, std::size_t most) {
+  const core::ShapeGraph graph = GraphArrays{points, segments, faces}.graph();
+  if (start.size() != graph.segments.size() + 1 ||
+      parts.size() !=
+          graph.segments.size() + static_cast<std::size_t>(view(start).back()) - graph.points.size()) {
+    throw std::invalid_argument("the parts do not go with the pieces");
+  }
+  return to_tuple(core::refined_steps(graph, steps_of(steps, graph), view(start), view(parts), most));
+}
+
+// A diagram and what it looks at.
+class SampledDiagram {
+ public:
+  SampledDiagram(const GraphArrays& arrays, const Matrix<const double>& seeds, const Indices& segment,
+                 const Indices& start, unsigned threads, nb::handle progress)
+      : arrays_(arrays), seeds_(seeds), segment_(segment), start_(start) {
+    const core::ShapeGraph graph = arrays_.graph();
+    check(graph);
+    made_ = run_interruptible(progress, [&](const Monitor& monitor) {
+      return std::make_unique<core::SeedDiagram>(graph, as_points(seeds_), view(segment_), view(start_),
+                                                 core::resolve_threads(threads), monitor);
+    });
+  }
+
+  const core::SeedDiagram& operator*() const { return *made_; }
+
+ private:
+  void check(const core::ShapeGraph& graph) const {
+    const std::span<const std::int32_t> start = view(start_), segment = view(segment_);
+    bool fits = start.size() == graph.segments.size() + 1 && segment.size() == as_points(seeds_).size() &&
+                static_cast<std::size_t>(start.front()) == graph.points.size() &&
+                static_cast<std::size_t>(start.back()) == segment.size();
+    for (std::size_t j = 1; fits && j < start.size(); ++j) fits = start[j - 1] <= start[j];
+    for (const std::int32_t j : segment) {
+      fits &= j >= -1 && j < static_cast<std::int32_t>(graph.segments.size());
+    }
+    if (!fits) throw std::invalid_argument("the seeds do not go with the segments");
+  }
+
+  GraphArrays arrays_;
+  Matrix<const double> seeds_;
+  Indices segment_, start_;
+  std::unique_ptr<core::SeedDiagram> made_;
+};
+
+nb::dict counts_of(const SampledDiagram& diagram) {
+  const auto& counts = (*diagram).counts();
+  nb::dict result;
+  result["triangles"] = (*diagram).mesh().size();
+  result["shared_label"] = counts.shared;
+  result["crossed"] = counts.crossed;
+  result["walked_pieces"] = counts.walked;
+  return result;
+}
+
+nb::object walked_pieces(const SampledDiagram& diagram) {
+  const auto pieces = (*diagram).walked_pieces();
+  return to_numpy(std::vector<std::int32_t>(pieces.begin(), pieces.end()));
+}
+
+using Box = std::tuple<double, double, double, double>;
+
+nb::dict skeleton_of(const SampledDiagram& diagram, const Indices& face_group,
+                     const std::optional<std::pair<std::int32_t, Box>>& clipped, bool whole, bool complete,
+                     double tolerance, double origin_x, double origin_y, double scale, unsigned threads,
+                     nb::handle progress) {
+  core::SeedSkeletonOptions options{view(face_group), {}, whole, complete, tolerance};
+  if (clipped) {
+    const auto [least_x, most_x, least_y, most_y] = clipped->second;
+    options.clipped = core::ClippedGroup{clipped->first, {least_x, most_x, least_y, most_y}};
+  }
+  for (const Pair& pair : (*diagram).labels().graph().faces) {
+    for (const std::int32_t face : pair) {
+      if (face < 0 || static_cast<std::size_t>(face) >= face_group.size()) {
+        throw std::invalid_argument("a face has no group");
+      }
+    }
+  }
+  const std::int32_t unbounded = whole || face_group.size() == 0 ? 0 : view(face_group)[0];
+  if (unbounded >= 0 && !(options.clipped && options.clipped->group == unbounded)) {
+    throw std::invalid_argument("unbounded edges are in no frame");
+  }
+  core::SeedSkeleton made = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::extract_seed_skeleton(*diagram, options, {origin_x, origin_y, scale},
+                                       core::resolve_threads(threads), monitor);
+  });
+  nb::dict result;
+  result["vertices"] = two_columns(std::move(made.arrays.vertices));
+  result["radius"] = to_numpy(std::move(made.arrays.radius));
+  result["frame_side"] = to_numpy(std::move(made.arrays.side));
+  result["arcs"] = two_columns(std::move(made.arrays.arcs));
+  result["control"] = two_columns(std::move(made.arrays.control));
+  result["sites"] = two_columns(std::move(made.arrays.sites));
+  result["group"] = to_numpy(std::move(made.arrays.group));
+  result["branch"] = to_numpy(std::move(made.arrays.branch));
+  result["length"] = to_numpy(std::move(made.arrays.length));
+  result["error_bound"] = to_numpy(std::move(made.error));
+  result["seeds"] = two_columns(std::move(made.seeds));
+  result["parts"] = to_numpy(std::move(made.parts));
+  result["open_corners"] = made.open_corners;
+  return result;
+}
+
+}  // namespace
+
+void bind_seed_skeleton(nb::module_& module) {
+  nb::exception<core::TooManySeeds>(module, "TooManySeedsError");
+  module.def("sample_by_step", &sample_by_step, "points"_a.noconvert(), "segments"_a.noconvert(),
+             "faces"_a.noconvert(), "step"_a, "most"_a, "threads"_a, "progress"_a.none());
+  module.def("sample_from_corners", &sample_from_corners, "points"_a.noconvert(), "segments"_a.noconvert(),
+             "faces"_a.noconvert(), "steps"_a.noconvert(), "most"_a, "threads"_a, "progress"_a.none());
+  module.def("corner_steps", &corner_steps, "points"_a.noconvert(), "segments"_a.noconvert(),
+             "faces"_a.noconvert(), "step"_a, "is_even"_a, "most"_a);
+  module.def("refined_steps", &refined_steps, "points"_a.noconvert(), "segments"_a.noconvert(),
+             "faces"_a.noconvert(), "steps"_a.noconvert(), "start"_a.noconvert(), "parts"_a.noconvert(),
+             "most"_a);
+  nb::class_<SampledDiagram>(module, "SampledDiagram")
+      .def(
+          "__init__",
+          [](SampledDiagram* self, const IndexRows& points, const IndexRows& segments, const IndexRows& faces,
+             const Matrix<const double>& seeds, const Indices& segment, const Indices& start,
+             unsigned threads, nb::handle progress) {
+            new (self) SampledDiagram({points, segments, faces}, seeds, segment, start, threads, progress);
+          },
+          "points"_a.noconvert(), "segments"_a.noconvert(), "faces"_a.noconvert(), "seeds"_a.noconvert(),
+          "segment"_a.noconvert(), "start"_a.noconvert(), "threads"_a, "progress"_a.none())
+      .def_prop_ro("counts", &counts_of)
+      .def_prop_ro("walked_pieces", &walked_pieces)
+      .def("skeleton", &skeleton_of, "face_group"_a.noconvert(), "clipped"_a.none(), "whole"_a, "complete"_a,
+           "tolerance"_a, "origin_x"_a, "origin_y"_a, "scale"_a, "threads"_a, "progress"_a.none());
+}
+
+}  // namespace vorotool::bindings

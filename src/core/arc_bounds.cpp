@@ -1,0 +1,254 @@
+#include "core/arc_bounds.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/clearance.hpp"
+#include "core/near_edges.hpp"
+#include "core/parallel.hpp"
+#include "core/site_hierarchy.hpp"
+
+namespace vorotool::core {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double node_error = 0x1p-21;  // nodes are rounded to doubles below 2^31
+constexpr int most_halvings = 6;
+constexpr double most_parts = 16;  // of a piece at a time
+
+double distance(const Place& p, const Place& q) {
+  const double x = p[0] - q[0], y = p[1] - q[1];
+  return std::sqrt(x * x + y * y);
+}
+Place place_of(const Point& p) { return {p.x, p.y}; }
+
+// What is known of an arc while it is bounded.
+class Bounder {
+ public:
+  Bounder(const SeedDiagram& diagram, std::span<const NearEdge> items, const SiteHierarchy& hierarchy)
+      : diagram_(diagram), items_(items), hierarchy_(hierarchy), near_(items, hierarchy) {}
+
+  const ArcBound& operator()(const BoundedArc& arc) {
+    arc_ = &arc;
+    for (std::size_t i = 0; i < 2; ++i) found_.radius[i] = distance(arc.place[i], place_of(seed(arc.seed)));
+    found_.error = node_error;  // all there is where the seeds are on one line: they are the ends of edges
+    if (arc.side < 0) return found_;
+    set_seeds();
+    most_ = -1;
+    found_.error += arc.corner < 0 ? bound(arc.place[0], arc.place[1], 0) : bound_from_corner();
+    return found_;
+  }
+
+  // Asks for shorter pieces of the edges that are near the last arc, where they are nearest to it.
+  void demand(double tolerance, std::span<std::int32_t> parts) const {
+    std::vector<std::pair<std::int32_t, double>> pieces;  // with their lengths
+    double longest = 0;
+    for (const std::int32_t segment : wanting_) {
+      diagram_.labels().visit_pieces(segment, foot(segment, 0), foot(segment, 1), [&](std::int32_t piece) {
+        const EdgePiece ends = diagram_.labels().piece(piece);
+        pieces.push_back({piece, distance(place_of(seed(ends.first)), place_of(seed(ends.last)))});
+        longest = std::max(longest, pieces.back().second);
+      });
+    }
+    const double wanted = std::isfinite(found_.error) ? 1.05 * std::sqrt(found_.error / tolerance) : 2;
+    const double most = longest / std::clamp(wanted, 1.05, most_parts);
+    for (const auto& [piece, length] : pieces) {
+      std::atomic_ref<std::int32_t> count(parts[static_cast<std::size_t>(piece)]);
+      const auto own = static_cast<std::int32_t>(std::ceil(length / most));
+      std::int32_t so_far = count.load(std::memory_order_relaxed);
+      while (so_far < own && !count.compare_exchange_weak(so_far, own, std::memory_order_relaxed)) {
+      }
+    }
+  }
+
+ private:
+  const SeedMesh& mesh() const { return diagram_.mesh(); }
+  const Point& seed(std::int32_t s) const { return mesh().seed(s); }
+  // How far along a segment the foot of an end of the arc is, as a share of its length.
+  double foot(std::int32_t segment, std::size_t end) const {
+    const LatticeSite site = diagram_.labels().graph().site(segment);
+    const LatticeVector along = site.b - site.a;
+    const double ux = static_cast<double>(along.x), uy = static_cast<double>(along.y);
+    const double x = arc_->place[end][0] - site.a.x, y = arc_->place[end][1] - site.a.y;
+    return (ux * x + uy * y) / (ux * ux + uy * uy);
+  }
+
+  // The seeds of the arc, and the reach: a quarter of the longest gap beside them.
+  void set_seeds() {
+    double longest = 0;
+    const std::array<std::int32_t, 2> own{mesh().origin(arc_->side), mesh().target(arc_->side)};
+    for (std::size_t i = 0; i < 2; ++i) {
+      labels_[i].clear();
+      diagram_.labels().visit(own[i], [&](std::int32_t segment) { labels_[i].push_back(segment); });
+      seeds_[i] = {seed(own[i]), labels_[i]};
+      diagram_.labels().visit_beside(own[i], [&](std::int32_t other) {
+        longest = std::max(longest, distance(place_of(seed(other)), place_of(seed(own[i]))));
+      });
+    }
+    reach_ = longest / 4;
+  }
+
+  double bound(const Place& a, const Place& b, int halvings) {
+    const auto wide_radius = [&](const Place& p) {
+      const double radius = distance(p, place_of(seeds_[0].place));
+      return std::sqrt(radius * radius + reach_ * reach_);
+    };
+    const auto near = near_.find({{a, b}, {wide_radius(a), wide_radius(b)}});
+    if (near) {
+      note_radius(a, b, *near);
+      return noted(axis_(a, b, seeds_, *near, reach_), *near);
+    }
+    if (halvings == most_halvings) return noted(crowded_bound(a, b), {});
+    const Place middle{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
+    const double first = bound(a, middle, halvings + 1);
+    return std::max(first, bound(middle, b, halvings + 1));
+  }
+
+  void note_radius(const Place& a, const Place& b, std::span<const NearEdge> near) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (arc_->place[i] != (i == 0 ? a : b)) continue;
+      for (const NearEdge& edge : near) {
+        found_.radius[i] = std::min(found_.radius[i], closed_distance(edge.site, arc_->place[i]));
+      }
+    }
+  }
+
+  // Keeps the edges that the largest bound comes from.
+  double noted(double error, std::span<const NearEdge> near) {
+    if (error > most_) {
+      most_ = error;
+      wanting_.clear();
+      for (const NearEdge& edge : near) {
+        if (edge.segment >= 0) wanting_.push_back(edge.segment);
+      }
+      for (const auto& labels : labels_) wanting_.insert(wanting_.end(), labels.begin(), labels.end());
+    }
+    return error;
+  }
+
+  // Where very many edges are near, any one may be the nearest. Of two seeds one is seen half their angle
+  // away from it, and the disc that grows away from it (core/axis_bound.hpp) meets that.
+  double crowded_bound(const Place& a, const Place& b) {
+    const Place own = place_of(seeds_[0].place);
+    const double radius = std::max(distance(a, own), distance(b, own)), length = distance(a, b);
+    const double clearance = (clearance_of(a, radius) + clearance_of(b, radius) - length) / 2;
+    if (!(clearance > 0)) return infinity;
+    double least = infinity;
+    for (const std::int32_t s : seeds_around()) {
+      const Place other = place_of(seed(s));
+      const double far = std::max({radius, distance(a, other), distance(b, other)}) + node_error;
+      const double denominator = clearance - far * cosine_of_half_angle(a, b, own, other, length / clearance);
+      if (denominator > 0) least = std::min(least, (far * far - clearance * clearance) / (2 * denominator));
+    }
+    return least;
+  }
+
+  // Of some triangles around the side: where very many seeds are at one distance these lead across the disc.
+  std::vector<std::int32_t> seeds_around() const {
+    constexpr std::size_t most = 64;
+    std::vector<Triangle> triangles{SeedMesh::triangle_of(arc_->side)};
+    std::vector<std::int32_t> seeds;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      for (Side s = 3 * triangles[i]; s < 3 * triangles[i] + 3; ++s) {
+        seeds.push_back(mesh().apex(s));
+        const Triangle across = mesh().across(s);
+        const bool is_new = std::find(triangles.begin(), triangles.end(), across) == triangles.end();
+        if (across >= 0 && is_new && triangles.size() < most) triangles.push_back(across);
+      }
+    }
+    return seeds;
+  }
+
+  double clearance_of(const Place& place, double radius) const {
+    const double slack = std::min(0x1p-10, reach_ * reach_ / (4 * radius * radius));
+    return hierarchy_.nearest(place[0], place[1], slack,
+                              [&](std::uint32_t item) { return closed_distance(items_[item].site, place); });
+  }
+
+  // Of the angle at which two places are seen from a and b and between, where directions turn by `turn` at
+  // most.
+  static double cosine_of_half_angle(const Place& a, const Place& b, const Place& p, const Place& q,
+                                     double turn) {
+    const Place x{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
+    const double cosine =
+        ((p[0] - x[0]) * (q[0] - x[0]) + (p[1] - x[1]) * (q[1] - x[1])) / (distance(x, p) * distance(x, q));
+    return std::sqrt(std::max(0.0, 1 + cosine) / 2) + turn + 0x1p-24;
+  }
+
+  // A line from a corner along the bisector of its edges. Everything about these two grows with the distance
+  // from the corner, errors and what they are compared with: the bound at a place holds for all up to it, if
+  // no other edge meets the discs about them, widened by their errors, which are at most their radii.
+  double bound_from_corner() {
+    const auto& [corner, target] = arc_->place;
+    const double radius = distance(corner, target);
+    const double wide = radius + reach_;  // holds the discs about the places before, as wide
+    const auto near = near_.find({{target, target}, {wide, wide}});
+    found_.radius = {0, radius};
+    if (!near) return noted(infinity, {});
+    note_radius(corner, target, *near);
+    found_.radius[0] = 0;
+    double share = 0.5;
+    while (share > 0x1p-60 && !has_only_corner(*near, 3 * share * radius)) share /= 2;
+    const Place from{corner[0] + share * (target[0] - corner[0]),
+                     corner[1] + share * (target[1] - corner[1])};
+    return noted(axis_(from, target, {}, *near, reach_), *near);
+  }
+
+  // Whether no edge is that near to the corner but those that end there.
+  bool has_only_corner(std::span<const NearEdge> near, double radius) const {
+    const ShapeGraph& graph = diagram_.labels().graph();
+    return std::all_of(near.begin(), near.end(), [&](const NearEdge& edge) {
+      if (edge.segment >= 0) {
+        const auto& ends = graph.ends(edge.segment);
+        if (ends[0] == arc_->corner || ends[1] == arc_->corner) return true;
+      }
+      return closed_distance(edge.site, arc_->place[0]) > radius;
+    });
+  }
+
+  const SeedDiagram& diagram_;
+  std::span<const NearEdge> items_;
+  const SiteHierarchy& hierarchy_;
+  NearEdges near_;
+  AxisBound axis_;
+  const BoundedArc* arc_ = nullptr;
+  std::array<std::vector<std::int32_t>, 2> labels_;
+  std::array<ArcSeed, 2> seeds_;
+  double reach_ = 0, most_ = -1;
+  std::vector<std::int32_t> wanting_;  // segments
+  ArcBound found_;
+};
+
+std::vector<LatticeSite> sites_of(std::span<const NearEdge> items) {
+  std::vector<LatticeSite> sites;
+  for (const NearEdge& item : items) sites.push_back(item.site);
+  return sites;
+}
+
+}  // namespace
+
+std::vector<ArcBound> arc_bounds(const SeedDiagram& diagram, std::span<const BoundedArc> arcs,
+                                 double tolerance, std::span<std::int32_t> parts, unsigned threads,
+                                 const Monitor& monitor) {
+  constexpr std::size_t grain = 1 << 11;
+  std::vector<ArcBound> bounds(arcs.size());
+  const std::vector<NearEdge> items = NearEdges::items(diagram.labels().graph());
+  const std::vector<LatticeSite> sites = sites_of(items);
+  const SiteHierarchy hierarchy(sites, threads, monitor);
+  parallel_for(
+      piece_count(arcs.size(), grain), threads,
+      [&](std::size_t piece) {
+        Bounder bounder(diagram, items, hierarchy);
+        for (std::size_t i = piece * grain; i < std::min(arcs.size(), (piece + 1) * grain); ++i) {
+          bounds[i] = bounder(arcs[i]);
+          if (!parts.empty() && !(bounds[i].error <= tolerance)) bounder.demand(tolerance, parts);
+        }
+      },
+      monitor);
+  return bounds;
+}
+
+}  // namespace vorotool::core

@@ -1,0 +1,48 @@
+// The edges of shapes near a part of a Voronoi edge of seeds on them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/axis_bound.hpp"
+#include "core/shape_graph.hpp"
+#include "core/site_hierarchy.hpp"
+
+namespace vorotool::core {
+
+// The discs about two points of a Voronoi edge hold those about all points between, if each goes through both
+// seeds or, squared, its radius is larger than that by the same for all.
+struct DiscPair {
+  std::array<Place, 2> centre;
+  std::array<double, 2> radius;
+};
+
+// Finds edges one time after the other: memory is used again.
+class NearEdges {
+ public:
+  // Segments of a graph, then all of its points that no segment ends at.
+  static std::vector<NearEdge> items(const ShapeGraph& graph);
+
+  // `hierarchy` holds the items by their numbers.
+  NearEdges(std::span<const NearEdge> items, const SiteHierarchy& hierarchy)
+      : items_(items), hierarchy_(hierarchy) {}
+
+  // All that meet the discs; nothing if these are too many, as where a shape is round.
+  std::optional<std::span<const NearEdge>> find(const DiscPair& discs);
+
+ private:
+  static constexpr std::size_t most = 64;
+
+  std::span<const NearEdge> items_;
+  const SiteHierarchy& hierarchy_;
+  std::vector<std::uint32_t> numbers_;
+  std::vector<NearEdge> found_;
+};
+
+}  // namespace vorotool::core

@@ -1,0 +1,154 @@
+#include "core/seed_diagram.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/delaunay_mesh.hpp"
+#include "core/disjoint_sets.hpp"
+#include "core/parallel.hpp"
+#include "core/predicates.hpp"
+#include "core/seed_crossings.hpp"
+#include "core/seed_faces.hpp"
+#include "core/seed_vector.hpp"
+
+namespace vorotool::core {
+namespace {
+
+constexpr std::size_t grain = 1 << 14;  // triangles a piece of work: about a millisecond
+
+std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
+
+// Calls body(s) for the sides that are to be looked at once.
+template <class Body>
+void for_each_side(const SeedMesh& mesh, unsigned threads, const Monitor& monitor, const Body& body) {
+  parallel_for(
+      piece_count(mesh.size(), grain), threads,
+      [&](std::size_t piece) {
+        const std::size_t last = std::min(mesh.sides(), 3 * (piece + 1) * grain);
+        for (std::size_t s = 3 * piece * grain; s < last; ++s) {
+          if (mesh.is_first(static_cast<Side>(s))) body(piece, static_cast<Side>(s));
+        }
+      },
+      monitor);
+}
+
+}  // namespace
+
+SeedDiagram::Triangulation SeedDiagram::triangulate(std::span<const Point> seeds, unsigned threads,
+                                                    const Monitor& monitor) {
+  const DelaunayMesh mesh(seeds, threads, monitor);
+  const std::size_t size = 3 * mesh.triangle_count();
+  Triangulation made{LargeArray<std::int32_t>(size), LargeArray<std::int32_t>(size), {}, {}};
+  if (size > 0) mesh.write({made.triangles.data(), made.neighbours.data(), nullptr}, threads, monitor);
+  made.first.assign(mesh.first().begin(), mesh.first().end());
+  if (size == 0) made.chain.assign(mesh.hull().begin(), mesh.hull().end());
+  return made;
+}
+
+SeedDiagram::SeedDiagram(const ShapeGraph& graph, std::span<const Point> seeds,
+                         std::span<const std::int32_t> segment, std::span<const std::int32_t> start,
+                         unsigned threads, const Monitor& monitor)
+    : SeedDiagram(triangulate(seeds, threads, monitor), graph, seeds, segment, start, threads, monitor) {}
+
+SeedDiagram::SeedDiagram(Triangulation&& made, const ShapeGraph& graph, std::span<const Point> seeds,
+                         std::span<const std::int32_t> segment, std::span<const std::int32_t> start,
+                         unsigned threads, const Monitor& monitor)
+    : triangles_(std::move(made.triangles)),
+      neighbours_(std::move(made.neighbours)),
+      first_(std::move(made.first)),
+      chain_(std::move(made.chain)),
+      mesh_{seeds, {triangles_.data(), triangles_.size()}, {neighbours_.data(), neighbours_.size()}},
+      labels_(graph, seeds, start, segment, first_),
+      state_(mesh_.sides()) {
+  std::vector<std::uint8_t> has_side(labels_.piece_count());
+  classify_sides(has_side, threads, monitor);
+  for (std::size_t k = 0; k < has_side.size() && mesh_.size() > 0; ++k) {
+    if (!has_side[k]) walked_.push_back(static_cast<std::int32_t>(k));
+  }
+  join_centres(threads, monitor);
+  cross_out(threads, monitor);
+  count_deleted();
+}
+
+void SeedDiagram::classify_sides(std::vector<std::uint8_t>& has_side, unsigned threads,
+                                 const Monitor& monitor) {
+  for_each_side(mesh_, threads, monitor, [&](std::size_t, Side s) {
+    const std::uint8_t state = state_of(s, has_side);
+    state_[at(s)] = state;
+    if (mesh_.across(s) >= 0) state_[at(mesh_.twin(s))] = state;
+  });
+}
+
+std::uint8_t SeedDiagram::state_of(Side s, std::vector<std::uint8_t>& has_side) const {
+  const std::int32_t p = mesh_.origin(s), q = mesh_.target(s);
+  if (!labels_.share(p, q)) return 0;
+  const std::int32_t piece = labels_.piece_between(p, q);
+  if (piece < 0 || !is_alone_on(s)) return same_label;
+  has_side[at(piece)] = 1;
+  return same_label | own_piece;
+}
+
+// Of the other seeds those opposite to a side would be the first in the disc about it.
+bool SeedDiagram::is_alone_on(Side s) const {
+  const Point &p = mesh_.seed(mesh_.origin(s)), &q = mesh_.seed(mesh_.target(s));
+  if (sign_of_dot(mesh_.seed(mesh_.apex(s)), p, q) <= 0) return false;
+  const Side twin = mesh_.across(s) < 0 ? -1 : mesh_.twin(s);
+  return twin < 0 || sign_of_dot(mesh_.seed(mesh_.apex(twin)), p, q) > 0;
+}
+
+void SeedDiagram::join_centres(unsigned threads, const Monitor& monitor) {
+  std::vector<std::vector<Side>> found(piece_count(mesh_.size(), grain));
+  for_each_side(mesh_, threads, monitor, [&](std::size_t piece, Side s) {
+    if (mesh_.across(s) < 0) return;
+    const Point &p = mesh_.seed(mesh_.origin(s)), &q = mesh_.seed(mesh_.target(s));
+    if (incircle(p, q, mesh_.seed(mesh_.apex(s)), mesh_.seed(mesh_.apex(mesh_.twin(s)))) == 0) {
+      found[piece].push_back(s);
+    }
+  });
+  if (std::all_of(found.begin(), found.end(), [](const auto& sides) { return sides.empty(); })) return;
+  DisjointSets<Triangle> sets(mesh_.size());
+  for (const auto& sides : found) {
+    for (const Side s : sides) sets.join(SeedMesh::triangle_of(s), mesh_.across(s));
+  }
+  root_.resize(mesh_.size());
+  for (std::size_t t = 0; t < root_.size(); ++t) root_[t] = sets.find(static_cast<Triangle>(t));
+}
+
+// Finds what pieces meet besides their own edges, and then the faces.
+void SeedDiagram::cross_out(unsigned threads, const Monitor& monitor) {
+  Crossings found;
+  std::vector<std::uint8_t> is_on_shape;
+  if (!walked_.empty()) {
+    const TriangulationArrays arrays{mesh_.seeds, mesh_.triangles, mesh_.neighbours, {}, {}, first_};
+    found = find_crossings(mesh_, TriangleRings(arrays), labels_, walked_, threads, monitor);
+  }
+  for (const Crossing& crossing : found.crossings) mark_crossed(crossing.side);
+  for (const Side s : found.ridden) mark_crossed(s);
+  if (!found.touched.empty()) {
+    is_on_shape.resize(mesh_.size());
+    for (const Triangle t : found.touched) is_on_shape[at(same_centre(t))] = 1;
+    for (std::size_t t = 0; t < is_on_shape.size(); ++t) {
+      is_on_shape[t] = is_on_shape[at(same_centre(static_cast<Triangle>(t)))];
+    }
+    for (std::size_t s = 0; s < mesh_.sides(); ++s) {
+      if (is_on_shape[s / 3]) mark_crossed(static_cast<Side>(s));
+    }
+  }
+  const std::span<const std::uint8_t> state(state_.data(), state_.size());
+  face_ = seed_faces({mesh_, labels_, state, is_on_shape, found.crossings}, threads, monitor);
+}
+
+void SeedDiagram::mark_crossed(Side s) {
+  state_[at(s)] |= crossed;
+  if (mesh_.across(s) >= 0) state_[at(mesh_.twin(s))] |= crossed;
+}
+
+void SeedDiagram::count_deleted() {
+  for (std::size_t s = 0; s < mesh_.sides(); ++s) {
+    if (!mesh_.is_first(static_cast<Side>(s)) || state_[s] == 0) continue;
+    ++((state_[s] & same_label) != 0 ? counts_.shared : counts_.crossed);
+  }
+  counts_.walked = walked_.size();
+}
+
+}  // namespace vorotool::core

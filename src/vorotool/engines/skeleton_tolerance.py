@@ -1,0 +1,122 @@
+"""Approximate skeletons as fine as a tolerance needs: sampling where the error bounds ask for it."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.label_arrays import Progress
+from vorotool.engines.placed_rings import PlacedShapes
+from vorotool.engines.skeleton_approx import (
+    MOST_SEEDS,
+    ApproximateSkeleton,
+    SampledShapes,
+    approximate_skeleton,
+    diagram_of_samples,
+    graph_arrays,
+)
+from vorotool.engines.skeleton_exact import Frame
+from vorotool.errors import LimitError
+from vorotool.geometry.planar_graph import PlanarGraph
+
+COARSEST = 2.0**-4
+"""Of the extent: the longest gaps that sampling begins with."""
+LEAST_STEPS = 2.0**-8
+"""Of the lattice: the least tolerance. Seeds and nodes are rounded to about 2^-21 of a step."""
+MOST_ROUNDS = 60
+"""Gaps are at least halved where they are too long: no more than this from the extent to the least of doubles."""
+
+
+def skeleton_within(
+    graph: PlanarGraph,
+    placed: PlacedShapes,
+    tolerance: float,
+    *,
+    side: str = "interior",
+    frame: Frame | None = None,
+    complete: bool = True,
+    most: int = MOST_SEEDS,
+    threads: int = 0,
+    progress: Progress = None,
+) -> ApproximateSkeleton:
+    """Sample a graph until the error bounds of all arcs are at most a tolerance.
+
+    The seeds are symmetric about each corner. They begin with gaps that double away from it. Where a bound is too
+    large, the gaps nearest to the arc are divided by what the bound, which goes with their square, asks for; and pieces
+    of edges that the cells of other seeds reach are halved, so that nothing is deleted but what should be.
+
+    Parameters
+    ----------
+    graph, placed : PlanarGraph, PlacedShapes
+        Of the polygons.
+    tolerance : float
+        In input units.
+    side, frame, complete
+        As of `vorotool.skeleton_approx`.
+    most : int
+        The most seeds.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done of each step.
+
+    Raises
+    ------
+    LimitError
+        If it takes more seeds, or coordinates are not that fine.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_approx
+    >>> skeleton = skeleton_approx([[0, 0], [8, 0], [8, 3], [4, 1], [0, 3]], tolerance=0.001)
+    >>> bool(skeleton.error_bound.max() <= 0.001)
+    True
+    """
+    if tolerance < LEAST_STEPS * graph.scale:
+        raise LimitError(
+            f"a tolerance of {tolerance:g} is finer than the lattice that polygons are placed on: use at least "
+            f"{LEAST_STEPS * graph.scale:.2g}"
+        )
+    extent = float(np.ptp(graph.points, axis=0).max()) if len(graph.points) else 1.0
+    try:
+        steps = _core.corner_steps(*graph_arrays(graph), COARSEST * extent, False, most)
+        for _ in range(MOST_ROUNDS):
+            made = _core.sample_from_corners(*graph_arrays(graph), steps, most, threads, progress)
+            shapes = diagram_of_samples(graph, placed, made, threads=threads, progress=progress)
+            found = approximate_skeleton(
+                shapes,
+                side=side,
+                frame=frame,
+                complete=complete,
+                tolerance=tolerance,
+                threads=threads,
+                progress=progress,
+            )
+            parts = _parts(shapes, found, tolerance)
+            if (parts == 1).all():
+                break
+            steps = _core.refined_steps(*graph_arrays(graph), steps, made[2], parts, most)
+    except _core.TooManySeedsError as error:
+        raise LimitError(
+            f"errors of at most {tolerance:g} take more than {most} seeds ({error}): use a larger tolerance, or allow "
+            "more seeds"
+        ) from None
+    wrong = ~(found.skeleton.error_bound <= tolerance)
+    if wrong.any():
+        x, y = found.skeleton.vertices[found.skeleton.arcs[wrong.argmax(), 0]].tolist()
+        raise LimitError(
+            f"errors of at most {tolerance:g} could not be proved for {np.count_nonzero(wrong)} arcs, the first near "
+            f"({x:g}, {y:g}): use a larger tolerance"
+        )
+    return found
+
+
+def _parts(shapes: SampledShapes, found: ApproximateSkeleton, tolerance: float) -> NDArray[np.int32]:
+    """Into how many parts each piece of an edge should be divided."""
+    parts = found.parts.copy()
+    walked = shapes.diagram.walked_pieces
+    lengths, _ = shapes.samples.gaps()
+    reached = walked[lengths[walked] > tolerance]
+    parts[reached] = np.maximum(parts[reached], 2)
+    return parts
