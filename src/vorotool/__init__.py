@@ -32,7 +32,7 @@ _HOME = {
     "Triangulation": "vorotool.geometry.triangulation",
     "read": "vorotool.formats",
     "to_geojson": "vorotool.formats",
-    "write": "vorotool.formats",
+    "write": "vorotool.writing",
     "seeds_from_points": "vorotool.engines.seeding",
     "seeds_from_raster": "vorotool.engines.seeding",
     "tessellate": "vorotool.engines.tessellate",

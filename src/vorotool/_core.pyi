@@ -474,10 +474,10 @@ def segment_edge_clearance_signs(sites: NDArray[np.int32]) -> NDArray[np.int8]:
 def segment_discs(sites: NDArray[np.int32]) -> NDArray[np.float64]:
     """(k, 3) x, y and radius of (k, 3, 4) discs; NaN where there is none."""
 
-# ---- decisions of the engine about a few sites (bind_segment_predicates.cpp), for tests: sites as above ---------------
+# ---- decisions of the engine about a few sites (bind_segment_predicates.cpp), for tests: sites as above --------
 
 def segment_conflicts(sites: NDArray[np.int32]) -> NDArray[np.int8]:
-    """(k, 2) of (k, 4, 4), a disc and a segment: is it in conflict; told by doubles, integers, double-double, exactly."""
+    """(k, 2) of (k, 4, 4), a disc and a segment: in conflict; told by doubles, integers, double-double, exactly."""
 
 def segment_coincidences(sites: NDArray[np.int32]) -> NDArray[np.int8]:
     """(k, 6, 4): two discs that share two sites."""

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.cli.pictures import write_layers
 from vorotool.cli.pruning import CRITERIA, Pruning, chosen_pruning
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
@@ -20,6 +19,7 @@ from vorotool.cli.units import in_units, length_in_units
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.skeleton import EXTERIOR, Skeleton
+from vorotool.pictures import write_layers
 
 if TYPE_CHECKING:
     from vorotool.geometry.centerline import Centerlines

@@ -29,8 +29,9 @@ def centerline(
 ) -> Centerlines:
     """Find the centerline of each polygon: the longest of the shortest paths between leaves of its skeleton.
 
-    Where a connected skeleton has no leaf, paths between its nodes are compared; where it has one, paths from it. Of equally long paths that whose ends
-    have the smallest numbers is taken. Usually the skeleton is pruned before, so that a path does not lead into a
+    Where a connected skeleton has no leaf, paths between its nodes are compared; where it has one, paths from it. Of
+    equally long paths that whose ends have the smallest numbers is taken. Usually the skeleton is pruned before, so
+    that a path does not lead into a
     corner. Leaves inside are extended to the boundary, straight on from the place of the path one radius of the
     leaf's disc before.
 

@@ -39,7 +39,8 @@ def prune(
     is left for a higher threshold is a part of what is left for a lower one.
 
     Cycles, and what leads from one to another or to the frame, stay. A component without these keeps at least one
-    place, as an arc of length 0: its end on the frame, if it has one; else where the angle or the chord is largest (of several the one with the largest radius),
+    place, as an arc of length 0: its end on the frame, if it has one; else where the angle or the chord is largest (of
+    several the one with the largest radius),
     for `scale` the centre of the largest disc, for `length` and `ratio` the middle of the longest path between leaves.
     "Beyond" is away from that place.
 

@@ -8,7 +8,7 @@ from vorotool.errors import UsageError
 from vorotool.formats.polylines import geojson_wording, wkt_wording, write_polylines
 from vorotool.formats.tables import TABLE_FORMATS, write_table
 from vorotool.geometry.centerline import Centerlines, centerline_table
-from vorotool.geometry.flattening import default_flatten
+from vorotool.geometry.flattening import checked_flatten
 
 CENTERLINE_FORMATS = ("geojson", *TABLE_FORMATS, "wkt")
 
@@ -59,7 +59,7 @@ def write_centerlines(
     if fmt in TABLE_FORMATS:
         write_table(out, centerline_table(lines), fmt, precision=precision, threads=threads)
         return
-    points, start = lines.flattened(flatten if flatten is not None else default_flatten(lines.path.polygons))
+    points, start = lines.flattened(checked_flatten(flatten, lines.path.polygons))
     least, most = lines.width_range
     own = {"length": lines.length, "width_mean": lines.width_mean, "width_min": least, "width_max": most}
     wording = (

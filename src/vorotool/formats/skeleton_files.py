@@ -9,15 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
+from vorotool.formats.graphml import write_graphml
 from vorotool.formats.polylines import Wording, geojson_wording, wkt_wording, write_polylines
 from vorotool.formats.skeleton_json import write_json
 from vorotool.formats.tables import TABLE_FORMATS, write_arrays, write_table
-from vorotool.geometry.flattening import default_flatten
+from vorotool.geometry.flattening import checked_flatten
 from vorotool.geometry.skeleton import SIDES, Skeleton
 from vorotool.geometry.skeleton_tables import arc_table, branch_table, element_table, polygon_table
 from vorotool.geometry.table import Table
 
-SKELETON_FORMATS = ("json", "csv", "geojson", "npz", "wkt")
+SKELETON_FORMATS = ("json", "csv", "geojson", "npz", "wkt", "graphml")
 _TABLES: dict[str, Callable[[Skeleton], Table]] = {"elements": element_table, "branches": branch_table}
 FORMATS = {"skeleton": SKELETON_FORMATS, **dict.fromkeys((*_TABLES, "table"), TABLE_FORMATS)}
 
@@ -36,7 +37,7 @@ def write_skeleton(
     r"""Write a skeleton, its branches or a row a polygon; the bytes depend on nothing but the skeleton and the options.
 
     JSON (version 1) and NPZ hold all there is, CSV one row an arc. GeoJSON and WKT have no curves: each branch is a
-    LineString, in GeoJSON with the id and the properties of its polygon.
+    LineString, in GeoJSON with the id and the properties of its polygon. GraphML has one edge a branch.
 
     Parameters
     ----------
@@ -44,7 +45,7 @@ def write_skeleton(
         Need not be seekable.
     skeleton : Skeleton
         What to write, in its order.
-    fmt : {"json", "csv", "geojson", "npz", "wkt"}
+    fmt : {"json", "csv", "geojson", "npz", "wkt", "graphml"}
         The format; the others are written as CSV, JSON or NPZ.
     what : {"skeleton", "elements", "branches", "table"}
         What to write.
@@ -73,7 +74,7 @@ def write_skeleton(
     if what not in FORMATS:
         raise UsageError(f"{what!r} is nothing that a skeleton is written as: use {' or '.join(FORMATS)}")
     if fmt in ("svg", "png"):
-        raise UsageError(f"{fmt.upper()} is for pictures: draw it with vorotool draw skeleton.json -o picture.{fmt}")
+        raise UsageError(f"{fmt.upper()} is for pictures: draw it with vorotool.write, or vorotool draw")
     if fmt not in FORMATS[what]:
         raise UsageError(f"{what} cannot be written as {fmt!r}: use one of {', '.join(FORMATS[what])}")
     if what == "table":
@@ -86,9 +87,10 @@ def write_skeleton(
         write_json(out, skeleton, precision=precision, threads=threads)
     elif fmt == "npz":
         write_arrays(out, skeleton_arrays(skeleton), threads=threads)
+    elif fmt == "graphml":
+        write_graphml(out, skeleton, flatten=flatten, precision=precision, threads=threads)
     else:
-        tolerance = flatten if flatten is not None else default_flatten(skeleton.polygons)
-        points, start, first_arcs = _branch_polylines(skeleton, tolerance)
+        points, start, first_arcs = _branch_polylines(skeleton, checked_flatten(flatten, skeleton.polygons))
         wording = _wording(skeleton, fmt, first_arcs)
         write_polylines(out, points, start, wording, precision=precision, threads=threads)
 
