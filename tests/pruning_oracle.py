@@ -4,7 +4,9 @@ from collections import defaultdict
 from itertools import pairwise
 
 import numpy as np
+import shapely
 
+from vorotool import critical_values, prune
 from vorotool.geometry.skeleton import EDGE
 
 SAMPLES = 6
@@ -173,3 +175,65 @@ def half_diameter(node, edges, around, anchored, length):
         return np.inf
     leaves = [n for n in nodes if len(around[n]) == 1]
     return max(farthest(leaf, arcs, edges, around, length) for leaf in leaves) / 2
+
+
+# ---- the library beside it -------------------------------------------------------------------------
+def thresholds(values, rng, count=2):
+    """Thresholds a little below or above critical values, where most can go wrong."""
+    known = np.unique(values.ends[np.isfinite(values.ends)])
+    if not len(known):
+        return [1.5]
+    near = [float(v * (1 + rng.choice([-1, 1]) * 10.0 ** -rng.integers(1, 6))) for v in rng.choice(known, count)]
+    limits = {"angle": (0, 180), "scale": (1, 1e9)}.get(values.criterion, (0, np.inf))
+    return [threshold for threshold in near if limits[0] <= threshold <= limits[1]]
+
+
+def arcs_left(skeleton, left, tolerance):
+    """The arcs that are left between each two sites, as lines."""
+    points, start = left.flattened(tolerance)
+    lines = defaultdict(list)
+    for arc, pair in enumerate(np.sort(left.sites, axis=1).tolist()):
+        lines[tuple(pair)].append(shapely.LineString(points[start[arc] : start[arc + 1]]))
+    return [shapely.union_all(lines[tuple(pair)]) for pair in np.sort(skeleton.sites, axis=1).tolist()]
+
+
+def disagreement(skeleton, rng):
+    """What the library prunes otherwise than brute force, in words; None if nothing."""
+    sampled = Sampled(skeleton)
+    tolerance = 1e-7 * float(np.ptp(skeleton.polygons.xy, axis=0).max())
+    for which, criterion in enumerate(("angle", "chord")):
+        for threshold in thresholds(critical_values(skeleton, criterion), rng):
+            gone = sampled.peeled(which, threshold)
+            left = arcs_left(skeleton, prune(skeleton, **{criterion: threshold}), tolerance / 4)
+            for k, seen in enumerate(sampled.seen):
+                low, high = sorted(end[which] for end in seen)
+                if low * (1 - 1e-5) < threshold <= high * (1 + 1e-5):
+                    continue  # the cut is in this segment
+                distance = shapely.distance(left[sampled.arc[k]], shapely.Point(sampled.middle[k]))
+                if (distance <= tolerance) == (k in gone):
+                    return f"{criterion} {threshold}: segment {k} of arc {sampled.arc[k]} is {distance} from what is left"
+    values = critical_values(skeleton, "scale")
+    for threshold in thresholds(values, rng):
+        gone = sampled.in_enlarged_discs(threshold)
+        arcs = {sampled.arc[k] for k in gone} - {sampled.arc[k] for k in set(range(len(sampled.arc))) - gone}
+        wrong = differing(arcs, values, threshold, 1e-7)
+        if wrong:
+            return f"scale {threshold}: arcs {wrong}"
+    for criterion in ("length", "ratio"):
+        values = critical_values(skeleton, criterion)
+        for threshold in thresholds(values, rng):
+            arcs = in_short_pieces(skeleton, threshold, criterion == "ratio")
+            if any(values.ends[arc].max() < threshold for arc in values.kept_arc):
+                arcs |= {k for k in range(len(skeleton)) if values.most[k] < threshold}  # a whole component
+            wrong = differing(arcs, values, threshold, 1e-9)
+            if wrong:
+                return f"{criterion} {threshold}: arcs {wrong}"
+    return None
+
+
+def differing(arcs, values, threshold, tolerance):
+    """Arcs that only one of the two removes; a kept place is on an arc that is removed but for it."""
+    removed = set(np.flatnonzero((values.ends < threshold).any(axis=1)).tolist())
+    close = set(np.flatnonzero((np.abs(values.ends / threshold - 1) < tolerance).any(axis=1)).tolist())
+    kept = set(values.kept_arc.tolist())
+    return (arcs ^ removed) - close - kept

@@ -194,9 +194,13 @@ class SkeletonProducts(ABC):
         from vorotool.engines.pruning import arc_profiles, critical_values
         from vorotool.render.skeleton_html import write_skeleton_html
 
-        values = [critical_values(self.whole, criterion) for criterion in CRITERIA]
-        shown = None if self.pruning.criterion is None else (self.pruning.criterion, self.pruning.threshold)
-        write_skeleton_html(out, self.whole, values, arc_profiles(self.whole), shown=shown, y_up=self.options.y_up)
+        whole, (_, criterion, threshold) = in_units(self.options, self.whole), self.pruning
+        values = [critical_values(whole, name) for name in CRITERIA]
+        shown = None
+        if criterion is not None:
+            is_length = criterion in ("chord", "length")
+            shown = (criterion, length_in_units(self.options, threshold) if is_length else threshold)
+        write_skeleton_html(out, whole, values, arc_profiles(whole), shown=shown, y_up=self.options.y_up)
 
     def _page(self, value: Skeleton) -> Page:
         from vorotool.render.layers import ImagePage
