@@ -211,7 +211,9 @@ def disagreement(skeleton, rng):
                     continue  # the cut is in this segment
                 distance = shapely.distance(left[sampled.arc[k]], shapely.Point(sampled.middle[k]))
                 if (distance <= tolerance) == (k in gone):
-                    return f"{criterion} {threshold}: segment {k} of arc {sampled.arc[k]} is {distance} from what is left"
+                    return (
+                        f"{criterion} {threshold}: segment {k} of arc {sampled.arc[k]} is {distance} from what is left"
+                    )
     values = critical_values(skeleton, "scale")
     for threshold in thresholds(values, rng):
         gone = sampled.in_enlarged_discs(threshold)
