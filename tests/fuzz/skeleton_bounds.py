@@ -1,4 +1,4 @@
-"""The error bounds of approximate skeletons beside the true errors: 20 shapes, 5 steps, 5 tolerances, 100 places an arc.
+"""Bounds of approximate skeletons against the exact ones, at many places of each arc: see `--help`.
 
 Exit 1 if a bound does not hold, if the median of bound and true error is above 3, if halving the step does not quarter
 the error away from corners, if a tolerance is not met, or from the exact skeleton not where no corner is flatter than
