@@ -1,11 +1,8 @@
-"""Folders of masks and of their outlines, for what is done with many inputs."""
-
-import json
+"""Folders of masks, for what is done with many inputs."""
 
 import numpy as np
 from PIL import Image
 from skimage.filters import gaussian
-from skimage.measure import find_contours
 
 
 def mask(number, size=256):
@@ -19,13 +16,3 @@ def write_masks(folder, count, size=256):
     folder.mkdir()
     for number in range(count):
         Image.fromarray(mask(number, size).astype(np.uint8) * 255).save(folder / f"{number:04}.png")
-
-
-def write_outlines(folder, count, size=256):
-    """Polygons around the blobs, as JSON."""
-    folder.mkdir()
-    for number in range(count):
-        contours = find_contours(np.pad(mask(number, size), 1).astype(float), 0.5)
-        shells = [contour[:-1, ::-1].tolist() for contour in contours if len(contour) > 8]
-        polygons = [{"shell": shell, "holes": []} for shell in shells[:4]]
-        (folder / f"{number:04}.json").write_text(json.dumps({"polygons": polygons}))

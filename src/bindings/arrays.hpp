@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -56,6 +57,14 @@ nanobind::object to_numpy(core::LargeArray<T>&& values, std::initializer_list<st
   const nanobind::capsule owner(data,
                                 [](void* p) noexcept { core::LargeArray<T>::free(static_cast<T*>(p)); });
   return nanobind::cast(nanobind::ndarray<nanobind::numpy, T>(data, shape, owner));
+}
+
+// The rows of an array with so many columns of numbers.
+template <class Row, std::size_t columns = 2, class Array>
+std::span<const Row> rows(const Array& array) {
+  static_assert(sizeof(Row) == columns * sizeof(*array.data()));
+  if (array.shape(1) != columns) throw std::invalid_argument("an array has a wrong number of columns");
+  return {reinterpret_cast<const Row*>(array.data()), array.shape(0)};
 }
 
 // A 1-D NumPy array of `field(item)` for every item.

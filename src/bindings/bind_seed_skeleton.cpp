@@ -157,9 +157,10 @@ using Box = std::tuple<double, double, double, double>;
 
 nb::dict skeleton_of(const SampledDiagram& diagram, const Indices& face_group,
                      const std::optional<std::pair<std::int32_t, Box>>& clipped, bool whole, bool complete,
-                     double tolerance, double origin_x, double origin_y, double scale, unsigned threads,
-                     nb::handle progress) {
-  core::SeedSkeletonOptions options{view(face_group), {}, whole, complete, tolerance};
+                     double tolerance, const std::pair<std::int32_t, std::int32_t>& joined, double origin_x,
+                     double origin_y, double scale, unsigned threads, nb::handle progress) {
+  core::SeedSkeletonOptions options{view(face_group), {},        whole,
+                                    complete,         tolerance, {joined.first, joined.second}};
   if (clipped) {
     const auto [least_x, most_x, least_y, most_y] = clipped->second;
     options.clipped = core::ClippedGroup{clipped->first, {least_x, most_x, least_y, most_y}};
@@ -222,7 +223,8 @@ void bind_seed_skeleton(nb::module_& module) {
       .def_prop_ro("counts", &counts_of)
       .def_prop_ro("walked_pieces", &walked_pieces)
       .def("skeleton", &skeleton_of, "face_group"_a.noconvert(), "clipped"_a.none(), "whole"_a, "complete"_a,
-           "tolerance"_a, "origin_x"_a, "origin_y"_a, "scale"_a, "threads"_a, "progress"_a.none());
+           "tolerance"_a, "joined"_a, "origin_x"_a, "origin_y"_a, "scale"_a, "threads"_a,
+           "progress"_a.none());
 }
 
 }  // namespace vorotool::bindings

@@ -21,12 +21,6 @@ using Places = Matrix<const double>;
 
 static_assert(sizeof(LatticePoint) == 2 * sizeof(std::int32_t) && sizeof(Place) == 2 * sizeof(double));
 
-template <class Row, class Array>
-std::span<const Row> rows(const Array& array) {
-  if (array.shape(1) != 2) throw std::invalid_argument("an array that should have two columns has not");
-  return {reinterpret_cast<const Row*>(array.data()), array.shape(0)};
-}
-
 // The arrays of a diagram, kept while the core works on views of them.
 struct DiagramArrays {
   IndexRows points, segments;

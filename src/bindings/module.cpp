@@ -11,7 +11,9 @@ NB_MODULE(_core, module) {
   vorotool::bindings::bind_alpha(module);
   vorotool::bindings::bind_digital(module);
   vorotool::bindings::bind_cells(module);
+  vorotool::bindings::bind_paths(module);
   vorotool::bindings::bind_planar_graph(module);
+  vorotool::bindings::bind_pruning(module);
   vorotool::bindings::bind_segment_exact(module);
   vorotool::bindings::bind_segment_predicates(module);
   vorotool::bindings::bind_outlines(module);

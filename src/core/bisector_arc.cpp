@@ -35,7 +35,9 @@ Parabola parabola_of(const LatticePoint& focus, const LatticeSite& segment) {
     height = -height;
   }
   const double length = std::sqrt(static_cast<double>(norm2(along)));
-  return {focus, static_cast<double>(along.x) / length, static_cast<double>(along.y) / length,
+  return {{static_cast<double>(focus.x), static_cast<double>(focus.y)},
+          static_cast<double>(along.x) / length,
+          static_cast<double>(along.y) / length,
           static_cast<double>(height) / length};
 }
 
@@ -51,7 +53,7 @@ BisectorArc::BisectorArc(const LatticeSite& left, const LatticeSite& right)
 }
 
 double Parabola::parameter(const ArcEnd& end) const {
-  const double x = end.place[0] - focus.x, y = end.place[1] - focus.y;
+  const double x = end.place[0] - focus[0], y = end.place[1] - focus[1];
   const double t = ux * x + uy * y;
   // t^2 = h (2 r - h): r is wrong by an ulp or so, which moves t by about h r ulp / |t|.
   if (h * end.radius >= std::abs(t) * (std::abs(end.place[0]) + std::abs(end.place[1]))) return t;
@@ -60,7 +62,7 @@ double Parabola::parameter(const ArcEnd& end) const {
 
 Place Parabola::place(double t) const {
   const double n = radius(t) - h;  // from the focus, away from the directrix
-  return {focus.x + (t * ux - n * uy), focus.y + (t * uy + n * ux)};
+  return {focus[0] + (t * ux - n * uy), focus[1] + (t * uy + n * ux)};
 }
 
 // Along the directrix it is half-way. Across, the parabola's chord is half-way too, and the control point is
@@ -71,16 +73,20 @@ Place control_point(const Parabola& p, const ArcEnd& source, const ArcEnd& targe
           (source.place[1] + target.place[1]) / 2 - below * p.ux};
 }
 
+double arc_length(const Parabola& p, const ArcEnd& source, const ArcEnd& target) {
+  return arc_length(p.h, p.parameter(source), p.parameter(target));
+}
+
 // With s = t / h the length is h times the integral of sqrt(1 + s^2), h/2 [s w + asinh s] with w = sqrt(1 +
 // s^2). Both differences are written as (s1 - s0) times sums of positive numbers.
-double arc_length(const Parabola& p, const ArcEnd& source, const ArcEnd& target) {
-  const double s0 = p.parameter(source) / p.h, s1 = p.parameter(target) / p.h;
+double arc_length(double h, double from, double to) {
+  const double s0 = from / h, s1 = to / h;
   const double w0 = std::sqrt(1 + s0 * s0), w1 = std::sqrt(1 + s1 * s1);
   const double products = (w0 + w1) / 2 + squared(s0 + s1) / (2 * (w0 + w1));
   const double same = s0 * s1;
   const double outer = same > 0 ? (1 + s0 * s0 + s1 * s1) / (w0 * w1 + same) : w0 * w1 - same;
   const double step = std::abs(s1 - s0);
-  return p.h / 2 * (step * products + inverse_sinh(step * (1 + outer) / (w0 + w1)));
+  return h / 2 * (step * products + inverse_sinh(step * (1 + outer) / (w0 + w1)));
 }
 
 double distance_to(const LatticeSite& site, const Place& place) {

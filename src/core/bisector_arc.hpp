@@ -19,7 +19,7 @@ struct ArcEnd {
 // A parabola about a focus, in units of its own: t along the directrix from below the focus, h the distance
 // of the focus from the directrix. The distance from both is (t^2 + h^2) / (2 h).
 struct Parabola {
-  LatticePoint focus;
+  Place focus;
   double ux, uy;  // along the directrix, the focus to its left
   double h;
 
@@ -41,6 +41,9 @@ struct BisectorArc {
 Place control_point(const Parabola& parabola, const ArcEnd& source, const ArcEnd& target);
 
 double arc_length(const Parabola& parabola, const ArcEnd& source, const ArcEnd& target);
+
+// Of the part of a parabola between two parameters, by h alone.
+double arc_length(double h, double from, double to);
 
 // The distance of a place from a site whose closest point is within the segment.
 double distance_to(const LatticeSite& site, const Place& place);

@@ -47,10 +47,12 @@ class Sector {
   }
 
   // Whether the bisector meets the border of the corner's cell in a vertex or a kept edge, and no piece
-  // before.
+  // before: the pieces on both sides leave the cell across their own edges, and no other piece is in between.
   bool meet() {
     const auto is_crossed = [&](const Spoke& spoke) { return diagram_.is_crossed(spoke.side); };
     if (spokes_.empty() || std::any_of(spokes_.begin(), spokes_.end(), is_crossed)) return false;
+    if (!diagram_.has_own_piece(spokes_.front().side) || !diagram_.has_own_piece(spokes_.back().side))
+      return false;
     const std::size_t first = first_met();
     const bool is_last = first + 1 == spokes_.size();
     if (first > 0 && !is_last && compare(first, first + 1) != 0) return meet_inside(first);

@@ -88,10 +88,10 @@ class Clipper {
     const double from = p.parameter(source), to = p.parameter(target);
     std::vector<Cut> cuts{{from, FrameSide::none}, {to, FrameSide::none}};
     const double half = p.h / 2;
-    add_cuts(-p.uy / (2 * p.h), p.ux, p.focus.x + p.uy * half, frame_.least_x, FrameSide::least_x, cuts);
-    add_cuts(-p.uy / (2 * p.h), p.ux, p.focus.x + p.uy * half, frame_.most_x, FrameSide::most_x, cuts);
-    add_cuts(p.ux / (2 * p.h), p.uy, p.focus.y - p.ux * half, frame_.least_y, FrameSide::least_y, cuts);
-    add_cuts(p.ux / (2 * p.h), p.uy, p.focus.y - p.ux * half, frame_.most_y, FrameSide::most_y, cuts);
+    add_cuts(-p.uy / (2 * p.h), p.ux, p.focus[0] + p.uy * half, frame_.least_x, FrameSide::least_x, cuts);
+    add_cuts(-p.uy / (2 * p.h), p.ux, p.focus[0] + p.uy * half, frame_.most_x, FrameSide::most_x, cuts);
+    add_cuts(p.ux / (2 * p.h), p.uy, p.focus[1] - p.ux * half, frame_.least_y, FrameSide::least_y, cuts);
+    add_cuts(p.ux / (2 * p.h), p.uy, p.focus[1] - p.ux * half, frame_.most_y, FrameSide::most_y, cuts);
     std::erase_if(cuts, [&](const Cut& c) {
       return c.side != FrameSide::none && (c.t <= std::min(from, to) || c.t >= std::max(from, to));
     });

@@ -32,17 +32,25 @@ struct SeedArcs::Division {
 void SeedArcs::add_kept(std::span<const std::int32_t> face_group) {
   const SeedMesh& mesh = diagram_.mesh();
   node_of_.assign(mesh.size(), -1);
+  std::size_t count = 0;
+  for (std::size_t s = 0; s < mesh.sides(); ++s) count += is_wanted(static_cast<Side>(s), face_group) ? 1 : 0;
+  arcs_.reserve(count);
+  origin_.reserve(count);
   for (std::size_t i = 0; i < mesh.sides(); ++i) {
     const auto s = static_cast<Side>(i);
-    if (!diagram_.is_kept(s) || !mesh.is_first(s)) continue;
-    const std::int32_t group = face_group[at(diagram_.face(SeedMesh::triangle_of(s)))];
-    if (group >= 0) add_side(s, group);
+    if (is_wanted(s, face_group)) add_side(s, face_group[at(diagram_.face(SeedMesh::triangle_of(s)))]);
   }
   const auto chain = diagram_.chain();
   for (std::size_t i = 1; i < chain.size() && face_group[0] >= 0; ++i) {
     if (!diagram_.labels().share(chain[i - 1], chain[i]))
       add_chain_link(chain[i - 1], chain[i], face_group[0]);
   }
+}
+
+bool SeedArcs::is_wanted(Side s, std::span<const std::int32_t> face_group) const {
+  if (!diagram_.is_kept(s) || !diagram_.mesh().is_first(s)) return false;
+  const std::int32_t face = diagram_.face(SeedMesh::triangle_of(s));
+  return face >= 0 && face_group[at(face)] >= 0;
 }
 
 void SeedArcs::add_all() {
@@ -107,7 +115,8 @@ void SeedArcs::place_nodes(unsigned threads, const Monitor& monitor) {
       monitor);
 }
 
-std::size_t SeedArcs::add_lines(std::span<const CornerLine> lines, std::span<const std::int32_t> face_group) {
+std::size_t SeedArcs::add_lines(std::span<const CornerLine> lines, std::span<const std::int32_t> face_group,
+                                const JoinedGroups& joined) {
   std::vector<Division> divisions;
   std::size_t open = 0;
   for (const CornerLine& line : lines) {
@@ -126,12 +135,23 @@ std::size_t SeedArcs::add_lines(std::span<const CornerLine> lines, std::span<con
       ++open;
       continue;
     }
-    const std::int32_t source = add_node(corner, FrameSide::none);
-    add_arc({source, target, line.left, line.right, face_group[at(line.face)]},
+    const std::int32_t group = face_group[at(line.face)];
+    std::optional<std::int32_t> source;
+    if (joined.contain(group)) source = node_at_corner(line.corner, group);
+    if (!source) source = add_node(corner, FrameSide::none);
+    add_arc({*source, target, line.left, line.right, group},
             {line.node >= 0 ? 3 * line.node : line.side, line.corner});
   }
   divide(divisions);
   return open;
+}
+
+// Of the lines from a corner, which are the last arcs.
+std::optional<std::int32_t> SeedArcs::node_at_corner(std::int32_t corner, std::int32_t group) const {
+  for (std::size_t arc = arcs_.size(); arc > 0 && origin_[arc - 1].corner == corner; --arc) {
+    if (arcs_[arc - 1].group == group) return arcs_[arc - 1].source;
+  }
+  return {};
 }
 
 // Arcs were added in the order of the first sides of edges.

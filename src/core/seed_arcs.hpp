@@ -12,6 +12,7 @@
 #include "core/line_clip.hpp"
 #include "core/monitor.hpp"
 #include "core/seed_diagram.hpp"
+#include "core/skeleton_extraction.hpp"
 #include "core/skeleton_graph.hpp"
 
 namespace vorotool::core {
@@ -32,8 +33,10 @@ class SeedArcs {
   void add_all();
   // Computes where the nodes are.
   void place_nodes(unsigned threads, const Monitor& monitor);
-  // Joins corners; arcs that are met in their inside are divided. Gives how many lines lead to no node.
-  std::size_t add_lines(std::span<const CornerLine> lines, std::span<const std::int32_t> face_group);
+  // Joins corners; arcs that are met in their inside are divided. Gives how many lines lead to no node. Lines
+  // from one corner follow each other.
+  std::size_t add_lines(std::span<const CornerLine> lines, std::span<const std::int32_t> face_group,
+                        const JoinedGroups& joined);
   // Keeps what is in a frame of the arcs of a group.
   void clip(std::int32_t group, const Frame& frame);
 
@@ -46,10 +49,12 @@ class SeedArcs {
  private:
   struct Division;
 
+  bool is_wanted(Side s, std::span<const std::int32_t> face_group) const;
   void add_side(Side s, std::int32_t group);
   void add_chain_link(std::int32_t p, std::int32_t q, std::int32_t group);
   std::int32_t node_of(Triangle t);
   std::int32_t add_node(const Place& place, FrameSide side);
+  std::optional<std::int32_t> node_at_corner(std::int32_t corner, std::int32_t group) const;
   void add_arc(const GraphArc& arc, const ArcOrigin& origin);
   std::optional<std::size_t> arc_of(Side s) const;
   void divide(std::vector<Division>& divisions);

@@ -21,6 +21,7 @@ struct SeedSkeletonOptions {
   bool whole = false;     // all Voronoi edges, of group 0 and without bounds: nothing is deleted
   bool complete = false;  // corners are joined
   double tolerance = 0;   // of errors, in lattice steps: what `parts` are asked for
+  JoinedGroups joined;    // lines of one of these groups that complete one corner have a node in common there
 };
 
 struct SeedSkeleton {

@@ -27,6 +27,8 @@ struct ClippedGroup {
 // Groups from `first` to before `last`, in which arcs that end in corners at one place are connected there.
 struct JoinedGroups {
   std::int32_t first = 0, last = 0;
+
+  bool contain(std::int32_t group) const { return first <= group && group < last; }
 };
 
 struct SkeletonArrays {

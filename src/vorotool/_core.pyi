@@ -59,6 +59,9 @@ _Progress = Callable[[float], object] | None
 
 # regions: labels are C-contiguous uint8, uint16 or uint32
 def measure_regions(labels: NDArray[Any], threads: int, progress: _Progress) -> dict[str, NDArray[Any]]: ...
+def label_components(
+    mask: NDArray[np.uint8], corners: bool, out: NDArray[np.uint32], progress: _Progress
+) -> int: ...  # mask: zeros and ones
 def max_by_label(
     labels: NDArray[Any],
     values: NDArray[Any],
@@ -365,6 +368,67 @@ def offset_curves(
 ) -> list[dict[str, NDArray[Any]]]:
     """For each distance (> 0 outwards) the arrays of core/offset_curves.hpp by their names there (bind_offsets.cpp)."""
 
+# ---- pruning (bind_pruning.cpp): a skeleton is its vertices, radii, arcs, control points, sites, lengths, the ends of
+# ---- sites as (s, 4), which nodes are anchored (uint8), and whether sites are closed; criteria are numbered ----------
+
+_SkeletonArrays = tuple[
+    NDArray[np.float64],
+    NDArray[np.float64],
+    NDArray[np.int32],
+    NDArray[np.float64],
+    NDArray[np.int32],
+    NDArray[np.float64],
+    NDArray[np.float64],
+    NDArray[np.uint8],
+    bool,
+]
+
+def critical_values(
+    skeleton: _SkeletonArrays, criterion: int, progress: _Progress
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.int32], NDArray[np.float64]]:
+    """Values at the ends of arcs and the largest of each; arcs on which a place is kept, and where.
+
+    Of the angle: the tangent of half of it.
+    """
+
+def prune_skeleton(
+    skeleton: _SkeletonArrays,
+    ends: NDArray[np.float64],
+    most: NDArray[np.float64],
+    kept_arc: NDArray[np.int32],
+    kept_place: NDArray[np.float64],
+    criterion: int,
+    threshold: float,
+    group: NDArray[np.int32],
+    progress: _Progress,
+) -> dict[str, NDArray[Any]]: ...
+def arc_profiles(
+    skeleton: _SkeletonArrays,
+) -> tuple[NDArray[np.int8], NDArray[np.float64], NDArray[np.float64]]:
+    """Kinds (between lines, between points, parabola), x at the ends, and h or the tangent of half the angle."""
+
+def part_geometry(
+    skeleton: _SkeletonArrays, arc: NDArray[np.int32], first: NDArray[np.float64], last: NDArray[np.float64]
+) -> dict[str, NDArray[np.float64]]:
+    """Places and radii of both ends, control points and lengths of parts of arcs."""
+
+# ---- paths (bind_paths.cpp): arcs are pairs of nodes ----------------------------------------------------------------
+
+def longest_paths(
+    arcs: NDArray[np.int32],
+    length: NDArray[np.float64],
+    group: NDArray[np.int32],
+    groups: int,
+    nodes: int,
+    progress: _Progress,
+) -> tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.int32]]:
+    """Where the arcs of each group's path begin, the arcs, and the node that each leads to."""
+
+def path_from(
+    arcs: NDArray[np.int32], length: NDArray[np.float64], nodes: int, first: int, last: int, progress: _Progress
+) -> tuple[NDArray[np.int32], NDArray[np.int32]] | None:
+    """Arcs of the shortest path, and the node that each leads to; with last -1 to the farthest leaf."""
+
 # ---- planar graphs (bind_planar_graph.cpp): arrays are C-contiguous; lattice points are int32 rows ------------------
 
 class TooManyCrossingsError(ValueError): ...
@@ -413,10 +477,10 @@ def segment_edge_clearance_signs(sites: NDArray[np.int32]) -> NDArray[np.int8]:
 def segment_discs(sites: NDArray[np.int32]) -> NDArray[np.float64]:
     """(k, 3) x, y and radius of (k, 3, 4) discs; NaN where there is none."""
 
-# ---- decisions of the engine about a few sites (bind_segment_predicates.cpp), for tests: sites as above ---------------
+# ---- decisions of the engine about a few sites (bind_segment_predicates.cpp), for tests: sites as above --------
 
 def segment_conflicts(sites: NDArray[np.int32]) -> NDArray[np.int8]:
-    """(k, 2) of (k, 4, 4), a disc and a segment: is it in conflict; told by doubles, integers, double-double, exactly."""
+    """(k, 2) of (k, 4, 4), a disc and a segment: in conflict; told by doubles, integers, double-double, exactly."""
 
 def segment_coincidences(sites: NDArray[np.int32]) -> NDArray[np.int8]:
     """(k, 6, 4): two discs that share two sites."""
@@ -540,6 +604,7 @@ class SampledDiagram:
         whole: bool,
         complete: bool,
         tolerance: float,
+        joined: tuple[int, int],
         origin_x: float,
         origin_y: float,
         scale: float,

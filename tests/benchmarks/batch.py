@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from mask_folders import write_masks, write_outlines
+from mask_folders import write_masks
 
 TOOL = Path(sys.executable).parent / "vorotool"
 RUNS = 3
@@ -39,16 +39,16 @@ def rates(folder, command, inputs):
 
 def main():
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 1000
-    print(f"{count} masks of 256 x 256, and their outlines: inputs a second")
-    for command, write in (("tessellate", write_masks), ("skeleton-exact", write_outlines)):
-        with tempfile.TemporaryDirectory() as name:
-            folder = Path(name)
-            write(folder / "inputs", count)
-            loop, one, two = rates(folder, command, folder / "inputs")
-        print(
-            f"  {command}: a process each {loop:.1f}, -j 1 {one:.0f}, -j 2 {two:.0f}: "
-            f"{two / one:.2f} x one worker (at least 1.8), {two / loop:.0f} x the loop (at least 20)"
-        )
+    print(f"{count} masks of 256 x 256: inputs a second")
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        write_masks(folder / "inputs", count)
+        for command in ("tessellate", "skeleton-exact"):
+            loop, one, two = rates(folder / command, command, folder / "inputs")
+            print(
+                f"  {command}: a process each {loop:.1f}, -j 1 {one:.0f}, -j 2 {two:.0f}: "
+                f"{two / one:.2f} x one worker (at least 1.8), {two / loop:.0f} x the loop (at least 20)"
+            )
 
 
 if __name__ == "__main__":

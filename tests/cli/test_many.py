@@ -205,6 +205,7 @@ def test_shards_make_the_whole(run, inputs):
         ("points/p0.csv points/p2.csv -o out.png", 2, "2 inputs are given, but -o names one output"),
         ("points/p0.csv -j 2 -o out.png", 2, "-o names one output"),
         ("points - --out-dir out", 2, "- is standard input"),
+        ("points --out-dir out --what colour --overlay -", 2, "--overlay - is standard input"),
         ("points --out-dir out --shard 3/2", 2, "'3/2' is no part"),
         ("points --out-dir out -0", 2, "-0 is about the list"),
         ("points --out-dir out -j -1", 2, "-1"),

@@ -12,6 +12,7 @@ from skimage.morphology import medial_axis, skeletonize
 
 import vorotool
 from outline_oracle import random_labels
+from vorotool.engines.pruning import default_pruning_for_masks
 from vorotool.errors import VerificationError
 from vorotool.geometry.skeleton_tables import connected_roots
 
@@ -66,9 +67,11 @@ def pixel_topology(skeleton, mask):
     return tiles_of(label(skeleton, connectivity=2)), tiles_of(holes)
 
 
-def exact_topology(mask, connectivity):
+def exact_topology(mask, connectivity, pruning=None):
     polygons = vorotool.outlines(mask, connectivity=connectivity)
     skeleton = vorotool.skeleton_exact(polygons)
+    if pruning:
+        skeleton = vorotool.prune(skeleton, **dict([pruning]))
     table = vorotool.polygon_table(skeleton)
     assert table["area"].sum() == mask.sum()
     column, row = np.rint(polygons.xy[polygons.ring_start[polygons.polygon_start[:-1]]] + 0.5).astype(int).T
@@ -87,6 +90,8 @@ def test_components_and_cycles_are_those_of_scikit_image():
         expected = pixel_topology(axis, MASKS)
         assert np.array_equal(parts, expected[0])
         assert np.array_equal(cycles, expected[1])
+    pruned = exact_topology(MASKS, 8, default_pruning_for_masks())
+    assert np.array_equal(pruned, (parts, cycles))
     assert parts.min() > 0
     assert np.count_nonzero(cycles) > COUNT / 2
 
@@ -176,3 +181,14 @@ def test_turning_a_mask_turns_its_skeleton():
     assert turned.length.sum() == pytest.approx(made.length.sum(), rel=1e-12)
     back = np.stack([image.shape[1] - 1 - turned.vertices[:, 1], turned.vertices[:, 0]], axis=1)
     assert sorted(map(tuple, np.round(back, 9).tolist())) == sorted(map(tuple, np.round(made.vertices, 9).tolist()))
+
+
+@pytest.mark.parametrize("connectivity", [4, 8])
+def test_the_approximate_skeleton_within_a_tolerance_has_the_same_topology(connectivity):
+    masks = MASKS[:SIDE, : 4 * SIDE]
+    polygons = vorotool.outlines(masks, connectivity=connectivity)
+    exact = vorotool.polygon_table(vorotool.skeleton_exact(polygons))
+    made = vorotool.skeleton_approx(polygons, tolerance=0.05)
+    assert vorotool.polygon_table(made)["cycles"].tolist() == exact["cycles"].tolist()
+    root = connected_roots(made.arcs, len(made.vertices))
+    assert np.count_nonzero(root == np.arange(len(root))) == len(polygons)

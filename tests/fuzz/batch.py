@@ -14,9 +14,9 @@ from collections import Counter
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from mask_folders import write_masks, write_outlines
+from mask_folders import write_masks
 
-COMMANDS = {"tessellate": write_masks, "skeleton-exact": write_outlines}
+COMMANDS = ("tessellate", "skeleton-exact")
 BROKEN = 7
 """Number of the input that is broken."""
 
@@ -80,10 +80,10 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
     chance, failed = random.Random(arguments.seed), 0
-    for command, write in COMMANDS.items():
+    for command in COMMANDS:
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
-            write(folder / "inputs", arguments.masks)
+            write_masks(folder / "inputs", arguments.masks)
             sorted((folder / "inputs").iterdir())[BROKEN].write_text("broken")
             wrong = trial(command, folder, arguments.kills, chance, arguments.masks)
         for each in wrong:

@@ -103,7 +103,7 @@ class ApproximateProducts(SkeletonProducts):
         o = self.options
         write_table(out, sample_table(self.shapes.samples), target.fmt, precision=o.precision, threads=o.threads)
 
-    def verify(self) -> None:
+    def _verify_whole(self) -> None:
         """Check the samples and the skeleton, from their arrays alone."""
         from vorotool.engines.approximate_verification import verify_approximate
 

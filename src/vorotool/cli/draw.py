@@ -85,9 +85,9 @@ class _Picture:
 
 def _label_picture(run: Run, o: SimpleNamespace, source: Source, fmt: str) -> Drawing:
     """Read a label image, and give what draws it."""
-    from vorotool.cli.pictures import write_label_picture
     from vorotool.engines.regions import region_colours
     from vorotool.formats.label_images import read_label_image
+    from vorotool.pictures import write_label_picture
 
     check_picture_options(o, [fmt], LAYERS)
     with run.phase("read"):
@@ -110,8 +110,8 @@ def _label_picture(run: Run, o: SimpleNamespace, source: Source, fmt: str) -> Dr
 
 def _skeleton_picture(run: Run, o: SimpleNamespace, source: Source, fmt: str) -> Drawing:
     """Read a skeleton, and give what draws it."""
-    from vorotool.cli.pictures import write_layers
     from vorotool.formats.skeleton_json import read_skeleton
+    from vorotool.pictures import write_layers
     from vorotool.render.layers import ImagePage
     from vorotool.render.layers_png import check_picture_size
     from vorotool.render.skeleton_layers import skeleton_layers, skeleton_page

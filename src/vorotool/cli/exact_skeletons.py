@@ -72,7 +72,7 @@ class ExactProducts(SkeletonProducts):
         """The shapes as they were placed."""
         return self._part.graph if self.elements is None else self.elements.shapes
 
-    def verify(self) -> None:
+    def _verify_whole(self) -> None:
         """Check the diagram and the skeleton, from their arrays alone."""
         from vorotool.engines.segment_verification import verify_segment_voronoi
         from vorotool.engines.skeleton_verification import verify_exterior, verify_skeleton
@@ -81,7 +81,7 @@ class ExactProducts(SkeletonProducts):
         verify_segment_voronoi(self._part.diagram, threads=self.options.threads, progress=progress)
         if self.shapes is not None and self.options.side != "interior":
             verify_exterior(self.shapes, threads=self.options.threads)
-        verify_skeleton(self.skeleton, threads=self.options.threads, progress=progress)
+        verify_skeleton(self.whole, threads=self.options.threads, progress=progress)
 
     def _diagram_stats(self) -> dict[str, Any]:
         diagram = self._part.diagram
@@ -101,5 +101,5 @@ class ExactProducts(SkeletonProducts):
             from vorotool.engines.skeleton_elements import exact_for, gap_deviation
 
             exact = exact_for(elements, self.options.side, frame=self.skeleton.frame, threads=self.options.threads)
-            found["gap_deviation"] = gap_deviation(self.skeleton, exact)
+            found["gap_deviation"] = gap_deviation(self.whole, exact)
         return found

@@ -19,7 +19,7 @@ from vorotool.batch.run import Results, run_batch
 from vorotool.batch.tables import join_tables, part_path
 from vorotool.batch.tasks import Outcome, Process, Task, digest_of, is_done
 from vorotool.cli.failures import explained
-from vorotool.cli.plans import Plan, plan_batch
+from vorotool.cli.plans import INPUT_FILES, Plan, plan_batch
 from vorotool.cli.recipes import Recipe, process_input
 from vorotool.cli.reports import Report
 from vorotool.cli.run import Run
@@ -139,6 +139,7 @@ def _results(recipe: Recipe, o: SimpleNamespace, plan: Plan, count: int) -> Resu
         **vars(o),
         "threads": o.threads or int(o.cluster is not None or (jobs or 1) > 1),
         "stats": None if o.stats is None else os.devnull,  # statistics are made, and sent to this process
+        **{name: str(Path(getattr(o, name)).absolute()) for name in INPUT_FILES if getattr(o, name, None)},
     }
     kinds = [(target.what, target.fmt) for target in plan.targets]
     process: Process = partial(process_one, recipe, options, kinds)

@@ -8,7 +8,6 @@ from functools import cached_property
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from vorotool.cli.pictures import write_layers
 from vorotool.cli.results import MESH_LAYERS
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
@@ -21,6 +20,7 @@ from vorotool.formats.tables import TABLE_FORMATS, write_table
 from vorotool.geometry.digital_triangulation import AnyTriangulation
 from vorotool.geometry.points import PointSet
 from vorotool.geometry.seeds import SeedSet
+from vorotool.pictures import write_layers
 
 if TYPE_CHECKING:
     from vorotool.geometry.cells import CellSet

@@ -24,7 +24,7 @@ WITHOUT_EFFECT = frozenset(
 )
 """Options that change no byte of an output."""
 
-INPUT_FILES = ("clip",)
+INPUT_FILES = ("clip", "overlay")
 """Options that name files which are read."""
 
 
@@ -99,6 +99,9 @@ def _check_options(o: SimpleNamespace) -> None:
         raise click.UsageError(f"{given}: name a folder for their outputs with --out-dir")
     if o.out_dir is None and o.resume:
         raise click.UsageError("--resume needs --out-dir DIR, where it is recorded what was done")
+    for name in INPUT_FILES:
+        if getattr(o, name, None) == "-":
+            raise click.UsageError(f"--{name} - is standard input, which not every input can read: name a file")
     if o.null and o.files_from is None:
         raise click.UsageError("-0 is about the list of --files-from: leave it out")
     if table == "-" and o.stats == "-":

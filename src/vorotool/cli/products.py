@@ -149,7 +149,7 @@ class Products:
         write_table(out, table, fmt, precision=self.options.precision, threads=self.options.threads)
 
     def _write_picture(self, out: BinaryIO, fmt: str, layers: tuple[str, ...]) -> None:
-        from vorotool.cli.pictures import write_label_picture
+        from vorotool.pictures import write_label_picture
 
         write_label_picture(
             out,

@@ -12,7 +12,6 @@ from math import inf
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from vorotool.cli.pictures import write_layers
 from vorotool.cli.results import OF_ONE_SHAPE
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
@@ -25,6 +24,7 @@ from vorotool.geometry.points import PointSet
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.seeds import SeedSet
 from vorotool.geometry.table import Table
+from vorotool.pictures import write_layers
 
 if TYPE_CHECKING:
     from vorotool.geometry.alpha_hull import AlphaHull

@@ -14,6 +14,7 @@ import click
 from vorotool.cli.commands import run_command
 from vorotool.cli.inputs import IMAGE_OPTIONS, naming, refuse
 from vorotool.cli.options import Decorator, Rectangle, batch_options, layers_option, shared, what_option
+from vorotool.cli.pruning import FORMS, Place, PruningType
 from vorotool.cli.recipes import Recipe
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options
@@ -27,9 +28,10 @@ if TYPE_CHECKING:
 _TABLES = ("csv", "json", "npz")
 _PICTURES = ("svg", "png")
 FORMATS = {
-    "skeleton": ("json", "csv", "geojson", "npz", "wkt", *_PICTURES),
+    "skeleton": ("json", "csv", "geojson", "npz", "wkt", *_PICTURES, "html"),
     "diagram": ("json", "csv", "geojson", "npz", "wkt", *_PICTURES),
     "elements": (*_TABLES, *_PICTURES),
+    "centerline": ("geojson", *_TABLES, "wkt", *_PICTURES),
     "branches": _TABLES,
     "table": _TABLES,
 }
@@ -38,7 +40,7 @@ LAYERS = ("polygons", "elements", "points", "skeleton", "nodes", "labels")
 
 PICTURE_LAYERS = {"svg": LAYERS, "png": tuple(layer for layer in LAYERS if layer != "labels")}
 
-_WITHOUT_DIGITS = frozenset({"npz", *_PICTURES})
+_WITHOUT_DIGITS = frozenset({"npz", "html", *_PICTURES})
 _WITHOUT_CURVES = frozenset({"geojson", "wkt"})
 
 
@@ -75,6 +77,16 @@ _BEFORE: tuple[Decorator, ...] = (
     click.option(
         "--frame", type=Rectangle(), help="Cuts what is outside; by default the bounds and a tenth around them."
     ),
+    click.option(
+        "--prune",
+        type=PruningType(),
+        help=f"Remove pieces that hang on the rest and matter less than a threshold: {FORMS}. "
+        "By default mask for images, none for polygons.",
+    ),
+    click.option(
+        "--from", "start", type=Place(), help="Begin the centerline at the place on the skeleton nearest to this."
+    ),
+    click.option("--to", "end", type=Place(), help="End it at the nearest place."),
 )
 _AFTER: tuple[Decorator, ...] = (
     click.option(
@@ -141,12 +153,20 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
         raise click.UsageError("--flatten is for formats without curves: use -f geojson or -f wkt, or leave it out")
     if o.frame is not None and o.side == "interior" and "diagram" not in o.what:
         raise click.UsageError("--frame cuts what is outside: use --side exterior or both, or leave it out")
+    _check_centerline(o)
     if o.seeds in ("pixels", "centroids"):
         raise click.UsageError(f"--seeds {o.seeds} have no outlines: use --seeds components or labels")
     pictures = sorted(formats & set(_PICTURES))
     if o.layers is not None and not pictures:
         raise click.UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
     check_picture_options(o, pictures, PICTURE_LAYERS, png_has_width=True)
+
+
+def _check_centerline(o: SimpleNamespace) -> None:
+    if "centerline" in o.what and o.side == "exterior":
+        raise click.UsageError("centerlines are inside polygons: use --side interior or both")
+    if (o.start is not None or o.end is not None) and "centerline" not in o.what:
+        raise click.UsageError("--from and --to are ends of centerlines: use --what centerline, or leave them out")
 
 
 def _read_polygons(run: Run, o: SimpleNamespace, source: str) -> PolygonSet:

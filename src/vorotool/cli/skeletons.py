@@ -12,21 +12,26 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.cli.pictures import write_layers
+from vorotool.cli.pruning import CRITERIA, Pruning, chosen_pruning
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
 from vorotool.cli.units import in_units, length_in_units
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.skeleton import EXTERIOR, Skeleton
+from vorotool.pictures import write_layers
 
 if TYPE_CHECKING:
+    from vorotool.geometry.centerline import Centerlines
     from vorotool.render.layers import Page
+
+Place = tuple[float, float]
 
 DEFAULT_LAYERS = {
     "skeleton": ("polygons", "skeleton"),
     "diagram": ("polygons", "elements", "points", "skeleton"),
     "elements": ("polygons", "elements", "points"),
+    "centerline": ("polygons", "skeleton"),
 }
 """Layers of the picture of each result."""
 
@@ -46,10 +51,47 @@ class SkeletonProducts(ABC):
         self.options, self.run = options, run
 
     @cached_property
-    def skeleton(self) -> Skeleton:
-        """Of the side that is asked for."""
+    def whole(self) -> Skeleton:
+        """Of the side that is asked for, before it is pruned."""
         with self.run.phase("skeleton"):
             return self._make_skeleton()
+
+    @cached_property
+    def pruning(self) -> Pruning:
+        """What is removed."""
+        return chosen_pruning(self.options.prune, is_mask=self.options.is_mask)
+
+    @cached_property
+    def skeleton(self) -> Skeleton:
+        """What is left of it."""
+        if self.pruning.criterion is None:
+            return self.whole
+        from vorotool.engines.pruning import prune
+
+        whole, threshold = self.whole, {self.pruning.criterion: self.pruning.threshold}
+        with self.run.phase("prune"):
+            return prune(whole, **threshold, progress=self.run.progress("pruning"))
+
+    @cached_property
+    def centerlines(self) -> Centerlines:
+        """The longest path in each polygon, or the one between the places that are given."""
+        return self._made_centerlines(self.options.start, self.options.end)
+
+    @cached_property
+    def _longest(self) -> Centerlines:
+        """The longest path in each polygon, for tables, which show who has none."""
+        if self.options.start is None and self.options.end is None and "centerline" in self.options.what:
+            return self.centerlines
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", VorotoolWarning)
+            return self._made_centerlines(None, None)
+
+    def _made_centerlines(self, start: Place | None, end: Place | None) -> Centerlines:
+        from vorotool.engines.centerline import centerline
+
+        skeleton = self.skeleton
+        with self.run.phase("centerline"):
+            return centerline(skeleton, start=start, end=end, progress=self.run.progress("centerlines"))
 
     @cached_property
     def diagram(self) -> Skeleton:
@@ -73,11 +115,20 @@ class SkeletonProducts(ABC):
         """What pictures show as points, if not the ends of edges."""
         return None
 
-    @abstractmethod
     def verify(self) -> None:
-        """Check the diagram and the skeleton, from their arrays alone."""
+        """Check the diagram and the skeleton, from their arrays alone, and what pruning left of it."""
+        self._verify_whole()
+        if self.pruning.criterion is not None:
+            from vorotool.engines.pruning_verification import verify_pruning
+
+            verify_pruning(self.skeleton, self.whole)
+
+    @abstractmethod
+    def _verify_whole(self) -> None: ...
 
     def _value(self, what: str) -> Skeleton:
+        if what == "centerline":
+            return self.centerlines.path
         return self.diagram if what == "diagram" else self.skeleton
 
     def check(self, target: Target) -> None:
@@ -87,6 +138,10 @@ class SkeletonProducts(ABC):
             from vorotool.render.layers_png import check_picture_size
 
             check_picture_size(self._page(value), self.options.max_pixels)
+        if target.fmt == "html":
+            from vorotool.render.skeleton_html import check_html_size
+
+            check_html_size(self.whole)
         if not len(value) and target.what in ("skeleton", "branches") and self.options.side == "exterior":
             warnings.warn("the exterior skeleton is empty", VorotoolWarning, stacklevel=2)
 
@@ -99,21 +154,53 @@ class SkeletonProducts(ABC):
         ) as out:
             if target.fmt in ("svg", "png"):
                 self._write_picture(out, target)
+            elif target.fmt == "html":
+                self._write_html(out)
+            elif target.what == "centerline":
+                self._write_centerlines(out, target.fmt)
             else:
                 self._write_data(out, target)
 
     def _write_data(self, out: BinaryIO, target: Target) -> None:
         from vorotool.formats.skeleton_files import write_skeleton
+        from vorotool.geometry.centerline import centerline_columns
 
+        has_table = target.what == "table"
         write_skeleton(
             out,
             in_units(self.options, self._value(target.what)),
             target.fmt,
             what="skeleton" if target.what == "diagram" else target.what,
             flatten=length_in_units(self.options, self.options.flatten),
+            columns=centerline_columns(in_units(self.options, self._longest)) if has_table else None,
             precision=self.options.precision,
             threads=self.options.threads,
         )
+
+    def _write_centerlines(self, out: BinaryIO, fmt: str) -> None:
+        from vorotool.formats.centerline_files import write_centerlines
+
+        write_centerlines(
+            out,
+            in_units(self.options, self.centerlines),
+            fmt,
+            flatten=length_in_units(self.options, self.options.flatten),
+            precision=self.options.precision,
+            threads=self.options.threads,
+        )
+
+    def _write_html(self, out: BinaryIO) -> None:
+        """A page of all prunings, which begins with that which is asked for."""
+        from vorotool.engines.pruning import arc_profiles, critical_values
+        from vorotool.render.skeleton_html import write_skeleton_html
+
+        whole, (_, criterion, threshold) = in_units(self.options, self.whole), self.pruning
+        values = [critical_values(whole, name) for name in CRITERIA]
+        shown = None
+        if criterion is not None:
+            is_length = criterion in ("chord", "length")
+            shown = (criterion, length_in_units(self.options, threshold) if is_length else threshold)
+        write_skeleton_html(out, whole, values, arc_profiles(whole), shown=shown, y_up=self.options.y_up)
 
     def _page(self, value: Skeleton) -> Page:
         from vorotool.render.layers import ImagePage
@@ -124,11 +211,14 @@ class SkeletonProducts(ABC):
         return skeleton_page(value, width=self.options.width or 1000, y_up=self.options.y_up)
 
     def _write_picture(self, out: BinaryIO, target: Target) -> None:
-        from vorotool.render.skeleton_layers import picture_layers
+        from vorotool.render.skeleton_layers import centerline_layers, picture_layers
 
         value = self._value(target.what)
-        page = self._page(value)
-        layers = picture_layers(value, page, self._layers(target.what), what=target.what, points=self._points)
+        page, wanted = self._page(value), self._layers(target.what)
+        if target.what == "centerline":
+            layers = centerline_layers(self.centerlines, page, wanted)
+        else:
+            layers = picture_layers(value, page, wanted, what=target.what, points=self._points)
         write_layers(out, layers, page, fmt=target.fmt, threads=self.options.threads)
 
     def _layers(self, what: str) -> Sequence[str]:
@@ -156,6 +246,7 @@ class SkeletonProducts(ABC):
             "branches": int(skeleton.branch[-1]) + 1 if len(skeleton) else 0,
             "nodes": len(skeleton.vertices),
             "side": self.options.side,
+            "prune": self.pruning.stats(),
             "threads": self.options.threads,
         }
         if skeleton.frame is not None:

@@ -261,7 +261,7 @@ def _assembled(skeleton: Skeleton, contours: Contours, rings: list[tuple[int, Fl
         np.concatenate([np.empty((0, 2)), *places]),
         np.concatenate([[0], np.cumsum([len(ring) for ring in places], dtype=np.int64)]),
         np.where(is_hole, HOLE, SHELL),
-        number,  # type: ignore[arg-type]
+        number,
         None if given.ids is None else [given.ids[p] for p in own],
         given.feature[own],
         {name: [values[p] for p in own] for name, values in given.properties.items()},

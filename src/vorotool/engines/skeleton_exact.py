@@ -240,6 +240,12 @@ def default_frame(polygons: PolygonSet) -> Frame:
     return (x, y, w, h)
 
 
+def joined_groups(placed: PlacedShapes) -> tuple[int, int]:
+    """First group of `face_groups` in which arcs that end in one corner are connected there, and the one after last."""
+    outside = len(placed.polygons)
+    return {8: (0, outside), 4: (outside, outside + 1)}.get(placed.polygons.connectivity or 0, (0, 0))
+
+
 def assembled(
     graph: PlanarGraph,
     diagram: SegmentVoronoiDiagram,
@@ -260,13 +266,12 @@ def assembled(
     outside = len(placed.polygons)
     frame = (frame or default_frame(placed.polygons)) if clips else None
     clipped = None if frame is None else (outside, on_lattice(frame, graph))
-    joined = {8: (0, outside), 4: (outside, outside + 1)}.get(placed.polygons.connectivity or 0, (0, 0))
     made: dict[str, Any] = _core.extract_skeleton(
         *_arrays(diagram),
         edges,
         group,
         clipped,
-        joined if joins else (0, 0),
+        joined_groups(placed) if joins else (0, 0),
         *graph.origin,
         graph.scale,
         threads,

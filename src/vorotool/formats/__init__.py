@@ -124,29 +124,7 @@ def write(
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    """Write a label image, a table, polygons and lines, Voronoi cells, a triangulation, an alpha shape or a skeleton.
-
-    Parameters
-    ----------
-    value : value of the library
-        What to write: a `LabelImage` as PNG, TIFF, NPY or text, a `Table` as CSV, JSON or NPZ, a `PolygonSet` as JSON,
-        GeoJSON, WKT or .poly, a `CellSet` as GeoJSON, CSV, JSON, NPZ or WKT, a `Triangulation` or a
-        `DigitalTriangulation` as a table, GeoJSON, OBJ, or a file of Triangle, an `AlphaShape` as a table or GeoJSON of
-        its edges or as polygons, an `AlphaComplex` as a table, a `Skeleton` as JSON, CSV, GeoJSON, WKT or NPZ.
-    path : str or path
-        The file, replaced atomically.
-    fmt : str, optional
-        Format, or a usual extension of it; by default that of the path.
-    what : str, optional
-        Of a triangulation or an alpha shape ``edges``, ``triangles``, ``table``, ``polygons`` or ``family``, by default
-        what the format is for, else its edges; of a skeleton ``skeleton`` (the default), ``elements``, ``branches`` or
-        ``table``.
-    flatten : float, optional
-        Of a skeleton in GeoJSON or WKT: how far lines may be from parabolas.
-    precision : int, optional
-        Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
-    threads : int
-        0 uses all.
+    """Write a value that is no picture: see `vorotool.write`.
 
     Raises
     ------
@@ -158,9 +136,7 @@ def write(
     Examples
     --------
     >>> import vorotool
-    >>> write(vorotool.tessellate([[1, 1], [5, 3]], shape=(4, 6)), "build/labels.png")
     >>> write(vorotool.delaunay([[0, 0], [4, 0], [0, 3]]), "build/triangles.geojson", what="triangles")
-    >>> write(vorotool.alpha_shape([[0, 0], [4, 0], [0, 3]], r=2.5), "build/shape.geojson")
     """
     from vorotool.formats.outputs import open_output
     from vorotool.geometry.checks import checked_threads
@@ -180,11 +156,11 @@ def write(
 
 
 def to_geojson(value: Any, *, what: str | None = None, flatten: float | None = None) -> dict[str, Any]:
-    """Give polygons and lines, Voronoi cells, a triangulation, an alpha shape or a skeleton as GeoJSON.
+    """Give polygons, cells, a triangulation, an alpha shape, a skeleton, points along one, or offsets as GeoJSON.
 
     Parameters
     ----------
-    value : PolygonSet, CellSet, Triangulation, AlphaShape or Skeleton
+    value : PolygonSet, CellSet, Triangulation, AlphaShape, Skeleton, SkeletonPoints, Offsets or Centerlines
         With ids and properties, if it has any.
     what, flatten : optional
         As of `write`.
@@ -218,16 +194,23 @@ def _writer_of(
     """Give the function that writes a value, and its further options."""
     from vorotool.geometry.alpha_complex import AlphaComplex
     from vorotool.geometry.alpha_shape import AlphaShape
+    from vorotool.geometry.centerline import Centerlines
     from vorotool.geometry.digital_triangulation import DigitalTriangulation
+    from vorotool.geometry.offsets import Offsets
     from vorotool.geometry.skeleton import Skeleton
+    from vorotool.geometry.skeleton_points import SkeletonPoints
     from vorotool.geometry.triangulation import Triangulation
 
-    if flatten is not None and not isinstance(value, Skeleton):
-        raise UsageError(f"flatten is for skeletons: leave it out with a {type(value).__name__}")
+    if flatten is not None and not isinstance(value, Centerlines | Skeleton | Offsets):
+        raise UsageError(f"flatten is for skeletons and offsets: leave it out with a {type(value).__name__}")
     if isinstance(value, Skeleton):
         from vorotool.formats.skeleton_files import write_skeleton
 
         return write_skeleton, {"what": what or "skeleton", "flatten": flatten, "threads": threads}
+    if isinstance(value, SkeletonPoints):
+        from vorotool.formats.skeleton_point_files import write_skeleton_points
+
+        return write_skeleton_points, {"what": what or "points", "threads": threads}
     if isinstance(value, AlphaComplex | AlphaShape):
         from vorotool.formats.alpha_files import write_shape
 
@@ -241,7 +224,23 @@ def _writer_of(
             f"what={what!r} is for triangulations, alpha shapes and skeletons: "
             f"leave it out with a {type(value).__name__}"
         )
-    return _plain_writer(value, threads)
+    return _line_writer(value, flatten, threads) or _plain_writer(value, threads)
+
+
+def _line_writer(value: Any, flatten: float | None, threads: int) -> tuple[Callable[..., None], dict[str, Any]] | None:
+    """Give the function that writes curves, which some formats flatten."""
+    from vorotool.geometry.centerline import Centerlines
+    from vorotool.geometry.offsets import Offsets
+
+    if isinstance(value, Centerlines):
+        from vorotool.formats.centerline_files import write_centerlines
+
+        return write_centerlines, {"flatten": flatten, "threads": threads}
+    if isinstance(value, Offsets):
+        from vorotool.formats.offset_files import write_offsets
+
+        return write_offsets, {"flatten": flatten, "threads": threads}
+    return None
 
 
 def _plain_writer(value: Any, threads: int) -> tuple[Callable[..., None], dict[str, Any]]:
@@ -264,7 +263,7 @@ def _plain_writer(value: Any, threads: int) -> tuple[Callable[..., None], dict[s
         return write_cells, {"threads": threads}
     raise UsageError(
         f"a {type(value).__name__} cannot be written: give a LabelImage, Table, PolygonSet, CellSet, Triangulation, "
-        "AlphaShape or Skeleton"
+        "AlphaShape, Skeleton, SkeletonPoints, Offsets or Centerlines"
     )
 
 

@@ -7,7 +7,7 @@ from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
-from vorotool.formats.polylines import write_polylines
+from vorotool.formats.polylines import Wording, write_polylines
 from vorotool.formats.tables import json_text
 from vorotool.formats.text_rows import Column, RowShape, check_precision, write_rows
 from vorotool.geometry.skeleton import Skeleton
@@ -76,11 +76,8 @@ def write_graphml(
         between = (f'">{names[0]}', f"</data>{names[1]}", f"</data>{names[2]}")
         shape = RowShape(('<node id="', *between, "</data></node>\n"))
         write_rows(out, columns, shape, precision=precision, threads=threads)
-    texts = (", ", " ", ")</data></edge>\n")
-    write_polylines(
-        out, graph.points, graph.start[:-1], edges.openings(by), texts, precision=precision, threads=threads
-    )
-    out.write(b"</graph>\n</graphml>\n")
+    wording = Wording(b"", edges.openings(by), ", ", " ", ")</data></edge>\n", b"</graph>\n</graphml>\n")
+    write_polylines(out, graph.points, graph.start[:-1], wording, precision=precision, threads=threads)
 
 
 class _EdgeTexts:

@@ -2,28 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
-from vorotool.formats.polylines import write_polylines
+from vorotool.formats.graphml import write_graphml
+from vorotool.formats.polylines import Wording, geojson_wording, wkt_wording, write_polylines
 from vorotool.formats.skeleton_json import write_json
-from vorotool.formats.tables import TABLE_FORMATS, json_text, write_arrays, write_table
-from vorotool.geometry.flattening import default_flatten
+from vorotool.formats.tables import TABLE_FORMATS, write_arrays, write_table
+from vorotool.geometry.flattening import checked_flatten
 from vorotool.geometry.skeleton import SIDES, Skeleton
 from vorotool.geometry.skeleton_tables import arc_table, branch_table, element_table, polygon_table
 from vorotool.geometry.table import Table
 
-SKELETON_FORMATS = ("json", "csv", "geojson", "npz", "wkt")
-_TABLES: dict[str, Callable[[Skeleton], Table]] = {
-    "elements": element_table,
-    "branches": branch_table,
-    "table": polygon_table,
-}
-FORMATS = {"skeleton": SKELETON_FORMATS, **dict.fromkeys(_TABLES, TABLE_FORMATS)}
+SKELETON_FORMATS = ("json", "csv", "geojson", "npz", "wkt", "graphml")
+_TABLES: dict[str, Callable[[Skeleton], Table]] = {"elements": element_table, "branches": branch_table}
+FORMATS = {"skeleton": SKELETON_FORMATS, **dict.fromkeys((*_TABLES, "table"), TABLE_FORMATS)}
 
 
 def write_skeleton(
@@ -33,13 +30,14 @@ def write_skeleton(
     *,
     what: str = "skeleton",
     flatten: float | None = None,
+    columns: Mapping[str, Any] | None = None,
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
     r"""Write a skeleton, its branches or a row a polygon; the bytes depend on nothing but the skeleton and the options.
 
     JSON (version 1) and NPZ hold all there is, CSV one row an arc. GeoJSON and WKT have no curves: each branch is a
-    LineString, in GeoJSON with the id and the properties of its polygon.
+    LineString, in GeoJSON with the id and the properties of its polygon. GraphML has one edge a branch.
 
     Parameters
     ----------
@@ -47,12 +45,14 @@ def write_skeleton(
         Need not be seekable.
     skeleton : Skeleton
         What to write, in its order.
-    fmt : {"json", "csv", "geojson", "npz", "wkt"}
+    fmt : {"json", "csv", "geojson", "npz", "wkt", "graphml"}
         The format; the others are written as CSV, JSON or NPZ.
     what : {"skeleton", "elements", "branches", "table"}
         What to write.
     flatten : float, optional
         How far a polyline may be from its parabola, in input units; by default 1/4096 of the larger side of the bounds.
+    columns : mapping of str to array, optional
+        Further columns of the table, one value a polygon.
     precision : int, optional
         Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
     threads : int
@@ -74,10 +74,12 @@ def write_skeleton(
     if what not in FORMATS:
         raise UsageError(f"{what!r} is nothing that a skeleton is written as: use {' or '.join(FORMATS)}")
     if fmt in ("svg", "png"):
-        raise UsageError(f"{fmt.upper()} is for pictures: draw it with vorotool draw skeleton.json -o picture.{fmt}")
+        raise UsageError(f"{fmt.upper()} is for pictures: draw it with vorotool.write, or vorotool draw")
     if fmt not in FORMATS[what]:
         raise UsageError(f"{what} cannot be written as {fmt!r}: use one of {', '.join(FORMATS[what])}")
-    if what != "skeleton":
+    if what == "table":
+        write_table(out, polygon_table(skeleton, columns=columns), fmt, precision=precision, threads=threads)
+    elif what != "skeleton":
         write_table(out, _TABLES[what](skeleton), fmt, precision=precision, threads=threads)
     elif fmt == "csv":
         write_table(out, arc_table(skeleton), fmt, precision=precision, threads=threads)
@@ -85,9 +87,12 @@ def write_skeleton(
         write_json(out, skeleton, precision=precision, threads=threads)
     elif fmt == "npz":
         write_arrays(out, skeleton_arrays(skeleton), threads=threads)
+    elif fmt == "graphml":
+        write_graphml(out, skeleton, flatten=flatten, precision=precision, threads=threads)
     else:
-        tolerance = flatten if flatten is not None else default_flatten(skeleton.polygons)
-        _write_branches(out, skeleton, _HEADS[fmt], tolerance, precision, threads)
+        points, start, first_arcs = _branch_polylines(skeleton, checked_flatten(flatten, skeleton.polygons))
+        wording = _wording(skeleton, fmt, first_arcs)
+        write_polylines(out, points, start, wording, precision=precision, threads=threads)
 
 
 def skeleton_arrays(skeleton: Skeleton) -> dict[str, NDArray[Any]]:
@@ -134,62 +139,22 @@ def skeleton_arrays(skeleton: Skeleton) -> dict[str, NDArray[Any]]:
 
 
 # ---- polylines -----------------------------------------------------------------------------------
-def _write_branches(
-    out: BinaryIO,
-    skeleton: Skeleton,
-    heads: Callable[[Skeleton, NDArray[np.int64]], tuple[bytes, list[str], tuple[str, str, str], bytes]],
-    tolerance: float,
-    precision: int | None,
-    threads: int,
-) -> None:
-    """One polyline a branch."""
+def _branch_polylines(
+    skeleton: Skeleton, tolerance: float
+) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
+    """Points of branches, where each branch begins among them, and its first arc."""
     points, start = skeleton.flattened(tolerance)
     first_arcs = np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
-    before, openings, texts, after = heads(skeleton, first_arcs)
-    opens = np.zeros(len(points), dtype=bool)
-    opens[start[first_arcs]] = True
     kept = np.ones(len(points), dtype=bool)  # an arc's first point is the last one of the arc before
-    kept[start[:-1]] = opens[start[:-1]]
-    points, opens = points[kept], opens[kept]
-    out.write(before)
-    write_polylines(out, points, np.flatnonzero(opens), openings, texts, precision=precision, threads=threads)
-    out.write(after)
+    kept[start[:-1]] = False
+    kept[start[first_arcs]] = True
+    return points[kept], (np.cumsum(kept) - 1)[start[first_arcs]], first_arcs
 
 
-def _geojson_heads(
-    skeleton: Skeleton, first_arcs: NDArray[np.int64]
-) -> tuple[bytes, list[str], tuple[str, str, str], bytes]:
-    polygons = skeleton.polygons
+def _wording(skeleton: Skeleton, fmt: str, first_arcs: NDArray[np.int64]) -> Wording:
+    if fmt == "wkt":
+        return wkt_wording(len(first_arcs))
     columns = branch_table(skeleton)
     own = {name: columns[name].tolist() for name in ("branch", "kind", "length", "r_min", "r_max", "r_mean")}
-    own = {f"voro_{name}" if name in polygons.properties else name: values for name, values in own.items()}
-    side = "voro_side" if "side" in polygons.properties else "side"
-    heads = []
-    for row, (polygon, number) in enumerate(
-        zip(skeleton.polygon[first_arcs].tolist(), skeleton.side[first_arcs].tolist(), strict=True)
-    ):
-        described: dict[str, Any] = {}
-        name = ""
-        if polygon >= 0:
-            described = {key: values[polygon] for key, values in polygons.properties.items()}
-            if polygons.ids is not None and polygons.ids[polygon] is not None:
-                name = f'"id":{json_text(polygons.ids[polygon])},'
-            described["voro_polygon" if "polygon" in polygons.properties else "polygon"] = polygon
-        described |= {key: values[row] for key, values in own.items()}
-        described[side] = None if number < 0 else SIDES[number]
-        heads.append(
-            f'{{"type":"Feature",{name}"properties":{json_text(described)},'
-            '"geometry":{"type":"LineString","coordinates":[['
-        )
-    crs = "" if polygons.crs is None else f'"crs":{json_text(polygons.crs)},'
-    opening = f'{{"type":"FeatureCollection",{crs}"features":[\n'
-    return opening.encode(), heads, ("],[", ",", "]]}},\n"), b"]}\n"
-
-
-def _wkt_heads(
-    _skeleton: Skeleton, first_arcs: NDArray[np.int64]
-) -> tuple[bytes, list[str], tuple[str, str, str], bytes]:
-    return b"", ["LINESTRING ("] * len(first_arcs), (", ", " ", ")\n"), b""
-
-
-_HEADS = {"geojson": _geojson_heads, "wkt": _wkt_heads}
+    own["side"] = [None if number < 0 else SIDES[number] for number in skeleton.side[first_arcs].tolist()]
+    return geojson_wording(skeleton.polygons, skeleton.polygon[first_arcs].tolist(), own)

@@ -84,7 +84,7 @@ def _write_geojson(
     skeleton = points.skeleton
     polygons, side = skeleton.polygons, skeleton.side[points.arc]
     own = {name: f"voro_{name}" if name in polygons.properties else name for name in _OWN}
-    columns = [
+    columns: list[Any] = [
         Lookup(_openings(polygons, own["polygon"]), points.polygon % (len(polygons) + 1)),
         skeleton.branch[points.arc].astype(np.int64),
         points.along,
@@ -92,9 +92,10 @@ def _write_geojson(
         2 * points.radius,
         Lookup([f'"{name}"' for name in SIDES] + ["null"], np.where(side < 0, len(SIDES), side).astype(np.int32)),
     ]
-    kind, between, after = ("Point", (",",), "]}}")
+    between: tuple[str, ...] = (",",)
+    kind, after = "Point", "]}}"
     if len(coordinates) > 2:
-        kind, between, after = ("LineString", (",", "],[", ","), "]]}}")
+        kind, between, after = "LineString", (",", "],[", ","), "]]}}"
     names = [f',"{own[name]}":' for name in _OWN[1:]]
     opening = f'}},"geometry":{{"type":"{kind}","coordinates":{"[" * (len(coordinates) // 2)}'
     shape = RowShape(("", *names, opening, *between, after), ",\n", "null")

@@ -100,7 +100,8 @@ class ArcMeasures:
         straight = self.source + v * (self.target - self.source)
         bend = self.source - 2 * self.control + self.target
         bent = self.source + v * (2 * (self.control - self.source) + v * bend)
-        return np.where(v >= 1, self.target, np.where(self.is_parabola[:, None], bent, straight))
+        places: Floats = np.where(v >= 1, self.target, np.where(self.is_parabola[:, None], bent, straight))
+        return places
 
     def radius(self, u: Floats) -> Floats:
         """(n,) the radius there."""

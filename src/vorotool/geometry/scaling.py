@@ -16,9 +16,12 @@ from vorotool.geometry.alpha_hull import AlphaHull
 from vorotool.geometry.alpha_shape import AlphaShape
 from vorotool.geometry.box import Box
 from vorotool.geometry.cells import CellSet
+from vorotool.geometry.centerline import Centerlines
 from vorotool.geometry.digital_triangulation import DigitalTriangulation
+from vorotool.geometry.offsets import Offsets
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.skeleton import Skeleton
+from vorotool.geometry.skeleton_points import SkeletonPoints
 from vorotool.geometry.table import Table
 from vorotool.geometry.triangulation import Triangulation
 
@@ -40,7 +43,8 @@ def scaled(value: Any, factor: Fraction) -> Any:
 
     Parameters
     ----------
-    value : PolygonSet, Triangulation, DigitalTriangulation, CellSet, AlphaComplex, AlphaShape, AlphaHull or Skeleton
+    value : PolygonSet, Triangulation, DigitalTriangulation, CellSet, AlphaComplex, AlphaShape, AlphaHull, Skeleton,
+        SkeletonPoints, Offsets or Centerlines
         What to scale; for a table see `scaled_table`.
     factor : Fraction
         More than 0.
@@ -110,6 +114,23 @@ def _(value: Skeleton, factor: Fraction) -> Skeleton:
         frame=value.frame and (x * by, y * by, w * by, h * by),
         **{name: getattr(value, name) * by for name in names},
     )
+
+
+@scaled.register
+def _(value: Centerlines, factor: Fraction) -> Centerlines:
+    return replace(value, path=scaled(value.path, factor), ends=value.ends * float(factor))
+
+
+@scaled.register
+def _(value: SkeletonPoints, factor: Fraction) -> SkeletonPoints:
+    lengths = {name: getattr(value, name) * float(factor) for name in ("along", "xy", "radius", "feet")}
+    return replace(value, skeleton=scaled(value.skeleton, factor), **lengths)
+
+
+@scaled.register
+def _(value: Offsets, factor: Fraction) -> Offsets:
+    lengths = {name: getattr(value, name) * float(factor) for name in ("start", "end", "centre", "distance")}
+    return replace(value, polygons=scaled(value.polygons, factor), **lengths)
 
 
 def scaled_table(table: Table, factor: Fraction, *, properties: Collection[str] = ()) -> Table:

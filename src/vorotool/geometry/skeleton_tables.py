@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -197,13 +198,15 @@ def _distance(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.floa
     return np.asarray(np.sqrt((way * way).sum(axis=-1)))  # the same on every machine, as hypot is not
 
 
-def polygon_table(skeleton: Skeleton) -> Table:
+def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = None) -> Table:
     """Give one row a polygon, with what the skeleton inside tells of it.
 
     Parameters
     ----------
     skeleton : Skeleton
-        Its polygons' properties are the further columns.
+        Its polygons' properties are the last columns.
+    columns : mapping of str to array, optional
+        Columns before these, one value a polygon: what :func:`vorotool.geometry.centerline.centerline_columns` gives.
 
     Returns
     -------
@@ -254,6 +257,7 @@ def polygon_table(skeleton: Skeleton) -> Table:
             "cycles": cycles,
             "width_max": np.ma.array(widest, mask=empty),
             "width_mean": np.ma.array(mean, mask=empty),
+            **(columns or {}),
         }
     )
     return table.with_properties(polygons.properties)

@@ -8,19 +8,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
+from vorotool.geometry.centerline import Centerlines, centerline_table
 from vorotool.geometry.mesh_tables import edge_table
+from vorotool.geometry.offsets import Offsets
 from vorotool.geometry.skeleton import Skeleton
+from vorotool.geometry.skeleton_points import SkeletonPoints
 from vorotool.geometry.skeleton_tables import arc_table
 from vorotool.geometry.table import Table
 from vorotool.geometry.triangulation import Triangulation
 
 
 def table(value: Any) -> dict[str, NDArray[Any]]:
-    """Give the columns of a table, of the edges of a triangulation or of the arcs of a skeleton, as arrays.
+    """Give the columns of a table as arrays: of the edges of a triangulation, arcs, points along these, or offsets.
 
     Parameters
     ----------
-    value : Table, Triangulation or Skeleton
+    value : Table, Triangulation, Skeleton, SkeletonPoints, Offsets or Centerlines
         What to tell about; fields that do not exist are masked, None, or NaN.
 
     Raises
@@ -38,6 +41,13 @@ def table(value: Any) -> dict[str, NDArray[Any]]:
         value = edge_table(value)
     elif isinstance(value, Skeleton):
         value = arc_table(value)
+    elif isinstance(value, Centerlines):
+        value = centerline_table(value)
+    elif isinstance(value, SkeletonPoints | Offsets):
+        value = value.table()
     if not isinstance(value, Table):
-        raise UsageError(f"there is no table of a {type(value).__name__}: give a Table, Triangulation or Skeleton")
+        raise UsageError(
+            f"there is no table of a {type(value).__name__}: give a Table, Triangulation, Skeleton, SkeletonPoints, "
+            "Offsets or Centerlines"
+        )
     return {name: column if isinstance(column, np.ndarray) else np.array(column) for name, column in value.items()}

@@ -56,7 +56,7 @@ def offset_layers(offsets: Offsets, page: Page, layers: Iterable[str]) -> list[L
         width,
         offsets.piece_distance > 0,
     )
-    made = {"polygons": polygon_layers(offsets.polygons, width), "offset": [curves]}
+    made: dict[str, list[Layer]] = {"polygons": polygon_layers(offsets.polygons, width), "offset": [curves]}
     return [layer for name in LAYERS if name in wanted for layer in made[name]]
 
 

@@ -1,0 +1,83 @@
+// Paths in graphs of arcs.
+#include <nanobind/stl/tuple.h>
+
+#include <array>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "core/longest_paths.hpp"
+#include "interrupts.hpp"
+
+namespace vorotool::bindings {
+namespace {
+
+namespace nb = nanobind;
+using namespace nb::literals;
+using core::GraphPath;
+using core::Monitor;
+using Pair = std::array<std::int32_t, 2>;
+
+std::span<const Pair> checked(const Matrix<const std::int32_t>& arcs, const Vector<const double>& length,
+                              std::size_t nodes) {
+  const std::span<const Pair> pairs = rows<Pair>(arcs);
+  if (pairs.size() != length.size()) throw std::invalid_argument("each arc must have a length");
+  for (const Pair& pair : pairs) {
+    for (const std::int32_t node : pair) {
+      if (node < 0 || static_cast<std::size_t>(node) >= nodes)
+        throw std::invalid_argument("a node is out of range");
+    }
+  }
+  return pairs;
+}
+
+nb::tuple longest_paths(const Matrix<const std::int32_t>& arcs, const Vector<const double>& length,
+                        const Vector<const std::int32_t>& group, std::size_t groups, std::size_t nodes,
+                        nb::handle progress) {
+  const std::span<const Pair> pairs = checked(arcs, length, nodes);
+  if (group.size() != pairs.size()) throw std::invalid_argument("each arc must have a group");
+  for (const std::int32_t number : view(group)) {
+    if (number < 0 || static_cast<std::size_t>(number) >= groups)
+      throw std::invalid_argument("a group is out of range");
+  }
+  std::vector<GraphPath> paths = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::longest_paths(pairs, core::whole_lengths(view(length)), view(group), groups, nodes, monitor);
+  });
+  std::vector<std::int64_t> start{0};
+  std::vector<std::int32_t> path_arcs, path_nodes;
+  for (const GraphPath& path : paths) {
+    path_arcs.insert(path_arcs.end(), path.arcs.begin(), path.arcs.end());
+    if (!path.nodes.empty()) path_nodes.insert(path_nodes.end(), path.nodes.begin() + 1, path.nodes.end());
+    start.push_back(static_cast<std::int64_t>(path_arcs.size()));
+  }
+  return nb::make_tuple(to_numpy(std::move(start)), to_numpy(std::move(path_arcs)),
+                        to_numpy(std::move(path_nodes)));
+}
+
+nb::object path_from(const Matrix<const std::int32_t>& arcs, const Vector<const double>& length,
+                     std::size_t nodes, std::int32_t first, std::int32_t last, nb::handle progress) {
+  const std::span<const Pair> pairs = checked(arcs, length, nodes);
+  if (first < 0 || static_cast<std::size_t>(first) >= nodes ||
+      (last >= 0 && static_cast<std::size_t>(last) >= nodes)) {
+    throw std::invalid_argument("a node is out of range");
+  }
+  GraphPath path = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::path_from(pairs, core::whole_lengths(view(length)), nodes, first, last, monitor);
+  });
+  if (path.nodes.empty()) return nb::none();
+  path.nodes.erase(path.nodes.begin());
+  return nb::make_tuple(to_numpy(std::move(path.arcs)), to_numpy(std::move(path.nodes)));
+}
+
+}  // namespace
+
+void bind_paths(nb::module_& module) {
+  module.def("longest_paths", &longest_paths, "arcs"_a.noconvert(), "length"_a.noconvert(),
+             "group"_a.noconvert(), "groups"_a, "nodes"_a, "progress"_a.none());
+  module.def("path_from", &path_from, "arcs"_a.noconvert(), "length"_a.noconvert(), "nodes"_a, "first"_a,
+             "last"_a, "progress"_a.none());
+}
+
+}  // namespace vorotool::bindings

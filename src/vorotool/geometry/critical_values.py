@@ -1,0 +1,85 @@
+"""Critical values of a skeleton: the threshold above which pruning removes each place."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+CRITERIA = ("angle", "chord", "scale", "length", "ratio")
+"""By which skeletons are pruned: angles in degrees, chord and length in input units, the others without a unit."""
+
+
+@dataclass(frozen=True, eq=False)
+class CriticalValues:
+    """The smallest thresholds that remove the places of a skeleton.
+
+    Along an arc values do not decrease from either end to the place that has most.
+
+    Parameters
+    ----------
+    criterion : {"angle", "chord", "scale", "length", "ratio"}
+        What is compared with the threshold.
+    ends : (a, 2) float64 array
+        Close to the source and to the target of each arc; infinite on what is never removed.
+    most : (a,) float64 array
+        The largest on each arc.
+    kept_arc : (k,) int32 array
+        For each component that could be removed as a whole, the arc on which a place is kept nevertheless; increasing.
+    kept_place : (k,) float64 array
+        Where that is on the arc, from 0 at its source to 1 at its target, by the parameter of the Bezier curve.
+
+    References
+    ----------
+    See :func:`vorotool.prune`.
+
+    Examples
+    --------
+    >>> from vorotool import critical_values, skeleton_exact
+    >>> values = critical_values(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]), "angle")
+    >>> values.most.round(9).tolist()
+    [90.0, 90.0, 90.0, 90.0, inf]
+    """
+
+    criterion: str
+    ends: NDArray[np.float64]
+    most: NDArray[np.float64]
+    kept_arc: NDArray[np.int32]
+    kept_place: NDArray[np.float64]
+
+    def __len__(self) -> int:
+        return len(self.most)
+
+
+@dataclass(frozen=True, eq=False)
+class ArcProfiles:
+    r"""How the two nearest places on the boundary lie along arcs: what cuts inside arcs are computed from.
+
+    Between two lines the angle under which centres see these feet is the same everywhere. Else, with x linear in the
+    parameter of the Bezier curve, the cotangent of half the angle is \|x\|. The distance of the feet is
+    h sqrt(1 + x^2) on a parabola whose focus is h from its directrix, and 2 h between two points.
+
+    Parameters
+    ----------
+    kind : (a,) int8 array
+        `BETWEEN_LINES`, `BETWEEN_POINTS`, or `FROM_FOCUS`.
+    ends : (a, 2) float64 array
+        x at the source and at the target; 0 between lines.
+    size : (a,) float64 array
+        h; between lines the tangent of half the angle.
+
+    Examples
+    --------
+    >>> from vorotool import arc_profiles, skeleton_exact
+    >>> arc_profiles(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])).size.tolist()
+    [1.0, 1.0, 1.0, 1.0, inf]
+    """
+
+    kind: NDArray[np.int8]
+    ends: NDArray[np.float64]
+    size: NDArray[np.float64]
+
+
+BETWEEN_LINES, BETWEEN_POINTS, FROM_FOCUS = 0, 1, 2
+"""Kinds of profiles."""

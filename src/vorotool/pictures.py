@@ -1,0 +1,310 @@
+"""Pictures: of label images, from layers, and of any value that has one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import UsageError
+from vorotool.geometry.label_image import LabelImage
+
+if TYPE_CHECKING:
+    from vorotool.render.layers import Backdrop, Layer, Page
+
+BAND_ROWS = 256
+"""Rows of a picture that are composed at a time."""
+
+LARGEST_TABLE = 1 << 20
+"""Entries that a table of colours by label may have in any case; beyond, it must be mostly used."""
+
+
+def write_label_picture(
+    out: BinaryIO,
+    image: LabelImage,
+    colours: tuple[NDArray[Any], NDArray[Any]],
+    *,
+    fmt: str,
+    layers: Sequence[str],
+    width: int = 1000,
+    y_up: bool = False,
+    backdrop: Backdrop | None = None,
+    threads: int = 0,
+) -> None:
+    """Draw a label image as SVG or as a palette PNG of its own size, or over an image.
+
+    Parameters
+    ----------
+    out : binary file
+        Where to write.
+    image : LabelImage
+        With seeds, if these are drawn.
+    colours : pair of (k,) integer arrays
+        The labels that occur, increasing, and the colour class of each: what `region_colours` gives.
+    fmt : {"png", "svg"}
+        Kind of picture.
+    layers : sequence of str
+        Of cells, diagram (PNG), labels (SVG) and seeds.
+    width : int
+        Pixels across an SVG.
+    y_up : bool
+        Draw the last row on top.
+    backdrop : Backdrop, optional
+        The image, whose size the picture has.
+    threads : int
+        0 uses all.
+    """
+    if y_up:
+        image = image.flipped()
+    if fmt == "svg":
+        from vorotool.render.label_svg import write_label_svg
+
+        by_label = dict(zip(colours[0].tolist(), colours[1].tolist(), strict=True))
+        write_label_svg(out, image, colour_of_label=by_label, width=width, layers=layers, backdrop=backdrop)
+    else:
+        _write_png(out, image, colours, layers, backdrop, threads)
+
+
+def _write_png(
+    out: BinaryIO,
+    image: LabelImage,
+    colours: tuple[NDArray[Any], NDArray[Any]],
+    layers: Sequence[str],
+    backdrop: Backdrop | None,
+    threads: int,
+) -> None:
+    from vorotool.engines.regions import voronoi_diagram
+    from vorotool.formats.png import write_png
+    from vorotool.render.label_png import over_image, picture_bands
+    from vorotool.render.palettes import picture_palette
+
+    palette = picture_palette(int(colours[1].max(initial=0)))
+    starts = range(0, image.shape[0], BAND_ROWS)
+    diagram = voronoi_diagram(image, threads=threads).view(bool) if "diagram" in layers else None
+    number, colour_of_number = _numbering(*colours)
+    bands = picture_bands(
+        (number(image.labels[row : row + BAND_ROWS]) for row in starts),
+        shape=image.shape,
+        palette=palette,
+        colour_of_label=colour_of_number,
+        diagram=None if diagram is None else (diagram[row : row + BAND_ROWS] for row in starts),
+        seeds=image.seeds,
+        frame=image.frame,
+        layers=layers,
+    )
+    if backdrop is not None:
+        assert image.frame is not None  # LabelImage has filled it in
+        made = over_image(bands, backdrop, palette, image.frame)
+        write_png(out, [made], backdrop.pixels.shape[:2], rgb=True, threads=threads)
+        return
+    write_png(out, bands, image.shape, bit_depth=palette.bit_depth, palette=palette.colours, threads=threads)
+
+
+def _numbering(
+    labels: NDArray[Any], classes: NDArray[Any]
+) -> tuple[Callable[[NDArray[Any]], NDArray[Any]], NDArray[Any]]:
+    """Numbers that a table of colours is indexed by: the labels, or their ranks from 1 where labels are sparse."""
+    largest = int(labels.max(initial=0))
+    if largest > 4 * len(labels) + LARGEST_TABLE:
+        known = np.append(0, labels)
+        return lambda band: np.searchsorted(known, band), np.append(0, classes)
+    by_label = np.zeros(largest + 1, classes.dtype)
+    by_label[labels] = classes
+    return np.asarray, by_label
+
+
+def write_layers(out: BinaryIO, layers: Sequence[Layer], page: Page, *, fmt: str, threads: int = 0) -> None:
+    """Draw layers as SVG or PNG.
+
+    Parameters
+    ----------
+    out : binary file
+        Where to write.
+    layers : sequence of Layer
+        What to draw, from below.
+    page : Page
+        Where it lies.
+    fmt : {"svg", "png"}
+        Kind of picture.
+    threads : int
+        0 uses all.
+    """
+    if fmt == "svg":
+        from vorotool.render.layers_svg import write_layers_svg
+
+        write_layers_svg(out, layers, page, threads=threads)
+    else:
+        from vorotool.formats.png import write_png
+        from vorotool.render.layers_png import layer_bands
+
+        write_png(out, layer_bands(layers, page), (page.height, page.width), rgb=True, threads=threads)
+
+
+# ---- any value -----------------------------------------------------------------------------------
+class Drawing(NamedTuple):
+    """Layers from below, and the page that they are drawn on."""
+
+    layers: Sequence[Layer]
+    page: Page
+
+
+def drawing_of(
+    value: Any,
+    *,
+    what: str | None = None,
+    layers: Sequence[str] | None = None,
+    width: int = 1000,
+    y_up: bool | None = None,
+) -> Drawing:
+    """Make the layers of the picture of a value other than a label image.
+
+    Parameters
+    ----------
+    value : value of the library
+        A triangulation, cells, an alpha shape or hull, polygons, a skeleton, points along one, or offset curves.
+    what : str, optional
+        Of a triangulation ``edges`` or ``triangles``, of a skeleton ``skeleton`` or ``elements``, of points along one
+        ``points`` or ``transects``.
+    layers : sequence of str, optional
+        Which; by default those of the command line.
+    width : int
+        Of the page, in px.
+    y_up : bool, optional
+        Draw y upwards; by default as the input is drawn.
+
+    Raises
+    ------
+    UsageError
+        If there is no picture of it, or no such layer.
+
+    Examples
+    --------
+    >>> from vorotool import delaunay
+    >>> [layer.name for layer in drawing_of(delaunay([[0, 0], [4, 0], [0, 3]])).layers]
+    ['edges', 'points']
+    """
+    for kind, name, draw in _drawings():
+        if not isinstance(value, kind):
+            continue
+        own = DEFAULT_LAYERS[name]
+        if (what or next(iter(own))) not in own:
+            raise UsageError(f"what={what!r} is no picture of a {type(value).__name__}: use {' or '.join(own)}")
+        chosen = what or next(iter(own))
+        return draw(value, layers or own[chosen], width, y_up)
+    raise UsageError(f"there is no picture of a {type(value).__name__}: write a table or a list of features of it")
+
+
+DEFAULT_LAYERS: dict[str, dict[str, tuple[str, ...]]] = {
+    "mesh": {"edges": ("edges", "points"), "triangles": ("triangles", "edges", "points")},
+    "cells": {"cells": ("cells", "points")},
+    "shape": {"edges": ("boundary", "singular", "points"), "polygons": ("polygons",)},
+    "hull": {"hull": ("hull", "points")},
+    "polygons": {"polygons": ("polygons",)},
+    "skeleton": {"skeleton": ("polygons", "skeleton"), "elements": ("polygons", "elements", "points")},
+    "points": {
+        "points": ("polygons", "skeleton", "points"),
+        "transects": ("polygons", "skeleton", "transects"),
+    },
+    "offsets": {"offset": ("polygons", "offset")},
+}
+"""Of each kind of values, of what it is drawn as: the first is the default."""
+
+
+def _drawings() -> list[tuple[Any, str, Callable[[Any, Sequence[str], int, bool | None], Drawing]]]:
+    """The types that there are pictures of, their names, and what draws them."""
+    from vorotool.geometry.alpha_hull import AlphaHull
+    from vorotool.geometry.alpha_shape import AlphaShape
+    from vorotool.geometry.cells import CellSet
+    from vorotool.geometry.digital_triangulation import DigitalTriangulation
+    from vorotool.geometry.offsets import Offsets
+    from vorotool.geometry.polygons import PolygonSet
+    from vorotool.geometry.skeleton import Skeleton
+    from vorotool.geometry.skeleton_points import SkeletonPoints
+    from vorotool.geometry.triangulation import Triangulation
+
+    return [
+        ((Triangulation, DigitalTriangulation), "mesh", _draw_mesh),
+        (CellSet, "cells", _draw_cells),
+        (AlphaShape, "shape", _draw_shape),
+        (AlphaHull, "hull", _draw_hull),
+        (PolygonSet, "polygons", _draw_polygons),
+        (Skeleton, "skeleton", _draw_skeleton),
+        (SkeletonPoints, "points", _draw_points),
+        (Offsets, "offsets", _draw_offsets),
+    ]
+
+
+def _draw_mesh(value: Any, layers: Sequence[str], width: int, y_up: bool | None) -> Drawing:
+    from vorotool.render.mesh_layers import mesh_layers, mesh_page
+
+    page = mesh_page(value, width=width, y_up=y_up)
+    return Drawing(mesh_layers(value, page, layers), page)
+
+
+def _draw_cells(value: Any, layers: Sequence[str], width: int, y_up: bool | None) -> Drawing:
+    from vorotool.engines.cells import cell_colours
+    from vorotool.engines.delaunay import delaunay
+    from vorotool.render.cell_layers import cell_lines, cell_polygons, cells_page
+    from vorotool.render.label_png import checked_layers
+    from vorotool.render.layers import Points
+
+    wanted = checked_layers(layers, ("cells", "diagram", "points"))
+    page = cells_page(value, width=width, y_up=y_up)
+    made: list[Layer] = []
+    if "cells" in wanted:
+        made.append(cell_polygons(value, cell_colours(delaunay(value.sites)), page))
+    if "diagram" in wanted:
+        made.append(cell_lines(value, page))
+    if "points" in wanted:
+        made.append(Points("points", value.sites, radius=min(max(page.spacing(len(value)) / 12, 0.3), 4.0)))
+    return Drawing(made, page)
+
+
+def _draw_shape(value: Any, layers: Sequence[str], width: int, y_up: bool | None) -> Drawing:
+    from vorotool.render.alpha_layers import alpha_layers
+    from vorotool.render.mesh_layers import mesh_page
+
+    page = mesh_page(value.family.mesh, width=width, y_up=y_up)
+    return Drawing(alpha_layers(value, page, layers), page)
+
+
+def _draw_hull(value: Any, layers: Sequence[str], width: int, y_up: bool | None) -> Drawing:
+    from vorotool.render.alpha_layers import alpha_layers
+    from vorotool.render.mesh_layers import mesh_page
+
+    page = mesh_page(value.shape.family.mesh, width=width, y_up=y_up)
+    return Drawing(alpha_layers(value.shape, page, layers, hull=value), page)
+
+
+def _draw_polygons(value: Any, layers: Sequence[str], width: int, y_up: bool | None) -> Drawing:
+    from vorotool.render.label_png import checked_layers
+    from vorotool.render.palettes import RESULT
+    from vorotool.render.polygon_layers import polygon_layers, polygon_page
+
+    checked_layers(layers, ("polygons",))
+    page = polygon_page(value, width=width, y_up=y_up)
+    return Drawing(polygon_layers(value, 1.5, edge=RESULT), page)
+
+
+def _draw_skeleton(value: Any, layers: Sequence[str], width: int, y_up: bool | None) -> Drawing:
+    from vorotool.render.skeleton_layers import skeleton_layers, skeleton_page
+
+    page = skeleton_page(value, width=width, y_up=y_up)
+    return Drawing(skeleton_layers(value, page, layers), page)
+
+
+def _draw_points(value: Any, layers: Sequence[str], width: int, y_up: bool | None) -> Drawing:
+    from vorotool.render.skeleton_layers import skeleton_page
+    from vorotool.render.skeleton_point_layers import skeleton_point_layers
+
+    page = skeleton_page(value.skeleton, width=width, y_up=y_up)
+    return Drawing(skeleton_point_layers(value, page, layers), page)
+
+
+def _draw_offsets(value: Any, layers: Sequence[str], width: int, y_up: bool | None) -> Drawing:
+    from vorotool.render.offset_layers import offset_layers, offset_page
+
+    page = offset_page(value, width=width, y_up=y_up)
+    return Drawing(offset_layers(value, page, layers), page)

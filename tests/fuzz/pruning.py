@@ -1,0 +1,62 @@
+"""Pruned skeletons against brute force, and as parts of each other: `--cases 1000 --seed 1`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from pruning_oracle import disagreement, thresholds
+from skeleton_shapes import FAMILIES
+from vorotool import VorotoolError, critical_values, prune, skeleton_exact, verify_pruning
+from vorotool.geometry.critical_values import CRITERIA
+
+MOST_ARCS = 150
+"""Brute force is quadratic."""
+
+
+def failure(shape: object, random: np.random.Generator) -> str | None:
+    """What is wrong with the pruned skeletons of a shape, if anything."""
+    for side in ("interior", "both"):
+        skeleton = skeleton_exact(shape, side=side)
+        for criterion in CRITERIA:
+            least, most = sorted([*thresholds(critical_values(skeleton, criterion), random), 1.1, 2.0])[:2]
+            try:
+                left = prune(skeleton, **{criterion: least})
+                verify_pruning(left, skeleton)
+                verify_pruning(prune(skeleton, **{criterion: most}), left)
+            except VorotoolError as error:
+                return f"{side}, {criterion} {least} and {most}: {error}"
+        if 0 < len(skeleton) <= MOST_ARCS:
+            wrong = disagreement(skeleton, random)
+            if wrong:
+                return f"{side}, {wrong}"
+    return None
+
+
+def main() -> int:
+    """Run all cases; exit 1 if any failed."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--cases", type=int, default=1000)
+    parser.add_argument("--seed", type=int, default=1)
+    arguments = parser.parse_args()
+    warnings.simplefilter("ignore")
+    start, failed = time.monotonic(), 0
+    for case in range(arguments.cases):
+        family = FAMILIES[case % len(FAMILIES)]
+        random = np.random.default_rng([arguments.seed, case])
+        wrong = failure(family(random), random)
+        if wrong:
+            print(f"wrong: seed {arguments.seed}, case {case}, {family.__name__}: {wrong}")
+        failed += wrong is not None
+    print(f"{arguments.cases:,} shapes, {failed} failures, {time.monotonic() - start:.0f} s")
+    return int(failed > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

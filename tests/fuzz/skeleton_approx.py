@@ -1,0 +1,69 @@
+"""Approximate skeletons of broken polygons and lines through their checker: `--cases 2000 --seed 1`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from skeleton_shapes import FAMILIES
+from vorotool import VorotoolError
+from vorotool.engines.approximate_verification import verify_approximate
+from vorotool.engines.placed_rings import placed_shapes
+from vorotool.engines.planar_graph import planar_graph
+from vorotool.engines.skeleton_approx import SamplingOptions, approximate_skeleton, sampled_graph
+from vorotool.engines.skeleton_tolerance import skeleton_within
+from vorotool.errors import LimitError
+from vorotool.geometry.polygon_conversion import as_polygons
+
+MOST_SEEDS = 10**5
+
+
+def failure(shape: Any, rng: np.random.Generator) -> str | None:
+    """What is wrong with the skeletons of a shape, if anything."""
+    extent = float(np.ptp(as_polygons(shape).xy, axis=0).max()) or 1.0
+    step, tolerance = extent * 10 ** rng.uniform(-2.5, 0), extent * 10 ** rng.uniform(-5, -2)
+    sampling = str(rng.choice(["paper", "symmetric"]))
+    try:
+        graph = planar_graph(shape)
+        placed = placed_shapes(graph)
+        shapes = sampled_graph(graph, placed, SamplingOptions(step, None, sampling))
+        for side in ("interior", "exterior", "both"):
+            for complete in (False, True):
+                verify_approximate(approximate_skeleton(shapes, side=side, complete=complete), step=step)
+        side = str(rng.choice(["interior", "exterior", "both"]))
+        verify_approximate(skeleton_within(graph, placed, tolerance, side=side, most=MOST_SEEDS))
+    except LimitError as error:
+        return None if str(MOST_SEEDS) in str(error) else f"{side}, tolerance {tolerance}: {error}"
+    except VorotoolError as error:
+        return f"{sampling}, step {step}, tolerance {tolerance}: {error}"
+    return None
+
+
+def main() -> int:
+    """Run all cases; exit 1 if any failed."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--cases", type=int, default=2000)
+    parser.add_argument("--seed", type=int, default=1)
+    arguments = parser.parse_args()
+    warnings.simplefilter("ignore")
+    start, failed = time.monotonic(), 0
+    for case in range(arguments.cases):
+        family = FAMILIES[case % len(FAMILIES)]
+        rng = np.random.default_rng([arguments.seed, case])
+        wrong = failure(family(rng), rng)
+        if wrong:
+            print(f"wrong: seed {arguments.seed}, case {case}, {family.__name__}: {wrong}")
+        failed += wrong is not None
+    print(f"{arguments.cases:,} shapes, {failed} failures, {time.monotonic() - start:.0f} s")
+    return int(failed > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
