@@ -5,8 +5,8 @@ FIGURES  := $(BUILD)/figures
 TABLE_1_SIZES := 64 128 256 512
 FIGURE_9_STEPS := 20 15 10 5
 
-.PHONY: figures figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c figure-05 figure-06 figure-07 figure-08 figure-09 figure-10 figure-11 figure-lakes table-1
-figures: figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c figure-05 figure-06 figure-07 figure-08 figure-09 figure-10 figure-11 figure-lakes table-1 ## draw the figures and tables of the paper into build/figures
+.PHONY: figures figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c figure-05 figure-06 figure-07 figure-08 figure-09 figure-10 figure-11 figure-lakes table-1 error-vs-h
+figures: figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c figure-05 figure-06 figure-07 figure-08 figure-09 figure-10 figure-11 figure-lakes table-1 error-vs-h ## draw the figures and tables of the paper into build/figures
 	@echo "figures are in $(FIGURES):" && ls $(FIGURES)
 figure-01: $(FIGURES)/figure-01.svg
 figure-02: $(FIGURES)/figure-02.svg
@@ -26,6 +26,7 @@ figure-10: $(FIGURES)/figure-10.svg
 figure-11: $(foreach part,a b c d,$(FIGURES)/figure-11$(part).svg)
 figure-lakes: $(FIGURES)/figure-lakes.png
 table-1: $(FIGURES)/table-1.md
+error-vs-h: $(FIGURES)/error-vs-h.md
 
 $(FIGURES):
 	mkdir -p $@
@@ -120,4 +121,9 @@ $(FIGURES)/table-1.md: data/dots.csv docs/table_1.py $(BUILD)/.installed | $(FIG
 	      --stats $(BUILD)/table-1/$$method-$$m.json || exit 1; \
 	done; done
 	$(RUN) docs/table_1.py $(BUILD)/table-1 $(TABLE_1_SIZES) > $@
+	cat $@
+
+# Purpose: the errors of section 3.1 against the step, measured and certified, beside the paper's estimates.
+$(FIGURES)/error-vs-h.md: data/shape.json data/two-shapes.json data/two-segments.wkt docs/error_vs_h.py $(BUILD)/.installed | $(FIGURES)
+	$(RUN) docs/error_vs_h.py $(FIGURES)/error-vs-h.svg > $@
 	cat $@
