@@ -119,8 +119,8 @@ def place_fault(own, other, to_other, pair):
         # where nearly the same foot is meant, rounding tells the sign
         bound = np.where((dive > 2.0**-20 * d1) & (d1 > 0), np.minimum(bound, np.maximum(way, 0)), bound)
     away = distances_to(other, q)
-    known = np.isfinite(bound)
-    beyond = away[known] - bound[known] - 2.0**20 * pair.rounding * (d1[known] > 0)
+    known = np.isfinite(bound) & (radius > 2 * pair.move)  # inside the other shape, too
+    beyond = away[known] - bound[known] - 2.0**20 * pair.rounding
     return f"a place is {beyond.max():.3g} farther than its bound" if (beyond > 0).any() else None
 
 

@@ -33,7 +33,8 @@ def test_larger_moves_and_other_radii_are_found():
     pair = Pair(SHAPE, Rotation(10))
     assert fault(pair, {}) is None
     right = pair.second
-    for changed in ({"vertices": right.vertices + [100 * pair.move, 0]}, {"radius": right.radius * (1 + 1e-6)}):
+    away = np.array([100 * pair.move, 0])
+    for changed in ({"vertices": right.vertices + away}, {"radius": right.radius * (1 + 1e-6)}):
         pair.second = replace(right, **changed)
         assert fault(pair, {}) is not None
 

@@ -1,4 +1,4 @@
-"""Skeletons of rotated shapes beside those of the shapes: `--cases 1000 --seed 1`; what is compared: rotation_oracle.py.
+"""Skeletons of rotated shapes beside those of the shapes: `--cases 1000 --seed 1`. See rotation_oracle.py.
 
 A third of the rotated shapes is rounded to 2^-20 of the extent too, so that vertices move by more than the placement.
 """
