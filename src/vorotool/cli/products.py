@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from functools import cached_property
+from functools import cached_property, partial
 from types import SimpleNamespace
 from typing import Any, BinaryIO
 
@@ -15,6 +15,7 @@ from vorotool.cli.run import Run
 from vorotool.cli.streams import RowsOf, Stream, check_chunks, write_file, write_store
 from vorotool.cli.targets import Target
 from vorotool.cli.units import table_in_units
+from vorotool.engines.bands import Band, Quantity, SeedBand, SeedBands
 from vorotool.engines.digital import label_dtype, require_memory
 from vorotool.engines.propagation import PropagatedRows
 from vorotool.engines.regions import (
@@ -27,6 +28,7 @@ from vorotool.engines.regions import (
 )
 from vorotool.engines.sweep import Tessellator
 from vorotool.engines.tessellate import verify_rows
+from vorotool.geometry.frame import Frame
 from vorotool.geometry.label_image import LabelImage
 
 PICTURE = {"labels": ("cells", "seeds", "labels"), "diagram": ("diagram",), "colour": ("cells", "seeds")}
@@ -97,7 +99,7 @@ class Products:
         what, o = target.what, self.options
         self._tell(target)
         if target.fmt == "zarr":
-            write_store(o, target, self._stream(what), inputs)
+            write_store(self.run, o, target, self._stream(what), inputs)
             return
         with open_output(target.path, binary=target.is_binary, no_clobber=o.no_clobber, inputs=inputs) as out:
             if self._is_picture(target):
@@ -130,19 +132,32 @@ class Products:
     def _stream(self, what: str) -> Stream:
         """Labels, the diagram or distances, which need not be in memory."""
         if what == "labels":
-            return self._streamed(self._labels, self.dtype, self.rows.seeds.largest_label)
+            return self._streamed(what, self._labels, self.dtype, self.rows.seeds.largest_label)
         if what == "diagram":
             from vorotool.render.palettes import LINE_ON_PAPER
 
-            return self._streamed(self._diagram, np.dtype(np.uint8), 1, palette=LINE_ON_PAPER, bit_depth=1)
+            return self._streamed(what, self._diagram, np.dtype(np.uint8), 1, palette=LINE_ON_PAPER, bit_depth=1)
         rows = self._exact_rows()
         if what == "distance":
-            return self._streamed(rows.distances, np.dtype(np.float32), 0)
-        return self._streamed(rows.squared_distances, rows.square_dtype, int(np.iinfo(rows.square_dtype).max))
+            return self._streamed(what, rows.distances, np.dtype(np.float32), 0)
+        largest = int(np.iinfo(rows.square_dtype).max)
+        return self._streamed(what, rows.squared_distances, rows.square_dtype, largest)
 
-    def _streamed(self, rows_of: RowsOf, dtype: np.dtype[Any], largest: int, **kind: Any) -> Stream:
+    def _streamed(self, what: Any, rows_of: RowsOf, dtype: np.dtype[Any], largest: int, **kind: Any) -> Stream:
         resolution = getattr(self.options, "resolution", None)
-        return Stream(self.rows.frame, rows_of, dtype, largest, {"resolution": resolution, **kind})
+        band = partial(self._band, what, dtype)
+        return Stream(self.rows.frame, rows_of, dtype, largest, band, {"resolution": resolution, **kind})
+
+    def _band(self, what: Quantity, dtype: np.dtype[Any], first: int, rows: int) -> Band:
+        """Give some rows as what computes them anywhere."""
+        frame = self.rows.frame
+        seeds = self._seed_bands.seeds_of(first, rows)
+        place = Frame(frame.x, frame.y + first, frame.width, rows)
+        return SeedBand(seeds, place, what, dtype, self.options.max_distance)
+
+    @cached_property
+    def _seed_bands(self) -> SeedBands:
+        return SeedBands(self.rows.seeds, self.rows.frame)
 
     def _diagram(self, first: int, rows: int) -> NDArray[Any]:
         above, below = min(1, first), min(1, self.rows.frame.height - first - rows)

@@ -5,13 +5,16 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
+from vorotool.engines.bands import Band
 from vorotool.engines.digital import band_limits
 from vorotool.errors import LimitError
 from vorotool.geometry.frame import Frame
@@ -37,6 +40,8 @@ class Stream:
         Of the pixels.
     largest : int
         The largest value there can be.
+    band : callable
+        Gives any rows as what computes them anywhere.
     kind : mapping
         Further options of `write_label_image`.
     """
@@ -45,6 +50,7 @@ class Stream:
     rows_of: RowsOf
     dtype: np.dtype[Any]
     largest: int
+    band: Callable[[int, int], Band]
     kind: Mapping[str, Any]
 
     def bands(self) -> Iterator[NDArray[Any]]:
@@ -105,8 +111,8 @@ def write_file(out: Any, o: SimpleNamespace, target: Target, stream: Stream) -> 
     stream.write(out, fmt, stream.bands(), frame.height, threads=o.threads)
 
 
-def write_store(o: SimpleNamespace, target: Target, stream: Stream, inputs: Sequence[str]) -> None:
-    """Write an image to a Zarr store, if there is room for it."""
+def write_store(run: Run, o: SimpleNamespace, target: Target, stream: Stream, inputs: Sequence[str]) -> None:
+    """Write an image to a Zarr store, if there is room for it: here, or on a cluster."""
     from vorotool.formats.space import check_space
     from vorotool.formats.stores import open_store
     from vorotool.formats.zarr_arrays import create_array, write_rows
@@ -122,9 +128,24 @@ def write_store(o: SimpleNamespace, target: Target, stream: Stream, inputs: Sequ
     check_space(target.path, frame.pixels * dtype.itemsize, lambda: expected_bytes(stream, chunks[0], size_of))
     with open_store(target.path, no_clobber=o.no_clobber, inputs=inputs) as folder:
         array = create_array(folder, frame.shape, dtype=dtype, chunks=chunks)
-        for first in range(0, frame.height, chunks[0]):
-            rows = stream.rows_of(first, min(chunks[0], frame.height - first))
-            write_rows(array, first, rows, threads=o.threads)
+        limits = [(first, min(chunks[0], frame.height - first)) for first in range(0, frame.height, chunks[0])]
+        if o.cluster is not None and o.out_dir is None:
+            _write_on_cluster(run, o, folder, stream, limits)
+            return
+        for first, count in limits:
+            write_rows(array, first, stream.rows_of(first, count), threads=o.threads)
+
+
+def _write_on_cluster(
+    run: Run, o: SimpleNamespace, folder: Path, stream: Stream, limits: Sequence[tuple[int, int]]
+) -> None:
+    from vorotool.batch.bands import write_bands
+
+    show = run.progress("tessellating")
+    bands = ((first, stream.band(first, count)) for first, count in limits)
+    for done, _ in enumerate(write_bands(folder, bands, address=o.cluster, jobs=o.jobs), start=1):
+        if show is not None:
+            show(done / len(limits))
 
 
 def expected_bytes(stream: Stream, rows: int, size_of: Callable[[NDArray[Any]], int]) -> int:
@@ -132,7 +153,8 @@ def expected_bytes(stream: Stream, rows: int, size_of: Callable[[NDArray[Any]], 
 
     Examples
     --------
-    >>> zeros = Stream(Frame(0, 0, 4, 100), lambda first, rows: np.zeros((rows, 4)), np.dtype(float), 0, {})
+    >>> rows_of = lambda first, rows: np.zeros((rows, 4))
+    >>> zeros = Stream(Frame(0, 0, 4, 100), rows_of, np.dtype(float), 0, lambda first, rows: None, {})
     >>> expected_bytes(zeros, 10, lambda rows: rows.nbytes)
     3200
     """

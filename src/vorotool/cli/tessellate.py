@@ -90,6 +90,8 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
         raise click.UsageError("distances are those of the exact tessellation: leave out --method propagation")
     if o.connectivity is not None and o.seeds in ("pixels", "labels"):
         raise click.UsageError(f"--connectivity is for components: leave it out with --seeds {o.seeds}")
+    if o.method == "propagation" and o.cluster is not None and o.out_dir is None:
+        raise click.UsageError("a cluster computes bands of the exact tessellation: leave out --method propagation")
     _check_output_options(o, {(target.what, target.fmt) for target in targets})
 
 

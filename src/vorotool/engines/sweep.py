@@ -174,8 +174,17 @@ class Tessellator:
         self._paint(array, first)
         return array
 
-    def squared_distances(self, first: int = 0, rows: int | None = None) -> NDArray[Any]:
+    def squared_distances(
+        self, first: int = 0, rows: int | None = None, *, dtype: np.dtype[Any] | None = None
+    ) -> NDArray[Any]:
         """Exact squared distances to the nearest seed, in units of 1 / ``seeds.scale``² square pixels.
+
+        Parameters
+        ----------
+        first, rows : int
+            The first row and the number of rows; by default all.
+        dtype : dtype, optional
+            uint32 or uint64, where it is known that they fit; by default `square_dtype`.
 
         Returns
         -------
@@ -187,7 +196,7 @@ class Tessellator:
         LimitError
             If a squared distance may exceed 64 bits.
         """
-        array = self._output(first, rows, self.square_dtype, None)
+        array = self._output(first, rows, dtype or self.square_dtype, None)
         self._core.squared_distances(array, first, self._threads, self._progress_of(first, len(array)))
         self._paint(array, first, 0)
         return array

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -87,7 +88,9 @@ def open_array(folder: str | os.PathLike[str]) -> Any:
     return zarr_module().open_array(os.fspath(folder), mode="r+")
 
 
-def write_rows(array: Any, first: int, rows: NDArray[Any], *, threads: int = 0) -> None:
+def write_rows(
+    array: Any, first: int, rows: NDArray[Any], *, threads: int = 0, check: Callable[[], object] | None = None
+) -> None:
     """Write one row of chunks, each chunk by itself: an interrupt waits for some milliseconds only.
 
     Parameters
@@ -100,6 +103,8 @@ def write_rows(array: Any, first: int, rows: NDArray[Any], *, threads: int = 0) 
         All rows of the chunks.
     threads : int
         0 for all processors.
+    check : callable, optional
+        Called before each chunk; what it raises stops the work.
 
     Examples
     --------
@@ -113,6 +118,8 @@ def write_rows(array: Any, first: int, rows: NDArray[Any], *, threads: int = 0) 
         raise ValueError(f"rows {first} to {first + len(rows) - 1} are not those of chunks of {height} rows")
 
     def write(column: int) -> None:
+        if check is not None:
+            check()
         array[first : first + len(rows), column : column + width] = rows[:, column : column + width]
 
     for _ in in_order(write, range(0, array.shape[1], width), threads):
