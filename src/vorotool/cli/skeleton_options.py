@@ -38,7 +38,13 @@ FORMATS = {
 LAYERS = ("polygons", "elements", "points", "skeleton", "nodes", "labels")
 """Layers of pictures, from below."""
 
-PICTURE_LAYERS = {"svg": LAYERS, "png": tuple(layer for layer in LAYERS if layer != "labels")}
+APPROXIMATE_LAYERS = ("polygons", "elements", "points", "skeleton", "exact", "nodes", "labels")
+"""Beside approximate skeletons pictures can show exact ones."""
+
+PICTURE_LAYERS = {
+    "svg": APPROXIMATE_LAYERS,
+    "png": tuple(layer for layer in APPROXIMATE_LAYERS if layer != "labels"),
+}
 
 _WITHOUT_DIGITS = frozenset({"npz", "html", *_PICTURES})
 _WITHOUT_CURVES = frozenset({"geojson", "wkt"})
@@ -88,7 +94,7 @@ _BEFORE: tuple[Decorator, ...] = (
     ),
     click.option("--to", "end", type=Place(), help="End it at the nearest place."),
 )
-_AFTER: tuple[Decorator, ...] = (
+_READING: tuple[Decorator, ...] = (
     click.option(
         "--flatten",
         type=Length(zero=False),
@@ -108,21 +114,22 @@ _AFTER: tuple[Decorator, ...] = (
         help="Of an image: around pixels (default), or half-way between the centres of pixels.",
     ),
     shared("seeds", "connectivity", "threshold", "invert"),
-    layers_option(LAYERS),
+)
+_AFTER: tuple[Decorator, ...] = (
     shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels"),
     shared("max-sites"),
     pixel_size_option(),
     batch_options(),
     shared("no-clobber", "no-properties", "quiet", "verbose"),
 )
-"""Options before and after a command's own."""
+"""Options before a command's own, after them, and after the layers of pictures."""
 
 
-def skeleton_options(*own: Decorator) -> Decorator:
+def skeleton_options(*own: Decorator, layers: tuple[str, ...] = LAYERS) -> Decorator:
     """Add the options that skeletons have in common, and a command's own among them."""
 
     def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
-        for option in reversed((*_BEFORE, *own, *_AFTER)):
+        for option in reversed((*_BEFORE, *own, *_READING, layers_option(layers), *_AFTER)):
             function = option(function)
         return function
 
