@@ -61,6 +61,9 @@ class ExactProducts(SkeletonProducts):
         assert self.elements is not None
         return whole_element_diagram(self.elements, frame=self.options.frame, threads=self.options.threads)
 
+    def _shape_diagram(self) -> ShapeDiagram:
+        return self.shapes if self.shapes is not None else super()._shape_diagram()
+
     @property
     def _part(self) -> ShapeDiagram | ElementDiagram:
         part = self.shapes if self.shapes is not None else self.elements
@@ -77,6 +80,7 @@ class ExactProducts(SkeletonProducts):
         from vorotool.engines.segment_verification import verify_segment_voronoi
         from vorotool.engines.skeleton_verification import verify_exterior, verify_skeleton
 
+        super().verify()
         progress = self.run.progress("verifying")
         verify_segment_voronoi(self._part.diagram, threads=self.options.threads, progress=progress)
         if self.shapes is not None and self.options.side != "interior":

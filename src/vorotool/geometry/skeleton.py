@@ -198,13 +198,8 @@ class Skeleton:
     @cached_property
     def site_ends(self) -> NDArray[np.float64]:
         """(s, 2, 2) the ends of each site, with a gap those of the shortened edges; a vertex has one place twice."""
-        table, polygons = self.site_table, self.polygons
-        ring = polygons.polygon_start[table.polygon] + table.ring
-        start, stop = polygons.ring_start[ring], polygons.ring_start[ring + 1]
-        first = start + table.index
-        following = np.where(first + 1 < stop, first + 1, start)
-        last = np.where(table.kind == EDGE, following, first)
-        a, b = polygons.xy[first], polygons.xy[last]
+        ends = ends_of_sites(self.polygons, self.site_table)
+        a, b = ends[:, 0], ends[:, 1]
         if self.gap:
             length = np.sqrt(((b - a) ** 2).sum(axis=1, keepdims=True))
             way = np.divide(self.gap * (b - a), length, out=np.zeros_like(a), where=length > 0)
@@ -267,6 +262,16 @@ class Skeleton:
         points = source[arc] + t * (2 * (control - source)[arc] + t * bend[arc])
         points[start[1:] - 1] = target
         return points, start
+
+
+def ends_of_sites(polygons: PolygonSet, table: SiteTable) -> NDArray[np.float64]:
+    """(s, 2, 2) the ends of sites of polygons; a vertex has one place twice."""
+    ring = polygons.polygon_start[table.polygon] + table.ring
+    start, stop = polygons.ring_start[ring], polygons.ring_start[ring + 1]
+    first = start + table.index
+    following = np.where(first + 1 < stop, first + 1, start)
+    last = np.where(table.kind == EDGE, following, first)
+    return np.stack([polygons.xy[first], polygons.xy[last]], axis=1)
 
 
 MOST_PIECES = 1 << 12
