@@ -107,7 +107,6 @@ class ApproximateProducts(SkeletonProducts):
         """Check the samples and the skeleton, from their arrays alone."""
         from vorotool.engines.approximate_verification import verify_approximate
 
-        super().verify()
         progress = self.run.progress("verifying")
         verify_approximate(self.found, step=self.options.step, threads=self.options.threads, progress=progress)
 

@@ -80,7 +80,6 @@ class ExactProducts(SkeletonProducts):
         from vorotool.engines.segment_verification import verify_segment_voronoi
         from vorotool.engines.skeleton_verification import verify_exterior, verify_skeleton
 
-        super().verify()
         progress = self.run.progress("verifying")
         verify_segment_voronoi(self._part.diagram, threads=self.options.threads, progress=progress)
         if self.shapes is not None and self.options.side != "interior":

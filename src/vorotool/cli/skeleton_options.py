@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 _TABLES = ("csv", "json", "npz")
 _PICTURES = ("svg", "png")
 FORMATS = {
-    "skeleton": ("json", "csv", "geojson", "npz", "wkt", *_PICTURES, "html"),
+    "skeleton": ("json", "csv", "geojson", "npz", "wkt", "graphml", *_PICTURES, "html"),
     "diagram": ("json", "csv", "geojson", "npz", "wkt", *_PICTURES),
     "elements": (*_TABLES, *_PICTURES),
     "centerline": ("geojson", *_TABLES, "wkt", *_PICTURES),
@@ -46,7 +46,7 @@ PICTURE_LAYERS = {"svg": LAYERS, "png": tuple(layer for layer in LAYERS if layer
 
 _WITHOUT_DIGITS = frozenset({"npz", "html", *_PICTURES})
 _WITHOUT_CURVES = frozenset({"geojson", "wkt", "graphml"})
-_CURVED = frozenset({"skeleton", "diagram", "offset"})
+_CURVED = frozenset({"skeleton", "diagram", "centerline", "offset"})
 
 
 class Length(click.ParamType[float]):

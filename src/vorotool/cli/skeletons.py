@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.cli.pruning import CRITERIA, Pruning, chosen_pruning
 from vorotool.cli.derived import Derived
+from vorotool.cli.pruning import CRITERIA, Pruning, chosen_pruning
 from vorotool.cli.results import DERIVED
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
@@ -24,6 +24,7 @@ from vorotool.geometry.skeleton import EXTERIOR, Skeleton
 from vorotool.pictures import write_layers
 
 if TYPE_CHECKING:
+    from vorotool.engines.skeleton_exact import ShapeDiagram
     from vorotool.geometry.centerline import Centerlines
     from vorotool.render.layers import Page
 
@@ -132,6 +133,9 @@ class SkeletonProducts(ABC):
 
     def verify(self) -> None:
         """Check the diagram and the skeleton, from their arrays alone, and what pruning left of it."""
+        self.derived.verify()
+        if not self.wants_skeleton:
+            return
         self._verify_whole()
         if self.pruning.criterion is not None:
             from vorotool.engines.pruning_verification import verify_pruning
@@ -266,7 +270,7 @@ class SkeletonProducts(ABC):
         if self.options.is_mask:
             found |= {"outline": self.options.outline or "crack", "connectivity": int(self.options.connectivity or 8)}
         if self.wants_skeleton:
-            found |= self._skeleton_stats(self.skeleton) | self._more_stats()
+            found |= self._skeleton_stats(self.skeleton)
         return found | self.derived.stats()
 
     def _skeleton_stats(self, skeleton: Skeleton) -> dict[str, Any]:
@@ -276,14 +280,10 @@ class SkeletonProducts(ABC):
             "exterior_arcs": int(np.count_nonzero(skeleton.side == EXTERIOR)),
             "branches": int(skeleton.branch[-1]) + 1 if len(skeleton) else 0,
             "nodes": len(skeleton.vertices),
-            "side": self.options.side,
             "prune": self.pruning.stats(),
-            "threads": self.options.threads,
         }
         if skeleton.frame is not None:
             found["frame"] = list(skeleton.frame)
-        if self.options.is_mask:
-            found |= {"outline": self.options.outline or "crack", "connectivity": int(self.options.connectivity or 8)}
         return found | self._more_stats()
 
     @abstractmethod

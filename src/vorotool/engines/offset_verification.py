@@ -141,7 +141,7 @@ def _clearances(places: Floats, reach: Floats, graph: PlanarGraph, threads: int,
         return apart.min(axis=1, initial=np.inf)
     lattice = np.ascontiguousarray((places - graph.origin) / graph.scale)
     found = _core.clearances(graph.points, graph.segments, lattice, reach / graph.scale, threads, progress)
-    return graph.scale * found
+    return np.asarray(graph.scale * found)
 
 
 def _check_orientation(offsets: Offsets, tolerance: float) -> None:

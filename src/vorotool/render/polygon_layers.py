@@ -11,7 +11,6 @@ from vorotool.render.label_png import checked_layers
 from vorotool.render.layers import Layer, Lines, Page, Points, Polygons, bounds_of
 from vorotool.render.palettes import FAINT, LIGHT, RESULT
 
-
 SHAPE_LAYERS = ("shape",)
 
 
