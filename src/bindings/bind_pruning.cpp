@@ -110,9 +110,8 @@ nb::dict prune_skeleton(const nb::tuple& arrays, const Matrix<const double>& end
     throw std::invalid_argument("each arc must have its critical values and a group");
   }
   const auto values_of_ends = rows<std::array<double, 2>>(ends);
-  core::CriticalValues values{{values_of_ends.begin(), values_of_ends.end()},
-                              {view(most).begin(), view(most).end()},
-                              {}};
+  core::CriticalValues values{
+      {values_of_ends.begin(), values_of_ends.end()}, {view(most).begin(), view(most).end()}, {}};
   for (std::size_t k = 0; k < kept_arc.size(); ++k)
     values.kept.push_back({view(kept_arc)[k], view(kept_place)[k]});
   core::PrunedSkeleton left = run_interruptible(progress, [&](const Monitor& monitor) {

@@ -25,6 +25,15 @@ double distance(const Place& p, const Place& q) {
 }
 Place place_of(const Point& p) { return {p.x, p.y}; }
 
+double power_above(double value) {
+  int exponent = 0;
+  std::frexp(value, &exponent);
+  return value > 0 ? std::ldexp(1.0, exponent) : 0;
+}
+
+// To the precision of a float: what differs by its last bits only becomes the same, nearly always.
+double rounded_up(double value) { return static_cast<float>(value * (1 + 0x1p-22)); }
+
 // What is known of an arc while it is bounded.
 class Bounder {
  public:
@@ -76,7 +85,8 @@ class Bounder {
     return (ux * x + uy * y) / (ux * ux + uy * uy);
   }
 
-  // The seeds of the arc, and the reach: a quarter of the longest gap beside them.
+  // The seeds of the arc, and the reach: the least power of two above a quarter of the longest gap beside
+  // them, so that arcs that follow each other have the same.
   void set_seeds() {
     double longest = 0;
     const std::array<std::int32_t, 2> own{mesh().origin(arc_->side), mesh().target(arc_->side)};
@@ -88,13 +98,13 @@ class Bounder {
         longest = std::max(longest, distance(place_of(seed(other)), place_of(seed(own[i]))));
       });
     }
-    reach_ = longest / 4;
+    reach_ = power_above(longest / 4);
   }
 
   double bound(const Place& a, const Place& b, int halvings) {
     const auto wide_radius = [&](const Place& p) {
       const double radius = distance(p, place_of(seeds_[0].place));
-      return std::sqrt(radius * radius + reach_ * reach_);
+      return rounded_up(std::sqrt(radius * radius + reach_ * reach_));
     };
     const auto near = near_.find({{a, b}, {wide_radius(a), wide_radius(b)}});
     if (near) {
@@ -230,25 +240,23 @@ std::vector<LatticeSite> sites_of(std::span<const NearEdge> items) {
 
 }  // namespace
 
-std::vector<ArcBound> arc_bounds(const SeedDiagram& diagram, std::span<const BoundedArc> arcs,
-                                 double tolerance, std::span<std::int32_t> parts, unsigned threads,
-                                 const Monitor& monitor) {
+void bound_arcs(const SeedDiagram& diagram, const ArcsToBound& arcs, double tolerance,
+                std::span<std::int32_t> parts, unsigned threads, const Monitor& monitor) {
   constexpr std::size_t grain = 1 << 11;
-  std::vector<ArcBound> bounds(arcs.size());
   const std::vector<NearEdge> items = NearEdges::items(diagram.labels().graph());
-  const std::vector<LatticeSite> sites = sites_of(items);
-  const SiteHierarchy hierarchy(sites, threads, monitor);
+  const SiteHierarchy hierarchy(sites_of(items), threads, monitor);
   parallel_for(
-      piece_count(arcs.size(), grain), threads,
+      piece_count(arcs.count, grain), threads,
       [&](std::size_t piece) {
         Bounder bounder(diagram, items, hierarchy);
-        for (std::size_t i = piece * grain; i < std::min(arcs.size(), (piece + 1) * grain); ++i) {
-          bounds[i] = bounder(arcs[i]);
-          if (!parts.empty() && !(bounds[i].error <= tolerance)) bounder.demand(tolerance, parts);
+        for (std::size_t i = piece * grain; i < std::min(arcs.count, (piece + 1) * grain); ++i) {
+          const BoundedArc arc = arcs.arc(i);
+          const ArcBound& bound = bounder(arc);
+          arcs.take(i, bound);
+          if (!parts.empty() && !(bound.error <= tolerance)) bounder.demand(tolerance, parts);
         }
       },
       monitor);
-  return bounds;
 }
 
 }  // namespace vorotool::core

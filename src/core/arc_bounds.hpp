@@ -2,9 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
-#include <vector>
 
 #include "core/axis_bound.hpp"
 #include "core/monitor.hpp"
@@ -26,10 +27,16 @@ struct ArcBound {
   std::array<double, 2> radius{0, 0};  // clearance at the ends; where very many edges are near, not quite
 };
 
-// [arcs] `parts`, if not empty, says for each piece of an edge how many parts it should have for errors of at
-// most `tolerance`: at least what stands there already.
-std::vector<ArcBound> arc_bounds(const SeedDiagram& diagram, std::span<const BoundedArc> arcs,
-                                 double tolerance, std::span<std::int32_t> parts, unsigned threads,
-                                 const Monitor& monitor);
+// Arcs by their numbers, and who is told of each one. Both are called on several threads.
+struct ArcsToBound {
+  std::size_t count;
+  std::function<BoundedArc(std::size_t)> arc;
+  std::function<void(std::size_t, const ArcBound&)> take;
+};
+
+// `parts`, if not empty, says for each piece of an edge how many parts it should have for errors of at most
+// `tolerance`: at least what stands there already.
+void bound_arcs(const SeedDiagram& diagram, const ArcsToBound& arcs, double tolerance,
+                std::span<std::int32_t> parts, unsigned threads, const Monitor& monitor);
 
 }  // namespace vorotool::core

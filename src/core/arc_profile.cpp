@@ -40,8 +40,7 @@ double side_of_other_foot(const std::array<Place, 2>& line, const std::array<Pla
                           const Place& place) {
   const Place along = minus(other[1], other[0]);
   const double s = std::clamp(dot(minus(place, other[0]), along) / dot(along, along), 0.0, 1.0);
-  const double height =
-      (1 - s) * cross(line[0], line[1], other[0]) + s * cross(line[0], line[1], other[1]);
+  const double height = (1 - s) * cross(line[0], line[1], other[0]) + s * cross(line[0], line[1], other[1]);
   return height < 0 ? -1 : 1;
 }
 

@@ -44,7 +44,8 @@ class ArcProfile {
   double size;              // h; between two lines the tangent of half the angle
 
  private:
-  void between_lines(const std::array<Place, 2>& left, const std::array<Place, 2>& right, const Place& middle);
+  void between_lines(const std::array<Place, 2>& left, const std::array<Place, 2>& right,
+                     const Place& middle);
   void between_points(const Place& left, const Place& right, const ArcEnd& source, const ArcEnd& target);
   void from_focus(const Place& focus, const std::array<Place, 2>& line, const ArcEnd& source,
                   const ArcEnd& target);

@@ -163,7 +163,8 @@ double AxisBound::bound_by(const Nearest& c, const Stretch& part, std::span<cons
   }
   for (const ArcSeed& seed : seeds) {
     const bool is_on = std::find(seed.labels.begin(), seed.labels.end(), c.edge.segment) != seed.labels.end();
-    if (!is_on) bound = std::min(bound, bound_by_seed(c, {seed.place.x, seed.place.y}));
+    if (is_on || (seed.labels.size() == 1 && bound < infinity)) continue;  // its edge shows more
+    bound = std::min(bound, bound_by_seed(c, {seed.place.x, seed.place.y}));
   }
   return bound;
 }

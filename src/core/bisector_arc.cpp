@@ -35,7 +35,9 @@ Parabola parabola_of(const LatticePoint& focus, const LatticeSite& segment) {
     height = -height;
   }
   const double length = std::sqrt(static_cast<double>(norm2(along)));
-  return {{static_cast<double>(focus.x), static_cast<double>(focus.y)}, static_cast<double>(along.x) / length, static_cast<double>(along.y) / length,
+  return {{static_cast<double>(focus.x), static_cast<double>(focus.y)},
+          static_cast<double>(along.x) / length,
+          static_cast<double>(along.y) / length,
           static_cast<double>(height) / length};
 }
 

@@ -283,7 +283,7 @@ class FarthestPair {
   std::vector<std::array<std::int32_t, 2>> ends_;
   std::vector<std::int64_t> lengths_;
   GraphIncidence incidence_;
-  ShortestPaths paths_;                                 // between junctions
+  ShortestPaths paths_;                                // between junctions
   std::vector<std::size_t> best_before_, best_after_;  // in each chain
   std::vector<std::int64_t> bound_;  // for each junction: how far the farthest leaf is at most
   Terminal source_{};
@@ -327,9 +327,9 @@ std::vector<LeafPair> farthest_pairs(std::span<const std::array<std::int32_t, 2>
   for (std::size_t node = 0; node < hanging.size(); ++node) {
     const Component component = walk.component(static_cast<std::int32_t>(node));
     if (component.junctions.empty()) continue;
-    const LeafPair pair = component.lone >= 0
-                              ? with_farthest_node(paths, component.lone, hanging[at(component.lone)], monitor)
-                              : FarthestPair(component, monitor).find();
+    const LeafPair pair =
+        component.lone >= 0 ? with_farthest_node(paths, component.lone, hanging[at(component.lone)], monitor)
+                            : FarthestPair(component, monitor).find();
     if (pair.first >= 0) pairs.push_back(pair);
   }
   return pairs;

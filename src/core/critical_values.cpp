@@ -35,7 +35,9 @@ class Pruner {
   }
 
  protected:
-  bool is_source(const HangingArc& hanging) const { return skeleton_.arcs[at(hanging.arc)][0] == hanging.outer; }
+  bool is_source(const HangingArc& hanging) const {
+    return skeleton_.arcs[at(hanging.arc)][0] == hanging.outer;
+  }
   const HangingArc& hanging(std::size_t k) const { return forest_.hanging()[k]; }
   std::size_t hanging_count() const { return forest_.hanging().size(); }
 
@@ -65,7 +67,8 @@ class Pruner {
 
   void poll_at(std::size_t k, std::size_t count, double from, double to) const {
     constexpr std::size_t often = 1 << 14;  // arcs between two looks at the monitor: some milliseconds
-    if (k % often == 0) poll(monitor_, from + (to - from) * static_cast<double>(k) / static_cast<double>(count));
+    if (k % often == 0)
+      poll(monitor_, from + (to - from) * static_cast<double>(k) / static_cast<double>(count));
   }
 
   const SkeletonView& skeleton_;
@@ -125,7 +128,8 @@ class LargestInPiece : public Pruner {
       }
     }
     std::vector<std::int32_t> roots;
-    for (std::size_t tree = 1; tree < kept_.size(); ++tree) roots.push_back(skeleton_.arcs[at(kept_[tree])][0]);
+    for (std::size_t tree = 1; tree < kept_.size(); ++tree)
+      roots.push_back(skeleton_.arcs[at(kept_[tree])][0]);
     forest_.set_roots(roots);
   }
 
@@ -134,7 +138,8 @@ class LargestInPiece : public Pruner {
   std::vector<std::int32_t> kept_;
 };
 
-// Length and ratio: by the longest path in a piece, where pieces hang on junctions and on the middle of a tree.
+// Length and ratio: by the longest path in a piece, where pieces hang on junctions and on the middle of a
+// tree.
 class LongestPath : public Pruner {
  public:
   LongestPath(const SkeletonView& skeleton, const Monitor& monitor, bool is_relative)
@@ -179,8 +184,7 @@ class LongestPath : public Pruner {
   double middle_value(std::int32_t tree, const std::vector<double>& depth) const {
     const Middle& middle = middles_[at(tree)];
     const auto [source, target] = skeleton_.arcs[at(middle.arc)];
-    const double path =
-        std::max(depth[at(source)] + middle.to_source, depth[at(target)] + middle.to_target);
+    const double path = std::max(depth[at(source)] + middle.to_source, depth[at(target)] + middle.to_target);
     return is_relative_ ? path / ArcProfile(skeleton_, at(middle.arc)).radius(middle.parameter) : path;
   }
 
@@ -218,7 +222,8 @@ class LongestPath : public Pruner {
       const std::int32_t tree = forest_.tree(inner);
       if (tree < 0) continue;
       const std::int32_t best = top[at(tree)];
-      if (best < 0 || d.first + d.second > deep[at(best)].first + deep[at(best)].second) top[at(tree)] = inner;
+      if (best < 0 || d.first + d.second > deep[at(best)].first + deep[at(best)].second)
+        top[at(tree)] = inner;
     }
     std::vector<std::int32_t> roots;
     for (const std::int32_t node : top) {
@@ -305,7 +310,8 @@ class EnlargedDiscs : public Pruner {
   // So that what hangs beyond a node follows it.
   void number_discs() {
     std::vector<std::size_t> size(skeleton_.vertices.size(), 1);
-    for (std::size_t k = 0; k < hanging_count(); ++k) size[at(hanging(k).inner)] += size[at(hanging(k).outer)];
+    for (std::size_t k = 0; k < hanging_count(); ++k)
+      size[at(hanging(k).inner)] += size[at(hanging(k).outer)];
     begin_.resize(size.size());
     end_.resize(size.size());
     constexpr std::size_t none = static_cast<std::size_t>(-1);

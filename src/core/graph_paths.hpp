@@ -10,8 +10,8 @@
 
 namespace vorotool::core {
 
-// Lengths as whole numbers, in units of the power of two that brings their sum between 2^60 and 2^61: no order
-// of addition changes a sum of them, and the sum of all and as many halves stays below 2^62.
+// Lengths as whole numbers, in units of the power of two that brings their sum between 2^60 and 2^61: no
+// order of addition changes a sum of them, and the sum of all and as many halves stays below 2^62.
 std::vector<std::int64_t> whole_lengths(std::span<const double> lengths);
 
 // The arcs at each node, by their numbers.

@@ -140,7 +140,9 @@ GraphPath path_from(std::span<const std::array<std::int32_t, 2>> arcs, std::span
   const ShortestPaths::Start start{first, 0};
   paths.find(std::span(&start, 1), monitor);
   if (last >= 0) return paths.path_to(last);
-  const auto is_leaf = [&](std::int32_t node) { return node != first && incidence.arcs_at(node).size() == 1; };
+  const auto is_leaf = [&](std::int32_t node) {
+    return node != first && incidence.arcs_at(node).size() == 1;
+  };
   const bool has_leaf = std::any_of(paths.reached().begin(), paths.reached().end(), is_leaf);
   last = first;
   for (const std::int32_t node : paths.reached()) {

@@ -11,13 +11,13 @@
 
 namespace vorotool::core {
 
-// For each group of arcs the longest among the shortest paths between two leaves of one component, between two
-// nodes of components without a leaf, and from a single leaf to a node; from the end with the smaller number. Of equally long ones
-// that whose ends have the smallest numbers. No path where a group has no arcs.
+// For each group of arcs the longest among the shortest paths between two leaves of one component, between
+// two nodes of components without a leaf, and from a single leaf to a node; from the end with the smaller
+// number. Of equally long ones that whose ends have the smallest numbers. No path where a group has no arcs.
 //
 // Trees take linear time. With cycles, let K be the nodes on them at which trees hang (all, where none does)
-// and F the chains between nodes with three arcs on cycles: at most K searches in F chains, O(K F log K); what
-// is no farther than the best by the distances found before is left out.
+// and F the chains between nodes with three arcs on cycles: at most K searches in F chains, O(K F log K);
+// what is no farther than the best by the distances found before is left out.
 std::vector<GraphPath> longest_paths(std::span<const std::array<std::int32_t, 2>> arcs,
                                      std::span<const std::int64_t> lengths,
                                      std::span<const std::int32_t> group, std::size_t groups,

@@ -1,5 +1,8 @@
 #include "core/near_edges.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "core/clearance.hpp"
 
 namespace vorotool::core {
@@ -23,21 +26,38 @@ std::vector<NearEdge> NearEdges::items(const ShapeGraph& graph) {
 }
 
 std::optional<std::span<const NearEdge>> NearEdges::find(const DiscPair& discs) {
-  found_.clear();
-  numbers_.clear();
   for (std::size_t i = 0; i < 2; ++i) {
-    const auto& [x, y] = discs.centre[i];
-    const double reach = discs.radius[i] + distance_error;
-    hierarchy_.near(x, y, reach, [&](std::uint32_t number) {
-      if (closed_distance(items_[number].site, discs.centre[i]) > reach) return true;
-      if (std::find(numbers_.begin(), numbers_.end(), number) != numbers_.end()) return true;
-      numbers_.push_back(number);
-      found_.push_back(items_[number]);
-      return found_.size() <= most;
-    });
-    if (found_.size() > most) return {};
+    if (!is_known(discs.centre[i], discs.radius[i], i)) search(discs.centre[i], discs.radius[i], discs_[i]);
+    if (discs_[i].numbers.size() > most) return {};
+  }
+  found_.clear();
+  const auto& [first, second] = discs_;
+  for (const std::uint32_t number : first.numbers) found_.push_back(items_[number]);
+  for (const std::uint32_t number : second.numbers) {
+    const bool is_new = std::find(first.numbers.begin(), first.numbers.end(), number) == first.numbers.end();
+    if (is_new) found_.push_back(items_[number]);
   }
   return found_;
+}
+
+// Whether disc i is one of the last two, in its place now.
+bool NearEdges::is_known(const Place& centre, double radius, std::size_t i) {
+  const auto is = [&](const Found& found) { return found.centre == centre && found.radius == radius; };
+  if (is(discs_[i])) return true;
+  if (i == 1 || !is(discs_[1])) return false;
+  std::swap(discs_[0], discs_[1]);
+  return true;
+}
+
+void NearEdges::search(const Place& centre, double radius, Found& found) const {
+  found.centre = centre;
+  found.radius = radius;
+  found.numbers.clear();
+  const double reach = radius + distance_error;
+  hierarchy_.near(centre[0], centre[1], reach, [&](std::uint32_t number) {
+    if (closed_distance(items_[number].site, centre) <= reach) found.numbers.push_back(number);
+    return found.numbers.size() <= most;
+  });
 }
 
 }  // namespace vorotool::core

@@ -39,9 +39,18 @@ class NearEdges {
  private:
   static constexpr std::size_t most = 64;
 
+  // What meets one disc. Arcs that follow each other have one in common.
+  struct Found {
+    Place centre{0, 0};
+    double radius = -1;
+    std::vector<std::uint32_t> numbers;
+  };
+  bool is_known(const Place& centre, double radius, std::size_t i);
+  void search(const Place& centre, double radius, Found& found) const;
+
   std::span<const NearEdge> items_;
   const SiteHierarchy& hierarchy_;
-  std::vector<std::uint32_t> numbers_;
+  std::array<Found, 2> discs_;
   std::vector<NearEdge> found_;
 };
 

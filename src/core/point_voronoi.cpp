@@ -67,7 +67,9 @@ class Dual {
   }
 
   static std::size_t at(Vertex v) { return static_cast<std::size_t>(v); }
-  std::span<const Vertex> ring(Vertex v) const { return {vertices_[at(v)].ring(), vertices_[at(v)].degree()}; }
+  std::span<const Vertex> ring(Vertex v) const {
+    return {vertices_[at(v)].ring(), vertices_[at(v)].degree()};
+  }
   static bool is_lead(Vertex v, std::span<const Vertex> ring, std::size_t place) {
     return ring[place] > v && ring[place + 1 == ring.size() ? 0 : place + 1] > v;
   }

@@ -110,8 +110,7 @@ class alignas(64) RingVertex {
 
   bool has_room(bool in_front) const {
     if (!is_long_) return degree_ < short_.size();
-    return in_front ? long_.entries > long_.memory
-                    : long_.entries + degree_ < long_.memory + long_.capacity;
+    return in_front ? long_.entries > long_.memory : long_.entries + degree_ < long_.memory + long_.capacity;
   }
 
   // At both ends of the ring, in new memory unless enough of what it has is free.

@@ -32,17 +32,25 @@ struct SeedArcs::Division {
 void SeedArcs::add_kept(std::span<const std::int32_t> face_group) {
   const SeedMesh& mesh = diagram_.mesh();
   node_of_.assign(mesh.size(), -1);
+  std::size_t count = 0;
+  for (std::size_t s = 0; s < mesh.sides(); ++s) count += is_wanted(static_cast<Side>(s), face_group) ? 1 : 0;
+  arcs_.reserve(count);
+  origin_.reserve(count);
   for (std::size_t i = 0; i < mesh.sides(); ++i) {
     const auto s = static_cast<Side>(i);
-    if (!diagram_.is_kept(s) || !mesh.is_first(s)) continue;
-    const std::int32_t group = face_group[at(diagram_.face(SeedMesh::triangle_of(s)))];
-    if (group >= 0) add_side(s, group);
+    if (is_wanted(s, face_group)) add_side(s, face_group[at(diagram_.face(SeedMesh::triangle_of(s)))]);
   }
   const auto chain = diagram_.chain();
   for (std::size_t i = 1; i < chain.size() && face_group[0] >= 0; ++i) {
     if (!diagram_.labels().share(chain[i - 1], chain[i]))
       add_chain_link(chain[i - 1], chain[i], face_group[0]);
   }
+}
+
+bool SeedArcs::is_wanted(Side s, std::span<const std::int32_t> face_group) const {
+  if (!diagram_.is_kept(s) || !diagram_.mesh().is_first(s)) return false;
+  const std::int32_t face = diagram_.face(SeedMesh::triangle_of(s));
+  return face >= 0 && face_group[at(face)] >= 0;
 }
 
 void SeedArcs::add_all() {

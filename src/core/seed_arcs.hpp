@@ -49,6 +49,7 @@ class SeedArcs {
  private:
   struct Division;
 
+  bool is_wanted(Side s, std::span<const std::int32_t> face_group) const;
   void add_side(Side s, std::int32_t group);
   void add_chain_link(std::int32_t p, std::int32_t q, std::int32_t group);
   std::int32_t node_of(Triangle t);

@@ -1,6 +1,7 @@
 #include "core/seed_skeleton.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -14,6 +15,14 @@ namespace vorotool::core {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+// Several threads may do this at once.
+void lower(double& value, double other) {
+  std::atomic_ref<double> shared(value);
+  double so_far = shared.load(std::memory_order_relaxed);
+  while (other < so_far && !shared.compare_exchange_weak(so_far, other, std::memory_order_relaxed)) {
+  }
+}
 
 class Writer {
  public:
@@ -51,29 +60,26 @@ class Writer {
 
   // Bounds and clearances; of nodes the least that any of their arcs found.
   void write_bounds(SeedSkeleton& out, double tolerance, unsigned threads, const Monitor& monitor) const {
-    std::vector<BoundedArc> bounded(order_.arcs.size());
-    for (std::size_t i = 0; i < bounded.size(); ++i) {
+    const auto arc = [&](std::size_t i) {
       const OrderedArc& ordered = order_.arcs[i];
-      const GraphArc& arc = graph_arc(ordered);
+      const GraphArc& own = graph_arc(ordered);
       const ArcOrigin& origin = arcs_.origin(static_cast<std::size_t>(ordered.arc));
-      bounded[i] = {{arcs_.place(arc.source), arcs_.place(arc.target)},
-                    origin.side,
-                    origin.corner < 0 ? arc.left : origin.corner,
-                    origin.corner};
-    }
-    const std::vector<ArcBound> bounds =
-        arc_bounds(diagram_, bounded, tolerance, out.parts, threads, monitor);
-    out.error.resize(bounds.size());
+      return BoundedArc{{arcs_.place(own.source), arcs_.place(own.target)},
+                        origin.side,
+                        origin.corner < 0 ? own.left : origin.corner,
+                        origin.corner};
+    };
+    out.error.resize(order_.arcs.size());
     out.arrays.radius.assign(order_.nodes.size(), std::numeric_limits<double>::infinity());
-    for (std::size_t i = 0; i < bounds.size(); ++i) {
+    const auto take = [&](std::size_t i, const ArcBound& bound) {
       const OrderedArc& ordered = order_.arcs[i];
-      out.error[i] = place_.scale * bounds[i].error;
+      out.error[i] = place_.scale * bound.error;
       for (std::size_t end = 0; end < 2; ++end) {
         const std::int32_t node = (end == 0) != ordered.is_reversed ? ordered.source : ordered.target;
-        double& radius = out.arrays.radius[static_cast<std::size_t>(node)];
-        radius = std::min(radius, place_.scale * bounds[i].radius[end]);
+        lower(out.arrays.radius[static_cast<std::size_t>(node)], place_.scale * bound.radius[end]);
       }
-    }
+    };
+    bound_arcs(diagram_, {order_.arcs.size(), arc, take}, tolerance, out.parts, threads, monitor);
   }
 
   // The distances of nodes from the seeds, where nothing is bounded.

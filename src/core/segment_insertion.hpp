@@ -13,8 +13,8 @@
 
 namespace vorotool::core {
 
-// The vertices of a diagram: first those of the points alone, then room for two more for each segment. All are
-// in use when all segments are. Both follow the order of the sites. A point's cell is found by one of its
+// The vertices of a diagram: first those of the points alone, then room for two more for each segment. All
+// are in use when all segments are. Both follow the order of the sites. A point's cell is found by one of its
 // corners.
 struct VoronoiRecords {
   VoronoiRecords(std::size_t points, std::size_t segments)

@@ -17,8 +17,8 @@ struct HangingArc {
 
 // Leaves are peeled from a graph until none is left. What stays of a component is its core: its cycles, what
 // leads from one to another, and from there to anchored ends, or between these. Where there is neither a
-// cycle nor an anchored end, the component is a tree, and one node stays, its root, which can be chosen. Where
-// there is one anchored end and no cycle, this end is all that stays.
+// cycle nor an anchored end, the component is a tree, and one node stays, its root, which can be chosen.
+// Where there is one anchored end and no cycle, this end is all that stays.
 class SkeletonForest {
  public:
   SkeletonForest(std::span<const std::array<std::int32_t, 2>> arcs,

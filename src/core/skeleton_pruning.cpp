@@ -23,7 +23,7 @@ ArcPart cut(const SkeletonView& skeleton, const CriticalValues& values, Criterio
   const bool is_kept = kept != values.kept.end() && kept->arc == arc;
   const bool has_course = criterion == Criterion::angle || criterion == Criterion::chord;
   const ArcProfile profile(skeleton, at(arc));
-  const double most = !has_course                      ? 0
+  const double most = !has_course                     ? 0
                       : criterion == Criterion::angle ? profile.angle().most
                                                       : profile.chord().most;
   const auto reached = [&](bool from_target) {
@@ -71,7 +71,8 @@ double length_of(const SkeletonView& skeleton, const ArcPart& part) {
 
 class PartWriter {
  public:
-  PartWriter(const SkeletonView& skeleton, std::span<const ArcPart> parts) : skeleton_(skeleton), parts_(parts) {
+  PartWriter(const SkeletonView& skeleton, std::span<const ArcPart> parts)
+      : skeleton_(skeleton), parts_(parts) {
     arcs_.reserve(parts.size());
   }
 

@@ -82,7 +82,8 @@ void VoronoiExtraction::merge_coincident(unsigned threads, const Monitor& monito
   for (const std::vector<Pair>& some : pairs) {
     for (const auto& [u, w] : some) unite(u, w);
   }
-  for (std::int32_t v = 0; v < static_cast<std::int32_t>(records_.all.size()); ++v) vertex_of_[static_cast<std::size_t>(v)] = root(v);
+  for (std::int32_t v = 0; v < static_cast<std::int32_t>(records_.all.size()); ++v)
+    vertex_of_[static_cast<std::size_t>(v)] = root(v);
 }
 
 bool VoronoiExtraction::is_border(Corner corner) const {

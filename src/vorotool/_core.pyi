@@ -59,6 +59,9 @@ _Progress = Callable[[float], object] | None
 
 # regions: labels are C-contiguous uint8, uint16 or uint32
 def measure_regions(labels: NDArray[Any], threads: int, progress: _Progress) -> dict[str, NDArray[Any]]: ...
+def label_components(
+    mask: NDArray[np.uint8], corners: bool, out: NDArray[np.uint32], progress: _Progress
+) -> int: ...  # mask: zeros and ones
 def max_by_label(
     labels: NDArray[Any],
     values: NDArray[Any],

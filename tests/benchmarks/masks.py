@@ -1,4 +1,4 @@
-"""Seconds from a mask of 4096 x 4096 pixels to its skeleton and tables, beside scikit-image's medial axis.
+"""Seconds from a mask of 4096 x 4096 pixels to its pruned skeleton and tables, beside scikit-image's medial axis.
 
 ``masks.py [SIDE]``. The peer does what users do there: `medial_axis` with distances, and `skeletonize` for a thin line.
 """
@@ -6,6 +6,7 @@
 import sys
 import time
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from scipy.ndimage import gaussian_filter, zoom
@@ -13,6 +14,7 @@ from skimage.morphology import medial_axis, skeletonize
 
 import vorotool
 from vorotool.engines.outlines import outlines
+from vorotool.engines.pruning import default_pruning_for_masks
 
 RUNS = 3
 FINE = 8
@@ -48,20 +50,25 @@ def seconds(function):
     return best, made
 
 
+def pruned(skeleton):
+    """By the default for masks."""
+    criterion, threshold = default_pruning_for_masks()
+    return vorotool.prune(replace(skeleton), **{criterion: threshold})
+
+
 def main():
     side = int(sys.argv[1]) if len(sys.argv) > 1 else 4096
-    print(
-        f"masks of {side} x {side} pixels, seconds: outlines / skeleton / tables / all; scikit-image, and how much less"
-    )
+    print(f"masks of {side} x {side} pixels, seconds: outlines / skeleton / pruning / tables / all; scikit-image")
     for name, mask in masks(side):
-        outlined, polygons = seconds(lambda mask=mask: outlines(mask))
-        made, skeleton = seconds(lambda polygons=polygons: vorotool.skeleton_exact(polygons))
-        listed, _ = seconds(lambda skeleton=skeleton: tables(skeleton))
-        axis, _ = seconds(lambda mask=mask: medial_axis(mask, return_distance=True))
-        thin, _ = seconds(lambda mask=mask: skeletonize(mask))
-        total = outlined + made + listed
+        outlined, polygons = seconds(partial(outlines, mask))
+        made, skeleton = seconds(partial(vorotool.skeleton_exact, polygons))
+        cut, rest = seconds(partial(pruned, skeleton))
+        listed, _ = seconds(partial(tables, rest))
+        axis, _ = seconds(partial(medial_axis, mask, return_distance=True))
+        thin, _ = seconds(partial(skeletonize, mask))
+        total = outlined + made + cut + listed
         print(f"  {name}: {len(polygons)} objects, {len(polygons.xy)} vertices, {100 * mask.mean():.0f} % foreground")
-        parts = f"{outlined:.3f} / {made:.3f} / {listed:.3f} / {total:.3f}"
+        parts = f"{outlined:.3f} / {made:.3f} / {cut:.3f} / {listed:.3f} / {total:.3f}"
         print(f"    {parts}; medial_axis {axis:.1f}, skeletonize {thin:.1f}")
         print(f"    1/{axis / total:.1f} of the medial axis, 1/{(axis + thin) / total:.1f} of both")
 

@@ -14,6 +14,7 @@ import vorotool
 
 DATA = Path(__file__).parents[2] / "data"
 BLOBS, CELLS = DATA / "blobs.png", DATA / "cells.png"
+WHOLE = ("--prune", "none")
 
 
 def rows_of(text):
@@ -21,7 +22,7 @@ def rows_of(text):
 
 
 def test_a_mask_has_a_skeleton(run, folder):
-    done = run("skeleton-exact", BLOBS, "--prune", "none", "--verify", "-o", "a.npz", "--stats", "-")
+    done = run("skeleton-exact", BLOBS, *WHOLE, "--verify", "-o", "a.npz", "--stats", "-")
     assert (done.code, done.err) == (0, "")
     stats = json.loads(done.out)
     assert (stats["polygons"], stats["outline"], stats["connectivity"]) == (24, "crack", 8)
@@ -56,7 +57,7 @@ def test_options_are_those_of_the_library(run, folder, name):
     Image.fromarray(image).save(folder / "a.png")
     given, expected = OPTIONS[name]
     arguments = [part for pair in given.items() for part in pair if part is not None]
-    done = run("skeleton-exact", "a.png", *arguments, "--prune", "none", "-f", "csv", "--verify")
+    done = run("skeleton-exact", "a.png", *WHOLE, *arguments, "-f", "csv", "--verify")
     assert (done.code, done.err) == (0, "")
     made = vorotool.skeleton_exact(vorotool.outlines(image, **expected))
     assert [float(row["r0"]) for row in rows_of(done.out)] == made.radius[made.arcs[:, 0]].tolist()
@@ -82,13 +83,13 @@ def test_a_page_of_a_stack(run, folder):
 
 def test_nothing_in_the_foreground(run, folder):
     Image.new("1", (5, 4)).save(folder / "a.png")
-    done = run("skeleton-exact", "a.png", "-f", "csv")
+    done = run("skeleton-exact", "a.png", *WHOLE, "-f", "csv")
     assert (done.code, len(rows_of(done.out))) == (0, 0)
     assert done.err.splitlines() == [
         "warning: the image has no foreground: use --invert or --threshold",
         "warning: the interior skeleton is empty: there are no polygons",
     ]
-    assert len(rows_of(run("skeleton-exact", "a.png", "--invert", "--prune", "none", "-f", "csv").out)) == 5
+    assert len(rows_of(run("skeleton-exact", "a.png", *WHOLE, "--invert", "-f", "csv").out)) == 5
 
 
 @pytest.mark.parametrize(
@@ -117,7 +118,7 @@ def test_what_is_refused(run, folder, arguments, code, words):
 
 def test_json_tells_the_connectivity(run, folder):
     Image.fromarray(np.eye(3, dtype=np.uint8)).save(folder / "a.png")
-    assert run("skeleton-exact", "a.png", "--prune", "none", "-o", "a.json").code == 0
+    assert run("skeleton-exact", "a.png", *WHOLE, "-o", "a.json").code == 0
     assert json.loads((folder / "a.json").read_text())["connectivity"] == 8
     again = vorotool.read(folder / "a.json")
     assert again.polygons.connectivity == 8

@@ -12,6 +12,7 @@ from skimage.morphology import medial_axis, skeletonize
 
 import vorotool
 from outline_oracle import random_labels
+from vorotool.engines.pruning import default_pruning_for_masks
 from vorotool.errors import VerificationError
 from vorotool.geometry.skeleton_tables import connected_roots
 
@@ -66,9 +67,11 @@ def pixel_topology(skeleton, mask):
     return tiles_of(label(skeleton, connectivity=2)), tiles_of(holes)
 
 
-def exact_topology(mask, connectivity):
+def exact_topology(mask, connectivity, pruning=None):
     polygons = vorotool.outlines(mask, connectivity=connectivity)
     skeleton = vorotool.skeleton_exact(polygons)
+    if pruning:
+        skeleton = vorotool.prune(skeleton, **dict([pruning]))
     table = vorotool.polygon_table(skeleton)
     assert table["area"].sum() == mask.sum()
     column, row = np.rint(polygons.xy[polygons.ring_start[polygons.polygon_start[:-1]]] + 0.5).astype(int).T
@@ -87,6 +90,8 @@ def test_components_and_cycles_are_those_of_scikit_image():
         expected = pixel_topology(axis, MASKS)
         assert np.array_equal(parts, expected[0])
         assert np.array_equal(cycles, expected[1])
+    pruned = exact_topology(MASKS, 8, default_pruning_for_masks())
+    assert np.array_equal(pruned, (parts, cycles))
     assert parts.min() > 0
     assert np.count_nonzero(cycles) > COUNT / 2
 

@@ -23,12 +23,14 @@ def test_in_order_takes_only_a_few_items_ahead(threads: int) -> None:
 
 
 def test_in_order_passes_errors_on_and_leaves_no_thread() -> None:
+    before = threading.active_count()  # other tests may have left a cluster's threads
+
     def fail(x: int) -> int:
         raise RuntimeError(f"item {x}")
 
     with pytest.raises(RuntimeError, match="item 0"):
         list(in_order(fail, range(50), 3))
-    assert threading.active_count() == 1
+    assert threading.active_count() <= before
 
 
 def test_available_threads_is_positive() -> None:

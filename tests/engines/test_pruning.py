@@ -1,0 +1,59 @@
+"""Pruned skeletons and centerlines: beside brute force, nested, connected."""
+
+import sys
+import warnings
+from pathlib import Path
+
+import networkx
+import numpy as np
+import pytest
+
+import vorotool
+from vorotool.errors import UsageError
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "fuzz"))
+import pruning as fuzzer
+
+from skeleton_shapes import FAMILIES
+
+COMB = [[0, 0], [30, 0], [30, 6], [26, 6], [26, 12], [24, 12], [24, 6], [6, 6], [6, 9], [4, 9], [4, 6], [0, 6]]
+
+
+@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)
+def test_brute_force_agrees_and_results_are_nested(family):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        for seed in range(2):
+            random = np.random.default_rng(seed)
+            assert fuzzer.failure(family(random), random) is None
+
+
+@pytest.mark.parametrize("criterion", ["angle", "chord", "scale", "length", "ratio"])
+def test_what_is_left_is_a_connected_part(criterion):
+    whole = vorotool.skeleton_exact(COMB)
+    lengths = []
+    for threshold in (1.5, 3.0, 20.0):
+        left = vorotool.prune(whole, **{criterion: threshold})
+        vorotool.verify_pruning(left, whole)
+        assert networkx.is_connected(vorotool.to_networkx(left))
+        lengths.append(left.length.sum())
+    assert lengths == sorted(lengths, reverse=True)
+    assert lengths[0] <= whole.length.sum()
+
+
+def test_one_criterion_is_needed():
+    whole = vorotool.skeleton_exact(COMB)
+    for options in ({}, {"angle": 20, "scale": 1.5}, {"angle": 200}, {"scale": 0.5}, {"length": -1}):
+        with pytest.raises(UsageError):
+            vorotool.prune(whole, **options)
+
+
+def test_the_centerline_is_the_longest_of_the_shortest_paths():
+    whole = vorotool.skeleton_exact(COMB)
+    graph = vorotool.to_networkx(whole, by="arc")
+    leaves = [node for node, degree in graph.degree() if degree == 1]
+    ways = dict(networkx.all_pairs_dijkstra_path_length(graph, weight="length"))
+    longest = max(ways[a][b] for a in leaves for b in leaves)
+    found = vorotool.centerline(whole)
+    assert found.path.length.sum() == pytest.approx(longest, rel=1e-12)

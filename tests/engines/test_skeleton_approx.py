@@ -1,0 +1,49 @@
+"""Approximate skeletons: their checker on broken shapes, and their bounds beside the exact skeleton."""
+
+import sys
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import vorotool
+from vorotool.errors import UsageError
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+sys.path.insert(0, str(Path(__file__).parents[1] / "fuzz"))
+import skeleton_approx as fuzzer
+from skeleton_bounds import Shape, check_steps, check_tolerances, random_shapes
+
+from skeleton_shapes import FAMILIES
+
+SHAPES = random_shapes(np.random.default_rng(1))
+
+
+@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)
+def test_broken_shapes_pass_the_checker(family):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        rng = np.random.default_rng(5)
+        assert fuzzer.failure(family(rng), rng) is None
+
+
+@pytest.mark.parametrize("name", ["random 0", "random 1", "holes 0"])
+def test_bounds_hold_and_tolerances_are_met(name):
+    shape = Shape(name, SHAPES[name])
+    violations, ratio = check_steps(shape, 20)
+    assert violations == 0
+    assert np.median(ratio) <= 3
+    assert check_tolerances(shape) == 0
+
+
+def test_results_do_not_depend_on_threads():
+    one, two = (vorotool.skeleton_approx(SHAPES["holes 1"], step=7.0, threads=threads) for threads in (1, 2))
+    for name in ("vertices", "radius", "arcs", "sites", "error_bound"):
+        np.testing.assert_array_equal(getattr(one, name), getattr(two, name))
+
+
+@pytest.mark.parametrize("options", [{}, {"step": 0}, {"step": -1.0}, {"tolerance": 0.0}, {"step": 1, "tolerance": 1}])
+def test_wrong_options_are_refused(options):
+    with pytest.raises(UsageError):
+        vorotool.skeleton_approx(SHAPES["random 0"], **options)
