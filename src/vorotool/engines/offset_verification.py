@@ -138,7 +138,7 @@ def _clearances(places: Floats, reach: Floats, graph: PlanarGraph, threads: int,
     """Distances from the nearest site where it is not beyond the reach, else infinity."""
     if not len(graph):  # a lattice of single points may have no step
         apart = np.sqrt(((places[:, None] - graph.coordinates()[None]) ** 2).sum(axis=2))
-        return apart.min(axis=1, initial=np.inf)
+        return np.asarray(apart.min(axis=1, initial=np.inf))
     lattice = np.ascontiguousarray((places - graph.origin) / graph.scale)
     found = _core.clearances(graph.points, graph.segments, lattice, reach / graph.scale, threads, progress)
     return np.asarray(graph.scale * found)
