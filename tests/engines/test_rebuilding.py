@@ -68,3 +68,12 @@ def test_pruned_shapes_are_what_their_discs_cover(family, criterion):
     # between two discs a step apart there is at most a triangle of the step and its height, on both sides
     assert shapely.difference(covered, found).area <= 1e-5 * extent * covered.length
     assert shapely.difference(found, covered).area <= 2e-3 * extent * covered.length
+
+
+def test_approximate_skeletons_give_approximate_shapes():
+    shape = shapely.Polygon([(0, 0), (90, 10), (80, 60), (50, 40), (10, 70)], [[(30, 20), (45, 20), (40, 32)]])
+    for options in ({"tolerance": 0.05}, {"step": 1}):
+        again = shapely.union_all(to_shapely(vorotool.rebuild(vorotool.skeleton_approx(shape, **options))))
+        assert len(again.interiors) == 1
+        assert shapely.symmetric_difference(again, shape).area < 0.01 * shape.area
+        assert shapely.hausdorff_distance(again, shape) < 3

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from functools import cached_property
 from types import SimpleNamespace
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
 from vorotool.cli.units import in_units, length_in_units
+from vorotool.errors import VorotoolWarning
 from vorotool.geometry.offsets import Offsets
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.skeleton import Skeleton
@@ -51,7 +53,11 @@ class Derived:
         diagram = self._diagram()
         with self.run.phase("offset"):
             progress = self.run.progress("offset")
-            return offset(diagram, self.options.distance, threads=self.options.threads, progress=progress)
+            made = offset(diagram, self.options.distance, threads=self.options.threads, progress=progress)
+        empty = [f"{distance:g}" for distance in self.options.distance if distance not in made.distance]
+        if empty:
+            warnings.warn(f"nothing is left at the distance {', '.join(empty)}", VorotoolWarning, stacklevel=2)
+        return made
 
     @cached_property
     def shape(self) -> PolygonSet:

@@ -189,6 +189,7 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     if o.flatten is not None and not curved and "shape" not in o.what:
         raise click.UsageError("--flatten is for formats without curves: use -f geojson or -f wkt, or leave it out")
     _check_measures(o)
+    _check_shapes(o)
     if o.frame is not None and o.side == "interior" and "diagram" not in o.what:
         raise click.UsageError("--frame cuts what is outside: use --side exterior or both, or leave it out")
     _check_centerline(o)
@@ -212,10 +213,22 @@ def _check_measures(o: SimpleNamespace) -> None:
     for name, value, users in (("-d", o.distance, {"offset"}), ("--every", o.every, {"points", "transects"})):
         wanted = users & set(o.what)
         if wanted and value is None:
-            raise click.UsageError(f"--what {' and '.join(sorted(wanted))} needs a length: use {name} D")
+            raise click.UsageError(f"--what {','.join(sorted(wanted))} needs a length: use {name} D")
         if not wanted and value is not None:
             what = " or ".join(f"--what {user}" for user in sorted(users))
             raise click.UsageError(f"{name} is for other results: use {what}, or leave it out")
+
+
+def _check_shapes(o: SimpleNamespace) -> None:
+    """Shapes are rebuilt from what is inside them; offset curves are of the shapes, whatever the skeleton is."""
+    if "shape" in o.what and o.side == "exterior":
+        raise click.UsageError("shapes are rebuilt from inside: use --side interior or both")
+    has_gap = bool(getattr(o, "gap", None))
+    if "shape" in o.what and has_gap:
+        raise click.UsageError("a skeleton with a gap leaves the corners out: use --what shape without --gap")
+    given = {"--side": o.side != "interior", "--prune": o.prune is not None, "--gap": has_gap}
+    for name in (name for name, is_given in given.items() if is_given and set(o.what) == {"offset"}):
+        raise click.UsageError(f"{name} is for skeletons, but offset curves are of the shapes: leave it out")
 
 
 def _read_polygons(run: Run, o: SimpleNamespace, source: str) -> PolygonSet:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import combinations, pairwise
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.engines.disc_cover import Ring, covered_rings
 from vorotool.engines.skeleton_contours import Contours, contours_of
 from vorotool.errors import UsageError
 from vorotool.geometry.circular_arcs import chords_of, middles_of
@@ -29,7 +30,7 @@ def rebuild(skeleton: Skeleton, *, flatten: float | None = None) -> PolygonSet:
     Edges are the common tangents of discs, vertices the common points of discs, both from places and radii of the
     skeleton alone. Where it was pruned the border is the circle of the disc that is left. Without pruning the polygons
     come back as they were used, to some ulp of their extent times radius over edge length where an edge is short beside
-    the discs that touch it.
+    the discs that touch it. An approximate skeleton tells no borders, but discs: the shape is what these cover.
 
     Parameters
     ----------
@@ -58,11 +59,14 @@ def rebuild(skeleton: Skeleton, *, flatten: float | None = None) -> PolygonSet:
     if skeleton.gap:
         raise UsageError(f"a skeleton with a gap of {skeleton.gap:g} leaves the corners out: use one without a gap")
     tolerance = checked_flatten(flatten, skeleton.polygons)
-    is_inside, is_disc = skeleton.side == INTERIOR, _is_disc(skeleton)
-    is_seen = skeleton.radius[skeleton.arcs[:, 0]] > _noise(skeleton)
-    contours = contours_of(skeleton, np.flatnonzero(is_inside & ~is_disc))
+    is_inside = skeleton.side == INTERIOR
+    is_drawn = np.ones(len(skeleton), dtype=bool) if skeleton.error_bound.any() else _is_disc(skeleton)
+    contours = contours_of(skeleton, np.flatnonzero(is_inside & ~is_drawn))
     rings = _simple_rings(contours, *_outline(skeleton, contours, tolerance))
-    return _assembled(skeleton, [*rings, *_circles(skeleton, np.flatnonzero(is_inside & is_disc & is_seen), tolerance)])
+    is_seen = skeleton.radius[skeleton.arcs].max(axis=1, initial=0) > _noise(skeleton)
+    return _assembled(
+        skeleton, [*rings, *covered_rings(skeleton, np.flatnonzero(is_inside & is_drawn & is_seen), tolerance)]
+    )
 
 
 # ---- feet ----------------------------------------------------------------------------------------
@@ -227,14 +231,6 @@ def _in_order(pieces: list[_Places], contours: Contours) -> tuple[Floats, Indice
 
 
 # ---- rings ---------------------------------------------------------------------------------------
-class _Ring(NamedTuple):
-    """Vertices of a ring, the polygon that it is in, and the connected part of the skeleton in it."""
-
-    xy: Floats
-    polygon: int
-    part: int
-
-
 def _is_disc(skeleton: Skeleton) -> NDArray[np.bool_]:
     """(a,) whether each arc is a single place: all that pruning left of a connected part."""
     source, target = skeleton.vertices[skeleton.arcs].swapaxes(0, 1)
@@ -242,22 +238,7 @@ def _is_disc(skeleton: Skeleton) -> NDArray[np.bool_]:
     return found
 
 
-def _circles(skeleton: Skeleton, arcs: Indices, tolerance: float) -> list[_Ring]:
-    node = skeleton.arcs[arcs, 0]
-    centre = np.repeat(skeleton.vertices[node], 4, axis=0)
-    quarters = np.tile([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]], (len(arcs), 1))
-    start = centre + np.repeat(skeleton.radius[node], 4)[:, None] * quarters
-    end = centre + np.repeat(skeleton.radius[node], 4)[:, None] * _turned(quarters)
-    xy, first = chords_of(start, end, centre, np.ones(len(start), dtype=bool), tolerance)
-    places = np.split(xy, first[4:-1:4])
-    # parts of contours are numbers of nodes or beyond, these are below 0
-    return [
-        _Ring(place, polygon, ~k)
-        for k, (place, polygon) in enumerate(zip(places, skeleton.polygon[arcs].tolist(), strict=False))
-    ]
-
-
-def _simple_rings(contours: Contours, xy: Floats, point: Indices, start: Indices) -> list[_Ring]:
+def _simple_rings(contours: Contours, xy: Floats, point: Indices, start: Indices) -> list[Ring]:
     """Rings of contours: one that visits a point twice is cut in two there."""
     repeats = _repeats(point, start)
     rings = []
@@ -266,7 +247,7 @@ def _simple_rings(contours: Contours, xy: Floats, point: Indices, start: Indices
         if repeats[contour]:
             parts = [np.array(part) + first for part in _cut_at_repetitions(point[first:last].tolist())]
         polygon, component = int(contours.polygon[contour]), int(contours.part[contour])
-        rings += [_Ring(xy[part], polygon, component) for part in parts]
+        rings += [Ring(xy[part], polygon, component) for part in parts]
     return [ring for ring in rings if len(ring.xy) > 2]
 
 
@@ -309,7 +290,7 @@ def _twice_areas(xy: Floats, start: Indices) -> Floats:
     return areas
 
 
-def _assembled(skeleton: Skeleton, rings: list[_Ring]) -> PolygonSet:
+def _assembled(skeleton: Skeleton, rings: list[Ring]) -> PolygonSet:
     """Polygons of rings: in each connected part of the skeleton one goes counter-clockwise, around the others."""
     start = np.concatenate([[0], np.cumsum([len(ring.xy) for ring in rings], dtype=np.int64)])
     is_hole = _twice_areas(np.concatenate([np.empty((0, 2)), *(ring.xy for ring in rings)]), start) < 0
