@@ -48,11 +48,12 @@ VertexNumbers::VertexNumbers(const SegmentSites& sites, const VoronoiRecords& re
   for (const Found& some : found)
     infinite_.insert(infinite_.end(), some.infinite.begin(), some.infinite.end());
   merge(found);
-  found = {};
+  found = std::vector<Found>();
   choose_leads();
-  gather_keys(threads, monitor);
+  gather_rings(threads, monitor);
   sort_by_first_site(threads, monitor);
   number(threads, monitor);
+  make_starts();
 }
 
 // As if it were alone at its place.
@@ -106,34 +107,69 @@ void VertexNumbers::merge(const std::vector<Found>& found) {
   }
 }
 
+// The border of a place is gone round counter-clockwise: from half-edge to half-edge of one vertex, and on in
+// the next vertex of the place where a half-edge has no length. A point whose segments leave no gap of 180
+// degrees is inside.
+void VertexNumbers::gather_ring(std::int32_t record, std::vector<Spoke>& spokes) const {
+  const auto begin = static_cast<std::ptrdiff_t>(spokes.size());
+  Corner corner = corner_of(record, 0);
+  while (!is_border(corner)) ++corner;
+  const Corner first = corner;
+  do {
+    spokes.push_back(spoke_at(corner));
+    for (;;) {
+      const std::int32_t here = record_of(corner);
+      corner = corner_of(here, following(place_of(corner)));
+      if (is_border(corner)) break;
+      corner = records_[here].twins[static_cast<std::size_t>(place_of(corner))];
+    }
+  } while (corner != first);
+  const auto least = std::min_element(spokes.begin() + begin, spokes.end(),
+                                      [](const Spoke& a, const Spoke& b) { return a.site < b.site; });
+  std::rotate(spokes.begin() + begin, least, spokes.end());
+}
+
+// The edge opposite to a corner, and the site on its left.
+VertexNumbers::Spoke VertexNumbers::spoke_at(Corner corner) const {
+  const VoronoiRecord& v = records_[record_of(corner)];
+  const int left = preceding(place_of(corner));
+  return {static_cast<std::uint32_t>(v.sites[static_cast<std::size_t>(left)]), v.is_left(left),
+          record_of(v.twins[static_cast<std::size_t>(place_of(corner))])};
+}
+
+std::span<const VertexNumbers::Spoke> VertexNumbers::merged_ring(std::size_t k) const {
+  const std::span<const Spoke> rings = rings_[k / piece_size];
+  const bool is_last = k + 1 == ring_begin_.size() || (k + 1) % piece_size == 0;
+  return rings.subspan(ring_begin_[k], (is_last ? rings.size() : ring_begin_[k + 1]) - ring_begin_[k]);
+}
+
 // The first record of each place that is on its border.
 void VertexNumbers::choose_leads() {
   std::vector<bool> seen(code_.size());
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(code_.size()); ++v) {
     if (!is_merged(v) || seen[static_cast<std::size_t>(code(v))]) continue;
-    const auto is_border = [&](int i) { return this->is_border(records_, corner_of(v, i)); };
+    const auto is_border = [&](int i) { return this->is_border(corner_of(v, i)); };
     if (!is_border(0) && !is_border(1) && !is_border(2)) continue;
     seen[static_cast<std::size_t>(code(v))] = true;
     merged_leads_.push_back(v);
   }
 }
 
-void VertexNumbers::gather_keys(unsigned threads, const Monitor& monitor) {
-  ring_size_ = 3 * std::accumulate(begin_.begin(), begin_.end(), std::size_t{0});
-  merged_keys_.resize(merged_leads_.size());
-  std::atomic<std::size_t> merged_size{0};
-  for_pieces(merged_leads_.size(), threads, monitor, [&](std::size_t, std::int32_t begin, std::int32_t end) {
-    std::vector<Corner> ring;
-    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
-      if (k + ahead < merged_leads_.size()) prefetch_neighbours(records_, merged_leads_[k + ahead]);
-      gather_ring(records_, merged_leads_[k], ring);
-      const auto site = [&](std::size_t i) { return left_site(records_, ring[i]); };
-      merged_keys_[k] = {site(0), site(1), site(2), merged_leads_[k]};
-      add(count_at(site(0)), 1);
-      merged_size += ring.size();
-    }
-  });
-  ring_size_ += merged_size;
+void VertexNumbers::gather_rings(unsigned threads, const Monitor& monitor) {
+  ring_begin_.resize(merged_leads_.size());
+  rings_.resize(piece_count(merged_leads_.size(), piece_size));
+  for_pieces(merged_leads_.size(), threads, monitor,
+             [&](std::size_t piece, std::int32_t begin, std::int32_t end) {
+               std::vector<Spoke> spokes;
+               for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+                 if (k + ahead < merged_leads_.size())
+                   prefetch_neighbours(records_, merged_leads_[k + ahead]);
+                 ring_begin_[k] = static_cast<std::uint32_t>(spokes.size());
+                 gather_ring(merged_leads_[k], spokes);
+                 add(count_at(static_cast<SiteIndex>(spokes[ring_begin_[k]].site)), 1);
+               }
+               rings_[piece].assign(spokes.begin(), spokes.end());  // no more memory than it takes
+             });
 }
 
 // By the first site in one go, and by the others among the few that share it. No two have the same three
@@ -149,20 +185,25 @@ void VertexNumbers::sort_by_first_site(unsigned threads, const Monitor& monitor)
       if (code(v) < 0 && code(v) != ~at_infinity) put(v, ~code(v));
     }
   });
-  for_pieces(merged_keys_.size(), threads, monitor, [&](std::size_t, std::int32_t begin, std::int32_t end) {
-    for (std::int32_t k = begin; k < end; ++k) put(~k, merged_keys_[static_cast<std::size_t>(k)].first);
+  for_pieces(merged_leads_.size(), threads, monitor, [&](std::size_t, std::int32_t begin, std::int32_t end) {
+    for (std::int32_t k = begin; k < end; ++k) put(~k, key_of(~k).first);
   });
   for_pieces(begin_.size() - 2, threads, monitor,
              [&](std::size_t, std::int32_t begin, std::int32_t end) { sort_buckets(begin, end); });
-  begin_ = {};
-  merged_keys_ = {};
+  begin_ = std::vector<std::uint32_t>();
 }
 
-VertexNumbers::Key VertexNumbers::key_of(std::int32_t record) const {
-  const std::array<SiteIndex, 3>& sites = records_[record].sites;
+VertexNumbers::Key VertexNumbers::key_of(std::int32_t name) const {
+  if (name < 0) {
+    const auto k = static_cast<std::size_t>(~name);
+    const auto ring = merged_ring(k);
+    const auto site = [&](std::size_t i) { return static_cast<SiteIndex>(ring[i].site); };
+    return {site(0), site(1), site(2), merged_leads_[k]};
+  }
+  const std::array<SiteIndex, 3>& sites = records_[name].sites;
   const auto i = static_cast<int>(std::min_element(sites.begin(), sites.end()) - sites.begin());
   return {sites[static_cast<std::size_t>(i)], sites[static_cast<std::size_t>(following(i))],
-          sites[static_cast<std::size_t>(preceding(i))], record};
+          sites[static_cast<std::size_t>(preceding(i))], name};
 }
 
 // Vertices whose first sites are first ... last - 1. Their records are far apart in memory: they are called
@@ -177,10 +218,7 @@ void VertexNumbers::sort_buckets(SiteIndex first, SiteIndex last) {
       if (leads_[called] >= 0) records_.prefetch(leads_[called]);
     }
     keys.clear();
-    for (; k < end; ++k) {
-      const std::int32_t name = leads_[k];
-      keys.push_back(name < 0 ? merged_keys_[static_cast<std::size_t>(~name)] : key_of(name));
-    }
+    for (; k < end; ++k) keys.push_back(key_of(leads_[k]));
     std::sort(keys.begin(), keys.end());
     for (std::size_t i = 0; i < keys.size(); ++i) leads_[begin + i] = keys[i].record;
   }
@@ -200,6 +238,18 @@ void VertexNumbers::number(unsigned threads, const Monitor& monitor) {
                  if (code(v) >= 0) code(v) = code(code(v));
                }
              });
+}
+
+// Of three sites each, but for places with several records.
+void VertexNumbers::make_starts() {
+  starts_ = LargeArray<std::int32_t>(leads_.size() + 1);
+  leads_ = {};
+  std::fill_n(starts_.data(), starts_.size(), 3);
+  for (std::size_t k = 0; k < merged_leads_.size(); ++k) {
+    starts_[static_cast<std::size_t>(of(merged_leads_[k]))] =
+        static_cast<std::int32_t>(merged_ring(k).size());
+  }
+  std::exclusive_scan(starts_.data(), starts_.data() + starts_.size(), starts_.data(), 0);
 }
 
 }  // namespace vorotool::core
