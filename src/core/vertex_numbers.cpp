@@ -36,14 +36,13 @@ void prefetch_neighbours(const VoronoiRecords& records, std::int32_t record) {
 
 VertexNumbers::VertexNumbers(const SegmentSites& sites, const VoronoiRecords& records, unsigned threads,
                              const Monitor& monitor)
-    : sites_(sites),
-      records_(records),
+    : records_(records),
       code_(records.all.size()),
       is_merged_(records.all.size()),
       begin_(static_cast<std::size_t>(sites.infinite()) + 2) {
   std::vector<Found> found(piece_count(code_.size(), piece_size));
   for_pieces(code_.size(), threads, monitor, [&](std::size_t piece, std::int32_t begin, std::int32_t end) {
-    for (std::int32_t v = begin; v < end; ++v) look_at(v, found[piece]);
+    for (std::int32_t v = begin; v < end; ++v) look_at(sites, v, found[piece]);
   });
   for (const Found& some : found)
     infinite_.insert(infinite_.end(), some.infinite.begin(), some.infinite.end());
@@ -51,13 +50,16 @@ VertexNumbers::VertexNumbers(const SegmentSites& sites, const VoronoiRecords& re
   found = std::vector<Found>();
   choose_leads();
   gather_rings(threads, monitor);
+}
+
+void VertexNumbers::assign(unsigned threads, const Monitor& monitor) {
   sort_by_first_site(threads, monitor);
   number(threads, monitor);
   make_starts();
 }
 
 // As if it were alone at its place.
-void VertexNumbers::look_at(std::int32_t u, Found& found) {
+void VertexNumbers::look_at(const SegmentSites& sites, std::int32_t u, Found& found) {
   if (static_cast<std::size_t>(u) + ahead < code_.size()) {
     prefetch_neighbours(records_, u + static_cast<std::int32_t>(ahead));
   }
@@ -73,7 +75,7 @@ void VertexNumbers::look_at(std::int32_t u, Found& found) {
   for (int i = 0; i < 3; ++i) {
     const std::int32_t w = record_of(v.twins[static_cast<std::size_t>(i)]);
     if (w < u || records_[w].is_infinite()) continue;
-    if (are_coincident(sites_, v, i, records_[w])) found.coincident.push_back({u, w});
+    if (are_coincident(sites, v, i, records_[w])) found.coincident.push_back({u, w});
   }
 }
 
@@ -176,7 +178,7 @@ void VertexNumbers::gather_rings(unsigned threads, const Monitor& monitor) {
 // sites first, in the same order. Keys of several records are named by the complements of their numbers.
 void VertexNumbers::sort_by_first_site(unsigned threads, const Monitor& monitor) {
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-  leads_ = LargeArray<std::int32_t>(begin_.back());
+  leads_ = LargeArray<std::int32_t>(begin_.back() + 1);
   const auto put = [&](std::int32_t name, SiteIndex first) {
     leads_[add(begin_[static_cast<std::size_t>(first) + 1], 1)] = name;
   };
@@ -226,7 +228,7 @@ void VertexNumbers::sort_buckets(SiteIndex first, SiteIndex last) {
 
 // First one record of each place, then the others.
 void VertexNumbers::number(unsigned threads, const Monitor& monitor) {
-  for_pieces(leads_.size(), threads, monitor, [&](std::size_t, std::int32_t begin, std::int32_t end) {
+  for_pieces(leads_.size() - 1, threads, monitor, [&](std::size_t, std::int32_t begin, std::int32_t end) {
     for (std::int32_t k = begin; k < end; ++k) {
       const std::int32_t lead = leads_[static_cast<std::size_t>(k)];
       code(is_merged(lead) ? code(lead) : lead) = ~k;
@@ -242,14 +244,11 @@ void VertexNumbers::number(unsigned threads, const Monitor& monitor) {
 
 // Of three sites each, but for places with several records.
 void VertexNumbers::make_starts() {
-  starts_ = LargeArray<std::int32_t>(leads_.size() + 1);
-  leads_ = {};
-  std::fill_n(starts_.data(), starts_.size(), 3);
+  std::fill_n(leads_.data(), leads_.size(), 3);
   for (std::size_t k = 0; k < merged_leads_.size(); ++k) {
-    starts_[static_cast<std::size_t>(of(merged_leads_[k]))] =
-        static_cast<std::int32_t>(merged_ring(k).size());
+    leads_[static_cast<std::size_t>(of(merged_leads_[k]))] = static_cast<std::int32_t>(merged_ring(k).size());
   }
-  std::exclusive_scan(starts_.data(), starts_.data() + starts_.size(), starts_.data(), 0);
+  std::exclusive_scan(leads_.data(), leads_.data() + leads_.size(), leads_.data(), 0);
 }
 
 }  // namespace vorotool::core

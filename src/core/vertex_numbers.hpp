@@ -28,16 +28,21 @@ class VertexNumbers {
     std::int32_t across;
   };
 
-  // Vertices are sorted by the lists of their sites, each in the engine's order from its first one.
+  // Finds the places of the records.
   VertexNumbers(const SegmentSites& sites, const VoronoiRecords& records, unsigned threads,
                 const Monitor& monitor);
+  // Numbers them, sorted by the lists of their sites, each in the engine's order from its first one.
+  void assign(unsigned threads, const Monitor& monitor);
 
+  // Once they have numbers:
   // [vertices + 1] where the sites of each vertex begin: the array is given away.
-  LargeArray<std::int32_t> take_starts() { return std::move(starts_); }
+  LargeArray<std::int32_t> take_starts() { return std::move(leads_); }
   // The number of a record's vertex, or at_infinity.
   std::int32_t of(std::int32_t record) const { return ~code_[static_cast<std::size_t>(record)]; }
   // Tells the processor that of() will be asked soon.
   void prefetch(std::int32_t record) const { __builtin_prefetch(&code_[static_cast<std::size_t>(record)]); }
+
+  // Before, too:
   // Whether a record shares its place with others.
   bool is_merged(std::int32_t record) const { return is_merged_[static_cast<std::size_t>(record)]; }
   // Ascending: a record of each place that has several, and those at infinity.
@@ -62,7 +67,7 @@ class VertexNumbers {
   std::int32_t& code(std::int32_t record) { return code_[static_cast<std::size_t>(record)]; }
   std::uint32_t& count_at(SiteIndex first) { return begin_[static_cast<std::size_t>(first) + 2]; }
 
-  void look_at(std::int32_t record, Found& found);
+  void look_at(const SegmentSites& sites, std::int32_t record, Found& found);
   void merge(const std::vector<Found>& found);
   std::int32_t root(std::int32_t record);
   void choose_leads();
@@ -82,18 +87,17 @@ class VertexNumbers {
     return code_[static_cast<std::size_t>(record_of(twin))] != code_[static_cast<std::size_t>(record)];
   }
 
-  const SegmentSites& sites_;
   const VoronoiRecords& records_;
   // [records] In the end the complement of the number of the vertex. Before, that of the first site; at a
   // place with several records, one of these, not negative, is the same for all.
   LargeArray<std::int32_t> code_;
   std::vector<bool> is_merged_;       // [records]
   std::vector<std::uint32_t> begin_;  // [sites + 2] where vertices begin, by their first sites
-  LargeArray<std::int32_t> leads_;    // [vertices] the record that stands for each
+  // [vertices + 1] The record that stands for each vertex; in the end where its sites begin.
+  LargeArray<std::int32_t> leads_;
   std::vector<std::int32_t> merged_leads_, infinite_;
   std::vector<std::uint32_t> ring_begin_;  // [merged_leads] among the rings of a piece of them
   std::vector<std::vector<Spoke>> rings_;  // [pieces of merged_leads]
-  LargeArray<std::int32_t> starts_;
 };
 
 }  // namespace vorotool::core

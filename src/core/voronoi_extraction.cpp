@@ -15,7 +15,6 @@ namespace vorotool::core {
 namespace {
 
 constexpr std::size_t piece_size = std::size_t{1} << 13;  // items of a piece of work, some ms
-constexpr std::int32_t ahead = 8;                         // records: how early memory is called for
 
 // Calls body(piece, begin, end) for pieces of the items.
 template <class Body>
@@ -28,23 +27,76 @@ void for_pieces(std::size_t count, unsigned threads, const Monitor& monitor, Bod
 
 // ---- vertices and what is around them --------------------------------------------------------------------
 
+// Calls on_single(record) and on_merged(k, record) for the records begin ... end - 1 that stand for their
+// places.
+template <class OnSingle, class OnMerged>
+void for_leads(const VoronoiRecords& records, const VertexNumbers& numbers, std::size_t begin,
+               std::size_t end, OnSingle on_single, OnMerged on_merged) {
+  const auto merged = numbers.merged_leads();
+  const auto last = static_cast<std::int32_t>(end);
+  auto record = static_cast<std::int32_t>(begin);
+  auto k = static_cast<std::size_t>(std::ranges::lower_bound(merged, record) - merged.begin());
+  for (; record < last; ++record) {
+    if (!numbers.is_merged(record)) {
+      if (!records[record].is_infinite()) on_single(record);
+    } else if (k < merged.size() && merged[k] == record) {
+      on_merged(k++, record);
+    }
+  }
+}
+
+// The sites of a record of its own, and the corners opposite to the edges before them.
+struct SingleRing {
+  explicit SingleRing(const VoronoiRecord& v) {
+    int i = static_cast<int>(std::min_element(v.sites.begin(), v.sites.end()) - v.sites.begin());
+    for (std::size_t k = 0; k < 3; ++k) {
+      contacts[k] = {v.sites[static_cast<std::size_t>(i)], v.is_left(i)};
+      i = following(i);  // the site is on the left of this edge
+      across[k] = record_of(v.twins[static_cast<std::size_t>(i)]);
+    }
+  }
+  std::array<Contact, 3> contacts;
+  std::array<std::int32_t, 3> across;  // records to which the edges lead
+};
+
+// Gives the records that stand for their places the discs of their vertices.
+void polish_discs(const SegmentSites& sites, VoronoiRecords& records, const VertexNumbers& numbers,
+                  unsigned threads, const Monitor& monitor) {
+  for_pieces(records.all.size(), threads, monitor, [&](std::size_t, std::size_t begin, std::size_t end) {
+    std::vector<Contact> contacts;
+    const auto polish = [&](std::int32_t record, std::span<const Contact> around) {
+      const PolishedDisc disc = polished_disc(sites, records[record], around);
+      records[record].x = disc.x;
+      records[record].y = disc.y;
+      records[record].radius = disc.radius;
+    };
+    for_leads(
+        records, numbers, begin, end,
+        [&](std::int32_t record) { polish(record, SingleRing(records[record]).contacts); },
+        [&](std::size_t k, std::int32_t record) {
+          contacts.clear();
+          for (const VertexNumbers::Spoke& spoke : numbers.merged_ring(k)) {
+            contacts.push_back({static_cast<SiteIndex>(spoke.site), spoke.is_left != 0});
+          }
+          polish(record, contacts);
+        });
+  });
+}
+
 // Writes the centres, radii and rings of vertices, and where their edges lead. Sites have the numbers of the
 // engine.
 class VertexWriter {
  public:
-  VertexWriter(const SegmentSites& sites, VoronoiRecords& records, const VertexNumbers& numbers,
-               DiagramArrays& out, LargeArray<std::int32_t>& targets)
-      : sites_(sites), records_(records), numbers_(numbers), out_(out), targets_(targets) {}
+  VertexWriter(VoronoiRecords& records, const VertexNumbers& numbers, DiagramArrays& out,
+               LargeArray<std::int32_t>& targets)
+      : records_(records), numbers_(numbers), out_(out), targets_(targets) {}
 
   void run(unsigned threads, const Monitor& monitor);
 
  private:
-  void write_records(std::int32_t begin, std::int32_t end);
-  void write_merged(std::size_t k, std::vector<Contact>& contacts);
-  void write_single(std::int32_t record);
-  void write_disc(std::size_t vertex, const PolishedDisc& disc);
+  void write_stretch(std::size_t first, std::size_t count, std::size_t piece, std::size_t pieces);
+  void write_disc(std::size_t vertex, const VoronoiRecord& v);
 
-  const SegmentSites& sites_;
   VoronoiRecords& records_;
   const VertexNumbers& numbers_;
   DiagramArrays& out_;
@@ -55,68 +107,47 @@ class VertexWriter {
 // together: what is written, in the order of the vertices, is near in memory too.
 void VertexWriter::run(unsigned threads, const Monitor& monitor) {
   const std::size_t pieces = piece_count(records_.all.size(), piece_size);
-  const auto write_stretch = [&](std::size_t first, std::size_t count, std::size_t piece) {
-    const std::size_t begin = first + count * piece / pieces, end = first + count * (piece + 1) / pieces;
-    write_records(static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end));
-    discard(records_.all, begin, end);
-  };
   parallel_for(
       pieces, threads,
       [&](std::size_t piece) {
-        write_stretch(0, records_.of_points, piece);
-        write_stretch(records_.of_points, records_.all.size() - records_.of_points, piece);
+        write_stretch(0, records_.of_points, piece, pieces);
+        write_stretch(records_.of_points, records_.all.size() - records_.of_points, piece, pieces);
       },
       monitor);
 }
 
-void VertexWriter::write_records(std::int32_t begin, std::int32_t end) {
-  const auto merged = numbers_.merged_leads();
-  std::vector<Contact> contacts;
-  auto k = static_cast<std::size_t>(std::ranges::lower_bound(merged, begin) - merged.begin());
-  for (std::int32_t record = begin; record < end; ++record) {
-    if (record + ahead < end) {
-      for (const Corner twin : records_[record + ahead].twins) numbers_.prefetch(record_of(twin));
-    }
-    if (numbers_.is_merged(record)) {
-      if (k < merged.size() && merged[k] == record) write_merged(k++, contacts);
-    } else if (!records_[record].is_infinite()) {
-      write_single(record);
-    }
-  }
+void VertexWriter::write_stretch(std::size_t first, std::size_t count, std::size_t piece,
+                                 std::size_t pieces) {
+  const std::size_t begin = first + count * piece / pieces, end = first + count * (piece + 1) / pieces;
+  const auto put = [&](std::size_t place, SiteIndex site, std::int32_t across) {
+    out_.vertex_sites[place] = site;
+    targets_[place] = numbers_.of(across);
+  };
+  const auto start_of = [&](std::int32_t record) {
+    const auto vertex = static_cast<std::size_t>(numbers_.of(record));
+    write_disc(vertex, records_[record]);
+    return static_cast<std::size_t>(out_.vertex_start[vertex]);
+  };
+  for_leads(
+      records_, numbers_, begin, end,
+      [&](std::int32_t record) {
+        const std::size_t start = start_of(record);
+        const SingleRing ring(records_[record]);
+        for (std::size_t i = 0; i < 3; ++i) put(start + i, ring.contacts[i].site, ring.across[i]);
+      },
+      [&](std::size_t k, std::int32_t record) {
+        std::size_t place = start_of(record);
+        for (const VertexNumbers::Spoke& spoke : numbers_.merged_ring(k)) {
+          put(place++, static_cast<SiteIndex>(spoke.site), spoke.across);
+        }
+      });
+  discard(records_.all, begin, end);
 }
 
-void VertexWriter::write_merged(std::size_t k, std::vector<Contact>& contacts) {
-  const std::int32_t record = numbers_.merged_leads()[k];
-  const auto vertex = static_cast<std::size_t>(numbers_.of(record));
-  auto place = static_cast<std::size_t>(out_.vertex_start[vertex]);
-  contacts.clear();
-  for (const VertexNumbers::Spoke& spoke : numbers_.merged_ring(k)) {
-    contacts.push_back({static_cast<SiteIndex>(spoke.site), spoke.is_left != 0});
-    out_.vertex_sites[place] = contacts.back().site;
-    targets_[place++] = numbers_.of(spoke.across);
-  }
-  write_disc(vertex, polished_disc(sites_, records_[record], contacts));
-}
-
-void VertexWriter::write_single(std::int32_t record) {
-  const VoronoiRecord& v = records_[record];
-  const auto vertex = static_cast<std::size_t>(numbers_.of(record));
-  auto place = static_cast<std::size_t>(out_.vertex_start[vertex]);
-  std::array<Contact, 3> contacts;
-  int i = static_cast<int>(std::min_element(v.sites.begin(), v.sites.end()) - v.sites.begin());
-  for (Contact& contact : contacts) {
-    contact = {v.sites[static_cast<std::size_t>(i)], v.is_left(i)};
-    i = following(i);  // the site is on the left of this edge
-    out_.vertex_sites[place] = contact.site;
-    targets_[place++] = numbers_.of(record_of(v.twins[static_cast<std::size_t>(i)]));
-  }
-  write_disc(vertex, polished_disc(sites_, v, contacts));
-}
-
-void VertexWriter::write_disc(std::size_t vertex, const PolishedDisc& disc) {
-  out_.vertices[2 * vertex] = disc.x;
-  out_.vertices[2 * vertex + 1] = disc.y;
-  out_.radius[vertex] = disc.radius;
+void VertexWriter::write_disc(std::size_t vertex, const VoronoiRecord& v) {
+  out_.vertices[2 * vertex] = v.x;
+  out_.vertices[2 * vertex + 1] = v.y;
+  out_.radius[vertex] = v.radius;
 }
 
 // ---- edges -----------------------------------------------------------------------------------------------
@@ -220,13 +251,18 @@ void EdgeWriter::put(std::size_t place, const Edge& edge) {
 DiagramArrays extract_diagram(SegmentSites sites, VoronoiRecords records, std::span<const std::int32_t> given,
                               unsigned threads, const Monitor& monitor) {
   records.corner_of_point = std::vector<Corner>();
+  return_freed_memory();
   DiagramArrays out;
   LargeArray<std::int32_t> targets;  // [sites around vertices] where the edge before each leads
   std::vector<Edge> without_vertex;
   std::size_t edges = 0;
   {
+    const SiteIndex infinite = sites.infinite();
     VertexNumbers numbers(sites, records, threads, monitor);
-    without_vertex = edges_without_vertex(records, numbers, sites.infinite());
+    polish_discs(sites, records, numbers, threads, monitor);
+    sites = SegmentSites();
+    numbers.assign(threads, monitor);
+    without_vertex = edges_without_vertex(records, numbers, infinite);
     out.vertex_start = numbers.take_starts();
     const std::size_t vertices = out.vertex_start.size() - 1;
     const auto ring = static_cast<std::size_t>(out.vertex_start[vertices]);
@@ -236,10 +272,9 @@ DiagramArrays extract_diagram(SegmentSites sites, VoronoiRecords records, std::s
     out.vertex_sites = with_small_pages<std::int32_t>(ring);
     targets = with_small_pages<std::int32_t>(ring);
     return_freed_memory();
-    VertexWriter(sites, records, numbers, out, targets).run(threads, monitor);
+    VertexWriter(records, numbers, out, targets).run(threads, monitor);
   }
   records.all = {};
-  sites = {};
   out.edges = LargeArray<std::int32_t>(2 * edges);
   out.edge_sites = LargeArray<std::int32_t>(2 * edges);
   EdgeWriter(targets, given, out).run(without_vertex, threads, monitor);
