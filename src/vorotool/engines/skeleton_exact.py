@@ -154,6 +154,12 @@ def shape_diagram(polygons: Any, *, strict: bool = False, threads: int = 0, prog
     """
     threads = checked_threads(threads)
     graph = planar_graph(polygons, strict=strict, threads=threads, progress=progress)
+    return diagram_of_graph(graph, threads=threads, progress=progress)
+
+
+def diagram_of_graph(graph: PlanarGraph, *, threads: int = 0, progress: Progress = None) -> ShapeDiagram:
+    """Compute the segment Voronoi diagram of polygons that are placed."""
+    threads = checked_threads(threads)
     diagram = segment_voronoi(graph.points, graph.segments, threads=threads, progress=progress)
     return ShapeDiagram(graph, diagram, placed_shapes(graph, threads=threads))
 

@@ -201,13 +201,8 @@ class Skeleton:
         return self._ends_of(slice(None))
 
     def _ends_of(self, sites: Any) -> NDArray[np.float64]:
-        table, polygons = self.site_table, self.polygons
-        ring = polygons.polygon_start[table.polygon[sites]] + table.ring[sites]
-        first = polygons.ring_start[ring] + table.index[sites]
-        ends = np.empty((*first.shape, 2, 2))
+        ends = ends_of_sites(self.polygons, self.site_table, sites)
         a, b = ends[..., 0, :], ends[..., 1, :]
-        a[...] = polygons.xy[first]
-        b[...] = polygons.xy[np.where(table.kind[sites] == EDGE, polygons.following[first], first)]
         if self.gap:
             length = np.sqrt(((b - a) ** 2).sum(axis=-1, keepdims=True))
             way = np.divide(self.gap * (b - a), length, out=np.zeros_like(a), where=length > 0)
@@ -271,6 +266,16 @@ class Skeleton:
         points = source[arc] + t * (2 * (control - source)[arc] + t * bend[arc])
         points[start[1:] - 1] = target
         return points, start
+
+
+def ends_of_sites(polygons: PolygonSet, table: SiteTable, sites: Any = slice(None)) -> NDArray[np.float64]:
+    """(…, 2, 2) the ends of all or some sites of polygons; a vertex has one place twice."""
+    ring = polygons.polygon_start[table.polygon[sites]] + table.ring[sites]
+    first = polygons.ring_start[ring] + table.index[sites]
+    ends = np.empty((*first.shape, 2, 2))
+    ends[..., 0, :] = polygons.xy[first]
+    ends[..., 1, :] = polygons.xy[np.where(table.kind[sites] == EDGE, polygons.following[first], first)]
+    return ends
 
 
 MOST_PIECES = 1 << 12
