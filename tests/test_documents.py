@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-DOCUMENTS = ["README.md", "docs/errata.md"]
+DOCUMENTS = ["README.md", "docs/errata.md", "docs/pipeline/README.md"]
 FENCE = re.compile(r"^```(\w+)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
@@ -25,6 +25,7 @@ def blocks(language):
 def folder(tmp_path):
     """A folder like the root of the repository, to write into."""
     shutil.copytree(ROOT / "data", tmp_path / "data")
+    shutil.copytree(ROOT / "docs/pipeline", tmp_path / "docs/pipeline")
     return tmp_path
 
 
@@ -44,6 +45,8 @@ def run(command, folder):
 def test_console_block(block, folder):
     for part in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:
         command, _, expected = part.partition("\n")
+        if "| jq " in command and shutil.which("jq") is None:
+            pytest.skip("jq is not there")
         done = run(command, folder)
         assert done.returncode == 0, f"{command}\n{done.stderr}"
         assert done.stderr == ""
@@ -54,6 +57,11 @@ def test_console_block(block, folder):
 def test_python_block(block, folder):
     done = subprocess.run([sys.executable, "-c", block], cwd=folder, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
+
+
+def test_rules_of_make_are_those_of_the_makefile():
+    rules = (ROOT / "docs/pipeline/Makefile").read_text(encoding="utf-8")
+    assert [block.values[0] in rules for block in blocks("make")] == [True]
 
 
 def test_the_reference_is_true():
