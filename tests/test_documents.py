@@ -11,6 +11,7 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 DOCUMENTS = ["README.md", "docs/errata.md", "docs/pipeline/README.md"]
+MANUAL = ROOT / "docs/man/man1"
 FENCE = re.compile(r"^```(\w+)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
@@ -69,7 +70,28 @@ def test_the_reference_is_true():
     assert done.stdout == (ROOT / "docs/cli.md").read_text(encoding="utf-8"), "run docs/cli_reference.py > docs/cli.md"
 
 
-@pytest.mark.parametrize("arguments", [[], ["tessellate"], ["delaunay"], ["alphashape"], ["skeleton-exact"], ["draw"]])
+def test_the_manual_pages_are_true(tmp_path):
+    subprocess.run([sys.executable, ROOT / "docs/manual_pages.py", tmp_path], check=True)
+    made, kept = ({path.name: path.read_bytes() for path in folder.iterdir()} for folder in (tmp_path, MANUAL))
+    assert made == kept, "run docs/manual_pages.py"
+
+
+@pytest.mark.parametrize(
+    "command", [["groff", "-ww", "-man", "-Tutf8", "-z"], ["mandoc", "-T", "lint", "-W", "warning"]], ids=lambda c: c[0]
+)
+def test_the_manual_pages_are_read_without_warnings(command):
+    if shutil.which(command[0]) is None:
+        pytest.skip(f"{command[0]} is not there")
+    done = subprocess.run([*command, *sorted(MANUAL.iterdir())], capture_output=True, text=True, check=False)
+    said = (done.stdout + done.stderr).splitlines()
+    assert [line for line in said if "missing date" not in line] == []  # they are as old as the commands
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [[], ["tessellate"], ["delaunay"], ["alphashape"], ["skeleton-exact"], ["draw"], ["completion"]],
+    ids=" ".join,
+)
 def test_the_example_of_the_help_runs(arguments, folder):
     text = run(f"vorotool {' '.join(arguments)} --help", folder).stdout
     example = re.search(r"Example:\s*\n\s*(vorotool .*)", text)
