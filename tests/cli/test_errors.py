@@ -149,7 +149,9 @@ def test_a_photograph_is_not_taken_for_labels(run, folder):
         (["tessellate", "dots.csv", "-o", "a.png", "--connectivity", "8"], ["--connectivity is for images"]),
         (["tessellate", "mask.pbm", "-o", "a.png", "--connectivity", "4", "--seeds", "pixels"], ["for components"]),
         (["tessellate", "dots.csv", "-o", "a.png", "--passes", "2"], ["--method propagation"]),
-        (["tessellate", "dots.csv", "-o", "a.png", "--dtype", "uint32"], ["--dtype is for labels in TIFF and NPY"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--dtype", "uint32"], ["--dtype is for labels in TIFF, NPY"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--chunk", "64x64"], ["--chunk is for Zarr stores"]),
+        (["tessellate", "dots.csv", "-f", "zarr"], ["a Zarr store is a folder"]),
         (["tessellate", "dots.csv", "-o", "a.tif", "--what", "diagram", "--dtype", "uint8"], ["--dtype is for labels"]),
         (["tessellate", "dots.csv", "-o", "a.png", "--what", "colour", "--width", "99"], ["--width is for SVG"]),
         (["tessellate", "dots.csv", "-o", "a.npy", "--width", "99"], ["--width is for SVG"]),
@@ -445,3 +447,12 @@ def test_layers_are_those_that_are_drawn():
     assert {"png": set(label_png.LAYERS), "svg": set(label_svg.LAYERS)} == {
         fmt: set(layers) for fmt, layers in PICTURE_LAYERS.items()
     }
+
+
+@pytest.mark.parametrize("command", ["tessellate", "delaunay", "alphashape", "skeleton-exact"])
+def test_a_direction_is_for_pictures(run, folder, command):
+    source = "mask.pbm" if command == "skeleton-exact" else "dots.csv"
+    done = run(command, source, "--y-up", "-o", "out.json", *(["--what", "table"] if command == "tessellate" else []))
+    assert done.code == 2
+    assert "--y-up and --y-down are for pictures" in done.err
+    assert not (folder / "out.json").exists()

@@ -139,7 +139,7 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     if o.overlay is not None and not pictures:
         raise click.UsageError("--overlay is for pictures of a shape: use -f svg or -f png, or leave it out")
     plots = ["svg"] if ("curves", "svg") in {(target.what, target.fmt) for target in targets} else []
-    check_picture_options(o, pictures or plots, PICTURE_LAYERS, png_has_width=True)
+    check_picture_options(o, pictures or plots, PICTURE_LAYERS, png_has_width=True, has_page="html" in formats)
 
 
 def _check_method(o: SimpleNamespace, formats: set[str]) -> None:

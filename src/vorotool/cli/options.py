@@ -218,7 +218,11 @@ OPTIONS: dict[str, Decorator] = {
         "--max-sites", type=click.IntRange(min=1), default=2**31 - 1, show_default=True, help="Most seeds."
     ),
     "no-clobber": click.option("--no-clobber", is_flag=True, help="Refuse to replace an existing file."),
-    "no-properties": click.option("--no-properties", is_flag=True, help="Do not copy the input's further columns."),
+    "no-properties": click.option(
+        "--no-properties",
+        is_flag=True,
+        help="Do not copy the input's further columns or properties, wherever they would be.",
+    ),
     "columns": click.option(
         "--columns", metavar="X,Y[,LABEL]", help="Columns of a point list, by name or number (from 1)."
     ),

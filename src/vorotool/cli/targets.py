@@ -25,10 +25,13 @@ EXTENSIONS = {
     ".node": "node",
     ".obj": "obj",
     ".wkt": "wkt",
+    ".poly": "poly",
+    ".graphml": "graphml",
     ".html": "html",
+    ".zarr": "zarr",
 }
 FORMATS = tuple(dict.fromkeys(EXTENSIONS.values()))
-TEXT_FORMATS = frozenset({"text", "svg", "csv", "json", "geojson", "edge", "ele", "node", "obj", "wkt", "html"})
+TEXT_FORMATS = frozenset(FORMATS) - {"png", "tiff", "npy", "npz"}
 TRIANGLE_FILES = frozenset({"node", "edge", "ele"})
 _EXTENSION_OF = {"tiff": "tif", "text": "txt"}
 
@@ -130,8 +133,9 @@ def check_picture_options(
     layers: Mapping[str, Sequence[str]] = PICTURE_LAYERS,
     *,
     png_has_width: bool = False,
+    has_page: bool = False,
 ) -> None:
-    """Refuse layers, a width and an image beneath that no picture would show.
+    """Refuse layers, a width, a direction and an image beneath that no picture would show.
 
     Parameters
     ----------
@@ -143,6 +147,8 @@ def check_picture_options(
         Layers of each format.
     png_has_width : bool
         PNG pictures are of no image, so that they are as wide as is asked for.
+    has_page : bool
+        A page of HTML is written, too, in which y can go upwards.
 
     Raises
     ------
@@ -151,6 +157,8 @@ def check_picture_options(
     """
     if options.overlay is not None:
         _check_overlay(options, pictures)
+    if options.y_up is not None and not pictures and not has_page:
+        raise click.UsageError("--y-up and --y-down are for pictures: use -f svg or -f png, or leave them out")
     if options.width is not None and png_has_width and not pictures:
         raise click.UsageError("--width is for pictures: use -f svg or -f png, or leave it out")
     if options.width is not None and not png_has_width and "svg" not in pictures:
@@ -187,18 +195,21 @@ def check_targets(options: Any, targets: Sequence[Target], source: str) -> None:
         The input, which is never replaced; neither is the image beneath a picture.
     """
     from vorotool.formats.outputs import check_output
+    from vorotool.formats.stores import check_store
 
     overlay = [] if options.overlay is None else [options.overlay]
     if source == "-" and overlay == ["-"]:
         raise click.UsageError("--overlay - is the input: name a file for one of the two")
+    rules = {
+        "no_clobber": options.no_clobber,
+        "inputs": (source, *overlay),
+        "makes_folder": options.out_dir is not None,
+    }
     for target in targets:
-        check_output(
-            target.path,
-            binary=target.is_binary,
-            no_clobber=options.no_clobber,
-            inputs=(source, *overlay),
-            makes_folder=options.out_dir is not None,
-        )
+        if target.fmt == "zarr":
+            check_store(target.path, **rules)
+        else:
+            check_output(target.path, binary=target.is_binary, **rules)
     if options.stats is not None:
         in_out_dir = options.out_dir is not None and Path(options.stats).parent == Path(options.out_dir)
         check_output(options.stats, no_clobber=options.no_clobber, makes_folder=in_out_dir)
