@@ -13,12 +13,22 @@ import click
 
 from vorotool.cli.commands import run_command
 from vorotool.cli.inputs import IMAGE_OPTIONS, naming, refuse
-from vorotool.cli.options import Decorator, Rectangle, batch_options, layers_option, shared, what_option
+from vorotool.cli.options import (
+    Decorator,
+    Rectangle,
+    batch_options,
+    inputs_argument,
+    layers_option,
+    output_options,
+    shared,
+    what_option,
+)
 from vorotool.cli.pruning import FORMS, Place, PruningType
 from vorotool.cli.recipes import Recipe
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options
 from vorotool.cli.units import pixel_size_option
+from vorotool.formats.input_formats import NAMES_WITH
 
 if TYPE_CHECKING:
     from vorotool.cli.skeletons import SkeletonProducts
@@ -94,8 +104,8 @@ class Distances(click.ParamType[tuple[float, ...]]):
 
 
 _BEFORE: tuple[Decorator, ...] = (
-    click.argument("inputs", metavar="INPUT...", nargs=-1),
-    shared("output", "format"),
+    inputs_argument(NAMES_WITH["polygons"]),
+    output_options(FORMATS),
     what_option(tuple(FORMATS)),
     click.option(
         "--side",
@@ -205,7 +215,7 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     pictures = sorted(formats & set(_PICTURES))
     if o.layers is not None and not pictures:
         raise click.UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
-    check_picture_options(o, pictures, PICTURE_LAYERS, png_has_width=True)
+    check_picture_options(o, pictures, PICTURE_LAYERS, png_has_width=True, has_page="html" in formats)
 
 
 def _check_centerline(o: SimpleNamespace) -> None:
