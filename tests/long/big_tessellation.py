@@ -22,10 +22,10 @@ MEMORY = 1e9
 """Bytes that are allowed."""
 
 
-def direct(seeds, x, y, side):
+def direct(seeds, tree, x, y, side):
     """Labels of a window by brute force among the seeds that may be near: distances are whole numbers."""
     xs, ys = (k.ravel() for k in np.meshgrid(np.arange(x, x + side), np.arange(y, y + side)))
-    reach = cKDTree(seeds).query([[x + side / 2, y + side / 2]])[0][0] + 2 * side
+    reach = tree.query([x + side / 2, y + side / 2])[0] + 2 * side
     near = np.flatnonzero((np.abs(seeds - [x + side / 2, y + side / 2]) <= reach).all(axis=1))
     squares = (xs[:, None] - seeds[near, 0]) ** 2 + (ys[:, None] - seeds[near, 1]) ** 2
     return (near[squares.argmin(axis=1)] + 1).reshape(side, side)  # the first of equals has the smallest label
@@ -45,7 +45,7 @@ def tessellate(folder, side, options):
 
 def compare(seeds, store, side, windows, rng):
     """Compare windows; the number of pixels."""
-    size = min(64, side)
+    size, tree = min(64, side), cKDTree(seeds)
     labels = zarr.open_array(store, mode="r")
     corners = [(0, 0), (side - size, 0), (0, side - size), (side - size, side - size)]
     columns, rows = (
@@ -55,7 +55,9 @@ def compare(seeds, store, side, windows, rng):
     places = [*corners, *zip(columns.tolist(), rows.tolist(), strict=True)]
     places += rng.integers(0, side - size + 1, (windows, 2)).tolist()
     for x, y in places:
-        np.testing.assert_array_equal(labels[y : y + size, x : x + size], direct(seeds, x, y, size), f"at ({x}, {y})")
+        np.testing.assert_array_equal(
+            labels[y : y + size, x : x + size], direct(seeds, tree, x, y, size), f"at ({x}, {y})"
+        )
     return len(places) * size * size
 
 

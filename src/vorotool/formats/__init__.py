@@ -45,8 +45,8 @@ def read(
     geometry : {"points", "polygons"}, optional
         What must be in a file that is no image; by default its content tells.
     input_format : str, optional
-        csv, node, npy, geojson, wkt, json, poly, png, tiff or pnm (or another usual extension of one of these), where
-        extension and content leave it unclear.
+        csv, node, npy, geojson, wkt, json, poly, png, tiff, pnm or zarr (or another usual extension of one of these),
+        where extension and content leave it unclear.
     columns : str, optional
         ``X,Y[,LABEL]`` of a point list, by name or number from 1.
     page : int, optional
@@ -78,6 +78,7 @@ def read(
     >>> len(read("data/dots.csv"))
     53
     """
+    from vorotool.formats.image_rows import is_zarr, open_rows, read_rows
     from vorotool.formats.images import is_image, read_image
     from vorotool.formats.input_formats import NAMES_WITH, known_input_format
     from vorotool.formats.points import read_points
@@ -90,11 +91,17 @@ def read(
         raise UsageError(f"geometry is {geometry!r}: use points or polygons, or leave it out")
     input_format = known_input_format(input_format, NAMES_WITH[geometry])
     threads = checked_threads(threads)
+    if is_zarr(fspath(path), input_format):
+        rows = open_rows(path, input_format=input_format, page=page)
+        assert rows is not None
+        return read_rows(rows, max_pixels=max_pixels)
     source = read_source(fspath(path))
     if geometry is None and input_format in (None, "json") and says_skeleton(source.data):
         return read_skeleton(source, properties=properties, max_sites=max_sites, note=note)
     is_points = columns is not None and source.data.startswith(NPY_MAGIC)  # the one format that holds either
-    if input_format in ("png", "tiff", "pnm") or (input_format in (None, "npy") and not is_points and is_image(source)):
+    if input_format in ("png", "tiff", "pnm", "zarr") or (
+        input_format in (None, "npy") and not is_points and is_image(source)
+    ):
         return read_image(source, input_format=input_format, page=page, max_pixels=max_pixels)
     has_shapes = geometry == "polygons"
     if geometry is None and columns is None:
