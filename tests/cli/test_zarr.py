@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import tifffile
 
+from peak_memory import peak_memory
 from vorotool.engines.sweep import Tessellator
 from vorotool.engines.tessellate import tessellate
 
@@ -96,6 +97,18 @@ def test_limits_are_known_before(run, tmp_path, seeds, monkeypatch):
     make(run, "b.zarr", "--max-distance", "0")  # compressed there is room
 
 
+def test_memory_is_that_of_a_row_of_chunks(tmp_path):
+    """Of 537 MB of labels, in a process of its own; windows are those of the engine in memory."""
+    xy = np.random.default_rng(2).integers(0, 32768, (20_000, 2))
+    np.save(tmp_path / "seeds.npy", xy)
+    arguments = ["tessellate", "seeds.npy", "--size", "32768x8192", "-o", "a.zarr", "-q"]
+    assert peak_memory(arguments, tmp_path) < 300e6
+    labels = zarr.open_array(tmp_path / "a.zarr", mode="r")
+    for x, y in ((0, 0), (32768 - 200, 8192 - 150), (2000, 450), (16300, 4090)):
+        found = labels[y : y + 150, x : x + 200]
+        np.testing.assert_array_equal(found, tessellate(xy, window=(x, y, 200, 150)).labels)
+
+
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_an_interrupt_leaves_nothing(process, tmp_path, seeds, number, code):
     child = process("tessellate", "seeds.csv", "--size", "40000x400000", "-o", "a.zarr", "--chunk", "2048x64")
@@ -179,9 +192,10 @@ def test_a_store_is_one_input_and_found_in_folders(run, tmp_path, tiles):
 def test_bad_tiles_are_bad_input(run, tmp_path, tiles):
     chunk = tmp_path / "seeds.zarr/c/1/1"
     chunk.write_bytes(chunk.read_bytes()[:9])
+    failed = run("tessellate", "seeds.tif", "-o", "a.svg")
+    assert (failed.code, "too large for a picture" in failed.err) == (2, True)
     for options, code, words in (
         (("-o", "a.zarr"), 3, "seeds.zarr cannot be read as Zarr"),
-        (("-o", "a.svg"), 2, "too large for a picture"),
         (("-o", "seeds.zarr"), 2, "also an input"),
         (("-o", "a.zarr", "--size", "9x9"), 2, "--size is for lists of points"),
         (("-o", "a.zarr", "--page", "2"), 3, "no --page 2"),
