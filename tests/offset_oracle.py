@@ -1,4 +1,4 @@
-"""Offsets by shapely: unions of the buffers of single edges, in which nothing is simplified."""
+"""Offsets by shapely: unions of the buffers of single edges, in which nothing is simplified; and rebuilt shapes."""
 
 import numpy as np
 import shapely
@@ -60,3 +60,21 @@ def check_offsets(made, distances):
 
 FLATTEN = 1e-5
 ROUNDING = 1e-12
+
+
+def check_rebuilt(again, polygons):
+    """Assert that polygons are those of a skeleton, up to a part of their extent, and that none overlaps another."""
+    found = to_shapely(again)
+    closed = shapely.union_all([s for s, line in zip(to_shapely(polygons), polygons.is_line, strict=True) if not line])
+    assert shapely.is_valid(found).all(), [shapely.is_valid_reason(shape) for shape in found]
+    whole = shapely.union_all(found)
+    extent = float(np.ptp(polygons.xy, axis=0).max())
+    allowed = REBUILT * extent * closed.length
+    assert abs(sum(shapely.area(found)) - closed.area) <= allowed
+    assert shapely.symmetric_difference(whole, closed).area <= allowed
+    if not closed.is_empty:
+        apart = shapely.hausdorff_distance(shapely.boundary(whole), shapely.boundary(closed))
+        assert apart <= REBUILT * extent, (apart, extent)
+
+
+REBUILT = 1e-9

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from segment_families import cells_of_a_map, draw, symmetries
+from vorotool.engines.outlines import outlines
 from vorotool.geometry.polygon_conversion import as_polygons
 
 DATA = sorted(path for end in ("json", "geojson") for path in (Path(__file__).parents[1] / "data").glob(f"*.{end}"))
@@ -80,7 +81,27 @@ def partition(rng):
     return cells_of_a_map(rng, int(rng.integers(6, 60)))
 
 
+def straight(rng):
+    """A ring with vertices between its corners, on the edges exactly."""
+    ring = 4.0 * rng.integers(0, 30, (rng.integers(3, 9), 2))
+    following = np.roll(ring, -1, axis=0)
+    return np.stack([ring, (3 * ring + following) / 4, (ring + following) / 2], axis=1).reshape(-1, 2)
+
+
+def mask(rng):
+    """Outlines of random pixels, which hang together at corners."""
+    return outlines(rng.random(rng.integers(2, 14, 2)) < rng.random(), connectivity=int(rng.choice([4, 8])))
+
+
+def labels(rng):
+    """Polygons of a label image: they share edges, and have straight vertices where others end."""
+    image = rng.integers(0, rng.integers(2, 5), rng.integers(2, 14, 2))
+    return outlines(image, mode="labels", connectivity=int(rng.choice([4, 8])))
+
+
 FAMILIES = (star, crossing, fractions, several, with_lines, tiles, holed, valid, partition)
+TOUCHING = (straight, mask, labels)
+"""Polygons with straight vertices, many of which touch."""
 
 
 def under_symmetries(shape):

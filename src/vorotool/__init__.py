@@ -72,6 +72,7 @@ _HOME = {
     "verify_skeleton": "vorotool.engines.skeleton_verification",
     "Offsets": "vorotool.geometry.offsets",
     "offset": "vorotool.engines.offsets",
+    "verify_offsets": "vorotool.engines.offset_verification",
     "rebuild": "vorotool.engines.rebuilding",
     "SkeletonPoints": "vorotool.geometry.skeleton_points",
     "points_along": "vorotool.engines.skeleton_points",

@@ -12,6 +12,7 @@ from vorotool.errors import UsageError
 from vorotool.geometry.label_image import LabelImage
 
 if TYPE_CHECKING:
+    from vorotool.geometry.cells import CellSet
     from vorotool.render.layers import Backdrop, Layer, Page
 
 BAND_ROWS = 256
@@ -157,6 +158,7 @@ def drawing_of(
     layers: Sequence[str] | None = None,
     width: int = 1000,
     y_up: bool | None = None,
+    backdrop: Backdrop | None = None,
 ) -> Drawing:
     """Make the layers of the picture of a value other than a label image.
 
@@ -165,14 +167,16 @@ def drawing_of(
     value : value of the library
         A triangulation, cells, an alpha shape or hull, polygons, a skeleton, points along one, or offset curves.
     what : str, optional
-        Of a triangulation ``edges`` or ``triangles``, of a skeleton ``skeleton`` or ``elements``, of points along one
-        ``points`` or ``transects``.
+        Of a triangulation ``edges`` or ``triangles``, of an alpha shape ``edges`` or ``polygons``, of a skeleton
+        ``skeleton`` or ``elements``, of points along one ``points`` or ``transects``.
     layers : sequence of str, optional
-        Which; by default those of the command line.
+        Which; by default those of `DEFAULT_LAYERS`, over an image without the polygons.
     width : int
         Of the page, in px.
     y_up : bool, optional
         Draw y upwards; by default as the input is drawn.
+    backdrop : Backdrop, optional
+        An image to draw over, whose size the page then has.
 
     Raises
     ------
@@ -185,15 +189,19 @@ def drawing_of(
     >>> [layer.name for layer in drawing_of(delaunay([[0, 0], [4, 0], [0, 3]])).layers]
     ['edges', 'points']
     """
-    for kind, name, draw in _drawings():
+    from vorotool.render.layers import ImagePage
+
+    for kind, name, page_of, layers_of in _drawings():
         if not isinstance(value, kind):
             continue
         own = DEFAULT_LAYERS[name]
-        if (what or next(iter(own))) not in own:
-            raise UsageError(f"what={what!r} is no picture of a {type(value).__name__}: use {' or '.join(own)}")
         chosen = what or next(iter(own))
-        return draw(value, layers or own[chosen], width, y_up)
-    raise UsageError(f"there is no picture of a {type(value).__name__}: write a table or a list of features of it")
+        if chosen not in own:
+            raise UsageError(f"what={what!r} is no picture of a {type(value).__name__}: use {' or '.join(own)}")
+        page = page_of(value, width=width, y_up=y_up) if backdrop is None else ImagePage(backdrop)
+        usual = [layer for layer in own[chosen] if backdrop is None or layer != "polygons"]
+        return Drawing(layers_of(value, page, layers or usual), page)
+    raise UsageError(f"there is no picture of a {type(value).__name__}: write it as a table")
 
 
 DEFAULT_LAYERS: dict[str, dict[str, tuple[str, ...]]] = {
@@ -201,7 +209,7 @@ DEFAULT_LAYERS: dict[str, dict[str, tuple[str, ...]]] = {
     "cells": {"cells": ("cells", "points")},
     "shape": {"edges": ("boundary", "singular", "points"), "polygons": ("polygons",)},
     "hull": {"hull": ("hull", "points")},
-    "polygons": {"polygons": ("polygons",)},
+    "polygons": {"polygons": ("shape",)},
     "skeleton": {"skeleton": ("polygons", "skeleton"), "elements": ("polygons", "elements", "points")},
     "points": {
         "points": ("polygons", "skeleton", "points"),
@@ -212,8 +220,8 @@ DEFAULT_LAYERS: dict[str, dict[str, tuple[str, ...]]] = {
 """Of each kind of values, of what it is drawn as: the first is the default."""
 
 
-def _drawings() -> list[tuple[Any, str, Callable[[Any, Sequence[str], int, bool | None], Drawing]]]:
-    """The types that there are pictures of, their names, and what draws them."""
+def _drawings() -> list[tuple[Any, str, Callable[..., Page], Callable[..., list[Layer]]]]:
+    """The types that there are pictures of, their names, and what makes their pages and layers."""
     from vorotool.geometry.alpha_hull import AlphaHull
     from vorotool.geometry.alpha_shape import AlphaShape
     from vorotool.geometry.cells import CellSet
@@ -223,88 +231,45 @@ def _drawings() -> list[tuple[Any, str, Callable[[Any, Sequence[str], int, bool 
     from vorotool.geometry.skeleton import Skeleton
     from vorotool.geometry.skeleton_points import SkeletonPoints
     from vorotool.geometry.triangulation import Triangulation
+    from vorotool.render.alpha_layers import alpha_layers
+    from vorotool.render.cell_layers import cells_page
+    from vorotool.render.mesh_layers import mesh_layers, mesh_page
+    from vorotool.render.offset_layers import offset_layers, offset_page
+    from vorotool.render.polygon_layers import polygon_page, shape_layers
+    from vorotool.render.skeleton_layers import skeleton_layers, skeleton_page
+    from vorotool.render.skeleton_point_layers import point_page, skeleton_point_layers
 
     return [
-        ((Triangulation, DigitalTriangulation), "mesh", _draw_mesh),
-        (CellSet, "cells", _draw_cells),
-        (AlphaShape, "shape", _draw_shape),
-        (AlphaHull, "hull", _draw_hull),
-        (PolygonSet, "polygons", _draw_polygons),
-        (Skeleton, "skeleton", _draw_skeleton),
-        (SkeletonPoints, "points", _draw_points),
-        (Offsets, "offsets", _draw_offsets),
+        ((Triangulation, DigitalTriangulation), "mesh", mesh_page, mesh_layers),
+        (CellSet, "cells", cells_page, _cell_layers),
+        (AlphaShape, "shape", lambda value, **options: mesh_page(value.family.mesh, **options), alpha_layers),
+        (
+            AlphaHull,
+            "hull",
+            lambda value, **options: mesh_page(value.shape.family.mesh, **options),
+            lambda value, page, layers: alpha_layers(value.shape, page, layers, hull=value),
+        ),
+        (PolygonSet, "polygons", polygon_page, shape_layers),
+        (Skeleton, "skeleton", skeleton_page, skeleton_layers),
+        (SkeletonPoints, "points", point_page, skeleton_point_layers),
+        (Offsets, "offsets", offset_page, offset_layers),
     ]
 
 
-def _draw_mesh(value: Any, layers: Sequence[str], width: int, y_up: bool | None) -> Drawing:
-    from vorotool.render.mesh_layers import mesh_layers, mesh_page
-
-    page = mesh_page(value, width=width, y_up=y_up)
-    return Drawing(mesh_layers(value, page, layers), page)
-
-
-def _draw_cells(value: Any, layers: Sequence[str], width: int, y_up: bool | None) -> Drawing:
+def _cell_layers(cells: CellSet, page: Page, layers: Sequence[str]) -> list[Layer]:
+    """Cells in colours that neighbours never share, which their triangulation tells."""
     from vorotool.engines.cells import cell_colours
     from vorotool.engines.delaunay import delaunay
-    from vorotool.render.cell_layers import cell_lines, cell_polygons, cells_page
+    from vorotool.render.cell_layers import cell_lines, cell_polygons
     from vorotool.render.label_png import checked_layers
     from vorotool.render.layers import Points
 
     wanted = checked_layers(layers, ("cells", "diagram", "points"))
-    page = cells_page(value, width=width, y_up=y_up)
     made: list[Layer] = []
     if "cells" in wanted:
-        made.append(cell_polygons(value, cell_colours(delaunay(value.sites)), page))
+        made.append(cell_polygons(cells, cell_colours(delaunay(cells.sites)), page))
     if "diagram" in wanted:
-        made.append(cell_lines(value, page))
+        made.append(cell_lines(cells, page))
     if "points" in wanted:
-        made.append(Points("points", value.sites, radius=min(max(page.spacing(len(value)) / 12, 0.3), 4.0)))
-    return Drawing(made, page)
-
-
-def _draw_shape(value: Any, layers: Sequence[str], width: int, y_up: bool | None) -> Drawing:
-    from vorotool.render.alpha_layers import alpha_layers
-    from vorotool.render.mesh_layers import mesh_page
-
-    page = mesh_page(value.family.mesh, width=width, y_up=y_up)
-    return Drawing(alpha_layers(value, page, layers), page)
-
-
-def _draw_hull(value: Any, layers: Sequence[str], width: int, y_up: bool | None) -> Drawing:
-    from vorotool.render.alpha_layers import alpha_layers
-    from vorotool.render.mesh_layers import mesh_page
-
-    page = mesh_page(value.shape.family.mesh, width=width, y_up=y_up)
-    return Drawing(alpha_layers(value.shape, page, layers, hull=value), page)
-
-
-def _draw_polygons(value: Any, layers: Sequence[str], width: int, y_up: bool | None) -> Drawing:
-    from vorotool.render.label_png import checked_layers
-    from vorotool.render.palettes import RESULT
-    from vorotool.render.polygon_layers import polygon_layers, polygon_page
-
-    checked_layers(layers, ("polygons",))
-    page = polygon_page(value, width=width, y_up=y_up)
-    return Drawing(polygon_layers(value, 1.5, edge=RESULT), page)
-
-
-def _draw_skeleton(value: Any, layers: Sequence[str], width: int, y_up: bool | None) -> Drawing:
-    from vorotool.render.skeleton_layers import skeleton_layers, skeleton_page
-
-    page = skeleton_page(value, width=width, y_up=y_up)
-    return Drawing(skeleton_layers(value, page, layers), page)
-
-
-def _draw_points(value: Any, layers: Sequence[str], width: int, y_up: bool | None) -> Drawing:
-    from vorotool.render.skeleton_layers import skeleton_page
-    from vorotool.render.skeleton_point_layers import skeleton_point_layers
-
-    page = skeleton_page(value.skeleton, width=width, y_up=y_up)
-    return Drawing(skeleton_point_layers(value, page, layers), page)
-
-
-def _draw_offsets(value: Any, layers: Sequence[str], width: int, y_up: bool | None) -> Drawing:
-    from vorotool.render.offset_layers import offset_layers, offset_page
-
-    page = offset_page(value, width=width, y_up=y_up)
-    return Drawing(offset_layers(value, page, layers), page)
+        made.append(Points("points", cells.sites, radius=min(max(page.spacing(len(cells)) / 12, 0.3), 4.0)))
+    return made

@@ -11,7 +11,7 @@ import pytest
 from PIL import Image
 
 import vorotool
-from vorotool.cli.skeleton_options import FORMATS, LAYERS
+from vorotool.cli.skeleton_options import APPROXIMATE_LAYERS, FORMATS, LAYERS
 from vorotool.render import skeleton_layers
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -43,7 +43,8 @@ def test_every_format_is_written(run, folder, what):
 
 
 def test_layers_are_those_of_the_pictures():
-    assert LAYERS == skeleton_layers.LAYERS
+    assert APPROXIMATE_LAYERS == skeleton_layers.LAYERS
+    assert [layer for layer in APPROXIMATE_LAYERS if layer != "exact"] == list(LAYERS)
 
 
 @pytest.mark.parametrize("side", ["interior", "exterior", "both"])

@@ -61,6 +61,9 @@ class ExactProducts(SkeletonProducts):
         assert self.elements is not None
         return whole_element_diagram(self.elements, frame=self.options.frame, threads=self.options.threads)
 
+    def _shape_diagram(self) -> ShapeDiagram:
+        return self.shapes if self.shapes is not None else super()._shape_diagram()
+
     @property
     def _part(self) -> ShapeDiagram | ElementDiagram:
         part = self.shapes if self.shapes is not None else self.elements

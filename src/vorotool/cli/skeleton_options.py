@@ -28,20 +28,31 @@ if TYPE_CHECKING:
 _TABLES = ("csv", "json", "npz")
 _PICTURES = ("svg", "png")
 FORMATS = {
-    "skeleton": ("json", "csv", "geojson", "npz", "wkt", *_PICTURES, "html"),
+    "skeleton": ("json", "csv", "geojson", "npz", "wkt", "graphml", *_PICTURES, "html"),
     "diagram": ("json", "csv", "geojson", "npz", "wkt", *_PICTURES),
     "elements": (*_TABLES, *_PICTURES),
     "centerline": ("geojson", *_TABLES, "wkt", *_PICTURES),
+    "offset": ("json", "csv", "geojson", "npz", "wkt", *_PICTURES),
+    "shape": ("json", "geojson", "wkt", "poly", *_PICTURES),
+    "points": ("csv", "json", "npz", "geojson", "wkt", *_PICTURES),
+    "transects": ("geojson", "wkt", *_TABLES, *_PICTURES),
     "branches": _TABLES,
     "table": _TABLES,
 }
-LAYERS = ("polygons", "elements", "points", "skeleton", "nodes", "labels")
+LAYERS = ("polygons", "shape", "elements", "offset", "transects", "points", "skeleton", "nodes", "labels")
 """Layers of pictures, from below."""
 
-PICTURE_LAYERS = {"svg": LAYERS, "png": tuple(layer for layer in LAYERS if layer != "labels")}
+APPROXIMATE_LAYERS = ("polygons", "elements", "points", "skeleton", "exact", "nodes", "labels")
+"""Beside approximate skeletons pictures can show exact ones."""
+
+PICTURE_LAYERS = {
+    "svg": APPROXIMATE_LAYERS,
+    "png": tuple(layer for layer in APPROXIMATE_LAYERS if layer != "labels"),
+}
 
 _WITHOUT_DIGITS = frozenset({"npz", "html", *_PICTURES})
-_WITHOUT_CURVES = frozenset({"geojson", "wkt"})
+_WITHOUT_CURVES = frozenset({"geojson", "wkt", "graphml"})
+_CURVED = frozenset({"skeleton", "diagram", "centerline", "offset"})
 
 
 class Length(click.ParamType[float]):
@@ -61,6 +72,25 @@ class Length(click.ParamType[float]):
         if not isfinite(number) or number < 0 or (number == 0 and not self._zero):
             self.fail(f"{value!r} is no length: it must be {'0 or more' if self._zero else 'above 0'}", param, ctx)
         return number
+
+
+class Distances(click.ParamType[tuple[float, ...]]):
+    """Finite numbers other than 0, separated by commas."""
+
+    name = "D[,D...]"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, ...]:
+        """Parse the numbers."""
+        if isinstance(value, tuple):
+            return value
+        try:
+            numbers = tuple(float(part) for part in value.split(","))
+        except ValueError:
+            self.fail(f"{value!r} is no list of distances: give numbers such as -2,5", param, ctx)
+        for number in numbers:
+            if not isfinite(number) or number == 0:
+                self.fail(f"{number:g} is no distance: above 0 is outwards, below 0 inwards", param, ctx)
+        return numbers
 
 
 _BEFORE: tuple[Decorator, ...] = (
@@ -88,12 +118,24 @@ _BEFORE: tuple[Decorator, ...] = (
     ),
     click.option("--to", "end", type=Place(), help="End it at the nearest place."),
 )
-_AFTER: tuple[Decorator, ...] = (
+_READING: tuple[Decorator, ...] = (
+    click.option(
+        "-d",
+        "--distance",
+        type=Distances(),
+        help="Of --what offset: above 0 outwards, below 0 inwards; several separated by commas.",
+    ),
+    click.option(
+        "--every",
+        type=Length(zero=False),
+        metavar="D",
+        help="Of --what points and transects: the step along branches.",
+    ),
     click.option(
         "--flatten",
         type=Length(zero=False),
         metavar="TOLERANCE",
-        help="How far lines of GeoJSON and WKT may be from parabolas; by default 1/4096 of the extent.",
+        help="How far lines may be from curves where a format has none; by default 1/4096 of the extent.",
     ),
     click.option(
         "--simplify",
@@ -108,21 +150,22 @@ _AFTER: tuple[Decorator, ...] = (
         help="Of an image: around pixels (default), or half-way between the centres of pixels.",
     ),
     shared("seeds", "connectivity", "threshold", "invert"),
-    layers_option(LAYERS),
+)
+_AFTER: tuple[Decorator, ...] = (
     shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels"),
     shared("max-sites"),
     pixel_size_option(),
     batch_options(),
     shared("no-clobber", "no-properties", "quiet", "verbose"),
 )
-"""Options before and after a command's own."""
+"""Options before a command's own, after them, and after the layers of pictures."""
 
 
-def skeleton_options(*own: Decorator) -> Decorator:
+def skeleton_options(*own: Decorator, layers: tuple[str, ...] = LAYERS) -> Decorator:
     """Add the options that skeletons have in common, and a command's own among them."""
 
     def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
-        for option in reversed((*_BEFORE, *own, *_AFTER)):
+        for option in reversed((*_BEFORE, *own, *_READING, layers_option(layers), *_AFTER)):
             function = option(function)
         return function
 
@@ -149,8 +192,11 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     formats = {target.fmt for target in targets}
     if o.precision is not None and formats <= _WITHOUT_DIGITS:
         raise click.UsageError("--precision is for numbers in text: use -f json, csv, geojson or wkt, or leave it out")
-    if o.flatten is not None and not formats & _WITHOUT_CURVES:
+    curved = any(target.what in _CURVED and target.fmt in _WITHOUT_CURVES for target in targets)
+    if o.flatten is not None and not curved and "shape" not in o.what:
         raise click.UsageError("--flatten is for formats without curves: use -f geojson or -f wkt, or leave it out")
+    _check_measures(o)
+    _check_shapes(o)
     if o.frame is not None and o.side == "interior" and "diagram" not in o.what:
         raise click.UsageError("--frame cuts what is outside: use --side exterior or both, or leave it out")
     _check_centerline(o)
@@ -167,6 +213,29 @@ def _check_centerline(o: SimpleNamespace) -> None:
         raise click.UsageError("centerlines are inside polygons: use --side interior or both")
     if (o.start is not None or o.end is not None) and "centerline" not in o.what:
         raise click.UsageError("--from and --to are ends of centerlines: use --what centerline, or leave them out")
+
+
+def _check_measures(o: SimpleNamespace) -> None:
+    """Distances and steps are there where they are needed, and only there."""
+    for name, value, users in (("-d", o.distance, {"offset"}), ("--every", o.every, {"points", "transects"})):
+        wanted = users & set(o.what)
+        if wanted and value is None:
+            raise click.UsageError(f"--what {','.join(sorted(wanted))} needs a length: use {name} D")
+        if not wanted and value is not None:
+            what = " or ".join(f"--what {user}" for user in sorted(users))
+            raise click.UsageError(f"{name} is for other results: use {what}, or leave it out")
+
+
+def _check_shapes(o: SimpleNamespace) -> None:
+    """Shapes are rebuilt from what is inside them; offset curves are of the shapes, whatever the skeleton is."""
+    if "shape" in o.what and o.side == "exterior":
+        raise click.UsageError("shapes are rebuilt from inside: use --side interior or both")
+    has_gap = bool(getattr(o, "gap", None))
+    if "shape" in o.what and has_gap:
+        raise click.UsageError("a skeleton with a gap leaves the corners out: use --what shape without --gap")
+    given = {"--side": o.side != "interior", "--prune": o.prune is not None, "--gap": has_gap}
+    for name in (name for name, is_given in given.items() if is_given and set(o.what) == {"offset"}):
+        raise click.UsageError(f"{name} is for skeletons, but offset curves are of the shapes: leave it out")
 
 
 def _read_polygons(run: Run, o: SimpleNamespace, source: str) -> PolygonSet:

@@ -12,7 +12,9 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.cli.derived import Derived
 from vorotool.cli.pruning import CRITERIA, Pruning, chosen_pruning
+from vorotool.cli.results import DERIVED
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
 from vorotool.cli.units import in_units, length_in_units
@@ -22,6 +24,7 @@ from vorotool.geometry.skeleton import EXTERIOR, Skeleton
 from vorotool.pictures import write_layers
 
 if TYPE_CHECKING:
+    from vorotool.engines.skeleton_exact import ShapeDiagram
     from vorotool.geometry.centerline import Centerlines
     from vorotool.render.layers import Page
 
@@ -49,6 +52,12 @@ class SkeletonProducts(ABC):
 
     def __init__(self, options: SimpleNamespace, run: Run) -> None:
         self.options, self.run = options, run
+        self.derived = Derived(options, run, lambda: self.skeleton, self._shape_diagram)
+
+    @property
+    def wants_skeleton(self) -> bool:
+        """Whether a result shows anything of the skeleton: offset curves are of the whole diagram."""
+        return bool(set(self.options.what) != {"offset"})
 
     @cached_property
     def whole(self) -> Skeleton:
@@ -110,13 +119,28 @@ class SkeletonProducts(ABC):
     def graph(self) -> PlanarGraph:
         """The shapes as they were placed."""
 
+    def _shape_diagram(self) -> ShapeDiagram:
+        """The exact diagram of the shapes."""
+        from vorotool.engines.skeleton_exact import diagram_of_graph
+
+        with self.run.phase("diagram"):
+            return diagram_of_graph(self.graph, threads=self.options.threads, progress=self.run.progress("diagram"))
+
     @property
     def _points(self) -> NDArray[np.float64] | None:
         """What pictures show as points, if not the ends of edges."""
         return None
 
+    @property
+    def exact(self) -> Skeleton | None:
+        """What pictures show beside an approximate skeleton."""
+        return None
+
     def verify(self) -> None:
         """Check the diagram and the skeleton, from their arrays alone, and what pruning left of it."""
+        self.derived.verify()
+        if not self.wants_skeleton:
+            return
         self._verify_whole()
         if self.pruning.criterion is not None:
             from vorotool.engines.pruning_verification import verify_pruning
@@ -133,6 +157,9 @@ class SkeletonProducts(ABC):
 
     def check(self, target: Target) -> None:
         """Compute a result, and refuse what cannot be written, before anything is written."""
+        if target.what in DERIVED:
+            self.derived.check(target)
+            return
         value = self._value(target.what)
         if target.fmt == "png":
             from vorotool.render.layers_png import check_picture_size
@@ -152,7 +179,9 @@ class SkeletonProducts(ABC):
         with open_output(
             target.path, binary=target.is_binary, no_clobber=self.options.no_clobber, inputs=inputs
         ) as out:
-            if target.fmt in ("svg", "png"):
+            if target.what in DERIVED:
+                self.derived.write(out, target)
+            elif target.fmt in ("svg", "png"):
                 self._write_picture(out, target)
             elif target.fmt == "html":
                 self._write_html(out)
@@ -218,7 +247,8 @@ class SkeletonProducts(ABC):
         if target.what == "centerline":
             layers = centerline_layers(self.centerlines, page, wanted)
         else:
-            layers = picture_layers(value, page, wanted, what=target.what, points=self._points)
+            exact = self.exact if "exact" in wanted else None
+            layers = picture_layers(value, page, wanted, what=target.what, points=self._points, exact=exact)
         write_layers(out, layers, page, fmt=target.fmt, threads=self.options.threads)
 
     def _layers(self, what: str) -> Sequence[str]:
@@ -229,30 +259,37 @@ class SkeletonProducts(ABC):
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""
-        graph, skeleton = self.graph, self.skeleton
+        graph = self.graph
         assert graph.polygons is not None
         found: dict[str, Any] = {
             "polygons": len(graph.polygons),
             "vertices": len(graph.polygons.xy),
-            "sites": len(skeleton.site_table),
+            "sites": len(graph.points) + len(graph),
             "segments": len(graph),
             "lattice_step": graph.scale,
             "largest_move": graph.largest_move,
             "repairs": graph.repairs,
             **self._diagram_stats(),
+            "side": self.options.side,
+            "threads": self.options.threads,
+        }
+        if self.options.is_mask:
+            found |= {"outline": self.options.outline or "crack", "connectivity": int(self.options.connectivity or 8)}
+        if self.wants_skeleton:
+            found |= self._skeleton_stats(self.skeleton)
+        return found | self.derived.stats()
+
+    def _skeleton_stats(self, skeleton: Skeleton) -> dict[str, Any]:
+        found: dict[str, Any] = {
             "arcs": len(skeleton),
             "parabolas": int(np.count_nonzero(skeleton.is_parabola)),
             "exterior_arcs": int(np.count_nonzero(skeleton.side == EXTERIOR)),
             "branches": int(skeleton.branch[-1]) + 1 if len(skeleton) else 0,
             "nodes": len(skeleton.vertices),
-            "side": self.options.side,
             "prune": self.pruning.stats(),
-            "threads": self.options.threads,
         }
         if skeleton.frame is not None:
             found["frame"] = list(skeleton.frame)
-        if self.options.is_mask:
-            found |= {"outline": self.options.outline or "crack", "connectivity": int(self.options.connectivity or 8)}
         return found | self._more_stats()
 
     @abstractmethod

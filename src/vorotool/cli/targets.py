@@ -25,11 +25,13 @@ EXTENSIONS = {
     ".node": "node",
     ".obj": "obj",
     ".wkt": "wkt",
+    ".poly": "poly",
+    ".graphml": "graphml",
     ".html": "html",
     ".zarr": "zarr",
 }
 FORMATS = tuple(dict.fromkeys(EXTENSIONS.values()))
-TEXT_FORMATS = frozenset({"text", "svg", "csv", "json", "geojson", "edge", "ele", "node", "obj", "wkt", "html"})
+TEXT_FORMATS = frozenset(FORMATS) - {"png", "tiff", "npy", "npz"}
 TRIANGLE_FILES = frozenset({"node", "edge", "ele"})
 _EXTENSION_OF = {"tiff": "tif", "text": "txt"}
 

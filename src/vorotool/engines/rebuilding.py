@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import combinations, pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.engines.disc_cover import Ring, covered_rings
 from vorotool.engines.skeleton_contours import Contours, contours_of
 from vorotool.errors import UsageError
 from vorotool.geometry.circular_arcs import chords_of, middles_of
@@ -29,7 +30,7 @@ def rebuild(skeleton: Skeleton, *, flatten: float | None = None) -> PolygonSet:
     Edges are the common tangents of discs, vertices the common points of discs, both from places and radii of the
     skeleton alone. Where it was pruned the border is the circle of the disc that is left. Without pruning the polygons
     come back as they were used, to some ulp of their extent times radius over edge length where an edge is short beside
-    the discs that touch it.
+    the discs that touch it. An approximate skeleton tells no borders, but discs: the shape is what these cover.
 
     Parameters
     ----------
@@ -57,10 +58,15 @@ def rebuild(skeleton: Skeleton, *, flatten: float | None = None) -> PolygonSet:
     """
     if skeleton.gap:
         raise UsageError(f"a skeleton with a gap of {skeleton.gap:g} leaves the corners out: use one without a gap")
-    contours = contours_of(skeleton, np.flatnonzero(skeleton.side == INTERIOR))
-    xy, point, start = _outline(skeleton, contours, checked_flatten(flatten, skeleton.polygons))
-    rings = _simple_rings(xy, point, start)
-    return _assembled(skeleton, contours, rings)
+    tolerance = checked_flatten(flatten, skeleton.polygons)
+    is_inside = skeleton.side == INTERIOR
+    is_drawn = np.ones(len(skeleton), dtype=bool) if skeleton.error_bound.any() else _is_disc(skeleton)
+    contours = contours_of(skeleton, np.flatnonzero(is_inside & ~is_drawn))
+    rings = _simple_rings(contours, *_outline(skeleton, contours, tolerance))
+    is_seen = skeleton.radius[skeleton.arcs].max(axis=1, initial=0) > _noise(skeleton)
+    return _assembled(
+        skeleton, [*rings, *covered_rings(skeleton, np.flatnonzero(is_inside & is_drawn & is_seen), tolerance)]
+    )
 
 
 # ---- feet ----------------------------------------------------------------------------------------
@@ -76,7 +82,7 @@ def _norm(way: Floats) -> Floats:
 
 @dataclass(frozen=True)
 class _Feet:
-    """Where the discs at the ends of each run touch its site, and by how much an edge magnifies errors of the discs."""
+    """Where the discs at the ends of each run touch its site, and by how much that magnifies errors of the discs."""
 
     first: Floats
     last: Floats
@@ -97,9 +103,13 @@ def _feet(skeleton: Skeleton, contours: Contours) -> _Feet:
     costs = np.stack([*(factor for _, factor in common), follows, leads])
     runs = np.arange(len(is_edge))
     best = np.argmin(costs, axis=0)
-    vertex = choices[best, runs]
+    vertex, factor = choices[best, runs], costs[best, runs]
     edge = is_edge[:, None]
-    return _Feet(np.where(edge, first, vertex), np.where(edge, last, vertex), *factors)
+    return _Feet(
+        np.where(edge, first, vertex),
+        np.where(edge, last, vertex),
+        *(np.where(is_edge, own, factor) for own in factors),
+    )
 
 
 class _Discs:
@@ -132,27 +142,38 @@ def _common_point(a: _Discs, b: _Discs) -> tuple[Floats, Floats]:
     return place, np.divide(a.r * b.r, distance * height, out=factor, where=distance * height > 0)
 
 
+def _noise(skeleton: Skeleton) -> float:
+    """What places of feet may be wrong by."""
+    largest = max(np.abs(skeleton.vertices).max(initial=0), np.abs(skeleton.radius).max(initial=0))
+    return _ULPS * float(np.spacing(largest))
+
+
 # ---- outlines ------------------------------------------------------------------------------------
 def _outline(skeleton: Skeleton, contours: Contours, tolerance: float) -> tuple[Floats, Indices, Indices]:
-    """Vertices of each contour, the point of the polygons that each is, -1 for none, and where contours begin."""
+    """Vertices of each contour, the point of the polygons that each is, -1 for none, and where contours begin.
+
+    A point has one place, the best of all, in all contours that go through it: what touches does not overlap.
+    """
     feet = _feet(skeleton, contours)
     is_edge = skeleton.site_table.kind[contours.site] == EDGE
     node, after = contours.last_node, contours.after
     centre, r = skeleton.vertices[node], skeleton.radius[node]
     start, end = feet.last, feet.first[after]
-    scale = np.spacing(max(np.abs(skeleton.vertices).max(initial=0), np.abs(skeleton.radius).max(initial=0)))
-    noise = _ULPS * scale * (1 + feet.last_factor + feet.first_factor[after])
+    noise = _noise(skeleton) * (1 + feet.last_factor + feet.first_factor[after])
     is_corner = r == 0
     between_edges = is_edge & is_edge[after]
     is_same = ~is_corner & (contours.is_joined | (between_edges & (_norm(end - start) <= noise)))
     is_cap = ~is_corner & ~is_same
     better = (feet.last_factor <= feet.first_factor[after])[:, None]
     single = np.where(is_corner[:, None], centre, np.where(better, start, end))
+    factor = np.where(is_corner, 0, np.minimum(feet.last_factor, feet.first_factor[after]))
     plain = between_edges & ~is_cap
     pieces = [
         # a vertex stands where its run begins; between two edges there is one at a corner, or where they go on
-        _Places(np.flatnonzero(~is_edge), 0, feet.first[~is_edge], contours.point[~is_edge]),
-        _Places(np.flatnonzero(plain), 1, single[plain], contours.shared_point[plain]),
+        _Places(
+            np.flatnonzero(~is_edge), 0, feet.first[~is_edge], contours.point[~is_edge], feet.first_factor[~is_edge]
+        ),
+        _Places(np.flatnonzero(plain), 1, single[plain], contours.shared_point[plain], factor[plain]),
         *_caps(is_cap, is_edge, after, start, end, centre, tolerance),
     ]
     return _in_order(pieces, contours)
@@ -160,12 +181,13 @@ def _outline(skeleton: Skeleton, contours: Contours, tolerance: float) -> tuple[
 
 @dataclass(frozen=True)
 class _Places:
-    """Places at runs: at the beginning (0) or after the end (1 and more) of each."""
+    """Places at runs: at the beginning (rank 0) or after the end (1 and more) of each, and how errors are magnified."""
 
     run: Indices
     rank: Any
     xy: Floats
-    point: Indices
+    point: Any = -1
+    factor: Any = np.inf
 
 
 def _caps(
@@ -191,35 +213,53 @@ def _caps(
     piece = np.repeat(np.arange(len(runs)), np.diff(first))
     kept = (np.arange(len(xy)) > first[piece]) | (rank[piece] == 2) | is_edge[runs[piece]]
     to_edge = is_edge[after[run]]
-    none = np.full(len(xy), -1)
-    return [
-        _Places(runs[piece[kept]], rank[piece[kept]], xy[kept], none[kept]),
-        _Places(run[to_edge], 3, b[to_edge], np.full(int(to_edge.sum()), -1)),
-    ]
+    return [_Places(runs[piece[kept]], rank[piece[kept]], xy[kept]), _Places(run[to_edge], 3, b[to_edge])]
 
 
 def _in_order(pieces: list[_Places], contours: Contours) -> tuple[Floats, Indices, Indices]:
-    run = np.concatenate([piece.run for piece in pieces])
-    rank = np.concatenate([np.broadcast_to(piece.rank, piece.run.shape) for piece in pieces])
+    run, xy = (np.concatenate([getattr(piece, name) for piece in pieces]) for name in ("run", "xy"))
+    rank, point, factor = (
+        np.concatenate([np.broadcast_to(getattr(piece, name), piece.run.shape) for piece in pieces])
+        for name in ("rank", "point", "factor")
+    )
+    known = np.flatnonzero(point >= 0)
+    known = known[np.lexsort((factor[known], point[known]))]
+    _, best, number = np.unique(point[known], return_index=True, return_inverse=True)
+    xy[known] = xy[known[best]][number]
     order = np.lexsort((rank, run))
-    xy, point = (np.concatenate([getattr(piece, name) for piece in pieces])[order] for name in ("xy", "point"))
-    start = np.searchsorted(run[order], contours.start)
-    return xy, point.astype(np.int64), start
+    return xy[order], point[order], np.searchsorted(run[order], contours.start)
 
 
 # ---- rings ---------------------------------------------------------------------------------------
-def _simple_rings(xy: Floats, point: Indices, start: Indices) -> list[tuple[int, Floats]]:
-    """Contour and vertices of each ring: a contour that visits a point twice is cut in two there."""
+def _is_disc(skeleton: Skeleton) -> NDArray[np.bool_]:
+    """(a,) whether each arc is a single place: all that pruning left of a connected part."""
+    source, target = skeleton.vertices[skeleton.arcs].swapaxes(0, 1)
+    found: NDArray[np.bool_] = (source == target).all(axis=1) & (skeleton.degree[skeleton.arcs] == 1).all(axis=1)
+    return found
+
+
+def _simple_rings(contours: Contours, xy: Floats, point: Indices, start: Indices) -> list[Ring]:
+    """Rings of contours: one that visits a point twice is cut in two there."""
+    repeats = _repeats(point, start)
     rings = []
-    for contour, (first, last) in enumerate(zip(start[:-1].tolist(), start[1:].tolist(), strict=True)):
-        names = point[first:last]
-        known = names[names >= 0]
-        if len(np.unique(known)) == len(known):
-            parts = [np.arange(first, last)]
-        else:
-            parts = [np.array(part) + first for part in _cut_at_repetitions(names.tolist())]
-        rings += [(contour, xy[part]) for part in parts if len(part) > 2]
-    return rings
+    for contour, (first, last) in enumerate(pairwise(start.tolist())):
+        parts: list[Any] = [slice(first, last)]
+        if repeats[contour]:
+            parts = [np.array(part) + first for part in _cut_at_repetitions(point[first:last].tolist())]
+        polygon, component = int(contours.polygon[contour]), int(contours.part[contour])
+        rings += [Ring(xy[part], polygon, component) for part in parts]
+    return [ring for ring in rings if len(ring.xy) > 2]
+
+
+def _repeats(point: Indices, start: Indices) -> NDArray[np.bool_]:
+    """(c,) whether each contour visits a point twice."""
+    contour = np.repeat(np.arange(len(start) - 1), np.diff(start))
+    known = np.flatnonzero(point >= 0)
+    known = known[np.lexsort((point[known], contour[known]))]
+    twice = (np.diff(point[known]) == 0) & (np.diff(contour[known]) == 0)
+    found = np.zeros(len(start) - 1, dtype=bool)
+    found[contour[known[1:][twice]]] = True
+    return found
 
 
 def _cut_at_repetitions(names: list[int]) -> list[list[int]]:
@@ -240,28 +280,31 @@ def _cut_at_repetitions(names: list[int]) -> list[list[int]]:
     return [*parts, path]
 
 
-def _twice_area(ring: Floats) -> float:
-    x, y = (ring - ring[0]).T
-    return float((x * np.roll(y, -1) - y * np.roll(x, -1)).sum())
+def _twice_areas(xy: Floats, start: Indices) -> Floats:
+    """(r,) of rings, positive counter-clockwise."""
+    first = np.repeat(xy[start[:-1]], np.diff(start), axis=0)
+    following = np.arange(1, len(xy) + 1)
+    following[start[1:] - 1] = start[:-1]
+    (x, y), (u, v) = (xy - first).T, (xy[following] - first).T
+    areas: Floats = np.add.reduceat(x * v - y * u, start[:-1]) if len(xy) else np.zeros(0)
+    return areas
 
 
-def _assembled(skeleton: Skeleton, contours: Contours, rings: list[tuple[int, Floats]]) -> PolygonSet:
+def _assembled(skeleton: Skeleton, rings: list[Ring]) -> PolygonSet:
     """Polygons of rings: in each connected part of the skeleton one goes counter-clockwise, around the others."""
+    start = np.concatenate([[0], np.cumsum([len(ring.xy) for ring in rings], dtype=np.int64)])
+    is_hole = _twice_areas(np.concatenate([np.empty((0, 2)), *(ring.xy for ring in rings)]), start) < 0
+    part, polygon = (np.array([getattr(ring, name) for ring in rings], dtype=np.int64) for name in ("part", "polygon"))
+    order = np.lexsort((is_hole, part, polygon))
+    rings, is_hole = [rings[k] for k in order.tolist()], is_hole[order]
+    own = polygon[order[~is_hole]].tolist()
     given = skeleton.polygons
-    part = contours.part[[contour for contour, _ in rings]]
-    is_hole = np.array([_twice_area(ring) < 0 for _, ring in rings], dtype=bool)
-    source = contours.polygon[[contour for contour, _ in rings]]
-    order = np.lexsort((is_hole, part, source))
-    source, is_hole = source[order], is_hole[order]
-    number = np.cumsum(~is_hole) - 1
-    own = source[~is_hole].tolist()
-    places = [rings[k][1] for k in order.tolist()]
     assert given.feature is not None
     return PolygonSet(
-        np.concatenate([np.empty((0, 2)), *places]),
-        np.concatenate([[0], np.cumsum([len(ring) for ring in places], dtype=np.int64)]),
+        np.concatenate([np.empty((0, 2)), *(ring.xy for ring in rings)]),
+        np.concatenate([[0], np.cumsum([len(ring.xy) for ring in rings], dtype=np.int64)]),
         np.where(is_hole, HOLE, SHELL),
-        number,
+        np.cumsum(~is_hole) - 1,
         None if given.ids is None else [given.ids[p] for p in own],
         given.feature[own],
         {name: [values[p] for p in own] for name, values in given.properties.items()},

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.engines.skeleton_distances import SitePlaces
 from vorotool.geometry.skeleton import EDGE, Skeleton
 from vorotool.geometry.skeleton_tables import connected_roots
 
@@ -118,7 +119,6 @@ class _HalfEdges:
             np.where(self.is_corner[self.head], own, self.head),
         )
         self.part = connected_roots(np.stack([tail, head], axis=1), len(skeleton.vertices) + len(own))[tail]
-        self.arcs = arcs
 
     def following(self) -> Indices:
         """The half-edge after each: around its head to the first one counter-clockwise, which has the same site.
@@ -135,7 +135,6 @@ class _HalfEdges:
             (self.site[:, None], self.site[:, None]),
             (np.where(is_edge[:, None], none, points), np.where(is_edge[:, None], points, none)),
             (np.where(is_edge[:, None], points, none), np.where(is_edge[:, None], none, points)),
-            (points, points),
         ):
             self._match(following, into, out)
         self._match_by_angle(following)
@@ -146,10 +145,7 @@ class _HalfEdges:
 
         Keys are the columns of a row each; -1 is none.
         """
-        free = np.flatnonzero(following < 0)
-        taken = np.zeros(len(following), dtype=bool)
-        taken[following[following >= 0]] = True
-        open_ = np.flatnonzero(~taken)
+        free, open_ = _unmatched(following)
         wanted, half_edge = _keyed(self.head, into, free)
         offered, partner = _keyed(self.tail, out, open_)
         order = np.argsort(offered, kind="stable")
@@ -163,32 +159,46 @@ class _HalfEdges:
         following[half_edge[first]] = partner[first]
 
     def _match_by_angle(self, following: Indices) -> None:
-        """Join what is left around each node: from the way back counter-clockwise to the next way out."""
-        free = np.flatnonzero(following < 0)
+        """Join what is left around each node: from the way back counter-clockwise to the next way out.
+
+        So do two edges that go on straight, where the disc touches the vertex between them: there is no arc to that.
+        """
+        free, open_ = _unmatched(following)
         if not free.size:
             return
-        taken = np.zeros(len(following), dtype=bool)
-        taken[following[following >= 0]] = True
-        open_ = np.flatnonzero(~taken)
-        angle = self._angles_out()
-        for node in np.unique(self.head[free]).tolist():
-            ways = open_[self.tail[open_] == node]
-            for half_edge in free[self.head[free] == node].tolist():
-                turn = (angle[ways] - angle[half_edge ^ 1]) % (2 * np.pi)
-                turn[turn == 0] = 2 * np.pi
-                following[half_edge] = ways[np.argmin(turn)]
+        half_edge = np.concatenate([open_, free])
+        is_in = np.arange(len(half_edge)) >= len(open_)
+        way_out = np.where(is_in, half_edge ^ 1, half_edge)
+        angle, node = self._angles_out(way_out), self.tail[way_out]
+        order = np.lexsort(
+            (is_in, angle, node)
+        )  # a way back is after the way out at its angle: that is its last choice
+        is_out, node = ~is_in[order], node[order]
+        ways = np.flatnonzero(is_out)
+        begin, end = (np.searchsorted(node[ways], node, side=side) for side in ("left", "right"))
+        next_way = np.cumsum(is_out)
+        chosen = ways[np.where(next_way < end, next_way, begin)[~is_out]]
+        following[half_edge[order[~is_out]]] = half_edge[order[chosen]]
 
-    def _angles_out(self) -> NDArray[np.float64]:
-        """The direction in which each half-edge leaves."""
-        skeleton, arcs = self.skeleton, self.arcs
-        bent = skeleton.is_parabola[arcs, None]
-        source, target = (skeleton.vertices[skeleton.arcs[arcs, end]] for end in (0, 1))
-        ways = [
-            np.where(bent, skeleton.control[arcs], end) - begin for begin, end in ((source, target), (target, source))
-        ]
-        x, y = np.stack(ways, axis=1).reshape(-1, 2).T
-        angles: NDArray[np.float64] = np.arctan2(y, x)
+    def _angles_out(self, half_edges: Indices) -> NDArray[np.float64]:
+        """The direction in which each half-edge leaves: between the ways to the feet, however short the arc is."""
+        places, centre = SitePlaces(self.skeleton), self.skeleton.vertices[self.tail[half_edges]]
+        right, left = (_unit(places.feet(self.site[k], centre) - centre) for k in (half_edges, half_edges ^ 1))
+        x, y = (left - right).T
+        angles: NDArray[np.float64] = np.arctan2(-x, y)
         return angles
+
+
+def _unit(way: NDArray[np.float64]) -> NDArray[np.float64]:
+    units: NDArray[np.float64] = way / np.sqrt((way * way).sum(axis=1, keepdims=True))
+    return units
+
+
+def _unmatched(following: Indices) -> tuple[Indices, Indices]:
+    """Half-edges that have no follower, and those that follow none."""
+    is_taken = np.zeros(len(following), dtype=bool)
+    is_taken[following[following >= 0]] = True
+    return np.flatnonzero(following < 0), np.flatnonzero(~is_taken)
 
 
 def _keyed(node: Indices, keys: NDArray[np.integer], chosen: Indices) -> tuple[Indices, Indices]:

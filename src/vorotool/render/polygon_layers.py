@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from vorotool.geometry.polygons import PolygonSet
+from vorotool.render.label_png import checked_layers
 from vorotool.render.layers import Layer, Lines, Page, Points, Polygons, bounds_of
-from vorotool.render.palettes import FAINT, LIGHT
+from vorotool.render.palettes import FAINT, LIGHT, RESULT
+
+SHAPE_LAYERS = ("shape",)
 
 
 def polygon_layers(
@@ -51,6 +56,28 @@ def polygon_layers(
     pairs = np.stack([first[~last], first[~last] + 1], axis=1).astype(np.int32)
     lines = Lines("lines", polygons.xy, pairs, FAINT, width)
     return [filled, lines] if len(pairs) else [filled]
+
+
+def shape_layers(polygons: PolygonSet, _page: Page, layers: Iterable[str]) -> list[Layer]:
+    """Polygons as what is shown: filled, with outlines.
+
+    Parameters
+    ----------
+    polygons : PolygonSet
+        What to draw.
+    _page : Page
+        Where it will be drawn.
+    layers : iterable of str
+        "shape", if at all.
+
+    Raises
+    ------
+    UsageError
+        If a layer is unknown.
+    """
+    if "shape" not in checked_layers(layers, SHAPE_LAYERS):
+        return []
+    return polygon_layers(polygons, 1.5, name="shape", edge=RESULT)
 
 
 def polygon_page(polygons: PolygonSet, *, width: int = 1000, y_up: bool | None = None) -> Page:

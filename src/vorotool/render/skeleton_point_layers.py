@@ -10,7 +10,7 @@ from vorotool.geometry.skeleton_points import SkeletonPoints
 from vorotool.render.label_png import checked_layers
 from vorotool.render.layers import Layer, Lines, Page, Points
 from vorotool.render.palettes import FAINT, RESULT, SEED
-from vorotool.render.skeleton_layers import skeleton_layers
+from vorotool.render.skeleton_layers import skeleton_layers, skeleton_page
 
 LAYERS = ("polygons", "skeleton", "transects", "points")
 """From below."""
@@ -36,10 +36,8 @@ def skeleton_point_layers(points: SkeletonPoints, page: Page, layers: Iterable[s
     Examples
     --------
     >>> from vorotool import points_along, skeleton_exact
-    >>> from vorotool.render.skeleton_layers import skeleton_page
     >>> points = points_along(skeleton_exact([[0, 0], [4, 0], [0, 3]]), every=1)
-    >>> page = skeleton_page(points.skeleton)
-    >>> [layer.name for layer in skeleton_point_layers(points, page, ["points", "polygons"])]
+    >>> [layer.name for layer in skeleton_point_layers(points, point_page(points), ["points", "polygons"])]
     ['polygons', 'points']
     """
     wanted = checked_layers(layers, LAYERS)
@@ -53,3 +51,8 @@ def skeleton_point_layers(points: SkeletonPoints, page: Page, layers: Iterable[s
     if "points" in wanted:
         made.append(Points("points", points.xy, SEED, min(max(spacing / 16, 0.3), 3.0)))
     return made
+
+
+def point_page(points: SkeletonPoints, *, width: int = 1000, y_up: bool | None = None) -> Page:
+    """The page of a picture: that of the skeleton."""
+    return skeleton_page(points.skeleton, width=width, y_up=y_up)

@@ -1,0 +1,144 @@
+"""What follows from a skeleton and its diagram: offset curves, the shape again, places along it."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from functools import cached_property
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+from vorotool.cli.run import Run
+from vorotool.cli.targets import Target
+from vorotool.cli.units import in_units, length_in_units
+from vorotool.errors import VorotoolWarning
+from vorotool.geometry.offsets import Offsets
+from vorotool.geometry.polygons import PolygonSet
+from vorotool.geometry.skeleton import Skeleton
+from vorotool.geometry.skeleton_points import SkeletonPoints
+from vorotool.pictures import Drawing, drawing_of, write_layers
+
+if TYPE_CHECKING:
+    from vorotool.engines.skeleton_exact import ShapeDiagram
+
+
+class Derived:
+    """Results that are made when they are asked for.
+
+    Parameters
+    ----------
+    options : namespace
+        Options of the command line.
+    run : Run
+        Takes seconds.
+    skeleton, diagram : callable
+        Give the skeleton, and the exact diagram of the shapes.
+    """
+
+    def __init__(
+        self,
+        options: SimpleNamespace,
+        run: Run,
+        skeleton: Callable[[], Skeleton],
+        diagram: Callable[[], ShapeDiagram],
+    ) -> None:
+        self.options, self.run = options, run
+        self._skeleton, self._diagram = skeleton, diagram
+
+    @cached_property
+    def offset(self) -> Offsets:
+        """Curves at all distances."""
+        from vorotool.engines.offsets import offset
+
+        diagram = self._diagram()
+        with self.run.phase("offset"):
+            progress = self.run.progress("offset")
+            made = offset(diagram, self.options.distance, threads=self.options.threads, progress=progress)
+        empty = [f"{distance:g}" for distance in self.options.distance if distance not in made.distance]
+        if empty:
+            warnings.warn(f"nothing is left at the distance {', '.join(empty)}", VorotoolWarning, stacklevel=2)
+        return made
+
+    @cached_property
+    def shape(self) -> PolygonSet:
+        """Rebuilt from the skeleton."""
+        from vorotool.engines.rebuilding import rebuild
+
+        skeleton = self._skeleton()
+        with self.run.phase("rebuild"):
+            return rebuild(skeleton, flatten=self.options.flatten)
+
+    @cached_property
+    def points(self) -> SkeletonPoints:
+        """At equal steps along the branches."""
+        from vorotool.engines.skeleton_points import points_along
+
+        skeleton = self._skeleton()
+        with self.run.phase("points"):
+            return points_along(skeleton, every=self.options.every)
+
+    def value(self, what: str) -> Any:
+        """Of a result by its name."""
+        return getattr(self, {"transects": "points"}.get(what, what))
+
+    def check(self, target: Target) -> None:
+        """Compute a result, and refuse what cannot be written."""
+        from vorotool.render.layers_png import check_picture_size
+
+        self.value(target.what)
+        if target.fmt == "png":
+            check_picture_size(self._drawing(target.what).page, self.options.max_pixels)
+
+    def _drawing(self, what: str) -> Drawing:
+        o = self.options
+        return drawing_of(
+            self.value(what),
+            what=what if what in ("points", "transects") else None,
+            layers=o.layers,
+            width=o.width or 1000,
+            y_up=o.y_up,
+            backdrop=o.backdrop,
+        )
+
+    def write(self, out: BinaryIO, target: Target) -> None:
+        """Write one result, as a picture or in units."""
+        o = self.options
+        if target.fmt in ("svg", "png"):
+            drawing = self._drawing(target.what)
+            write_layers(out, drawing.layers, drawing.page, fmt=target.fmt, threads=o.threads)
+            return
+        value = in_units(o, self.value(target.what))
+        if isinstance(value, PolygonSet):
+            from vorotool.formats.polygons import write_polygons
+
+            write_polygons(out, value, target.fmt, precision=o.precision)
+        elif isinstance(value, Offsets):
+            from vorotool.formats.offset_files import write_offsets
+
+            flatten = length_in_units(o, o.flatten)
+            write_offsets(out, value, target.fmt, flatten=flatten, precision=o.precision, threads=o.threads)
+        else:
+            from vorotool.formats.skeleton_point_files import write_skeleton_points
+
+            write_skeleton_points(out, value, target.fmt, what=target.what, precision=o.precision, threads=o.threads)
+
+    def verify(self) -> None:
+        """Check the offset curves, if there are any."""
+        if "offset" in self.options.what:
+            from vorotool.engines.offset_verification import verify_offsets
+
+            distances = self.options.distance
+            progress = self.run.progress("verifying")
+            verify_offsets(self.offset, distances=distances, threads=self.options.threads, progress=progress)
+
+    def stats(self) -> dict[str, Any]:
+        """Counts of what was made."""
+        made = self.__dict__
+        found: dict[str, Any] = {}
+        if "offset" in made:
+            offsets = self.offset
+            found["distances"] = list(self.options.distance)
+            found |= {"shapes": len(offsets), "rings": len(offsets.ring_kind), "pieces": len(offsets.site)}
+        if "points" in made:
+            found |= {"every": self.options.every, "points": len(self.points)}
+        return found

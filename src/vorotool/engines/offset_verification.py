@@ -1,0 +1,204 @@
+"""Checks offset curves from their arrays: their pieces by distances, their shapes by what they must hold."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.label_arrays import Progress
+from vorotool.engines.planar_graph import planar_graph
+from vorotool.engines.segment_voronoi import segment_voronoi
+from vorotool.engines.skeleton_distances import ULPS, fail, first_wrong
+from vorotool.geometry.circular_arcs import middles_of
+from vorotool.geometry.offsets import Offsets
+from vorotool.geometry.planar_graph import PlanarGraph
+from vorotool.geometry.polygon_conversion import to_shapely
+from vorotool.geometry.polygons import SHELL
+from vorotool.geometry.skeleton import EDGE, ends_of_sites
+
+Floats = NDArray[np.float64]
+
+FLATTEN = 1e-4
+"""Of the distance: how far chords are from arcs where places are told to be in a shape or not; nearer ones are not
+asked."""
+
+
+def verify_offsets(
+    offsets: Offsets, *, distances: Sequence[float] = (), threads: int = 0, progress: Progress = None
+) -> None:
+    """Check offset curves from their arrays alone.
+
+    Each piece begins where the one before it ends; it is at its distance from its own site, and nothing is nearer, at
+    its ends and in its middle; shells turn left and holes right. Each region on either side of the curves has a vertex
+    of the Voronoi diagram or a site in it: those must lie in a shape if, and only if, their distance from the polygons
+    says so, and there whether they are inside.
+
+    Parameters
+    ----------
+    offsets : Offsets
+        What to check.
+    distances : sequence of float
+        What was asked for: there may be nothing at some of them.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done of each step.
+
+    Raises
+    ------
+    VerificationError
+        If something is wrong; the message says what and where.
+
+    Examples
+    --------
+    >>> from vorotool import offset
+    >>> verify_offsets(offset([[0, 0], [4, 0], [4, 2], [0, 2]], [-0.5, 1]))
+    """
+    graph = planar_graph(offsets.polygons, threads=threads, progress=progress)
+    tolerance = _tolerance(offsets)
+    _check_chains(offsets)
+    _check_sites(offsets, tolerance)
+    _check_nothing_nearer(offsets, tolerance, graph, threads, progress)
+    _check_orientation(offsets, tolerance)
+    _check_regions(offsets, {*distances, *offsets.distance.tolist()}, tolerance, graph, threads, progress)
+
+
+def _tolerance(offsets: Offsets) -> float:
+    largest = max((float(np.abs(xy).max()) for xy in (offsets.polygons.xy, offsets.start) if len(xy)), default=1.0)
+    furthest = float(np.abs(offsets.distance).max(initial=0))
+    return ULPS * float(np.spacing(max(largest, furthest)))
+
+
+def _check_chains(offsets: Offsets) -> None:
+    following = np.arange(1, len(offsets.site) + 1)
+    following[offsets.ring_start[1:] - 1] = offsets.ring_start[:-1]
+    at = first_wrong((offsets.end != offsets.start[following]).any(axis=1))
+    if at is not None:
+        fail(f"piece {at} ends at {_place(offsets.end[at])}, but the next one of its ring does not begin there")
+
+
+def _place(xy: Floats) -> tuple[float, float]:
+    x, y = xy.tolist()
+    return (x, y)
+
+
+def _check_sites(offsets: Offsets, tolerance: float) -> None:
+    """Lines are along edges, arcs about vertices, each at its distance."""
+    ends = ends_of_sites(offsets.polygons, offsets.site_table)[offsets.site]
+    at = first_wrong((offsets.site_table.kind[offsets.site] == EDGE) == offsets.is_arc)
+    if at is not None:
+        fail(f"piece {at} is no line along an edge, and no arc about a vertex")
+    at = first_wrong(offsets.is_arc & (offsets.centre != ends[:, 0]).any(axis=1))
+    if at is not None:
+        fail(f"arc {at} is about {_place(offsets.centre[at])}, which is not its vertex")
+    distance = np.abs(offsets.piece_distance)
+    for place in (offsets.start, offsets.end):
+        apart = np.abs(_distances(ends, place) - distance)
+        at = first_wrong(~(apart <= tolerance))
+        if at is not None:
+            fail(f"piece {at} has an end that is {apart[at]:g} too near to its site, or too far from it")
+
+
+def _distances(ends: Floats, place: Floats) -> Floats:
+    """Of places from closed sites."""
+    way = ends[:, 1] - ends[:, 0]
+    square = (way * way).sum(axis=1)
+    share = np.divide(((place - ends[:, 0]) * way).sum(axis=1), square, out=np.zeros(len(way)), where=square > 0)
+    apart = place - ends[:, 0] - np.clip(share, 0, 1)[:, None] * way
+    return np.asarray(np.sqrt((apart * apart).sum(axis=1)))
+
+
+def _middles(offsets: Offsets) -> Floats:
+    arcs = np.flatnonzero(offsets.is_arc)
+    middles = (offsets.start + offsets.end) / 2
+    start, end = offsets.start[arcs], offsets.end[arcs]
+    is_left = (offsets.piece_distance[arcs] > 0)[:, None]
+    first, last = np.where(is_left, start, end), np.where(is_left, end, start)
+    middles[arcs] = middles_of(first, last, offsets.centre[arcs], np.zeros(len(arcs), dtype=bool))
+    return middles
+
+
+def _check_nothing_nearer(
+    offsets: Offsets, tolerance: float, graph: PlanarGraph, threads: int, progress: Progress
+) -> None:
+    places = np.concatenate([offsets.start, _middles(offsets)])
+    distance = np.tile(np.abs(offsets.piece_distance), 2)
+    nearest = _clearances(places, distance, graph, threads, progress)
+    at = first_wrong(nearest < distance - tolerance)
+    if at is not None:
+        piece = at % len(offsets.site)
+        fail(f"piece {piece} at distance {distance[at]}: a site is {nearest[at]} from {_place(places[at])}")
+
+
+def _clearances(places: Floats, reach: Floats, graph: PlanarGraph, threads: int, progress: Progress) -> Floats:
+    """Distances from the nearest site where it is not beyond the reach, else infinity."""
+    if not len(graph):  # a lattice of single points may have no step
+        apart = np.sqrt(((places[:, None] - graph.coordinates()[None]) ** 2).sum(axis=2))
+        return np.asarray(apart.min(axis=1, initial=np.inf))
+    lattice = np.ascontiguousarray((places - graph.origin) / graph.scale)
+    found = _core.clearances(graph.points, graph.segments, lattice, reach / graph.scale, threads, progress)
+    return np.asarray(graph.scale * found)
+
+
+def _check_orientation(offsets: Offsets, tolerance: float) -> None:
+    single = Offsets(
+        offsets.start,
+        offsets.end,
+        offsets.centre,
+        offsets.site,
+        offsets.ring_start,
+        np.arange(len(offsets.ring_start)),
+        offsets.distance[offsets.shape_of_ring],
+        offsets.polygon[offsets.shape_of_ring],
+        offsets.site_table,
+        offsets.polygons,
+    )
+    length = np.add.reduceat(offsets.length, offsets.ring_start[:-1]) if len(single) else np.zeros(0)
+    area = np.where(offsets.ring_kind == SHELL, single.area, -single.area)
+    at = first_wrong(area < -tolerance * length)
+    if at is not None:
+        fail(f"ring {at} turns the wrong way: it has the area {single.area[at]}")
+
+
+def _check_regions(
+    offsets: Offsets,
+    distances: set[float],
+    tolerance: float,
+    graph: PlanarGraph,
+    threads: int,
+    progress: Progress,
+) -> None:
+    import shapely
+
+    diagram = segment_voronoi(graph.points, graph.segments, threads=threads, progress=progress)
+    sites = graph.coordinates()
+    witnesses = np.concatenate([sites, sites[graph.segments].mean(axis=1), graph.coordinates(diagram.vertices)])
+    points = shapely.points(witnesses)
+    closed = to_shapely(offsets.polygons)
+    is_inside = _holding(closed[~offsets.polygons.is_line], points)
+    for distance in sorted(distances):
+        tested = abs(distance) * FLATTEN + tolerance
+        shapes = to_shapely(offsets.flattened(abs(distance) * FLATTEN))[offsets.distance == distance]
+        reach = np.full(len(witnesses), abs(distance) + 2 * tested)
+        clearance = _clearances(witnesses, reach, graph, threads, progress)
+        is_near = clearance <= abs(distance)
+        wanted = is_inside | is_near if distance > 0 else is_inside & ~is_near
+        clear = np.abs(clearance - abs(distance)) > 2 * tested
+        at = first_wrong(clear & (_holding(shapes, points) != wanted))
+        if at is not None:
+            how = "is in no shape" if wanted[at] else "is in a shape"
+            fail(f"{_place(witnesses[at])}, {clearance[at]} from the polygons, {how} at distance {distance}")
+
+
+def _holding(shapes: Any, points: Any) -> NDArray[np.bool_]:
+    """Whether each point lies in any of some polygons."""
+    import shapely
+
+    held = np.zeros(len(points), dtype=bool)
+    if len(shapes):
+        held[shapely.STRtree(shapes).query(points, predicate="intersects")[0]] = True
+    return held
