@@ -62,6 +62,12 @@ def test_pages(tmp_path):
         _ = open_rows(tmp_path / "a.tif").shape
 
 
+def test_what_is_written_is_read(tmp_path):
+    image = vorotool.tessellate([[3, 4], [30, 20]], shape=(40, 3000))
+    vorotool.write(image, tmp_path / "a.zarr")
+    np.testing.assert_array_equal(vorotool.read(tmp_path / "a.zarr").values, image.labels)
+
+
 def test_what_is_read_otherwise(tmp_path):
     tifffile.imwrite(tmp_path / "colour.tif", np.zeros((5, 5, 3), np.uint8))
     (tmp_path / "dots.csv").write_text("1,2\n")

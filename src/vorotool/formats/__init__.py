@@ -281,6 +281,11 @@ def _write_image(image: LabelImage, path: str, fmt: Any, threads: int) -> None:
     from vorotool.formats.label_images import write_label_image
     from vorotool.formats.outputs import open_output
 
+    if fmt == "zarr":
+        from vorotool.formats.zarr_arrays import write_zarr
+
+        write_zarr(path, image.labels, threads=threads)
+        return
     if fmt == "svg":
         raise UsageError("an SVG is a picture: write the labels as PNG or NPY, and draw them with vorotool draw")
     with open_output(path, binary=fmt != "text") as out:
