@@ -55,6 +55,7 @@ bench: build ## measure beside the peers, in one run
 	$(RUN) tests/benchmarks/alphashape.py
 	$(RUN) tests/benchmarks/mesh_files.py
 	$(RUN) tests/benchmarks/skeleton_exact.py
+	$(RUN) tests/benchmarks/skeleton_approx.py
 	$(RUN) tests/benchmarks/masks.py
 	$(RUN) tests/benchmarks/segment_voronoi.py
 	$(RUN) tests/benchmarks/batch.py

@@ -8,8 +8,11 @@ FIGURE_9_STEPS := 20 15 10 5
 GALLERY_PICTURES := letters-all.svg letters.svg letters-angle.svg vessels.png vessels.csv river.svg silhouettes.svg \
                     silhouettes-chord.svg silhouettes.csv slider.html lakes.svg cells.svg outside.svg alpha.svg
 
-.PHONY: figures gallery figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c figure-05 figure-06 figure-07 figure-08 figure-09 figure-10 figure-11 figure-lakes table-1
-figures: figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c figure-05 figure-06 figure-07 figure-08 figure-09 figure-10 figure-11 figure-lakes table-1 gallery ## draw the figures and tables of the paper, and the gallery, into build/figures
+NAMES := figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c \
+         figure-05 figure-06 figure-07 figure-08 figure-09 figure-10 figure-11 figure-lakes table-1 error-vs-h gallery
+
+.PHONY: figures $(NAMES)
+figures: $(NAMES) ## draw the figures and tables of the paper, and the gallery, into build/figures
 	@echo "figures are in $(FIGURES):" && ls $(FIGURES)
 figure-01: $(FIGURES)/figure-01.svg
 figure-02: $(FIGURES)/figure-02.svg
@@ -30,6 +33,7 @@ figure-11: $(foreach part,a b c d,$(FIGURES)/figure-11$(part).svg)
 figure-lakes: $(FIGURES)/figure-lakes.png
 table-1: $(FIGURES)/table-1.md
 gallery: $(addprefix $(FIGURES)/gallery-,$(GALLERY_PICTURES)) ## draw the pictures of docs/gallery.md
+error-vs-h: $(FIGURES)/error-vs-h.md
 
 $(FIGURES) $(GALLERY):
 	mkdir -p $@
@@ -185,3 +189,7 @@ $(FIGURES)/gallery-outside.svg: data/blobs.png $(BUILD)/.installed | $(FIGURES)
 # Purpose: the skeleton of the alpha shape of a dot pattern.
 $(FIGURES)/gallery-alpha.svg: data/dot-pattern.csv $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) alphashape $< -r 10 --what polygons -f geojson -q -o - | $(VOROTOOL) skeleton-exact - --prune scale=1.2 -q -o $@
+# Purpose: the errors of section 3.1 against the step, measured and certified, beside the paper's estimates.
+$(FIGURES)/error-vs-h.md: data/shape.json data/two-shapes.json data/two-segments.wkt docs/error_vs_h.py $(BUILD)/.installed | $(FIGURES)
+	$(RUN) docs/error_vs_h.py $(FIGURES)/error-vs-h.svg > $@
+	cat $@
