@@ -58,7 +58,7 @@ def offset(
     InputError
         If a coordinate is not finite, or `strict` and something would be repaired.
     UsageError
-        If there is no distance, or one is 0, not finite, or beyond all proportion to the shapes.
+        If there is no distance, or one is 0, not finite, there twice, or beyond all proportion to the shapes.
     LimitError
         If there are too many vertices.
 
@@ -88,6 +88,9 @@ def checked_distances(distances: float | Sequence[float]) -> list[float]:
     if wrong.size:
         raise UsageError(f"a distance is {wrong[0]:g}: use finite ones, above 0 outwards, below 0 inwards")
     found: list[float] = wanted.tolist()
+    repeated = next((one for one in found if found.count(one) > 1), None)
+    if repeated is not None:
+        raise UsageError(f"the distance {repeated:g} is there {found.count(repeated)} times: give each one once")
     return found
 
 
