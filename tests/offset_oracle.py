@@ -1,5 +1,7 @@
 """Offsets by shapely: unions of the buffers of single edges, in which nothing is simplified; and rebuilt shapes."""
 
+import re
+
 import numpy as np
 import shapely
 
@@ -23,6 +25,12 @@ def edges_of(polygons):
     return found
 
 
+def closed_shapes(polygons):
+    """Polygons, valid ones: holes may overlap."""
+    found = np.array(to_shapely(polygons), dtype=object)[~polygons.is_line]
+    return shapely.make_valid(found, method="structure", keep_collapsed=False)
+
+
 def near_parts(polygons, distance):
     """Two unions of what is within a distance of edges, the smaller one first: the true one is between them.
 
@@ -42,11 +50,13 @@ def check_offsets(made, distances):
     """
     assert set(made.distance.tolist()) <= set(distances)
     polygons = made.polygons
-    closed = [shape for shape, line in zip(to_shapely(polygons), polygons.is_line, strict=True) if not line]
+    closed = closed_shapes(polygons)
     for distance in distances:
         flat = made.flattened(abs(distance) * FLATTEN)
         shapes = np.array(to_shapely(flat), dtype=object)[made.distance == distance]
-        assert shapely.is_valid(shapes).all(), (distance, [shapely.is_valid_reason(shape) for shape in shapes])
+        wrong = [reason for reason in map(shapely.is_valid_reason, shapes) if not TOUCHES_ITSELF.match(reason)]
+        assert not wrong, (distance, wrong)
+        shapes = shapely.make_valid(shapes)
         extent = float(np.ptp(polygons.xy, axis=0).max()) + 2 * max(distance, 0)
         near = near_parts(polygons, abs(distance))
         if distance > 0:
@@ -59,7 +69,8 @@ def check_offsets(made, distances):
 
 def _check_areas(shapes, areas, distance, extent, least, most):
     whole, length = shapely.union_all(shapes), sum(shapely.length(shapes))
-    missing, excess = shapely.difference(least, whole).area, shapely.difference(whole, most).area
+    grid = GRID * extent  # without, nearly equal polygons may have all of one for their difference
+    missing, excess = (shapely.difference(*two, grid_size=grid).area for two in ((least, whole), (whole, most)))
     allowed = FLATTEN * abs(distance) * length + ROUNDING * extent * (extent + length)
     assert missing <= allowed, (distance, missing, allowed)
     assert excess <= allowed, (distance, excess, allowed)
@@ -82,14 +93,17 @@ def _check_places(shapes, distance, extent, near, wider):
     assert (is_right | shapely.dwithin(border, on_near, chord)).all(), distance
 
 
+TOUCHES_ITSELF = re.compile("Valid Geometry|Ring Self-intersection")
+"""What may be said of a shape: at a tie a ring may touch itself in a place."""
 FLATTEN = 1e-5
 ROUNDING = 1e-12
+GRID = 1e-13
 
 
 def check_rebuilt(again, polygons):
     """Assert that polygons are those of a skeleton, up to a part of their extent, and that none overlaps another."""
     found = to_shapely(again)
-    closed = shapely.union_all([s for s, line in zip(to_shapely(polygons), polygons.is_line, strict=True) if not line])
+    closed = shapely.union_all(closed_shapes(polygons))
     assert shapely.is_valid(found).all(), [shapely.is_valid_reason(shape) for shape in found]
     whole = shapely.union_all(found)
     extent = float(np.ptp(polygons.xy, axis=0).max())

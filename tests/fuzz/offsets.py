@@ -9,6 +9,7 @@ import warnings
 from pathlib import Path
 
 import numpy as np
+import shapely
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from offset_oracle import check_offsets, check_rebuilt
@@ -42,7 +43,7 @@ def failure(shape: object, random: np.random.Generator) -> str | None:
         check_offsets(made, distances)
         skeleton = skeleton_exact(shape, threads=1)
         check_rebuilt(rebuild(skeleton), skeleton.polygons)
-    except (VorotoolError, AssertionError) as error:
+    except (VorotoolError, AssertionError, shapely.GEOSException) as error:
         return f"{type(error).__name__} at {distances}: {error}"
     return None
 

@@ -33,7 +33,8 @@ def offset(
 
     Whether the curve passes on this or the other side of a vertex of the diagram is told by the vertex' radius, which
     is right to some ulp, and is the same for all that meet there: rings are closed and nested whatever the rounding. A
-    disc of just the distance does not fit: at a tie what is no farther than the distance is one.
+    disc of just the distance does not fit: at a tie what is no farther than the distance is one, and rounding may let a
+    ring touch itself.
 
     Parameters
     ----------
