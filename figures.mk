@@ -3,9 +3,10 @@
 VOROTOOL := $(BIN)/vorotool
 FIGURES  := $(BUILD)/figures
 TABLE_1_SIZES := 64 128 256 512
+FIGURE_9_STEPS := 20 15 10 5
 
-.PHONY: figures figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c figure-10 figure-11 figure-lakes table-1
-figures: figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c figure-10 figure-11 figure-lakes table-1 ## draw the figures and tables of the paper into build/figures
+.PHONY: figures figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c figure-05 figure-06 figure-07 figure-08 figure-09 figure-10 figure-11 figure-lakes table-1
+figures: figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c figure-05 figure-06 figure-07 figure-08 figure-09 figure-10 figure-11 figure-lakes table-1 ## draw the figures and tables of the paper into build/figures
 	@echo "figures are in $(FIGURES):" && ls $(FIGURES)
 figure-01: $(FIGURES)/figure-01.svg
 figure-02: $(FIGURES)/figure-02.svg
@@ -16,6 +17,11 @@ figure-03d: $(FIGURES)/figure-03d.svg
 figure-04a: $(FIGURES)/figure-04a.svg
 figure-04b: $(FIGURES)/figure-04b.svg
 figure-04c: $(FIGURES)/figure-04c.svg
+figure-05: $(foreach part,a b c d,$(FIGURES)/figure-05$(part).svg)
+figure-06: $(FIGURES)/figure-06.svg
+figure-07: $(FIGURES)/figure-07.svg
+figure-08: $(FIGURES)/figure-08.svg
+figure-09: $(foreach step,$(FIGURE_9_STEPS),$(FIGURES)/figure-09-$(step).svg)
 figure-10: $(FIGURES)/figure-10.svg
 figure-11: $(foreach part,a b c d,$(FIGURES)/figure-11$(part).svg)
 figure-lakes: $(FIGURES)/figure-lakes.png
@@ -59,6 +65,32 @@ $(FIGURES)/figure-04b.svg: data/dot-pattern.csv $(BUILD)/.installed | $(FIGURES)
 # and its alpha shape for r = -1/α = 10.
 $(FIGURES)/figure-04c.svg: data/dot-pattern.csv $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) alphashape $< -r 10 -o $@
+
+# Purpose: line segments, their samples (the step is 2), the Voronoi diagram of these, and what is left of it.
+$(FIGURES)/figure-05a.svg: data/segments.wkt $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-approx $< --step 2 --side exterior --what elements --layers polygons -o $@
+$(FIGURES)/figure-05b.svg: data/segments.wkt $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-approx $< --step 2 --side exterior --what elements --layers points -o $@
+$(FIGURES)/figure-05c.svg: data/segments.wkt $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-approx $< --step 2 --what diagram --layers points,skeleton -o $@
+$(FIGURES)/figure-05d.svg: data/segments.wkt $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-approx $< --step 2 --side exterior -o $@
+
+# Purpose: the bisector of two line segments, of straight lines, parabolas and half lines.
+$(FIGURES)/figure-06.svg: data/two-segments.wkt $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --side exterior -o $@
+
+# Purpose: the bisector of a point and a segment (broken), and the Voronoi diagram of samples.
+$(FIGURES)/figure-07.svg: data/point-and-segment.json $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-approx $< --step 20 --side exterior --what diagram --layers elements,points,skeleton,exact --y-up -o $@
+
+# Purpose: the straight bisector of two segments (broken), and the Voronoi diagram of samples.
+$(FIGURES)/figure-08.svg: data/two-segments.wkt $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-approx $< --step 20 --side exterior --what diagram --layers elements,points,skeleton,exact -o $@
+
+# Purpose: the approximate bisector of the same segments for several steps, and the exact one (broken).
+$(FIGURES)/figure-09-%.svg: data/two-segments.wkt $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-approx $< --step $* --side exterior --layers polygons,points,skeleton,exact -o $@
 
 # Purpose: the elements of a polygonal shape, one label for an edge and two for a vertex.
 $(FIGURES)/figure-10.svg: data/shape.json $(BUILD)/.installed | $(FIGURES)

@@ -10,6 +10,10 @@ from vorotool import critical_values, prune
 from vorotool.geometry.skeleton import EDGE
 
 SAMPLES = 6
+TOLERANCE = 1e-7
+"""Of the extent: how far flattened arcs may be from what they are."""
+SHORT = 2.0**-44
+"""Of the largest coordinate: within 256 ulp."""
 
 
 def hangs(node, edge, edges, around, anchored):
@@ -86,15 +90,22 @@ class Sampled:
         return float(np.degrees(np.arctan2(abs(a[0] * b[1] - a[1] * b[0]), a @ b))), float(chord)
 
     def widest(self, arc):
-        """Where the angle is largest inside an arc, by search: it has one peak at most."""
-        if (self.skeleton.site_table.kind[self.skeleton.sites[arc]] == EDGE).all():
+        """Where both feet are opposite, if that is inside an arc: half-way between the sites, beside a vertex."""
+        s = self.skeleton
+        pair = s.sites[arc]
+        vertices = [site for site in pair.tolist() if s.site_table.kind[site] != EDGE]
+        if not vertices:
             return 0.5
-        low, high = 0.01, 0.99
-        for _ in range(40):
-            third = (high - low) / 3
-            less = self.angle_and_chord(arc, low + third)[0] < self.angle_and_chord(arc, high - third)[0]
-            low, high = (low + third, high) if less else (low, high - third)
-        return low
+        vertex = s.site_ends[vertices[0], 0]
+        (a, b), (source, target) = s.site_ends[pair.sum() - vertices[0]], s.vertices[s.arcs[arc]]
+        way = np.array([vertex[1] - a[1], a[0] - vertex[0]])  # across the two vertices
+        foot = a
+        if len(vertices) == 1:
+            way = b - a
+            foot = a + (vertex - a) @ way / (way @ way) * way
+        along = (target - source) @ way
+        u = ((vertex + foot) / 2 - source) @ way / along if along else 0.5
+        return float(u) if 0 < u < 1 else 0.5
 
     def peeled(self, which, threshold):
         """Segments that go, leaf by leaf, while the angle (0) or the chord (1) is below the threshold."""
@@ -200,7 +211,9 @@ def arcs_left(skeleton, left, tolerance):
 def disagreement(skeleton, rng):
     """What the library prunes otherwise than brute force, in words; None if nothing."""
     sampled = Sampled(skeleton)
-    tolerance = 1e-7 * float(np.ptp(skeleton.polygons.xy, axis=0).max())
+    tolerance = TOLERANCE * float(np.ptp(skeleton.polygons.xy, axis=0).max())
+    place = np.array(sampled.place)
+    size = np.hypot(*(np.diff(place[np.array(sampled.segments)], axis=1)[:, 0].T))
     for which, criterion in enumerate(("angle", "chord")):
         for threshold in thresholds(critical_values(skeleton, criterion), rng):
             gone = sampled.peeled(which, threshold)
@@ -209,6 +222,8 @@ def disagreement(skeleton, rng):
                 low, high = sorted(end[which] for end in seen)
                 if low * (1 - 1e-5) < threshold <= high * (1 + 1e-5):
                     continue  # the cut is in this segment
+                if size[k] <= 4 * tolerance:
+                    continue  # both its ends are as near to the cut as its middle
                 distance = shapely.distance(left[sampled.arc[k]], shapely.Point(sampled.middle[k]))
                 if (distance <= tolerance) == (k in gone):
                     return (
@@ -218,7 +233,7 @@ def disagreement(skeleton, rng):
     for threshold in thresholds(values, rng):
         gone = sampled.in_enlarged_discs(threshold)
         arcs = {sampled.arc[k] for k in gone} - {sampled.arc[k] for k in set(range(len(sampled.arc))) - gone}
-        wrong = differing(arcs, values, threshold, 1e-7)
+        wrong = differing(arcs, values, threshold, 1e-7, skeleton)
         if wrong:
             return f"scale {threshold}: arcs {wrong}"
     for criterion in ("length", "ratio"):
@@ -227,15 +242,19 @@ def disagreement(skeleton, rng):
             arcs = in_short_pieces(skeleton, threshold, criterion == "ratio")
             if any(values.ends[arc].max() < threshold for arc in values.kept_arc):
                 arcs |= {k for k in range(len(skeleton)) if values.most[k] < threshold}  # a whole component
-            wrong = differing(arcs, values, threshold, 1e-9)
+            wrong = differing(arcs, values, threshold, 1e-9, skeleton)
             if wrong:
                 return f"{criterion} {threshold}: arcs {wrong}"
     return None
 
 
-def differing(arcs, values, threshold, tolerance):
-    """Arcs that only one of the two removes; a kept place is on an arc that is removed but for it."""
+def differing(arcs, values, threshold, tolerance, skeleton):
+    """Arcs that only one of the two removes; a kept place is on an arc that is removed but for it.
+
+    Of arcs as short as rounding nothing is told.
+    """
     removed = set(np.flatnonzero((values.ends < threshold).any(axis=1)).tolist())
     close = set(np.flatnonzero((np.abs(values.ends / threshold - 1) < tolerance).any(axis=1)).tolist())
     kept = set(values.kept_arc.tolist())
-    return (arcs ^ removed) - close - kept
+    short = set(np.flatnonzero(skeleton.length <= SHORT * np.abs(skeleton.vertices).max()).tolist())
+    return (arcs ^ removed) - close - kept - short

@@ -9,9 +9,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/large_array.hpp"
 #include "core/segment_voronoi.hpp"
-#include "core/voronoi_extraction.hpp"
 #include "interrupts.hpp"
 
 namespace vorotool::bindings {
@@ -19,11 +17,9 @@ namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using core::LargeArray;
 using core::LatticePoint;
 using core::Monitor;
 using core::SegmentVoronoi;
-using core::VoronoiExtraction;
 using Rows = Matrix<const std::int32_t>;
 
 std::span<const LatticePoint> as_points(const Rows& array) {
@@ -50,21 +46,15 @@ void make_diagram(SegmentVoronoi* self, const Rows& points, const Rows& segments
 }
 
 // Vertices, radii, where their sites begin, their sites, edges, and the sites of these.
-nb::tuple arrays_of(const SegmentVoronoi& diagram, unsigned threads, nb::handle progress) {
-  const VoronoiExtraction extraction = run_interruptible(progress, [&](const Monitor& monitor) {
-    return VoronoiExtraction(diagram.sites(), diagram.records(), diagram.given(), threads, monitor);
-  });
-  const std::size_t vertices = extraction.vertex_count(), ring = extraction.ring_size(),
-                    edges = extraction.edge_count();
-  LargeArray<double> centres(2 * vertices), radius(vertices);
-  LargeArray<std::int32_t> start(vertices + 1), sites(ring), ends(2 * edges), sides(2 * edges);
-  run_interruptible(progress, [&](const Monitor& monitor) {
-    extraction.write({centres.data(), radius.data(), start.data(), sites.data(), ends.data(), sides.data()},
-                     threads, monitor);
-  });
-  return nb::make_tuple(to_numpy(std::move(centres), {vertices, 2}), to_numpy(std::move(radius), {vertices}),
-                        to_numpy(std::move(start), {vertices + 1}), to_numpy(std::move(sites), {ring}),
-                        to_numpy(std::move(ends), {edges, 2}), to_numpy(std::move(sides), {edges, 2}));
+nb::tuple take_arrays(SegmentVoronoi& diagram, unsigned threads, nb::handle progress) {
+  core::DiagramArrays made = run_interruptible(
+      progress, [&](const Monitor& monitor) { return diagram.take_arrays(threads, monitor); });
+  const std::size_t vertices = made.radius.size(), ring = made.vertex_sites.size(),
+                    edges = made.edges.size() / 2;
+  return nb::make_tuple(
+      to_numpy(std::move(made.vertices), {vertices, 2}), to_numpy(std::move(made.radius), {vertices}),
+      to_numpy(std::move(made.vertex_start), {vertices + 1}), to_numpy(std::move(made.vertex_sites), {ring}),
+      to_numpy(std::move(made.edges), {edges, 2}), to_numpy(std::move(made.edge_sites), {edges, 2}));
 }
 
 nb::dict counts_of(const SegmentVoronoi& diagram) {
@@ -85,7 +75,7 @@ void bind_segment_voronoi(nb::module_& module) {
       .def("__init__", &make_diagram, "points"_a.noconvert(), "segments"_a.noconvert(), "threads"_a,
            "progress"_a.none())
       .def_prop_ro("counts", &counts_of)
-      .def("arrays", &arrays_of, "threads"_a, "progress"_a.none());
+      .def("take_arrays", &take_arrays, "threads"_a, "progress"_a.none());
 }
 
 }  // namespace vorotool::bindings

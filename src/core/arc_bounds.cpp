@@ -16,14 +16,22 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double node_error = 0x1p-21;  // nodes are rounded to doubles below 2^31
-constexpr int most_halvings = 6;
-constexpr double most_parts = 16;  // of a piece at a time
+constexpr int most_halvings = 48;
+constexpr std::size_t few_edges = 12, many_edges = 64;  // near a disc: more is another case
+constexpr double most_parts = 16;                       // of a piece at a time
 
 double distance(const Place& p, const Place& q) {
   const double x = p[0] - q[0], y = p[1] - q[1];
   return std::sqrt(x * x + y * y);
 }
 Place place_of(const Point& p) { return {p.x, p.y}; }
+
+// Of a place from the segment between two others.
+double closed_distance(const Place& a, const Place& b, const Place& p) {
+  const double x = b[0] - a[0], y = b[1] - a[1], square = x * x + y * y;
+  const double t = square > 0 ? std::clamp(((p[0] - a[0]) * x + (p[1] - a[1]) * y) / square, 0.0, 1.0) : 0;
+  return distance(p, {a[0] + t * x, a[1] + t * y});
+}
 
 double power_above(double value) {
   int exponent = 0;
@@ -38,7 +46,11 @@ double rounded_up(double value) { return static_cast<float>(value * (1 + 0x1p-22
 class Bounder {
  public:
   Bounder(const SeedDiagram& diagram, std::span<const NearEdge> items, const SiteHierarchy& hierarchy)
-      : diagram_(diagram), items_(items), hierarchy_(hierarchy), near_(items, hierarchy) {}
+      : diagram_(diagram),
+        items_(items),
+        hierarchy_(hierarchy),
+        near_(items, hierarchy, few_edges),
+        nearest_(items, hierarchy, many_edges) {}
 
   const ArcBound& operator()(const BoundedArc& arc) {
     arc_ = &arc;
@@ -46,6 +58,7 @@ class Bounder {
     found_.error = node_error;  // all there is where the seeds are on one line: they are the ends of edges
     if (arc.side < 0) return found_;
     set_seeds();
+    origin_ = place_of(seed(arc.seed));
     most_ = -1;
     found_.error += arc.corner < 0 ? bound(arc.place[0], arc.place[1], 0) : bound_from_corner();
     return found_;
@@ -101,20 +114,70 @@ class Bounder {
     reach_ = power_above(longest / 4);
   }
 
+  // How far a place is from the seeds, or from the corner that the arc leads to.
+  double radius(const Place& p) const { return distance(p, origin_); }
+
+  // A disc about a place that holds what counts besides the nearest edges: those near to where these are
+  // nearest (core/axis_bound.hpp). Discs about places on the arc are within those about its ends: those
+  // through two seeds, and, squared, larger by the same; of a line from a corner the one about its target
+  // holds all.
+  double wide_radius(const Place& p) const {
+    const double own = radius(p);
+    return arc_->corner < 0 ? rounded_up(std::sqrt(own * own + reach_ * reach_)) : own + reach_;
+  }
+
   double bound(const Place& a, const Place& b, int halvings) {
-    const auto wide_radius = [&](const Place& p) {
-      const double radius = distance(p, place_of(seeds_[0].place));
-      return rounded_up(std::sqrt(radius * radius + reach_ * reach_));
-    };
-    const auto near = near_.find({{a, b}, {wide_radius(a), wide_radius(b)}});
-    if (near) {
+    if (const auto near = near_.find({{a, b}, {wide_radius(a), wide_radius(b)}})) {
       note_radius(a, b, *near);
-      return noted(axis_(a, b, seeds_, *near, reach_), *near);
+      return noted(axis_(a, b, seeds(), *near, reach_, AxisBound::clearing_among(*near)), *near);
     }
-    if (halvings == most_halvings) return noted(crowded_bound(a, b), {});
+    if (const auto nearest = nearest_.find({{a, b}, label_radii(a, b)})) {
+      note_radius(a, b, *nearest);
+      return noted(axis_(a, b, seeds(), *nearest, reach_, local_clearing()), *nearest);
+    }
+    if (halvings == most_halvings || (nearest_.is_crowded(0) && nearest_.is_crowded(1))) {
+      return noted(crowded_bound(a, b), {});
+    }
     const Place middle{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
     const double first = bound(a, middle, halvings + 1);
     return std::max(first, bound(middle, b, halvings + 1));
+  }
+
+  std::span<const ArcSeed> seeds() const {
+    return arc_->corner < 0 ? std::span<const ArcSeed>(seeds_) : std::span<const ArcSeed>();
+  }
+
+  // Discs that all edges meet which are nearest somewhere between: no farther than an edge L of the arc. The
+  // distance of L is at most its chord; that of another edge, at least m at the ends, is convex and bends by
+  // at most 1 / (m - l) over a length l, so that it is below its chord by no more than l^2 / (8 (m - l)).
+  std::array<double, 2> label_radii(const Place& a, const Place& b) const {
+    std::array<double, 2> least{radius(a), radius(b)};
+    const double length = distance(a, b);
+    for (const auto& labels : labels_) {
+      for (const std::int32_t segment : labels) {
+        const LatticeSite site = diagram_.labels().graph().site(segment);
+        const std::array<double, 2> own{closed_distance(site, a), closed_distance(site, b)};
+        const double rest = std::min(own[0], own[1]) - length;
+        const double more = length * length / (8 * rest) + node_error;
+        if (rest > 0 && own[0] + own[1] + 2 * more < least[0] + least[1])
+          least = {own[0] + more, own[1] + more};
+      }
+    }
+    return least;
+  }
+
+  // By what is found near the feet.
+  AxisBound::Clearing local_clearing() const {
+    return [this](const Place& first, const Place& last, std::int32_t segment, double reach) {
+      const Place middle{(first[0] + last[0]) / 2, (first[1] + last[1]) / 2};
+      double least = reach;
+      hierarchy_.near(middle[0], middle[1], distance(first, last) / 2 + reach, [&](std::uint32_t item) {
+        const double other = AxisBound::clearing_among(items_.subspan(item, 1))(first, last, segment, reach);
+        least = std::min(least, other);
+        return least > 0;
+      });
+      return least;
+    };
   }
 
   void note_radius(const Place& a, const Place& b, std::span<const NearEdge> near) {
@@ -139,21 +202,36 @@ class Bounder {
     return error;
   }
 
-  // Where very many edges are near, any one may be the nearest. Of two seeds one is seen half their angle
-  // away from it, and the disc that grows away from it (core/axis_bound.hpp) meets that.
+  // Where very many edges are about as near, any one may be the nearest, in a place f at the distance d. For
+  // any fixed place p, |x - p|^2 - d^2 is the largest of linear functions of x, one for each f: it is convex,
+  // and so largest at an end. Of two places that edges go through one is seen at no less than half of their
+  // angle from f, and the disc that grows away from f (core/axis_bound.hpp) meets that.
   double crowded_bound(const Place& a, const Place& b) {
-    const Place own = place_of(seeds_[0].place);
-    const double radius = std::max(distance(a, own), distance(b, own)), length = distance(a, b);
-    const double clearance = (clearance_of(a, radius) + clearance_of(b, radius) - length) / 2;
+    const double at_a = clearance_of(a), at_b = clearance_of(b);
+    const double excess = std::max(radius(a) * radius(a) - at_a * at_a, radius(b) * radius(b) - at_b * at_b) +
+                          radius(a) * node_error;
+    const double own = closed_distance(a, b, origin_), clearance = std::sqrt(own * own - excess);
     if (!(clearance > 0)) return infinity;
     double least = infinity;
     for (const std::int32_t s : seeds_around()) {
       const Place other = place_of(seed(s));
-      const double far = std::max({radius, distance(a, other), distance(b, other)}) + node_error;
-      const double denominator = clearance - far * cosine_of_half_angle(a, b, own, other, length / clearance);
-      if (denominator > 0) least = std::min(least, (far * far - clearance * clearance) / (2 * denominator));
+      const double cosine = cosine_of_half_angle(a, b, origin_, other, distance(a, b) / clearance);
+      double grown = 0;
+      for (const Place& place : {origin_, other}) {
+        const double far = std::max(distance(a, place), distance(b, place)) + node_error;
+        const double height = clearance - far * cosine;
+        const double more = std::max(excess_of(a, place), excess_of(b, place)) + excess;
+        grown = std::max(grown, height > 0 ? more / (2 * height) : infinity);
+      }
+      least = std::min(least, grown);
     }
     return least;
+  }
+
+  // |x - g|^2 less the square of the radius.
+  double excess_of(const Place& x, const Place& g) const {
+    const double far = distance(x, g), own = radius(x);
+    return (far - own) * (far + own);
   }
 
   // Of some triangles around the side: where very many seeds are at one distance these lead across the disc.
@@ -172,9 +250,10 @@ class Bounder {
     return seeds;
   }
 
-  double clearance_of(const Place& place, double radius) const {
-    const double slack = std::min(0x1p-10, reach_ * reach_ / (4 * radius * radius));
-    return hierarchy_.nearest(place[0], place[1], slack,
+  // Not more than the clearance, and hardly less.
+  double clearance_of(const Place& place) const {
+    const double share = reach_ / radius(place);
+    return hierarchy_.nearest(place[0], place[1], std::min(0x1p-10, share * share / 16),
                               [&](std::uint32_t item) { return closed_distance(items_[item].site, place); });
   }
 
@@ -193,40 +272,38 @@ class Bounder {
   // no other edge meets the discs about them, widened by their errors, which are at most their radii.
   double bound_from_corner() {
     const auto& [corner, target] = arc_->place;
-    const double radius = distance(corner, target);
-    const double wide = radius + reach_;  // holds the discs about the places before, as wide
-    const auto near = near_.find({{target, target}, {wide, wide}});
-    found_.radius = {0, radius};
-    if (!near) return noted(infinity, {});
-    note_radius(corner, target, *near);
-    found_.radius[0] = 0;
+    const double length = distance(corner, target);
     double share = 0.5;
-    while (share > 0x1p-60 && !has_only_corner(*near, 3 * share * radius)) share /= 2;
+    while (share > 0x1p-60 && !has_only_corner(3 * share * length)) share /= 2;
     const Place from{corner[0] + share * (target[0] - corner[0]),
                      corner[1] + share * (target[1] - corner[1])};
-    return noted(axis_(from, target, {}, *near, reach_), *near);
+    found_.radius[0] = 0;
+    return bound(from, target, 0);
   }
 
   // Whether no edge is that near to the corner but those that end there.
-  bool has_only_corner(std::span<const NearEdge> near, double radius) const {
+  bool has_only_corner(double radius) const {
     const ShapeGraph& graph = diagram_.labels().graph();
-    return std::all_of(near.begin(), near.end(), [&](const NearEdge& edge) {
-      if (edge.segment >= 0) {
-        const auto& ends = graph.ends(edge.segment);
-        if (ends[0] == arc_->corner || ends[1] == arc_->corner) return true;
-      }
-      return closed_distance(edge.site, arc_->place[0]) > radius;
+    bool has_only = true;
+    hierarchy_.near(origin_[0], origin_[1], radius, [&](std::uint32_t item) {
+      const std::int32_t segment = items_[item].segment;
+      const bool is_own =
+          segment >= 0 && (graph.ends(segment)[0] == arc_->corner || graph.ends(segment)[1] == arc_->corner);
+      has_only = is_own || closed_distance(items_[item].site, origin_) > radius;
+      return has_only;
     });
+    return has_only;
   }
 
   const SeedDiagram& diagram_;
   std::span<const NearEdge> items_;
   const SiteHierarchy& hierarchy_;
-  NearEdges near_;
+  NearEdges near_, nearest_;
   AxisBound axis_;
   const BoundedArc* arc_ = nullptr;
   std::array<std::vector<std::int32_t>, 2> labels_;
   std::array<ArcSeed, 2> seeds_;
+  Place origin_{0, 0};
   double reach_ = 0, most_ = -1;
   std::vector<std::int32_t> wanting_;  // segments
   ArcBound found_;

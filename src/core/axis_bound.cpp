@@ -71,7 +71,7 @@ struct AxisBound::Nearest {
 };
 
 double AxisBound::operator()(const Place& source, const Place& target, std::span<const ArcSeed> seeds,
-                             std::span<const NearEdge> near, double reach) {
+                             std::span<const NearEdge> near, double reach, const Clearing& clearing) {
   see(source, target, near);
   const Place way = target - source;
   double bound = 0;
@@ -94,14 +94,24 @@ double AxisBound::operator()(const Place& source, const Place& target, std::span
     if (!is_nearer) continue;
     const double first = between(c.foot, part.from), last = between(c.foot, part.to);
     nearest.reach = std::min({reach, nearest.least(), first, last, c.length - first, c.length - last});
-    for (const Seen& other : seen_) {
-      if (&other == &c) continue;
-      const Place end = moved(other.a, other.length, other.way);
-      nearest.reach = std::min(nearest.reach, distance(nearest.first_foot, nearest.last_foot, other.a, end));
-    }
+    nearest.reach =
+        std::min(nearest.reach, clearing(nearest.first_foot, nearest.last_foot, c.segment, reach));
     bound = std::max(bound, bound_by(nearest, part, seeds));
   }
   return bound;
+}
+
+AxisBound::Clearing AxisBound::clearing_among(std::span<const NearEdge> near) {
+  return [near](const Place& first, const Place& last, std::int32_t segment, double reach) {
+    double least = reach;
+    for (const NearEdge& other : near) {
+      if (other.segment == segment) continue;
+      const Place a{static_cast<double>(other.site.a.x), static_cast<double>(other.site.a.y)};
+      const Place b{static_cast<double>(other.site.b.x), static_cast<double>(other.site.b.y)};
+      least = std::min(least, distance(first, last, a, b));
+    }
+    return least;
+  };
 }
 
 void AxisBound::see(const Place& source, const Place& target, std::span<const NearEdge> near) {

@@ -26,6 +26,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -50,12 +51,19 @@ struct ArcSeed {
 // Bounds arcs one after the other: memory is used again.
 class AxisBound {
  public:
-  // `near` holds all edges, and points without edges, that come within sqrt(r^2 + reach^2) of a point of the
-  // arc that is r away from its seeds. All ends of edges, and points without, are seeds, and none is nearer
-  // to a point of the arc than its own. An arc without seeds need not be equally far from any. Infinite where
-  // nothing is proved.
+  // How far edges but one are from the places between two on this, or less; no matter where it is more than
+  // the reach.
+  using Clearing = std::function<double(const Place&, const Place&, std::int32_t segment, double reach)>;
+
+  // `near` holds all edges that may be nearest to a point of the arc. All ends of edges, and points without,
+  // are seeds, and none is nearer to a point of the arc than its own. An arc without seeds need not be
+  // equally far from any. The errors of the second kind are proved up to `reach`. Infinite where nothing is
+  // proved.
   double operator()(const Place& source, const Place& target, std::span<const ArcSeed> seeds,
-                    std::span<const NearEdge> near, double reach);
+                    std::span<const NearEdge> near, double reach, const Clearing& clearing);
+
+  // Of the distances of other edges among those given.
+  static Clearing clearing_among(std::span<const NearEdge> near);
 
  private:
   // An edge as it is seen from the arc: distances of its line from the ends, and feet along it.

@@ -28,8 +28,8 @@ std::vector<NearEdge> NearEdges::items(const ShapeGraph& graph) {
 std::optional<std::span<const NearEdge>> NearEdges::find(const DiscPair& discs) {
   for (std::size_t i = 0; i < 2; ++i) {
     if (!is_known(discs.centre[i], discs.radius[i], i)) search(discs.centre[i], discs.radius[i], discs_[i]);
-    if (discs_[i].numbers.size() > most) return {};
   }
+  if (is_crowded(0) || is_crowded(1)) return {};
   found_.clear();
   const auto& [first, second] = discs_;
   for (const std::uint32_t number : first.numbers) found_.push_back(items_[number]);
@@ -56,7 +56,7 @@ void NearEdges::search(const Place& centre, double radius, Found& found) const {
   const double reach = radius + distance_error;
   hierarchy_.near(centre[0], centre[1], reach, [&](std::uint32_t number) {
     if (closed_distance(items_[number].site, centre) <= reach) found.numbers.push_back(number);
-    return found.numbers.size() <= most;
+    return found.numbers.size() <= most_;
   });
 }
 

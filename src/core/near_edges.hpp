@@ -30,15 +30,16 @@ class NearEdges {
   static std::vector<NearEdge> items(const ShapeGraph& graph);
 
   // `hierarchy` holds the items by their numbers.
-  NearEdges(std::span<const NearEdge> items, const SiteHierarchy& hierarchy)
-      : items_(items), hierarchy_(hierarchy) {}
+  NearEdges(std::span<const NearEdge> items, const SiteHierarchy& hierarchy, std::size_t most)
+      : items_(items), hierarchy_(hierarchy), most_(most) {}
 
-  // All that meet the discs; nothing if these are too many, as where a shape is round.
+  // All that meet the discs; nothing if more than `most` meet one of them, as where a shape is round about
+  // it.
   std::optional<std::span<const NearEdge>> find(const DiscPair& discs);
+  // Whether that was so of a disc of the last search.
+  bool is_crowded(std::size_t disc) const { return discs_[disc].numbers.size() > most_; }
 
  private:
-  static constexpr std::size_t most = 64;
-
   // What meets one disc. Arcs that follow each other have one in common.
   struct Found {
     Place centre{0, 0};
@@ -50,6 +51,7 @@ class NearEdges {
 
   std::span<const NearEdge> items_;
   const SiteHierarchy& hierarchy_;
+  std::size_t most_;
   std::array<Found, 2> discs_;
   std::vector<NearEdge> found_;
 };

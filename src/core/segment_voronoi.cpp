@@ -75,13 +75,20 @@ std::vector<std::uint32_t> along_points(std::span<const Segment> segments,
 SegmentVoronoi::SegmentVoronoi(const SegmentGraph& graph, unsigned threads, const Monitor& monitor) {
   check(graph);
   make_point_diagram(graph, threads, monitor);
-  InsertionRounds rounds(sites_, records_, threads);
+  InsertionRounds rounds(sites_, *records_, threads);
   try {
     rounds.run(monitor);
   } catch (const NoDisc& error) {
     throw std::logic_error(error.what());
   }
   counts_ = rounds.counts();
+}
+
+DiagramArrays SegmentVoronoi::take_arrays(unsigned threads, const Monitor& monitor) {
+  if (!records_) throw std::logic_error("the arrays of the diagram were taken before");
+  VoronoiRecords records = std::move(*records_);
+  records_.reset();
+  return extract_diagram(std::move(sites_), std::move(records), given_, threads, monitor);
 }
 
 // The triangulation is gone when segments are inserted.

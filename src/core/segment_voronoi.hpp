@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "core/monitor.hpp"
 #include "core/segment_insertion.hpp"
 #include "core/segment_sites.hpp"
+#include "core/voronoi_extraction.hpp"
 
 namespace vorotool::core {
 
@@ -29,18 +31,16 @@ class SegmentVoronoi {
   SegmentVoronoi(const SegmentGraph& graph, unsigned threads, const Monitor& monitor);
 
   const SegmentVoronoiCounts& counts() const { return counts_; }
-  const SegmentSites& sites() const { return sites_; }
-  const VoronoiRecords& records() const { return records_; }
-  // [sites] the number of each site in the input: points, then segments.
-  std::span<const std::int32_t> given() const { return given_; }
+  // Arrays of the diagram: once, then it is gone, and this throws std::logic_error.
+  DiagramArrays take_arrays(unsigned threads, const Monitor& monitor);
 
  private:
   void make_point_diagram(const SegmentGraph& graph, unsigned threads, const Monitor& monitor);
   void number_sites(const SegmentGraph& graph, std::span<const std::uint32_t> order);
 
   SegmentSites sites_;
-  std::vector<std::int32_t> given_;
-  VoronoiRecords records_{0, 0};
+  std::vector<std::int32_t> given_;  // [sites] the number of each in the input: points, then segments
+  std::optional<VoronoiRecords> records_;
   SegmentVoronoiCounts counts_;
 };
 

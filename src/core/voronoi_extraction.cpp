@@ -1,246 +1,148 @@
 #include "core/voronoi_extraction.hpp"
 
 #include <algorithm>
-#include <array>
-#include <numeric>
 #include <utility>
+#include <vector>
 
-#include "core/coincident_vertices.hpp"
 #include "core/parallel.hpp"
 #include "core/polished_disc.hpp"
+#include "core/vertex_numbers.hpp"
+#include "core/voronoi_records.hpp"
 
 namespace vorotool::core {
 namespace {
 
-constexpr std::size_t piece_size = std::size_t{1} << 13;  // items of a piece of work, some ms
-constexpr std::size_t batch_size = 64;                    // pieces that are kept at once, below 1 MB each
+constexpr std::size_t piece_size = std::size_t{1} << 12;  // items of a piece of work, a tenth of a ms
+constexpr std::size_t batch_size = 16;                    // pieces that are kept at once, some 200 KB each
 constexpr std::size_t ahead = 8;                          // vertices: how early memory is called for
 
-// Calls body(piece, begin, end) for pieces of the items.
+using Links = LargeArray<VoronoiLink>;
+
+// Calls body(begin, end) for pieces of the items.
 template <class Body>
 void for_pieces(std::size_t count, unsigned threads, const Monitor& monitor, Body body) {
   parallel_for(
       piece_count(count, piece_size), threads,
-      [&](std::size_t piece) { body(piece, piece * piece_size, std::min(count, (piece + 1) * piece_size)); },
+      [&](std::size_t piece) { body(piece * piece_size, std::min(count, (piece + 1) * piece_size)); },
       monitor);
 }
 
-// Whether an edge is written with the vertex at this end of it: that with the smaller number, or the only
-// one.
-bool is_written_from(std::size_t vertex, std::int32_t target) {
-  return target < 0 || static_cast<std::size_t>(target) > vertex;
-}
+// ---- centres and radii -----------------------------------------------------------------------------------
 
-}  // namespace
+class DiscWriter {
+ public:
+  DiscWriter(const SegmentSites& sites, VoronoiRecords& records, const VertexNumbers& numbers,
+             DiagramArrays& out)
+      : sites_(sites), records_(records), numbers_(numbers), out_(out), links_(records.all.size()) {}
 
-VoronoiExtraction::VoronoiExtraction(const SegmentSites& sites, const VoronoiRecords& records,
-                                     std::span<const std::int32_t> given, unsigned threads,
-                                     const Monitor& monitor)
-    : sites_(sites),
-      records_(records),
-      given_(given),
-      vertex_of_(records.all.size()),
-      merged_(records.all.size()) {
-  merge_coincident(threads, monitor);
-  choose_leads();
-  put_in_order(threads, monitor);
-}
-
-// With every step the way is halved for those who come after.
-std::int32_t VoronoiExtraction::root(std::int32_t record) {
-  const auto above = [&](std::int32_t v) -> std::int32_t& { return vertex_of_[static_cast<std::size_t>(v)]; };
-  while (above(record) != record) {
-    above(record) = above(above(record));
-    record = above(record);
-  }
-  return record;
-}
-
-// The smaller number becomes the root.
-void VoronoiExtraction::unite(std::int32_t u, std::int32_t w) {
-  merged_[static_cast<std::size_t>(u)] = merged_[static_cast<std::size_t>(w)] = true;
-  u = root(u);
-  w = root(w);
-  vertex_of_[static_cast<std::size_t>(std::max(u, w))] = std::min(u, w);
-}
-
-void VoronoiExtraction::merge_coincident(unsigned threads, const Monitor& monitor) {
-  std::iota(vertex_of_.begin(), vertex_of_.end(), 0);
-  using Pair = std::array<std::int32_t, 2>;
-  std::vector<std::vector<Pair>> pairs(piece_count(vertex_of_.size(), piece_size));
-  for_pieces(vertex_of_.size(), threads, monitor, [&](std::size_t piece, std::size_t begin, std::size_t end) {
-    for (auto u = static_cast<std::int32_t>(begin); u < static_cast<std::int32_t>(end); ++u) {
-      const VoronoiRecord& v = records_[u];
-      if (v.is_infinite()) continue;
-      for (int i = 0; i < 3; ++i) {
-        const std::int32_t w = record_of(v.twins[static_cast<std::size_t>(i)]);
-        if (w < u || records_[w].is_infinite()) continue;
-        if (are_coincident(sites_, v, i, records_[w])) pairs[piece].push_back({u, w});
+  // Leaves of the records what links them. Discs with several records are found while these are all there.
+  Links run(unsigned threads, const Monitor& monitor) {
+    const auto merged = numbers_.merged_leads();
+    for_pieces(merged.size(), threads, monitor, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) polish(merged[k]);
+    });
+    for_pieces(links_.size(), threads, monitor, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto record = static_cast<std::int32_t>(i);
+        links_[i] = {records_.all[i].sites, records_.all[i].twins};
+        if (!numbers_.is_lead(record)) continue;
+        if (!numbers_.is_merged(record)) polish(record);
+        put(records_.all[i], static_cast<std::size_t>(numbers_.of(record)));
       }
+      records_.all.discard(begin, end);
+    });
+    return std::move(links_);
+  }
+
+ private:
+  void polish(std::int32_t record) {
+    thread_local std::vector<Corner> ring;
+    thread_local std::vector<Contact> contacts;
+    numbers_.gather_ring(records_, record, ring);
+    contacts.clear();
+    for (const Corner corner : ring) {
+      const VoronoiRecord& v = records_[record_of(corner)];
+      contacts.push_back({left_site(records_, corner), v.is_left(preceding(place_of(corner)))});
     }
-  });
-  for (const std::vector<Pair>& some : pairs) {
-    for (const auto& [u, w] : some) unite(u, w);
+    const PolishedDisc disc = polished_disc(sites_, records_[record], contacts);
+    VoronoiRecord& v = records_[record];
+    v.x = disc.x;
+    v.y = disc.y;
+    v.radius = disc.radius;
   }
-  for (std::int32_t v = 0; v < static_cast<std::int32_t>(records_.all.size()); ++v)
-    vertex_of_[static_cast<std::size_t>(v)] = root(v);
-}
 
-bool VoronoiExtraction::is_border(Corner corner) const {
-  return target_of(corner) != vertex_of_[static_cast<std::size_t>(record_of(corner))];
-}
-
-// The border of a place is gone round counter-clockwise: from half-edge to half-edge of one vertex, and on in
-// the next vertex of the place where a half-edge has no length. A point whose segments leave no gap of 180
-// degrees is inside.
-Corner VoronoiExtraction::next_spoke(Corner corner) const {
-  for (;;) {
-    const std::int32_t record = record_of(corner);
-    corner = corner_of(record, following(place_of(corner)));
-    if (is_border(corner)) return corner;
-    corner = records_[record].twins[static_cast<std::size_t>(place_of(corner))];
+  void put(const VoronoiRecord& v, std::size_t vertex) {
+    out_.vertices[2 * vertex] = v.x;
+    out_.vertices[2 * vertex + 1] = v.y;
+    out_.radius[vertex] = v.radius;
   }
-}
 
-// A half-edge of a record that leaves its place; there is one.
-Corner VoronoiExtraction::border_of(std::int32_t record) const {
-  int i = 0;
-  while (!is_border(corner_of(record, i))) ++i;
-  return corner_of(record, i);
-}
+  const SegmentSites& sites_;
+  VoronoiRecords& records_;
+  const VertexNumbers& numbers_;
+  DiagramArrays& out_;
+  Links links_;
+};
 
-// Half-edges of a record that leave its place.
-int VoronoiExtraction::border_size(std::int32_t record) const {
-  if (!merged_[static_cast<std::size_t>(record)]) return 3;
-  int size = 0;
-  for (int i = 0; i < 3; ++i) size += is_border(corner_of(record, i));
-  return size;
-}
+// ---- sites around vertices, and edges --------------------------------------------------------------------
 
-VoronoiExtraction::Spoke VoronoiExtraction::spoke_at(Corner corner) const {
-  const VoronoiRecord& v = records_[record_of(corner)];
-  const int left = preceding(place_of(corner));
-  return {v.sites[static_cast<std::size_t>(left)], corner, v.is_left(left)};
-}
+class EdgeWriter {
+ public:
+  EdgeWriter(const Links& links, const VertexNumbers& numbers, SiteIndex infinite,
+             std::span<const std::int32_t> given, DiagramArrays& out)
+      : links_(links), numbers_(numbers), infinite_(infinite), given_(given), out_(out) {}
 
-void VoronoiExtraction::gather_ring(std::int32_t record, Ring& ring) const {
-  ring.clear();
-  if (!merged_[static_cast<std::size_t>(record)]) {
-    const std::array<SiteIndex, 3>& sites = records_[record].sites;
-    int i = static_cast<int>(std::min_element(sites.begin(), sites.end()) - sites.begin());
-    i = following(i);  // the site is on the left of this edge
-    for (int k = 0; k < 3; ++k, i = following(i)) ring.push_back(spoke_at(corner_of(record, i)));
-    return;
+  void run(unsigned threads, const Monitor& monitor);
+
+ private:
+  struct Edge {
+    std::int32_t source, target, left, right;
+  };
+  // Rings and edges of some consecutive vertices, and where they belong.
+  struct Piece {
+    std::vector<std::int32_t> ring_sizes, sites;
+    std::vector<Edge> edges;
+    std::size_t first_site = 0, first_edge = 0;
+  };
+
+  std::vector<Corner> edges_without_vertex() const;
+  void gather(std::size_t begin, std::size_t end, Piece& piece) const;
+  void put(std::size_t begin, const Piece& piece);
+  void put_edge(std::size_t place, const Edge& edge);
+  void prefetch(std::size_t vertex) const;
+
+  std::int32_t given(SiteIndex site) const { return given_[static_cast<std::size_t>(site)]; }
+  // Where an edge leads.
+  std::int32_t target_of(Corner corner) const {
+    return numbers_.of(
+        record_of(links_[record_of(corner)].twins[static_cast<std::size_t>(place_of(corner))]));
   }
-  const Corner first = border_of(record);
-  Corner corner = first;
-  do {
-    ring.push_back(spoke_at(corner));
-    corner = next_spoke(corner);
-  } while (corner != first);
-  const auto least = std::min_element(ring.begin(), ring.end(),
-                                      [](const Spoke& a, const Spoke& b) { return a.site < b.site; });
-  std::rotate(ring.begin(), least, ring.end());
-}
-
-// The place to which an edge leads, in the end the number of its vertex.
-std::int32_t VoronoiExtraction::target_of(Corner corner) const {
-  const Corner twin = records_[record_of(corner)].twins[static_cast<std::size_t>(place_of(corner))];
-  return vertex_of_[static_cast<std::size_t>(record_of(twin))];
-}
-
-// The first record of each place that is on its border stands for it.
-void VoronoiExtraction::choose_leads() {
-  leads_.assign(vertex_of_.size(), false);
-  std::vector<bool> seen(vertex_of_.size());
-  for (std::int32_t v = 0; v < static_cast<std::int32_t>(records_.all.size()); ++v) {
-    if (!merged_[static_cast<std::size_t>(v)]) continue;
-    const auto place = static_cast<std::size_t>(vertex_of_[static_cast<std::size_t>(v)]);
-    if (seen[place] || border_size(v) == 0) continue;
-    seen[place] = leads_[static_cast<std::size_t>(v)] = true;
+  Edge edge_at(std::int32_t source, Corner corner) const {
+    const auto [right, left] = sites_of_edge(links_[record_of(corner)], place_of(corner));
+    const std::int32_t target = target_of(corner);
+    return {source, target == VertexNumbers::at_infinity ? -1 : target, given(left), given(right)};
   }
-}
 
-// What a record says of its vertex: nothing (first = -1) if another one stands for its place.
-VoronoiExtraction::Key VoronoiExtraction::key_of(std::int32_t record, Ring& ring) const {
-  const auto v = static_cast<std::size_t>(record);
-  if (records_[record].is_infinite() || (merged_[v] && !leads_[v])) return {-1, -1, -1, record};
-  gather_ring(record, ring);
-  return {ring[0].site, ring[1].site, ring[2].site, record};
-}
-
-// Vertices are sorted by their first three sites: no others have these three, in this order.
-void VoronoiExtraction::put_in_order(unsigned threads, const Monitor& monitor) {
-  const std::size_t records = vertex_of_.size();
-  LargeArray<Key> keys(records);
-  std::vector<std::size_t> rings(piece_count(records, piece_size)), infinite(rings.size());
-  for_pieces(records, threads, monitor, [&](std::size_t piece, std::size_t begin, std::size_t end) {
-    Ring ring;
-    for (std::size_t v = begin; v < end; ++v) {
-      const auto record = static_cast<std::int32_t>(v);
-      keys[v] = key_of(record, ring);
-      infinite[piece] += records_[record].is_infinite();
-      if (keys[v].first >= 0) rings[piece] += ring.size();
-    }
-  });
-  ring_size_ = std::accumulate(rings.begin(), rings.end(), std::size_t{0});
-  infinite_ = std::accumulate(infinite.begin(), infinite.end(), std::size_t{0});
-  sort_keys(keys, threads, monitor);
-  number_vertices(threads, monitor);
-}
-
-// By the first site in one go, and by the others among the few that share it.
-void VoronoiExtraction::sort_keys(const LargeArray<Key>& keys, unsigned threads, const Monitor& monitor) {
-  const auto sites = static_cast<std::size_t>(sites_.infinite());
-  std::vector<std::uint32_t> begin(sites + 2);
-  const std::span all(keys.data(), keys.size());
-  for (const Key& key : all) {
-    if (key.first >= 0) ++begin[static_cast<std::size_t>(key.first) + 2];
-  }
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  LargeArray<Key> sorted(begin[sites + 1]);
-  for (const Key& key : all) {
-    if (key.first >= 0) sorted[begin[static_cast<std::size_t>(key.first) + 1]++] = key;
-  }
-  order_.resize(sorted.size());
-  for_pieces(sites, threads, monitor, [&](std::size_t, std::size_t first, std::size_t last) {
-    for (std::size_t site = first; site < last; ++site) {
-      std::sort(sorted.data() + begin[site], sorted.data() + begin[site + 1]);
-    }
-    for (std::size_t k = begin[first]; k < begin[last]; ++k) order_[k] = sorted[k].record;
-  });
-}
-
-// Turns places into numbers of vertices: the root of each place first, marked by its complement. No two
-// vertices have a place in common, and no root changes in the second round.
-void VoronoiExtraction::number_vertices(unsigned threads, const Monitor& monitor) {
-  const auto of = [&](auto record) -> std::int32_t& { return vertex_of_[static_cast<std::size_t>(record)]; };
-  for_pieces(order_.size(), threads, monitor, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) of(of(order_[k])) = ~static_cast<std::int32_t>(k);
-  });
-  for_pieces(vertex_of_.size(), threads, monitor, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) {
-      if (of(v) >= 0) of(v) = of(of(v));
-    }
-  });
-  for_pieces(vertex_of_.size(), threads, monitor, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t v = begin; v < end; ++v) {
-      of(v) = records_[static_cast<std::int32_t>(v)].is_infinite() ? -1 : ~of(v);
-    }
-  });
-}
+  const Links& links_;
+  const VertexNumbers& numbers_;
+  SiteIndex infinite_;
+  std::span<const std::int32_t> given_;
+  DiagramArrays& out_;
+};
 
 // Half-edges from infinity to infinity, each edge once, in the order of the sites on their left.
-std::vector<Corner> VoronoiExtraction::edges_without_vertex() const {
+std::vector<Corner> EdgeWriter::edges_without_vertex() const {
   std::vector<Corner> edges;
   const auto sites = [&](Corner corner) {
-    return sites_of_edge(records_[record_of(corner)], place_of(corner));
+    return sites_of_edge(links_[record_of(corner)], place_of(corner));
   };
-  for (std::int32_t v = 0; v < static_cast<std::int32_t>(records_.all.size()); ++v) {
-    if (!records_[v].is_infinite()) continue;
-    const Corner corner = corner_of(v, records_[v].find(sites_.infinite()));
+  for (const std::int32_t v : numbers_.infinite()) {
+    const auto& around = links_[v].sites;
+    const auto place = std::find(around.begin(), around.end(), infinite_) - around.begin();
+    const Corner corner = corner_of(v, static_cast<int>(place));
     const EdgeSites beside = sites(corner);
-    if (target_of(corner) < 0 && beside.left < beside.right) edges.push_back(corner);
+    if (target_of(corner) == VertexNumbers::at_infinity && beside.left < beside.right)
+      edges.push_back(corner);
   }
   std::sort(edges.begin(), edges.end(), [&](Corner a, Corner b) {
     const EdgeSites p = sites(a), q = sites(b);
@@ -251,10 +153,10 @@ std::vector<Corner> VoronoiExtraction::edges_without_vertex() const {
 
 // Where the edges of a piece belong is known once those before are counted. So pieces are worked on in
 // batches: their rings and edges are gathered, and then put in their places.
-void VoronoiExtraction::write(const DiagramArrays& out, unsigned threads, const Monitor& monitor) const {
+void EdgeWriter::run(unsigned threads, const Monitor& monitor) {
   std::size_t edge = 0, site = 0;
-  for (const Corner corner : edges_without_vertex()) write_edge(edge++, edge_at(-1, corner), out);
-  const std::size_t pieces = piece_count(order_.size(), piece_size);
+  for (const Corner corner : edges_without_vertex()) put_edge(edge++, edge_at(-1, corner));
+  const std::size_t vertices = numbers_.count(), pieces = piece_count(vertices, piece_size);
   std::vector<Piece> batch(std::min(pieces, batch_size));
   for (std::size_t first = 0; first < pieces; first += batch_size) {
     const std::size_t count = std::min(batch_size, pieces - first);
@@ -262,73 +164,84 @@ void VoronoiExtraction::write(const DiagramArrays& out, unsigned threads, const 
         count, threads,
         [&](std::size_t k) {
           const std::size_t begin = (first + k) * piece_size;
-          write_discs(begin, std::min(order_.size(), begin + piece_size), batch[k], out);
+          gather(begin, std::min(vertices, begin + piece_size), batch[k]);
         },
         monitor);
     for (std::size_t k = 0; k < count; ++k) {
       batch[k].first_site = std::exchange(site, site + batch[k].sites.size());
       batch[k].first_edge = std::exchange(edge, edge + batch[k].edges.size());
     }
-    parallel_for(count, threads, [&](std::size_t k) { put_piece((first + k) * piece_size, batch[k], out); });
+    parallel_for(count, threads, [&](std::size_t k) { put((first + k) * piece_size, batch[k]); });
   }
-  out.vertex_start[order_.size()] = static_cast<std::int32_t>(site);
+  out_.vertex_start[vertices] = static_cast<std::int32_t>(site);
 }
 
-// Records are far apart in memory: they are called for early, and then what they lead to.
-void VoronoiExtraction::prefetch(std::size_t vertex) const {
-  if (vertex + 2 * ahead < order_.size()) __builtin_prefetch(&records_[order_[vertex + 2 * ahead]]);
-  if (vertex + ahead >= order_.size()) return;
-  for (const Corner twin : records_[order_[vertex + ahead]].twins) {
-    __builtin_prefetch(&vertex_of_[static_cast<std::size_t>(record_of(twin))]);
-  }
+// Links are far apart in memory: they are called for early, and then what they lead to.
+void EdgeWriter::prefetch(std::size_t vertex) const {
+  const auto leads = numbers_.leads();
+  if (vertex + 2 * ahead < leads.size()) __builtin_prefetch(&links_[leads[vertex + 2 * ahead]]);
+  if (vertex + ahead >= leads.size()) return;
+  for (const Corner twin : links_[leads[vertex + ahead]].twins) numbers_.prefetch(record_of(twin));
 }
 
-void VoronoiExtraction::write_discs(std::size_t begin, std::size_t end, Piece& piece,
-                                    const DiagramArrays& out) const {
-  Ring ring;
-  std::vector<Contact> contacts;
-  piece.clear();
+// An edge is written with the end that has the smaller number: it may be the only one.
+void EdgeWriter::gather(std::size_t begin, std::size_t end, Piece& piece) const {
+  std::vector<Corner> ring;
+  piece.ring_sizes.clear();
+  piece.sites.clear();
+  piece.edges.clear();
   for (std::size_t vertex = begin; vertex < end; ++vertex) {
     prefetch(vertex);
-    gather_ring(order_[vertex], ring);
-    contacts.clear();
+    const auto number = static_cast<std::int32_t>(vertex);
+    numbers_.gather_ring(links_, numbers_.leads()[vertex], ring);
     piece.ring_sizes.push_back(static_cast<std::int32_t>(ring.size()));
-    for (const Spoke& spoke : ring) {
-      contacts.push_back({spoke.site, spoke.is_left});
-      piece.sites.push_back(given(spoke.site));
-      if (is_written_from(vertex, target_of(spoke.corner))) {
-        piece.edges.push_back(edge_at(static_cast<std::int32_t>(vertex), spoke.corner));
-      }
+    for (const Corner corner : ring) {
+      piece.sites.push_back(given(left_site(links_, corner)));
+      if (target_of(corner) > number) piece.edges.push_back(edge_at(number, corner));
     }
     const auto sites = piece.sites.end() - static_cast<std::ptrdiff_t>(ring.size());
     std::rotate(sites, std::min_element(sites, piece.sites.end()), piece.sites.end());
-    const PolishedDisc disc = polished_disc(sites_, records_[order_[vertex]], contacts);
-    out.vertices[2 * vertex] = disc.x;
-    out.vertices[2 * vertex + 1] = disc.y;
-    out.radius[vertex] = disc.radius;
   }
 }
 
-void VoronoiExtraction::put_piece(std::size_t begin, const Piece& piece, const DiagramArrays& out) {
+void EdgeWriter::put(std::size_t begin, const Piece& piece) {
   std::size_t start = piece.first_site;
-  std::copy(piece.sites.begin(), piece.sites.end(), out.vertex_sites + start);
+  std::copy(piece.sites.begin(), piece.sites.end(), out_.vertex_sites.data() + start);
   for (std::size_t k = 0; k < piece.ring_sizes.size(); ++k) {
-    out.vertex_start[begin + k] = static_cast<std::int32_t>(start);
+    out_.vertex_start[begin + k] = static_cast<std::int32_t>(start);
     start += static_cast<std::size_t>(piece.ring_sizes[k]);
   }
-  for (std::size_t k = 0; k < piece.edges.size(); ++k) write_edge(piece.first_edge + k, piece.edges[k], out);
+  for (std::size_t k = 0; k < piece.edges.size(); ++k) put_edge(piece.first_edge + k, piece.edges[k]);
 }
 
-VoronoiExtraction::Edge VoronoiExtraction::edge_at(std::int32_t source, Corner corner) const {
-  const auto [right, left] = sites_of_edge(records_[record_of(corner)], place_of(corner));
-  return {source, target_of(corner), given(left), given(right)};
+void EdgeWriter::put_edge(std::size_t place, const Edge& edge) {
+  out_.edges[2 * place] = edge.source;
+  out_.edges[2 * place + 1] = edge.target;
+  out_.edge_sites[2 * place] = edge.left;
+  out_.edge_sites[2 * place + 1] = edge.right;
 }
 
-void VoronoiExtraction::write_edge(std::size_t place, const Edge& edge, const DiagramArrays& out) {
-  out.edges[2 * place] = edge.source;
-  out.edges[2 * place + 1] = edge.target;
-  out.edge_sites[2 * place] = edge.left;
-  out.edge_sites[2 * place + 1] = edge.right;
+}  // namespace
+
+DiagramArrays extract_diagram(SegmentSites sites, VoronoiRecords records, std::span<const std::int32_t> given,
+                              unsigned threads, const Monitor& monitor) {
+  records.corner_of_point = {};
+  const SiteIndex infinite = sites.infinite();
+  const VertexNumbers numbers(sites, records, threads, monitor);
+  const std::size_t vertices = numbers.count(), ring = numbers.ring_size(),
+                    edges = (ring + numbers.infinite().size()) / 2;
+  DiagramArrays out;
+  out.vertices = LargeArray<double>(2 * vertices);
+  out.radius = LargeArray<double>(vertices);
+  const Links links = DiscWriter(sites, records, numbers, out).run(threads, monitor);
+  records.all = {};
+  sites = {};
+  out.vertex_start = LargeArray<std::int32_t>(vertices + 1);
+  out.vertex_sites = LargeArray<std::int32_t>(ring);
+  out.edges = LargeArray<std::int32_t>(2 * edges);
+  out.edge_sites = LargeArray<std::int32_t>(2 * edges);
+  EdgeWriter(links, numbers, infinite, given, out).run(threads, monitor);
+  return out;
 }
 
 }  // namespace vorotool::core

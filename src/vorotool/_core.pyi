@@ -508,7 +508,7 @@ class SegmentVoronoi:
     ) -> None: ...
     @property
     def counts(self) -> dict[str, int]: ...
-    def arrays(
+    def take_arrays(
         self, threads: int, progress: _Progress
     ) -> tuple[
         NDArray[np.float64],
@@ -518,7 +518,7 @@ class SegmentVoronoi:
         NDArray[np.int32],
         NDArray[np.int32],
     ]:
-        """Vertices, radii, where the sites of each begin, these, edges, and the sites beside them."""
+        """Vertices, radii, where the sites of each begin, these, edges, and the sites beside them: once."""
 
 # ---- distances from sites (bind_skeleton.cpp) --------------------------------------------------------------------
 

@@ -15,10 +15,11 @@ def test_names_of_outputs():
     assert output_paths("x/plain", [".table.csv", ".labels.png"], "o/p") == (
         *("o/p/x/plain.table.csv", "o/p/x/plain.labels.png"),
     )
+    assert output_paths("x/../a.png", [".csv"], "out/../o") == ("out/../o/a.csv",)
 
 
 def test_two_inputs_with_one_output(tmp_path):
-    tasks = [Task("x/a.png", (f"{tmp_path}/a.csv",)), Task("y/a.tif", (f"{tmp_path}/./a.csv",))]
+    tasks = [Task("x/a.png", (f"{tmp_path}/a.csv",)), Task("y/a.tif", (f"{tmp_path}/a.csv",))]
     with pytest.raises(UsageError, match=r"x/a\.png and y/a\.tif would both be written"):
         check_outputs(tasks, tmp_path)
     check_outputs(tasks[:1], tmp_path, others={"--table": None, "--stats": "-"})

@@ -1,6 +1,7 @@
 """A Dask cluster does what one machine does."""
 
 import json
+import signal
 import subprocess
 import sys
 import time
@@ -99,3 +100,67 @@ def test_what_a_cluster_needs(run, many, monkeypatch):
     failed = run("tessellate", "many", "--out-dir", "out", "--cluster", "local")
     assert failed.code == 2
     assert "pip install vorotool[distributed]" in failed.err
+
+
+# ---- the bands of one image ------------------------------------------------------------------------------------
+
+
+def store(folder):
+    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+@pytest.fixture
+def dots(tmp_path):
+    xy = np.random.default_rng(9).integers(-100, 3100, (4000, 2)) / 2
+    np.savetxt(tmp_path / "dots.csv", xy, delimiter=",", header="x,y", comments="")
+    return tmp_path
+
+
+def test_a_lost_worker_leaves_the_same_store(run, process, dots, cluster):
+    address, workers = cluster
+    options = ("tessellate", "dots.csv", "--size", "600x600", "--chunk", "512x8", "-q")
+    assert run(*options, "-o", "here.zarr").code == 0
+    child = process(*options, "-o", "there.zarr", "--cluster", address, "--stats", "s.json")
+    wait_until(lambda: len(list(dots.glob(".vorotool-*.tmp/c/*"))) >= 10 or child.poll() is not None)
+    workers[0].kill()
+    out, err = child.communicate(timeout=60)
+    assert (child.returncode, out, err) == (0, b"", b"")
+    assert store(dots / "there.zarr") == store(dots / "here.zarr")
+    assert not list(dots.glob(".*"))
+
+
+@pytest.mark.parametrize("what", ["distance", "distance2"])
+def test_distances_and_a_failing_cluster(run, dots, cluster, monkeypatch, what):
+    address, workers = cluster
+    options = ("tessellate", "dots.csv", "--size", "300x200", "--what", what, "--chunk", "100x64", "-q")
+    assert run(*options, "-o", "here.zarr").code == 0
+    assert run(*options, "-o", "there.zarr", "--cluster", address).code == 0
+    assert store(dots / "there.zarr") == store(dots / "here.zarr")
+    for worker in workers:
+        worker.kill()
+        worker.wait()
+    monkeypatch.setattr("vorotool.batch.cluster.FIRST_WORKER", 0.2)
+    wait_until(lambda: "nobody works there" in run(*options, "-o", "there.zarr", "--cluster", address).err)
+    assert store(dots / "there.zarr") == store(dots / "here.zarr")
+    assert not list(dots.glob(".*"))
+
+
+def test_an_interrupt_ends_the_cluster_that_was_started(process, dots):
+    options = ("--size", "20000x20000", "--chunk", "512x16", "-q", "--cluster", "local", "-j", "1")
+    child = process("tessellate", "dots.csv", "-o", "a.zarr", *options)
+    wait_until(lambda: len(list(dots.glob(".vorotool-*.tmp/c/*"))) >= 5 or child.poll() is not None)
+    child.send_signal(signal.SIGINT)
+    out, err = child.communicate(timeout=20)
+    assert (child.returncode, out, err) == (130, b"", b"")
+    assert [path.name for path in dots.iterdir()] == ["dots.csv"]
+
+
+def test_what_is_not_computed_on_a_cluster(run, dots):
+    for options in (("-o", "a.png"), ("-o", "all", "--what", "labels,table", "-f", "zarr")):
+        failed = run("tessellate", "dots.csv", "--cluster", "local", *options)
+        assert failed.code == 2
+    assert (
+        "--cluster with -o writes a Zarr store" in run("delaunay", "dots.csv", "--cluster", "local", "-o", "a.csv").err
+    )
+    failed = run("tessellate", "dots.csv", "--cluster", "local", "-o", "a.zarr", "--method", "propagation")
+    assert (failed.code, "leave out --method propagation" in failed.err) == (2, True)

@@ -197,10 +197,10 @@ def test_labels_of_a_column_are_kept(run, folder):
     assert run("tessellate", "own.csv", "-o", "own.tif").code == 0
 
 
-def test_every_result_has_a_writer():
-    from vorotool.cli.products import Products
-
-    assert all(hasattr(Products, f"_write_{what}") for what in FORMATS)
+@pytest.mark.parametrize(("what", "fmt"), [(what, fmt) for what, formats in FORMATS.items() for fmt in formats])
+def test_every_result_is_written_in_every_format(run, folder, what, fmt):
+    assert run("tessellate", "dots.csv", "--what", what, "-f", fmt, "-o", f"made.{fmt}").code == 0
+    assert (folder / f"made.{fmt}").exists()
 
 
 @pytest.mark.parametrize(

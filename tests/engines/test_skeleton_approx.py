@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import vorotool
+from vorotool.engines.skeleton_comparison import distances_to, places_on_arcs
 from vorotool.errors import UsageError
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
@@ -15,7 +16,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "fuzz"))
 import skeleton_approx as fuzzer
 from skeleton_bounds import Shape, check_steps, check_tolerances, random_shapes
 
-from skeleton_shapes import FAMILIES
+from skeleton_shapes import FAMILIES, regular
 
 SHAPES = random_shapes(np.random.default_rng(1))
 
@@ -35,6 +36,15 @@ def test_bounds_hold_and_tolerances_are_met(name):
     assert violations == 0
     assert np.median(ratio) <= 3
     assert check_tolerances(shape) == 0
+
+
+def test_bounds_hold_and_are_small_where_shapes_are_round():
+    shape = Shape("round", regular(150))
+    skeleton = shape.sampled(10.0).skeleton
+    spots = places_on_arcs(skeleton, np.linspace(0, 1, 5)).reshape(-1, 2)
+    true = distances_to(shape.exact, spots).reshape(len(skeleton), 5)
+    assert (true <= skeleton.error_bound[:, None]).all()
+    assert skeleton.error_bound.max() < 1
 
 
 def test_results_do_not_depend_on_threads():

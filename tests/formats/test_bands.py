@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 from vorotool.errors import LimitError
-from vorotool.formats.bands import available_threads, blocks, check_fits, checked, in_order
+from vorotool.formats.bands import blocks, check_fits, checked, in_order
+from vorotool.geometry.checks import available_threads
 
 
 @pytest.mark.parametrize("threads", [0, 1, 2, 5])

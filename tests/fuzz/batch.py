@@ -38,29 +38,51 @@ def contents(folder: Path, out: str) -> dict[str, bytes]:
 
 
 def trial(command: str, folder: Path, kills: int, chance: random.Random, count: int) -> list[str]:
-    """What is wrong after kills."""
+    """What is wrong after kills: each batch is killed and resumed until it ends by itself, then another begins."""
     begin = time.monotonic()
     code = start(command, folder, "whole").wait()
     whole, length = contents(folder, "whole"), time.monotonic() - begin
     wrong = [f"exit code {code}"] * (code != 6) + [f"{len(whole)} files"] * (len(whole) != count)  # and the table
-    deaths = Counter()
-    for _ in range(kills):
-        child = start(command, folder, "out", "--resume")
-        time.sleep(chance.uniform(0, 2 * length / kills + 0.5))
+    deaths: Counter[str] = Counter()
+    batches = lines = 0
+    while deaths.total() < kills:
+        out = f"out-{batches}"
+        while (code := interrupted(command, folder, out, chance.uniform(0, length), chance, deaths)) is None:
+            pass
+        found, written = faults(command, folder, out, whole)
+        wrong += [f"exit code {code} at the end"] * (code != 6) + found
+        batches, lines = batches + 1, lines + written
+    print(f"{command}: {dict(deaths)} in {batches} batches of {count} inputs, {lines} lines, {len(wrong)} faults")
+    return wrong
+
+
+def interrupted(
+    command: str, folder: Path, out: str, seconds: float, chance: random.Random, deaths: Counter[str]
+) -> int | None:
+    """Resume, and kill after some seconds; the exit code of a batch that has ended by then."""
+    child = start(command, folder, out, "--resume")
+    try:
+        return child.wait(seconds)
+    except subprocess.TimeoutExpired:
         sent = chance.choice([signal.SIGKILL, signal.SIGINT, signal.SIGTERM])
         child.send_signal(sent)
-        child.wait()
-        deaths[sent.name if child.returncode not in (0, 6) else "ended before"] += 1
-    code = start(command, folder, "out", "--resume").wait()
-    wrong += [f"exit code {code} at the end"] * (code != 6)
-    wrong += ["other bytes"] * (contents(folder, "out") != whole)
-    lines = (folder / f"out/{command}.manifest.jsonl").read_bytes().splitlines()
+        code = child.wait()
+    if code in (0, 6):  # it ended before the signal came
+        return code
+    deaths[sent.name] += 1
+    return None
+
+
+def faults(command: str, folder: Path, out: str, whole: dict[str, bytes]) -> tuple[list[str], int]:
+    """What is wrong with a batch that has ended, and how many lines its manifest has."""
+    lines = (folder / f"{out}/{command}.manifest.jsonl").read_bytes().splitlines()
     done = Counter(record["input"] for record in map(read, lines) if record.get("status") == "done")
     again = sum(number - 1 for number in done.values())
-    wrong += [f"{again} inputs were done twice"] * (again > 0)
-    wrong += [f"{len(done)} inputs were done"] * (len(done) != count - 1)
-    print(f"{command}: {dict(deaths)}, {len(lines)} lines, {sum(done.values())} inputs done")
-    return wrong
+    wrong = [f"{out}: other bytes"] * (contents(folder, out) != whole)
+    wrong += [f"{out}: {again} inputs were done twice"] * (again > 0)
+    wrong += [f"{out}: {len(done)} inputs were done"] * (len(done) != len(whole) - 1)  # the table is no input's
+    wrong += [f"{out}: {path.name} was left" for path in (folder / out).rglob(".vorotool-*")]
+    return wrong, len(lines)
 
 
 def read(line: bytes) -> dict[str, object]:

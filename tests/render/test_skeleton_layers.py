@@ -46,7 +46,8 @@ def test_paths_go_through_the_nodes():
 
 
 def test_layers_are_groups_from_below():
-    text = svg_of(skeleton_layers(MADE, PAGE, reversed(LAYERS)))
+    text = svg_of(skeleton_layers(MADE, PAGE, reversed(LAYERS), exact=MADE))
+    assert text.count("stroke-dasharray") == 1
     assert re.findall(r'<g id="(\w+)"', text) == list(LAYERS)
     assert re.findall(r'<g id="(\w+)"', svg_of(picture_layers(MADE, PAGE, ["skeleton"], what="diagram"))) == ["diagram"]
     with pytest.raises(UsageError, match="cells"):

@@ -27,8 +27,8 @@ FIRST_WORKER = 120.0
 CLOSING = 0.1
 """Seconds for taking leave: an interrupt is over within 0.2 s."""
 
-_ONE_AT_A_TIME = threading.Lock()
-"""Warnings belong to a whole process: a worker with several threads does one task at a time."""
+ONE_AT_A_TIME = threading.Lock()
+"""Warnings belong to a whole process, and so does memory: a worker with several threads does one task at a time."""
 
 
 def cluster_results(
@@ -58,15 +58,11 @@ def cluster_results(
     UsageError
         If dask.distributed is not installed, or there is no cluster at the address.
     """
-    try:
-        import distributed
-    except ImportError:
-        raise UsageError("--cluster needs dask.distributed: pip install vorotool[distributed]") from None
     given: dict[Any, tuple[int, Task]] = {}
     with ExitStack() as stack:
-        client = _connected(distributed, address, jobs, stack)
+        client = stack.enter_context(connected(address, jobs))
         stack.callback(_give_up, client, given)
-        done = distributed.as_completed(loop=client.loop, with_results=True, raise_errors=False)
+        done = completed(client)
 
         def give() -> bool:
             number, task = next(tasks, (-1, None))
@@ -90,7 +86,36 @@ def cluster_results(
                 give()
 
 
-def _connected(distributed: Any, address: str, jobs: int | None, stack: ExitStack) -> Any:
+@contextmanager
+def connected(address: str, jobs: int | None) -> Iterator[Any]:
+    """Give a client of a cluster that has at least one worker.
+
+    Parameters
+    ----------
+    address, jobs
+        As for `cluster_results`.
+
+    Raises
+    ------
+    UsageError
+        If dask.distributed is not installed, or there is no cluster at the address.
+    """
+    try:
+        import distributed
+    except ImportError:
+        raise UsageError("--cluster needs dask.distributed: pip install vorotool[distributed]") from None
+    with ExitStack() as stack:
+        yield _client(distributed, address, jobs, stack)
+
+
+def completed(client: Any) -> Any:
+    """Make what futures are added to; it gives them with their results, or with what went wrong, as they are done."""
+    import distributed
+
+    return distributed.as_completed(loop=client.loop, with_results=True, raise_errors=False)
+
+
+def _client(distributed: Any, address: str, jobs: int | None, stack: ExitStack) -> Any:
     for name in ("distributed", "distributed.client"):
         logging.getLogger(name).setLevel(logging.CRITICAL)  # what it would say is in the outcomes
     cluster = stack.enter_context(_started(distributed, jobs)) if address == LOCAL else address
@@ -131,7 +156,7 @@ def _close(connected: Any) -> None:
 
 
 def _carry_out(process: Process, task: Task) -> Outcome:
-    with _ONE_AT_A_TIME:
+    with ONE_AT_A_TIME:
         return carry_out(process, task)
 
 

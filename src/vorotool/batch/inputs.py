@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from vorotool.errors import InputError, UsageError
+from vorotool.formats.stores import is_store
 
 STANDARD_INPUT = "-"
 
@@ -33,12 +34,14 @@ class Input:
 def is_several(name: str) -> bool:
     """Whether a name given as an input stands for several: a folder, or a pattern that no file has for a name.
 
+    A Zarr store is a folder, but one input.
+
     Examples
     --------
     >>> is_several("data"), is_several("data/*.csv"), is_several("data/dots.csv"), is_several("-")
     (True, True, False, False)
     """
-    return name not in ("", STANDARD_INPUT) and (_is_pattern(name) or Path(name).is_dir())
+    return name not in ("", STANDARD_INPUT) and (_is_pattern(name) or _is_folder(Path(name)))
 
 
 def expand_inputs(
@@ -75,7 +78,7 @@ def expand_inputs(
             raise UsageError("- is standard input, which is one input: name files, or give their list to --files-from")
         if _is_pattern(name):
             found += _matching(name)
-        elif name and Path(name).is_dir():
+        elif name and _is_folder(Path(name)):
             found += _inside(name, frozenset(extensions), excluded)
         else:
             found.append(Input(name, Path(name).name))
@@ -112,12 +115,16 @@ def _is_pattern(name: str) -> bool:
     return glob.has_magic(name) and not os.path.lexists(name)
 
 
+def _is_folder(path: Path) -> bool:
+    return path.is_dir() and not is_store(path)
+
+
 def _matching(pattern: str) -> list[Input]:
     """Files that match, named below the folder that the pattern begins with."""
     parts = Path(pattern).parts
     fixed = Path(*parts[: next(i for i, part in enumerate(parts) if glob.has_magic(part))])
     found = map(Path, glob.glob(pattern, recursive=True))  # noqa: PTH207, as shells do it leaves hidden files out
-    files = sorted(path for path in found if not path.is_dir())
+    files = sorted(path for path in found if not _is_folder(path))
     if not files:
         raise InputError(f"no file matches {pattern}: check the pattern; for what is in a folder name the folder")
     return [Input(str(file), str(file.relative_to(fixed))) for file in files]
@@ -144,6 +151,8 @@ def _walk(folder: str, extensions: frozenset[str], excluded: str | None) -> Iter
             if not name.startswith(".") and (excluded is None or os.path.realpath(Path(place) / name) != excluded)
         ]
         below = Path(place).relative_to(folder)
-        for name in files:
+        stores = [name for name in folders if is_store(Path(place) / name)]
+        folders[:] = [name for name in folders if name not in stores]
+        for name in (*files, *stores):
             if not name.startswith(".") and Path(name).suffix.lower().lstrip(".") in extensions:
                 yield below / name

@@ -149,9 +149,8 @@ class Manifest:
             record |= {"exit": outcome.code, "error": outcome.message}
         record |= {"options": self.options, "sha256": outcome.digest}
         if not outcome.code:
-            record["outputs"] = {
-                Path(path).relative_to(self.folder).as_posix(): digest for path, digest in outcome.outputs.items()
-            }
+            above = f"{self.folder}{os.sep}"
+            record["outputs"] = {path.removeprefix(above): digest for path, digest in outcome.outputs.items()}
         said = {"warnings": outcome.warnings, "notes": outcome.notes}
         self._add(record | {name: texts for name, texts in said.items() if texts})
 

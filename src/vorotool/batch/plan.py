@@ -21,7 +21,8 @@ def output_paths(name: str, endings: Sequence[str], folder: str | os.PathLike[st
     Parameters
     ----------
     name : str
-        Path of the input below the folder that was given; its extension gives way to the endings.
+        Path of the input below the folder that was given; its extension gives way to the endings. It is simplified,
+        so that two outputs are one file only where their paths are the same text.
     endings : sequence of str
         Such as ``.csv`` or ``.labels.png``, one an output.
     folder : path
@@ -32,7 +33,7 @@ def output_paths(name: str, endings: Sequence[str], folder: str | os.PathLike[st
     >>> output_paths("day-1/a.json", [".table.csv", ".skeleton.svg"], "out")
     ('out/day-1/a.table.csv', 'out/day-1/a.skeleton.svg')
     """
-    stem = Path(folder) / PurePath(name).with_suffix("")
+    stem = Path(folder) / PurePath(os.path.normpath(name)).with_suffix("")
     return tuple(f"{stem}{ending}" for ending in endings)
 
 
@@ -44,7 +45,7 @@ def check_outputs(
     Parameters
     ----------
     tasks : sequence of Task
-        The whole plan.
+        The whole plan, with outputs as `output_paths` gives them.
     folder : path
         That outputs must not leave, whatever links are in it.
     others : mapping of str to str or None
@@ -66,12 +67,12 @@ def check_outputs(
 above both, whose folders are mirrored
     """
     written = {option: path for option, path in (others or {}).items() if path not in (None, "-")}
-    _check_collisions(tasks, written)
+    _check_collisions(tasks, folder, written)
     _check_inputs(tasks, written)
     _check_folders(tasks, Path(os.path.realpath(folder)))
 
 
-def _check_collisions(tasks: Sequence[Task], others: Mapping[str, str]) -> None:
+def _check_collisions(tasks: Sequence[Task], folder: str | os.PathLike[str], others: Mapping[str, str]) -> None:
     owner: dict[str, str] = {}
     for task in tasks:
         for path in task.outputs:
@@ -83,15 +84,14 @@ def _check_collisions(tasks: Sequence[Task], others: Mapping[str, str]) -> None:
                 )
             owner[key] = task.source
     for option, path in others.items():
-        key = _comparable(path)
+        key = _comparable(str(Path(folder) / os.path.relpath(path, folder or ".")))
         if key in owner:
             raise UsageError(f"{option} {path} is also the output of {owner[key]}: choose another name")
 
 
 def _comparable(path: str) -> str:
     """A path as it is compared: the usual file systems of macOS take A and a for the same."""
-    absolute = os.path.normpath(Path(path).absolute())
-    return absolute.casefold() if sys.platform == "darwin" else absolute
+    return path.casefold() if sys.platform == "darwin" else path
 
 
 def _check_inputs(tasks: Sequence[Task], others: Mapping[str, str]) -> None:

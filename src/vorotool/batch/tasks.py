@@ -114,7 +114,7 @@ def is_done(task: Task, digest: str) -> bool:
 
 
 def digest_of(path: str) -> str:
-    """SHA-256 of a file, as text; empty where there is none that can be read.
+    """SHA-256 of a file, or of the names and digests of those in a folder, as text; empty where nothing can be read.
 
     Examples
     --------
@@ -122,7 +122,15 @@ def digest_of(path: str) -> str:
     ('e391362d', '')
     """
     try:
+        if Path(path).is_dir():
+            return _digest_of_folder(Path(path))
         with Path(path).open("rb") as file:
             return hashlib.file_digest(file, "sha256").hexdigest()
     except (OSError, ValueError):
         return ""
+
+
+def _digest_of_folder(folder: Path) -> str:
+    files = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file())
+    lines = [f"{digest_of(str(folder / name))} {name}\n" for name in files]
+    return hashlib.sha256("".join(lines).encode()).hexdigest()

@@ -94,6 +94,15 @@ class ApproximateProducts(SkeletonProducts):
     def _points(self) -> NDArray[np.float64]:
         return self.shapes.samples.xy
 
+    @cached_property
+    def exact(self) -> Skeleton:
+        """The exact skeleton of the same shapes."""
+        from vorotool.engines.skeleton_comparison import exact_skeleton
+
+        o = self.options
+        with self.run.phase("exact"):
+            return exact_skeleton(self.found, side=o.side, frame=self.found.skeleton.frame, threads=o.threads)
+
     def _write_data(self, out: BinaryIO, target: Target) -> None:
         if target.what != "elements":
             super()._write_data(out, target)

@@ -29,7 +29,7 @@ def run_command(recipe: Recipe, o: SimpleNamespace) -> None:
     click.UsageError
         If there is no input, or options do not go together.
     """
-    if any(getattr(o, name, None) for name in BATCH_OPTIONS) or len(o.inputs) > 1 or any(map(is_several, o.inputs)):
+    if _is_batch(o):
         from vorotool.cli.many import run_many
 
         run_many(recipe, o)
@@ -39,7 +39,17 @@ def run_command(recipe: Recipe, o: SimpleNamespace) -> None:
     (source,) = o.inputs
     targets = plan_targets(recipe.formats, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=source)
     check_stats(o.stats, targets, source)
+    if o.cluster is not None and any(target.fmt != "zarr" for target in targets):
+        raise click.UsageError("--cluster with -o writes a Zarr store: name it .zarr, or a folder with --out-dir")
     recipe.check_options(o, targets)
     check_units(o, targets)
     with Run(recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber) as run:
         process_input(recipe, run, o, source, targets)
+
+
+def _is_batch(o: SimpleNamespace) -> bool:
+    """Whether inputs are shared out; a cluster may also share out the bands of the one output of one input."""
+    if len(o.inputs) > 1 or any(map(is_several, o.inputs)):
+        return True
+    one = ("cluster", "jobs") if o.cluster is not None and o.output is not None and o.inputs else ()
+    return any(getattr(o, name, None) for name in BATCH_OPTIONS if name not in one)

@@ -76,6 +76,8 @@ def read_clip(run: Run, o: SimpleNamespace, path: str) -> Sequence[Any]:
 
 def read_backdrop(o: SimpleNamespace) -> Backdrop | None:
     """Read the image of ``--overlay``, if there is one."""
+    if o.overlay is None:
+        return None
     import io
 
     from vorotool.formats.picture_images import read_picture
@@ -83,8 +85,6 @@ def read_backdrop(o: SimpleNamespace) -> Backdrop | None:
     from vorotool.formats.sources import read_source
     from vorotool.render.layers import Backdrop
 
-    if o.overlay is None:
-        return None
     pixels = read_picture(read_source(o.overlay), page=o.page, max_pixels=o.max_pixels)
     height, width = pixels.shape[:2]
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Sequence
-from functools import cached_property
+from collections.abc import Sequence
+from functools import cached_property, partial
 from types import SimpleNamespace
 from typing import Any, BinaryIO
 
@@ -12,9 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.cli.run import Run
+from vorotool.cli.streams import RowsOf, Stream, check_chunks, write_file, write_store
 from vorotool.cli.targets import Target
 from vorotool.cli.units import table_in_units
-from vorotool.engines.digital import band_limits, label_dtype, require_memory
+from vorotool.engines.bands import Band, Quantity, SeedBand, SeedBands
+from vorotool.engines.digital import label_dtype, require_memory
 from vorotool.engines.propagation import PropagatedRows
 from vorotool.engines.regions import (
     RegionMeasures,
@@ -26,7 +28,11 @@ from vorotool.engines.regions import (
 )
 from vorotool.engines.sweep import Tessellator
 from vorotool.engines.tessellate import verify_rows
+from vorotool.geometry.frame import Frame
 from vorotool.geometry.label_image import LabelImage
+
+PICTURE = {"labels": ("cells", "seeds", "labels"), "diagram": ("diagram",), "colour": ("cells", "seeds")}
+"""Layers of pictures, unless they are chosen."""
 
 DARK_LABELS = 1024
 """Labels up to here look black in a 16-bit image."""
@@ -81,109 +87,110 @@ class Products:
             check_png(self.dtype, self.rows.seeds.largest_label)
         elif what == "distance2":
             _ = self._exact_rows().square_dtype
-        draws = what == "diagram" and (self.options.layers or self.options.backdrop)
-        if what in ("colour", "table", "neighbours") or fmt == "svg" or draws:
+        if fmt == "zarr":
+            check_chunks(self.options, self.rows.frame, self._stream(what).dtype)
+        if what in ("table", "neighbours") or self._is_picture(target):
             require_memory(self.rows.frame, self.options.max_pixels)
 
     def write(self, target: Target, *, inputs: Sequence[str]) -> None:
         """Write one result."""
         from vorotool.formats.outputs import open_output
 
-        with open_output(
-            target.path, binary=target.is_binary, no_clobber=self.options.no_clobber, inputs=inputs
-        ) as out:
-            getattr(self, f"_write_{target.what}")(out, target.fmt)
-
-    def _write_labels(self, out: BinaryIO, fmt: str) -> None:
-        if fmt == "svg":
-            self._write_picture(out, fmt, ("cells", "seeds", "labels"))
+        what, o = target.what, self.options
+        self._tell(target)
+        if target.fmt == "zarr":
+            write_store(self.run, o, target, self._stream(what), inputs)
             return
-        largest = self.rows.seeds.largest_label
-        if fmt == "png" and largest < DARK_LABELS and sys.stderr.isatty():
-            self.run.note(f"labels up to {largest} look black in a 16-bit PNG: --what colour draws a picture")
-        self._write_rows(out, fmt, self._labels, self.dtype, largest)
+        with open_output(target.path, binary=target.is_binary, no_clobber=o.no_clobber, inputs=inputs) as out:
+            if self._is_picture(target):
+                self._write_picture(out, target)
+            elif what in ("table", "neighbours"):
+                self._write_columns(out, target.fmt, getattr(self, f"_{what}")())
+            else:
+                write_file(out, o, target, self._stream(what))
 
-    def _write_diagram(self, out: BinaryIO, fmt: str) -> None:
-        from vorotool.render.palettes import LINE_ON_PAPER
+    def _is_picture(self, target: Target) -> bool:
+        """Whether it is drawn from the whole image."""
+        layered = bool(self.options.layers or self.options.backdrop)
+        return (
+            target.what == "colour"
+            or target.fmt == "svg"
+            or (target.what == "diagram" and target.fmt == "png" and layered)
+        )
 
-        if (self.options.layers or self.options.backdrop) and fmt == "png":
-            self._write_picture(out, fmt, ("diagram",))
-            return
-
-        def rows_of(first: int, rows: int) -> NDArray[Any]:
-            above, below = min(1, first), min(1, self.rows.frame.height - first - rows)
-            labels = self._labels(first - above, rows + above + below)
-            return voronoi_diagram(labels, threads=self.options.threads)[above : above + rows]
-
-        self._write_rows(out, fmt, rows_of, np.dtype(np.uint8), 1, palette=LINE_ON_PAPER, bit_depth=1)
-
-    def _write_colour(self, out: BinaryIO, fmt: str) -> None:
-        self._write_picture(out, fmt, ("cells", "seeds"))
-
-    def _write_distance(self, out: BinaryIO, fmt: str) -> None:
-        rows = self._exact_rows()
-        self._write_rows(out, fmt, rows.distances, np.dtype(np.float32), 0)
-
-    def _write_distance2(self, out: BinaryIO, fmt: str) -> None:
-        rows = self._exact_rows()
-        if rows.seeds.scale > 1:
+    def _tell(self, target: Target) -> None:
+        """Say what may surprise in a result."""
+        seeds = self.rows.seeds
+        is_png = (target.what, target.fmt) == ("labels", "png")
+        if is_png and seeds.largest_label < DARK_LABELS and sys.stderr.isatty():
             self.run.note(
-                f"squared distances are in units of 1/{rows.seeds.scale}² square pixels: seeds lie between pixels"
+                f"labels up to {seeds.largest_label} look black in a 16-bit PNG: --what colour draws a picture"
             )
-        self._write_rows(out, fmt, rows.squared_distances, rows.square_dtype, int(np.iinfo(rows.square_dtype).max))
+        if target.what == "distance2" and seeds.scale > 1:
+            self.run.note(f"squared distances are in units of 1/{seeds.scale}² square pixels: seeds lie between pixels")
 
-    def _write_table(self, out: BinaryIO, fmt: str) -> None:
+    def _stream(self, what: str) -> Stream:
+        """Labels, the diagram or distances, which need not be in memory."""
+        if what == "labels":
+            return self._streamed(what, self._labels, self.dtype, self.rows.seeds.largest_label)
+        if what == "diagram":
+            from vorotool.render.palettes import LINE_ON_PAPER
+
+            return self._streamed(what, self._diagram, np.dtype(np.uint8), 1, palette=LINE_ON_PAPER, bit_depth=1)
+        rows = self._exact_rows()
+        if what == "distance":
+            return self._streamed(what, rows.distances, np.dtype(np.float32), 0)
+        largest = int(np.iinfo(rows.square_dtype).max)
+        return self._streamed(what, rows.squared_distances, rows.square_dtype, largest)
+
+    def _streamed(self, what: Any, rows_of: RowsOf, dtype: np.dtype[Any], largest: int, **kind: Any) -> Stream:
+        resolution = getattr(self.options, "resolution", None)
+        band = partial(self._band, what, dtype)
+        return Stream(self.rows.frame, rows_of, dtype, largest, band, {"resolution": resolution, **kind})
+
+    def _band(self, what: Quantity, dtype: np.dtype[Any], first: int, rows: int) -> Band:
+        """Give some rows as what computes them anywhere."""
+        frame = self.rows.frame
+        seeds = self._seed_bands.seeds_of(first, rows)
+        place = Frame(frame.x, frame.y + first, frame.width, rows)
+        return SeedBand(seeds, place, what, dtype, self.options.max_distance)
+
+    @cached_property
+    def _seed_bands(self) -> SeedBands:
+        return SeedBands(self.rows.seeds, self.rows.frame)
+
+    def _diagram(self, first: int, rows: int) -> NDArray[Any]:
+        above, below = min(1, first), min(1, self.rows.frame.height - first - rows)
+        labels = self._labels(first - above, rows + above + below)
+        return voronoi_diagram(labels, threads=self.options.threads)[above : above + rows]
+
+    def _table(self) -> Any:
         image, measures = self.image, self.measures  # refuses a frame that is too large, before distances are taken
         squares = self.rows.squared_distances() if isinstance(self.rows, Tessellator) else None
         table = region_table(image, distance2=squares, measures=measures, threads=self.options.threads)
-        own = self.rows.seeds.properties
-        self._write_columns(out, fmt, table_in_units(self.options, table, properties=own))
+        return table_in_units(self.options, table, properties=self.rows.seeds.properties)
 
-    def _write_neighbours(self, out: BinaryIO, fmt: str) -> None:
-        table = neighbour_table(self.image, measures=self.measures)
-        self._write_columns(out, fmt, table_in_units(self.options, table))
+    def _neighbours(self) -> Any:
+        return table_in_units(self.options, neighbour_table(self.image, measures=self.measures))
 
     def _write_columns(self, out: BinaryIO, fmt: str, table: Any) -> None:
         from vorotool.formats.tables import write_table
 
         write_table(out, table, fmt, precision=self.options.precision, threads=self.options.threads)
 
-    def _write_picture(self, out: BinaryIO, fmt: str, layers: tuple[str, ...]) -> None:
+    def _write_picture(self, out: BinaryIO, target: Target) -> None:
         from vorotool.pictures import write_label_picture
 
         write_label_picture(
             out,
             self.image,
             self.colours,
-            fmt=fmt,
-            layers=self.options.layers or layers,
+            fmt=target.fmt,
+            layers=self.options.layers or PICTURE[target.what],
             width=self.options.width or 1000,
             y_up=bool(self.options.y_up) and self.options.backdrop is None,
             backdrop=self.options.backdrop,
             threads=self.options.threads,
-        )
-
-    def _write_rows(
-        self,
-        out: BinaryIO,
-        fmt: Any,
-        rows_of: Callable[[int, int], NDArray[Any]],
-        dtype: np.dtype[Any],
-        largest: int,
-        **kind: Any,
-    ) -> None:
-        from vorotool.formats.label_images import write_label_image
-
-        write_label_image(
-            out,
-            (rows_of(first, rows) for first, rows in band_limits(self.rows.frame)),
-            shape=self.rows.frame.shape,
-            dtype=dtype,
-            fmt=fmt,
-            largest_label=largest,
-            resolution=getattr(self.options, "resolution", None),
-            threads=self.options.threads,
-            **kind,
         )
 
     def _exact_rows(self) -> Tessellator:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vorotool.cli.skeleton_options import Length, run_skeletons, skeleton_options
+from vorotool.cli.skeleton_options import APPROXIMATE_LAYERS, Length, run_skeletons, skeleton_options
 
 if TYPE_CHECKING:
     from vorotool.cli.approximate_skeletons import ApproximateProducts
@@ -35,6 +35,7 @@ if TYPE_CHECKING:
         help="Join corners by lines along their bisectors; by default with --tolerance.",
     ),
     click.option("--compare", is_flag=True, help="Say how far the exact skeleton is, both ways; in --stats, too."),
+    layers=APPROXIMATE_LAYERS,
 )
 def command(**options: Any) -> None:
     """Approximate the skeleton of polygons by samples of their edges, with a certified error of each arc.

@@ -44,7 +44,13 @@ FORMATS = {
 LAYERS = tuple(dict.fromkeys([*SKELETON_LAYERS, *chain.from_iterable(DERIVED.values())]))
 """Layers of all pictures."""
 
-PICTURE_LAYERS = {"svg": LAYERS, "png": tuple(layer for layer in LAYERS if layer != "labels")}
+APPROXIMATE_LAYERS = (*LAYERS, "exact")
+"""Beside approximate skeletons pictures can show exact ones."""
+
+PICTURE_LAYERS = {
+    "svg": APPROXIMATE_LAYERS,
+    "png": tuple(layer for layer in APPROXIMATE_LAYERS if layer != "labels"),
+}
 
 _WITHOUT_DIGITS = frozenset({"npz", "html", *_PICTURES})
 _WITHOUT_CURVES = frozenset({"geojson", "wkt", "graphml"})
@@ -117,7 +123,7 @@ _BEFORE: tuple[Decorator, ...] = (
     ),
     click.option("--to", "end", type=Place(), help="End it at the nearest place."),
 )
-_AFTER: tuple[Decorator, ...] = (
+_READING: tuple[Decorator, ...] = (
     click.option(
         "-d",
         "--distance",
@@ -149,21 +155,22 @@ _AFTER: tuple[Decorator, ...] = (
         help="Of an image: around pixels (default), or half-way between the centres of pixels.",
     ),
     shared("seeds", "connectivity", "threshold", "invert"),
-    layers_option(LAYERS),
+)
+_AFTER: tuple[Decorator, ...] = (
     shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels"),
     shared("max-sites"),
     pixel_size_option(),
     batch_options(),
     shared("no-clobber", "no-properties", "quiet", "verbose"),
 )
-"""Options before and after a command's own."""
+"""Options before a command's own, after them, and after the layers of pictures."""
 
 
-def skeleton_options(*own: Decorator) -> Decorator:
+def skeleton_options(*own: Decorator, layers: tuple[str, ...] = LAYERS) -> Decorator:
     """Add the options that skeletons have in common, and a command's own among them."""
 
     def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
-        for option in reversed((*_BEFORE, *own, *_AFTER)):
+        for option in reversed((*_BEFORE, *own, *_READING, layers_option(layers), *_AFTER)):
             function = option(function)
         return function
 
@@ -205,7 +212,7 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
         raise click.UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
     check_picture_options(o, pictures, PICTURE_LAYERS, png_has_width=True)
     for what in (target.what for target in targets if target.fmt in _PICTURES):
-        own = DERIVED.get(what, SKELETON_LAYERS)
+        own = DERIVED.get(what, (*SKELETON_LAYERS, "exact"))
         for layer in (layer for layer in o.layers or () if layer not in own):
             raise click.UsageError(f"--layers {layer}: a picture of {what} has {', '.join(own)}; choose of these")
 

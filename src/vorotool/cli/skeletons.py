@@ -131,6 +131,11 @@ class SkeletonProducts(ABC):
         """What pictures show as points, if not the ends of edges."""
         return None
 
+    @property
+    def exact(self) -> Skeleton | None:
+        """What pictures show beside an approximate skeleton."""
+        return None
+
     def verify(self) -> None:
         """Check the diagram and the skeleton, from their arrays alone, and what pruning left of it."""
         self.derived.verify()
@@ -242,7 +247,8 @@ class SkeletonProducts(ABC):
         if target.what == "centerline":
             layers = centerline_layers(self.centerlines, page, wanted)
         else:
-            layers = picture_layers(value, page, wanted, what=target.what, points=self._points)
+            exact = self.exact if "exact" in wanted else None
+            layers = picture_layers(value, page, wanted, what=target.what, points=self._points, exact=exact)
         write_layers(out, layers, page, fmt=target.fmt, threads=self.options.threads)
 
     def _layers(self, what: str) -> Sequence[str]:

@@ -28,9 +28,10 @@ EXTENSIONS = {
     ".poly": "poly",
     ".graphml": "graphml",
     ".html": "html",
+    ".zarr": "zarr",
 }
 FORMATS = tuple(dict.fromkeys(EXTENSIONS.values()))
-TEXT_FORMATS = frozenset(FORMATS) - {"png", "tiff", "npy", "npz"}
+TEXT_FORMATS = frozenset(FORMATS) - {"png", "tiff", "npy", "npz", "zarr"}
 TRIANGLE_FILES = frozenset({"node", "edge", "ele"})
 _EXTENSION_OF = {"tiff": "tif", "text": "txt"}
 
@@ -189,18 +190,21 @@ def check_targets(options: Any, targets: Sequence[Target], source: str) -> None:
         The input, which is never replaced; neither is the image beneath a picture.
     """
     from vorotool.formats.outputs import check_output
+    from vorotool.formats.stores import check_store
 
     overlay = [] if options.overlay is None else [options.overlay]
     if source == "-" and overlay == ["-"]:
         raise click.UsageError("--overlay - is the input: name a file for one of the two")
+    rules = {
+        "no_clobber": options.no_clobber,
+        "inputs": (source, *overlay),
+        "makes_folder": options.out_dir is not None,
+    }
     for target in targets:
-        check_output(
-            target.path,
-            binary=target.is_binary,
-            no_clobber=options.no_clobber,
-            inputs=(source, *overlay),
-            makes_folder=options.out_dir is not None,
-        )
+        if target.fmt == "zarr":
+            check_store(target.path, **rules)
+        else:
+            check_output(target.path, binary=target.is_binary, **rules)
     if options.stats is not None:
         in_out_dir = options.out_dir is not None and Path(options.stats).parent == Path(options.out_dir)
         check_output(options.stats, no_clobber=options.no_clobber, makes_folder=in_out_dir)

@@ -9,7 +9,7 @@ import click
 
 from vorotool.cli.commands import run_command
 from vorotool.cli.inputs import naming, read_seed_input, refuse
-from vorotool.cli.options import Decimal, batch_options, layers_option, shared, what_option
+from vorotool.cli.options import Decimal, Size, batch_options, layers_option, shared, what_option
 from vorotool.cli.recipes import Recipe
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options
@@ -24,11 +24,11 @@ _IMAGES = ("png", "tiff", "npy", "text")
 _PICTURES = {("labels", "svg"), ("diagram", "png"), ("colour", "png"), ("colour", "svg")}
 _TABLES = ("csv", "json", "npz")
 FORMATS = {
-    "labels": (*_IMAGES, "svg"),
+    "labels": (*_IMAGES, "zarr", "svg"),
     "diagram": _IMAGES,
     "colour": ("png", "svg"),
-    "distance": ("tiff", "npy"),
-    "distance2": ("tiff", "npy", "text"),
+    "distance": ("tiff", "npy", "zarr"),
+    "distance2": ("tiff", "npy", "zarr", "text"),
     "table": _TABLES,
     "neighbours": _TABLES,
 }
@@ -52,7 +52,12 @@ FORMATS = {
     help="Label pixels up to this distance from a seed; beyond: 0. Distances stay whole.",
 )
 @click.option(
-    "--dtype", type=click.Choice(["uint8", "uint16", "uint32", "int32"]), help="Type of labels in TIFF and NPY."
+    "--dtype", type=click.Choice(["uint8", "uint16", "uint32", "int32"]), help="Type of labels in TIFF, NPY, Zarr."
+)
+@click.option(
+    "--chunk",
+    type=Size(),
+    help="Columns x rows of the chunks of a Zarr store; by default 2048x512, fewer rows if wide.",
 )
 @shared("size", "window", "columns", "input-format", "page", "seeds", "connectivity", "threshold", "invert")
 @layers_option(("cells", "diagram", "seeds", "labels"))
@@ -85,13 +90,17 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
         raise click.UsageError("distances are those of the exact tessellation: leave out --method propagation")
     if o.connectivity is not None and o.seeds in ("pixels", "labels"):
         raise click.UsageError(f"--connectivity is for components: leave it out with --seeds {o.seeds}")
+    if o.method == "propagation" and o.cluster is not None and o.out_dir is None:
+        raise click.UsageError("a cluster computes bands of the exact tessellation: leave out --method propagation")
     _check_output_options(o, {(target.what, target.fmt) for target in targets})
 
 
 def _check_output_options(o: SimpleNamespace, outputs: set[tuple[str, str]]) -> None:
     """Refuse options that no output would show."""
-    if o.dtype is not None and not outputs & {("labels", "tiff"), ("labels", "npy")}:
-        raise click.UsageError("--dtype is for labels in TIFF and NPY: use -f tiff or -f npy, or leave it out")
+    if o.dtype is not None and not outputs & {("labels", fmt) for fmt in ("tiff", "npy", "zarr")}:
+        raise click.UsageError("--dtype is for labels in TIFF, NPY and Zarr: use -f tiff or -f npy, or leave it out")
+    if o.chunk is not None and "zarr" not in {fmt for _, fmt in outputs}:
+        raise click.UsageError("--chunk is for Zarr stores: use -f zarr, or leave it out")
     tables = {(what, fmt) for what in ("table", "neighbours") for fmt in ("csv", "json")}
     if o.precision is not None and not outputs & tables:
         raise click.UsageError("--precision is for tables in CSV and JSON: use --what table, or leave it out")

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 import warnings
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.label_arrays import Progress
@@ -77,23 +79,60 @@ def planar_graph(polygons: Any, *, strict: bool = False, threads: int = 0, progr
     given = as_polygons(polygons)
     if len(given.xy) > MOST_VERTICES:
         raise LimitError(f"there are {len(given.xy)} vertices, more than {MOST_VERTICES}: split the polygons")
-    vertices, origin, exponent, move = _core.place_on_lattice(given.xy, checked_threads(threads), progress)
+    placement = placed_vertices(given, threads=threads, progress=progress)
+    return graph_of_placement(given, placement, strict=strict, progress=progress)
+
+
+@dataclass(frozen=True, eq=False)
+class Placement:
+    """Vertices of polygons on the lattice.
+
+    Parameters
+    ----------
+    vertices : (n, 2) int32 array
+        Lattice place (x, y) stands for ``origin + scale * (x, y)``.
+    origin : (float, float)
+        In input units.
+    exponent : int
+        The scale is this power of two.
+    largest_move : float
+        Of a vertex, in input units.
+    """
+
+    vertices: NDArray[np.int32]
+    origin: tuple[float, float]
+    exponent: int
+    largest_move: float
+
+
+def placed_vertices(polygons: PolygonSet, *, threads: int = 0, progress: Progress = None) -> Placement:
+    """Place the vertices of polygons on the lattice; arguments as of `planar_graph`."""
+    return Placement(*_core.place_on_lattice(polygons.xy, checked_threads(threads), progress))
+
+
+def graph_of_placement(
+    given: PolygonSet, placement: Placement, *, strict: bool = False, progress: Progress = None
+) -> PlanarGraph:
+    """Make the planar graph of polygons whose vertices are placed; errors and warnings as of `planar_graph`."""
+    rings = given.ring_start, given.ring_kind, given.ring_polygon
     try:
-        made = _core.make_planar_graph(vertices, given.ring_start, given.ring_kind, given.ring_polygon, progress)
+        made = _core.make_planar_graph(placement.vertices, *rings, progress)
     except _core.TooManyCrossingsError:
         raise LimitError(f"the edges meet more than {MOST_VERTICES} times: simplify or split the polygons") from None
     except _core.TooManyOverlapsError:
         raise LimitError(f"the polygons overlap or nest more than {MOST_OVERLAPS} times: split them") from None
     found = dict(zip(REPAIRS, made.pop("repairs"), strict=True))
     repairs = {name: count for name, (count, _, _) in found.items()}
-    scale = math.ldexp(1.0, exponent)
+    scale, move = math.ldexp(1.0, placement.exponent), placement.largest_move
     if repairs["moved_edges"]:  # within a cell, towards its centre: at most half its diagonal
         move = math.nextafter(move + 0.7072 * scale, math.inf)
-    graph = PlanarGraph(**made, origin=origin, scale=scale, largest_move=move, repairs=repairs, polygons=given)
+    graph = PlanarGraph(
+        **made, origin=placement.origin, scale=scale, largest_move=move, repairs=repairs, polygons=given
+    )
     if any(repairs.values()):
         if strict:
             raise InputError(_first_repair(given, found))
-        warnings.warn(_summary(repairs, scale), VorotoolWarning, stacklevel=2)
+        warnings.warn(_summary(repairs, scale), VorotoolWarning, stacklevel=3)
     return graph
 
 

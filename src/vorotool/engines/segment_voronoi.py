@@ -78,7 +78,7 @@ def segment_voronoi(
         raise InputError(f"{error}: place the input on the lattice first") from None
     except RuntimeError as error:
         raise _explained(str(error), places, ends) from None
-    return SegmentVoronoiDiagram(places, ends, *core.arrays(threads, progress), counts=core.counts)
+    return SegmentVoronoiDiagram(places, ends, *core.take_arrays(threads, progress), counts=core.counts)
 
 
 def _explained(symptom: str, points: NDArray[np.int32], segments: NDArray[np.int32]) -> VorotoolError:

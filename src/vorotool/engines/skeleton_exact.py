@@ -17,6 +17,7 @@ from vorotool.engines.segment_voronoi import segment_voronoi
 from vorotool.errors import InputError, UsageError, VorotoolWarning
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.planar_graph import PlanarGraph
+from vorotool.geometry.polygon_conversion import as_polygons
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.segment_voronoi import SegmentVoronoiDiagram
 from vorotool.geometry.skeleton import EXTERIOR, INTERIOR, Skeleton
@@ -103,7 +104,14 @@ def skeleton_exact(
         return skeleton_with_gap(
             polygons, gap, side=side, complete=complete, frame=frame, strict=strict, threads=threads, progress=progress
         )
-    shapes = shape_diagram(polygons, strict=strict, threads=threads, progress=progress)
+    given = as_polygons(polygons)
+    if side == "interior":
+        from vorotool.engines.skeleton_batches import batched_skeleton
+
+        made = batched_skeleton(given, threads=checked_threads(threads), progress=progress)
+        if made is not None:
+            return made
+    shapes = shape_diagram(given, strict=strict, threads=threads, progress=progress)
     return skeleton_of(shapes, side=side, frame=frame, threads=threads, progress=progress)
 
 

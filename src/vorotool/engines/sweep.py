@@ -43,7 +43,7 @@ class Tessellator:
     strict : bool
         Refuse several seeds at one place.
     progress : callable, optional
-        Called now and then with the fraction done of the rows asked for.
+        Called now and then with the fraction done of the frame, of which rows are asked for from top to bottom.
 
     Raises
     ------
@@ -129,6 +129,13 @@ class Tessellator:
             place = Frame(self.frame.x, self.frame.y + first, self.frame.width, len(rows))
             paint_seeds(rows, self.seeds, place, value)
 
+    def _progress_of(self, first: int, rows: int) -> Progress:
+        """What is told while some rows are made: the fraction of the frame, as those above them are made before."""
+        tell, height = self._progress, self.frame.height
+        if tell is None:
+            return None
+        return lambda fraction: tell((first + fraction * rows) / height)
+
     @property
     def arithmetic(self) -> str:
         """The narrowest arithmetic that is exact for these seeds."""
@@ -163,12 +170,21 @@ class Tessellator:
         kind = label_dtype(self.seeds.largest_label, getattr(out, "dtype", dtype))
         array = self._output(first, rows, kind, out)
         limit = None if self.most_squared is None else divmod(self.most_squared, 2**64)
-        self._core.labels(array, first, limit, self._threads, self._progress)
+        self._core.labels(array, first, limit, self._threads, self._progress_of(first, len(array)))
         self._paint(array, first)
         return array
 
-    def squared_distances(self, first: int = 0, rows: int | None = None) -> NDArray[Any]:
+    def squared_distances(
+        self, first: int = 0, rows: int | None = None, *, dtype: np.dtype[Any] | None = None
+    ) -> NDArray[Any]:
         """Exact squared distances to the nearest seed, in units of 1 / ``seeds.scale``² square pixels.
+
+        Parameters
+        ----------
+        first, rows : int
+            The first row and the number of rows; by default all.
+        dtype : dtype, optional
+            uint32 or uint64, where it is known that they fit; by default `square_dtype`.
 
         Returns
         -------
@@ -180,15 +196,15 @@ class Tessellator:
         LimitError
             If a squared distance may exceed 64 bits.
         """
-        array = self._output(first, rows, self.square_dtype, None)
-        self._core.squared_distances(array, first, self._threads, self._progress)
+        array = self._output(first, rows, dtype or self.square_dtype, None)
+        self._core.squared_distances(array, first, self._threads, self._progress_of(first, len(array)))
         self._paint(array, first, 0)
         return array
 
     def distances(self, first: int = 0, rows: int | None = None) -> NDArray[np.float32]:
         """Distances to the nearest seed in pixels, rounded once from double precision."""
         array = self._output(first, rows, np.dtype(np.float32), None)
-        self._core.distances(array, first, self._threads, self._progress)
+        self._core.distances(array, first, self._threads, self._progress_of(first, len(array)))
         self._paint(array, first, 0)
         return array
 

@@ -80,9 +80,6 @@ def read(
     """
     from vorotool.formats.images import is_image, read_image
     from vorotool.formats.input_formats import NAMES_WITH, known_input_format
-    from vorotool.formats.points import read_points
-    from vorotool.formats.polygons import read_polygons, recognise
-    from vorotool.formats.skeleton_json import read_skeleton, says_skeleton
     from vorotool.formats.sources import read_source
     from vorotool.geometry.checks import checked_threads
 
@@ -91,11 +88,17 @@ def read(
     input_format = known_input_format(input_format, NAMES_WITH[geometry])
     threads = checked_threads(threads)
     source = read_source(fspath(path))
-    if geometry is None and input_format in (None, "json") and says_skeleton(source.data):
-        return read_skeleton(source, properties=properties, max_sites=max_sites, note=note)
+    if geometry is None and input_format in (None, "json"):
+        from vorotool.formats.skeleton_json import read_skeleton, says_skeleton
+
+        if says_skeleton(source.data):
+            return read_skeleton(source, properties=properties, max_sites=max_sites, note=note)
     is_points = columns is not None and source.data.startswith(NPY_MAGIC)  # the one format that holds either
     if input_format in ("png", "tiff", "pnm") or (input_format in (None, "npy") and not is_points and is_image(source)):
         return read_image(source, input_format=input_format, page=page, max_pixels=max_pixels)
+    from vorotool.formats.points import read_points
+    from vorotool.formats.polygons import read_polygons, recognise
+
     has_shapes = geometry == "polygons"
     if geometry is None and columns is None:
         source, has_shapes = recognise(source, input_format)

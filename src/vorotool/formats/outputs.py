@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import secrets
+import shutil
 import stat
 import sys
 from collections.abc import Iterable, Iterator
@@ -113,13 +114,17 @@ def check_output(
     target = _checked_target(name, no_clobber, inputs)
     if not _is_regular(target):
         return
-    folder = target.parent
+    check_folder(name, target.parent, makes_folder=makes_folder)
+
+
+def check_folder(name: str, folder: Path, *, makes_folder: bool = False) -> None:
+    """Refuse an output whose folder is not there, unless it is made, or cannot be written in."""
     while makes_folder and not folder.exists():
         folder = folder.parent
     if not folder.is_dir():
-        raise _failure(name, OSError(errno.ENOTDIR if folder.exists() else errno.ENOENT, "not a directory"))
+        raise failure(name, OSError(errno.ENOTDIR if folder.exists() else errno.ENOENT, "not a directory"))
     if not os.access(folder, os.W_OK | os.X_OK):
-        raise _failure(name, OSError(errno.EACCES, f"no permission to write in {folder}"))
+        raise failure(name, OSError(errno.EACCES, f"no permission to write in {folder}"))
 
 
 def make_folder(path: str | os.PathLike[str]) -> None:
@@ -168,7 +173,21 @@ def remove_temporaries(folder: str | os.PathLike[str], tag: str) -> None:
     """
     with suppress(OSError):
         for path in Path(folder).glob(f".vorotool-{tag}*.tmp"):
-            path.unlink(missing_ok=True)
+            remove(path)
+
+
+def remove(path: Path) -> None:
+    """Remove a file or a folder with all that is in it, as far as it is there and can be removed."""
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path, ignore_errors=True)
+    else:
+        with suppress(OSError):
+            path.unlink()
+
+
+def temporary_beside(target: Path) -> Path:
+    """Name a temporary file: 64 random bits are nobody else's, so that whatever happens it is ours to remove."""
+    return target.with_name(f".vorotool-{_TAG.get()}{secrets.token_hex(8)}.tmp")
 
 
 def _refuse_terminal(binary: bool) -> None:
@@ -188,7 +207,7 @@ def _standard_output(binary: bool) -> Iterator[BinaryIO]:
         raise
     except OSError as error:
         _abandon_standard_output()
-        raise _failure(STANDARD_OUTPUT, error) from error
+        raise failure(STANDARD_OUTPUT, error) from error
 
 
 def _abandon_standard_output() -> None:
@@ -211,16 +230,17 @@ def _checked_target(name: str, no_clobber: bool, inputs: Iterable[str | os.PathL
     if not exists or not _is_regular(target):
         return target
     for each in inputs:
-        if _is_same_file(target, os.fspath(each)):
+        if is_same_file(target, os.fspath(each)):
             raise UsageError(f"{name} is also an input, which is never replaced: choose another name with -o")
     if no_clobber:
-        raise _clobber_error(name)
+        raise clobber_error(name)
     if not os.access(target, os.W_OK):
         raise OutputError(f"{name} cannot be written: it is write-protected; choose another name with -o")
     return target
 
 
-def _clobber_error(name: str) -> OutputError:
+def clobber_error(name: str) -> OutputError:
+    """Say that an output is there already, with ``--no-clobber``."""
     return OutputError(f"{name} exists already and --no-clobber is given: choose another name with -o")
 
 
@@ -232,7 +252,8 @@ def _is_regular(target: Path) -> bool:
         return True
 
 
-def _is_same_file(target: Path, source: str) -> bool:
+def is_same_file(target: Path, source: str) -> bool:
+    """Whether an output is an input; ``-`` is standard input."""
     try:
         if source == "-":
             return os.path.samestat(target.stat(), os.fstat(sys.stdin.fileno()))
@@ -244,24 +265,22 @@ def _is_same_file(target: Path, source: str) -> bool:
 @contextmanager
 def _direct(name: str, target: Path) -> Iterator[BinaryIO]:
     """Write to a pipe or a device."""
-    with _explained(name), target.open("wb") as out:
+    with explained(name), target.open("wb") as out:
         yield out
 
 
 @contextmanager
 def _replacing(name: str, target: Path, no_clobber: bool) -> Iterator[BinaryIO]:
-    # A name of 64 random bits is nobody else's: whatever happens, it is ours to remove.
-    temporary = target.with_name(f".vorotool-{_TAG.get()}{secrets.token_hex(8)}.tmp")
+    temporary = temporary_beside(target)
     try:
-        with _explained(name):
+        with explained(name):
             with _create(temporary, target) as out:
                 yield out
             if no_clobber and target.exists():
-                raise _clobber_error(name)
+                raise clobber_error(name)
             temporary.replace(target)
     except BaseException:
-        with suppress(OSError):
-            temporary.unlink()
+        remove(temporary)
         raise
 
 
@@ -274,16 +293,18 @@ def _create(temporary: Path, target: Path) -> BinaryIO:
 
 
 @contextmanager
-def _explained(name: str) -> Iterator[None]:
+def explained(name: str) -> Iterator[None]:
+    """Turn what the system says of an output into an `OutputError` that names it."""
     try:
         yield
     except (BrokenPipeError, VorotoolError):
         raise
     except OSError as error:
-        raise _failure(name, error) from error
+        raise failure(name, error) from error
 
 
-def _failure(name: str, error: OSError) -> OutputError:
+def failure(name: str, error: OSError) -> OutputError:
+    """Say why an output cannot be written, and what to do."""
     advice = {
         "ENOENT": "create the directory first",
         "ENOTDIR": "create the directory first",

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
-from vorotool.formats.graphml import write_graphml
 from vorotool.formats.polylines import Wording, geojson_wording, wkt_wording, write_polylines
 from vorotool.formats.skeleton_json import write_json
 from vorotool.formats.tables import TABLE_FORMATS, write_arrays, write_table
@@ -88,6 +87,8 @@ def write_skeleton(
     elif fmt == "npz":
         write_arrays(out, skeleton_arrays(skeleton), threads=threads)
     elif fmt == "graphml":
+        from vorotool.formats.graphml import write_graphml  # brings the parsers of XML along
+
         write_graphml(out, skeleton, flatten=flatten, precision=precision, threads=threads)
     else:
         points, start, first_arcs = _branch_polylines(skeleton, checked_flatten(flatten, skeleton.polygons))

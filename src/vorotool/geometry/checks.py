@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from operator import index
 from typing import Any
 
@@ -34,6 +35,13 @@ def checked_threads(threads: int) -> int:
     if count < 0:
         raise UsageError(f"threads is {threads!r}: it must be an integer of at least 1, or 0 for all")
     return min(count, MOST_THREADS)
+
+
+def available_threads() -> int:
+    """Processors that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
 
 
 def whole_numbers(values: Any, name: str, dtype: DTypeLike, least: int | None = None) -> NDArray[Any]:

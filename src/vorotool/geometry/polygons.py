@@ -115,6 +115,13 @@ class PolygonSet:
         """(p,) whether each is an open line."""
         return np.equal(self.ring_kind[self.polygon_start[:-1]], LINE)
 
+    @cached_property
+    def following(self) -> NDArray[np.int64]:
+        """(n,) the vertex after each one around its ring."""
+        following = np.arange(1, len(self.xy) + 1)
+        following[self.ring_start[1:] - 1] = self.ring_start[:-1]
+        return following
+
     def ring(self, index: int) -> NDArray[np.float64]:
         """(k, 2) vertices of a ring: a view."""
         return self.xy[self.ring_start[index] : self.ring_start[index + 1]]

@@ -198,13 +198,17 @@ class Skeleton:
     @cached_property
     def site_ends(self) -> NDArray[np.float64]:
         """(s, 2, 2) the ends of each site, with a gap those of the shortened edges; a vertex has one place twice."""
-        ends = ends_of_sites(self.polygons, self.site_table)
-        a, b = ends[:, 0], ends[:, 1]
+        return self._ends_of(slice(None))
+
+    def _ends_of(self, sites: Any) -> NDArray[np.float64]:
+        ends = ends_of_sites(self.polygons, self.site_table, sites)
+        a, b = ends[..., 0, :], ends[..., 1, :]
         if self.gap:
-            length = np.sqrt(((b - a) ** 2).sum(axis=1, keepdims=True))
+            length = np.sqrt(((b - a) ** 2).sum(axis=-1, keepdims=True))
             way = np.divide(self.gap * (b - a), length, out=np.zeros_like(a), where=length > 0)
-            a, b = a + way, b - way
-        return np.stack([a, b], axis=1)
+            a += way
+            b -= way
+        return ends
 
     @cached_property
     def arc_radii(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
@@ -222,7 +226,7 @@ class Skeleton:
             self.vertices[self.arcs[arcs]],
             self.radius[self.arcs[arcs]],
             self.control[arcs],
-            self.site_ends[sites],
+            self.site_ends[sites] if "site_ends" in self.__dict__ else self._ends_of(sites),
             self.site_table.kind[sites] == EDGE,
             self.length[arcs],
         )
@@ -264,14 +268,14 @@ class Skeleton:
         return points, start
 
 
-def ends_of_sites(polygons: PolygonSet, table: SiteTable) -> NDArray[np.float64]:
-    """(s, 2, 2) the ends of sites of polygons; a vertex has one place twice."""
-    ring = polygons.polygon_start[table.polygon] + table.ring
-    start, stop = polygons.ring_start[ring], polygons.ring_start[ring + 1]
-    first = start + table.index
-    following = np.where(first + 1 < stop, first + 1, start)
-    last = np.where(table.kind == EDGE, following, first)
-    return np.stack([polygons.xy[first], polygons.xy[last]], axis=1)
+def ends_of_sites(polygons: PolygonSet, table: SiteTable, sites: Any = slice(None)) -> NDArray[np.float64]:
+    """(…, 2, 2) the ends of all or some sites of polygons; a vertex has one place twice."""
+    ring = polygons.polygon_start[table.polygon[sites]] + table.ring[sites]
+    first = polygons.ring_start[ring] + table.index[sites]
+    ends = np.empty((*first.shape, 2, 2))
+    ends[..., 0, :] = polygons.xy[first]
+    ends[..., 1, :] = polygons.xy[np.where(table.kind[sites] == EDGE, polygons.following[first], first)]
+    return ends
 
 
 MOST_PIECES = 1 << 12

@@ -301,8 +301,7 @@ def _measures(polygons: PolygonSet) -> tuple[NDArray[np.float64], NDArray[np.flo
     if not count:
         return np.zeros(0), np.zeros(0)
     first = polygons.ring_start[:-1]
-    following = np.arange(1, len(polygons.xy) + 1)
-    following[polygons.ring_start[1:] - 1] = first
+    following = polygons.following
     ring_length = _distance(polygons.xy, polygons.xy[following])
     ring_length[(polygons.ring_start[1:] - 1)[polygons.is_line[polygons.ring_polygon]]] = 0
     perimeter = np.add.reduceat(np.add.reduceat(ring_length, first), polygons.polygon_start[:-1])

@@ -66,6 +66,8 @@ class Curves:
         ``#rrggbb``.
     width : float
         In px, whatever the scale.
+    is_broken : bool
+        Drawn as a broken line in SVG.
     """
 
     name: str
@@ -74,6 +76,7 @@ class Curves:
     control: NDArray[np.int32]
     colour: str = INK
     width: float = 1.5
+    is_broken: bool = False
 
     def flattened(self, places: NDArray[np.float64], tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
         """Straight lines instead of the curves.

@@ -22,6 +22,8 @@ MOST_ELEMENTS = 100_000
 
 SLICE_ROWS = 1 << 17
 DECIMALS = 2
+DASH = 6
+"""Px: of broken lines, and between."""
 
 
 def write_layers_svg(out: BinaryIO, layers: Iterable[Layer], page: Page, *, threads: int = 0) -> None:
@@ -106,7 +108,8 @@ def _lines(layer: Lines, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iter
 def _curves(layer: Curves, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
     """One row a place: M before the begin of a path, Q before a control point, then L or nothing before an end."""
     across, down = _core.NumberTexts(x, 0, threads), _core.NumberTexts(y, 0, threads)
-    yield f'<g id="{escape(layer.name)}" fill="none" {_stroke(layer.colour, layer.width)}>\n'.encode()
+    dashes = f' stroke-dasharray="{DASH:g}"' if layer.is_broken else ""
+    yield f'<g id="{escape(layer.name)}" fill="none" {_stroke(layer.colour, layer.width)}{dashes}>\n'.encode()
     for rows in _chunks(len(layer.pairs), PATH_ROWS):
         source, target = layer.pairs[rows].T
         control = layer.control[rows]

@@ -16,7 +16,7 @@ from vorotool.render.layers import Curves, Layer, Lines, Page, Points, Texts, bo
 from vorotool.render.palettes import INK, RESULT, SEED
 from vorotool.render.polygon_layers import polygon_layers
 
-LAYERS = ("polygons", "elements", "points", "skeleton", "nodes", "labels")
+LAYERS = ("polygons", "elements", "points", "skeleton", "exact", "nodes", "labels")
 """From below."""
 
 
@@ -28,6 +28,7 @@ def skeleton_layers(
     name: str = "skeleton",
     colour: str = RESULT,
     points: NDArray[np.float64] | None = None,
+    exact: Skeleton | None = None,
 ) -> list[Layer]:
     """Make layers of a skeleton; lines get finer where there are many.
 
@@ -38,12 +39,14 @@ def skeleton_layers(
     page : Page
         Where it will be drawn.
     layers : iterable of str
-        Which of "polygons", "elements" (edges), "points" (their ends), "skeleton", "nodes", "labels" (the paper's, of
-        elements).
+        Which of "polygons", "elements" (edges), "points" (their ends), "skeleton", "exact", "nodes", "labels" (the
+        paper's, of elements).
     name, colour : str
         Of the layer of arcs: a whole diagram has other ones.
     points : (s, 2) float64 array, optional
         Samples of the edges: drawn instead of the ends of edges.
+    exact : Skeleton, optional
+        What the skeleton approximates: drawn as a broken line.
 
     Raises
     ------
@@ -67,6 +70,7 @@ def skeleton_layers(
         "elements": lambda: [_edges(skeleton, width)],
         "points": lambda: [Points("points", places, radius=radius)],
         "skeleton": lambda: [_arcs(skeleton, name, colour, width)],
+        "exact": lambda: [] if exact is None else [replace(_arcs(exact, "exact", INK, width), is_broken=True)],
         "nodes": lambda: [Points("nodes", skeleton.vertices, colour=colour, radius=radius)],
         "labels": lambda: [_labels(skeleton, min(max(spacing / 6, 2.0), 16.0))],
     }
@@ -80,11 +84,12 @@ def picture_layers(
     *,
     what: str = "skeleton",
     points: NDArray[np.float64] | None = None,
+    exact: Skeleton | None = None,
 ) -> list[Layer]:
     """Make the layers of the picture of a skeleton, or of a whole diagram, which is another layer in another colour."""
     if what == "diagram":
-        return skeleton_layers(skeleton, page, layers, name="diagram", colour=SEED, points=points)
-    return skeleton_layers(skeleton, page, layers, points=points)
+        return skeleton_layers(skeleton, page, layers, name="diagram", colour=SEED, points=points, exact=exact)
+    return skeleton_layers(skeleton, page, layers, points=points, exact=exact)
 
 
 def centerline_layers(lines: Centerlines, page: Page, layers: Iterable[str]) -> list[Layer]:

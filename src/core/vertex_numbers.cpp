@@ -1,0 +1,205 @@
+#include "core/vertex_numbers.hpp"
+
+#include <atomic>
+#include <numeric>
+
+#include "core/coincident_vertices.hpp"
+#include "core/parallel.hpp"
+
+namespace vorotool::core {
+namespace {
+
+constexpr std::size_t piece_size = std::size_t{1} << 13;  // items of a piece of work, some ms
+constexpr std::size_t ahead = 8;                          // items: how early others are called for
+
+// Calls body(piece, begin, end) for pieces of the items.
+template <class Body>
+void for_pieces(std::size_t count, unsigned threads, const Monitor& monitor, Body body) {
+  parallel_for(
+      piece_count(count, piece_size), threads,
+      [&](std::size_t piece) {
+        body(piece, static_cast<std::int32_t>(piece * piece_size),
+             static_cast<std::int32_t>(std::min(count, (piece + 1) * piece_size)));
+      },
+      monitor);
+}
+
+std::uint32_t add(std::uint32_t& counter, std::uint32_t value) {
+  return std::atomic_ref(counter).fetch_add(value, std::memory_order_relaxed);
+}
+
+void prefetch_neighbours(const VoronoiRecords& records, std::int32_t record) {
+  for (const Corner twin : records[record].twins) records.prefetch(record_of(twin));
+}
+
+}  // namespace
+
+VertexNumbers::VertexNumbers(const SegmentSites& sites, const VoronoiRecords& records, unsigned threads,
+                             const Monitor& monitor)
+    : sites_(sites),
+      records_(records),
+      code_(records.all.size()),
+      is_merged_(records.all.size()),
+      begin_(static_cast<std::size_t>(sites.infinite()) + 2) {
+  std::vector<Found> found(piece_count(code_.size(), piece_size));
+  for_pieces(code_.size(), threads, monitor, [&](std::size_t piece, std::int32_t begin, std::int32_t end) {
+    for (std::int32_t v = begin; v < end; ++v) look_at(v, found[piece]);
+  });
+  for (const Found& some : found)
+    infinite_.insert(infinite_.end(), some.infinite.begin(), some.infinite.end());
+  merge(found);
+  found = {};
+  choose_leads();
+  gather_keys(threads, monitor);
+  sort_by_first_site(threads, monitor);
+  number(threads, monitor);
+}
+
+// As if it were alone at its place.
+void VertexNumbers::look_at(std::int32_t u, Found& found) {
+  if (static_cast<std::size_t>(u) + ahead < code_.size()) {
+    prefetch_neighbours(records_, u + static_cast<std::int32_t>(ahead));
+  }
+  const VoronoiRecord& v = records_[u];
+  if (v.is_infinite()) {
+    code(u) = ~at_infinity;
+    found.infinite.push_back(u);
+    return;
+  }
+  const SiteIndex first = *std::min_element(v.sites.begin(), v.sites.end());
+  code(u) = ~first;
+  add(count_at(first), 1);
+  for (int i = 0; i < 3; ++i) {
+    const std::int32_t w = record_of(v.twins[static_cast<std::size_t>(i)]);
+    if (w < u || records_[w].is_infinite()) continue;
+    if (are_coincident(sites_, v, i, records_[w])) found.coincident.push_back({u, w});
+  }
+}
+
+// The smallest number at a place becomes that of the place. With every step to it the way is halved for those
+// who come after.
+std::int32_t VertexNumbers::root(std::int32_t record) {
+  if (code(record) < 0) {
+    --count_at(~code(record));
+    code(record) = record;
+    is_merged_[static_cast<std::size_t>(record)] = true;
+  }
+  while (code(record) != record) {
+    code(record) = code(code(record));
+    record = code(record);
+  }
+  return record;
+}
+
+void VertexNumbers::merge(const std::vector<Found>& found) {
+  for (const Found& some : found) {
+    for (const auto& [u, w] : some.coincident) {
+      const std::int32_t one = root(u), other = root(w);
+      code(std::max(one, other)) = std::min(one, other);
+    }
+  }
+  for (const Found& some : found) {
+    for (const auto& [u, w] : some.coincident) {
+      code(u) = root(u);
+      code(w) = root(w);
+    }
+  }
+}
+
+// The first record of each place that is on its border.
+void VertexNumbers::choose_leads() {
+  std::vector<bool> seen(code_.size());
+  for (std::int32_t v = 0; v < static_cast<std::int32_t>(code_.size()); ++v) {
+    if (!is_merged(v) || seen[static_cast<std::size_t>(code(v))]) continue;
+    const auto is_border = [&](int i) { return this->is_border(records_, corner_of(v, i)); };
+    if (!is_border(0) && !is_border(1) && !is_border(2)) continue;
+    seen[static_cast<std::size_t>(code(v))] = true;
+    merged_leads_.push_back(v);
+  }
+}
+
+void VertexNumbers::gather_keys(unsigned threads, const Monitor& monitor) {
+  ring_size_ = 3 * std::accumulate(begin_.begin(), begin_.end(), std::size_t{0});
+  merged_keys_.resize(merged_leads_.size());
+  std::atomic<std::size_t> merged_size{0};
+  for_pieces(merged_leads_.size(), threads, monitor, [&](std::size_t, std::int32_t begin, std::int32_t end) {
+    std::vector<Corner> ring;
+    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+      if (k + ahead < merged_leads_.size()) prefetch_neighbours(records_, merged_leads_[k + ahead]);
+      gather_ring(records_, merged_leads_[k], ring);
+      const auto site = [&](std::size_t i) { return left_site(records_, ring[i]); };
+      merged_keys_[k] = {site(0), site(1), site(2), merged_leads_[k]};
+      add(count_at(site(0)), 1);
+      merged_size += ring.size();
+    }
+  });
+  ring_size_ += merged_size;
+}
+
+// By the first site in one go, and by the others among the few that share it. No two have the same three
+// sites first, in the same order. Keys of several records are named by the complements of their numbers.
+void VertexNumbers::sort_by_first_site(unsigned threads, const Monitor& monitor) {
+  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+  leads_ = LargeArray<std::int32_t>(begin_.back());
+  const auto put = [&](std::int32_t name, SiteIndex first) {
+    leads_[add(begin_[static_cast<std::size_t>(first) + 1], 1)] = name;
+  };
+  for_pieces(code_.size(), threads, monitor, [&](std::size_t, std::int32_t begin, std::int32_t end) {
+    for (std::int32_t v = begin; v < end; ++v) {
+      if (code(v) < 0 && code(v) != ~at_infinity) put(v, ~code(v));
+    }
+  });
+  for_pieces(merged_keys_.size(), threads, monitor, [&](std::size_t, std::int32_t begin, std::int32_t end) {
+    for (std::int32_t k = begin; k < end; ++k) put(~k, merged_keys_[static_cast<std::size_t>(k)].first);
+  });
+  for_pieces(begin_.size() - 2, threads, monitor,
+             [&](std::size_t, std::int32_t begin, std::int32_t end) { sort_buckets(begin, end); });
+  begin_ = {};
+  merged_keys_ = {};
+}
+
+VertexNumbers::Key VertexNumbers::key_of(std::int32_t record) const {
+  const std::array<SiteIndex, 3>& sites = records_[record].sites;
+  const auto i = static_cast<int>(std::min_element(sites.begin(), sites.end()) - sites.begin());
+  return {sites[static_cast<std::size_t>(i)], sites[static_cast<std::size_t>(following(i))],
+          sites[static_cast<std::size_t>(preceding(i))], record};
+}
+
+// Vertices whose first sites are first ... last - 1. Their records are far apart in memory: they are called
+// for early.
+void VertexNumbers::sort_buckets(SiteIndex first, SiteIndex last) {
+  std::vector<Key> keys;
+  std::size_t k = begin_[static_cast<std::size_t>(first)], called = k;
+  const std::size_t all = begin_[static_cast<std::size_t>(last)];
+  for (SiteIndex site = first; site < last; ++site) {
+    const std::size_t begin = k, end = begin_[static_cast<std::size_t>(site) + 1];
+    for (; called < std::min(all, end + ahead); ++called) {
+      if (leads_[called] >= 0) records_.prefetch(leads_[called]);
+    }
+    keys.clear();
+    for (; k < end; ++k) {
+      const std::int32_t name = leads_[k];
+      keys.push_back(name < 0 ? merged_keys_[static_cast<std::size_t>(~name)] : key_of(name));
+    }
+    std::sort(keys.begin(), keys.end());
+    for (std::size_t i = 0; i < keys.size(); ++i) leads_[begin + i] = keys[i].record;
+  }
+}
+
+// First one record of each place, then the others.
+void VertexNumbers::number(unsigned threads, const Monitor& monitor) {
+  for_pieces(leads_.size(), threads, monitor, [&](std::size_t, std::int32_t begin, std::int32_t end) {
+    for (std::int32_t k = begin; k < end; ++k) {
+      const std::int32_t lead = leads_[static_cast<std::size_t>(k)];
+      code(is_merged(lead) ? code(lead) : lead) = ~k;
+    }
+  });
+  for_pieces(merged_leads_.empty() ? 0 : code_.size(), threads, monitor,
+             [&](std::size_t, std::int32_t begin, std::int32_t end) {
+               for (std::int32_t v = begin; v < end; ++v) {
+                 if (code(v) >= 0) code(v) = code(code(v));
+               }
+             });
+}
+
+}  // namespace vorotool::core

@@ -1,0 +1,151 @@
+"""Zarr stores as files are: what they are, and outputs of this kind, which appear whole or not at all."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from vorotool.errors import OutputError, UsageError
+from vorotool.formats.outputs import check_folder, clobber_error, explained, is_same_file, remove, temporary_beside
+
+_METADATA = ("zarr.json", ".zarray", ".zgroup")
+
+
+def is_store(path: str | os.PathLike[str]) -> bool:
+    """Whether a path is a folder that holds a Zarr array or group.
+
+    Examples
+    --------
+    >>> is_store("data")
+    False
+    """
+    return any((Path(path) / name).is_file() for name in _METADATA)
+
+
+def is_array(path: str | os.PathLike[str]) -> bool:
+    """Whether a path is a folder that holds a Zarr array, and not a group of them."""
+    if (Path(path) / ".zarray").is_file():
+        return True
+    try:
+        return bool(json.loads((Path(path) / "zarr.json").read_bytes())["node_type"] == "array")
+    except (OSError, ValueError, KeyError, TypeError):
+        return False
+
+
+def check_store(
+    path: str | os.PathLike[str],
+    *,
+    no_clobber: bool = False,
+    inputs: Iterable[str | os.PathLike[str]] = (),
+    makes_folder: bool = False,
+) -> Path:
+    """Refuse a store that `open_store` would not write.
+
+    Parameters
+    ----------
+    path : str or path
+        Where to write.
+    no_clobber : bool
+        Refuse to replace a store.
+    inputs : iterable of paths
+        What is being read: neither replaced nor within what is replaced.
+    makes_folder : bool
+        The folder of the store is yet to be made.
+
+    Returns
+    -------
+    Path
+        The place, links followed.
+
+    Raises
+    ------
+    UsageError
+        If it is standard output, or one of the inputs.
+    OutputError
+        If something else is there, or it cannot be written.
+
+    Examples
+    --------
+    >>> check_store("build/new.zarr").name
+    'new.zarr'
+    """
+    name = os.fspath(path)
+    if name == "-":
+        raise UsageError("a Zarr store is a folder, which does not go to standard output: name it with -o")
+    with explained(name):
+        target = Path(os.path.realpath(name))
+        exists = target.exists()
+    if exists and not is_array(target):
+        raise OutputError(f"{name!r} is there and is no Zarr array, which alone is replaced: choose another name")
+    for each in inputs:
+        within = target in Path(os.path.realpath(each)).parents
+        if exists and (within or is_same_file(target, os.fspath(each))):
+            raise UsageError(f"{name} is also an input, which is never replaced: choose another name with -o")
+    if exists and no_clobber:
+        raise clobber_error(name)
+    check_folder(name, target.parent, makes_folder=makes_folder)
+    return target
+
+
+@contextmanager
+def open_store(
+    path: str | os.PathLike[str], *, no_clobber: bool = False, inputs: Iterable[str | os.PathLike[str]] = ()
+) -> Iterator[Path]:
+    """Give a folder to write a store in; it takes its place when all of it has been written.
+
+    It is made beside its place under a temporary name. An older store is moved aside for the moment in which the new
+    one moves in, and removed then. On any exception the folder is removed, and the older store is as it was.
+
+    Parameters
+    ----------
+    path, no_clobber, inputs
+        As for `check_store`.
+
+    Yields
+    ------
+    Path
+        The folder, which is there and empty.
+
+    Raises
+    ------
+    UsageError, OutputError
+        As by `check_store`, or if it cannot be written.
+
+    Examples
+    --------
+    >>> with open_store("build/one.zarr") as folder:
+    ...     _ = (folder / ".zarray").write_text("{}")
+    >>> is_array("build/one.zarr")
+    True
+    """
+    name = os.fspath(path)
+    target = check_store(name, no_clobber=no_clobber, inputs=inputs)
+    temporary = temporary_beside(target)
+    try:
+        with explained(name):
+            temporary.mkdir()
+            yield temporary
+            if target.exists():
+                _replace(target, temporary, no_clobber)
+            else:
+                temporary.rename(target)
+    except BaseException:
+        remove(temporary)
+        raise
+
+
+def _replace(target: Path, temporary: Path, no_clobber: bool) -> None:
+    """Put a folder in the place of another: no system call that Python knows does both moves in one."""
+    if no_clobber:
+        raise clobber_error(str(target))
+    aside = temporary_beside(target)
+    target.rename(aside)
+    try:
+        temporary.rename(target)
+    except BaseException:
+        aside.rename(target)
+        raise
+    remove(aside)

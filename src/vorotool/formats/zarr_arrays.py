@@ -1,0 +1,126 @@
+"""Images in Zarr arrays (format 3), chunk by chunk."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+from vorotool.errors import UsageError
+from vorotool.formats.bands import in_order
+
+CHUNK = (512, 2048)
+"""Rows and columns of a chunk: so large that there are few files, and so wide since a row of chunks is held."""
+
+BAND_BYTES = 2**28
+"""A row of chunks is made of fewer rows where it would take more."""
+
+_LEVEL = 1
+"""Of zstd: of 268 MB of labels of a million seeds 1.5 MB remain; higher levels give little more."""
+
+
+def zarr_module() -> Any:
+    """Import zarr.
+
+    Raises
+    ------
+    UsageError
+        If it is not installed.
+    """
+    try:
+        import zarr
+    except ImportError:
+        raise UsageError("Zarr stores need the zarr package: pip install vorotool[zarr]") from None
+    return zarr
+
+
+def chunks_of(shape: tuple[int, int], dtype: DTypeLike, asked: tuple[int, int] | None = None) -> tuple[int, int]:
+    """Choose rows and columns of the chunks of an image, if they are not asked for.
+
+    Examples
+    --------
+    >>> chunks_of((131072, 131072), np.uint32), chunks_of((131072, 131072), np.uint64), chunks_of((99, 9), np.uint8)
+    ((512, 2048), (256, 2048), (99, 9))
+    """
+    rows, columns = asked or CHUNK
+    while asked is None and rows > 1 and rows * shape[1] * np.dtype(dtype).itemsize > BAND_BYTES:
+        rows //= 2
+    return min(rows, shape[0]), min(columns, shape[1])
+
+
+def create_array(store: Any, shape: tuple[int, int], *, dtype: DTypeLike, chunks: tuple[int, int]) -> Any:
+    """Make an array for an image in an empty folder.
+
+    Parameters
+    ----------
+    store : path or dict
+        The folder, or what takes the files by name.
+    shape : (int, int)
+        Height and width.
+    dtype : dtype
+        Type of the pixels.
+    chunks : (int, int)
+        Rows and columns of a chunk. One whose pixels are all 0 takes no file.
+
+    Returns
+    -------
+    zarr.Array
+    """
+    zarr = zarr_module()
+    return zarr.create_array(
+        store if isinstance(store, dict) else os.fspath(store),
+        shape=shape,
+        chunks=chunks,
+        dtype=np.dtype(dtype),
+        compressors=[zarr.codecs.ZstdCodec(level=_LEVEL)],
+        fill_value=0,
+        dimension_names=("y", "x"),
+        overwrite=False,
+        zarr_format=3,
+    )
+
+
+def open_array(folder: str | os.PathLike[str]) -> Any:
+    """Open an array to write in it."""
+    return zarr_module().open_array(os.fspath(folder), mode="r+")
+
+
+def write_rows(
+    array: Any, first: int, rows: NDArray[Any], *, threads: int = 0, check: Callable[[], object] | None = None
+) -> None:
+    """Write one row of chunks, each chunk by itself: an interrupt waits for some milliseconds only.
+
+    Parameters
+    ----------
+    array : zarr.Array
+        From `create_array` or `open_array`.
+    first : int
+        Row of the image, a multiple of the rows of a chunk.
+    rows : (k, W) array
+        All rows of the chunks.
+    threads : int
+        0 for all processors.
+    check : callable, optional
+        Called before each chunk; what it raises stops the work.
+
+    Examples
+    --------
+    >>> array = create_array({}, (3, 2), dtype=np.uint8, chunks=(2, 2))
+    >>> write_rows(array, 2, np.array([[5, 6]]), threads=1)
+    >>> array[:].tolist()
+    [[0, 0], [0, 0], [5, 6]]
+    """
+    height, width = array.chunks
+    if first % height or len(rows) != min(height, array.shape[0] - first):
+        raise ValueError(f"rows {first} to {first + len(rows) - 1} are not those of chunks of {height} rows")
+
+    def write(column: int) -> None:
+        if check is not None:
+            check()
+        array[first : first + len(rows), column : column + width] = rows[:, column : column + width]
+
+    for _ in in_order(write, range(0, array.shape[1], width), threads):
+        pass

@@ -1,0 +1,70 @@
+"""Skeletons of rotated shapes beside those of the shapes: `--cases 1000 --seed 1`. See rotation_oracle.py.
+
+A third of the rotated shapes is rounded to 2^-20 of the extent too, so that vertices move by more than the placement.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+import warnings
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.ndimage import gaussian_filter
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from rotation_oracle import Pair, Rotation, fault
+from skeleton_shapes import holed, several, star, valid
+from vorotool import InputError, outlines
+from vorotool.geometry.polygon_conversion import as_polygons
+
+
+def mask(rng: np.random.Generator) -> Any:
+    """Outlines of pixels."""
+    image = gaussian_filter(rng.standard_normal((24, 24)), 2) > 0.02
+    return outlines(image, connectivity=4)
+
+
+FAMILIES = (valid, star, holed, mask, several)
+
+
+def failure(case: int, seed: int, worst: dict[int, float]) -> str | None:
+    """What is wrong with a case, if anything; ``repaired`` if edges meet, so that there is nothing to compare."""
+    random = np.random.default_rng([seed, case])
+    shape = as_polygons(FAMILIES[case % len(FAMILIES)](random))
+    step = 0.0 if case % 3 or not len(shape.xy) else float(np.ptp(shape.xy, axis=0).max()) * 2.0**-20
+    try:
+        pair = Pair(shape, Rotation(float(random.uniform(0, 360))), step)
+    except InputError:
+        return "repaired"
+    return fault(pair, worst) if len(pair.first) else "repaired"
+
+
+def main() -> int:
+    """Run all cases; exit 1 if any failed."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--cases", type=int, default=1000)
+    parser.add_argument("--seed", type=int, default=1)
+    arguments = parser.parse_args()
+    warnings.simplefilter("ignore")
+    start, results, worst = time.monotonic(), Counter[str](), dict[int, float]()
+    for case in range(arguments.cases):
+        wrong = failure(case, arguments.seed, worst)
+        if wrong not in (None, "repaired"):
+            print(f"wrong: seed {arguments.seed}, case {case}: {wrong}")
+        results["right" if wrong is None else "repaired" if wrong == "repaired" else "wrong"] += 1
+    moves = ", ".join(f"{angle} degrees: {move:.3f}" for angle, move in sorted(worst.items()))
+    print(
+        f"{arguments.cases:,} shapes, {results['repaired']} of them repaired, {results['wrong']} failures, "
+        f"{time.monotonic() - start:.0f} s"
+    )
+    print(f"largest moves of what is pruned by an angle, as multiples of the placement: {moves}")
+    return int(results["wrong"] > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
