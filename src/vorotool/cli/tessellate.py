@@ -9,11 +9,21 @@ import click
 
 from vorotool.cli.commands import run_command
 from vorotool.cli.inputs import naming, read_seed_input, refuse
-from vorotool.cli.options import Decimal, Size, batch_options, layers_option, shared, what_option
+from vorotool.cli.options import (
+    Decimal,
+    Size,
+    batch_options,
+    inputs_argument,
+    layers_option,
+    output_options,
+    shared,
+    what_option,
+)
 from vorotool.cli.recipes import Recipe
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options
 from vorotool.cli.units import pixel_size_option
+from vorotool.formats.input_formats import NAMES_WITH
 
 if TYPE_CHECKING:
     from vorotool.cli.products import Products
@@ -36,8 +46,8 @@ FORMATS = {
 
 
 @click.command("tessellate")
-@click.argument("inputs", metavar="INPUT...", nargs=-1)
-@shared("output", "format")
+@inputs_argument(NAMES_WITH["points"])
+@output_options(FORMATS)
 @what_option(tuple(FORMATS))
 @click.option(
     "--method",

@@ -7,7 +7,7 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from vorotool.errors import UsageError
+from vorotool.errors import InputError, UsageError
 from vorotool.geometry.frame import MAX_PIXELS
 
 NPY_MAGIC = b"\x93NUMPY"
@@ -88,6 +88,8 @@ def read(
         raise UsageError(f"geometry is {geometry!r}: use points or polygons, or leave it out")
     input_format = known_input_format(input_format, NAMES_WITH[geometry])
     threads = checked_threads(threads)
+    if not isinstance(path, str | PathLike):
+        raise InputError(f"{path!r} is no path: give the name of a file; arrays need not be read")
     if is_zarr(fspath(path), input_format):
         rows = open_rows(path, input_format=input_format, page=page)
         assert rows is not None
