@@ -28,8 +28,8 @@ MEMORY = 1e9
 def direct(seeds, numbers, tree, x, y, side):
     """Labels of a window by brute force among the seeds that may be near: distances are whole numbers."""
     xs, ys = (k.ravel() for k in np.meshgrid(np.arange(x, x + side), np.arange(y, y + side)))
-    reach = tree.query([x + side / 2, y + side / 2])[0] + 2 * side
-    near = np.flatnonzero((np.abs(seeds - [x + side / 2, y + side / 2]) <= reach).all(axis=1))
+    middle = [x + side / 2, y + side / 2]
+    near = np.array(tree.query_ball_point(middle, tree.query(middle)[0] + 2 * side))
     squares = (xs[:, None] - seeds[near, 0]) ** 2 + (ys[:, None] - seeds[near, 1]) ** 2
     is_nearest = squares == squares.min(axis=1, keepdims=True)
     return np.where(is_nearest, numbers[near], np.iinfo(np.int64).max).min(axis=1).reshape(side, side)

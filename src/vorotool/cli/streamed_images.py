@@ -23,6 +23,9 @@ from vorotool.engines.streamed_image import ObjectRows, StreamedImage
 LARGE = 2**24
 """Pixels from which an image that can be read in bands is not held: a seed in memory takes some 40 bytes."""
 
+LEAST_ROWS = 128
+"""Rows that are read at a time, however low chunks are: for each band two lists are kept."""
+
 STREAMED = frozenset({"labels", "distance", "distance2"})
 """What can be written of an image that is not held."""
 
@@ -59,12 +62,15 @@ class StreamedProducts:
     def __init__(self, run: Run, options: SimpleNamespace, image: Any) -> None:
         refuse(options, ("size", "window"), "is for lists of points, but the input is an image, which brings its own")
         self.run, self.options, self.resolution = run, options, image.resolution
+        from vorotool.formats.zarr_arrays import CHUNK
+
         source = ObjectRows(
             image,
             options.seeds,
             int(options.connectivity or 8),
             options.threshold,
             options.invert,
+            CHUNK[0] if options.chunk is None else max(LEAST_ROWS, options.chunk[1]),
         )
         self.image = StreamedImage(source, max_sites=options.max_sites, progress=run.progress("reading"))
         self.dtype = label_dtype(self.image.largest_label, options.dtype)

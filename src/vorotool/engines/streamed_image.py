@@ -25,7 +25,7 @@ from vorotool.geometry.seeds import SeedSet
 StreamedMode = Literal["pixels", "components", "labels"]
 
 BAND_PIXELS = 2**25
-"""Pixels of a band that is read at a time; for each two lists as wide as the image are kept, in a short form."""
+"""Most pixels of a band that is read at a time; for each two lists as wide as the image are kept, in a short form."""
 
 SWEEP_PIXELS = 2**22
 """Pixels that are labelled at a time: each may be a seed, which takes some 60 bytes."""
@@ -59,6 +59,8 @@ class ObjectRows:
         Foreground is what is larger.
     invert : bool
         Exchange foreground and background.
+    height : int
+        Rows of a band that is read at a time, if that is not too much: best those of the bands that are asked for.
     """
 
     image: ImageRows
@@ -66,6 +68,7 @@ class ObjectRows:
     connectivity: int = 8
     threshold: float | None = None
     invert: bool = False
+    height: int = 512
 
     def values(self, first: int, count: int) -> NDArray[Any]:
         """Read some rows, of which the nonzero values are foreground."""
@@ -82,7 +85,7 @@ class ObjectRows:
     def limits(self) -> Iterator[tuple[int, int]]:
         """First row and number of rows of the bands in which it is read."""
         height, width = self.image.shape
-        step = max(1, BAND_PIXELS // width)
+        step = max(1, min(self.height, BAND_PIXELS // width))
         return ((first, min(step, height - first)) for first in range(0, height, step))
 
     def with_mode(self) -> ObjectRows:
