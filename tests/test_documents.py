@@ -45,7 +45,8 @@ def run(command, folder):
 @pytest.mark.parametrize("block", list(blocks("console")))
 def test_console_block(block, folder):
     for part in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:
-        command, _, expected = part.partition("\n")
+        first, following, expected = re.fullmatch(r"([^\n]*\n?)((?:> [^\n]*\n)*)(.*)", part, re.DOTALL).groups()
+        command = first + re.sub(r"^> ", "", following, flags=re.MULTILINE)
         if "| jq " in command and shutil.which("jq") is None:
             pytest.skip("jq is not there")
         done = run(command, folder)

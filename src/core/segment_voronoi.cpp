@@ -7,6 +7,7 @@
 
 #include "core/divide_and_conquer.hpp"
 #include "core/insertion_rounds.hpp"
+#include "core/page_advice.hpp"
 #include "core/point_order.hpp"
 #include "core/point_voronoi.hpp"
 #include "core/segment_exact.hpp"
@@ -75,6 +76,7 @@ std::vector<std::uint32_t> along_points(std::span<const Segment> segments,
 SegmentVoronoi::SegmentVoronoi(const SegmentGraph& graph, unsigned threads, const Monitor& monitor) {
   check(graph);
   make_point_diagram(graph, threads, monitor);
+  return_freed_memory();
   InsertionRounds rounds(sites_, *records_, threads);
   try {
     rounds.run(monitor);
@@ -96,8 +98,8 @@ void SegmentVoronoi::make_point_diagram(const SegmentGraph& graph, unsigned thre
   MortonOrder order = ordered(graph.points, threads, monitor);
   const std::span<RingVertex> vertices{order.vertices.data(), order.index.size()};
   Subdivision mesh = divide_and_conquer({vertices, order.index, order.code, order.fine}, threads, monitor);
-  order.code = {};
-  order.fine = {};
+  order.code = std::vector<std::uint32_t>();
+  order.fine = std::vector<std::uint32_t>();
   number_sites(graph, order.index);
   records_ = point_voronoi(sites_, mesh, vertices, threads, monitor);
 }

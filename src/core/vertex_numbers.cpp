@@ -36,27 +36,30 @@ void prefetch_neighbours(const VoronoiRecords& records, std::int32_t record) {
 
 VertexNumbers::VertexNumbers(const SegmentSites& sites, const VoronoiRecords& records, unsigned threads,
                              const Monitor& monitor)
-    : sites_(sites),
-      records_(records),
+    : records_(records),
       code_(records.all.size()),
       is_merged_(records.all.size()),
       begin_(static_cast<std::size_t>(sites.infinite()) + 2) {
   std::vector<Found> found(piece_count(code_.size(), piece_size));
   for_pieces(code_.size(), threads, monitor, [&](std::size_t piece, std::int32_t begin, std::int32_t end) {
-    for (std::int32_t v = begin; v < end; ++v) look_at(v, found[piece]);
+    for (std::int32_t v = begin; v < end; ++v) look_at(sites, v, found[piece]);
   });
   for (const Found& some : found)
     infinite_.insert(infinite_.end(), some.infinite.begin(), some.infinite.end());
   merge(found);
-  found = {};
+  found = std::vector<Found>();
   choose_leads();
-  gather_keys(threads, monitor);
+  gather_rings(threads, monitor);
+}
+
+void VertexNumbers::assign(unsigned threads, const Monitor& monitor) {
   sort_by_first_site(threads, monitor);
   number(threads, monitor);
+  make_starts();
 }
 
 // As if it were alone at its place.
-void VertexNumbers::look_at(std::int32_t u, Found& found) {
+void VertexNumbers::look_at(const SegmentSites& sites, std::int32_t u, Found& found) {
   if (static_cast<std::size_t>(u) + ahead < code_.size()) {
     prefetch_neighbours(records_, u + static_cast<std::int32_t>(ahead));
   }
@@ -72,7 +75,7 @@ void VertexNumbers::look_at(std::int32_t u, Found& found) {
   for (int i = 0; i < 3; ++i) {
     const std::int32_t w = record_of(v.twins[static_cast<std::size_t>(i)]);
     if (w < u || records_[w].is_infinite()) continue;
-    if (are_coincident(sites_, v, i, records_[w])) found.coincident.push_back({u, w});
+    if (are_coincident(sites, v, i, records_[w])) found.coincident.push_back({u, w});
   }
 }
 
@@ -106,41 +109,76 @@ void VertexNumbers::merge(const std::vector<Found>& found) {
   }
 }
 
+// The border of a place is gone round counter-clockwise: from half-edge to half-edge of one vertex, and on in
+// the next vertex of the place where a half-edge has no length. A point whose segments leave no gap of 180
+// degrees is inside.
+void VertexNumbers::gather_ring(std::int32_t record, std::vector<Spoke>& spokes) const {
+  const auto begin = static_cast<std::ptrdiff_t>(spokes.size());
+  Corner corner = corner_of(record, 0);
+  while (!is_border(corner)) ++corner;
+  const Corner first = corner;
+  do {
+    spokes.push_back(spoke_at(corner));
+    for (;;) {
+      const std::int32_t here = record_of(corner);
+      corner = corner_of(here, following(place_of(corner)));
+      if (is_border(corner)) break;
+      corner = records_[here].twins[static_cast<std::size_t>(place_of(corner))];
+    }
+  } while (corner != first);
+  const auto least = std::min_element(spokes.begin() + begin, spokes.end(),
+                                      [](const Spoke& a, const Spoke& b) { return a.site < b.site; });
+  std::rotate(spokes.begin() + begin, least, spokes.end());
+}
+
+// The edge opposite to a corner, and the site on its left.
+VertexNumbers::Spoke VertexNumbers::spoke_at(Corner corner) const {
+  const VoronoiRecord& v = records_[record_of(corner)];
+  const int left = preceding(place_of(corner));
+  return {static_cast<std::uint32_t>(v.sites[static_cast<std::size_t>(left)]), v.is_left(left),
+          record_of(v.twins[static_cast<std::size_t>(place_of(corner))])};
+}
+
+std::span<const VertexNumbers::Spoke> VertexNumbers::merged_ring(std::size_t k) const {
+  const std::span<const Spoke> rings = rings_[k / piece_size];
+  const bool is_last = k + 1 == ring_begin_.size() || (k + 1) % piece_size == 0;
+  return rings.subspan(ring_begin_[k], (is_last ? rings.size() : ring_begin_[k + 1]) - ring_begin_[k]);
+}
+
 // The first record of each place that is on its border.
 void VertexNumbers::choose_leads() {
   std::vector<bool> seen(code_.size());
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(code_.size()); ++v) {
     if (!is_merged(v) || seen[static_cast<std::size_t>(code(v))]) continue;
-    const auto is_border = [&](int i) { return this->is_border(records_, corner_of(v, i)); };
+    const auto is_border = [&](int i) { return this->is_border(corner_of(v, i)); };
     if (!is_border(0) && !is_border(1) && !is_border(2)) continue;
     seen[static_cast<std::size_t>(code(v))] = true;
     merged_leads_.push_back(v);
   }
 }
 
-void VertexNumbers::gather_keys(unsigned threads, const Monitor& monitor) {
-  ring_size_ = 3 * std::accumulate(begin_.begin(), begin_.end(), std::size_t{0});
-  merged_keys_.resize(merged_leads_.size());
-  std::atomic<std::size_t> merged_size{0};
-  for_pieces(merged_leads_.size(), threads, monitor, [&](std::size_t, std::int32_t begin, std::int32_t end) {
-    std::vector<Corner> ring;
-    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
-      if (k + ahead < merged_leads_.size()) prefetch_neighbours(records_, merged_leads_[k + ahead]);
-      gather_ring(records_, merged_leads_[k], ring);
-      const auto site = [&](std::size_t i) { return left_site(records_, ring[i]); };
-      merged_keys_[k] = {site(0), site(1), site(2), merged_leads_[k]};
-      add(count_at(site(0)), 1);
-      merged_size += ring.size();
-    }
-  });
-  ring_size_ += merged_size;
+void VertexNumbers::gather_rings(unsigned threads, const Monitor& monitor) {
+  ring_begin_.resize(merged_leads_.size());
+  rings_.resize(piece_count(merged_leads_.size(), piece_size));
+  for_pieces(merged_leads_.size(), threads, monitor,
+             [&](std::size_t piece, std::int32_t begin, std::int32_t end) {
+               std::vector<Spoke> spokes;
+               for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+                 if (k + ahead < merged_leads_.size())
+                   prefetch_neighbours(records_, merged_leads_[k + ahead]);
+                 ring_begin_[k] = static_cast<std::uint32_t>(spokes.size());
+                 gather_ring(merged_leads_[k], spokes);
+                 add(count_at(static_cast<SiteIndex>(spokes[ring_begin_[k]].site)), 1);
+               }
+               rings_[piece].assign(spokes.begin(), spokes.end());  // no more memory than it takes
+             });
 }
 
 // By the first site in one go, and by the others among the few that share it. No two have the same three
 // sites first, in the same order. Keys of several records are named by the complements of their numbers.
 void VertexNumbers::sort_by_first_site(unsigned threads, const Monitor& monitor) {
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-  leads_ = LargeArray<std::int32_t>(begin_.back());
+  leads_ = LargeArray<std::int32_t>(begin_.back() + 1);
   const auto put = [&](std::int32_t name, SiteIndex first) {
     leads_[add(begin_[static_cast<std::size_t>(first) + 1], 1)] = name;
   };
@@ -149,20 +187,25 @@ void VertexNumbers::sort_by_first_site(unsigned threads, const Monitor& monitor)
       if (code(v) < 0 && code(v) != ~at_infinity) put(v, ~code(v));
     }
   });
-  for_pieces(merged_keys_.size(), threads, monitor, [&](std::size_t, std::int32_t begin, std::int32_t end) {
-    for (std::int32_t k = begin; k < end; ++k) put(~k, merged_keys_[static_cast<std::size_t>(k)].first);
+  for_pieces(merged_leads_.size(), threads, monitor, [&](std::size_t, std::int32_t begin, std::int32_t end) {
+    for (std::int32_t k = begin; k < end; ++k) put(~k, key_of(~k).first);
   });
   for_pieces(begin_.size() - 2, threads, monitor,
              [&](std::size_t, std::int32_t begin, std::int32_t end) { sort_buckets(begin, end); });
-  begin_ = {};
-  merged_keys_ = {};
+  begin_ = std::vector<std::uint32_t>();
 }
 
-VertexNumbers::Key VertexNumbers::key_of(std::int32_t record) const {
-  const std::array<SiteIndex, 3>& sites = records_[record].sites;
+VertexNumbers::Key VertexNumbers::key_of(std::int32_t name) const {
+  if (name < 0) {
+    const auto k = static_cast<std::size_t>(~name);
+    const auto ring = merged_ring(k);
+    const auto site = [&](std::size_t i) { return static_cast<SiteIndex>(ring[i].site); };
+    return {site(0), site(1), site(2), merged_leads_[k]};
+  }
+  const std::array<SiteIndex, 3>& sites = records_[name].sites;
   const auto i = static_cast<int>(std::min_element(sites.begin(), sites.end()) - sites.begin());
   return {sites[static_cast<std::size_t>(i)], sites[static_cast<std::size_t>(following(i))],
-          sites[static_cast<std::size_t>(preceding(i))], record};
+          sites[static_cast<std::size_t>(preceding(i))], name};
 }
 
 // Vertices whose first sites are first ... last - 1. Their records are far apart in memory: they are called
@@ -177,10 +220,7 @@ void VertexNumbers::sort_buckets(SiteIndex first, SiteIndex last) {
       if (leads_[called] >= 0) records_.prefetch(leads_[called]);
     }
     keys.clear();
-    for (; k < end; ++k) {
-      const std::int32_t name = leads_[k];
-      keys.push_back(name < 0 ? merged_keys_[static_cast<std::size_t>(~name)] : key_of(name));
-    }
+    for (; k < end; ++k) keys.push_back(key_of(leads_[k]));
     std::sort(keys.begin(), keys.end());
     for (std::size_t i = 0; i < keys.size(); ++i) leads_[begin + i] = keys[i].record;
   }
@@ -188,7 +228,7 @@ void VertexNumbers::sort_buckets(SiteIndex first, SiteIndex last) {
 
 // First one record of each place, then the others.
 void VertexNumbers::number(unsigned threads, const Monitor& monitor) {
-  for_pieces(leads_.size(), threads, monitor, [&](std::size_t, std::int32_t begin, std::int32_t end) {
+  for_pieces(leads_.size() - 1, threads, monitor, [&](std::size_t, std::int32_t begin, std::int32_t end) {
     for (std::int32_t k = begin; k < end; ++k) {
       const std::int32_t lead = leads_[static_cast<std::size_t>(k)];
       code(is_merged(lead) ? code(lead) : lead) = ~k;
@@ -200,6 +240,15 @@ void VertexNumbers::number(unsigned threads, const Monitor& monitor) {
                  if (code(v) >= 0) code(v) = code(code(v));
                }
              });
+}
+
+// Of three sites each, but for places with several records.
+void VertexNumbers::make_starts() {
+  std::fill_n(leads_.data(), leads_.size(), 3);
+  for (std::size_t k = 0; k < merged_leads_.size(); ++k) {
+    leads_[static_cast<std::size_t>(of(merged_leads_[k]))] = static_cast<std::int32_t>(merged_ring(k).size());
+  }
+  std::exclusive_scan(leads_.data(), leads_.data() + leads_.size(), leads_.data(), 0);
 }
 
 }  // namespace vorotool::core

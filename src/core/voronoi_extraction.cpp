@@ -1,9 +1,11 @@
 #include "core/voronoi_extraction.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <array>
+#include <numeric>
 #include <vector>
 
+#include "core/page_advice.hpp"
 #include "core/parallel.hpp"
 #include "core/polished_disc.hpp"
 #include "core/vertex_numbers.hpp"
@@ -12,235 +14,270 @@
 namespace vorotool::core {
 namespace {
 
-constexpr std::size_t piece_size = std::size_t{1} << 12;  // items of a piece of work, a tenth of a ms
-constexpr std::size_t batch_size = 16;                    // pieces that are kept at once, some 200 KB each
-constexpr std::size_t ahead = 8;                          // vertices: how early memory is called for
+constexpr std::size_t piece_size = std::size_t{1} << 13;  // items of a piece of work, some ms
 
-using Links = LargeArray<VoronoiLink>;
-
-// Calls body(begin, end) for pieces of the items.
+// Calls body(piece, begin, end) for pieces of the items.
 template <class Body>
 void for_pieces(std::size_t count, unsigned threads, const Monitor& monitor, Body body) {
   parallel_for(
       piece_count(count, piece_size), threads,
-      [&](std::size_t piece) { body(piece * piece_size, std::min(count, (piece + 1) * piece_size)); },
+      [&](std::size_t piece) { body(piece, piece * piece_size, std::min(count, (piece + 1) * piece_size)); },
       monitor);
 }
 
-// ---- centres and radii -----------------------------------------------------------------------------------
+// ---- vertices and what is around them --------------------------------------------------------------------
 
-class DiscWriter {
- public:
-  DiscWriter(const SegmentSites& sites, VoronoiRecords& records, const VertexNumbers& numbers,
-             DiagramArrays& out)
-      : sites_(sites), records_(records), numbers_(numbers), out_(out), links_(records.all.size()) {}
-
-  // Leaves of the records what links them. Discs with several records are found while these are all there.
-  Links run(unsigned threads, const Monitor& monitor) {
-    const auto merged = numbers_.merged_leads();
-    for_pieces(merged.size(), threads, monitor, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) polish(merged[k]);
-    });
-    for_pieces(links_.size(), threads, monitor, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const auto record = static_cast<std::int32_t>(i);
-        links_[i] = {records_.all[i].sites, records_.all[i].twins};
-        if (!numbers_.is_lead(record)) continue;
-        if (!numbers_.is_merged(record)) polish(record);
-        put(records_.all[i], static_cast<std::size_t>(numbers_.of(record)));
-      }
-      records_.all.discard(begin, end);
-    });
-    return std::move(links_);
-  }
-
- private:
-  void polish(std::int32_t record) {
-    thread_local std::vector<Corner> ring;
-    thread_local std::vector<Contact> contacts;
-    numbers_.gather_ring(records_, record, ring);
-    contacts.clear();
-    for (const Corner corner : ring) {
-      const VoronoiRecord& v = records_[record_of(corner)];
-      contacts.push_back({left_site(records_, corner), v.is_left(preceding(place_of(corner)))});
+// Calls on_single(record) and on_merged(k, record) for the records begin ... end - 1 that stand for their
+// places.
+template <class OnSingle, class OnMerged>
+void for_leads(const VoronoiRecords& records, const VertexNumbers& numbers, std::size_t begin,
+               std::size_t end, OnSingle on_single, OnMerged on_merged) {
+  const auto merged = numbers.merged_leads();
+  const auto last = static_cast<std::int32_t>(end);
+  auto record = static_cast<std::int32_t>(begin);
+  auto k = static_cast<std::size_t>(std::ranges::lower_bound(merged, record) - merged.begin());
+  for (; record < last; ++record) {
+    if (!numbers.is_merged(record)) {
+      if (!records[record].is_infinite()) on_single(record);
+    } else if (k < merged.size() && merged[k] == record) {
+      on_merged(k++, record);
     }
-    const PolishedDisc disc = polished_disc(sites_, records_[record], contacts);
-    VoronoiRecord& v = records_[record];
-    v.x = disc.x;
-    v.y = disc.y;
-    v.radius = disc.radius;
   }
+}
 
-  void put(const VoronoiRecord& v, std::size_t vertex) {
-    out_.vertices[2 * vertex] = v.x;
-    out_.vertices[2 * vertex + 1] = v.y;
-    out_.radius[vertex] = v.radius;
+// The sites of a record of its own, and the corners opposite to the edges before them.
+struct SingleRing {
+  explicit SingleRing(const VoronoiRecord& v) {
+    int i = static_cast<int>(std::min_element(v.sites.begin(), v.sites.end()) - v.sites.begin());
+    for (std::size_t k = 0; k < 3; ++k) {
+      contacts[k] = {v.sites[static_cast<std::size_t>(i)], v.is_left(i)};
+      i = following(i);  // the site is on the left of this edge
+      across[k] = record_of(v.twins[static_cast<std::size_t>(i)]);
+    }
   }
-
-  const SegmentSites& sites_;
-  VoronoiRecords& records_;
-  const VertexNumbers& numbers_;
-  DiagramArrays& out_;
-  Links links_;
+  std::array<Contact, 3> contacts;
+  std::array<std::int32_t, 3> across;  // records to which the edges lead
 };
 
-// ---- sites around vertices, and edges --------------------------------------------------------------------
+// Gives the records that stand for their places the discs of their vertices.
+void polish_discs(const SegmentSites& sites, VoronoiRecords& records, const VertexNumbers& numbers,
+                  unsigned threads, const Monitor& monitor) {
+  for_pieces(records.all.size(), threads, monitor, [&](std::size_t, std::size_t begin, std::size_t end) {
+    std::vector<Contact> contacts;
+    const auto polish = [&](std::int32_t record, std::span<const Contact> around) {
+      const PolishedDisc disc = polished_disc(sites, records[record], around);
+      records[record].x = disc.x;
+      records[record].y = disc.y;
+      records[record].radius = disc.radius;
+    };
+    for_leads(
+        records, numbers, begin, end,
+        [&](std::int32_t record) { polish(record, SingleRing(records[record]).contacts); },
+        [&](std::size_t k, std::int32_t record) {
+          contacts.clear();
+          for (const VertexNumbers::Spoke& spoke : numbers.merged_ring(k)) {
+            contacts.push_back({static_cast<SiteIndex>(spoke.site), spoke.is_left != 0});
+          }
+          polish(record, contacts);
+        });
+  });
+}
 
-class EdgeWriter {
+// Writes the centres, radii and rings of vertices, and where their edges lead. Sites have the numbers of the
+// engine.
+class VertexWriter {
  public:
-  EdgeWriter(const Links& links, const VertexNumbers& numbers, SiteIndex infinite,
-             std::span<const std::int32_t> given, DiagramArrays& out)
-      : links_(links), numbers_(numbers), infinite_(infinite), given_(given), out_(out) {}
+  VertexWriter(VoronoiRecords& records, const VertexNumbers& numbers, DiagramArrays& out,
+               LargeArray<std::int32_t>& targets)
+      : records_(records), numbers_(numbers), out_(out), targets_(targets) {}
 
   void run(unsigned threads, const Monitor& monitor);
 
  private:
-  struct Edge {
-    std::int32_t source, target, left, right;
-  };
-  // Rings and edges of some consecutive vertices, and where they belong.
-  struct Piece {
-    std::vector<std::int32_t> ring_sizes, sites;
-    std::vector<Edge> edges;
-    std::size_t first_site = 0, first_edge = 0;
-  };
+  void write_stretch(std::size_t first, std::size_t count, std::size_t piece, std::size_t pieces);
+  void write_disc(std::size_t vertex, const VoronoiRecord& v);
 
-  std::vector<Corner> edges_without_vertex() const;
-  void gather(std::size_t begin, std::size_t end, Piece& piece) const;
-  void put(std::size_t begin, const Piece& piece);
-  void put_edge(std::size_t place, const Edge& edge);
-  void prefetch(std::size_t vertex) const;
-
-  std::int32_t given(SiteIndex site) const { return given_[static_cast<std::size_t>(site)]; }
-  // Where an edge leads.
-  std::int32_t target_of(Corner corner) const {
-    return numbers_.of(
-        record_of(links_[record_of(corner)].twins[static_cast<std::size_t>(place_of(corner))]));
-  }
-  Edge edge_at(std::int32_t source, Corner corner) const {
-    const auto [right, left] = sites_of_edge(links_[record_of(corner)], place_of(corner));
-    const std::int32_t target = target_of(corner);
-    return {source, target == VertexNumbers::at_infinity ? -1 : target, given(left), given(right)};
-  }
-
-  const Links& links_;
+  VoronoiRecords& records_;
   const VertexNumbers& numbers_;
-  SiteIndex infinite_;
-  std::span<const std::int32_t> given_;
   DiagramArrays& out_;
+  LargeArray<std::int32_t>& targets_;
 };
 
-// Half-edges from infinity to infinity, each edge once, in the order of the sites on their left.
-std::vector<Corner> EdgeWriter::edges_without_vertex() const {
-  std::vector<Corner> edges;
-  const auto sites = [&](Corner corner) {
-    return sites_of_edge(links_[record_of(corner)], place_of(corner));
+// Records are read for the last time, those of the points and of the segments of a stretch of the curve
+// together: what is written, in the order of the vertices, is near in memory too.
+void VertexWriter::run(unsigned threads, const Monitor& monitor) {
+  const std::size_t pieces = piece_count(records_.all.size(), piece_size);
+  parallel_for(
+      pieces, threads,
+      [&](std::size_t piece) {
+        write_stretch(0, records_.of_points, piece, pieces);
+        write_stretch(records_.of_points, records_.all.size() - records_.of_points, piece, pieces);
+      },
+      monitor);
+}
+
+void VertexWriter::write_stretch(std::size_t first, std::size_t count, std::size_t piece,
+                                 std::size_t pieces) {
+  const std::size_t begin = first + count * piece / pieces, end = first + count * (piece + 1) / pieces;
+  const auto put = [&](std::size_t place, SiteIndex site, std::int32_t across) {
+    out_.vertex_sites[place] = site;
+    targets_[place] = numbers_.of(across);
   };
-  for (const std::int32_t v : numbers_.infinite()) {
-    const auto& around = links_[v].sites;
-    const auto place = std::find(around.begin(), around.end(), infinite_) - around.begin();
-    const Corner corner = corner_of(v, static_cast<int>(place));
-    const EdgeSites beside = sites(corner);
-    if (target_of(corner) == VertexNumbers::at_infinity && beside.left < beside.right)
-      edges.push_back(corner);
+  const auto start_of = [&](std::int32_t record) {
+    const auto vertex = static_cast<std::size_t>(numbers_.of(record));
+    write_disc(vertex, records_[record]);
+    return static_cast<std::size_t>(out_.vertex_start[vertex]);
+  };
+  for_leads(
+      records_, numbers_, begin, end,
+      [&](std::int32_t record) {
+        const std::size_t start = start_of(record);
+        const SingleRing ring(records_[record]);
+        for (std::size_t i = 0; i < 3; ++i) put(start + i, ring.contacts[i].site, ring.across[i]);
+      },
+      [&](std::size_t k, std::int32_t record) {
+        std::size_t place = start_of(record);
+        for (const VertexNumbers::Spoke& spoke : numbers_.merged_ring(k)) {
+          put(place++, static_cast<SiteIndex>(spoke.site), spoke.across);
+        }
+      });
+  discard(records_.all, begin, end);
+}
+
+void VertexWriter::write_disc(std::size_t vertex, const VoronoiRecord& v) {
+  out_.vertices[2 * vertex] = v.x;
+  out_.vertices[2 * vertex + 1] = v.y;
+  out_.radius[vertex] = v.radius;
+}
+
+// ---- edges -----------------------------------------------------------------------------------------------
+
+struct Edge {
+  std::int32_t source, target, left, right;  // sites in the engine's numbers
+};
+
+// Edges from infinity to infinity, each once, in the order of the sites on their left.
+std::vector<Edge> edges_without_vertex(const VoronoiRecords& records, const VertexNumbers& numbers,
+                                       SiteIndex infinite) {
+  std::vector<Edge> edges;
+  for (const std::int32_t record : numbers.infinite()) {
+    const VoronoiRecord& v = records[record];
+    const int i = v.find(infinite);
+    const auto [right, left] = sites_of_edge(v, i);
+    const std::int32_t across = numbers.of(record_of(v.twins[static_cast<std::size_t>(i)]));
+    if (across == VertexNumbers::at_infinity && left < right) edges.push_back({-1, -1, left, right});
   }
-  std::sort(edges.begin(), edges.end(), [&](Corner a, Corner b) {
-    const EdgeSites p = sites(a), q = sites(b);
-    return p.left != q.left ? p.left < q.left : p.right < q.right;
+  std::ranges::sort(edges, [](const Edge& a, const Edge& b) {
+    return a.left != b.left ? a.left < b.left : a.right < b.right;
   });
   return edges;
 }
 
-// Where the edges of a piece belong is known once those before are counted. So pieces are worked on in
-// batches: their rings and edges are gathered, and then put in their places.
-void EdgeWriter::run(unsigned threads, const Monitor& monitor) {
-  std::size_t edge = 0, site = 0;
-  for (const Corner corner : edges_without_vertex()) put_edge(edge++, edge_at(-1, corner));
-  const std::size_t vertices = numbers_.count(), pieces = piece_count(vertices, piece_size);
-  std::vector<Piece> batch(std::min(pieces, batch_size));
-  for (std::size_t first = 0; first < pieces; first += batch_size) {
-    const std::size_t count = std::min(batch_size, pieces - first);
-    parallel_for(
-        count, threads,
-        [&](std::size_t k) {
-          const std::size_t begin = (first + k) * piece_size;
-          gather(begin, std::min(vertices, begin + piece_size), batch[k]);
-        },
-        monitor);
-    for (std::size_t k = 0; k < count; ++k) {
-      batch[k].first_site = std::exchange(site, site + batch[k].sites.size());
-      batch[k].first_edge = std::exchange(edge, edge + batch[k].edges.size());
-    }
-    parallel_for(count, threads, [&](std::size_t k) { put((first + k) * piece_size, batch[k]); });
+// Writes edges from the rings of vertices, and then the rings in the numbers of the input.
+class EdgeWriter {
+ public:
+  EdgeWriter(LargeArray<std::int32_t>& targets, std::span<const std::int32_t> given, DiagramArrays& out)
+      : targets_(targets), given_(given), out_(out) {}
+
+  void run(const std::vector<Edge>& without_vertex, unsigned threads, const Monitor& monitor);
+
+ private:
+  // An edge is written with the end that has the smaller number: it may be the only one.
+  static bool is_written_from(std::size_t vertex, std::int32_t target) {
+    return target > static_cast<std::int32_t>(vertex);
   }
-  out_.vertex_start[vertices] = static_cast<std::int32_t>(site);
+  std::size_t start(std::size_t vertex) const { return static_cast<std::size_t>(out_.vertex_start[vertex]); }
+  std::size_t count(std::size_t begin, std::size_t end) const;
+  void write(std::size_t begin, std::size_t end, std::size_t place);
+  void put(std::size_t place, const Edge& edge);
+
+  std::int32_t given(SiteIndex site) const { return given_[static_cast<std::size_t>(site)]; }
+
+  LargeArray<std::int32_t>& targets_;
+  std::span<const std::int32_t> given_;
+  DiagramArrays& out_;
+};
+
+void EdgeWriter::run(const std::vector<Edge>& without_vertex, unsigned threads, const Monitor& monitor) {
+  for (std::size_t k = 0; k < without_vertex.size(); ++k) put(k, without_vertex[k]);
+  const std::size_t vertices = out_.radius.size();
+  std::vector<std::size_t> first(piece_count(vertices, piece_size));
+  for_pieces(vertices, threads, monitor, [&](std::size_t piece, std::size_t begin, std::size_t end) {
+    first[piece] = count(begin, end);
+  });
+  std::exclusive_scan(first.begin(), first.end(), first.begin(), without_vertex.size());
+  for_pieces(vertices, threads, monitor, [&](std::size_t piece, std::size_t begin, std::size_t end) {
+    write(begin, end, first[piece]);
+    discard(targets_, start(begin), start(end));
+  });
 }
 
-// Links are far apart in memory: they are called for early, and then what they lead to.
-void EdgeWriter::prefetch(std::size_t vertex) const {
-  const auto leads = numbers_.leads();
-  if (vertex + 2 * ahead < leads.size()) __builtin_prefetch(&links_[leads[vertex + 2 * ahead]]);
-  if (vertex + ahead >= leads.size()) return;
-  for (const Corner twin : links_[leads[vertex + ahead]].twins) numbers_.prefetch(record_of(twin));
-}
-
-// An edge is written with the end that has the smaller number: it may be the only one.
-void EdgeWriter::gather(std::size_t begin, std::size_t end, Piece& piece) const {
-  std::vector<Corner> ring;
-  piece.ring_sizes.clear();
-  piece.sites.clear();
-  piece.edges.clear();
+std::size_t EdgeWriter::count(std::size_t begin, std::size_t end) const {
+  std::size_t edges = 0;
   for (std::size_t vertex = begin; vertex < end; ++vertex) {
-    prefetch(vertex);
-    const auto number = static_cast<std::int32_t>(vertex);
-    numbers_.gather_ring(links_, numbers_.leads()[vertex], ring);
-    piece.ring_sizes.push_back(static_cast<std::int32_t>(ring.size()));
-    for (const Corner corner : ring) {
-      piece.sites.push_back(given(left_site(links_, corner)));
-      if (target_of(corner) > number) piece.edges.push_back(edge_at(number, corner));
+    for (std::size_t k = start(vertex); k < start(vertex + 1); ++k)
+      edges += is_written_from(vertex, targets_[k]);
+  }
+  return edges;
+}
+
+void EdgeWriter::write(std::size_t begin, std::size_t end, std::size_t place) {
+  for (std::size_t vertex = begin; vertex < end; ++vertex) {
+    const std::span<std::int32_t> sites(out_.vertex_sites.data() + start(vertex),
+                                        start(vertex + 1) - start(vertex));
+    SiteIndex right = sites.back();
+    for (std::size_t k = 0; k < sites.size(); ++k) {
+      const std::int32_t target = targets_[start(vertex) + k];
+      if (is_written_from(vertex, target)) {
+        put(place++, {static_cast<std::int32_t>(vertex), target == VertexNumbers::at_infinity ? -1 : target,
+                      sites[k], right});
+      }
+      right = sites[k];
     }
-    const auto sites = piece.sites.end() - static_cast<std::ptrdiff_t>(ring.size());
-    std::rotate(sites, std::min_element(sites, piece.sites.end()), piece.sites.end());
+    for (std::int32_t& site : sites) site = given(site);
+    std::rotate(sites.begin(), std::min_element(sites.begin(), sites.end()), sites.end());
   }
 }
 
-void EdgeWriter::put(std::size_t begin, const Piece& piece) {
-  std::size_t start = piece.first_site;
-  std::copy(piece.sites.begin(), piece.sites.end(), out_.vertex_sites.data() + start);
-  for (std::size_t k = 0; k < piece.ring_sizes.size(); ++k) {
-    out_.vertex_start[begin + k] = static_cast<std::int32_t>(start);
-    start += static_cast<std::size_t>(piece.ring_sizes[k]);
-  }
-  for (std::size_t k = 0; k < piece.edges.size(); ++k) put_edge(piece.first_edge + k, piece.edges[k]);
-}
-
-void EdgeWriter::put_edge(std::size_t place, const Edge& edge) {
+void EdgeWriter::put(std::size_t place, const Edge& edge) {
   out_.edges[2 * place] = edge.source;
   out_.edges[2 * place + 1] = edge.target;
-  out_.edge_sites[2 * place] = edge.left;
-  out_.edge_sites[2 * place + 1] = edge.right;
+  out_.edge_sites[2 * place] = given(edge.left);
+  out_.edge_sites[2 * place + 1] = given(edge.right);
 }
 
 }  // namespace
 
 DiagramArrays extract_diagram(SegmentSites sites, VoronoiRecords records, std::span<const std::int32_t> given,
                               unsigned threads, const Monitor& monitor) {
-  records.corner_of_point = {};
-  const SiteIndex infinite = sites.infinite();
-  const VertexNumbers numbers(sites, records, threads, monitor);
-  const std::size_t vertices = numbers.count(), ring = numbers.ring_size(),
-                    edges = (ring + numbers.infinite().size()) / 2;
+  records.corner_of_point = std::vector<Corner>();
+  return_freed_memory();
   DiagramArrays out;
-  out.vertices = LargeArray<double>(2 * vertices);
-  out.radius = LargeArray<double>(vertices);
-  const Links links = DiscWriter(sites, records, numbers, out).run(threads, monitor);
+  LargeArray<std::int32_t> targets;  // [sites around vertices] where the edge before each leads
+  std::vector<Edge> without_vertex;
+  std::size_t edges = 0;
+  {
+    const SiteIndex infinite = sites.infinite();
+    VertexNumbers numbers(sites, records, threads, monitor);
+    polish_discs(sites, records, numbers, threads, monitor);
+    sites = SegmentSites();
+    numbers.assign(threads, monitor);
+    without_vertex = edges_without_vertex(records, numbers, infinite);
+    out.vertex_start = numbers.take_starts();
+    const std::size_t vertices = out.vertex_start.size() - 1;
+    const auto ring = static_cast<std::size_t>(out.vertex_start[vertices]);
+    edges = (ring + numbers.infinite().size()) / 2;
+    out.vertices = with_small_pages<double>(2 * vertices);
+    out.radius = with_small_pages<double>(vertices);
+    out.vertex_sites = with_small_pages<std::int32_t>(ring);
+    targets = with_small_pages<std::int32_t>(ring);
+    return_freed_memory();
+    VertexWriter(records, numbers, out, targets).run(threads, monitor);
+  }
   records.all = {};
-  sites = {};
-  out.vertex_start = LargeArray<std::int32_t>(vertices + 1);
-  out.vertex_sites = LargeArray<std::int32_t>(ring);
   out.edges = LargeArray<std::int32_t>(2 * edges);
   out.edge_sites = LargeArray<std::int32_t>(2 * edges);
-  EdgeWriter(links, numbers, infinite, given, out).run(threads, monitor);
+  EdgeWriter(targets, given, out).run(without_vertex, threads, monitor);
   return out;
 }
 

@@ -43,18 +43,11 @@ struct alignas(64) VoronoiRecord {
 };
 static_assert(sizeof(VoronoiRecord) == 64);
 
-// What is left of a vertex when its disc is known.
-struct VoronoiLink {
-  std::array<SiteIndex, 3> sites;
-  std::array<Corner, 3> twins;
-};
-
-// The sites right and left of edge i as it leaves the vertex, a record or a link.
+// The sites right and left of edge i as it leaves the vertex.
 struct EdgeSites {
   SiteIndex right, left;
 };
-template <class Vertex>
-EdgeSites sites_of_edge(const Vertex& v, int i) {
+inline EdgeSites sites_of_edge(const VoronoiRecord& v, int i) {
   return {v.sites[static_cast<std::size_t>(following(i))], v.sites[static_cast<std::size_t>(preceding(i))]};
 }
 

@@ -13,6 +13,7 @@ from vorotool.cli.commands import run_command
 from vorotool.cli.inputs import refuse
 from vorotool.cli.options import batch_options, inputs_argument, layers_option, output_options, shared
 from vorotool.cli.recipes import Recipe
+from vorotool.cli.results import SKELETON_LAYERS
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options
 from vorotool.formats.input_formats import DRAWN_NAMES
@@ -27,7 +28,6 @@ LAYERS = {"png": ("cells", "diagram"), "svg": ("cells", "labels")}
 Drawing = tuple[Callable[[BinaryIO], None], dict[str, Any]]
 """What draws, and what it draws in numbers."""
 
-SKELETON_LAYERS = ("polygons", "elements", "points", "skeleton", "nodes", "labels")
 _SKELETON_PICTURES = {"svg": SKELETON_LAYERS, "png": SKELETON_LAYERS[:-1]}
 
 

@@ -31,7 +31,7 @@ EXTENSIONS = {
     ".zarr": "zarr",
 }
 FORMATS = tuple(dict.fromkeys(EXTENSIONS.values()))
-TEXT_FORMATS = frozenset(FORMATS) - {"png", "tiff", "npy", "npz"}
+TEXT_FORMATS = frozenset(FORMATS) - {"png", "tiff", "npy", "npz", "zarr"}
 TRIANGLE_FILES = frozenset({"node", "edge", "ele"})
 _EXTENSION_OF = {"tiff": "tif", "text": "txt"}
 

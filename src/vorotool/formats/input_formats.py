@@ -28,6 +28,7 @@ IMAGE_NAMES = {
     "pgm": "pnm",
     "ppm": "pnm",
     "npy": "npy",
+    "zarr": "zarr",
 }
 """Formats of images by name; NPY files hold either."""
 
