@@ -55,6 +55,7 @@ bench: build ## measure beside the peers, in one run
 	$(RUN) tests/benchmarks/alphashape.py
 	$(RUN) tests/benchmarks/mesh_files.py
 	$(RUN) tests/benchmarks/skeleton_exact.py
+	$(RUN) tests/benchmarks/skeleton_approx.py
 	$(RUN) tests/benchmarks/masks.py
 	$(RUN) tests/benchmarks/segment_voronoi.py
 	$(RUN) tests/benchmarks/batch.py
@@ -73,11 +74,19 @@ fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CAS
 	$(RUN) tests/fuzz/skeleton_approx.py --cases $(or $(CASES),2000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/skeleton_bounds.py
 	$(RUN) tests/fuzz/pruning.py --cases $(or $(CASES),1000) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/offsets.py --cases $(or $(CASES),1000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/rotation.py --cases $(or $(CASES),1000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/outlines.py --cases $(or $(CASES),20000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/segment_voronoi.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/segment_voronoi.py --cases 10000 --seed $(or $(SEED),1) --family clusters --largest 100 --symmetries 1
 	$(RUN) tests/fuzz/batch.py --kills $(or $(KILLS),20) --seed $(or $(SEED),1)
+
+.PHONY: long
+long: build ## frames and images far beyond memory: minutes, and a gigabyte of disk (SIDE=..., SEED=...)
+	$(RUN) tests/long/big_tessellation.py --side 32768 --seeds 100000 --folder $(BUILD) --seed $(or $(SEED),1)
+	$(RUN) tests/long/big_tessellation.py --side 32768 --seeds 30000 --folder $(BUILD) --seed $(or $(SEED),1) -- --cluster local
+	$(RUN) tests/long/big_tessellation.py --side 16384 --seeds 100000 --image --folder $(BUILD) --seed $(or $(SEED),1)
+	$(RUN) tests/long/big_tessellation.py --side $(or $(SIDE),131072) --folder $(BUILD) --seed $(or $(SEED),1)
 
 .PHONY: sanitize
 sanitize: build ## run the engine tests on a build with address and undefined-behaviour sanitizers

@@ -2,11 +2,17 @@
 # `make figures` draws all, `make figure-01` one; they go to build/figures.
 VOROTOOL := $(BIN)/vorotool
 FIGURES  := $(BUILD)/figures
+GALLERY  := $(BUILD)/gallery
 TABLE_1_SIZES := 64 128 256 512
 FIGURE_9_STEPS := 20 15 10 5
+GALLERY_PICTURES := letters-all.svg letters.svg letters-angle.svg vessels.png vessels.csv river.svg silhouettes.svg \
+                    silhouettes-chord.svg silhouettes.csv slider.html lakes.svg cells.svg outside.svg alpha.svg
 
-.PHONY: figures figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c figure-05 figure-06 figure-07 figure-08 figure-09 figure-10 figure-11 figure-lakes table-1
-figures: figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c figure-05 figure-06 figure-07 figure-08 figure-09 figure-10 figure-11 figure-lakes table-1 ## draw the figures and tables of the paper into build/figures
+NAMES := figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c \
+         figure-05 figure-06 figure-07 figure-08 figure-09 figure-10 figure-11 figure-lakes table-1 error-vs-h gallery
+
+.PHONY: figures $(NAMES)
+figures: $(NAMES) ## draw the figures and tables of the paper, and the gallery, into build/figures
 	@echo "figures are in $(FIGURES):" && ls $(FIGURES)
 figure-01: $(FIGURES)/figure-01.svg
 figure-02: $(FIGURES)/figure-02.svg
@@ -26,8 +32,10 @@ figure-10: $(FIGURES)/figure-10.svg
 figure-11: $(foreach part,a b c d,$(FIGURES)/figure-11$(part).svg)
 figure-lakes: $(FIGURES)/figure-lakes.png
 table-1: $(FIGURES)/table-1.md
+gallery: $(addprefix $(FIGURES)/gallery-,$(GALLERY_PICTURES)) ## draw the pictures of docs/gallery.md
+error-vs-h: $(FIGURES)/error-vs-h.md
 
-$(FIGURES):
+$(FIGURES) $(GALLERY):
 	mkdir -p $@
 
 # Purpose: the matrix V of six seeds after the first passes of section 2.2.
@@ -120,4 +128,68 @@ $(FIGURES)/table-1.md: data/dots.csv docs/table_1.py $(BUILD)/.installed | $(FIG
 	      --stats $(BUILD)/table-1/$$method-$$m.json || exit 1; \
 	done; done
 	$(RUN) docs/table_1.py $(BUILD)/table-1 $(TABLE_1_SIZES) > $@
+	cat $@
+
+# ---- gallery: docs/gallery.md shows these, each with its command ---------------------------------------------------
+$(GALLERY)/%.png: docs/gallery_inputs.py $(BUILD)/.installed | $(GALLERY)
+	$(RUN) $< $* > $@
+
+# Purpose: the exact skeleton of letters in pixels: each corner of a pixel has its branch.
+$(FIGURES)/gallery-letters-all.svg: $(GALLERY)/letters.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --prune none -o $@
+
+# Purpose: the same as masks are pruned by default, by scale: the ends of strokes stay.
+$(FIGURES)/gallery-letters.svg: $(GALLERY)/letters.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< -o $@
+
+# Purpose: the same, pruned by the angle under which centres see the boundary: no branch to a corner.
+$(FIGURES)/gallery-letters-angle.svg: $(GALLERY)/letters.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --prune angle=150 -o $@
+
+# Purpose: the skeleton of a network over its image,
+$(FIGURES)/gallery-vessels.png: $(GALLERY)/vessels.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --overlay $< -o $@
+
+# Purpose: and the length and the radii of its branches.
+$(FIGURES)/gallery-vessels.csv: $(GALLERY)/vessels.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --what branches -o $@
+
+# Purpose: a centerline, from bank to bank past two islands.
+$(FIGURES)/gallery-river.svg: $(GALLERY)/river.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --what centerline --prune ratio=2 -o $@
+
+# Purpose: a label image: one object a label.
+$(FIGURES)/gallery-silhouettes.svg: $(GALLERY)/silhouettes.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --prune ratio=1.5 -o $@
+
+# Purpose: the same, pruned by the chord between the two nearest places on the boundary: by size in pixels.
+$(FIGURES)/gallery-silhouettes-chord.svg: $(GALLERY)/silhouettes.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --prune chord=20 -o $@
+
+# Purpose: the widths of these objects, and what their skeletons are made of.
+$(FIGURES)/gallery-silhouettes.csv: $(GALLERY)/silhouettes.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --what table -o $@
+
+# Purpose: a page with a slider for what is pruned.
+$(FIGURES)/gallery-slider.html: $(GALLERY)/silhouettes.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --prune ratio=1.5 -o $@
+
+# Purpose: a map: lakes with islands, pruned by scale.
+$(FIGURES)/gallery-lakes.svg: data/great-lakes.geojson $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --prune scale=1.3 -q -o $@
+
+# Purpose: labels that touch: each is an object of its own. The elements are the outlines.
+$(FIGURES)/gallery-cells.svg: data/cells.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --prune chord=9 --layers polygons,elements,skeleton -o $@
+
+# Purpose: the skeleton of what is outside: ways between objects.
+$(FIGURES)/gallery-outside.svg: data/blobs.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --side exterior --prune angle=120 -o $@
+
+# Purpose: the skeleton of the alpha shape of a dot pattern.
+$(FIGURES)/gallery-alpha.svg: data/dot-pattern.csv $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) alphashape $< -r 10 --what polygons -f geojson -q -o - | $(VOROTOOL) skeleton-exact - --prune scale=1.2 -q -o $@
+# Purpose: the errors of section 3.1 against the step, measured and certified, beside the paper's estimates.
+$(FIGURES)/error-vs-h.md: data/shape.json data/two-shapes.json data/two-segments.wkt docs/error_vs_h.py $(BUILD)/.installed | $(FIGURES)
+	$(RUN) docs/error_vs_h.py $(FIGURES)/error-vs-h.svg > $@
 	cat $@

@@ -121,6 +121,12 @@ def test_points_that_are_none():
         vorotool.PointSet(POINTS, labels=[1.5, 2])
 
 
+@pytest.mark.parametrize("path", [5, None, b"data/dots.csv", [[0, 0], [1, 1]]])
+def test_paths_that_are_none(path):
+    with pytest.raises(InputError, match="is no path: give the name of a file"):
+        vorotool.read(path)
+
+
 def test_reading_and_writing(tmp_path):
     (tmp_path / "a.csv").write_text("1,2\n")
     for threads in (-1, None):

@@ -6,7 +6,6 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "core/colouring.hpp"
-#include "core/components.hpp"
 #include "core/diagram.hpp"
 #include "core/nearest_sites.hpp"
 #include "core/regions.hpp"
@@ -90,14 +89,6 @@ nb::tuple verify_labels(Matrix<const Label> labels, std::int64_t x, std::int64_t
   return nb::make_tuple(wrong.count, wrong.column, wrong.row, wrong.found, wrong.right);
 }
 
-std::uint32_t label_components(Matrix<const std::uint8_t> mask, bool corners, Matrix<std::uint32_t> out,
-                               nb::object progress) {
-  const auto connectivity = corners ? core::Connectivity::eight : core::Connectivity::four;
-  return run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::label_components(view(mask), mask.shape(1), connectivity, view(out), monitor);
-  });
-}
-
 nb::tuple nearest_other_sites(Vector<const double> x, Vector<const double> y,
                               Vector<const std::uint32_t> labels, unsigned threads, nb::object progress) {
   const auto found = run_interruptible(progress, [&](const Monitor& monitor) {
@@ -136,8 +127,6 @@ void bind_regions(nb::module_& module) {
   bind_label_image<std::uint8_t>(module);
   bind_label_image<std::uint16_t>(module);
   bind_label_image<std::uint32_t>(module);
-  module.def("label_components", &label_components, "mask"_a.noconvert(), "corners"_a, "out"_a.noconvert(),
-             "progress"_a.none());
   module.def("nearest_other_sites", &nearest_other_sites, "x"_a.noconvert(), "y"_a.noconvert(),
              "labels"_a.noconvert(), "threads"_a, "progress"_a.none());
   module.def("colour_graph", &colour_graph, "vertices"_a, "a"_a.noconvert(), "b"_a.noconvert(),

@@ -8,6 +8,7 @@ namespace vorotool::bindings {
 void bind_text(nanobind::module_& module);
 void bind_tessellation(nanobind::module_& module);
 void bind_regions(nanobind::module_& module);
+void bind_components(nanobind::module_& module);
 void bind_predicates(nanobind::module_& module);
 void bind_delaunay(nanobind::module_& module);
 void bind_alpha(nanobind::module_& module);

@@ -6,6 +6,7 @@ NB_MODULE(_core, module) {
   vorotool::bindings::bind_text(module);
   vorotool::bindings::bind_tessellation(module);
   vorotool::bindings::bind_regions(module);
+  vorotool::bindings::bind_components(module);
   vorotool::bindings::bind_predicates(module);
   vorotool::bindings::bind_delaunay(module);
   vorotool::bindings::bind_alpha(module);

@@ -1,6 +1,7 @@
 #include "core/near_edges.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/clearance.hpp"
@@ -9,6 +10,7 @@ namespace vorotool::core {
 namespace {
 
 constexpr double distance_error = 0x1p-18;  // of places and distances below 2^32 steps
+constexpr double wider = 0x1p-5;            // part of its radius by which a disc is widened
 
 }  // namespace
 
@@ -49,15 +51,41 @@ bool NearEdges::is_known(const Place& centre, double radius, std::size_t i) {
   return true;
 }
 
-void NearEdges::search(const Place& centre, double radius, Found& found) const {
+void NearEdges::search(const Place& centre, double radius, Found& found) {
   found.centre = centre;
   found.radius = radius;
   found.numbers.clear();
   const double reach = radius + distance_error;
-  hierarchy_.near(centre[0], centre[1], reach, [&](std::uint32_t number) {
+  const auto visit = [&](std::uint32_t number) {
     if (closed_distance(items_[number].site, centre) <= reach) found.numbers.push_back(number);
     return found.numbers.size() <= most_;
-  });
+  };
+  if (!is_surrounded(centre, reach)) {
+    hierarchy_.near(centre[0], centre[1], reach, visit);
+    return;
+  }
+  for (const std::uint32_t number : surroundings_.numbers) {  // in the order of the hierarchy as well
+    if (!visit(number)) return;
+  }
+}
+
+bool NearEdges::is_surrounded(const Place& centre, double reach) {
+  const auto away = [&](const Place& p) { return std::hypot(p[0] - centre[0], p[1] - centre[1]); };
+  const double moved = away(last_);
+  last_ = centre;
+  Found& found = surroundings_;
+  if (away(found.centre) + reach + distance_error > found.radius) {
+    if (moved > wider / 8 * reach) return false;
+    found.centre = centre;
+    found.radius = reach * (1 + wider);
+    found.numbers.clear();
+    hierarchy_.near(centre[0], centre[1], found.radius, [&](std::uint32_t number) {
+      if (closed_distance(items_[number].site, centre) <= found.radius + distance_error)
+        found.numbers.push_back(number);
+      return found.numbers.size() <= 2 * most_;
+    });
+  }
+  return found.numbers.size() <= 2 * most_;
 }
 
 }  // namespace vorotool::core

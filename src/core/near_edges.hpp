@@ -47,12 +47,16 @@ class NearEdges {
     std::vector<std::uint32_t> numbers;
   };
   bool is_known(const Place& centre, double radius, std::size_t i);
-  void search(const Place& centre, double radius, Found& found) const;
+  void search(const Place& centre, double radius, Found& found);
+  // Whether the surroundings hold a disc; they are gathered where it is hardly away from the last one.
+  bool is_surrounded(const Place& centre, double reach);
 
   std::span<const NearEdge> items_;
   const SiteHierarchy& hierarchy_;
   std::size_t most_;
   std::array<Found, 2> discs_;
+  Found surroundings_;  // what meets a wider disc: many that follow are within it
+  Place last_{0, 0};    // the centre of the disc that was searched for last
   std::vector<NearEdge> found_;
 };
 

@@ -39,10 +39,6 @@ class Writer {
     SkeletonArrays& a = out.arrays;
     a.vertices.resize(nodes);
     a.side.resize(nodes);
-    for (std::size_t i = 0; i < nodes; ++i) {
-      a.vertices[i] = placed(arcs_.place(order_.nodes[i]));
-      a.side[i] = static_cast<std::int8_t>(arcs_.side(order_.nodes[i]));
-    }
     a.arcs.resize(arcs);
     a.control.assign(arcs, {nan, nan});
     a.sites.resize(arcs);
@@ -51,9 +47,11 @@ class Writer {
     a.length.resize(arcs);
     out.seeds.resize(arcs);
     parallel_for(
-        piece_count(arcs, grain), threads,
+        piece_count(std::max(nodes, arcs), grain), threads,
         [&](std::size_t piece) {
-          for (std::size_t i = piece * grain; i < std::min(arcs, (piece + 1) * grain); ++i) write_arc(i, out);
+          const std::size_t first = piece * grain, last = first + grain;
+          for (std::size_t i = first; i < std::min(nodes, last); ++i) write_node(i, a);
+          for (std::size_t i = first; i < std::min(arcs, last); ++i) write_arc(i, out);
         },
         monitor);
   }
@@ -102,6 +100,11 @@ class Writer {
   }
   Place placed(const Place& p) const {
     return {place_.origin_x + place_.scale * p[0], place_.origin_y + place_.scale * p[1]};
+  }
+
+  void write_node(std::size_t i, SkeletonArrays& a) const {
+    a.vertices[i] = placed(arcs_.place(order_.nodes[i]));
+    a.side[i] = static_cast<std::int8_t>(arcs_.side(order_.nodes[i]));
   }
 
   void write_arc(std::size_t i, SeedSkeleton& out) const {

@@ -62,6 +62,22 @@ def measure_regions(labels: NDArray[Any], threads: int, progress: _Progress) -> 
 def label_components(
     mask: NDArray[np.uint8], corners: bool, out: NDArray[np.uint32], progress: _Progress
 ) -> int: ...  # mask: zeros and ones
+
+class StreamingComponents:
+    def __init__(self, width: int, corners: bool) -> None: ...
+    @property
+    def size(self) -> int: ...
+    def add(self, mask: NDArray[np.uint8], out: NDArray[np.uint32], progress: _Progress) -> None: ...
+    def settle(self, out: NDArray[np.uint32]) -> int: ...
+
+def number_band(
+    mask: NDArray[np.uint8],
+    corners: bool,
+    above: NDArray[np.uint32],
+    fresh: NDArray[np.uint32],
+    out: NDArray[np.uint32],
+    progress: _Progress,
+) -> None: ...
 def max_by_label(
     labels: NDArray[Any],
     values: NDArray[Any],

@@ -145,6 +145,18 @@ def test_distances_and_a_failing_cluster(run, dots, cluster, monkeypatch, what):
     assert not list(dots.glob(".*"))
 
 
+def test_tiles_of_an_image_as_seeds(run, dots, cluster, monkeypatch):
+    import zarr
+
+    monkeypatch.setattr("vorotool.engines.streamed_image.BAND_PIXELS", 37 * 200)
+    mask = (np.random.default_rng(3).random((150, 200)) < 0.02).astype(np.uint8)
+    zarr.create_array(dots / "seeds.zarr", data=mask, chunks=(64, 64))
+    options = ("tessellate", "seeds.zarr", "--chunk", "64x50", "-q")
+    assert run(*options, "-o", "here.zarr").code == 0
+    assert run(*options, "-o", "there.zarr", "--cluster", cluster[0]).code == 0
+    assert store(dots / "there.zarr") == store(dots / "here.zarr")
+
+
 def test_an_interrupt_ends_the_cluster_that_was_started(process, dots):
     options = ("--size", "20000x20000", "--chunk", "512x16", "-q", "--cluster", "local", "-j", "1")
     child = process("tessellate", "dots.csv", "-o", "a.zarr", *options)

@@ -447,3 +447,12 @@ def test_layers_are_those_that_are_drawn():
     assert {"png": set(label_png.LAYERS), "svg": set(label_svg.LAYERS)} == {
         fmt: set(layers) for fmt, layers in PICTURE_LAYERS.items()
     }
+
+
+@pytest.mark.parametrize("command", ["tessellate", "delaunay", "alphashape", "skeleton-exact"])
+def test_a_direction_is_for_pictures(run, folder, command):
+    source = "mask.pbm" if command == "skeleton-exact" else "dots.csv"
+    done = run(command, source, "--y-up", "-o", "out.json", *(["--what", "table"] if command == "tessellate" else []))
+    assert done.code == 2
+    assert "--y-up and --y-down are for pictures" in done.err
+    assert not (folder / "out.json").exists()

@@ -11,8 +11,9 @@ import pytest
 from PIL import Image
 
 import vorotool
-from vorotool.cli.skeleton_options import APPROXIMATE_LAYERS, FORMATS, LAYERS
-from vorotool.render import skeleton_layers
+from vorotool.cli.results import DERIVED, SKELETON_LAYERS
+from vorotool.cli.skeleton_options import FORMATS
+from vorotool.render import offset_layers, polygon_layers, skeleton_layers, skeleton_point_layers
 
 sys.path.insert(0, str(Path(__file__).parent))
 from conftest import leftovers
@@ -33,18 +34,23 @@ def test_json_goes_to_standard_output(run, folder):
     assert np.array_equal(vorotool.read(folder / "again.json").vertices, MADE.vertices)
 
 
+NEEDED = {"offset": ["-d", "-20,5"], "points": ["--every", "20"], "transects": ["--every", "20"]}
+
+
 @pytest.mark.parametrize("what", FORMATS)
 def test_every_format_is_written(run, folder, what):
     for fmt in FORMATS[what]:
-        assert run("skeleton-exact", SHAPES, "--what", what, "-o", f"a.{fmt}").code == 0
-        assert run("skeleton-exact", SHAPES, "--what", what, "-f", fmt, "-o", "b").code == 0
+        options = ["--what", what, *NEEDED.get(what, [])]
+        assert run("skeleton-exact", SHAPES, *options, "-o", f"a.{fmt}").code == 0
+        assert run("skeleton-exact", SHAPES, *options, "-f", fmt, "-o", "b").code == 0
         assert (folder / f"a.{fmt}").read_bytes() == (folder / "b").read_bytes()
         assert (folder / "b").stat().st_size > 200
 
 
 def test_layers_are_those_of_the_pictures():
-    assert APPROXIMATE_LAYERS == skeleton_layers.LAYERS
-    assert [layer for layer in APPROXIMATE_LAYERS if layer != "exact"] == list(LAYERS)
+    assert [layer for layer in skeleton_layers.LAYERS if layer != "exact"] == list(SKELETON_LAYERS)
+    drawn = {"offset": offset_layers.LAYERS, "shape": polygon_layers.SHAPE_LAYERS}
+    assert {**drawn, **dict.fromkeys(["points", "transects"], skeleton_point_layers.LAYERS)} == DERIVED
 
 
 @pytest.mark.parametrize("side", ["interior", "exterior", "both"])

@@ -60,6 +60,10 @@ def outputs(run, command, folder, options, *, r, more=()):
         names = ",".join(what for what, each in wanted if each == fmt)
         place = folder.parent / f"{folder.name}-{fmt}"
         arguments = [option.format(r) for option in options]
+        if "offset" in names.split(","):
+            arguments += ["-d", f"{-r / 8},{r}"]
+        if command.startswith("skeleton") and {"points", "transects"} & set(names.split(",")):
+            arguments += ["--every", f"{r / 4}"]
         source = next(folder.iterdir())
         done = run(command, source, "--what", names, "-f", fmt, "--out-dir", place, "-q", *arguments, *more)
         assert done.code == 0, done.err

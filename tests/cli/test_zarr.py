@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import tifffile
 
+from peak_memory import peak_memory
 from vorotool.engines.sweep import Tessellator
 from vorotool.engines.tessellate import tessellate
 
@@ -96,6 +97,18 @@ def test_limits_are_known_before(run, tmp_path, seeds, monkeypatch):
     make(run, "b.zarr", "--max-distance", "0")  # compressed there is room
 
 
+def test_memory_is_that_of_a_row_of_chunks(tmp_path):
+    """Of 537 MB of labels, in a process of its own; windows are those of the engine in memory."""
+    xy = np.random.default_rng(2).integers(0, 32768, (20_000, 2))
+    np.save(tmp_path / "seeds.npy", xy)
+    arguments = ["tessellate", "seeds.npy", "--size", "32768x8192", "-o", "a.zarr", "-q"]
+    assert peak_memory(arguments, tmp_path) < 300e6
+    labels = zarr.open_array(tmp_path / "a.zarr", mode="r")
+    for x, y in ((0, 0), (32768 - 200, 8192 - 150), (2000, 450), (16300, 4090)):
+        found = labels[y : y + 150, x : x + 200]
+        np.testing.assert_array_equal(found, tessellate(xy, window=(x, y, 200, 150)).labels)
+
+
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_an_interrupt_leaves_nothing(process, tmp_path, seeds, number, code):
     child = process("tessellate", "seeds.csv", "--size", "40000x400000", "-o", "a.zarr", "--chunk", "2048x64")
@@ -126,3 +139,67 @@ def test_a_failure_leaves_the_older_store(run, tmp_path, seeds, monkeypatch):
     assert "a.zarr cannot be written: No space left on device; free some space" in failed.err
     assert files(tmp_path / "a.zarr") == before
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.zarr", "seeds.csv"]
+
+
+# ---- images as seeds -------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def tiles(tmp_path, monkeypatch):
+    """A mask in tiles, of which some rows are read and fewer are labelled at a time."""
+    monkeypatch.setattr("vorotool.cli.streamed_images.LARGE", 1000)
+    monkeypatch.setattr("vorotool.engines.streamed_image.BAND_PIXELS", 37 * 200)
+    monkeypatch.setattr("vorotool.engines.streamed_image.SWEEP_PIXELS", 16 * 200)
+    mask = (np.random.default_rng(3).random((150, 200)) < 0.02).astype(np.uint8)
+    zarr.create_array(tmp_path / "seeds.zarr", data=mask, chunks=(64, 64))
+    tifffile.imwrite(tmp_path / "seeds.tif", mask, tile=(32, 32))
+    np.save(tmp_path / "seeds.npy", mask)  # which is held
+    return mask
+
+
+@pytest.mark.parametrize("source", ["seeds.zarr", "seeds.tif"])
+@pytest.mark.parametrize("options", [(), ("--seeds", "pixels"), ("--connectivity", "4"), ("--what", "distance2")])
+def test_tiles_give_what_an_image_gives(run, tmp_path, tiles, source, options):
+    assert run("tessellate", "seeds.npy", *options, "-o", "held.tif", "-q").code == 0
+    expected = tifffile.imread(tmp_path / "held.tif")
+    for name in ("a.zarr", "b.tif", "c.npy"):
+        done = run("tessellate", source, *options, "-o", name, "-q", "--stats", "s.json")
+        assert (done.code, done.err) == (0, "")
+    assert json.loads((tmp_path / "s.json").read_text())["seeds"] == tiles.sum()
+    np.testing.assert_array_equal(pixels(tmp_path / "a.zarr"), expected)
+    assert (tmp_path / "b.tif").read_bytes() == (tmp_path / "held.tif").read_bytes()
+    np.testing.assert_array_equal(np.load(tmp_path / "c.npy"), expected)
+
+
+def test_what_needs_the_image_holds_it(run, tmp_path, tiles):
+    for options in (("--verify",), ("--seeds", "centroids"), ("--what", "table")):
+        for source, name in (("seeds.zarr", "a"), ("seeds.npy", "b")):
+            assert (
+                run("tessellate", source, *options, "-f", "npz" if "table" in options else "npy", "-o", name).code == 0
+            )
+        assert (tmp_path / "a").read_bytes() == (tmp_path / "b").read_bytes()
+
+
+def test_a_store_is_one_input_and_found_in_folders(run, tmp_path, tiles):
+    (tmp_path / "in").mkdir()
+    for name in ("seeds.zarr", "seeds.npy"):
+        (tmp_path / name).rename(tmp_path / "in" / name)
+    (tmp_path / "in/seeds.zarr").rename(tmp_path / "in/other.zarr")
+    assert run("tessellate", "in", "--out-dir", "out", "-f", "npy", "-q").code == 0
+    assert (tmp_path / "out/other.npy").read_bytes() == (tmp_path / "out/seeds.npy").read_bytes()
+
+
+def test_bad_tiles_are_bad_input(run, tmp_path, tiles):
+    chunk = tmp_path / "seeds.zarr/c/1/1"
+    chunk.write_bytes(chunk.read_bytes()[:9])
+    failed = run("tessellate", "seeds.tif", "-o", "a.svg")
+    assert (failed.code, "too large for a picture" in failed.err) == (2, True)
+    for options, code, words in (
+        (("-o", "a.zarr"), 3, "seeds.zarr cannot be read as Zarr"),
+        (("-o", "seeds.zarr"), 2, "also an input"),
+        (("-o", "a.zarr", "--size", "9x9"), 2, "--size is for lists of points"),
+        (("-o", "a.zarr", "--page", "2"), 3, "no --page 2"),
+    ):
+        failed = run("tessellate", "seeds.zarr", *options)
+        assert (failed.code, words in failed.err) == (code, True), failed.err
+    assert not (tmp_path / "a.zarr").exists()

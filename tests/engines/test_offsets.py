@@ -1,29 +1,27 @@
-"""Offsets of shapes beside the buffers of shapely."""
+"""Offsets of shapes beside the buffers of shapely, and what their checker finds."""
 
 import sys
 import warnings
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import vorotool
-from vorotool.engines.skeleton_exact import shape_diagram
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from offset_oracle import check_offsets
-from skeleton_shapes import FAMILIES, TOUCHING
+from fuzz.offsets import SHAPES, failure
+
+ROOMS = [[0, 0], [4, 0], [4, 1], [6, 1], [6, 0], [10, 0], [10, 4], [6, 4], [6, 2], [4, 2], [4, 4], [0, 4]]
+"""Two rooms and a door of width 1."""
 
 
-@pytest.mark.parametrize("family", [*FAMILIES, *TOUCHING], ids=lambda family: family.__name__)
+@pytest.mark.parametrize("family", SHAPES, ids=lambda family: family.__name__)
 def test_offsets_are_those_of_shapely(family):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        shapes = shape_diagram(family(np.random.default_rng(3)))
-    polygons = shapes.placed.polygons
-    extent = float(np.ptp(polygons.xy, axis=0).max()) or 1.0
-    distances = [extent * part for part in (0.11, 0.03, -0.01, -0.04)]
-    check_offsets(vorotool.offset(shapes, distances), distances)
+        assert failure(family(np.random.default_rng(3)), np.random.default_rng(3)) is None
 
 
 def test_a_square_has_round_corners_outside():
@@ -34,3 +32,88 @@ def test_a_square_has_round_corners_outside():
 def test_what_has_vanished_is_not_there():
     made = vorotool.offset([[0, 0], [4, 0], [4, 2], [0, 2]], [-1.5])
     assert len(made.area) == 0
+    vorotool.verify_offsets(made, distances=[-1.5])
+
+
+@pytest.mark.parametrize("distances", [[], 0, [1, 0], np.inf, [np.nan], [1, 2, 1]])
+def test_what_are_no_distances(distances):
+    with pytest.raises(vorotool.UsageError, match="distance"):
+        vorotool.offset(ROOMS, distances)
+
+
+def without(made, shape):
+    """Offsets without a shape."""
+    rings = np.flatnonzero(made.shape_of_ring != shape)
+    pieces = np.flatnonzero(np.isin(made.ring_of_piece, rings))
+    lengths, counts = np.diff(made.ring_start)[rings], np.delete(np.diff(made.shape_start), shape)
+    return replace(
+        made,
+        **{name: getattr(made, name)[pieces] for name in ("start", "end", "centre", "site")},
+        ring_start=np.concatenate([[0], np.cumsum(lengths)]),
+        shape_start=np.concatenate([[0], np.cumsum(counts)]),
+        distance=np.delete(made.distance, shape),
+        polygon=np.delete(made.polygon, shape),
+    )
+
+
+def moved(made, name, row, by):
+    """Offsets with one place moved."""
+    places = getattr(made, name).copy()
+    places[row] += by
+    return replace(made, **{name: places})
+
+
+def reversed_ring(made):
+    """Offsets of one ring that runs the other way round."""
+    order = slice(None, None, -1)
+    return replace(made, start=made.end[order], end=made.start[order], site=made.site[order], centre=made.centre[order])
+
+
+FAULTS = {
+    "open": (1, lambda made: moved(made, "end", 2, 0.1), "does not begin there"),
+    "edge": (1, lambda made: replace(made, site=np.roll(made.site, 1)), "no line along an edge"),
+    "centre": (1, lambda made: moved(made, "centre", np.flatnonzero(made.is_arc)[0], 1e-9), "not its vertex"),
+    "distance": (-0.25, lambda made: replace(made, distance=np.full(1, -0.2500001)), "too near"),
+    "turned": (-0.25, reversed_ring, "turns the wrong way"),
+    "lost": (-1, lambda made: without(made, 1), "is in 0 shapes, not in one"),
+    "twice": ([-1, -1.5], lambda made: replace(made, distance=np.full(4, -1.0)), "too near"),
+}
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_the_checker_finds_faults(name):
+    distance, spoil, words = FAULTS[name]
+    made = vorotool.offset(ROOMS, distance)
+    vorotool.verify_offsets(made)
+    with pytest.raises(vorotool.VerificationError, match=words):
+        vorotool.verify_offsets(spoil(made))
+
+
+def test_the_checker_finds_what_is_nearer():
+    made = vorotool.offset(ROOMS, -0.25)
+    # the same curve, beside shapes with one more wall across it
+    walled = vorotool.offset([{"shell": ROOMS}, {"line": [[2, 1], [2, 3]]}], -0.25)
+    site = np.array([_same_site(made, walled, row) for row in made.site.tolist()])
+    table, polygons = walled.site_table, walled.polygons
+    with pytest.raises(vorotool.VerificationError, match="is in"):
+        vorotool.verify_offsets(replace(made, site=site, site_table=table, polygons=polygons))
+
+
+def _same_site(made, other, row):
+    one, two = made.site_table, other.site_table
+    same = (two.kind == one.kind[row]) & (two.polygon == 0) & (two.ring == 0) & (two.index == one.index[row])
+    return int(np.flatnonzero(same)[0])
+
+
+def test_the_checker_finds_holes_that_are_filled():
+    walls = [[0, 0], [20, 0], [20, 20], [0, 20]]
+    made = vorotool.offset({"shell": walls, "holes": [[[5, 5], [5, 15], [15, 15], [15, 5]]]}, 1)
+    first = made.ring_start[1]
+    filled = replace(
+        made,
+        **{name: getattr(made, name)[:first] for name in ("start", "end", "centre", "site")},
+        ring_start=made.ring_start[:2],
+        shape_start=np.array([0, 1]),
+    )
+    with pytest.raises(vorotool.VerificationError, match="not in none"):
+        vorotool.verify_offsets(filled)

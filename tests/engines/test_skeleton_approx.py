@@ -32,9 +32,10 @@ def test_broken_shapes_pass_the_checker(family):
 @pytest.mark.parametrize("name", ["random 0", "random 1", "holes 0"])
 def test_bounds_hold_and_tolerances_are_met(name):
     shape = Shape(name, SHAPES[name])
-    violations, ratio = check_steps(shape, 20)
+    violations, ratio, orders = check_steps(shape, 20)
     assert violations == 0
     assert np.median(ratio) <= 3
+    assert 1.5 <= np.median(orders) <= 2.5
     assert check_tolerances(shape) == 0
 
 

@@ -1,14 +1,13 @@
-"""Tessellates a frame far beyond memory into a Zarr store, in little memory, and compares windows of it.
+"""Tessellates frames and images far beyond memory into Zarr stores, in little memory, and compares windows of them.
 
 The tool runs as a process of its own, whose peak of resident memory is measured. Windows at random places, at the
-corners and across the borders of chunks are computed once more by brute force.
+corners and across the borders of chunks are computed once more by brute force. With --image the seeds are the
+components of a mask in tiles, which SciPy numbers.
 """
 
 import argparse
 import os
-import resource
 import shutil
-import subprocess
 import sys
 import tempfile
 import time
@@ -16,36 +15,40 @@ from pathlib import Path
 
 import numpy as np
 import zarr
+from scipy import ndimage
 from scipy.spatial import cKDTree
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from peak_memory import peak_memory
 
 MEMORY = 1e9
 """Bytes that are allowed."""
 
 
-def direct(seeds, x, y, side):
+def direct(seeds, numbers, tree, x, y, side):
     """Labels of a window by brute force among the seeds that may be near: distances are whole numbers."""
     xs, ys = (k.ravel() for k in np.meshgrid(np.arange(x, x + side), np.arange(y, y + side)))
-    reach = cKDTree(seeds).query([[x + side / 2, y + side / 2]])[0][0] + 2 * side
+    reach = tree.query([x + side / 2, y + side / 2])[0] + 2 * side
     near = np.flatnonzero((np.abs(seeds - [x + side / 2, y + side / 2]) <= reach).all(axis=1))
     squares = (xs[:, None] - seeds[near, 0]) ** 2 + (ys[:, None] - seeds[near, 1]) ** 2
-    return (near[squares.argmin(axis=1)] + 1).reshape(side, side)  # the first of equals has the smallest label
+    is_nearest = squares == squares.min(axis=1, keepdims=True)
+    return np.where(is_nearest, numbers[near], np.iinfo(np.int64).max).min(axis=1).reshape(side, side)
 
 
 def size_on_disk(folder):
     return sum(path.stat().st_size for path in folder.rglob("*") if path.is_file())
 
 
-def tessellate(folder, side, options):
-    """Run the tool; seconds, and the largest memory of a child process so far, in bytes."""
-    command = [sys.executable, "-m", "vorotool", "tessellate", "seeds.npy", "--size", f"{side}x{side}"]
+def tessellate(folder, source, options):
+    """Run the tool; seconds, and the peak of its memory in bytes."""
     start = time.perf_counter()
-    subprocess.run([*command, "-o", "labels.zarr", *options], cwd=folder, check=True)
-    return time.perf_counter() - start, resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024
+    memory = peak_memory(["tessellate", source, "-o", "labels.zarr", "-q", *options], folder)
+    return time.perf_counter() - start, memory
 
 
-def compare(seeds, store, side, windows, rng):
+def compare(seeds, numbers, store, side, windows, rng):
     """Compare windows; the number of pixels."""
-    size = min(64, side)
+    size, tree = min(64, side), cKDTree(seeds)
     labels = zarr.open_array(store, mode="r")
     corners = [(0, 0), (side - size, 0), (0, side - size), (side - size, side - size)]
     columns, rows = (
@@ -55,14 +58,39 @@ def compare(seeds, store, side, windows, rng):
     places = [*corners, *zip(columns.tolist(), rows.tolist(), strict=True)]
     places += rng.integers(0, side - size + 1, (windows, 2)).tolist()
     for x, y in places:
-        np.testing.assert_array_equal(labels[y : y + size, x : x + size], direct(seeds, x, y, size), f"at ({x}, {y})")
+        expected = direct(seeds, numbers, tree, x, y, size)
+        np.testing.assert_array_equal(labels[y : y + size, x : x + size], expected, f"at ({x}, {y})")
     return len(places) * size * size
+
+
+def make_points(folder, side, count, rng):
+    """Write points; their coordinates and labels."""
+    seeds = rng.integers(0, side, (count, 2))
+    seeds = seeds[np.sort(np.unique(seeds, axis=0, return_index=True)[1])]
+    np.save(folder / "seeds.npy", seeds)
+    return seeds, np.arange(1, len(seeds) + 1)
+
+
+def make_mask(folder, side, count, rng):
+    """Write a mask of small and long objects in tiles; coordinates of its pixels, and the numbers of their objects."""
+    mask = np.zeros((side, side), np.uint8)
+    for x, y in rng.integers(0, side, (count, 2)).tolist():
+        long, thick = int(rng.integers(1, 40)), int(rng.integers(1, 4))
+        mask[y : y + thick, x : x + long] = 1
+        mask[y : y + long, x : x + thick] = 1
+    for x in rng.integers(0, side, 5).tolist():
+        mask[:, x] = 1  # through all bands
+    zarr.create_array(folder / "seeds.zarr", data=mask, chunks=(1024, 1024))
+    numbers = ndimage.label(mask, np.ones((3, 3)), output=np.int32)[0]
+    y, x = np.nonzero(mask)
+    return np.stack([x, y], axis=1), numbers[y, x].astype(np.int64)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--side", type=int, default=131072)
     parser.add_argument("--seeds", type=int, default=1_000_000)
+    parser.add_argument("--image", action="store_true", help="seeds are objects in a mask")
     parser.add_argument("--windows", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--folder", type=Path, help="where there is room for some hundreds of megabytes")
@@ -71,14 +99,13 @@ def main():
     rng = np.random.default_rng(o.seed)
     folder = Path(tempfile.mkdtemp(dir=o.folder))
     try:
-        seeds = rng.integers(0, o.side, (o.seeds, 2))
-        seeds = seeds[np.sort(np.unique(seeds, axis=0, return_index=True)[1])]
-        np.save(folder / "seeds.npy", seeds)
-        seconds, memory = tessellate(folder, o.side, o.options)
+        seeds, numbers = (make_mask if o.image else make_points)(folder, o.side, o.seeds, rng)
+        source = ["seeds.zarr"] if o.image else ["seeds.npy", "--size", f"{o.side}x{o.side}"]
+        seconds, memory = tessellate(folder, source[0], [*source[1:], *o.options])
         size = size_on_disk(folder / "labels.zarr")
         print(f"{o.side} x {o.side} pixels of {len(seeds)} seeds: {seconds:.0f} s, load {os.getloadavg()[0]:.1f}")
         print(f"peak memory {memory / 1e6:.0f} MB, {size / 1e6:.0f} MB on disk", flush=True)
-        compared = compare(seeds, folder / "labels.zarr", o.side, o.windows, rng)
+        compared = compare(seeds, numbers, folder / "labels.zarr", o.side, o.windows, rng)
         print(f"{compared} pixels in windows are those of direct computation")
         assert memory < MEMORY, "it takes too much memory"
     finally:

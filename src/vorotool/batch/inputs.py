@@ -116,7 +116,7 @@ def _is_pattern(name: str) -> bool:
 
 
 def _is_folder(path: Path) -> bool:
-    return path.is_dir() and not is_store(path)
+    return path.is_dir() and not is_store(path) and path.suffix.lower() != ".zarr"
 
 
 def _matching(pattern: str) -> list[Input]:

@@ -10,12 +10,22 @@ import click
 
 from vorotool.cli.commands import run_command
 from vorotool.cli.inputs import naming, read_seed_input, refuse
-from vorotool.cli.options import Decimal, Names, Radius, batch_options, layers_option, shared
+from vorotool.cli.options import (
+    Decimal,
+    Names,
+    Radius,
+    batch_options,
+    inputs_argument,
+    layers_option,
+    output_options,
+    shared,
+)
 from vorotool.cli.recipes import Recipe
 from vorotool.cli.results import OF_ONE_SHAPE
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options
 from vorotool.cli.units import pixel_size_option
+from vorotool.formats.input_formats import NAMES_WITH
 
 if TYPE_CHECKING:
     from vorotool.cli.shapes import ShapeProducts
@@ -47,12 +57,12 @@ _WITHOUT_DIGITS = frozenset({"npz", "html", *_PICTURES})
 
 
 @click.command("alphashape")
-@click.argument("inputs", metavar="INPUT...", nargs=-1)
+@inputs_argument(NAMES_WITH["points"])
 @click.option("-r", "r", type=Radius(), help="Radius, in units of the input; inf gives the convex hull.")
 @click.option("--alpha", type=Decimal(), metavar="A", help="The paper's α = −1/r, negative.")
 @click.option("--auto", is_flag=True, help="The smallest r whose shape is one region with every point: the default.")
 @click.option("--regions", type=click.IntRange(min=1), metavar="K", help="Regions that --auto allows; by default 1.")
-@shared("output", "format")
+@output_options(FORMATS)
 @click.option("--what", type=Names(tuple(FORMATS)), help=f"What to write: {', '.join(FORMATS)}; several separated by "
               "commas. By default edges; polygons for GeoJSON and WKT.")  # fmt: skip
 @click.option(
@@ -129,7 +139,7 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     if o.overlay is not None and not pictures:
         raise click.UsageError("--overlay is for pictures of a shape: use -f svg or -f png, or leave it out")
     plots = ["svg"] if ("curves", "svg") in {(target.what, target.fmt) for target in targets} else []
-    check_picture_options(o, pictures or plots, PICTURE_LAYERS, png_has_width=True)
+    check_picture_options(o, pictures or plots, PICTURE_LAYERS, png_has_width=True, has_page="html" in formats)
 
 
 def _check_method(o: SimpleNamespace, formats: set[str]) -> None:

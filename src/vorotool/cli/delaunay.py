@@ -7,14 +7,24 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from vorotool.cli.candidates import files
 from vorotool.cli.commands import run_command
 from vorotool.cli.inputs import naming, read_clip, read_seed_input, refuse
-from vorotool.cli.options import Rectangle, batch_options, layers_option, shared, what_option
+from vorotool.cli.options import (
+    Rectangle,
+    batch_options,
+    inputs_argument,
+    layers_option,
+    output_options,
+    shared,
+    what_option,
+)
 from vorotool.cli.recipes import Recipe
 from vorotool.cli.results import MESH_LAYERS
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options
 from vorotool.cli.units import pixel_size_option
+from vorotool.formats.input_formats import NAMES_WITH, POLYGON_NAMES
 
 if TYPE_CHECKING:
     from vorotool.cli.meshes import MeshProducts
@@ -41,8 +51,8 @@ _WITHOUT_DIGITS = frozenset({"npz", "edge", "ele", *_PICTURES})
 
 
 @click.command("delaunay")
-@click.argument("inputs", metavar="INPUT...", nargs=-1)
-@shared("output", "format")
+@inputs_argument(NAMES_WITH["points"])
+@output_options(FORMATS)
 @what_option(tuple(FORMATS))
 @click.option(
     "--method",
@@ -57,7 +67,12 @@ _WITHOUT_DIGITS = frozenset({"npz", "edge", "ele", *_PICTURES})
     type=Rectangle(),
     help="Rectangle that cells are clipped to; by default the bounds of the points and a tenth more.",
 )
-@click.option("--clip", metavar="POLYGONS", help="File of polygons that cells are clipped to as well.")
+@click.option(
+    "--clip",
+    metavar="POLYGONS",
+    help="File of polygons that cells are clipped to as well.",
+    shell_complete=files(POLYGON_NAMES),
+)
 @shared("size", "window", "columns", "input-format", "page", "seeds", "connectivity", "threshold", "invert")
 @layers_option(MESH_LAYERS)
 @shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels")

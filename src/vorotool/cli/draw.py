@@ -11,10 +11,12 @@ import click
 
 from vorotool.cli.commands import run_command
 from vorotool.cli.inputs import refuse
-from vorotool.cli.options import batch_options, layers_option, shared
+from vorotool.cli.options import batch_options, inputs_argument, layers_option, output_options, shared
 from vorotool.cli.recipes import Recipe
+from vorotool.cli.results import SKELETON_LAYERS
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options
+from vorotool.formats.input_formats import DRAWN_NAMES
 
 if TYPE_CHECKING:
     from vorotool.formats.sources import Source
@@ -26,13 +28,13 @@ LAYERS = {"png": ("cells", "diagram"), "svg": ("cells", "labels")}
 Drawing = tuple[Callable[[BinaryIO], None], dict[str, Any]]
 """What draws, and what it draws in numbers."""
 
-SKELETON_LAYERS = ("polygons", "elements", "points", "skeleton", "nodes", "labels")
 _SKELETON_PICTURES = {"svg": SKELETON_LAYERS, "png": SKELETON_LAYERS[:-1]}
 
 
 @click.command("draw")
-@click.argument("inputs", metavar="INPUT...", nargs=-1)
-@shared("output", "format", "input-format", "page")
+@inputs_argument(DRAWN_NAMES)
+@output_options(FORMATS)
+@shared("input-format", "page")
 @layers_option(("cells", "diagram", *SKELETON_LAYERS))
 @shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "max-pixels")
 @batch_options(table=False)

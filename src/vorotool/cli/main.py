@@ -7,13 +7,16 @@ import signal
 import sys
 from contextlib import suppress
 from importlib import import_module
-from typing import Any, NoReturn, TextIO
+from typing import TYPE_CHECKING, Any, NoReturn, TextIO
 
 import click
 
 from vorotool import __version__
 from vorotool.cli.failures import explained
 from vorotool.errors import VorotoolError
+
+if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
 
 COMMANDS = {
     "tessellate": "Digital Voronoi tessellation of points or of an image.",
@@ -22,6 +25,7 @@ COMMANDS = {
     "skeleton-approx": "Skeleton of polygons and lines from samples, with certified errors.",
     "skeleton-exact": "Exact skeleton (medial axis) of polygons and lines.",
     "draw": "Draw a label image or a skeleton again, without computing it again.",
+    "completion": "Print the script by which bash, zsh or fish complete arguments.",
 }
 """Commands and what they do; the module of a command is imported when it is called."""
 
@@ -65,6 +69,13 @@ class LazyGroup(click.Group):
             return None
         command: click.Command = import_module(f"vorotool.cli.{cmd_name.replace('-', '_')}").command
         return command
+
+    def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem[str]]:
+        """Offer commands without importing them."""
+        from click.shell_completion import CompletionItem
+
+        commands = [CompletionItem(name, help=text) for name, text in COMMANDS.items() if name.startswith(incomplete)]
+        return commands or click.Command.shell_complete(self, ctx, incomplete)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """List the commands without importing them."""
@@ -126,6 +137,10 @@ def _replace_closed_streams() -> None:
 
 
 def _run(arguments: list[str] | None) -> int:
+    if "_VOROTOOL_COMPLETE" in os.environ:  # a shell asks what an argument can be
+        from vorotool.cli.completion import register
+
+        register()
     try:
         result: Any = vorotool.main(args=arguments, prog_name="vorotool", standalone_mode=False)
         return result if isinstance(result, int) else 0

@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from math import inf, isfinite, nan
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
+
+from vorotool.cli.candidates import any_file, files, folders, formats_of, listed, outputs_of, words
+from vorotool.formats.input_formats import ALL_NAMES, IMAGE_NAMES
+
+if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
 
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 
@@ -153,27 +159,53 @@ class Names(click.ParamType[tuple[str, ...]]):
                 self.fail(f"{name!r} is not one of {', '.join(self.choices)}", param, ctx)
         return tuple(dict.fromkeys(names))
 
+    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem[str]]:
+        """Offer what is not in the list yet."""
+        return listed(self.choices, incomplete)
+
 
 OPTIONS: dict[str, Decorator] = {
-    "output": click.option("-o", "--output", metavar="FILE", help="Where to write; - is standard output."),
-    "format": click.option("-f", "--format", metavar="FORMAT", help="Format of the output; by default its extension."),
-    "input-format": click.option("--input-format", metavar="FORMAT", help="Format of the input, where it is unclear."),
-    "out-dir": click.option("--out-dir", metavar="DIR", help="Folder for outputs named after the inputs."),
+    "input-format": click.option(
+        "--input-format",
+        metavar="FORMAT",
+        help="Format of the input, where it is unclear.",
+        shell_complete=words(ALL_NAMES),
+    ),
+    "out-dir": click.option(
+        "--out-dir", metavar="DIR", help="Folder for outputs named after the inputs.", shell_complete=folders
+    ),
     "jobs": click.option("-j", "--jobs", type=click.IntRange(0, 1024), help="Worker processes; 0 uses all cores."),
-    "table": click.option("--table", metavar="FILE", help="Write the tables of all inputs as one (CSV, JSON)."),
-    "files-from": click.option("--files-from", metavar="FILE|-", help="Read the names of further inputs, one a line."),
+    "table": click.option(
+        "--table",
+        metavar="FILE",
+        help="Write the tables of all inputs as one (CSV, JSON).",
+        shell_complete=files(("csv", "json")),
+    ),
+    "files-from": click.option(
+        "--files-from",
+        metavar="FILE|-",
+        help="Read the names of further inputs, one a line.",
+        shell_complete=any_file,
+    ),
     "null": click.option("-0", "--null", is_flag=True, help="Names of --files-from end with NUL bytes."),
     "keep-going": click.option("--keep-going", is_flag=True, help="Go on with the others when an input fails."),
     "dry-run": click.option("--dry-run", is_flag=True, help="Print the plan as JSON lines, and write nothing."),
     "resume": click.option("--resume", is_flag=True, help="Leave out inputs that were done before."),
     "shard": click.option("--shard", type=Shard(), help="Take the I-th of N parts of the inputs."),
-    "cluster": click.option("--cluster", metavar="ADDRESS|local", help="Work on a Dask cluster."),
+    "cluster": click.option(
+        "--cluster", metavar="ADDRESS|local", help="Work on a Dask cluster.", shell_complete=words(("local",))
+    ),
     "threads": click.option(
         "--threads", type=click.IntRange(0, 1024), default=0, show_default=True, help="Threads; 0 uses all."
     ),
     "quiet": click.option("-q", "--quiet", is_flag=True, help="No notes, warnings or progress."),
     "verbose": click.option("-v", "--verbose", is_flag=True, help="Say what takes how long."),
-    "stats": click.option("--stats", metavar="FILE|-", help="Write counts, sizes, seconds and warnings as JSON."),
+    "stats": click.option(
+        "--stats",
+        metavar="FILE|-",
+        help="Write counts, sizes, seconds and warnings as JSON.",
+        shell_complete=files(("json",)),
+    ),
     "verify": click.option("--verify", is_flag=True, help="Check the result independently; exit 1 if it is wrong."),
     "strict": click.option("--strict", is_flag=True, help="Refuse what would be repaired or snapped."),
     "precision": click.option(
@@ -186,7 +218,11 @@ OPTIONS: dict[str, Decorator] = {
         "--max-sites", type=click.IntRange(min=1), default=2**31 - 1, show_default=True, help="Most seeds."
     ),
     "no-clobber": click.option("--no-clobber", is_flag=True, help="Refuse to replace an existing file."),
-    "no-properties": click.option("--no-properties", is_flag=True, help="Do not copy the input's further columns."),
+    "no-properties": click.option(
+        "--no-properties",
+        is_flag=True,
+        help="Do not copy the input's further columns or properties, wherever they would be.",
+    ),
     "columns": click.option(
         "--columns", metavar="X,Y[,LABEL]", help="Columns of a point list, by name or number (from 1)."
     ),
@@ -207,7 +243,10 @@ OPTIONS: dict[str, Decorator] = {
         "--width", type=click.IntRange(min=16), help="Pixels across an SVG picture; by default 1000."
     ),
     "overlay": click.option(
-        "--overlay", metavar="IMAGE", help="Draw pictures over this image, at its size: coordinates are its pixels."
+        "--overlay",
+        metavar="IMAGE",
+        help="Draw pictures over this image, at its size: coordinates are its pixels.",
+        shell_complete=files(IMAGE_NAMES),
     ),
     "y-up": click.option("--y-up/--y-down", default=None, help="Draw pictures with y upwards or downwards."),
 }
@@ -226,6 +265,30 @@ def shared(*names: str) -> Decorator:
         return function
 
     return decorate
+
+
+def inputs_argument(extensions: Iterable[str]) -> Decorator:
+    """Add the inputs, which usually have these extensions."""
+    return click.argument("inputs", metavar="INPUT...", nargs=-1, shell_complete=files(extensions))
+
+
+def output_options(formats: Mapping[str, Sequence[str]]) -> Decorator:
+    """Add ``--output`` and ``--format`` of a command that writes these formats."""
+    output = click.option(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="Where to write; - is standard output.",
+        shell_complete=outputs_of(formats),
+    )
+    fmt = click.option(
+        "-f",
+        "--format",
+        metavar="FORMAT",
+        help="Format of the output; by default its extension.",
+        shell_complete=formats_of(formats),
+    )
+    return lambda function: output(fmt(function))
 
 
 def batch_options(*, table: bool = True) -> Decorator:

@@ -160,9 +160,9 @@ def _tasks(recipe: Recipe, o: SimpleNamespace, targets: list[Target]) -> list[Ta
 
 
 def _inputs(recipe: Recipe, o: SimpleNamespace) -> list[Input]:
-    from vorotool.formats.input_formats import IMAGE_NAMES, NAMES_WITH
+    from vorotool.formats.input_formats import DRAWN_NAMES, NAMES_WITH
 
-    known = {**IMAGE_NAMES, "json": "json"} if recipe.geometry is None else NAMES_WITH[recipe.geometry]
+    known = DRAWN_NAMES if recipe.geometry is None else NAMES_WITH[recipe.geometry]
     names = [*o.inputs, *(read_names(o.files_from, null=o.null) if o.files_from is not None else ())]
     if not names:
         raise click.UsageError("0 inputs are given: name files, folders, or a list of them with --files-from")

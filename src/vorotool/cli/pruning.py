@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 from math import isfinite
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
+
+from vorotool.cli.candidates import words
+
+if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
 
 CRITERIA = ("angle", "chord", "scale", "length", "ratio")
 """As `vorotool.geometry.critical_values` has them, which ``--help`` does not import."""
@@ -39,6 +44,8 @@ class PruningType(click.ParamType[Pruning]):
         criterion, equals, text = value.partition("=")
         if criterion not in CRITERIA or not equals:
             self.fail(f"{value!r} is no pruning: give {FORMS}", param, ctx)
+        if ctx is not None and ctx.resilient_parsing:  # a shell completes what follows, and should not wait for numpy
+            return Pruning(criterion, criterion)
         from vorotool.engines.pruning import check_threshold
         from vorotool.errors import UsageError
 
@@ -51,6 +58,10 @@ class PruningType(click.ParamType[Pruning]):
         except UsageError as error:
             self.fail(str(error), param, ctx)
         return Pruning(criterion, criterion, threshold)
+
+    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem[str]]:
+        """Offer criteria, to which a number is added."""
+        return words((*(f"{name}=" for name in CRITERIA), "mask", "none"))(ctx, param, incomplete)
 
 
 class Place(click.ParamType[tuple[float, float]]):

@@ -6,5 +6,12 @@ MESH_LAYERS = ("cells", "triangles", "diagram", "edges", "points", "labels")
 """Layers of pictures of a triangulation, from below."""
 OF_ONE_SHAPE = frozenset({"edges", "polygons", "complex", "general", "hull", "points", "table"})
 """Results of `alphashape` that are of one radius; the others are of all."""
-DERIVED = frozenset({"offset", "shape", "points", "transects"})
-"""Results of the skeleton commands that follow from a skeleton or its diagram."""
+SKELETON_LAYERS = ("polygons", "elements", "points", "skeleton", "nodes", "labels")
+"""Layers of pictures of skeletons, from below."""
+DERIVED = {
+    "offset": ("polygons", "offset"),
+    "shape": ("shape",),
+    "points": ("polygons", "skeleton", "transects", "points"),
+    "transects": ("polygons", "skeleton", "transects", "points"),
+}
+"""Results of the skeleton commands that follow from a skeleton or its diagram, with the layers of their pictures."""

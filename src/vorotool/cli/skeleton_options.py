@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable
 from functools import partial
+from itertools import chain
 from math import isfinite
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
@@ -13,12 +14,23 @@ import click
 
 from vorotool.cli.commands import run_command
 from vorotool.cli.inputs import IMAGE_OPTIONS, naming, refuse
-from vorotool.cli.options import Decorator, Rectangle, batch_options, layers_option, shared, what_option
+from vorotool.cli.options import (
+    Decorator,
+    Rectangle,
+    batch_options,
+    inputs_argument,
+    layers_option,
+    output_options,
+    shared,
+    what_option,
+)
 from vorotool.cli.pruning import FORMS, Place, PruningType
 from vorotool.cli.recipes import Recipe
+from vorotool.cli.results import DERIVED, SKELETON_LAYERS
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options
 from vorotool.cli.units import pixel_size_option
+from vorotool.formats.input_formats import NAMES_WITH
 
 if TYPE_CHECKING:
     from vorotool.cli.skeletons import SkeletonProducts
@@ -39,10 +51,10 @@ FORMATS = {
     "branches": _TABLES,
     "table": _TABLES,
 }
-LAYERS = ("polygons", "shape", "elements", "offset", "transects", "points", "skeleton", "nodes", "labels")
-"""Layers of pictures, from below."""
+LAYERS = tuple(dict.fromkeys([*SKELETON_LAYERS, *chain.from_iterable(DERIVED.values())]))
+"""Layers of all pictures."""
 
-APPROXIMATE_LAYERS = ("polygons", "elements", "points", "skeleton", "exact", "nodes", "labels")
+APPROXIMATE_LAYERS = (*LAYERS, "exact")
 """Beside approximate skeletons pictures can show exact ones."""
 
 PICTURE_LAYERS = {
@@ -75,7 +87,7 @@ class Length(click.ParamType[float]):
 
 
 class Distances(click.ParamType[tuple[float, ...]]):
-    """Finite numbers other than 0, separated by commas."""
+    """Different finite numbers other than 0, separated by commas."""
 
     name = "D[,D...]"
 
@@ -87,15 +99,18 @@ class Distances(click.ParamType[tuple[float, ...]]):
             numbers = tuple(float(part) for part in value.split(","))
         except ValueError:
             self.fail(f"{value!r} is no list of distances: give numbers such as -2,5", param, ctx)
-        for number in numbers:
-            if not isfinite(number) or number == 0:
-                self.fail(f"{number:g} is no distance: above 0 is outwards, below 0 inwards", param, ctx)
-        return numbers
+        from vorotool.engines.offsets import checked_distances
+        from vorotool.errors import UsageError
+
+        try:
+            return tuple(checked_distances(numbers))
+        except UsageError as error:
+            self.fail(str(error), param, ctx)
 
 
 _BEFORE: tuple[Decorator, ...] = (
-    click.argument("inputs", metavar="INPUT...", nargs=-1),
-    shared("output", "format"),
+    inputs_argument(NAMES_WITH["polygons"]),
+    output_options(FORMATS),
     what_option(tuple(FORMATS)),
     click.option(
         "--side",
@@ -205,7 +220,11 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     pictures = sorted(formats & set(_PICTURES))
     if o.layers is not None and not pictures:
         raise click.UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
-    check_picture_options(o, pictures, PICTURE_LAYERS, png_has_width=True)
+    check_picture_options(o, pictures, PICTURE_LAYERS, png_has_width=True, has_page="html" in formats)
+    for what in (target.what for target in targets if target.fmt in _PICTURES):
+        own = DERIVED.get(what, (*SKELETON_LAYERS, "exact"))
+        for layer in (layer for layer in o.layers or () if layer not in own):
+            raise click.UsageError(f"--layers {layer}: a picture of {what} has {', '.join(own)}; choose of these")
 
 
 def _check_centerline(o: SimpleNamespace) -> None:

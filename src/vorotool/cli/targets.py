@@ -31,7 +31,7 @@ EXTENSIONS = {
     ".zarr": "zarr",
 }
 FORMATS = tuple(dict.fromkeys(EXTENSIONS.values()))
-TEXT_FORMATS = frozenset(FORMATS) - {"png", "tiff", "npy", "npz"}
+TEXT_FORMATS = frozenset(FORMATS) - {"png", "tiff", "npy", "npz", "zarr"}
 TRIANGLE_FILES = frozenset({"node", "edge", "ele"})
 _EXTENSION_OF = {"tiff": "tif", "text": "txt"}
 
@@ -133,8 +133,9 @@ def check_picture_options(
     layers: Mapping[str, Sequence[str]] = PICTURE_LAYERS,
     *,
     png_has_width: bool = False,
+    has_page: bool = False,
 ) -> None:
-    """Refuse layers, a width and an image beneath that no picture would show.
+    """Refuse layers, a width, a direction and an image beneath that no picture would show.
 
     Parameters
     ----------
@@ -146,6 +147,8 @@ def check_picture_options(
         Layers of each format.
     png_has_width : bool
         PNG pictures are of no image, so that they are as wide as is asked for.
+    has_page : bool
+        A page of HTML is written, too, in which y can go upwards.
 
     Raises
     ------
@@ -154,6 +157,8 @@ def check_picture_options(
     """
     if options.overlay is not None:
         _check_overlay(options, pictures)
+    if options.y_up is not None and not pictures and not has_page:
+        raise click.UsageError("--y-up and --y-down are for pictures: use -f svg or -f png, or leave them out")
     if options.width is not None and png_has_width and not pictures:
         raise click.UsageError("--width is for pictures: use -f svg or -f png, or leave it out")
     if options.width is not None and not png_has_width and "svg" not in pictures:

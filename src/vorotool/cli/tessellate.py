@@ -9,14 +9,25 @@ import click
 
 from vorotool.cli.commands import run_command
 from vorotool.cli.inputs import naming, read_seed_input, refuse
-from vorotool.cli.options import Decimal, Size, batch_options, layers_option, shared, what_option
+from vorotool.cli.options import (
+    Decimal,
+    Size,
+    batch_options,
+    inputs_argument,
+    layers_option,
+    output_options,
+    shared,
+    what_option,
+)
 from vorotool.cli.recipes import Recipe
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options
 from vorotool.cli.units import pixel_size_option
+from vorotool.formats.input_formats import NAMES_WITH
 
 if TYPE_CHECKING:
     from vorotool.cli.products import Products
+    from vorotool.cli.streamed_images import StreamedProducts
     from vorotool.geometry.frame import Frame
     from vorotool.geometry.seeds import SeedSet
 
@@ -35,8 +46,8 @@ FORMATS = {
 
 
 @click.command("tessellate")
-@click.argument("inputs", metavar="INPUT...", nargs=-1)
-@shared("output", "format")
+@inputs_argument(NAMES_WITH["points"])
+@output_options(FORMATS)
 @what_option(tuple(FORMATS))
 @click.option(
     "--method",
@@ -74,7 +85,7 @@ def command(**options: Any) -> None:
       vorotool tessellate data/dots.csv --size 512x512 -o labels.png
 
     INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, PBM,
-    NPY); - is standard input. Label i is the i-th point; an image's own labels are kept.
+    NPY, Zarr); - is standard input. Label i is the i-th point; an image's own labels are kept.
     """
     run_command(RECIPE, SimpleNamespace(**options))
 
@@ -139,7 +150,13 @@ def _frame(o: SimpleNamespace) -> Frame | None:
     return None if o.size is None else Frame(0, 0, *o.size)
 
 
-def _products(run: Run, o: SimpleNamespace, source: str) -> Products:
+def _products(run: Run, o: SimpleNamespace, source: str) -> Products | StreamedProducts:
+    from vorotool.cli.streamed_images import StreamedProducts, open_large
+
+    with naming(source), run.phase("read"):
+        large = open_large(o, source)
+        if large is not None:
+            return StreamedProducts(run, o, large)
     with naming(source), run.phase("read"):
         seeds = _read_seeds(run, o, source)
     with naming(source), run.phase("prepare"):

@@ -54,14 +54,20 @@ def covered_rings(skeleton: Skeleton, arcs: Indices, tolerance: float) -> list[R
     """
     import shapely
 
-    xy, circle = _circles(skeleton, skeleton.arcs[arcs].reshape(-1), tolerance)
+    if not len(arcs):
+        return []
     to_corner = _to_corner(skeleton, arcs)
-    _, piece = np.unique(circle - circle % 2 * to_corner[circle // 2], return_inverse=True)
+    pairs, others = arcs[to_corner], arcs[~to_corner]
+    single, first = np.unique(skeleton.arcs[others], return_index=True)
+    xy, circle = _circles(skeleton, np.concatenate([single, skeleton.arcs[pairs].reshape(-1)]), tolerance)
+    piece = np.where(circle < len(single), circle, (circle + len(single)) // 2)
     pieces = shapely.convex_hull(shapely.multipoints(xy, indices=piece))
-    own = np.repeat(skeleton.polygon[arcs], np.where(to_corner, 1, 2))
+    own = skeleton.polygon[np.concatenate([others[first // 2], pairs])]
+    order = np.argsort(own, kind="stable")
+    polygons, start = np.unique(own[order], return_index=True)
     rings = []
-    for polygon in np.unique(own).tolist():
-        whole = shapely.union_all(pieces[own == polygon])
+    for polygon, part_of in zip(polygons.tolist(), np.split(pieces[order], start[1:]), strict=True):
+        whole = shapely.union_all(part_of)
         for part, shape in enumerate(shapely.get_parts(whole).tolist()):
             turned = shapely.geometry.polygon.orient(shape)
             places = [shapely.get_coordinates(ring)[:-1] for ring in (turned.exterior, *turned.interiors)]

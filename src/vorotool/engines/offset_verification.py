@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.label_arrays import Progress
 from vorotool.engines.planar_graph import planar_graph
+from vorotool.engines.segment_verification import verify_segment_voronoi
 from vorotool.engines.segment_voronoi import segment_voronoi
 from vorotool.engines.skeleton_distances import ULPS, fail, first_wrong
 from vorotool.geometry.circular_arcs import middles_of
@@ -33,9 +34,9 @@ def verify_offsets(
     """Check offset curves from their arrays alone.
 
     Each piece begins where the one before it ends; it is at its distance from its own site, and nothing is nearer, at
-    its ends and in its middle; shells turn left and holes right. Each region on either side of the curves has a vertex
-    of the Voronoi diagram or a site in it: those must lie in a shape if, and only if, their distance from the polygons
-    says so, and there whether they are inside.
+    its ends and at three places between; shells turn left and holes right. Each region on either side of the curves has
+    a site or a vertex of the Voronoi diagram in it, which is made again and checked for it: these must lie in one shape
+    if their distance from the polygons says so, or that they are inside, and otherwise in none.
 
     Parameters
     ----------
@@ -112,12 +113,18 @@ def _distances(ends: Floats, place: Floats) -> Floats:
     return np.asarray(np.sqrt((apart * apart).sum(axis=1)))
 
 
-def _middles(offsets: Offsets) -> Floats:
+def _inner_places(offsets: Offsets) -> Floats:
+    """(3, k, 2) on each piece, evenly between its ends."""
+    middle = _middles(offsets, offsets.start, offsets.end)
+    return np.stack([_middles(offsets, offsets.start, middle), middle, _middles(offsets, middle, offsets.end)])
+
+
+def _middles(offsets: Offsets, start: Floats, end: Floats) -> Floats:
+    """Of the part of each piece between two places on it."""
     arcs = np.flatnonzero(offsets.is_arc)
-    middles = (offsets.start + offsets.end) / 2
-    start, end = offsets.start[arcs], offsets.end[arcs]
+    middles = (start + end) / 2
     is_left = (offsets.piece_distance[arcs] > 0)[:, None]
-    first, last = np.where(is_left, start, end), np.where(is_left, end, start)
+    first, last = np.where(is_left, start[arcs], end[arcs]), np.where(is_left, end[arcs], start[arcs])
     middles[arcs] = middles_of(first, last, offsets.centre[arcs], np.zeros(len(arcs), dtype=bool))
     return middles
 
@@ -125,8 +132,8 @@ def _middles(offsets: Offsets) -> Floats:
 def _check_nothing_nearer(
     offsets: Offsets, tolerance: float, graph: PlanarGraph, threads: int, progress: Progress
 ) -> None:
-    places = np.concatenate([offsets.start, _middles(offsets)])
-    distance = np.tile(np.abs(offsets.piece_distance), 2)
+    places = np.concatenate([offsets.start, *_inner_places(offsets)])
+    distance = np.tile(np.abs(offsets.piece_distance), 4)
     nearest = _clearances(places, distance, graph, threads, progress)
     at = first_wrong(nearest < distance - tolerance)
     if at is not None:
@@ -175,11 +182,12 @@ def _check_regions(
     import shapely
 
     diagram = segment_voronoi(graph.points, graph.segments, threads=threads, progress=progress)
+    verify_segment_voronoi(diagram, threads=threads, progress=progress)
     sites = graph.coordinates()
     witnesses = np.concatenate([sites, sites[graph.segments].mean(axis=1), graph.coordinates(diagram.vertices)])
     points = shapely.points(witnesses)
     closed = to_shapely(offsets.polygons)
-    is_inside = _holding(closed[~offsets.polygons.is_line], points)
+    is_inside = _holding(closed[~offsets.polygons.is_line], points) > 0
     for distance in sorted(distances):
         tested = abs(distance) * FLATTEN + tolerance
         shapes = to_shapely(offsets.flattened(abs(distance) * FLATTEN))[offsets.distance == distance]
@@ -188,17 +196,18 @@ def _check_regions(
         is_near = clearance <= abs(distance)
         wanted = is_inside | is_near if distance > 0 else is_inside & ~is_near
         clear = np.abs(clearance - abs(distance)) > 2 * tested
-        at = first_wrong(clear & (_holding(shapes, points) != wanted))
+        held = _holding(shapes, points)
+        at = first_wrong(clear & (held != wanted))
         if at is not None:
-            how = "is in no shape" if wanted[at] else "is in a shape"
+            how = f"is in {held[at]} shapes, not in {'one' if wanted[at] else 'none'},"
             fail(f"{_place(witnesses[at])}, {clearance[at]} from the polygons, {how} at distance {distance}")
 
 
-def _holding(shapes: Any, points: Any) -> NDArray[np.bool_]:
-    """Whether each point lies in any of some polygons."""
+def _holding(shapes: Any, points: Any) -> NDArray[np.int64]:
+    """In how many of some polygons each point lies."""
     import shapely
 
-    held = np.zeros(len(points), dtype=bool)
-    if len(shapes):
-        held[shapely.STRtree(shapes).query(points, predicate="intersects")[0]] = True
-    return held
+    if not len(shapes):
+        return np.zeros(len(points), dtype=np.int64)
+    found = shapely.STRtree(shapes).query(points, predicate="intersects")[0]
+    return np.bincount(found, minlength=len(points))

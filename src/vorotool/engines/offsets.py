@@ -33,7 +33,8 @@ def offset(
 
     Whether the curve passes on this or the other side of a vertex of the diagram is told by the vertex' radius, which
     is right to some ulp, and is the same for all that meet there: rings are closed and nested whatever the rounding. A
-    disc of just the distance does not fit: at a tie what is no farther than the distance is one.
+    disc of just the distance does not fit: at a tie what is no farther than the distance is one, and rounding may let a
+    ring touch itself.
 
     Parameters
     ----------
@@ -58,7 +59,7 @@ def offset(
     InputError
         If a coordinate is not finite, or `strict` and something would be repaired.
     UsageError
-        If there is no distance, or one is 0, not finite, or beyond all proportion to the shapes.
+        If there is no distance, or one is 0, not finite, there twice, or beyond all proportion to the shapes.
     LimitError
         If there are too many vertices.
 
@@ -88,6 +89,9 @@ def checked_distances(distances: float | Sequence[float]) -> list[float]:
     if wrong.size:
         raise UsageError(f"a distance is {wrong[0]:g}: use finite ones, above 0 outwards, below 0 inwards")
     found: list[float] = wanted.tolist()
+    repeated = next((one for one in found if found.count(one) > 1), None)
+    if repeated is not None:
+        raise UsageError(f"the distance {repeated:g} is there {found.count(repeated)} times: give each one once")
     return found
 
 

@@ -105,11 +105,11 @@ def default_objects(values: NDArray[Any]) -> Objects:
     first = values.flat[int(is_zero.argmin())]  # nonzero, if any is
     if first == 0 or (is_zero.any() and (is_zero | (values == first)).all()):
         return "components"
-    _refuse_photograph(values)
+    refuse_photograph(values)
     return "labels"
 
 
-def _refuse_photograph(values: NDArray[Any]) -> None:
+def refuse_photograph(values: NDArray[Any]) -> None:
     """A label image has about as many fragments as labels; a photograph falls into far more."""
     fractional = values.dtype.kind == "f" and bool((values != np.floor(values)).any())
     distinct, fragments = (len(np.unique(values)),) * 2 if fractional else _fragments(label_values(values))
@@ -131,8 +131,15 @@ def _fragments(labels: NDArray[Any]) -> tuple[int, int]:
     return len(np.unique(labels)), int(label(labels.astype(np.int64), connectivity=1).max())
 
 
-def label_values(values: NDArray[Any]) -> NDArray[Any]:
+def label_values(values: NDArray[Any], *, first_row: int = 0) -> NDArray[Any]:
     """Give labels in an unsigned type; the first value that is none is named with its place.
+
+    Parameters
+    ----------
+    values : (h, W) array
+        Rows of an image.
+    first_row : int
+        Which is the first.
 
     Raises
     ------
@@ -152,7 +159,7 @@ def label_values(values: NDArray[Any]) -> NDArray[Any]:
     if bad.any():
         row, column = np.unravel_index(int(bad.argmax()), bad.shape)
         raise InputError(
-            f"the image holds the value {values[row, column]} in row {row}, column {column}: labels must be "
-            f"integers from 0 to {LARGEST_LABEL}; use --threshold T for a mask"
+            f"the image holds the value {values[row, column]} in row {first_row + row}, column {column}: labels must "
+            f"be integers from 0 to {LARGEST_LABEL}; use --threshold T for a mask"
         )
     return values.astype(np.uint32)

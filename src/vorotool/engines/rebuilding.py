@@ -32,6 +32,8 @@ def rebuild(skeleton: Skeleton, *, flatten: float | None = None) -> PolygonSet:
     come back as they were used, to some ulp of their extent times radius over edge length where an edge is short beside
     the discs that touch it. An approximate skeleton tells no borders, but discs: the shape is what these cover.
 
+    An open line in a polygon is a wall: where pruning leaves it on one side only, the ring goes along it twice.
+
     Parameters
     ----------
     skeleton : Skeleton

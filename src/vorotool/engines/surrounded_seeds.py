@@ -50,12 +50,25 @@ def needed_seeds(seeds: SeedSet) -> NDArray[np.intp] | None:
     paint_seeds(image, seeds, Frame(left, top, width, height))
     if np.count_nonzero(image) != len(seeds):
         return None
+    return np.flatnonzero(
+        ~surrounded_pixels(image)[image != 0]
+    )  # a mask takes values in raster order, as the seeds are
+
+
+def surrounded_pixels(image: NDArray[Any]) -> NDArray[np.bool_]:
+    """Find the pixels that have the value of their four neighbours; those at the sides have not four.
+
+    Examples
+    --------
+    >>> surrounded_pixels(np.ones((3, 3)))[1].tolist()
+    [False, True, False]
+    """
     inside = np.zeros(image.shape, bool)
     centre, surrounded = image[1:-1, 1:-1], inside[1:-1, 1:-1]
     np.equal(centre, image[1:-1, :-2], out=surrounded)
     for neighbour in (image[1:-1, 2:], image[:-2, 1:-1], image[2:, 1:-1]):
         surrounded &= centre == neighbour
-    return np.flatnonzero(~inside[image != 0])  # a mask takes values in raster order, as the seeds are
+    return inside
 
 
 def _may_be_surrounded(seeds: SeedSet) -> bool:

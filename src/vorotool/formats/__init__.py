@@ -7,7 +7,7 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from vorotool.errors import UsageError
+from vorotool.errors import InputError, UsageError
 from vorotool.geometry.frame import MAX_PIXELS
 
 NPY_MAGIC = b"\x93NUMPY"
@@ -45,8 +45,8 @@ def read(
     geometry : {"points", "polygons"}, optional
         What must be in a file that is no image; by default its content tells.
     input_format : str, optional
-        csv, node, npy, geojson, wkt, json, poly, png, tiff or pnm (or another usual extension of one of these), where
-        extension and content leave it unclear.
+        csv, node, npy, geojson, wkt, json, poly, png, tiff, pnm or zarr (or another usual extension of one of these),
+        where extension and content leave it unclear.
     columns : str, optional
         ``X,Y[,LABEL]`` of a point list, by name or number from 1.
     page : int, optional
@@ -78,6 +78,7 @@ def read(
     >>> len(read("data/dots.csv"))
     53
     """
+    from vorotool.formats.image_rows import is_zarr, open_rows, read_rows
     from vorotool.formats.images import is_image, read_image
     from vorotool.formats.input_formats import NAMES_WITH, known_input_format
     from vorotool.formats.sources import read_source
@@ -87,6 +88,12 @@ def read(
         raise UsageError(f"geometry is {geometry!r}: use points or polygons, or leave it out")
     input_format = known_input_format(input_format, NAMES_WITH[geometry])
     threads = checked_threads(threads)
+    if not isinstance(path, str | PathLike):
+        raise InputError(f"{path!r} is no path: give the name of a file; arrays need not be read")
+    if is_zarr(fspath(path), input_format):
+        rows = open_rows(path, input_format=input_format, page=page)
+        assert rows is not None
+        return read_rows(rows, max_pixels=max_pixels)
     source = read_source(fspath(path))
     if geometry is None and input_format in (None, "json"):
         from vorotool.formats.skeleton_json import read_skeleton, says_skeleton
@@ -94,7 +101,9 @@ def read(
         if says_skeleton(source.data):
             return read_skeleton(source, properties=properties, max_sites=max_sites, note=note)
     is_points = columns is not None and source.data.startswith(NPY_MAGIC)  # the one format that holds either
-    if input_format in ("png", "tiff", "pnm") or (input_format in (None, "npy") and not is_points and is_image(source)):
+    if input_format in ("png", "tiff", "pnm", "zarr") or (
+        input_format in (None, "npy") and not is_points and is_image(source)
+    ):
         return read_image(source, input_format=input_format, page=page, max_pixels=max_pixels)
     from vorotool.formats.points import read_points
     from vorotool.formats.polygons import read_polygons, recognise
@@ -274,6 +283,11 @@ def _write_image(image: LabelImage, path: str, fmt: Any, threads: int) -> None:
     from vorotool.formats.label_images import write_label_image
     from vorotool.formats.outputs import open_output
 
+    if fmt == "zarr":
+        from vorotool.formats.zarr_arrays import write_zarr
+
+        write_zarr(path, image.labels, threads=threads)
+        return
     if fmt == "svg":
         raise UsageError("an SVG is a picture: write the labels as PNG or NPY, and draw them with vorotool draw")
     with open_output(path, binary=fmt != "text") as out:

@@ -16,7 +16,7 @@ from vorotool.formats.limits import SourceLike, check_pixels
 from vorotool.geometry.frame import MAX_PIXELS
 from vorotool.geometry.raster import Raster
 
-_EXTENSIONS = {f".{name}": kind for name, kind in IMAGE_NAMES.items()}
+_EXTENSIONS = {f".{name}": kind for name, kind in IMAGE_NAMES.items() if kind != "zarr"}
 _MAGIC = (
     (b"\x89PNG", "png"),
     (b"II*\x00", "tiff"),
@@ -65,6 +65,8 @@ def image_format(source: SourceLike, input_format: str | None = None) -> str:
     """
     found = _by_content(source.data)
     said = known_input_format(input_format, IMAGE_NAMES) or _EXTENSIONS.get(_extension(source)) or found or ""
+    if said == "zarr":
+        raise InputError(f"{source.name} is a file, but a Zarr store is a folder: leave out --input-format")
     if not source.data:
         raise InputError(f"{source.name} is empty: an image was expected")
     if said and found and found != said:

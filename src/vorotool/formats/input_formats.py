@@ -28,12 +28,16 @@ IMAGE_NAMES = {
     "pgm": "pnm",
     "ppm": "pnm",
     "npy": "npy",
+    "zarr": "zarr",
 }
 """Formats of images by name; NPY files hold either."""
 
 ALL_NAMES = {**POINT_NAMES, **POLYGON_NAMES, **IMAGE_NAMES}
 NAMES_WITH = {"points": {**POINT_NAMES, **IMAGE_NAMES}, "polygons": {**POLYGON_NAMES, **IMAGE_NAMES}, None: ALL_NAMES}
 """Formats of inputs that hold an image or such geometry."""
+DRAWN_NAMES = {**IMAGE_NAMES, "json": "json"}
+"""Formats of what is drawn again: label images, and skeletons."""
+
 _KINDS = ((POINT_NAMES, "points"), (POLYGON_NAMES, "polygons"), (IMAGE_NAMES, "images"))
 
 

@@ -27,12 +27,20 @@ def is_store(path: str | os.PathLike[str]) -> bool:
 
 def is_array(path: str | os.PathLike[str]) -> bool:
     """Whether a path is a folder that holds a Zarr array, and not a group of them."""
-    if (Path(path) / ".zarray").is_file():
-        return True
+    return (Path(path) / ".zarray").is_file() or _node_type(path) == "array"
+
+
+def is_group(path: str | os.PathLike[str]) -> bool:
+    """Whether a path is a folder that holds a group of Zarr arrays."""
+    return (Path(path) / ".zgroup").is_file() or _node_type(path) == "group"
+
+
+def _node_type(path: str | os.PathLike[str]) -> object:
+    """What the metadata of format 3 say, if they can be read."""
     try:
-        return bool(json.loads((Path(path) / "zarr.json").read_bytes())["node_type"] == "array")
+        return json.loads((Path(path) / "zarr.json").read_bytes())["node_type"]
     except (OSError, ValueError, KeyError, TypeError):
-        return False
+        return None
 
 
 def check_store(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from typing import Any
+from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,28 +19,28 @@ _PILLOW_MODES = {"1", "L", "P", "LA", "RGB", "RGBA", "I;16", "I;16B"}
 
 def tiff_size(source: SourceLike, page: int | None) -> tuple[int, int]:
     """Read width and height of a page from its tags."""
-    with _opened(source) as file:
-        chosen = _page(file, source.name, page)
+    with opened_tiff(source.name, io.BytesIO(source.data)) as file:
+        chosen = page_of(file, source.name, page)
         return int(chosen.imagewidth), int(chosen.imagelength)
 
 
 def tiff_pages(source: SourceLike) -> int:
     """Count the pages."""
-    with _opened(source) as file, decoding(source.name, "TIFF"):
+    with opened_tiff(source.name, io.BytesIO(source.data)) as file, decoding(source.name, "TIFF"):
         return len(file.pages)
 
 
 def read_tiff(source: SourceLike, *, page: int | None, max_pixels: int) -> tuple[NDArray[Any], Resolution | None]:
     """Return the stored values, (H, W) or (H, W, C), and pixels a unit, where the file states them."""
-    with _opened(source) as file:
-        chosen = _page(file, source.name, page)
+    with opened_tiff(source.name, io.BytesIO(source.data)) as file:
+        chosen = page_of(file, source.name, page)
         with decoding(source.name, "TIFF"):
             size = int(chosen.imagewidth), int(chosen.imagelength), int(chosen.imagedepth)
-            resolution = _resolution(file, chosen)
+            resolution = resolution_of(file, chosen)
         check_pixels(source.name, size[0], size[1] * size[2], max_pixels)
         if size[2] != 1:
             raise InputError(f"{source.name} is a volume {size[2]} deep: save its slices as pages")
-        _check_segments(source, chosen)
+        check_segments(source.name, len(source.data), chosen)
         with decoding(source.name, "TIFF"):
             values = _values(source, chosen)
     if values.dtype.kind not in "buif" or not 2 <= values.ndim <= 3:
@@ -50,7 +50,8 @@ def read_tiff(source: SourceLike, *, page: int | None, max_pixels: int) -> tuple
     return values, resolution
 
 
-def _opened(source: SourceLike) -> Any:
+def opened_tiff(name: str, file: str | BinaryIO) -> Any:
+    """Open a file by its path, or its content."""
     import logging
 
     import tifffile
@@ -60,11 +61,12 @@ def _opened(source: SourceLike) -> Any:
     logger = logging.getLogger("tifffile")
     if not logger.handlers:
         logger.addHandler(logging.NullHandler())
-    with decoding(source.name, "TIFF"):
-        return tifffile.TiffFile(io.BytesIO(source.data))
+    with decoding(name, "TIFF"):
+        return tifffile.TiffFile(file)
 
 
-def _page(file: Any, name: str, page: int | None) -> Any:
+def page_of(file: Any, name: str, page: int | None) -> Any:
+    """Choose a page of a file; without a number there must be one only."""
     with decoding(name, "TIFF"):
         count = len(file.pages)
         if 0 <= (page or 0) < count and (page is not None or count == 1):
@@ -74,12 +76,12 @@ def _page(file: Any, name: str, page: int | None) -> Any:
     raise InputError(f"{name} has {count} page{'s' * (count != 1)}, counted from 0: there is no --page {page or 0}")
 
 
-def _check_segments(source: SourceLike, page: Any) -> None:
+def check_segments(name: str, size: int, page: Any) -> None:
     """Every strip or tile must lie in the file: tifffile would fill missing ones with zeros."""
     for index, (offset, length) in enumerate(zip(page.dataoffsets, page.databytecounts, strict=False)):
-        if offset + length > len(source.data):
+        if offset + length > size:
             raise InputError(
-                f"{source.name} is cut off after {len(source.data)} bytes: "
+                f"{name} is cut off after {size} bytes: "
                 f"{'tile' if page.is_tiled else 'strip'} {index} ends at byte {offset + length}"
             )
 
@@ -110,7 +112,8 @@ def _by_pillow(source: SourceLike, page: Any) -> NDArray[Any]:
         return np.asarray(image)
 
 
-def _resolution(file: Any, page: Any) -> Resolution | None:
+def resolution_of(file: Any, page: Any) -> Resolution | None:
+    """Pixels a unit in x and y, and the unit, where the file states them."""
     if "XResolution" not in page.tags or "YResolution" not in page.tags:
         return None
     per_unit = [page.tags[name].value for name in ("XResolution", "YResolution")]

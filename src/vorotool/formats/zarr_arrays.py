@@ -11,6 +11,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import UsageError
 from vorotool.formats.bands import in_order
+from vorotool.formats.stores import open_store
 
 CHUNK = (512, 2048)
 """Rows and columns of a chunk: so large that there are few files, and so wide since a row of chunks is held."""
@@ -124,3 +125,33 @@ def write_rows(
 
     for _ in in_order(write, range(0, array.shape[1], width), threads):
         pass
+
+
+def write_zarr(path: str | os.PathLike[str], image: NDArray[Any], *, threads: int = 0) -> None:
+    """Write an image that is held to a store, which replaces an older one when all is written.
+
+    Parameters
+    ----------
+    path : str or path
+        Of the store.
+    image : (H, W) array
+        Numbers.
+    threads : int
+        0 for all processors.
+
+    Raises
+    ------
+    OutputError
+        If it cannot be written.
+
+    Examples
+    --------
+    >>> write_zarr("build/eye.zarr", np.eye(3, dtype=np.uint8))
+    """
+    height, width = image.shape
+    chunks = chunks_of((height, width), image.dtype)
+    zarr_module()
+    with open_store(path) as folder:
+        array = create_array(folder, (height, width), dtype=image.dtype, chunks=chunks)
+        for first in range(0, height, chunks[0]):
+            write_rows(array, first, image[first : first + chunks[0]], threads=threads)

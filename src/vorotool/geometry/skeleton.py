@@ -202,8 +202,8 @@ class Skeleton:
 
     def _ends_of(self, sites: Any) -> NDArray[np.float64]:
         ends = ends_of_sites(self.polygons, self.site_table, sites)
-        a, b = ends[..., 0, :], ends[..., 1, :]
         if self.gap:
+            a, b = ends[..., 0, :], ends[..., 1, :]
             length = np.sqrt(((b - a) ** 2).sum(axis=-1, keepdims=True))
             way = np.divide(self.gap * (b - a), length, out=np.zeros_like(a), where=length > 0)
             a += way
@@ -222,12 +222,14 @@ class Skeleton:
     def _arc_arrays(self, arcs: Any) -> tuple[NDArray[Any], ...]:
         """Ends, radii, control points, ends of the sites, whether these are edges, and lengths."""
         sites = self.sites[arcs].T
+        nodes = self.arcs[arcs]
+        known = "site_ends" in self.__dict__
         return (
-            self.vertices[self.arcs[arcs]],
-            self.radius[self.arcs[arcs]],
+            self.vertices.take(nodes, axis=0),
+            self.radius.take(nodes),
             self.control[arcs],
-            self.site_ends[sites] if "site_ends" in self.__dict__ else self._ends_of(sites),
-            self.site_table.kind[sites] == EDGE,
+            self.site_ends.take(sites, axis=0) if known else self._ends_of(sites),
+            self.site_table.kind.take(sites) == EDGE,
             self.length[arcs],
         )
 
@@ -270,11 +272,10 @@ class Skeleton:
 
 def ends_of_sites(polygons: PolygonSet, table: SiteTable, sites: Any = slice(None)) -> NDArray[np.float64]:
     """(…, 2, 2) the ends of all or some sites of polygons; a vertex has one place twice."""
-    ring = polygons.polygon_start[table.polygon[sites]] + table.ring[sites]
-    first = polygons.ring_start[ring] + table.index[sites]
-    ends = np.empty((*first.shape, 2, 2))
-    ends[..., 0, :] = polygons.xy[first]
-    ends[..., 1, :] = polygons.xy[np.where(table.kind[sites] == EDGE, polygons.following[first], first)]
+    ring = polygons.polygon_start.take(table.polygon[sites]) + table.ring[sites]
+    first = polygons.ring_start.take(ring) + table.index[sites]
+    last = np.where(table.kind[sites] == EDGE, polygons.following.take(first), first)
+    ends: NDArray[np.float64] = polygons.xy.take(np.stack([first, last], axis=-1), axis=0)
     return ends
 
 

@@ -19,6 +19,9 @@ from vorotool.render.polygon_layers import polygon_layers
 LAYERS = ("polygons", "elements", "points", "skeleton", "exact", "nodes", "labels")
 """From below."""
 
+WIDEST = 1.5
+"""Lines, in px."""
+
 
 def skeleton_layers(
     skeleton: Skeleton,
@@ -63,13 +66,13 @@ def skeleton_layers(
     wanted = checked_layers(layers, LAYERS)
     places = _site_places(skeleton) if points is None else points
     spacing = page.spacing(max(len(skeleton.site_table), len(places), 1))
-    width = min(max(spacing / 16, 0.2), 1.5)
+    width = min(max(spacing / 16, 0.2), WIDEST)
     radius = min(max(spacing / 16, 0.3), 3.0)
     make: dict[str, Callable[[], list[Layer]]] = {
         "polygons": lambda: polygon_layers(skeleton.polygons, width),
         "elements": lambda: [_edges(skeleton, width)],
         "points": lambda: [Points("points", places, radius=radius)],
-        "skeleton": lambda: [_arcs(skeleton, name, colour, width)],
+        "skeleton": lambda: [_arcs(skeleton, name, colour, max(width, _room(skeleton, page)))],
         "exact": lambda: [] if exact is None else [replace(_arcs(exact, "exact", INK, width), is_broken=True)],
         "nodes": lambda: [Points("nodes", skeleton.vertices, colour=colour, radius=radius)],
         "labels": lambda: [_labels(skeleton, min(max(spacing / 6, 2.0), 16.0))],
@@ -162,6 +165,12 @@ def skeleton_page(
     return Page(bounds or bounds_of([Points("shown", np.concatenate(shown))]), width=width, y_up=up)
 
 
+def _room(skeleton: Skeleton, page: Page) -> float:
+    """How wide arcs may be that were pruned: they cover a fortieth of the page at most."""
+    covered = 40 * page.length(float(skeleton.length.sum()))
+    return min(page.width * page.height / covered, WIDEST) if covered > 0 else WIDEST
+
+
 def _edges(skeleton: Skeleton, width: float) -> Lines:
     ends = skeleton.site_ends[skeleton.site_table.kind == EDGE]
     pairs = np.arange(2 * len(ends), dtype=np.int32).reshape(-1, 2)
@@ -183,4 +192,6 @@ def _arcs(skeleton: Skeleton, name: str, colour: str, width: float) -> Curves:
     control = np.full(len(skeleton), -1, dtype=np.int32)
     control[bent] = len(skeleton.vertices) + np.arange(len(bent))
     points = np.concatenate([skeleton.vertices, skeleton.control[bent]])
-    return Curves(name, points, skeleton.arcs, control, colour, width)
+    # single places on the frame are what is left of arcs that went on beyond
+    shown = (skeleton.length > 0) | ~skeleton.touches_frame[skeleton.arcs[:, 0]]
+    return Curves(name, points, skeleton.arcs[shown], control[shown], colour, width)

@@ -1,0 +1,98 @@
+"""The nearest seed of each column above or below a line: all that a band of an image needs of the other bands."""
+
+from __future__ import annotations
+
+import zlib
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class ColumnList:
+    """At most one seed a column.
+
+    Parameters
+    ----------
+    row : (W,) int32 array
+        Its row.
+    label : (W,) uint32 array
+        Its label; 0 where there is none.
+    """
+
+    row: NDArray[np.int32]
+    label: NDArray[np.uint32]
+
+    @classmethod
+    def empty(cls, width: int) -> ColumnList:
+        """No seed in any column."""
+        return cls(np.zeros(width, np.int32), np.zeros(width, np.uint32))
+
+    def or_else(self, farther: ColumnList) -> ColumnList:
+        """These seeds, and in the columns that have none those of another list.
+
+        Examples
+        --------
+        >>> near = ColumnList(np.array([5, 0], np.int32), np.array([1, 0], np.uint32))
+        >>> far = ColumnList(np.array([2, 3], np.int32), np.array([7, 8], np.uint32))
+        >>> near.or_else(far).label.tolist()
+        [1, 8]
+        """
+        has = self.label != 0
+        return ColumnList(np.where(has, self.row, farther.row), np.where(has, self.label, farther.label))
+
+    def numbered(self, number: NDArray[np.uint32]) -> ColumnList:
+        """The list with other labels, from a table."""
+        return ColumnList(self.row, number[self.label])
+
+    def seeds(self) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.uint32]]:
+        """Columns, rows and labels of the seeds."""
+        x = np.flatnonzero(self.label)
+        return x, self.row[x].astype(np.int64), self.label[x]
+
+    def packed(self) -> bytes:
+        """Give a short form: neighbouring columns are much alike."""
+        change = np.diff(self.row, prepend=np.int32(0))
+        return zlib.compress(change.tobytes() + self.label.tobytes(), 1)
+
+    @classmethod
+    def unpacked(cls, data: bytes) -> ColumnList:
+        """Give the list back.
+
+        Examples
+        --------
+        >>> ColumnList.unpacked(ColumnList(np.array([4, 2], np.int32), np.array([3, 0], np.uint32)).packed())
+        ColumnList(row=array([4, 2], dtype=int32), label=array([3, 0], dtype=uint32))
+        """
+        row, label = np.frombuffer(zlib.decompress(data), np.uint32).reshape(2, -1)
+        return cls(np.cumsum(row.view(np.int32), dtype=np.int32), label)
+
+
+def last_seeds(objects: NDArray[np.uint32], first: int) -> ColumnList:
+    """The lowest seed of each column, of rows from ``first`` on, which have labels and 0."""
+    found = ColumnList.empty(objects.shape[1])
+    for row, line in enumerate(objects, start=first):
+        _put(found, row, line)
+    return found
+
+
+def first_seeds(objects: NDArray[np.uint32], first: int) -> ColumnList:
+    """The uppermost seed of each column.
+
+    Examples
+    --------
+    >>> objects = np.array([[0, 1], [2, 3]], np.uint32)
+    >>> first_seeds(objects, 10).label.tolist(), last_seeds(objects, 10).label.tolist()
+    ([2, 1], [2, 3])
+    """
+    found = ColumnList.empty(objects.shape[1])
+    for row in range(len(objects) - 1, -1, -1):
+        _put(found, first + row, objects[row])
+    return found
+
+
+def _put(found: ColumnList, row: int, line: NDArray[np.uint32]) -> None:
+    has = line != 0
+    np.copyto(found.row, row, where=has)
+    np.copyto(found.label, line, where=has)

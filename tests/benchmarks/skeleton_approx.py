@@ -1,0 +1,124 @@
+"""Seconds and memory of approximate skeletons, end to end, and beside what else makes them at equal accuracy.
+
+``skeleton_approx.py [SEEDS]``, by default 10^6. Peers sample a star at one step, and their largest error is measured:
+the distance of places on their lines from the exact skeleton. Ours is to be as accurate: that is its tolerance.
+"""
+
+import resource
+import sys
+import time
+import warnings
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+
+import numpy as np
+import shapely
+
+import vorotool
+from vorotool.engines.skeleton_comparison import distances_to, places_on_arcs
+
+RUNS = 3
+EDGES = 1000
+PEER_EDGES, PEER_STEPS = 200, (4.0, 1.0)
+
+
+def star(edges):
+    """Around the origin, about 2000 wide."""
+    angle = 2 * np.pi * np.arange(edges) / edges
+    radius = 750 * (1 + 0.3 * np.sin(7 * angle) + 0.1 * np.cos(23 * angle))
+    return np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1)
+
+
+def peak():
+    """Megabytes that the process has held at most."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+
+
+def seconds(function):
+    """Least of several runs, and what the last one gave."""
+    best = np.inf
+    for _ in range(RUNS):
+        begin = time.perf_counter()
+        made = function()
+        best = min(best, time.perf_counter() - begin)
+    return best, made
+
+
+def whole(seeds, threads):
+    """Seconds of a skeleton of so many seeds, and megabytes of the whole process after one."""
+    shape = star(EDGES)
+    step = shapely.length(shapely.Polygon(shape)) / seeds
+    skeleton = vorotool.skeleton_approx(shape, step=step, threads=threads)
+    memory, arcs = peak(), len(skeleton)
+    del skeleton
+    return seconds(lambda: vorotool.skeleton_approx(shape, step=step, threads=threads) and None)[0], memory, arcs
+
+
+def in_own_process(function, *arguments):
+    """What it gives; its memory is its own."""
+    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
+        return pool.submit(function, *arguments).result()
+
+
+def by_shapely(polygon, step):
+    """Voronoi edges of samples that are inside: what recipes do."""
+    samples = shapely.get_coordinates(shapely.segmentize(polygon.exterior, step))
+    edges = shapely.get_parts(shapely.voronoi_polygons(shapely.multipoints(samples), only_edges=True))
+    shapely.prepare(polygon)
+    return shapely.multilinestrings(edges[shapely.contains(polygon, edges)])
+
+
+def by_centerline(polygon, step):
+    """Its edges that are inside."""
+    from centerline.geometry import Centerline
+
+    return Centerline(polygon, interpolation_distance=step).geometry
+
+
+def by_pygeoops(polygon, step):
+    """With all branches, and not simplified."""
+    import pygeoops
+
+    return pygeoops.centerline(polygon, step, 0, 0)
+
+
+PEERS = {"centerline": by_centerline, "pygeoops": by_pygeoops, "shapely": by_shapely}
+
+
+def places_of(lines):
+    """Vertices, and the middles between."""
+    points, line = shapely.get_coordinates(shapely.get_parts(lines), return_index=True)
+    middles = ((points[1:] + points[:-1]) / 2)[line[1:] == line[:-1]]
+    return np.concatenate([points, middles])
+
+
+def error_of(skeleton, exact):
+    """The largest distance of places on a skeleton from the exact one."""
+    return distances_to(exact, places_on_arcs(skeleton, np.linspace(0, 1, 5)).reshape(-1, 2)).max()
+
+
+def main():
+    seeds = int(float(sys.argv[1])) if len(sys.argv) > 1 else 10**6
+    warnings.simplefilter("ignore")
+    print(f"skeleton_approx, {seeds} seeds on {EDGES} edges, from arrays to the skeleton with its bounds:")
+    for threads in (1, 2):
+        took, memory, arcs = in_own_process(whole, seeds, threads)
+        print(f"  {threads} threads: {took:.2f} s, {arcs} arcs, {memory:.0f} MB (at most 1.2 s with 2, 400 MB)")
+    shape = star(PEER_EDGES)
+    polygon, exact = shapely.Polygon(shape), vorotool.skeleton_exact(shape)
+    print(f"beside peers, {PEER_EDGES} edges, 2000 wide: seconds and largest error; ours, one thread, as accurate:")
+    for step in PEER_STEPS:
+        for name, make in PEERS.items():
+            peer, lines = seconds(lambda make=make, step=step: make(polygon, step))
+            wrong = distances_to(exact, places_of(lines)).max()
+            own, skeleton = seconds(lambda wrong=wrong: vorotool.skeleton_approx(shape, tolerance=wrong, threads=1))
+            same, _ = seconds(lambda step=step: vorotool.skeleton_approx(shape, step=step, threads=1))
+            ours = f"{own:.3f} s, {error_of(skeleton, exact):.3g}: 1/{peer / own:.0f}"
+            print(
+                f"  {name:10} step {step:g}: {peer:.3f} s, {wrong:.3g}; ours {ours}; "
+                f"with the same step {same:.3f} s: 1/{peer / same:.0f}"
+            )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,127 @@
+"""Shells complete commands, options, their values, and files of the kinds that are read."""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ENVIRONMENT = {"PATH": f"{Path(sys.executable).parent}:/usr/local/bin:/usr/bin:/bin", "LC_ALL": "C"}
+needs_bash = pytest.mark.skipif(shutil.which("bash") is None, reason="bash is not there")
+
+BASH = """
+source ./script
+complete -p vorotool > /dev/null || exit 1
+while IFS= read -r line; do
+    IFS=' ' read -r -a COMP_WORDS <<< "$line"
+    [[ $line == *' ' ]] && COMP_WORDS+=('')
+    COMP_CWORD=$((${#COMP_WORDS[@]} - 1))
+    _vorotool_completion vorotool 2> /dev/null
+    echo "${COMPREPLY[*]}"
+done
+"""
+"""Words are apart as readline has them: at blanks and around =. Without readline there is no compopt."""
+
+LINES = {
+    "vorotool sk": "skeleton-approx skeleton-exact",
+    "vorotool tessellate --what labels,ta": "labels,table",
+    "vorotool tessellate --what = dist": "distance distance2",
+    "vorotool tessellate --what table -f ": "csv json npz",
+    "vorotool delaunay --what = cells --format ": "geojson csv json npz wkt svg png",
+    "vorotool tessellate --clu": "--cluster",
+    "vorotool skeleton-exact --prune = angle = 30 --sid": "--side",
+    "vorotool skeleton-exact --prune s": "scale=",
+    "vorotool skeleton-exact ": "more a.json b.PNG",
+    "vorotool alphashape ": "more dots.csv a.json b.PNG",
+    "vorotool draw more/": "more/x y.png",
+    "vorotool delaunay --out-dir ": "more",
+    "vorotool delaunay --overlay = more/x": "more/x y.png",
+    "vorotool delaunay dots.csv -o ": "more dots.csv a.json b.PNG",
+    "vorotool completion f": "fish",
+}
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "more").mkdir()
+    for name in ("dots.csv", "a.json", "b.PNG", "notes.txt.bak", "more/x y.png", "more/z.doc"):
+        (tmp_path / name).touch()
+    return tmp_path
+
+
+@pytest.fixture
+def script(run):
+    """Give the path of the script for a shell."""
+
+    def write(shell):
+        done = run("completion", shell)
+        assert (done.code, done.err) == (0, "")
+        Path("script").write_text(done.out)
+        return "./script"
+
+    return write
+
+
+@needs_bash
+def test_bash(folder, script):
+    script("bash")
+    done = subprocess.run(
+        ["bash", "--norc", "-c", BASH],
+        cwd=folder,
+        env=ENVIRONMENT,
+        input="\n".join(LINES) + "\n",
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert dict(zip(LINES, done.stdout.splitlines(), strict=True)) == LINES
+
+
+def test_fish(folder, script):
+    if shutil.which("fish") is None:
+        pytest.skip("fish is not there")
+    script("fish")
+    lines = ("vorotool sk", "vorotool tessellate --what=labels,ta", "vorotool alphashape ", "vorotool draw more/")
+    text = "source ./script; " + "; ".join(f"complete -C {line!r}" for line in lines)
+    done = subprocess.run(
+        ["fish", "--no-config", "-c", text],
+        cwd=folder,
+        env={**ENVIRONMENT, "HOME": str(folder)},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    words = [line.partition("\t")[0] for line in done.stdout.splitlines()]
+    assert words == [
+        *("skeleton-approx", "skeleton-exact", "--what=labels,table"),
+        *("a.json", "b.PNG", "dots.csv", "more/", "more/x y.png"),
+    ]
+
+
+def test_zsh_reads_the_script(script):
+    if shutil.which("zsh") is None:
+        pytest.skip("zsh is not there")
+    subprocess.run(["zsh", "-n", script("zsh")], check=True)
+
+
+def test_completing_imports_no_heavy_module(monkeypatch):
+    code = (
+        "import sys\n"
+        "from vorotool.cli.main import main\n"
+        "try:\n    main([])\n"
+        "except SystemExit as end:\n"
+        "    heavy = {'numpy', 'vorotool._core', 'PIL', 'orjson'} & set(sys.modules)\n"
+        "    sys.exit(f'loaded {heavy}' if heavy or end.code else 0)\n"
+    )
+    for words in ("vorotool skeleton-exact --prune angle=30 --what ", "vorotool draw "):
+        asked = {"_VOROTOOL_COMPLETE": "bash_complete", "COMP_WORDS": words, "COMP_CWORD": str(words.count(" "))}
+        done = subprocess.run([sys.executable, "-c", code], env=asked, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        assert done.stdout
+
+
+def test_there_is_no_script_for_another_shell(run):
+    done = run("completion", "csh")
+    assert done.code == 2
+    assert "'bash', 'zsh', 'fish'" in done.err

@@ -1,0 +1,73 @@
+"""Offsets beside the buffers of shapely, and shapes rebuilt from skeletons: `--cases 1000 --seed 1`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+import warnings
+from pathlib import Path
+
+import numpy as np
+import shapely
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from offset_oracle import check_offsets, check_rebuilt
+from skeleton_shapes import FAMILIES, TOUCHING
+from vorotool import VorotoolError, offset, rebuild, skeleton_exact, verify_offsets
+from vorotool.engines.skeleton_exact import ShapeDiagram, shape_diagram
+
+SHAPES = (*FAMILIES, *TOUCHING)
+DISTANCES = 5
+
+
+def distances_of(shapes: ShapeDiagram, random: np.random.Generator) -> list[float]:
+    """Of any size, at and beside the radius of a vertex of the diagram, and in whole steps: where there are ties."""
+    extent = float(np.ptp(shapes.placed.polygons.xy, axis=0).max()) or 1.0
+    radii = shapes.graph.scale * shapes.diagram.radius
+    known = radii[(radii > extent * 1e-6) & (radii < extent)]
+    tie = float(random.choice(known)) if len(known) else extent / 4
+    step = 0.5 if extent / 1000 < 0.5 < extent and tie != 0.5 else extent / 8
+    sizes = [*(extent * 10 ** random.uniform(-3, -0.5, 2)), tie, tie * (1 + 10.0 ** -random.integers(3, 12)), step]
+    signs = [1, -1, *random.choice([-1, 1], 3)]
+    return list(dict.fromkeys(float(sign * size) for sign, size in zip(signs, sizes, strict=True)))
+
+
+def failure(shape: object, random: np.random.Generator) -> str | None:
+    """What is wrong with the offsets of a shape, or with what is rebuilt from its skeleton, if anything."""
+    shapes = shape_diagram(shape, threads=1)
+    distances = distances_of(shapes, random)
+    try:
+        made = offset(shapes, distances, threads=1)
+        verify_offsets(made, distances=distances, threads=1)
+        check_offsets(made, distances)
+        skeleton = skeleton_exact(shape, threads=1)
+        check_rebuilt(rebuild(skeleton), skeleton.polygons)
+    except (VorotoolError, AssertionError, shapely.GEOSException) as error:
+        return f"{type(error).__name__} at {distances}: {error}"
+    return None
+
+
+def main() -> int:
+    """Run all cases; exit 1 if any failed."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--cases", type=int, default=1000)
+    parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--seed", type=int, default=1)
+    arguments = parser.parse_args()
+    warnings.simplefilter("ignore")
+    start, failed = time.monotonic(), 0
+    for case in range(arguments.first, arguments.first + arguments.cases):
+        family = SHAPES[case % len(SHAPES)]
+        random = np.random.default_rng([arguments.seed, case])
+        wrong = failure(family(random), random)
+        if wrong:
+            print(f"wrong: seed {arguments.seed}, case {case}, {family.__name__}: {wrong}", flush=True)
+        failed += wrong is not None
+    count = arguments.cases
+    print(f"{count:,} shapes x {DISTANCES} distances, {failed} failures, {time.monotonic() - start:.0f} s")
+    return int(failed > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
