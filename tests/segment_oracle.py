@@ -459,7 +459,7 @@ def place_on_bisector(left, right, disc, inside):
 # ---- what differs ----
 
 
-def differences(got, right, ulps=8):
+def differences(got, right, ulps=4):
     """What is wrong with a diagram, in words; nothing if it is the other but for the order and rounded values."""
     found = []
     got_rings, right_rings = rings_of(got), rings_of(right)
@@ -494,9 +494,10 @@ def edges_by_rings(diagram, rings):
 
 
 def value_differences(got, v, right, w, ring, ulps):
-    """Coordinates and radius, in ulp of the radius or of the coordinates, whichever are larger."""
+    """The radius in ulp of its own, coordinates in ulp of the radius or of the larger of both."""
     values = np.append(got.vertices[v], got.radius[v]), np.append(right.vertices[w], right.radius[w])
-    bound = ulps * np.spacing(np.abs(values[1]).max())
+    size = np.abs(values[1]).max()
+    bound = ulps * np.spacing([size, size, values[1][2]])
     if (np.abs(values[0] - values[1]) <= bound).all():
         return []
     return [f"vertex {ring} is at {values[0].tolist()}, not at {values[1].tolist()}"]

@@ -92,6 +92,21 @@ def test_inputs(run, folder, name, data):
     assert len(rows_of(done.out)) == 4
 
 
+def test_statistics_do_not_depend_on_threads(run, folder):
+    """So many segments that two threads insert them at once, and meet."""
+    angle = np.linspace(0, 2 * np.pi, 24_000, endpoint=False)
+    radius = 10**6 * (2 + np.cos(7 * angle) + np.where(np.arange(len(angle)) % 2, 0.01, 0))
+    ring = np.rint(np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1)).astype(int)
+    (folder / "a.json").write_text(json.dumps(ring.tolist()))
+    stats = []
+    for threads in ("1", "2"):
+        done = run("skeleton-exact", "a.json", "--threads", threads, "--stats", "s.json", "-f", "npz", "-o", "b.npz")
+        assert done.code == 0
+        stats.append(json.loads((folder / "s.json").read_text()))
+        del stats[-1]["seconds"], stats[-1]["threads"]
+    assert stats[0] == stats[1]
+
+
 def test_repairs_are_told(run, folder):
     (folder / "a.json").write_text("[[0, 0], [4, 4], [4, 0], [0, 4]]")
     done = run("skeleton-exact", "a.json", "--stats", "s.json", "-o", "b.csv")

@@ -88,11 +88,7 @@ class ExactProducts(SkeletonProducts):
 
     def _diagram_stats(self) -> dict[str, Any]:
         diagram = self._part.diagram
-        return {
-            "diagram_vertices": len(diagram),
-            "diagram_edges": len(diagram.edges),
-            "decisions": diagram.counts,
-        }
+        return {"diagram_vertices": len(diagram), "diagram_edges": len(diagram.edges)}
 
     def _more_stats(self) -> dict[str, Any]:
         """How far a skeleton with a gap is from the exact one: a second diagram, so only for whom it is written."""

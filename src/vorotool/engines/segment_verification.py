@@ -13,7 +13,7 @@ def verify_segment_voronoi(diagram: SegmentVoronoiDiagram, *, threads: int = 0, 
     """Check a segment Voronoi diagram exactly, from its arrays alone.
 
     Every vertex is the centre of a disc that exactly its sites touch, in their order, and that no site enters, with
-    values right to a relative 2^-47; the edges around each cell make one cycle, what meets at infinity is the convex
+    values right to a relative 2^-48; the edges around each cell make one cycle, what meets at infinity is the convex
     hull, all is connected and Euler's relation holds, from which it follows that no vertex is missing; edges follow
     each other along each bisector. Points inside each edge are compared with all sites besides, in floating point.
     Where floating point leaves a sign open it is computed exactly.

@@ -41,8 +41,7 @@ def segment_voronoi(
     -------
     SegmentVoronoiDiagram
         With ``counts``: ``visited`` vertices that were tested, ``cyclic`` segments whose conflict set had to be cut,
-        and tests settled beyond floating point by ``integer``
-        arithmetic, in ``double_double`` and ``exact``. These
+        and tests settled beyond floating point by ``integer`` arithmetic, in ``double_double`` and ``exact``. These
         numbers depend a little on how threads meet; nothing else does.
 
     Raises
@@ -51,8 +50,8 @@ def segment_voronoi(
         If a coordinate is beyond the lattice, an index out of range, a segment of length zero, two points are at one
         place, or segments cross where that comes to light.
     LimitError
-        If there are more than 2^28 - 1 sites. The engine takes at most 420 bytes for each point and its segment, the
-        arrays of the result 280.
+        If there are more than 2^28 - 1 sites. Engine and result together take at most 430 bytes for each point and its
+        segment, mostly 350 to 410.
     VerificationError
         If the engine finds its own diagram not planar, with valid input.
 
