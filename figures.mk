@@ -5,8 +5,9 @@ FIGURES  := $(BUILD)/figures
 GALLERY  := $(BUILD)/gallery
 TABLE_1_SIZES := 64 128 256 512
 FIGURE_9_STEPS := 20 15 10 5
-GALLERY_PICTURES := letters-all.svg letters.svg letters-angle.svg vessels.png vessels.csv river.svg silhouettes.svg \
-                    silhouettes-chord.svg silhouettes.csv slider.html lakes.svg cells.svg outside.svg alpha.svg
+GALLERY_PICTURES := letters-all.svg letters.svg letters-angle.svg vessels.png vessels.csv river.svg widths.svg \
+                    silhouettes.svg silhouettes-chord.svg silhouettes.csv slider.html lakes.svg offsets.svg \
+                    cells.svg outside.svg alpha.svg
 
 NAMES := figure-01 figure-02 figure-03a figure-03b figure-03c figure-03d figure-04a figure-04b figure-04c \
          figure-05 figure-06 figure-07 figure-08 figure-09 figure-10 figure-11 figure-lakes table-1 error-vs-h gallery
@@ -158,6 +159,10 @@ $(FIGURES)/gallery-vessels.csv: $(GALLERY)/vessels.png $(BUILD)/.installed | $(F
 $(FIGURES)/gallery-river.svg: $(GALLERY)/river.png $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) skeleton-exact $< --what centerline --prune ratio=2 -o $@
 
+# Purpose: its width, across from foot to foot, at equal steps along the branches.
+$(FIGURES)/gallery-widths.svg: $(GALLERY)/river.png $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --what transects --every 24 --prune ratio=2 -o $@
+
 # Purpose: a label image: one object a label.
 $(FIGURES)/gallery-silhouettes.svg: $(GALLERY)/silhouettes.png $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) skeleton-exact $< --prune ratio=1.5 -o $@
@@ -177,6 +182,10 @@ $(FIGURES)/gallery-slider.html: $(GALLERY)/silhouettes.png $(BUILD)/.installed |
 # Purpose: a map: lakes with islands, pruned by scale.
 $(FIGURES)/gallery-lakes.svg: data/great-lakes.geojson $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) skeleton-exact $< --prune scale=1.3 -q -o $@
+
+# Purpose: the same lakes, and what is farther from the shore than four distances.
+$(FIGURES)/gallery-offsets.svg: data/great-lakes.geojson $(BUILD)/.installed | $(FIGURES)
+	$(VOROTOOL) skeleton-exact $< --what offset -d -0.1,-0.2,-0.3,-0.4 -q -o $@
 
 # Purpose: labels that touch: each is an object of its own. The elements are the outlines.
 $(FIGURES)/gallery-cells.svg: data/cells.png $(BUILD)/.installed | $(FIGURES)
