@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import socket
 import subprocess
@@ -17,6 +18,9 @@ from vorotool.formats.outputs import remove_temporaries
 
 START = "import sys; sys.path[:] = sys.argv[2:]; from vorotool.batch.worker import main; main(int(sys.argv[1]))"
 """What a worker runs: modules are looked for where this process finds them, and not in the current folder."""
+
+_ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1"}
+"""numpy's linear algebra, which inputs have no use for, would start threads that take time from other workers."""
 
 PATIENCE = 0.15
 """Seconds that workers have to remove what they have begun before they are killed: kernels look for signals more
@@ -42,6 +46,7 @@ class Worker:
                 [sys.executable, "-c", START, str(number), *sys.path],
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,
+                env=_ONE_THREAD | os.environ,
                 pass_fds=(number,),
                 process_group=0,
             )
