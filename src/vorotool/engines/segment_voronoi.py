@@ -50,8 +50,8 @@ def segment_voronoi(
         If a coordinate is beyond the lattice, an index out of range, a segment of length zero, two points are at one
         place, or segments cross where that comes to light.
     LimitError
-        If there are more than 2^28 - 1 sites. Engine and result together take at most 430 bytes for each point and its
-        segment, mostly 350 to 410.
+        If there are more than 2^28 - 1 sites. Engine and result together take mostly 350 to 490 bytes for each point
+        and its segment.
     VerificationError
         If the engine finds its own diagram not planar, with valid input.
 

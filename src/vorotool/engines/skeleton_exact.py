@@ -17,7 +17,6 @@ from vorotool.engines.segment_voronoi import segment_voronoi
 from vorotool.errors import InputError, UsageError, VorotoolWarning
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.planar_graph import PlanarGraph
-from vorotool.geometry.polygon_conversion import as_polygons
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.segment_voronoi import SegmentVoronoiDiagram
 from vorotool.geometry.skeleton import EXTERIOR, INTERIOR, Skeleton
@@ -27,92 +26,6 @@ FRAME_MARGIN = 0.1
 """Of the larger side of the bounds, on each side of the default frame."""
 
 Frame = tuple[float, float, float, float]
-
-
-def skeleton_exact(
-    polygons: Any,
-    *,
-    side: str = "interior",
-    gap: float = 0.0,
-    complete: bool = True,
-    frame: Frame | None = None,
-    strict: bool = False,
-    threads: int = 0,
-    progress: Progress = None,
-) -> Skeleton:
-    """Compute the skeleton of polygons: where the nearest place on the boundary is not one alone.
-
-    The polygons are placed on a lattice of 31 bits, and from there on every decision is exact: the Voronoi diagram of
-    the vertices and open edges is made, and of its edges those between an edge and its own end are deleted. With holes
-    the result is exact just the same; several polygons, and open lines, are boundaries of one diagram. The skeleton of
-    crack outlines goes through corners that pixels hang together at: see :func:`vorotool.outlines`.
-
-    Parameters
-    ----------
-    polygons : PolygonSet, shapely geometry, (n, 2) array-like, or a list of these
-        See :func:`vorotool.geometry.polygon_conversion.as_polygons`.
-    side : {"interior", "exterior", "both"}
-        Inside polygons, outside all of them, or both.
-    gap : float
-        Shorten each edge by so much at both ends, as the paper does (Figure 10): then nothing leads to the corners,
-        and the result is no longer exact. The new ends go to the nearest points of the lattice.
-    complete : bool
-        With a gap, add the straight lines that lead from the skeleton to the corners.
-    frame : (x, y, w, h), optional
-        Rectangle that arcs outside are cut by; by default the bounds and a tenth of their larger side around them.
-    strict : bool
-        Refuse polygons that would be repaired.
-    threads : int
-        0 uses all.
-    progress : callable, optional
-        Called with the fraction done of each step.
-
-    Returns
-    -------
-    Skeleton
-        Without arcs where there is no such side.
-
-    Raises
-    ------
-    InputError
-        If a coordinate is not finite, an edge is not longer than twice the gap, or `strict` and something would be
-        repaired.
-    UsageError
-        If the side, the gap or the frame is none.
-    LimitError
-        If there are too many vertices.
-
-    Warns
-    -----
-    VorotoolWarning
-        If polygons were repaired, or none has an inside and that is asked for.
-
-    References
-    ----------
-    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 3.2.
-
-    Examples
-    --------
-    >>> skeleton = skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])
-    >>> float(skeleton.radius.max()), round(float(skeleton.length.sum()), 9)
-    (1.0, 7.656854249)
-    """
-    check_skeleton_options(side, gap, frame)
-    if gap:
-        from vorotool.engines.skeleton_elements import skeleton_with_gap
-
-        return skeleton_with_gap(
-            polygons, gap, side=side, complete=complete, frame=frame, strict=strict, threads=threads, progress=progress
-        )
-    given = as_polygons(polygons)
-    if side == "interior":
-        from vorotool.engines.skeleton_batches import batched_skeleton
-
-        made = batched_skeleton(given, threads=checked_threads(threads), progress=progress)
-        if made is not None:
-            return made
-    shapes = shape_diagram(given, strict=strict, threads=threads, progress=progress)
-    return skeleton_of(shapes, side=side, frame=frame, threads=threads, progress=progress)
 
 
 def check_skeleton_options(side: str, gap: float, frame: Frame | None) -> None:

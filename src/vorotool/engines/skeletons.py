@@ -1,0 +1,187 @@
+"""Skeletons of polygons: exact ones (paper, section 3.2), and approximate ones (section 3.1)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from vorotool.engines.label_arrays import Progress
+from vorotool.engines.placed_rings import placed_shapes
+from vorotool.engines.planar_graph import planar_graph
+from vorotool.engines.skeleton_approx import SamplingOptions, approximate_skeleton, sampled_graph
+from vorotool.engines.skeleton_batches import batched_skeleton
+from vorotool.engines.skeleton_elements import skeleton_with_gap
+from vorotool.engines.skeleton_exact import Frame, check_skeleton_options, shape_diagram, skeleton_of
+from vorotool.engines.skeleton_tolerance import skeleton_within
+from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.polygon_conversion import as_polygons
+from vorotool.geometry.skeleton import Skeleton
+
+
+def skeleton_exact(
+    polygons: Any,
+    *,
+    side: str = "interior",
+    gap: float = 0.0,
+    complete: bool = True,
+    frame: Frame | None = None,
+    strict: bool = False,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Skeleton:
+    """Compute the skeleton of polygons: where the nearest place on the boundary is not one alone.
+
+    The polygons are placed on a lattice of 31 bits, and from there on every decision is exact: the Voronoi diagram of
+    the vertices and open edges is made, and of its edges those between an edge and its own end are deleted. With holes
+    the result is exact just the same; several polygons, and open lines, are boundaries of one diagram. The skeleton of
+    crack outlines goes through corners that pixels hang together at: see :func:`vorotool.outlines`.
+
+    Parameters
+    ----------
+    polygons : PolygonSet, shapely geometry, (n, 2) array-like, or a list of these
+        See :func:`vorotool.geometry.polygon_conversion.as_polygons`.
+    side : {"interior", "exterior", "both"}
+        Inside polygons, outside all of them, or both.
+    gap : float
+        Shorten each edge by so much at both ends, as the paper does (Figure 10): then nothing leads to the corners,
+        and the result is no longer exact. The new ends go to the nearest points of the lattice.
+    complete : bool
+        With a gap, add the straight lines that lead from the skeleton to the corners.
+    frame : (x, y, w, h), optional
+        Rectangle that arcs outside are cut by; by default the bounds and a tenth of their larger side around them.
+    strict : bool
+        Refuse polygons that would be repaired.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done of each step.
+
+    Returns
+    -------
+    Skeleton
+        Without arcs where there is no such side.
+
+    Raises
+    ------
+    InputError
+        If a coordinate is not finite, an edge is not longer than twice the gap, or `strict` and something would be
+        repaired.
+    UsageError
+        If the side, the gap or the frame is none.
+    LimitError
+        If there are too many vertices.
+
+    Warns
+    -----
+    VorotoolWarning
+        If polygons were repaired, or none has an inside and that is asked for.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 3.2.
+
+    Examples
+    --------
+    >>> skeleton = skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])
+    >>> float(skeleton.radius.max()), round(float(skeleton.length.sum()), 9)
+    (1.0, 7.656854249)
+    """
+    check_skeleton_options(side, gap, frame)
+    if gap:
+        return skeleton_with_gap(
+            polygons, gap, side=side, complete=complete, frame=frame, strict=strict, threads=threads, progress=progress
+        )
+    given = as_polygons(polygons)
+    if side == "interior":
+        made = batched_skeleton(given, threads=checked_threads(threads), progress=progress)
+        if made is not None:
+            return made
+    shapes = shape_diagram(given, strict=strict, threads=threads, progress=progress)
+    return skeleton_of(shapes, side=side, frame=frame, threads=threads, progress=progress)
+
+
+def skeleton_approx(
+    polygons: Any,
+    *,
+    step: float | None = None,
+    tolerance: float | None = None,
+    sampling: str | None = None,
+    side: str = "interior",
+    complete: bool | None = None,
+    frame: Frame | None = None,
+    strict: bool = False,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Skeleton:
+    """Approximate the skeleton of polygons by the Voronoi diagram of samples, with a certified error of every arc.
+
+    The edges are sampled, and each seed has the labels of the edges that it is on. Of the Voronoi diagram of the seeds,
+    the edges between seeds with a label in common are deleted, and those that the polygons cross. All that is decided
+    exactly. No point of an arc is farther from the exact skeleton than its `error_bound`.
+
+    Parameters
+    ----------
+    polygons : PolygonSet, shapely geometry, (n, 2) array-like, or a list of these
+        See :func:`vorotool.geometry.polygon_conversion.as_polygons`.
+    step : float
+        Between samples, in input units.
+    tolerance : float
+        Instead of a step: edges are sampled as finely as it takes for all error bounds to be at most this. The bounds
+        are from approximate to exact; where corners of nearly 180 degrees have nearly invisible branches, the exact
+        skeleton may be farther away.
+    sampling : {"paper", "symmetric"}
+        Every edge from its first end, the last gap being between h/2 and 3h/2, as the paper prints it (by default with
+        a step); or the same distances from each corner on all of its edges (always with a tolerance).
+    side : {"interior", "exterior", "both"}
+        Inside polygons, outside all of them, or both.
+    complete : bool, optional
+        Join corners under 180 degrees by a line along the bisector to the first arc; by default with a tolerance.
+    frame : (x, y, w, h), optional
+        Rectangle that arcs outside are cut by; by default the bounds and a tenth of their larger side around them.
+    strict : bool
+        Refuse polygons that would be repaired.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done of each step.
+
+    Returns
+    -------
+    Skeleton
+        Of straight arcs. Radii are clearances: distances from the polygons. Error bounds are NaN where nothing is
+        proved, which is so in a few places where edges are much nearer to each other than samples.
+
+    Raises
+    ------
+    InputError
+        If a coordinate is not finite, or `strict` and something would be repaired.
+    UsageError
+        If the step or the tolerance is none, or both or neither is given; of the other options likewise.
+    LimitError
+        If there are too many seeds, or the tolerance cannot be met.
+
+    Warns
+    -----
+    VorotoolWarning
+        If polygons were repaired, or none has an inside and that is asked for.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 3.1.
+
+    Examples
+    --------
+    >>> skeleton = skeleton_approx([[0, 0], [8, 0], [8, 3], [0, 3]], step=0.5)
+    >>> bool(skeleton.error_bound.max() < 0.2), round(float(skeleton.radius.max()), 6)
+    (True, 1.5)
+    """
+    options = SamplingOptions(step, tolerance, sampling)
+    check_skeleton_options(side, 0, frame)
+    complete = (tolerance is not None) if complete is None else complete
+    common: dict[str, Any] = {"threads": checked_threads(threads), "progress": progress}
+    graph = planar_graph(polygons, strict=strict, **common)
+    placed = placed_shapes(graph, threads=threads)
+    if options.tolerance is not None:
+        shapes = skeleton_within(graph, placed, options.tolerance, side=side, frame=frame, complete=complete, **common)
+        return shapes.skeleton
+    shapes_sampled = sampled_graph(graph, placed, options, **common)
+    return approximate_skeleton(shapes_sampled, side=side, frame=frame, complete=complete, **common).skeleton
