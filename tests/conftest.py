@@ -1,9 +1,18 @@
-"""Hypothesis draws the same cases in every run of the suite; HYPOTHESIS_PROFILE=search draws new ones."""
+"""Hypothesis draws the same cases in every run of the suite; HYPOTHESIS_PROFILE=search draws new ones.
+
+A suite that is started in the background may ignore signals that the tests send to the processes they start, and these
+would inherit that.
+"""
 
 import os
+import signal
 
 from hypothesis import settings
 
 settings.register_profile("steady", derandomize=True, deadline=None)
 settings.register_profile("search", deadline=None, max_examples=2000)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "steady"))
+
+for number, usual in ((signal.SIGINT, signal.default_int_handler), (signal.SIGHUP, signal.SIG_DFL)):
+    if signal.getsignal(number) == signal.SIG_IGN:
+        signal.signal(number, usual)
