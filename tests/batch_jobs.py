@@ -9,6 +9,11 @@ from vorotool.batch.tasks import Outcome, Task
 from vorotool.formats.outputs import open_output
 
 
+class Sleeper:
+    def __del__(self):
+        time.sleep(60)
+
+
 def obey(source, outputs):
     """Copy a text, fail, die, or take long."""
     text = Path(source).read_text()
@@ -20,7 +25,9 @@ def obey(source, outputs):
             out.flush()
             if text == "die":
                 os.kill(os.getpid(), signal.SIGKILL)
-            if text == "sleep":
+            if text == "deaf":
+                Sleeper()  # goes at once, and its method lets no exception out
+            if text in ("sleep", "deaf"):
                 time.sleep(60)
     return Outcome(stats={"letters": len(text)}, seconds={"copy": 0.5})
 

@@ -53,6 +53,18 @@ def test_an_end_leaves_no_process_and_no_file(tmp_path, monkeypatch):
     assert [path.name for path in (tmp_path / "out").iterdir()] == ["0.txt"]
 
 
+def test_a_worker_ends_quietly_where_exceptions_are_swallowed(tmp_path, capfd):
+    worker = Worker(obey)
+    worker.give(*written(tmp_path, "deaf"))
+    wait_for(lambda: begun(tmp_path))
+    time.sleep(0.1)  # until it sleeps
+    worker._process.terminate()
+    assert worker._process.wait(30) == 143
+    worker.connection.close()
+    assert list((tmp_path / "out").iterdir()) == []
+    assert capfd.readouterr() == ("", "")
+
+
 def test_workers_end_with_a_parent_that_is_killed(tmp_path):
     written(tmp_path, "sleep")
     script = (

@@ -23,6 +23,7 @@ def main(descriptor: int) -> None:
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent decides
     signal.signal(signal.SIGTERM, _end)
+    sys.unraisablehook = _end_all_the_same
     threading.Thread(target=_end_with_parent, args=(descriptor,), daemon=True).start()
     connection = Connection(descriptor)
     try:
@@ -30,13 +31,23 @@ def main(descriptor: int) -> None:
         while True:
             task: Task = connection.recv()
             connection.send(carry_out(process, task))
-    except (EOFError, ConnectionError):  # the parent has gone
-        return
+    except (EOFError, ConnectionError):  # the parent has gone, and nothing is left to do or to remove
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)
 
 
-def _end(number: int, _frame: object) -> NoReturn:
-    """End as an exception does: temporary files are removed."""
-    sys.exit(128 + number)
+def _end(_number: int, _frame: object) -> NoReturn:
+    """End as an exception does: temporary files are removed. A second signal does not disturb this."""
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    sys.exit(128 + signal.SIGTERM)
+
+
+def _end_all_the_same(swallowed: sys.UnraisableHookArgs) -> None:
+    """End a moment later where the signal came in a method that lets no exception out, such as ``__del__``."""
+    if isinstance(swallowed.exc_value, SystemExit):
+        signal.signal(signal.SIGALRM, _end)
+        signal.setitimer(signal.ITIMER_REAL, 0.001)
+    else:
+        sys.__unraisablehook__(swallowed)
 
 
 def _end_with_parent(descriptor: int) -> None:
