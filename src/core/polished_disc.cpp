@@ -13,8 +13,8 @@
 namespace vorotool::core {
 namespace {
 
-// Closed forms of so many roundings of the radius: they err by a few (core/tangent_disc.cpp).
-constexpr double sharp = 24 * unit_roundoff;
+// Closed forms of at most so many roundings of the radius are good enough (core/tangent_disc.cpp).
+constexpr double sharp = 10 * unit_roundoff;
 // A centre far from the origin is rounded there, which put_disc() counts with 2 roundings of the coordinates.
 constexpr double rounded = 4 * unit_roundoff;
 // Numbers of 106 bits that are known as well as this round as if they were exact, but for one in 2^7.

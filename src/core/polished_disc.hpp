@@ -20,7 +20,7 @@ struct Contact {
 };
 
 // The disc of a vertex that touches three sites or more, in a canonical order: the numbers depend on nothing
-// else. They err by at most 2^-48 of the radius and of the coordinates, in practice by four ulp.
+// else. They err by at most 2^-48 of the radius and of the coordinates, in practice by three ulp.
 PolishedDisc polished_disc(const SegmentSites& sites, const VoronoiRecord& record,
                            std::span<const Contact> contacts);
 

@@ -169,14 +169,16 @@ class Solver {
     return above_end(p, line, t, 6);
   }
 
-  // Touches a line at its end p, and another line at distance e from p: e + t (n . n') = t.
+  // Touches a line at its end p, and another line at distance e = K / l' from p: e + t (n . n') = t, where n
+  // . n' = D / (l l'). Lengths, which err most, come in as seldom as can be.
   static Disc at_end(const LatticePoint& p, const Line<Real>& line, const Line<Real>& other) {
-    const Angle<Real> angle(line, other);
-    const Real reach = real<Real>(other.side(p)) * line.length;  // (3.5)
-    const Real d = real<Real>(angle.D);
-    if (angle.D <= 0) return above_end(p, line, reach / (angle.ll - d), 16);  // (10)
-    const Real X = real<Real>(angle.X);
-    return above_end(p, line, reach * (angle.ll + d) / (X * X), 16);  // (14)
+    const std::int64_t D = dot(line.direction(), other.direction());
+    const Real K = real<Real>(other.side(p)), d = real<Real>(D);
+    if (D <= 0) return above_end(p, line, K / (other.length - d / line.length), 8);  // (6.5)
+    const Real X = real<Real>(cross(line.direction(), other.direction()));
+    const Real square = real<Real>(dot(line.direction(), line.direction()));
+    const Real sum = square * other.length + line.length * d;  // l (l l' + D) (4.5)
+    return above_end(p, line, K * sum / (X * X), 12);          // (10.5)
   }
 
   // Two points p, q at heights h <= h' above the line; (line, p, q) are counter-clockwise. The disc touches

@@ -135,6 +135,17 @@ def test_the_direction_of_a_long_segment_changes_nothing():
         assert np.array_equal(getattr(one, array), getattr(other, array))
 
 
+def test_a_closed_form_with_five_roundings_too_many_is_polished():
+    """The disc on the normal at a point that touches a segment: formulas in doubles err by 5 ulp here."""
+    points = np.array(
+        [[-96936238, -298339065], [-203354759, -279893813], [-313710510, 0], [-309901800, -100693199]], dtype=np.int32
+    )
+    diagram = segment_voronoi(points, np.array([[1, 0], [2, 3]], dtype=np.int32))
+    expected = 259239000.470605083663605  # in 60 digits
+    error = np.abs(diagram.radius - expected).min()
+    assert error <= np.spacing(expected)
+
+
 @pytest.mark.parametrize("name", ["star_smooth", "star_rough", "comb", "hilbert", "wheel"])
 def test_threads_change_nothing(name):
     """Rounds long enough to be shared."""
