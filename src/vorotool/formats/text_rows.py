@@ -155,7 +155,16 @@ def write_rows(
 def write_list_rows(
     out: BinaryIO, columns: Sequence[Column], shape: RowShape, *, precision: int | None = None, threads: int = 0
 ) -> None:
-    """Write the rows of a list between its brackets: on lines of their own, if there are any; see `write_rows`."""
+    r"""Write the rows of a list between its brackets: on lines of their own, if there are any; see `write_rows`.
+
+    Examples
+    --------
+    >>> import io
+    >>> out = io.BytesIO()
+    >>> write_list_rows(out, [Column.of("a", [1, 2])], RowShape(("", ""), ",\n"))
+    >>> out.getvalue()
+    b'\n1,\n2\n'
+    """
     if columns and len(columns[0].values):
         out.write(b"\n")
         write_rows(out, columns, shape, precision=precision, threads=threads)
