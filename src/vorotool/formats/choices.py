@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection
 
 from vorotool.errors import UsageError
 
 
-def check_what(what: str, choices: Iterable[str], value: str) -> None:
+def check_what(what: str, choices: Collection[str], value: str) -> None:
     """Refuse a part that a value does not have.
 
     Parameters
     ----------
     what : str
         The part.
-    choices : iterable of str
+    choices : collection of str
         Those that it has.
     value : str
         The value, with its verb.
@@ -34,14 +34,14 @@ def check_what(what: str, choices: Iterable[str], value: str) -> None:
         raise UsageError(f"{what!r} is nothing that {value} written as: use {' or '.join(choices)}")
 
 
-def check_format(fmt: str, formats: Iterable[str], what: str) -> None:
+def check_format(fmt: str, formats: Collection[str], what: str) -> None:
     """Refuse a format that has no place for what is to be written.
 
     Parameters
     ----------
     fmt : str
         The format.
-    formats : iterable of str
+    formats : collection of str
         Those that have.
     what : str
         What is to be written.
