@@ -6,7 +6,7 @@ import itertools
 import math
 import random
 
-from segment_oracle import Site, dot
+from tangent_discs import Site, dot
 
 LIMIT = 2**30 - 1
 

@@ -142,6 +142,32 @@ BigInteger operator*(const BigInteger& a, const BigInteger& b) {
   return product;
 }
 
+BigInteger operator<<(const BigInteger& a, int bits) {
+  BigInteger shifted;
+  if (a.size_ == 0) return shifted;
+  const auto whole = static_cast<std::size_t>(bits / 64);
+  const int rest = bits % 64;
+  shifted.reserve(a.size_ + whole + 1);
+  shifted.negative_ = a.negative_;
+  shifted.size_ = a.size_ + whole + 1;
+  const std::uint64_t* from = a.limbs();
+  std::uint64_t* limb = shifted.limbs();
+  std::fill_n(limb, shifted.size_, 0);
+  for (std::size_t i = 0; i < a.size_; ++i) {
+    const uint128 spread = uint128{from[i]} << rest;
+    limb[i + whole] |= static_cast<std::uint64_t>(spread);
+    limb[i + whole + 1] = static_cast<std::uint64_t>(spread >> 64);
+  }
+  shifted.drop_leading_zeros();
+  return shifted;
+}
+
+int compare(const BigInteger& a, const BigInteger& b) {
+  const int left = a.sign(), right = b.sign();
+  if (left != right) return left < right ? -1 : 1;
+  return left * BigInteger::compare_magnitudes(a, b);
+}
+
 // An approximation of 106 bits errs by less than 2^24 in a root of 127. The remainder a - root^2 is twice the
 // root times the error, nearly: so the error is known to less than 1/2, and the square tells whether a is
 // one.

@@ -37,9 +37,10 @@ class BigInteger {
   BigInteger& operator+=(const BigInteger& other) { return add(other, other.negative_); }
   BigInteger& operator-=(const BigInteger& other) { return add(other, !other.negative_); }
   friend BigInteger operator*(const BigInteger& a, const BigInteger& b);
-  friend bool operator==(const BigInteger& a, const BigInteger& b) {
-    return a.sign() == b.sign() && compare_magnitudes(a, b) == 0;
-  }
+  friend BigInteger operator<<(const BigInteger& a, int bits);
+  // -1, 0 or 1 as a is less than, equal to or greater than b.
+  friend int compare(const BigInteger& a, const BigInteger& b);
+  friend bool operator==(const BigInteger& a, const BigInteger& b) { return compare(a, b) == 0; }
 
   // The root of a positive square of at most 254 bits; nothing for any other integer.
   friend std::optional<BigInteger> integer_root(const BigInteger& a);

@@ -8,57 +8,48 @@
 #include <utility>
 
 #include "core/arithmetic.hpp"
+#include "core/big_integer.hpp"
 #include "core/common_lattice.hpp"
+#include "core/double_double.hpp"
 #include "core/expansion.hpp"
-#include "core/natural.hpp"
 
 namespace vorotool::core {
 namespace {
 
 constexpr double u = unit_roundoff;
 
-// ---- about 106 bits: unevaluated sums of two doubles
+// ---- about 106 bits: sums of two doubles
 // -------------------------------------------------------
 //
 // In each operation the last bits of the factors' tails are left out, u^2 of the product, and what is added
 // to a tail of a few u of the whole is rounded, a few times by u of the tail. For heads that are rounded sums
 // of both parts that is less than 8 u^2 of a product, 16 u^2 of a sum of two squares, and 8 u^2 (|x| + |y|)
-// for x - y where x and y are products of two such numbers, their own errors included.
+// for x - y where x and y are products of two such numbers, their own errors included: there the difference
+// needs less care than that of double_double.hpp.
 
-TwoTerms quick_two_sum(double large, double small) {
-  const double head = large + small;
-  return {head, small - (head - large)};
-}
-
-TwoTerms two_square(double a) {
+DoubleDouble two_square(double a) {
   const double head = a * a;
   const TwoTerms halves = split(a);
   const double error = (head - halves.head * halves.head) - 2 * (halves.tail * halves.head);
   return {head, halves.tail * halves.tail - error};
 }
 
-TwoTerms times(const TwoTerms& x, const TwoTerms& y) {
-  const TwoTerms product = two_product(x.head, y.head, split(y.head));
-  return quick_two_sum(product.head, product.tail + (x.head * y.tail + x.tail * y.head));
-}
-
-TwoTerms sum_of_squares(const TwoTerms& x, const TwoTerms& y) {
-  const TwoTerms p = two_square(x.head), q = two_square(y.head);
+DoubleDouble sum_of_squares(const DoubleDouble& x, const DoubleDouble& y) {
+  const DoubleDouble p = two_square(x.head), q = two_square(y.head);
   const TwoTerms sum = two_sum(p.head, q.head);
-  return quick_two_sum(sum.head,
-                       sum.tail + ((p.tail + 2 * x.head * x.tail) + (q.tail + 2 * y.head * y.tail)));
+  return fast_two_sum(sum.head, sum.tail + ((p.tail + 2 * x.head * x.tail) + (q.tail + 2 * y.head * y.tail)));
 }
 
-TwoTerms minus(const TwoTerms& x, const TwoTerms& y) {
+DoubleDouble minus(const DoubleDouble& x, const DoubleDouble& y) {
   const TwoTerms sum = two_difference(x.head, y.head);
-  return quick_two_sum(sum.head, sum.tail + (x.tail - y.tail));
+  return fast_two_sum(sum.head, sum.tail + (x.tail - y.tail));
 }
 
 struct Vector {
-  TwoTerms x, y;
+  DoubleDouble x, y;
 
   double extent() const { return std::max(std::abs(x.head), std::abs(y.head)); }
-  TwoTerms square() const { return sum_of_squares(x, y); }
+  DoubleDouble square() const { return sum_of_squares(x, y); }
   bool is_short() const { return x.tail == 0 && y.tail == 0; }
 };
 
@@ -94,13 +85,13 @@ bool is_in_range(const Vector& side) { return side.extent() >= shortest && side.
 // The terms left out are below x^2 r <= 36 u^2 r, the residual carries 16 u^2 n of error from the products
 // and a few u of its own size, and with a relative error of `before` u^2 in n / d the root is within (before
 // / 2 + 8 + 36 + 36) u^2 r.
-Estimate root_of_quotient(const TwoTerms& n, const TwoTerms& d, double before) {
+Estimate root_of_quotient(const DoubleDouble& n, const DoubleDouble& d, double before) {
   const double root = std::sqrt(n.head / d.head);
-  const TwoTerms product = times(two_square(root), d);
+  const DoubleDouble product = two_square(root) * d;
   const double residual =
       (n.head - product.head) + (n.tail - product.tail);  // the heads' difference is exact
   const double step = residual / (2 * root * d.head);
-  const TwoTerms sum = quick_two_sum(root, step);
+  const TwoTerms sum = fast_two_sum(root, step);
   return {sum.head, sum.tail, (before / 2 + 80) * u * u * root};
 }
 
@@ -113,8 +104,7 @@ Estimate estimate_half_length(const Vector& side) {
 // The lengths of the sides and the cross product of two of them.
 struct Triangle {
   Vector ab, ac, bc;
-  TwoTerms cross{0, 0};
-  std::array<TwoTerms, 3> square{};  // of the side opposite to each corner
+  std::array<DoubleDouble, 3> square{};  // of the side opposite to each corner
 
   Triangle(const Point& a, const Point& b, const Point& c)
       : ab(from_to(a, b)), ac(from_to(a, c)), bc(from_to(b, c)) {}
@@ -127,13 +117,13 @@ struct Triangle {
 // products 76 u^2. The cross product l - r carries 8 u^2 (|l| + |r|), at most 16 k u^2 of it with
 // k = (|l| + |r|) / |cross|, and the denominator carries (32 k + 8) u^2.
 Estimate estimate_circumradius(const Triangle& t) {
-  const TwoTerms left = times(t.ab.x, t.ac.y), right = times(t.ab.y, t.ac.x);
-  const TwoTerms cross = minus(left, right);
+  const DoubleDouble left = t.ab.x * t.ac.y, right = t.ab.y * t.ac.x;
+  const DoubleDouble cross = minus(left, right);
   const double size = std::abs(cross.head);
   const double terms = std::abs(left.head) + std::abs(right.head);
   if (!(size >= least_cross) || !(terms <= size * worst_cancellation)) return unknown;
-  const TwoTerms squares = times(times(t.square[0], t.square[1]), t.square[2]);
-  const TwoTerms cross2 = times(cross, cross);
+  const DoubleDouble squares = t.square[0] * t.square[1] * t.square[2];
+  const DoubleDouble cross2 = cross * cross;
   return root_of_quotient(squares, {4 * cross2.head, 4 * cross2.tail}, 76 + 8 + 33 * (terms / size));
 }
 
@@ -173,34 +163,36 @@ Rescaled rescale(const Support& s) {
 // The square of a radius: numerator / denominator times 2^(2 exponent); a zero denominator stands for
 // infinity.
 struct SquaredRadius {
-  Natural numerator, denominator;
+  BigInteger numerator, denominator;
   int exponent;
 };
 
-Integer integer_of(double value, int exponent) {
+BigInteger integer_of(double value, int exponent) {
   const OddMantissa parts(value);
   if (parts.mantissa == 0) return {};
-  return {Natural(parts.mantissa) << (parts.exponent - exponent), parts.is_negative};
+  const BigInteger magnitude = BigInteger(parts.mantissa) << (parts.exponent - exponent);
+  return parts.is_negative ? -magnitude : magnitude;
 }
 
 SquaredRadius exact_square(const Support& s) {
   const Point& third = s.is_triangle ? s.c : s.a;
   const std::array<double, 6> values{s.a.x, s.b.x, third.x, s.a.y, s.b.y, third.y};
   const int exponent = CommonLattice(values).exponent;
-  std::array<Integer, 6> at;
+  std::array<BigInteger, 6> at;
   for (std::size_t i = 0; i < 6; ++i) at[i] = integer_of(values[i], exponent);
   const auto [ax, bx, cx, ay, by, cy] = at;
-  const auto square = [](const Integer& x, const Integer& y) { return (x * x + y * y).magnitude; };
-  const Integer ux = bx - ax, uy = by - ay, vx = cx - ax, vy = cy - ay;
+  const auto square = [](const BigInteger& x, const BigInteger& y) { return x * x + y * y; };
+  const BigInteger ux = bx - ax, uy = by - ay, vx = cx - ax, vy = cy - ay;
   if (!s.is_triangle) return {square(ux, uy), 4, exponent};
-  const Natural cross = (ux * vy - uy * vx).magnitude;
+  const BigInteger cross = ux * vy - uy * vx;
   return {square(ux, uy) * square(vx, vy) * square(vx - ux, vy - uy), cross * cross << 2, exponent};
 }
 
 // Sign of p n / (p d) times 2^(2 shift) less q.
-int compare_quotients(const Natural& pn, const Natural& pd, const Natural& qn, const Natural& qd, int shift) {
-  if (pd.is_zero() || qd.is_zero()) return int{pd.is_zero()} - int{qd.is_zero()};
-  const Natural left = pn * qd, right = qn * pd;
+int compare_quotients(const BigInteger& pn, const BigInteger& pd, const BigInteger& qn, const BigInteger& qd,
+                      int shift) {
+  if (pd.sign() == 0 || qd.sign() == 0) return int{pd.sign() == 0} - int{qd.sign() == 0};
+  const BigInteger left = pn * qd, right = qn * pd;
   return shift >= 0 ? compare(left << 2 * shift, right) : compare(left, right << -2 * shift);
 }
 
@@ -213,11 +205,12 @@ int compare_exactly(const Support& p, const Support& q) {
 // bits and set right by comparing with the midpoints around it.
 double round_exactly(const Support& s) {
   const SquaredRadius square = exact_square(s);
-  if (square.denominator.is_zero()) return std::numeric_limits<double>::infinity();
-  if (square.numerator.is_zero()) return 0;
-  int power = square.numerator.width() - square.denominator.width() + 2 * square.exponent;
-  double quotient =
-      static_cast<double>(square.numerator.leading()) / static_cast<double>(square.denominator.leading());
+  if (square.denominator.sign() == 0) return std::numeric_limits<double>::infinity();
+  if (square.numerator.sign() == 0) return 0;
+  int power = static_cast<int>(square.numerator.bits()) - static_cast<int>(square.denominator.bits()) +
+              2 * square.exponent;
+  double quotient = static_cast<double>(square.numerator.leading_bits()) /
+                    static_cast<double>(square.denominator.leading_bits());
   if (power % 2 != 0) {
     quotient *= 2;
     --power;
@@ -227,7 +220,7 @@ double round_exactly(const Support& s) {
   auto mantissa = static_cast<std::uint64_t>(std::ldexp(root, power / 2 - exponent));
   // sign of the radius less half * 2^(exponent - 1)
   const auto compare_with = [&](std::uint64_t half) {
-    return compare_quotients(square.numerator, square.denominator, Natural(half) * Natural(half), 1,
+    return compare_quotients(square.numerator, square.denominator, BigInteger(half) * BigInteger(half), 1,
                              square.exponent - (exponent - 1));
   };
   for (int sign = 1; sign > 0;) {
@@ -317,7 +310,7 @@ bool is_exact_product(double a, double b) {
 bool is_obtuse_exactly(const Point& a, const Point& b, const Point& p) {
   const std::array<double, 6> values{a.x, a.y, b.x, b.y, p.x, p.y};
   const int exponent = CommonLattice(values).exponent;
-  std::array<Integer, 6> at;
+  std::array<BigInteger, 6> at;
   for (std::size_t i = 0; i < 6; ++i) at[i] = integer_of(values[i], exponent);
   return ((at[0] - at[4]) * (at[2] - at[4]) + (at[1] - at[5]) * (at[3] - at[5])).sign() < 0;
 }

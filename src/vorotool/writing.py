@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import UsageError
 
@@ -92,7 +92,19 @@ def write(
     for option, number in (("flatten", flatten), ("precision", precision)):
         if number is not None:
             raise UsageError(f"{option} is for numbers in text: leave it out of pictures")
-    _draw(value, fspath(path), name, what, layers, width, y_up, checked_threads(threads))
+    _draw(value, _Picture(fspath(path), name, what, layers, width, y_up, checked_threads(threads)))
+
+
+class _Picture(NamedTuple):
+    """What is wanted of a picture."""
+
+    path: str
+    fmt: str
+    what: str | None
+    layers: Sequence[str] | None
+    width: int | None
+    y_up: bool | None
+    threads: int
 
 
 def _is_image_of_labels(value: Any, fmt: str, what: str | None) -> bool:
@@ -101,16 +113,7 @@ def _is_image_of_labels(value: Any, fmt: str, what: str | None) -> bool:
     return isinstance(value, LabelImage) and fmt == "png" and what is None
 
 
-def _draw(
-    value: Any,
-    path: str,
-    fmt: str,
-    what: str | None,
-    layers: Sequence[str] | None,
-    width: int | None,
-    y_up: bool | None,
-    threads: int,
-) -> None:
+def _draw(value: Any, wanted: _Picture) -> None:
     from vorotool.formats.outputs import open_output
     from vorotool.geometry.frame import MAX_PIXELS
     from vorotool.geometry.label_image import LabelImage
@@ -118,43 +121,34 @@ def _draw(
     from vorotool.render.layers_png import check_picture_size
 
     if isinstance(value, LabelImage):
-        _draw_labels(value, path, fmt, what, layers, width, y_up, threads)
+        _draw_labels(value, wanted)
         return
-    drawing = drawing_of(value, what=what, layers=layers, width=width or 1000, y_up=y_up)
-    if fmt == "png":
+    drawing = drawing_of(value, what=wanted.what, layers=wanted.layers, width=wanted.width or 1000, y_up=wanted.y_up)
+    if wanted.fmt == "png":
         check_picture_size(drawing.page, MAX_PIXELS)
-    with open_output(path, binary=fmt == "png") as out:
-        write_layers(out, drawing.layers, drawing.page, fmt=fmt, threads=threads)
+    with open_output(wanted.path, binary=wanted.fmt == "png") as out:
+        write_layers(out, drawing.layers, drawing.page, fmt=wanted.fmt, threads=wanted.threads)
 
 
-def _draw_labels(
-    image: LabelImage,
-    path: str,
-    fmt: str,
-    what: str | None,
-    layers: Sequence[str] | None,
-    width: int | None,
-    y_up: bool | None,
-    threads: int,
-) -> None:
+def _draw_labels(image: LabelImage, wanted: _Picture) -> None:
     from vorotool.engines.regions import region_colours
     from vorotool.formats.outputs import open_output
     from vorotool.pictures import write_label_picture
 
-    if what not in (None, "colour", "color"):
-        raise UsageError(f"what={what!r} is no picture of a LabelImage: use colour, or leave it out")
-    if fmt == "png" and width is not None:
+    if wanted.what not in (None, "colour", "color"):
+        raise UsageError(f"what={wanted.what!r} is no picture of a LabelImage: use colour, or leave it out")
+    if wanted.fmt == "png" and wanted.width is not None:
         raise UsageError("the PNG of a label image has its own size: leave width out, or use fmt='svg'")
     seeds = ("seeds",) if image.seeds is not None else ()
-    colours = region_colours(image, threads=threads)
-    with open_output(path, binary=fmt == "png") as out:
+    colours = region_colours(image, threads=wanted.threads)
+    with open_output(wanted.path, binary=wanted.fmt == "png") as out:
         write_label_picture(
             out,
             image,
             colours,
-            fmt=fmt,
-            layers=layers or ("cells", *seeds),
-            width=width or 1000,
-            y_up=bool(y_up),
-            threads=threads,
+            fmt=wanted.fmt,
+            layers=wanted.layers or ("cells", *seeds),
+            width=wanted.width or 1000,
+            y_up=bool(wanted.y_up),
+            threads=wanted.threads,
         )

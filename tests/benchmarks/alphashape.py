@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import argparse
 import sys
-import time
 from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
@@ -20,6 +19,7 @@ sys.path.pop(0)  # this file is not the peer of its name
 sys.path.insert(0, str(Path(__file__).parents[1]))
 import point_families
 import vorotool
+from benchmarks.timing import best
 
 
 def gudhi_values(points: np.ndarray, _r: float) -> object:
@@ -49,17 +49,6 @@ PEERS: dict[str, tuple[Callable[[np.ndarray, float], object], str, int]] = {
     "shapely": (shapely_concave_hull, "concave hull", 10**6),
 }
 """What a peer runs, what that gives, and the most points that it is run on."""
-
-
-def best(function: Callable[[], object], runs: int) -> float:
-    """Least seconds of several runs."""
-    times = []
-    for _ in range(runs):
-        start = time.perf_counter()
-        result = function()
-        times.append(time.perf_counter() - start)
-        del result
-    return min(times)
 
 
 def measure(n: int, threads: list[int], runs: int, peers: list[str]) -> str:

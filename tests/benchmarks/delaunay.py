@@ -13,7 +13,6 @@ import argparse
 import subprocess
 import sys
 import tempfile
-import time
 from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
@@ -23,6 +22,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1]))
 import point_families
 import vorotool
+from benchmarks.timing import best
 from vorotool import _core
 
 
@@ -114,15 +114,9 @@ def measured_peak(who: str, points: np.ndarray) -> str:
         return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
 
 
-def best(function: Callable[[], object], n: int, runs: int) -> float:
+def nanoseconds(function: Callable[[], object], n: int, runs: int) -> float:
     """Least nanoseconds a point of several runs."""
-    times = []
-    for _ in range(runs):
-        start = time.perf_counter()
-        result = function()
-        times.append(time.perf_counter() - start)
-        del result
-    return 1e9 * min(times) / n
+    return 1e9 * best(function, runs) / n
 
 
 def measure(name: str, n: int, threads: int, runs: int, peers: list[str]) -> str:
@@ -132,14 +126,14 @@ def measure(name: str, n: int, threads: int, runs: int, peers: list[str]) -> str
     row = f"| {name} | {n:,} |"
     for count in sorted({1, threads}):
         mesh = _core.DelaunayMesh(points, count, None)
-        made = best(lambda count=count: _core.DelaunayMesh(points, count, None), n, runs)
-        written = best(lambda mesh=mesh, count=count: mesh.arrays(count, None), n, runs)
-        whole = best(lambda count=count: vorotool.delaunay(points, threads=count), n, runs)
+        made = nanoseconds(lambda count=count: _core.DelaunayMesh(points, count, None), n, runs)
+        written = nanoseconds(lambda mesh=mesh, count=count: mesh.arrays(count, None), n, runs)
+        whole = nanoseconds(lambda count=count: vorotool.delaunay(points, threads=count), n, runs)
         row += f" {made:.0f} + {written:.0f} | {whole:.0f} |"
     row += f" {measured_peak('vorotool', points)} |"
     for peer in peers:
         given = PREPARED.get(peer, np.asarray)(points)
-        taken = best(lambda peer=peer, given=given: PEERS[peer](given), n, 1 if n >= 10**6 else 2)
+        taken = nanoseconds(lambda peer=peer, given=given: PEERS[peer](given), n, 1 if n >= 10**6 else 2)
         row += f" {taken:,.0f} ({taken / whole:,.1f} ×) | {measured_peak(peer, points)} |"
     return row
 

@@ -4,19 +4,23 @@
 """
 
 import sys
-import time
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 from scipy.ndimage import gaussian_filter, zoom
 from skimage.morphology import medial_axis, skeletonize
 
+sys.path.insert(0, str(Path(__file__).parents[1]))
 import vorotool
+from benchmarks.timing import timed
 from vorotool.engines.outlines import outlines
 from vorotool.engines.pruning import default_pruning_for_masks
 
 RUNS = 3
+seconds = partial(timed, runs=RUNS)
+"""Of several runs the least, and what the last one gave."""
 FINE = 8
 """Pixels a sample of the smooth fields that masks are drawn from."""
 
@@ -38,16 +42,6 @@ def tables(skeleton):
     """Branches and polygons, nothing kept from an earlier call."""
     skeleton = replace(skeleton)
     return vorotool.branch_table(skeleton), vorotool.polygon_table(skeleton)
-
-
-def seconds(function):
-    """Least of several runs, and what the last one gave."""
-    best = np.inf
-    for _ in range(RUNS):
-        begin = time.perf_counter()
-        made = function()
-        best = min(best, time.perf_counter() - begin)
-    return best, made
 
 
 def pruned(skeleton):

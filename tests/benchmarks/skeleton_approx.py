@@ -9,15 +9,21 @@ import sys
 import time
 import warnings
 from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 from multiprocessing import get_context
+from pathlib import Path
 
 import numpy as np
 import shapely
 
+sys.path.insert(0, str(Path(__file__).parents[1]))
 import vorotool
+from benchmarks.timing import timed
 from vorotool.engines.skeleton_comparison import distances_to, places_on_arcs
 
 RUNS = 3
+seconds = partial(timed, runs=RUNS)
+"""Of several runs the least, and what the last one gave."""
 EDGES = 1000
 PEER_EDGES, PEER_STEPS = 200, (4.0, 1.0)
 
@@ -32,16 +38,6 @@ def star(edges):
 def peak():
     """Megabytes that the process has held at most."""
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-
-
-def seconds(function):
-    """Least of several runs, and what the last one gave."""
-    best = np.inf
-    for _ in range(RUNS):
-        begin = time.perf_counter()
-        made = function()
-        best = min(best, time.perf_counter() - begin)
-    return best, made
 
 
 def whole(seeds, threads):

@@ -8,7 +8,7 @@ import pytest
 
 import segment_cases
 import segment_oracle
-from segment_oracle import Site, certain, clearance, counter_clockwise, sign, tangent_circles, touches
+from tangent_discs import Site, certain, clearance, counter_clockwise, sign, sites_of, tangent_circles, touches
 from vorotool import _core
 
 NO_DISC = 2
@@ -136,7 +136,7 @@ def test_the_same_disc():
     rng = random.Random(5)
     seen = {0: 0, 1: 0}
     for _ in range(30):
-        sites = segment_oracle.sites_of(*segment_cases.random_graph(rng, 7, 4, rng.choice([1, 1, 2, 3])))
+        sites = sites_of(*segment_cases.random_graph(rng, 7, 4, rng.choice([1, 1, 2, 3])))
         triples = [
             (v, case)
             for v, vertex in enumerate(segment_oracle.find_vertices(sites))
@@ -167,7 +167,7 @@ def corner_order(ring, sites, chosen):
 
 def inserted(points, edges):
     """The diagram without the last segment and with it, as (sites, vertices, edges) and (vertices, edges)."""
-    sites = segment_oracle.sites_of(points, edges)
+    sites = sites_of(points, edges)
     old, new = (segment_oracle.find_vertices(s) for s in (sites[:-1], sites))
     return sites, old, segment_oracle.find_edges(sites[:-1], old), new, segment_oracle.find_edges(sites, new)
 

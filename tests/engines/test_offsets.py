@@ -1,16 +1,12 @@
 """Offsets of shapes beside the buffers of shapely, and what their checker finds."""
 
-import sys
 import warnings
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import vorotool
-
-sys.path.insert(0, str(Path(__file__).parents[1]))
 from fuzz.offsets import SHAPES, failure
 
 ROOMS = [[0, 0], [4, 0], [4, 1], [6, 1], [6, 0], [10, 0], [10, 4], [6, 4], [6, 2], [4, 2], [4, 4], [0, 4]]

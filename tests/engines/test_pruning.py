@@ -1,21 +1,15 @@
 """Pruned skeletons and centerlines: beside brute force, nested, connected."""
 
-import sys
 import warnings
-from pathlib import Path
 
 import networkx
 import numpy as np
 import pytest
 
 import vorotool
-from vorotool.errors import UsageError
-
-sys.path.insert(0, str(Path(__file__).parents[1]))
-sys.path.insert(0, str(Path(__file__).parents[1] / "fuzz"))
-import pruning as fuzzer
-
+from fuzz.pruning import failure
 from skeleton_shapes import FAMILIES
+from vorotool.errors import UsageError
 
 COMB = [[0, 0], [30, 0], [30, 6], [26, 6], [26, 12], [24, 12], [24, 6], [6, 6], [6, 9], [4, 9], [4, 6], [0, 6]]
 
@@ -26,7 +20,7 @@ def test_brute_force_agrees_and_results_are_nested(family):
         warnings.simplefilter("ignore")
         for seed in range(2):
             random = np.random.default_rng(seed)
-            assert fuzzer.failure(family(random), random) is None
+            assert failure(family(random), random) is None
 
 
 @pytest.mark.parametrize("criterion", ["angle", "chord", "scale", "length", "ratio"])

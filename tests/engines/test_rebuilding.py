@@ -1,19 +1,15 @@
 """Shapes rebuilt from their skeletons, beside what these were made of and beside discs."""
 
-import sys
 import warnings
-from pathlib import Path
 
 import numpy as np
 import pytest
 import shapely
 
 import vorotool
-from vorotool.geometry.polygon_conversion import to_shapely
-
-sys.path.insert(0, str(Path(__file__).parents[1]))
 from offset_oracle import check_rebuilt
 from skeleton_shapes import FAMILIES, TOUCHING
+from vorotool.geometry.polygon_conversion import to_shapely
 
 
 def skeleton_of(shape):

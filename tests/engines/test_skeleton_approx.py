@@ -1,22 +1,16 @@
 """Approximate skeletons: their checker on broken shapes, and their bounds beside the exact skeleton."""
 
-import sys
 import warnings
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import vorotool
+from fuzz.skeleton_approx import failure
+from fuzz.skeleton_bounds import Shape, check_steps, check_tolerances, random_shapes
+from skeleton_shapes import FAMILIES, regular
 from vorotool.engines.skeleton_comparison import distances_to, places_on_arcs
 from vorotool.errors import UsageError
-
-sys.path.insert(0, str(Path(__file__).parents[1]))
-sys.path.insert(0, str(Path(__file__).parents[1] / "fuzz"))
-import skeleton_approx as fuzzer
-from skeleton_bounds import Shape, check_steps, check_tolerances, random_shapes
-
-from skeleton_shapes import FAMILIES, regular
 
 SHAPES = random_shapes(np.random.default_rng(1))
 
@@ -26,7 +20,7 @@ def test_broken_shapes_pass_the_checker(family):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         rng = np.random.default_rng(5)
-        assert fuzzer.failure(family(rng), rng) is None
+        assert failure(family(rng), rng) is None
 
 
 @pytest.mark.parametrize("name", ["random 0", "random 1", "holes 0"])

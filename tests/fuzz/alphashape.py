@@ -7,11 +7,8 @@ must give the same radii.
 
 from __future__ import annotations
 
-import argparse
 import sys
-import time
 import warnings
-from collections import Counter
 from fractions import Fraction
 from pathlib import Path
 
@@ -19,6 +16,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from alpha_oracle import alpha_edges
+from fuzz.runner import Cases, options
 from point_families import FAMILIES, draw
 from vorotool import VorotoolError, alpha_complex, alpha_shape, verify_alpha_shape
 from vorotool.geometry.alpha_complex import CLASSES, classes_of
@@ -63,37 +61,23 @@ def shape_at(family: object, rank: int) -> dict[frozenset[tuple[Fraction, Fracti
 
 def main() -> int:
     """Run all cases; exit 1 if any failed."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--cases", type=int, default=20_000)
-    parser.add_argument("--seed", type=int, default=1)
-    arguments = parser.parse_args()
+    cases = Cases(options(20_000).parse_args())
     warnings.simplefilter("ignore")
-    names = list(FAMILIES)
-    cases: Counter[str] = Counter()
-    failed = skipped = 0
-    start = time.monotonic()
-    for case in range(arguments.cases):
-        rng = np.random.default_rng([arguments.seed, case])
-        name = names[case % len(names)]
+    names, skipped = list(FAMILIES), 0
+    for case in cases:
+        rng, name = cases.random(case), names[case % len(names)]
         n = (
             int(rng.integers(2, SMALL + 1))
             if rng.random() < 0.7
             else int(2 ** rng.uniform(3, 5 if name in SLOW else 9))
         )
-        points = draw(name, n, [arguments.seed, case])
+        points = draw(name, n, cases.seed(case))
         if len(np.unique(points, axis=0)) < 2:
             skipped += 1
             continue
-        wrong = failure(points, rng)
-        if wrong:
-            print(f"wrong: seed {arguments.seed}, case {case}, {name}, {len(points)} points: {wrong}")
-        cases[name] += 1
-        failed += wrong is not None
-    for name, count in cases.items():
-        print(f"{name:18} {count:10,} cases")
-    seconds = time.monotonic() - start
-    print(f"{arguments.cases:,} cases, {skipped} of a single point, {failed} failures, {seconds:.0f} s")
-    return int(failed > 0)
+        cases.judge(case, name, failure(points, rng), f"{len(points)} points")
+    cases.print_families()
+    return cases.end(f"cases, {skipped} of a single point")
 
 
 if __name__ == "__main__":

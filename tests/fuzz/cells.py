@@ -7,9 +7,7 @@ the arrays of the triangulation of all.
 
 from __future__ import annotations
 
-import argparse
 import sys
-import time
 import warnings
 from collections import Counter
 from pathlib import Path
@@ -18,6 +16,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from cells_oracle import exact_cells, nearest_double
+from fuzz.runner import Cases, options
 from point_families import FAMILIES, draw
 from vorotool import Box, VorotoolError, _core, delaunay, verify_cells, voronoi_cells
 
@@ -74,29 +73,20 @@ def wrong_insertion(points: np.ndarray, rng: np.random.Generator, local: Counter
 
 def main() -> int:
     """Run all cases; exit 1 if any failed."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--cases", type=int, default=20_000)
-    parser.add_argument("--seed", type=int, default=1)
-    arguments = parser.parse_args()
+    cases = Cases(options(20_000).parse_args())
     warnings.simplefilter("ignore")
     names = list(FAMILIES)
     local: Counter[str] = Counter()
-    failed = points_seen = 0
-    start = time.monotonic()
-    for case in range(arguments.cases):
-        rng = np.random.default_rng([arguments.seed, case])
-        name = names[case % len(names)]
+    points_seen = 0
+    for case in cases:
+        rng, name = cases.random(case), names[case % len(names)]
         most = 5 if name == "any_double" else 9  # there exact arithmetic takes thousands of bits
         n = int(rng.integers(1, SMALL + 1)) if rng.random() < 0.5 else int(2 ** rng.uniform(3, most))
-        points = draw(name, n, [arguments.seed, case])
-        for wrong in (wrong_cells(points, rng), wrong_insertion(points, rng, local)):
-            if wrong:
-                print(f"wrong: seed {arguments.seed}, case {case}, {name}, {len(points)} points: {wrong}")
-                failed += 1
+        points = draw(name, n, cases.seed(case))
+        wrong = filter(None, (wrong_cells(points, rng), wrong_insertion(points, rng, local)))
+        cases.judge(case, name, "; ".join(wrong) or None, f"{len(points)} points")
         points_seen += len(points)
-    seconds = time.monotonic() - start
-    print(f"{arguments.cases:,} cases, {points_seen:,} points, {dict(local)}, {failed} failures, {seconds:.0f} s")
-    return int(failed > 0)
+    return cases.end(f"cases, {points_seen:,} points, {dict(local)}")
 
 
 if __name__ == "__main__":

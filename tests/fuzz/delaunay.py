@@ -6,17 +6,15 @@ permutation of its points and another number of threads, which must give the sam
 
 from __future__ import annotations
 
-import argparse
 import sys
-import time
 import warnings
-from collections import Counter
 from pathlib import Path
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from delaunay_oracle import delaunay_triangles
+from fuzz.runner import Cases, options
 from point_families import FAMILIES, draw
 from vorotool import VorotoolError, delaunay, verify_triangulation
 
@@ -47,31 +45,17 @@ def failure(points: np.ndarray, rng: np.random.Generator) -> str | None:
 
 def main() -> int:
     """Run all cases; exit 1 if any failed."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--cases", type=int, default=10**5)
-    parser.add_argument("--seed", type=int, default=1)
-    arguments = parser.parse_args()
+    cases = Cases(options(10**5).parse_args())
     warnings.simplefilter("ignore")
-    names = list(FAMILIES)
-    cases: Counter[str] = Counter()
-    points_seen = failed = 0
-    start = time.monotonic()
-    for case in range(arguments.cases):
-        rng = np.random.default_rng([arguments.seed, case])
-        name = names[case % len(names)]
+    names, points_seen = list(FAMILIES), 0
+    for case in cases:
+        rng, name = cases.random(case), names[case % len(names)]
         n = int(rng.integers(0, SMALL + 1)) if rng.random() < 0.5 else int(2 ** rng.uniform(3, 10 if case % 50 else 13))
-        points = draw(name, n, [arguments.seed, case])
-        wrong = failure(points, rng)
-        if wrong:
-            print(f"wrong: seed {arguments.seed}, case {case}, {name}, {len(points)} points: {wrong}")
-        cases[name] += 1
+        points = draw(name, n, cases.seed(case))
+        cases.judge(case, name, failure(points, rng), f"{len(points)} points")
         points_seen += len(points)
-        failed += wrong is not None
-    for name, count in cases.items():
-        print(f"{name:18} {count:10,} cases")
-    seconds = time.monotonic() - start
-    print(f"{arguments.cases:,} cases, {points_seen:,} points, {failed} failures, {seconds:.0f} s")
-    return int(failed > 0)
+    cases.print_families()
+    return cases.end(f"cases, {points_seen:,} points")
 
 
 if __name__ == "__main__":

@@ -7,15 +7,16 @@ how many sets needed each step of the repair.
 
 from __future__ import annotations
 
-import argparse
 import sys
-import time
 import warnings
 from collections import Counter
 from dataclasses import asdict
+from pathlib import Path
 
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from fuzz.runner import Cases, options
 from vorotool import VorotoolError, delaunay, repair_digital, verify_triangulation
 
 SIDES = (64, 128, 256, 512, 1024)
@@ -84,31 +85,20 @@ def failure(m, seeds, needed):
 
 def main() -> int:
     """Run all sets; exit 1 if any failed."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--sets", type=int, default=500)
-    parser.add_argument("--seed", type=int, default=1)
-    arguments = parser.parse_args()
+    sets = Cases(options(500, "set").parse_args(), "set")
     warnings.simplefilter("ignore")
     needed: Counter[str] = Counter()
-    drawn: Counter[str] = Counter()
-    sites = failed = 0
-    start = time.monotonic()
-    for number in range(arguments.sets):
-        name, m, seeds = draw(np.random.default_rng([arguments.seed, number]))
+    sites = 0
+    for number in sets:
+        name, m, seeds = draw(sets.random(number))
         if len(seeds) == 0:
             seeds = np.array([[m // 2, m // 2]])
-        wrong = failure(m, seeds, needed)
-        if wrong:
-            print(f"wrong: seed {arguments.seed}, set {number}, {name}, {len(seeds)} seeds in {m} x {m}: {wrong}")
-        drawn[name] += 1
+        sets.judge(number, name, failure(m, seeds, needed), f"{len(seeds)} seeds in {m} x {m}")
         sites += len(seeds)
-        failed += wrong is not None
-    print(", ".join(f"{name} {count}" for name, count in sorted(drawn.items())))
+    sets.print_families()
     for name, count in sorted(needed.items()):
-        print(f"{name:20} in {count:6,} of {arguments.sets:,} sets")
-    seconds = time.monotonic() - start
-    print(f"{arguments.sets:,} sets, {sites:,} sites, {failed} failures, {seconds:.0f} s")
-    return int(failed > 0)
+        print(f"{name:20} in {count:6,} of {sets.count:,} sets")
+    return sets.end(f"sets, {sites:,} sites")
 
 
 if __name__ == "__main__":

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
-import time
 import warnings
 from pathlib import Path
 
@@ -12,6 +10,7 @@ import numpy as np
 import shapely
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
+from fuzz.runner import Cases, options
 from offset_oracle import check_offsets, check_rebuilt
 from skeleton_shapes import FAMILIES, TOUCHING
 from vorotool import VorotoolError, offset, rebuild, skeleton_exact, verify_offsets
@@ -50,23 +49,12 @@ def failure(shape: object, random: np.random.Generator) -> str | None:
 
 def main() -> int:
     """Run all cases; exit 1 if any failed."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--cases", type=int, default=1000)
-    parser.add_argument("--first", type=int, default=0)
-    parser.add_argument("--seed", type=int, default=1)
-    arguments = parser.parse_args()
+    cases = Cases(options(1000).parse_args())
     warnings.simplefilter("ignore")
-    start, failed = time.monotonic(), 0
-    for case in range(arguments.first, arguments.first + arguments.cases):
-        family = SHAPES[case % len(SHAPES)]
-        random = np.random.default_rng([arguments.seed, case])
-        wrong = failure(family(random), random)
-        if wrong:
-            print(f"wrong: seed {arguments.seed}, case {case}, {family.__name__}: {wrong}", flush=True)
-        failed += wrong is not None
-    count = arguments.cases
-    print(f"{count:,} shapes x {DISTANCES} distances, {failed} failures, {time.monotonic() - start:.0f} s")
-    return int(failed > 0)
+    for case in cases:
+        family, random = SHAPES[case % len(SHAPES)], cases.random(case)
+        cases.judge(case, family.__name__, failure(family(random), random))
+    return cases.end(f"shapes x {DISTANCES} distances")
 
 
 if __name__ == "__main__":

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
-import time
 import warnings
 from pathlib import Path
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
+from fuzz.runner import Cases, options
 from outline_oracle import numbered_objects, pixel_sides, random_labels, ring_areas, unit_sides
 from vorotool import VorotoolError, VorotoolWarning, outlines, planar_graph, skeleton_exact, verify_skeleton
 
@@ -45,19 +44,11 @@ def faces_of(graph: object) -> list[tuple[int, ...]]:
 
 def main() -> int:
     """Run all cases; exit 1 if any failed."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--cases", type=int, default=20000)
-    parser.add_argument("--seed", type=int, default=1)
-    arguments = parser.parse_args()
+    cases = Cases(options(20_000).parse_args())
     warnings.simplefilter("error", VorotoolWarning)
-    start, failed = time.monotonic(), 0
-    for case in range(arguments.cases):
-        wrong = failure(np.random.default_rng([arguments.seed, case]))
-        if wrong:
-            print(f"wrong: seed {arguments.seed}, case {case}: {wrong}")
-        failed += wrong is not None
-    print(f"{arguments.cases:,} images, {failed} failures, {time.monotonic() - start:.0f} s")
-    return int(failed > 0)
+    for case in cases:
+        cases.judge(case, "", failure(cases.random(case)))
+    return cases.end("images")
 
 
 if __name__ == "__main__":

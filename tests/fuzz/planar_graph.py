@@ -6,17 +6,15 @@ ones are compared with the definition in rationals: segments, the edges that eac
 
 from __future__ import annotations
 
-import argparse
 import sys
-import time
 import warnings
-from collections import Counter
 from pathlib import Path
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 import planar_graph_oracle as oracle
+from fuzz.runner import Cases, options
 from polygon_families import FAMILIES, LINE, draw
 from vorotool import PlanarGraph, PolygonSet, VorotoolError, _core, verify_planar_graph
 from vorotool.geometry.planar_graph import REPAIRS
@@ -66,33 +64,20 @@ def failure(vertices: np.ndarray, rings: list[tuple[int, int, int, int]]) -> str
 
 def main() -> int:
     """Run all cases; exit 1 if any failed."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--cases", type=int, default=10**5)
-    parser.add_argument("--seed", type=int, default=1)
-    arguments = parser.parse_args()
+    cases = Cases(options(10**5).parse_args())
     warnings.simplefilter("ignore")
     names = list(FAMILIES)
-    cases: Counter[str] = Counter()
-    failed = 0
-    start = time.monotonic()
-    for case in range(arguments.cases):
-        rng = np.random.default_rng([arguments.seed, case])
-        name = names[case % len(names)]
+    for case in cases:
+        rng, name = cases.random(case), names[case % len(names)]
         n = int(rng.integers(1, SMALL + 1)) if rng.random() < 0.5 else int(2 ** rng.uniform(3, 8))
-        vertices, rings = draw(name, n, [arguments.seed, case])
+        vertices, rings = draw(name, n, cases.seed(case))
         try:
             wrong = failure(vertices, rings)
         except Exception as error:  # whatever it is, the case is to be known
             wrong = repr(error)
-        if wrong:
-            print(f"wrong: seed {arguments.seed}, case {case}, {name}, {len(vertices)} vertices: {wrong}")
-        cases[name] += 1
-        failed += wrong is not None
-    for name, count in cases.items():
-        print(f"{name:18} {count:10,} cases")
-    seconds = time.monotonic() - start
-    print(f"{arguments.cases:,} cases, {failed} failures, {seconds:.0f} s")
-    return int(failed > 0)
+        cases.judge(case, name, wrong, f"{len(vertices)} vertices")
+    cases.print_families()
+    return cases.end("cases")
 
 
 if __name__ == "__main__":

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
-import time
 import warnings
 from pathlib import Path
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
+from fuzz.runner import Cases, options
 from pruning_oracle import disagreement, thresholds
 from skeleton_shapes import FAMILIES
 from vorotool import VorotoolError, critical_values, prune, skeleton_exact, verify_pruning
@@ -41,21 +40,12 @@ def failure(shape: object, random: np.random.Generator) -> str | None:
 
 def main() -> int:
     """Run all cases; exit 1 if any failed."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--cases", type=int, default=1000)
-    parser.add_argument("--seed", type=int, default=1)
-    arguments = parser.parse_args()
+    cases = Cases(options(1000).parse_args())
     warnings.simplefilter("ignore")
-    start, failed = time.monotonic(), 0
-    for case in range(arguments.cases):
-        family = FAMILIES[case % len(FAMILIES)]
-        random = np.random.default_rng([arguments.seed, case])
-        wrong = failure(family(random), random)
-        if wrong:
-            print(f"wrong: seed {arguments.seed}, case {case}, {family.__name__}: {wrong}")
-        failed += wrong is not None
-    print(f"{arguments.cases:,} shapes, {failed} failures, {time.monotonic() - start:.0f} s")
-    return int(failed > 0)
+    for case in cases:
+        family, random = FAMILIES[case % len(FAMILIES)], cases.random(case)
+        cases.judge(case, family.__name__, failure(family(random), random))
+    return cases.end("shapes")
 
 
 if __name__ == "__main__":

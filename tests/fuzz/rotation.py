@@ -5,11 +5,8 @@ A third of the rotated shapes is rounded to 2^-20 of the extent too, so that ver
 
 from __future__ import annotations
 
-import argparse
 import sys
-import time
 import warnings
-from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +14,7 @@ import numpy as np
 from scipy.ndimage import gaussian_filter
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
+from fuzz.runner import Cases, options
 from rotation_oracle import Pair, Rotation, fault
 from skeleton_shapes import holed, several, star, valid
 from vorotool import InputError, outlines
@@ -32,9 +30,8 @@ def mask(rng: np.random.Generator) -> Any:
 FAMILIES = (valid, star, holed, mask, several)
 
 
-def failure(case: int, seed: int, worst: dict[int, float]) -> str | None:
+def failure(case: int, random: np.random.Generator, worst: dict[int, float]) -> str | None:
     """What is wrong with a case, if anything; ``repaired`` if edges meet, so that there is nothing to compare."""
-    random = np.random.default_rng([seed, case])
     shape = as_polygons(FAMILIES[case % len(FAMILIES)](random))
     step = 0.0 if case % 3 or not len(shape.xy) else float(np.ptp(shape.xy, axis=0).max()) * 2.0**-20
     try:
@@ -46,24 +43,16 @@ def failure(case: int, seed: int, worst: dict[int, float]) -> str | None:
 
 def main() -> int:
     """Run all cases; exit 1 if any failed."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--cases", type=int, default=1000)
-    parser.add_argument("--seed", type=int, default=1)
-    arguments = parser.parse_args()
+    cases = Cases(options(1000).parse_args())
     warnings.simplefilter("ignore")
-    start, results, worst = time.monotonic(), Counter[str](), dict[int, float]()
-    for case in range(arguments.cases):
-        wrong = failure(case, arguments.seed, worst)
-        if wrong not in (None, "repaired"):
-            print(f"wrong: seed {arguments.seed}, case {case}: {wrong}")
-        results["right" if wrong is None else "repaired" if wrong == "repaired" else "wrong"] += 1
+    repaired, worst = 0, dict[int, float]()
+    for case in cases:
+        wrong = failure(case, cases.random(case), worst)
+        repaired += wrong == "repaired"
+        cases.judge(case, FAMILIES[case % len(FAMILIES)].__name__, None if wrong == "repaired" else wrong)
     moves = ", ".join(f"{angle} degrees: {move:.3f}" for angle, move in sorted(worst.items()))
-    print(
-        f"{arguments.cases:,} shapes, {results['repaired']} of them repaired, {results['wrong']} failures, "
-        f"{time.monotonic() - start:.0f} s"
-    )
     print(f"largest moves of what is pruned by an angle, as multiples of the placement: {moves}")
-    return int(results["wrong"] > 0)
+    return cases.end(f"shapes, {repaired} of them repaired")
 
 
 if __name__ == "__main__":

@@ -10,7 +10,6 @@ few sites with brute force.
 
 from __future__ import annotations
 
-import argparse
 import sys
 import time
 from collections import Counter
@@ -22,6 +21,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1]))
 import boost_oracle
 import segment_oracle
+from fuzz.runner import Cases, options
 from segment_families import FAMILIES, LIMIT, coarse, draw, renumbered, symmetries
 from vorotool import VorotoolError
 from vorotool.engines.segment_verification import verify_segment_voronoi
@@ -125,42 +125,29 @@ def failure(points: np.ndarray, segments: np.ndarray, rng: np.random.Generator, 
 
 def main() -> int:
     """Run the cases; exit 1 if any failed."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--cases", type=int, default=10**4)
-    parser.add_argument("--first", type=int, default=0)
-    parser.add_argument("--seconds", type=float, default=np.inf, help="begin no case after so many")
-    parser.add_argument("--seed", type=int, default=1)
+    parser = options(10**4)
     parser.add_argument(
         "--symmetries", type=int, choices=range(1, 9), default=8, help="that each graph is checked under"
     )
     parser.add_argument("--largest", type=int, default=400)
     parser.add_argument("--family", choices=FAMILIES, nargs="+", default=list(FAMILIES))
     arguments = parser.parse_args()
-    done: Counter[str] = Counter()
-    seconds: Counter[str] = Counter()
-    segments_seen = failed = 0
-    start = time.monotonic()
-    case = arguments.first
-    while case < arguments.first + arguments.cases and time.monotonic() < start + arguments.seconds:
+    cases, done, seconds = Cases(arguments), Counter[str](), Counter[str]()
+    segments_seen = 0
+    for case in cases:
         drawing, symmetry = divmod(case, arguments.symmetries)
         name = arguments.family[drawing % len(arguments.family)]
-        n = int(np.exp(np.random.default_rng([arguments.seed, drawing]).uniform(0, np.log(arguments.largest))))
-        points, segments = draw(name, n, [arguments.seed, drawing])
+        n = int(np.exp(cases.random(drawing).uniform(0, np.log(arguments.largest))))
+        points, segments = draw(name, n, cases.seed(drawing))
         points = list(symmetries(points))[(symmetry + drawing * (arguments.symmetries < 8)) % 8]
         begin = time.monotonic()
-        wrong = failure(points, segments, np.random.default_rng([arguments.seed, drawing, symmetry]), done)
+        wrong = failure(points, segments, cases.random(drawing, symmetry), done)
         seconds[name] += time.monotonic() - begin
-        if wrong:
-            print(f"wrong: seed {arguments.seed}, case {case}, {name}, {len(segments)} segments: {wrong}", flush=True)
-        done[name] += 1
+        cases.judge(case, name, wrong, f"{len(segments)} segments")
         segments_seen += len(segments)
-        failed += wrong is not None
-        case += 1
-    for name, count in done.items():
+    for name, count in (cases.families + done).items():
         print(f"{name:18} {count:8,} cases {f'{seconds[name]:8.1f} s' if name in seconds else ''}")
-    count = case - arguments.first
-    print(f"cases {arguments.first} to {case - 1}: {count:,} cases, {segments_seen:,} segments, {failed} failures")
-    return int(failed > 0)
+    return cases.end(f"cases, {segments_seen:,} segments")
 
 
 if __name__ == "__main__":

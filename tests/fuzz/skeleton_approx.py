@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import argparse
 import sys
-import time
 import warnings
 from pathlib import Path
 from typing import Any
@@ -12,6 +10,7 @@ from typing import Any
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
+from fuzz.runner import Cases, options
 from skeleton_shapes import FAMILIES
 from vorotool import VorotoolError
 from vorotool.engines.approximate_verification import verify_approximate
@@ -48,21 +47,12 @@ def failure(shape: Any, rng: np.random.Generator) -> str | None:
 
 def main() -> int:
     """Run all cases; exit 1 if any failed."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--cases", type=int, default=2000)
-    parser.add_argument("--seed", type=int, default=1)
-    arguments = parser.parse_args()
+    cases = Cases(options(2000).parse_args())
     warnings.simplefilter("ignore")
-    start, failed = time.monotonic(), 0
-    for case in range(arguments.cases):
-        family = FAMILIES[case % len(FAMILIES)]
-        rng = np.random.default_rng([arguments.seed, case])
-        wrong = failure(family(rng), rng)
-        if wrong:
-            print(f"wrong: seed {arguments.seed}, case {case}, {family.__name__}: {wrong}")
-        failed += wrong is not None
-    print(f"{arguments.cases:,} shapes, {failed} failures, {time.monotonic() - start:.0f} s")
-    return int(failed > 0)
+    for case in cases:
+        family, rng = FAMILIES[case % len(FAMILIES)], cases.random(case)
+        cases.judge(case, family.__name__, failure(family(rng), rng))
+    return cases.end("shapes")
 
 
 if __name__ == "__main__":

@@ -8,13 +8,11 @@ from __future__ import annotations
 
 import argparse
 import sys
-import time
 import warnings
 from pathlib import Path
 
-import numpy as np
-
 sys.path.insert(0, str(Path(__file__).parents[1]))
+from fuzz.runner import Cases, options
 from skeleton_shapes import DATA, FAMILIES, under_symmetries
 from vorotool import VorotoolError, read, verify_skeleton
 from vorotool.engines.segment_verification import verify_segment_voronoi
@@ -36,7 +34,7 @@ def failure(shape: object) -> str | None:
 
 
 def of_data() -> int:
-    """Run the shapes in data/; the number of failures."""
+    """Run the shapes in data/; exit 1 if any failed."""
     failed = 0
     for path in DATA:
         shape = read(path)
@@ -47,39 +45,27 @@ def of_data() -> int:
         right = faults.count(None)
         print(f"{path.name}, {len(shape.xy):,} vertices: right under {right} of {len(faults)} symmetries", flush=True)
         failed += len(faults) - right
-    return failed
+    return int(failed > 0)
 
 
 def at_random(arguments: argparse.Namespace) -> int:
-    """Run the cases; the number of failures."""
-    start, failed, case = time.monotonic(), 0, arguments.first
-    while case < arguments.first + arguments.cases and time.monotonic() < start + arguments.seconds:
+    """Run the cases; exit 1 if any failed."""
+    cases = Cases(arguments)
+    for case in cases:
         drawing, symmetry = divmod(case, 8)
         family = FAMILIES[drawing % len(FAMILIES)]
-        shape = list(under_symmetries(family(np.random.default_rng([arguments.seed, drawing]))))[symmetry]
-        wrong = failure(shape)
-        if wrong:
-            print(f"wrong: seed {arguments.seed}, case {case}, {family.__name__}: {wrong}", flush=True)
-        failed += wrong is not None
-        case += 1
-    count = case - arguments.first
-    print(f"cases {arguments.first} to {case - 1}: {count:,} shapes, {failed} failures", end="")
-    print(f", {time.monotonic() - start:.0f} s")
-    return failed
+        shape = list(under_symmetries(family(cases.random(drawing))))[symmetry]
+        cases.judge(case, family.__name__, failure(shape))
+    return cases.end("shapes")
 
 
 def main() -> int:
     """Run all; exit 1 if any failed."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--cases", type=int, default=10**5)
-    parser.add_argument("--first", type=int, default=0)
-    parser.add_argument("--seconds", type=float, default=np.inf, help="begin no case after so many")
-    parser.add_argument("--seed", type=int, default=1)
+    parser = options(10**5)
     parser.add_argument("--data", action="store_true", help="the shapes in data/ only")
     arguments = parser.parse_args()
     warnings.simplefilter("ignore")
-    failed = of_data() if arguments.data else at_random(arguments)
-    return int(failed > 0)
+    return of_data() if arguments.data else at_random(arguments)
 
 
 if __name__ == "__main__":

@@ -9,43 +9,35 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from vorotool.cli.commands import run_command
-from vorotool.cli.inputs import naming, read_seed_input, refuse
+from vorotool.cli.inputs import check_components, check_frame_options, naming, read_sites
+from vorotool.cli.option_groups import site_options
 from vorotool.cli.options import (
     Decimal,
     Names,
     Radius,
-    batch_options,
     inputs_argument,
-    layers_option,
     output_options,
-    shared,
 )
 from vorotool.cli.recipes import Recipe
-from vorotool.cli.results import OF_ONE_SHAPE
+from vorotool.cli.results import METHODS, OF_ONE_SHAPE, PICTURES, TABLES
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options
-from vorotool.cli.units import pixel_size_option
 from vorotool.formats.input_formats import NAMES_WITH
 
 if TYPE_CHECKING:
     from vorotool.cli.shapes import ShapeProducts
-    from vorotool.geometry.points import PointSet
-    from vorotool.geometry.seeds import SeedSet
 
-METHODS = ("exact", "digital", "digital-valid")
-_TABLES = ("csv", "json", "npz")
-_PICTURES = ("svg", "png")
 FORMATS = {
-    "edges": ("csv", "json", "geojson", "npz", *_PICTURES, "html"),
-    "polygons": ("geojson", "wkt", "json", *_PICTURES, "html"),
-    "complex": ("csv", "json", "geojson", "npz", *_PICTURES, "html"),
-    "general": ("geojson", "wkt", *_PICTURES, "html"),
-    "family": (*_TABLES, "html"),
-    "spectrum": _TABLES,
-    "curves": (*_TABLES, "svg", "html"),
-    "hull": ("geojson", *_TABLES, *_PICTURES),
-    "points": _TABLES,
-    "table": _TABLES,
+    "edges": ("csv", "json", "geojson", "npz", *PICTURES, "html"),
+    "polygons": ("geojson", "wkt", "json", *PICTURES, "html"),
+    "complex": ("csv", "json", "geojson", "npz", *PICTURES, "html"),
+    "general": ("geojson", "wkt", *PICTURES, "html"),
+    "family": (*TABLES, "html"),
+    "spectrum": TABLES,
+    "curves": (*TABLES, "svg", "html"),
+    "hull": ("geojson", *TABLES, *PICTURES),
+    "points": TABLES,
+    "table": TABLES,
 }
 OF_DIGITAL_RULE = frozenset({"edges", "complex", "family", "spectrum"})
 """Results that need no more than edges and the triangles beside them."""
@@ -53,7 +45,7 @@ LAYERS = ("polygons", "delaunay", "interior", "boundary", "singular", "hull", "p
 """Layers of pictures, from below."""
 PICTURE_LAYERS = {"svg": LAYERS, "png": tuple(layer for layer in LAYERS if layer != "labels")}
 _WITH_LAYERS = frozenset({"edges", "polygons", "complex", "general", "hull"})
-_WITHOUT_DIGITS = frozenset({"npz", "html", *_PICTURES})
+_WITHOUT_DIGITS = frozenset({"npz", "html", *PICTURES})
 
 
 @click.command("alphashape")
@@ -81,13 +73,7 @@ _WITHOUT_DIGITS = frozenset({"npz", "html", *_PICTURES})
     show_default=True,
     help="How points are triangulated, as in delaunay.",
 )
-@shared("size", "window", "columns", "input-format", "page", "seeds", "connectivity", "threshold", "invert")
-@layers_option(LAYERS)
-@shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels")
-@shared("max-sites")
-@pixel_size_option()
-@batch_options()
-@shared("no-clobber", "no-properties", "quiet", "verbose")
+@site_options(LAYERS)
 def command(**options: Any) -> None:
     """Find the alpha shape of points: edges that an empty disc of radius r touches at both ends, and what they bound.
 
@@ -112,7 +98,7 @@ def _products(run: Run, o: SimpleNamespace, source: str) -> ShapeProducts:
 
     o.radius = chosen_radius(o.r, o.alpha, o.auto)
     with naming(source), run.phase("read"):
-        points = _read_points(run, o, source)
+        points = read_sites(run, o, source, properties="points" in o.what, is_digital=o.method != "exact")
     with naming(source):
         return ShapeProducts(points, o, run)
 
@@ -123,8 +109,7 @@ def _default_what(o: SimpleNamespace) -> str:
 
 
 def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
-    if o.connectivity is not None and o.seeds in ("pixels", "labels"):
-        raise click.UsageError(f"--connectivity is for components: leave it out with --seeds {o.seeds}")
+    check_components(o)
     if o.regions is not None and (o.r is not None or o.alpha is not None):
         raise click.UsageError("--regions is for the automatic choice of r: leave out -r and --alpha")
     _check_method(o, {target.fmt for target in targets})
@@ -133,7 +118,7 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     formats = {target.fmt for target in targets}
     if o.precision is not None and formats <= _WITHOUT_DIGITS:
         raise click.UsageError("--precision is for numbers in text: use -f csv, json, geojson or wkt, or leave it out")
-    pictures = sorted({target.fmt for target in targets if target.what in _WITH_LAYERS} & set(_PICTURES))
+    pictures = sorted({target.fmt for target in targets if target.what in _WITH_LAYERS} & set(PICTURES))
     if o.layers is not None and not pictures:
         raise click.UsageError("--layers is for pictures of a shape: use -f svg or -f png, or leave it out")
     if o.overlay is not None and not pictures:
@@ -144,11 +129,7 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
 
 def _check_method(o: SimpleNamespace, formats: set[str]) -> None:
     """Refuse what the way of triangulating or the rule cannot give, or would not look at."""
-    if o.size is not None and o.window is not None:
-        raise click.UsageError("give --size or --window, not both")
-    for name in ("size", "window"):
-        if getattr(o, name) is not None and o.method == "exact":
-            raise click.UsageError(f"--{name} is the frame of a tessellation: use --method digital or digital-valid")
+    check_frame_options(o, is_digital=o.method != "exact")
     is_automatic = o.r is None and o.alpha is None
     needs_corrected = (is_automatic and set(o.what) & OF_ONE_SHAPE) or "curves" in o.what or "html" in formats
     if o.rule == "printed" and needs_corrected:
@@ -172,27 +153,6 @@ def _check_digital_rule(o: SimpleNamespace, formats: set[str]) -> None:
         raise click.UsageError("--method digital has no regions to choose r by: give -r or --alpha")
     if o.hole_threshold is not None or o.region_threshold is not None or o.verify:
         raise click.UsageError("--method digital has no regions: leave out thresholds and --verify")
-
-
-def _read_points(run: Run, o: SimpleNamespace, source: str) -> PointSet | SeedSet:
-    from vorotool.engines.seeding import seeds_from_raster
-    from vorotool.geometry.points import PointSet
-
-    value = read_seed_input(run, o, source, properties="points" in o.what)
-    if isinstance(value, PointSet):
-        return value
-    refuse(o, ("columns",), "is for lists of points, but the input is an image")
-    refuse(o, ("size", "window"), "is for lists of points, but the input is an image, which brings its own frame")
-    mode = None if o.seeds == "centroids" and o.method == "exact" else o.seeds  # sites of objects are their centroids
-    return seeds_from_raster(
-        value,
-        mode=mode,
-        connectivity=int(o.connectivity or 8),
-        threshold=o.threshold,
-        invert=o.invert,
-        max_sites=o.max_sites,
-        allow_empty=True,
-    )
 
 
 RECIPE = Recipe("alphashape", FORMATS, _check_options, _products, "points")

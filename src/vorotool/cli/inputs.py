@@ -15,6 +15,7 @@ from vorotool.errors import InputError
 if TYPE_CHECKING:
     from vorotool.geometry.points import PointSet
     from vorotool.geometry.raster import Raster
+    from vorotool.geometry.seeds import SeedSet
     from vorotool.render.layers import Backdrop
 
 IMAGE_OPTIONS = ("page", "seeds", "connectivity", "threshold", "invert")
@@ -49,6 +50,43 @@ def read_seed_input(run: Run, o: SimpleNamespace, source: str, *, properties: bo
         return value
     assert isinstance(value, Raster)  # what is asked for is points, or an image
     return value
+
+
+def check_components(o: SimpleNamespace) -> None:
+    """Refuse ``--connectivity`` where no components are made."""
+    if o.connectivity is not None and o.seeds in ("pixels", "labels"):
+        raise click.UsageError(f"--connectivity is for components: leave it out with --seeds {o.seeds}")
+
+
+def check_frame_options(o: SimpleNamespace, *, is_digital: bool) -> None:
+    """Refuse two frames, and any where nothing is tessellated."""
+    if o.size is not None and o.window is not None:
+        raise click.UsageError("give --size or --window, not both")
+    if not is_digital:
+        refuse(o, ("size", "window"), "is the frame of a tessellation: use --method digital or digital-valid")
+
+
+def read_sites(run: Run, o: SimpleNamespace, source: str, *, properties: bool, is_digital: bool) -> PointSet | SeedSet:
+    """Read points to triangulate, or find those of an image, as the options say."""
+    from vorotool.engines.seeding import seeds_from_raster
+    from vorotool.geometry.points import PointSet
+
+    value = read_seed_input(run, o, source, properties=properties)
+    if isinstance(value, PointSet):
+        return value
+    refuse(o, ("columns",), "is for lists of points, but the input is an image")
+    refuse(o, ("size", "window"), "is for lists of points, but the input is an image, which brings its own frame")
+    # The sites of objects are their centroids, but their regions are not those of the centroids.
+    mode = None if o.seeds == "centroids" and not is_digital else o.seeds
+    return seeds_from_raster(
+        value,
+        mode=mode,
+        connectivity=int(o.connectivity or 8),
+        threshold=o.threshold,
+        invert=o.invert,
+        max_sites=o.max_sites,
+        allow_empty=True,
+    )
 
 
 def read_clip(run: Run, o: SimpleNamespace, path: str) -> Sequence[Any]:

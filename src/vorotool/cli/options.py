@@ -256,15 +256,20 @@ BATCH_OPTIONS = ("files_from", "null", "jobs", "keep_going", "dry_run", "resume"
 """Options that make a batch of one input, too."""
 
 
-def shared(*names: str) -> Decorator:
-    """Add options of the registry to a command, in this order."""
+def together(*options: Decorator) -> Decorator:
+    """Add options to a command, in this order."""
 
     def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
-        for name in reversed(names):
-            function = OPTIONS[name](function)
+        for option in reversed(options):
+            function = option(function)
         return function
 
     return decorate
+
+
+def shared(*names: str) -> Decorator:
+    """Add options of the registry to a command, in this order."""
+    return together(*(OPTIONS[name] for name in names))
 
 
 def inputs_argument(extensions: Iterable[str]) -> Decorator:
@@ -274,21 +279,22 @@ def inputs_argument(extensions: Iterable[str]) -> Decorator:
 
 def output_options(formats: Mapping[str, Sequence[str]]) -> Decorator:
     """Add ``--output`` and ``--format`` of a command that writes these formats."""
-    output = click.option(
-        "-o",
-        "--output",
-        metavar="FILE",
-        help="Where to write; - is standard output.",
-        shell_complete=outputs_of(formats),
+    return together(
+        click.option(
+            "-o",
+            "--output",
+            metavar="FILE",
+            help="Where to write; - is standard output.",
+            shell_complete=outputs_of(formats),
+        ),
+        click.option(
+            "-f",
+            "--format",
+            metavar="FORMAT",
+            help="Format of the output; by default its extension.",
+            shell_complete=formats_of(formats),
+        ),
     )
-    fmt = click.option(
-        "-f",
-        "--format",
-        metavar="FORMAT",
-        help="Format of the output; by default its extension.",
-        shell_complete=formats_of(formats),
-    )
-    return lambda function: output(fmt(function))
 
 
 def batch_options(*, table: bool = True) -> Decorator:

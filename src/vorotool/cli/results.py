@@ -2,6 +2,12 @@
 
 from __future__ import annotations
 
+TABLES = ("csv", "json", "npz")
+"""Formats of tables."""
+PICTURES = ("svg", "png")
+"""Formats of pictures."""
+METHODS = ("exact", "digital", "digital-valid")
+"""Ways of triangulating."""
 MESH_LAYERS = ("cells", "triangles", "diagram", "edges", "points", "labels")
 """Layers of pictures of a triangulation, from below."""
 OF_ONE_SHAPE = frozenset({"edges", "polygons", "complex", "general", "hull", "points", "table"})

@@ -14,22 +14,21 @@ import click
 
 from vorotool.cli.commands import run_command
 from vorotool.cli.inputs import IMAGE_OPTIONS, naming, refuse
+from vorotool.cli.option_groups import result_options
 from vorotool.cli.options import (
     Decorator,
     Rectangle,
-    batch_options,
     inputs_argument,
-    layers_option,
     output_options,
     shared,
+    together,
     what_option,
 )
 from vorotool.cli.pruning import FORMS, Place, PruningType
 from vorotool.cli.recipes import Recipe
-from vorotool.cli.results import DERIVED, SKELETON_LAYERS
+from vorotool.cli.results import DERIVED, PICTURES, SKELETON_LAYERS, TABLES
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options
-from vorotool.cli.units import pixel_size_option
 from vorotool.formats.input_formats import NAMES_WITH
 
 if TYPE_CHECKING:
@@ -37,19 +36,17 @@ if TYPE_CHECKING:
     from vorotool.geometry.polygons import PolygonSet
     from vorotool.geometry.raster import Raster
 
-_TABLES = ("csv", "json", "npz")
-_PICTURES = ("svg", "png")
 FORMATS = {
-    "skeleton": ("json", "csv", "geojson", "npz", "wkt", "graphml", *_PICTURES, "html"),
-    "diagram": ("json", "csv", "geojson", "npz", "wkt", *_PICTURES),
-    "elements": (*_TABLES, *_PICTURES),
-    "centerline": ("geojson", *_TABLES, "wkt", *_PICTURES),
-    "offset": ("json", "csv", "geojson", "npz", "wkt", *_PICTURES),
-    "shape": ("json", "geojson", "wkt", "poly", *_PICTURES),
-    "points": ("csv", "json", "npz", "geojson", "wkt", *_PICTURES),
-    "transects": ("geojson", "wkt", *_TABLES, *_PICTURES),
-    "branches": _TABLES,
-    "table": _TABLES,
+    "skeleton": ("json", "csv", "geojson", "npz", "wkt", "graphml", *PICTURES, "html"),
+    "diagram": ("json", "csv", "geojson", "npz", "wkt", *PICTURES),
+    "elements": (*TABLES, *PICTURES),
+    "centerline": ("geojson", *TABLES, "wkt", *PICTURES),
+    "offset": ("json", "csv", "geojson", "npz", "wkt", *PICTURES),
+    "shape": ("json", "geojson", "wkt", "poly", *PICTURES),
+    "points": ("csv", "json", "npz", "geojson", "wkt", *PICTURES),
+    "transects": ("geojson", "wkt", *TABLES, *PICTURES),
+    "branches": TABLES,
+    "table": TABLES,
 }
 LAYERS = tuple(dict.fromkeys([*SKELETON_LAYERS, *chain.from_iterable(DERIVED.values())]))
 """Layers of all pictures."""
@@ -62,7 +59,7 @@ PICTURE_LAYERS = {
     "png": tuple(layer for layer in APPROXIMATE_LAYERS if layer != "labels"),
 }
 
-_WITHOUT_DIGITS = frozenset({"npz", "html", *_PICTURES})
+_WITHOUT_DIGITS = frozenset({"npz", "html", *PICTURES})
 _WITHOUT_CURVES = frozenset({"geojson", "wkt", "graphml"})
 _CURVED = frozenset({"skeleton", "diagram", "centerline", "offset"})
 
@@ -166,25 +163,12 @@ _READING: tuple[Decorator, ...] = (
     ),
     shared("seeds", "connectivity", "threshold", "invert"),
 )
-_AFTER: tuple[Decorator, ...] = (
-    shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels"),
-    shared("max-sites"),
-    pixel_size_option(),
-    batch_options(),
-    shared("no-clobber", "no-properties", "quiet", "verbose"),
-)
-"""Options before a command's own, after them, and after the layers of pictures."""
+"""Options before a command's own, and after them."""
 
 
 def skeleton_options(*own: Decorator, layers: tuple[str, ...] = LAYERS) -> Decorator:
     """Add the options that skeletons have in common, and a command's own among them."""
-
-    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
-        for option in reversed((*_BEFORE, *own, *_READING, layers_option(layers), *_AFTER)):
-            function = option(function)
-        return function
-
-    return decorate
+    return together(*_BEFORE, *own, *_READING, result_options(layers))
 
 
 def run_skeletons(
@@ -217,11 +201,11 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     _check_centerline(o)
     if o.seeds in ("pixels", "centroids"):
         raise click.UsageError(f"--seeds {o.seeds} have no outlines: use --seeds components or labels")
-    pictures = sorted(formats & set(_PICTURES))
+    pictures = sorted(formats & set(PICTURES))
     if o.layers is not None and not pictures:
         raise click.UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
     check_picture_options(o, pictures, PICTURE_LAYERS, png_has_width=True, has_page="html" in formats)
-    for what in (target.what for target in targets if target.fmt in _PICTURES):
+    for what in (target.what for target in targets if target.fmt in PICTURES):
         own = DERIVED.get(what, (*SKELETON_LAYERS, "exact"))
         for layer in (layer for layer in o.layers or () if layer not in own):
             raise click.UsageError(f"--layers {layer}: a picture of {what} has {', '.join(own)}; choose of these")

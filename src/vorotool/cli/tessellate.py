@@ -8,21 +8,19 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from vorotool.cli.commands import run_command
-from vorotool.cli.inputs import naming, read_seed_input, refuse
+from vorotool.cli.inputs import check_components, check_frame_options, naming, read_seed_input, refuse
+from vorotool.cli.option_groups import site_options
 from vorotool.cli.options import (
     Decimal,
     Size,
-    batch_options,
     inputs_argument,
-    layers_option,
     output_options,
-    shared,
     what_option,
 )
 from vorotool.cli.recipes import Recipe
+from vorotool.cli.results import TABLES
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options
-from vorotool.cli.units import pixel_size_option
 from vorotool.formats.input_formats import NAMES_WITH
 
 if TYPE_CHECKING:
@@ -33,15 +31,14 @@ if TYPE_CHECKING:
 
 _IMAGES = ("png", "tiff", "npy", "text")
 _PICTURES = {("labels", "svg"), ("diagram", "png"), ("colour", "png"), ("colour", "svg")}
-_TABLES = ("csv", "json", "npz")
 FORMATS = {
     "labels": (*_IMAGES, "zarr", "svg"),
     "diagram": _IMAGES,
     "colour": ("png", "svg"),
     "distance": ("tiff", "npy", "zarr"),
     "distance2": ("tiff", "npy", "zarr", "text"),
-    "table": _TABLES,
-    "neighbours": _TABLES,
+    "table": TABLES,
+    "neighbours": TABLES,
 }
 
 
@@ -70,13 +67,7 @@ FORMATS = {
     type=Size(),
     help="Columns x rows of the chunks of a Zarr store; by default 2048x512, fewer rows if wide.",
 )
-@shared("size", "window", "columns", "input-format", "page", "seeds", "connectivity", "threshold", "invert")
-@layers_option(("cells", "diagram", "seeds", "labels"))
-@shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "verify", "strict", "precision", "max-pixels")
-@shared("max-sites")
-@pixel_size_option()
-@batch_options()
-@shared("no-clobber", "no-properties", "quiet", "verbose")
+@site_options(("cells", "diagram", "seeds", "labels"))
 def command(**options: Any) -> None:
     """Label every pixel with its nearest seed, exactly; ties go to the smallest label.
 
@@ -91,16 +82,14 @@ def command(**options: Any) -> None:
 
 
 def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
-    if o.size is not None and o.window is not None:
-        raise click.UsageError("give --size or --window, not both")
+    check_frame_options(o, is_digital=True)
     if o.method == "propagation" and o.max_distance is not None:
         raise click.UsageError("--max-distance needs --method exact")
     if o.method == "exact" and o.passes is not None:
         raise click.UsageError("--passes needs --method propagation")
     if o.method == "propagation" and {"distance", "distance2"} & {target.what for target in targets}:
         raise click.UsageError("distances are those of the exact tessellation: leave out --method propagation")
-    if o.connectivity is not None and o.seeds in ("pixels", "labels"):
-        raise click.UsageError(f"--connectivity is for components: leave it out with --seeds {o.seeds}")
+    check_components(o)
     if o.method == "propagation" and o.cluster is not None and o.out_dir is None:
         raise click.UsageError("a cluster computes bands of the exact tessellation: leave out --method propagation")
     _check_output_options(o, {(target.what, target.fmt) for target in targets})

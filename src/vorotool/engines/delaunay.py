@@ -138,15 +138,19 @@ def verify_triangulation(mesh: Triangulation, *, threads: int = 0, progress: Pro
     """
     if not np.isfinite(mesh.points).all():
         raise VerificationError("a coordinate is not finite")
-    fault = _core.triangulation_fault(
-        mesh.points,
-        mesh.triangles,
-        mesh.neighbours,
-        mesh.edges,
-        mesh.hull,
-        mesh.first,
-        checked_threads(threads),
-        progress,
-    )
+    fault = triangulation_fault(mesh, checked_threads(threads), progress)
     if fault is not None:
         raise VerificationError(fault)
+
+
+def triangulation_fault(mesh: Triangulation, threads: int, progress: Progress) -> str | None:
+    """The first fault of a triangulation of finite points, if it has any.
+
+    Examples
+    --------
+    >>> triangulation_fault(delaunay([[0, 0], [4, 0], [0, 3]]), 1, None) is None
+    True
+    """
+    return _core.triangulation_fault(
+        mesh.points, mesh.triangles, mesh.neighbours, mesh.edges, mesh.hull, mesh.first, threads, progress
+    )

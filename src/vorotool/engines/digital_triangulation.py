@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.delaunay import MOST_POINTS, delaunay
+from vorotool.engines.delaunay import MOST_POINTS, delaunay, triangulation_fault
 from vorotool.engines.digital import (
     as_seeds,
     asked_frame,
@@ -308,9 +308,7 @@ def repair_digital(
         )
 
     mesh = mesh_of(core)
-    fault = _core.triangulation_fault(
-        mesh.points, mesh.triangles, mesh.neighbours, mesh.edges, mesh.hull, mesh.first, threads, progress
-    )
+    fault = triangulation_fault(mesh, threads, progress)
     if fault is not None:
         counts |= {"route": "rebuilt", "inserted": len(points)}
         mesh = mesh_of(_core.inserted_mesh(points, threads, progress))

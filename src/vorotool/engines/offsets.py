@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.label_arrays import Progress
-from vorotool.engines.skeleton_exact import ShapeDiagram, kept_edges, shape_diagram
+from vorotool.engines.skeleton_exact import ShapeDiagram, diagram_arrays, kept_edges, shape_diagram
 from vorotool.errors import UsageError
 from vorotool.geometry.offsets import Offsets
 from vorotool.geometry.skeleton import Skeleton
@@ -104,12 +104,7 @@ def _offsets_of(shapes: ShapeDiagram, distances: list[float], threads: int, prog
     edges, faces = kept_edges(shapes, threads=threads, progress=progress)
     face[edges] = faces
     made = _core.offset_curves(
-        diagram.points,
-        diagram.segments,
-        diagram.vertices,
-        diagram.radius,
-        diagram.edges,
-        diagram.edge_sites,
+        *diagram_arrays(diagram),
         diagram.vertex_start,
         diagram.vertex_sites,
         face,

@@ -111,7 +111,7 @@ def kept_edges(
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Edges of the diagram that are not deleted, and the face of the graph that each is in."""
     return _core.skeleton_edges(
-        *_arrays(shapes.diagram), shapes.graph.segment_faces, checked_threads(threads), progress
+        *diagram_arrays(shapes.diagram), shapes.graph.segment_faces, checked_threads(threads), progress
     )
 
 
@@ -194,7 +194,7 @@ def assembled(
     frame = (frame or default_frame(placed.polygons)) if clips else None
     clipped = None if frame is None else (outside, on_lattice(frame, graph))
     made: dict[str, Any] = _core.extract_skeleton(
-        *_arrays(diagram),
+        *diagram_arrays(diagram),
         edges,
         group,
         clipped,
@@ -247,7 +247,8 @@ _Points = NDArray[np.float64]
 _Rows = NDArray[np.int32]
 
 
-def _arrays(diagram: SegmentVoronoiDiagram) -> tuple[_Rows, _Rows, _Points, _Points, _Rows, _Rows]:
+def diagram_arrays(diagram: SegmentVoronoiDiagram) -> tuple[_Rows, _Rows, _Points, _Points, _Rows, _Rows]:
+    """Arrays of a diagram, but for the sites around vertices."""
     return (
         diagram.points,
         diagram.segments,

@@ -7,7 +7,8 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from vorotool.errors import UsageError
+from vorotool.formats.choices import check_format, check_what
+from vorotool.formats.features import collection_opening
 from vorotool.formats.mesh_files import write_features
 from vorotool.formats.polygon_text import Digits
 from vorotool.formats.polygons import write_polygons
@@ -64,9 +65,7 @@ def write_shape(
     """
     own = ("family",) if isinstance(value, AlphaComplex) else ("edges", "polygons")
     what = what or (own[-1] if fmt in ("geojson", "wkt", "poly") else own[0])
-    if what not in own:
-        kind = type(value).__name__
-        raise UsageError(f"{what!r} is nothing that an {kind} is written as: use {' or '.join(own)}")
+    check_what(what, own, f"an {type(value).__name__} is")
     if isinstance(value, AlphaComplex):
         write_table(out, family_table(value), fmt, precision=precision, threads=threads)
     elif what == "polygons":
@@ -143,13 +142,12 @@ def write_general(out: BinaryIO, shape: AlphaShape, fmt: str, *, precision: int 
     b'LINESTRING (0 0, 0 3)\nLINESTRING (0 0, 4 0)\nPOINT (9 9)\n'
     """
     digits = Digits(precision)
+    check_format(fmt, GENERAL_FORMATS, "a whole shape")
     if fmt == "wkt":
         for geometry, _ in _parts(shape, digits):
             out.write(f"{geometry['type'].upper()} {_wkt(geometry, digits)}\n".encode())
-    elif fmt == "geojson":
-        _write_collection(out, shape.family.mesh.crs, _parts(shape, digits))
     else:
-        raise UsageError(f"a whole shape cannot be written as {fmt!r}: use one of {', '.join(GENERAL_FORMATS)}")
+        _write_collection(out, shape.family.mesh.crs, _parts(shape, digits))
 
 
 def write_hull_geojson(out: BinaryIO, hull: AlphaHull, *, precision: int | None = None) -> None:
@@ -207,8 +205,7 @@ def _parts(shape: AlphaShape, digits: Digits) -> Iterator[tuple[dict[str, Any], 
 
 
 def _write_collection(out: BinaryIO, crs: Any, parts: Iterator[tuple[dict[str, Any], dict[str, Any]]]) -> None:
-    head = '{"type":"FeatureCollection",'
-    out.write((head + (f'"crs":{json_text(crs)},' if crs is not None else "") + '"features":[').encode())
+    out.write(collection_opening(crs))
     separator = "\n"
     for geometry, properties in parts:
         feature = {"type": "Feature", "properties": properties, "geometry": geometry}

@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.errors import UsageError
+from vorotool.formats.choices import check_format
+from vorotool.formats.features import write_collection
 from vorotool.formats.tables import json_column, json_text, object_shape, write_npz, write_table
-from vorotool.formats.text_rows import Column, RowShape, write_rows
+from vorotool.formats.text_rows import Column, RowShape, write_list_rows, write_rows
 from vorotool.geometry.cells import CellSet
 from vorotool.geometry.table import Computed, Lookup, Table
 
@@ -53,8 +54,7 @@ def write_cells(out: BinaryIO, cells: CellSet, fmt: str, *, precision: int | Non
     >>> print(out.getvalue().decode().splitlines()[1])
     1,1,1,"POLYGON ((0 0, 2 0, 2 2, 0 2, 0 0))"
     """
-    if fmt not in _WRITERS:
-        raise UsageError(f"cells cannot be written as {fmt!r}: use one of {', '.join(CELL_FORMATS)}")
+    check_format(fmt, CELL_FORMATS, "cells")
     _WRITERS[fmt](out, cells, precision, threads)
 
 
@@ -100,12 +100,7 @@ def _write_geojson(out: BinaryIO, cells: CellSet, precision: int | None, threads
         head, opening = Column("id", texts), ('{"type":"Feature",', around[0])
     shape = RowShape((*opening, *around[1:], "}"), ",\n", "null")
     columns = [head, *columns, Column("", _shapes(cells, "geojson"))]
-    out.write(b'{"type":"FeatureCollection",')
-    if cells.crs is not None:
-        out.write(f'"crs":{json_text(cells.crs)},'.encode())
-    out.write(b'"features":[')
-    _write_items(out, columns, shape, precision, threads)
-    out.write(b"]}\n")
+    write_collection(out, columns, shape, crs=cells.crs, precision=precision, threads=threads)
 
 
 def _write_json(out: BinaryIO, cells: CellSet, precision: int | None, threads: int) -> None:
@@ -127,7 +122,8 @@ def _write_json(out: BinaryIO, cells: CellSet, precision: int | None, threads: i
         opening.append(',"part":')
     shape = RowShape((*opening, *around.around, "}"), ",\n", "null")
     out.write(b'{"polygons":[')
-    _write_items(out, [*head, *columns, Column("", _shapes(cells, "json", rows))], shape, precision, threads)
+    columns = [*head, *columns, Column("", _shapes(cells, "json", rows))]
+    write_list_rows(out, columns, shape, precision=precision, threads=threads)
     out.write(b"]}\n")
 
 
@@ -138,13 +134,6 @@ def _looked_up(name: str, values: Any, cell: NDArray[np.int32], precision: int |
         missing = None if column.missing is None else column.missing[cell]
         return Column(name, [column.values[i] for i in cell.tolist()], missing)
     return Column(name, Lookup(np.asarray(column.values), cell), column.missing)
-
-
-def _write_items(out: BinaryIO, columns: list[Column], shape: RowShape, precision: int | None, threads: int) -> None:
-    if len(columns[0].values):
-        out.write(b"\n")
-        write_rows(out, columns, shape, precision=precision, threads=threads)
-        out.write(b"\n")
 
 
 def _write_npz(out: BinaryIO, cells: CellSet, _precision: int | None, threads: int) -> None:

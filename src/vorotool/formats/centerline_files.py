@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import BinaryIO
 
-from vorotool.errors import UsageError
+from vorotool.formats.choices import check_format
 from vorotool.formats.polylines import geojson_wording, wkt_wording, write_polylines
 from vorotool.formats.tables import TABLE_FORMATS, write_table
 from vorotool.geometry.centerline import Centerlines, centerline_table
@@ -54,8 +54,7 @@ def write_centerlines(
     >>> out.getvalue()
     b'LINESTRING (0 1, 1 1, 3 1, 4 1)\n'
     """
-    if fmt not in CENTERLINE_FORMATS:
-        raise UsageError(f"centerlines cannot be written as {fmt!r}: use one of {', '.join(CENTERLINE_FORMATS)}")
+    check_format(fmt, CENTERLINE_FORMATS, "centerlines")
     if fmt in TABLE_FORMATS:
         write_table(out, centerline_table(lines), fmt, precision=precision, threads=threads)
         return

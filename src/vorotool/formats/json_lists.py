@@ -8,7 +8,7 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.formats.text_rows import Column, RowShape, write_rows
+from vorotool.formats.text_rows import Column, RowShape, write_list_rows
 from vorotool.geometry.skeleton import SiteTable
 from vorotool.geometry.table import Lookup
 
@@ -50,10 +50,7 @@ def write_list(
     b',\n"pairs":[\n{"a":1},\n{"a":2}\n]'
     """
     out.write(f',\n"{name}":['.encode())
-    if len(columns[0].values):
-        out.write(b"\n")
-        write_rows(out, columns, RowShape(around, ",\n", ""), precision=precision, threads=threads)
-        out.write(b"\n")
+    write_list_rows(out, columns, RowShape(around, ",\n", ""), precision=precision, threads=threads)
     out.write(b"]")
 
 

@@ -9,7 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
-from vorotool.formats.tables import TABLE_FORMATS, json_column, json_text, object_shape, write_table
+from vorotool.formats.choices import check_format, check_what
+from vorotool.formats.features import write_collection
+from vorotool.formats.tables import TABLE_FORMATS, json_column, object_shape, write_table
 from vorotool.formats.text_rows import Column, RowShape, write_rows
 from vorotool.geometry.digital_triangulation import AnyTriangulation, DigitalTriangulation
 from vorotool.geometry.mesh_tables import edge_table, point_table, triangle_table
@@ -71,12 +73,10 @@ def write_mesh(
     >>> out.getvalue()
     b'1 3 0\n1 1 2 3\n'
     """
-    if what not in _FORMATS:
-        raise UsageError(f"{what!r} is nothing that a triangulation is written as: use {' or '.join(_FORMATS)}")
+    check_what(what, _FORMATS, "a triangulation is")
     if fmt in ("svg", "png"):
         raise UsageError(f"{fmt.upper()} is for pictures: draw it with vorotool delaunay -o picture.{fmt}")
-    if fmt not in _FORMATS[what]:
-        raise UsageError(f"{what} cannot be written as {fmt!r}: use one of {', '.join(_FORMATS[what])}")
+    check_format(fmt, _FORMATS[what], what)
     if isinstance(mesh, DigitalTriangulation) and (what == "table" or fmt in ("edge", "ele")):
         raise UsageError(
             f"{what} as {fmt!r} is for triangulations: what a digital tessellation shows need not be one; write its "
@@ -130,17 +130,9 @@ def write_features(
     ring = [*rows.T, *([rows[:, 0]] if rows.shape[1] == 3 else [])]
     corners = [Column("", Lookup(values, index)) for index in ring for values in (x, y)]
     properties = [json_column(Column.of(name, column), precision) for name, column in columns.items()]
-    out.write(b'{"type":"FeatureCollection",')
-    if crs is not None:
-        out.write(f'"crs":{json_text(crs)},'.encode())
-    out.write(b'"features":[')
-    if len(rows):
-        out.write(b"\n")
-        numbers = Column.of("id", np.arange(1, len(rows) + 1))
-        shape = _feature_shape(list(columns), rows.shape[1])
-        write_rows(out, [numbers, *properties, *corners], shape, precision=precision, threads=threads)
-        out.write(b"\n")
-    out.write(b"]}\n")
+    numbers = Column.of("id", np.arange(1, len(rows) + 1))
+    shape = _feature_shape(list(columns), rows.shape[1])
+    write_collection(out, [numbers, *properties, *corners], shape, crs=crs, precision=precision, threads=threads)
 
 
 def _feature_shape(names: list[str], vertices: int) -> RowShape:

@@ -7,7 +7,7 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import UsageError
+from vorotool.formats.choices import check_format
 from vorotool.formats.json_lists import choice, integers, number_or_null, optional_pair, write_list, write_sites
 from vorotool.formats.polygon_json import write_items
 from vorotool.formats.polygons import write_polygons
@@ -65,8 +65,7 @@ def write_offsets(
     >>> out.getvalue()
     b'POLYGON ((1 1, 3 1, 3 3, 1 3, 1 1))\n'
     """
-    if fmt not in OFFSET_FORMATS:
-        raise UsageError(f"offset curves cannot be written as {fmt!r}: use one of {', '.join(OFFSET_FORMATS)}")
+    check_format(fmt, OFFSET_FORMATS, "offset curves")
     if fmt == "csv":
         write_table(out, offsets.table(), fmt, precision=precision, threads=threads)
     elif fmt == "json":

@@ -9,6 +9,7 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from vorotool.errors import InputError
+from vorotool.formats.features import collection_opening
 from vorotool.formats.geojson import (
     feature_places,
     features_of,
@@ -80,10 +81,7 @@ def write_geojson(out: BinaryIO, polygons: PolygonSet, precision: int | None) ->
     import orjson
 
     digits = Digits(precision)
-    head: dict[str, Any] = {"type": "FeatureCollection"}
-    if polygons.crs is not None:
-        head["crs"] = polygons.crs
-    out.write(orjson.dumps(head).removesuffix(b"}") + b',"features":[')
+    out.write(collection_opening(polygons.crs))
     separator = b"\n"
     for first, last in feature_ranges(polygons):
         feature: dict[str, Any] = {"type": "Feature"}

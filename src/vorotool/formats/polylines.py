@@ -8,6 +8,7 @@ from typing import Any, BinaryIO, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.formats.features import collection_opening
 from vorotool.formats.tables import json_text
 from vorotool.formats.text_rows import Column, RowShape, write_rows
 from vorotool.geometry.polygons import PolygonSet
@@ -61,9 +62,7 @@ def geojson_wording(polygons: PolygonSet, polygon: Sequence[int], own: Mapping[s
             f'{{"type":"Feature",{name}"properties":{json_text(described)},'
             '"geometry":{"type":"LineString","coordinates":[['
         )
-    crs = "" if polygons.crs is None else f'"crs":{json_text(polygons.crs)},'
-    opening = f'{{"type":"FeatureCollection",{crs}"features":[\n'
-    return Wording(opening.encode(), openings, "],[", ",", "]]}},\n", b"]}\n")
+    return Wording(collection_opening(polygons.crs) + b"\n", openings, "],[", ",", "]]}},\n", b"]}\n")
 
 
 def wkt_wording(count: int) -> Wording:

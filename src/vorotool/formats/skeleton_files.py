@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
+from vorotool.formats.choices import check_format, check_what
 from vorotool.formats.polylines import Wording, geojson_wording, wkt_wording, write_polylines
 from vorotool.formats.skeleton_json import write_json
 from vorotool.formats.tables import TABLE_FORMATS, write_arrays, write_table
@@ -70,12 +71,10 @@ def write_skeleton(
     >>> out.getvalue().splitlines()[0]
     b'LINESTRING (0 0, 2 2)'
     """
-    if what not in FORMATS:
-        raise UsageError(f"{what!r} is nothing that a skeleton is written as: use {' or '.join(FORMATS)}")
+    check_what(what, FORMATS, "a skeleton is")
     if fmt in ("svg", "png"):
         raise UsageError(f"{fmt.upper()} is for pictures: draw it with vorotool.write, or vorotool draw")
-    if fmt not in FORMATS[what]:
-        raise UsageError(f"{what} cannot be written as {fmt!r}: use one of {', '.join(FORMATS[what])}")
+    check_format(fmt, FORMATS[what], what)
     if what == "table":
         write_table(out, polygon_table(skeleton, columns=columns), fmt, precision=precision, threads=threads)
     elif what != "skeleton":

@@ -6,7 +6,8 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from vorotool.errors import UsageError
+from vorotool.formats.choices import check_format, check_what
+from vorotool.formats.features import write_collection
 from vorotool.formats.tables import TABLE_FORMATS, json_text, write_table
 from vorotool.formats.text_rows import Column, RowShape, write_rows
 from vorotool.geometry.polygons import PolygonSet
@@ -60,10 +61,8 @@ def write_skeleton_points(
     >>> out.getvalue().splitlines()[-1]
     b'LINESTRING (3 2, 3 0)'
     """
-    if what not in WHAT:
-        raise UsageError(f"{what!r} is nothing that points of a skeleton are written as: use {' or '.join(WHAT)}")
-    if fmt not in POINT_FORMATS:
-        raise UsageError(f"{what} cannot be written as {fmt!r}: use one of {', '.join(POINT_FORMATS)}")
+    check_what(what, WHAT, "points of a skeleton are")
+    check_format(fmt, POINT_FORMATS, what)
     if what == "transects":
         points = points.transects()
     if fmt in TABLE_FORMATS:
@@ -99,14 +98,8 @@ def _write_geojson(
     names = [f',"{own[name]}":' for name in _OWN[1:]]
     opening = f'}},"geometry":{{"type":"{kind}","coordinates":{"[" * (len(coordinates) // 2)}'
     shape = RowShape(("", *names, opening, *between, after), ",\n", "null")
-    crs = "" if polygons.crs is None else f'"crs":{json_text(polygons.crs)},'
-    out.write(f'{{"type":"FeatureCollection",{crs}"features":['.encode())
-    if len(points):
-        out.write(b"\n")
-        rows: list[Any] = [*(Column("", values) for values in columns), *coordinates]
-        write_rows(out, rows, shape, precision=precision, threads=threads)
-        out.write(b"\n")
-    out.write(b"]}\n")
+    rows = [*(Column("", values) for values in columns), *coordinates]
+    write_collection(out, rows, shape, crs=polygons.crs, precision=precision, threads=threads)
 
 
 _OWN = ("polygon", "branch", "along", "r", "width", "side")

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
 from vorotool.formats.bands import in_order
-from vorotool.formats.text_rows import Column, RowShape, check_precision, slices, write_rows
+from vorotool.formats.text_rows import Column, RowShape, check_precision, slices, write_list_rows, write_rows
 from vorotool.geometry.table import Computed, Lookup, Table
 
 TABLE_FORMATS = ("csv", "json", "npz")
@@ -94,12 +94,8 @@ def _text_of(value: Any, precision: int | None) -> str:
 def _write_json(out: BinaryIO, columns: list[Column], precision: int | None, threads: int) -> None:
     shape = object_shape([column.name for column in columns])
     out.write(b"[")
-    if columns and len(columns[0].values):
-        out.write(b"\n")
-        write_rows(
-            out, [json_column(column, precision) for column in columns], shape, precision=precision, threads=threads
-        )
-        out.write(b"\n")
+    texts = [json_column(column, precision) for column in columns]
+    write_list_rows(out, texts, shape, precision=precision, threads=threads)
     out.write(b"]\n")
 
 

@@ -152,6 +152,25 @@ def write_rows(
             out.write(block)
 
 
+def write_list_rows(
+    out: BinaryIO, columns: Sequence[Column], shape: RowShape, *, precision: int | None = None, threads: int = 0
+) -> None:
+    r"""Write the rows of a list between its brackets: on lines of their own, if there are any; see `write_rows`.
+
+    Examples
+    --------
+    >>> import io
+    >>> out = io.BytesIO()
+    >>> write_list_rows(out, [Column.of("a", [1, 2])], RowShape(("", ""), ",\n"))
+    >>> out.getvalue()
+    b'\n1,\n2\n'
+    """
+    if columns and len(columns[0].values):
+        out.write(b"\n")
+        write_rows(out, columns, shape, precision=precision, threads=threads)
+        out.write(b"\n")
+
+
 def slices(rows: int, size: int) -> list[slice]:
     """Cut rows into slices of a size; none for no rows."""
     return [slice(begin, min(begin + size, rows)) for begin in range(0, rows, size)]

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.geometry.box import Box
+from vorotool.geometry.checks import set_rows
 
 
 class Nesting(NamedTuple):
@@ -78,11 +79,7 @@ class CellSet:
 
     def __post_init__(self) -> None:
         for name in ("sites", "coordinates"):
-            array = np.ascontiguousarray(getattr(self, name), dtype=np.float64)
-            array = array.reshape(0, 2) if array.size == 0 else array
-            if array.ndim != 2 or array.shape[1] != 2:
-                raise InputError(f"{name} must have shape (…, 2), but has shape {array.shape}")
-            object.__setattr__(self, name, array)
+            set_rows(self, name, np.float64, 2)
         if (self.polygon_starts is None) != (self.cell_starts is None):
             raise InputError("polygon_starts and cell_starts go together: give both or none")
         count = len(self.coordinates)

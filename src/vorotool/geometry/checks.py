@@ -44,6 +44,73 @@ def available_threads() -> int:
     return os.cpu_count() or 1
 
 
+def set_rows(value: object, name: str, dtype: DTypeLike, width: int = 0) -> None:
+    """Give an array of a frozen value its type, and rows of a width: (n, width), or (n,) for 0.
+
+    Raises
+    ------
+    InputError
+        If it has another shape.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> value = SimpleNamespace(edges=[])
+    >>> set_rows(value, "edges", np.int32, 2)
+    >>> value.edges.shape
+    (0, 2)
+    """
+    array = np.ascontiguousarray(getattr(value, name), dtype=dtype)
+    if array.size == 0:
+        array = array.reshape((0, width) if width else (0,))
+    if array.ndim != (2 if width else 1) or (width and array.shape[1] != width):
+        raise InputError(f"{name} must have shape (…, {width or ''}), but has shape {array.shape}")
+    object.__setattr__(value, name, array)
+
+
+def set_array(value: object, name: str, dtype: DTypeLike, shape: tuple[int, ...]) -> None:
+    """Give an array of a frozen value its type; its shape is known.
+
+    Raises
+    ------
+    InputError
+        If it has another shape.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> set_array(SimpleNamespace(radius=[1, 2]), "radius", np.float64, (3,))
+    Traceback (most recent call last):
+    vorotool.errors.InputError: radius must have shape (3,), but has (2,)
+    """
+    array = np.ascontiguousarray(getattr(value, name), dtype=dtype)
+    if array.size == 0 and shape[0] == 0:
+        array = array.reshape(shape)
+    if array.shape != shape:
+        raise InputError(f"{name} must have shape {shape}, but has {array.shape}")
+    object.__setattr__(value, name, array)
+
+
+def check_as_long(value: object, name: str, like: str) -> None:
+    """Refuse two arrays of a value that differ in length.
+
+    Raises
+    ------
+    InputError
+        With both lengths.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> check_as_long(SimpleNamespace(first=[0], points=[[0, 0], [1, 0]]), "first", "points")
+    Traceback (most recent call last):
+    vorotool.errors.InputError: first must be as long as points, but they have 1 and 2 rows
+    """
+    own, other = len(getattr(value, name)), len(getattr(value, like))
+    if own != other:
+        raise InputError(f"{name} must be as long as {like}, but they have {own} and {other} rows")
+
+
 def whole_numbers(values: Any, name: str, dtype: DTypeLike, least: int | None = None) -> NDArray[Any]:
     """Return integers in a type that holds them; nothing is rounded or wrapped.
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.geometry.checks import check_as_long
 from vorotool.geometry.triangulation import ALL, Triangulation, lengths_of
 
 
@@ -83,12 +84,8 @@ class DigitalTriangulation:
             if array.ndim != len(shape) or array.shape[1:] != shape[1:]:
                 raise InputError(f"{name} must have shape {('n', *shape[1:])}, but has shape {array.shape}")
             object.__setattr__(self, name, array)
-        for name, like in (("labels", "points"), ("at_four", "triangles")):
-            if len(getattr(self, name)) != len(getattr(self, like)):
-                raise InputError(
-                    f"{name} must be as long as {like}, but they have {len(getattr(self, name))} and "
-                    f"{len(getattr(self, like))} rows"
-                )
+        check_as_long(self, "labels", "points")
+        check_as_long(self, "at_four", "triangles")
 
     def __len__(self) -> int:
         return len(self.triangles)

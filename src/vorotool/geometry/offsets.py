@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.geometry.checks import set_array
 from vorotool.geometry.circular_arcs import chords_of
 from vorotool.geometry.elementary import inverse_sine
 from vorotool.geometry.polygons import HOLE, SHELL, PolygonSet
@@ -86,10 +87,7 @@ class Offsets:
             ("distance", np.float64, (shapes,)),
             ("polygon", np.int32, (shapes,)),
         ):
-            array = np.ascontiguousarray(getattr(self, name), dtype=dtype)
-            if array.shape != shape:
-                raise InputError(f"{name} must have shape {shape}, but has {array.shape}")
-            object.__setattr__(self, name, array)
+            set_array(self, name, dtype, shape)
         for name, last in (("ring_start", pieces), ("shape_start", rings)):
             starts = getattr(self, name)
             if starts[0] != 0 or starts[-1] != last or (np.diff(starts) < 1).any():

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.geometry.checks import set_rows
 
 LATTICE_LIMIT = 2**30 - 1
 """Largest magnitude of a coordinate: products of differences fit in 64 bits."""
@@ -87,12 +88,7 @@ class SegmentVoronoiDiagram:
 
     def __post_init__(self) -> None:
         for name, (dtype, width) in _SHAPES.items():
-            array = np.ascontiguousarray(getattr(self, name), dtype=dtype)
-            if array.size == 0:
-                array = array.reshape((0, width) if width else (0,))
-            if array.ndim != (2 if width else 1) or (width and array.shape[1] != width):
-                raise InputError(f"{name} must have shape (…, {width or ''}), but has shape {array.shape}")
-            object.__setattr__(self, name, array)
+            set_rows(self, name, dtype, width)
         for name, count in (
             ("radius", len(self.vertices)),
             ("vertex_start", len(self.vertices) + 1),

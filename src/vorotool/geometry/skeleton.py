@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.arc_measures import ArcMeasures
 from vorotool.geometry.arc_radii import arc_radii
+from vorotool.geometry.checks import set_array
 from vorotool.geometry.polygons import PolygonSet
 
 INTERIOR, EXTERIOR = 0, 1
@@ -141,14 +142,7 @@ class Skeleton:
             ("length", np.float64, arcs, 0),
             ("error_bound", np.float64, arcs, 0),
         ):
-            array = np.ascontiguousarray(getattr(self, name), dtype=dtype)
-            shape = (count, width) if width else (count,)
-            if array.size == 0 and count == 0:
-                array = array.reshape(shape)
-            if array.shape != shape:
-                raise InputError(f"{name} must have shape {shape}, but has {array.shape}")
-            object.__setattr__(self, name, array)
-
+            set_array(self, name, dtype, (count, width) if width else (count,))
         if self.frame is not None:
             x, y, w, h = map(float, self.frame)
             object.__setattr__(self, "frame", (x, y, w, h))

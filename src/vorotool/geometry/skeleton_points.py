@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
+from vorotool.geometry.checks import set_array
 from vorotool.geometry.skeleton import SIDES, Skeleton
 from vorotool.geometry.skeleton_tables import ids_of
 from vorotool.geometry.table import Lookup, Table
@@ -56,10 +56,7 @@ class SkeletonPoints:
     def __post_init__(self) -> None:
         count = len(self.arc)
         for name, shape in (("along", (count,)), ("xy", (count, 2)), ("radius", (count,)), ("feet", (count, 2, 2))):
-            array = np.ascontiguousarray(getattr(self, name), dtype=np.float64)
-            if array.shape != shape:
-                raise InputError(f"{name} must have shape {shape}, but has {array.shape}")
-            object.__setattr__(self, name, array)
+            set_array(self, name, np.float64, shape)
 
     def __len__(self) -> int:
         return len(self.arc)

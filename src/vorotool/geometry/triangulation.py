@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
+from vorotool.geometry.checks import check_as_long, set_rows
 
 FLAT = 2.0**-20
 """Triangles whose largest angle has a smaller sine are computed in rationals: floating point would lose half."""
@@ -89,18 +89,9 @@ class Triangulation:
     def __post_init__(self) -> None:
         columns = {"points": 2, "triangles": 3, "neighbours": 3, "edges": 2, "hull": 0, "first": 0}
         for name, width in columns.items():
-            array = np.ascontiguousarray(getattr(self, name), dtype=np.float64 if name == "points" else np.int32)
-            if array.size == 0:
-                array = array.reshape((0, width) if width else (0,))
-            if array.ndim != (2 if width else 1) or (width and array.shape[1] != width):
-                raise InputError(f"{name} must have shape (…, {width or ''}), but has shape {array.shape}")
-            object.__setattr__(self, name, array)
-        for name, like in (("neighbours", "triangles"), ("first", "points")):
-            if len(getattr(self, name)) != len(getattr(self, like)):
-                raise InputError(
-                    f"{name} must be as long as {like}, but they have {len(getattr(self, name))} and "
-                    f"{len(getattr(self, like))} rows"
-                )
+            set_rows(self, name, np.float64 if name == "points" else np.int32, width)
+        check_as_long(self, "neighbours", "triangles")
+        check_as_long(self, "first", "points")
 
     def __len__(self) -> int:
         return len(self.triangles)

@@ -1,0 +1,14 @@
+"""What tests of alpha complexes and alpha shapes begin with."""
+
+from __future__ import annotations
+
+import warnings
+
+from vorotool import VorotoolWarning, alpha_complex
+
+
+def quietly(points, **options):
+    """The family; duplicates are expected."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", VorotoolWarning)
+        return alpha_complex(points, **options)
