@@ -171,7 +171,7 @@ def test_the_plan_is_printed(run, inputs):
     assert done.code == 3  # draw reads no points
     done = run("delaunay", "points", "--files-from", "list", "--out-dir", "out", "--dry-run")
     assert done.code == 2
-    assert "points/p2.csv and points/p2.csv would both be written to out/p2.csv" in done.err
+    assert "points/p2.csv is given twice: leave one out" in done.err
     done = run("delaunay", "shapes", "--files-from", "list", "--out-dir", "out", "--dry-run", "--what", "edges,table")
     assert done.code == 2  # s0.json twice
     (inputs / "list").write_bytes(b"points/p2.csv\0")
@@ -218,7 +218,7 @@ def test_shards_make_the_whole(run, inputs):
         ("points --table out/p0.csv --what table --out-dir out", 2, "--table out/p0.csv is also the output"),
         ("points --out-dir out --stats points/p0.csv", 2, "--stats points/p0.csv is also the input"),
         ("points --what table --out-dir points", 2, "points/p0.csv is also the input points/p0.csv"),
-        ("points points/p0.csv --out-dir out", 2, "would both be written to out/p0.png"),
+        ("points points/p0.csv --out-dir out", 2, "points/p0.csv is given twice: leave one out"),
         ("points --out-dir out -f svg --precision 3", 2, "--precision is for tables"),
         ("points --out-dir out --what table -f png", 2, "table cannot be written as png"),
         ("--files-from missing --out-dir out", 3, "the list missing cannot be read"),

@@ -137,10 +137,18 @@ class ApproximateProducts(SkeletonProducts):
 
         found["error"] = error_summary(self.found, step=o.step)
         if o.compare:
-            found["comparison"] = self._comparison()
+            found["comparison"] = self._comparison
         return found
 
+    def check(self, target: Target) -> None:
+        """Compute a result, and compare the skeleton if that is asked for: it is said whether statistics are or not."""
+        super().check(target)
+        if self.options.compare:
+            self._comparison  # noqa: B018
+
+    @cached_property
     def _comparison(self) -> dict[str, Any]:
+        """How far the exact skeleton is."""
         from vorotool.engines.skeleton_comparison import compare_with_exact
 
         with self.run.phase("compare"):

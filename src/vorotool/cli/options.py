@@ -215,7 +215,11 @@ OPTIONS: dict[str, Decorator] = {
         "--max-pixels", type=click.IntRange(min=1), default=2**31, show_default=True, help="Most pixels in memory."
     ),
     "max-sites": click.option(
-        "--max-sites", type=click.IntRange(min=1), default=2**31 - 1, show_default=True, help="Most seeds."
+        "--max-sites",
+        type=click.IntRange(min=1),
+        default=2**31 - 1,
+        show_default=True,
+        help="Most seeds, samples or vertices.",
     ),
     "no-clobber": click.option("--no-clobber", is_flag=True, help="Refuse to replace an existing file."),
     "no-properties": click.option(

@@ -158,9 +158,7 @@ def sampled_graph(
         else:
             made = _core.sample_by_step(*graph_arrays(graph), step, most, threads, progress)
     except _core.TooManySeedsError as error:
-        raise LimitError(
-            f"a step of {options.step:g} gives {error} seeds, more than {most}: use a larger one"
-        ) from None
+        raise LimitError(f"a step of {options.step:g} gives {error}, more than {most}: use a larger one") from None
     return diagram_of_samples(graph, placed, made, threads=threads, progress=progress)
 
 
