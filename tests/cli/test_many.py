@@ -223,6 +223,9 @@ def test_shards_make_the_whole(run, inputs):
         ("points --out-dir out --what table -f png", 2, "table cannot be written as png"),
         ("--files-from missing --out-dir out", 3, "the list missing cannot be read"),
         ("--files-from /dev/null --out-dir out", 2, "0 inputs are given"),
+        ("--files-from old.csv -0 --out-dir out", 3, "the list old.csv holds no NUL bytes, by which -0 ends names"),
+        ("points --out-dir=", 2, "'' is no name: name a folder, or . for this one"),
+        ("points/p0.csv --out-dir=", 2, "'' is no name: name a folder, or . for this one"),
         ("points/*.png --out-dir out", 3, "no file matches points/*.png"),
         ("nothing --out-dir out", 3, "nothing holds no file that is read here (csv, "),
         ("points --out-dir points/p0.csv", 4, "points/p0.csv"),
@@ -233,7 +236,7 @@ def test_shards_make_the_whole(run, inputs):
 )
 def test_what_does_not_go(run, inputs, arguments, code, words):
     (inputs / "nothing").mkdir()
-    (inputs / "old.csv").write_text("old")
+    (inputs / "old.csv").write_text("old\nlines\n")
     before = files(inputs)
     done = run("tessellate", *arguments.split())
     assert done.code == code, done.err

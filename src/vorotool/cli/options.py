@@ -164,6 +164,13 @@ class Names(click.ParamType[tuple[str, ...]]):
         return listed(self.choices, incomplete)
 
 
+def _named_folder(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
+    """Refuse an empty name, such as a variable of a shell that is not set leaves: it would stand for this folder."""
+    if value == "":
+        raise click.BadParameter("'' is no name: name a folder, or . for this one", ctx, param)
+    return value
+
+
 OPTIONS: dict[str, Decorator] = {
     "input-format": click.option(
         "--input-format",
@@ -172,7 +179,11 @@ OPTIONS: dict[str, Decorator] = {
         shell_complete=words(ALL_NAMES),
     ),
     "out-dir": click.option(
-        "--out-dir", metavar="DIR", help="Folder for outputs named after the inputs.", shell_complete=folders
+        "--out-dir",
+        metavar="DIR",
+        callback=_named_folder,
+        help="Folder for outputs named after the inputs.",
+        shell_complete=folders,
     ),
     "jobs": click.option("-j", "--jobs", type=click.IntRange(0, 1024), help="Worker processes; 0 uses all cores."),
     "table": click.option(

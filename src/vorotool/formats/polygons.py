@@ -63,8 +63,8 @@ def detect_polygon_format(source: Source) -> str:
         )
     text_source(source)
     raise InputError(
-        f"{source.name} holds no polygons or lines that are read (it looks like {found}); use JSON, GeoJSON, WKT or "
-        ".poly, or say which with --input-format"
+        f"{source.name} holds no polygons or lines that are read (it looks like {found}): use JSON, GeoJSON, WKT or "
+        ".poly, or say which with --input-format; of points alphashape makes polygons"
     )
 
 
