@@ -167,6 +167,17 @@ def test_the_polygons_of_a_skeleton_are_read_again(run):
     assert again.out == run("skeleton-exact", SHAPES, "--what", "table").out
 
 
+@pytest.mark.parametrize("command", [["skeleton-exact"], ["skeleton-approx", "--step", "1", "--compare"]])
+def test_the_inside_of_lines_is_missed_once_and_where_it_is_asked_for(run, folder, command):
+    (folder / "a.wkt").write_text("LINESTRING (0 0, 9 0, 9 9)")
+    done = run(*command, "a.wkt", "-o", "a.json")
+    assert [line for line in done.err.splitlines() if line.startswith("warning")] == [
+        "warning: the interior skeleton is empty: open lines have no inside: use --side exterior"
+    ]
+    done = run(*command, "a.wkt", "--side", "both", "-o", "a.json")
+    assert (done.code, "warning" in done.err) == (0, False)
+
+
 def test_what_is_no_text_is_called_so(run, folder):
     (folder / "a.npz").write_bytes(b"PK\0\1" * 20)
     assert "a.npz is binary, not points or polygons" in run("skeleton-exact", "a.npz").err

@@ -255,7 +255,9 @@ OPTIONS: dict[str, Decorator] = {
     "size": click.option("--size", type=Size(), help="Frame of W x H pixels from pixel (0, 0)."),
     "window": click.option("--window", type=Window(), help="Frame whose first pixel is (X, Y)."),
     "width": click.option(
-        "--width", type=click.IntRange(min=16), help="Pixels across an SVG picture; by default 1000."
+        "--width",
+        type=click.IntRange(min=16),
+        help="Pixels across a picture that is not the size of an image; by default 1000.",
     ),
     "overlay": click.option(
         "--overlay",

@@ -193,7 +193,7 @@ def approximate_skeleton(
     check_skeleton_options(side, 0, frame)
     graph, placed = shapes.graph, shapes.placed
     if side != "exterior" and not graph.is_inside.any():
-        warn_empty(placed.polygons)
+        warn_empty(placed.polygons, side)
     clip = None if side == "interior" else (frame or default_frame(placed.polygons))
     made: dict[str, Any] = shapes.diagram.skeleton(
         face_groups(placed, side),
