@@ -85,6 +85,15 @@ def test_polygons_and_lines_are_drawn(run, folder, options, fmt, groups):
     assert len(np.unique(np.asarray(Image.open(folder / "a.png")).reshape(-1, 3), axis=0)) > 2
 
 
+def test_an_array_of_two_columns_is_an_image(run, folder):
+    np.save(folder / "two.npy", np.array([[1, 2], [1, 2], [3, 3]], dtype=np.uint8))
+    assert run("draw", "two.npy", "-o", "a.png").code == 0
+    assert np.asarray(Image.open(folder / "a.png")).shape == (3, 2)
+    np.save(folder / "four.npy", np.zeros((2, 3, 4, 5), dtype=np.uint8))
+    done = run("draw", "four.npy", "-o", "a.png")
+    assert (done.code, "four.npy" in done.err and "is not drawn" not in done.err) == (3, True)
+
+
 def test_the_picture_of_a_store(run, folder):
     pytest.importorskip("zarr")
     for name in ("labels.zarr", "labels.npy"):

@@ -12,6 +12,7 @@ from vorotool.cli.results import DERIVED, SKELETON_LAYERS
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options
 from vorotool.errors import InputError
+from vorotool.formats import NPY_MAGIC
 from vorotool.formats.geojson import JsonSource
 from vorotool.formats.image_rows import is_zarr, open_rows, read_rows
 from vorotool.formats.images import is_image
@@ -90,7 +91,8 @@ def _read(run: Run, o: SimpleNamespace, path: str) -> LabelImage | Lined:
         return read_skeleton(source, properties=False)
     if says_offsets(source.data):
         return read_offsets(source, properties=False)
-    if is_image(source) if fmt is None else fmt not in POLYGON_NAMES:
+    is_array = source.data.startswith(NPY_MAGIC)  # of two columns, too: points are not drawn
+    if (is_array or is_image(source)) if fmt is None else fmt not in POLYGON_NAMES:
         return read_label_image(source, input_format=fmt, page=o.page, max_pixels=o.max_pixels)
     if not source.data.strip():
         raise InputError(f"{source.name} is empty: there is nothing to draw; check what was to write it")

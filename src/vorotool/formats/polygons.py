@@ -61,7 +61,8 @@ def detect_polygon_format(source: Source) -> str:
         raise InputError(
             f"{source.name} is empty: polygons, lines or an image were expected; check what was to write it"
         )
-    text_source(source)
+    if found != "npy":
+        text_source(source)
     raise InputError(
         f"{source.name} holds no polygons or lines that are read (it looks like {found}): use JSON, GeoJSON, WKT or "
         ".poly, or say which with --input-format; of points alphashape makes polygons"
