@@ -102,6 +102,29 @@ def test_what_a_cluster_needs(run, many, monkeypatch):
     assert "pip install vorotool[distributed]" in failed.err
 
 
+@pytest.mark.parametrize(
+    ("address", "words"),
+    [
+        ("", "missing port number"),
+        ("somewhere", "missing port number"),
+        ("tcp://127.0.0.1", "missing port number"),
+        ("host:port", "'port'"),
+        (":8786", "HOST must not be empty"),
+        ("host:99999", "PORT from 1 to 65535"),
+        ("http://127.0.0.1:8787", "unknown address scheme 'http'"),
+        ("inproc://1/2", "inproc"),
+        ("tls://127.0.0.1:8786", "needs certificates"),
+    ],
+)
+def test_what_is_no_address_is_refused_at_once(run, many, address, words):
+    begin = time.monotonic()
+    failed = run("tessellate", "many", "--out-dir", "out", "--cluster", address)
+    assert (failed.code, words in failed.err) == (2, True)
+    assert failed.err.startswith("error: --cluster ")
+    assert len(failed.err.splitlines()) == 1
+    assert time.monotonic() - begin < 8  # seconds; connecting would take longer
+
+
 # ---- the bands of one image ------------------------------------------------------------------------------------
 
 

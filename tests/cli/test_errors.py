@@ -56,6 +56,12 @@ BAD_INPUTS = {
     "deep.json": (b"[" * 100_000, 3, ["nested"]),
     "deep.wkt": (b"GEOMETRYCOLLECTION(" * 5000, 3, ["nested"]),
     "cut.json": (b"[[1, 2], [3", 3, ["cut.json"]),
+    "table.json": (
+        b'[{"label":1,"x":4,"y":2,"area":50,"perimeter":9}]',
+        3,
+        ["label, x, y, area, …, not points", "-f csv"],
+    ),
+    "shapes.json": (b'{"polygons":[]}', 3, ["shapes.json holds polygons", "skeleton-exact reads it"]),
     "polygon.geojson": (b'{"type": "Polygon", "coordinates": [[[0,0],[1,0],[1,1],[0,0]]]}', 3, ["Polygon"]),
     "binary.csv": (bytes(range(256)) * 4, 3, ["binary.csv"]),
     "cut.png": (png_header(20, 20) + b"\x00\x00\x10\x00IDATxx", 3, ["cut.png"]),
@@ -176,7 +182,7 @@ def test_a_photograph_is_not_taken_for_labels(run, folder):
         ),
         (
             ["draw", "mask.pbm", "-o", "a.png", "--input-format", "xyz"],
-            ["'xyz' is no format of images: use one of png, tiff, tif, pnm, pbm, pgm, ppm, npy"],
+            ["'xyz' is no format of inputs: use one of png, tiff, tif, pnm, pbm, pgm, ppm, npy"],
         ),
         (["paint"], ["paint"]),
         (["--colour"], ["--colour"]),
@@ -480,4 +486,10 @@ def test_a_direction_is_for_pictures(run, folder, command):
     done = run(command, source, "--y-up", "-o", "out.json", *(["--what", "table"] if command == "tessellate" else []))
     assert done.code == 2
     assert "--y-up and --y-down are for pictures" in done.err
+
+
+def test_a_plot_has_no_y_of_the_input(run, folder):
+    done = run("alphashape", "dots.csv", "--what", "curves", "--y-down", "-o", "a.svg")
+    assert (done.code, "curves are a plot: leave them out" in done.err) == (2, True)
+    assert run("alphashape", "dots.csv", "--what", "curves,edges", "--y-down", "-f", "svg", "-o", "a").code == 0
     assert not (folder / "out.json").exists()

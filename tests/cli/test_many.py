@@ -171,7 +171,7 @@ def test_the_plan_is_printed(run, inputs):
     assert done.code == 3  # draw reads no points
     done = run("delaunay", "points", "--files-from", "list", "--out-dir", "out", "--dry-run")
     assert done.code == 2
-    assert "points/p2.csv and points/p2.csv would both be written to out/p2.csv" in done.err
+    assert "points/p2.csv is given twice: leave one out" in done.err
     done = run("delaunay", "shapes", "--files-from", "list", "--out-dir", "out", "--dry-run", "--what", "edges,table")
     assert done.code == 2  # s0.json twice
     (inputs / "list").write_bytes(b"points/p2.csv\0")
@@ -218,11 +218,14 @@ def test_shards_make_the_whole(run, inputs):
         ("points --table out/p0.csv --what table --out-dir out", 2, "--table out/p0.csv is also the output"),
         ("points --out-dir out --stats points/p0.csv", 2, "--stats points/p0.csv is also the input"),
         ("points --what table --out-dir points", 2, "points/p0.csv is also the input points/p0.csv"),
-        ("points points/p0.csv --out-dir out", 2, "would both be written to out/p0.png"),
+        ("points points/p0.csv --out-dir out", 2, "points/p0.csv is given twice: leave one out"),
         ("points --out-dir out -f svg --precision 3", 2, "--precision is for tables"),
         ("points --out-dir out --what table -f png", 2, "table cannot be written as png"),
         ("--files-from missing --out-dir out", 3, "the list missing cannot be read"),
         ("--files-from /dev/null --out-dir out", 2, "0 inputs are given"),
+        ("--files-from old.csv -0 --out-dir out", 3, "the list old.csv holds no NUL bytes, by which -0 ends names"),
+        ("points --out-dir=", 2, "'' is no name: name a folder, or . for this one"),
+        ("points/p0.csv --out-dir=", 2, "'' is no name: name a folder, or . for this one"),
         ("points/*.png --out-dir out", 3, "no file matches points/*.png"),
         ("nothing --out-dir out", 3, "nothing holds no file that is read here (csv, "),
         ("points --out-dir points/p0.csv", 4, "points/p0.csv"),
@@ -233,7 +236,7 @@ def test_shards_make_the_whole(run, inputs):
 )
 def test_what_does_not_go(run, inputs, arguments, code, words):
     (inputs / "nothing").mkdir()
-    (inputs / "old.csv").write_text("old")
+    (inputs / "old.csv").write_text("old\nlines\n")
     before = files(inputs)
     done = run("tessellate", *arguments.split())
     assert done.code == code, done.err

@@ -40,3 +40,45 @@ def test_pruned_branches_and_a_centerline(run, folder):
     assert line.code == 0
     kinds = {feature["geometry"]["type"] for feature in json.loads(line.out)["features"]}
     assert kinds == {"LineString"}
+
+
+@pytest.mark.parametrize("options", [[], ["--stats", "a.json"], ["--what", "table"], ["--what", "offset", "-d", "1"]])
+def test_the_comparison_is_said_with_and_without_statistics(run, options):
+    done = run("skeleton-approx", SHAPES, "--step", "5", "--compare", *options, "-o", "a.npz")
+    assert done.code == 0
+    assert done.err.splitlines() == [
+        "note: from approximate to exact the distance is up to 0.825, near (177.349, 179.301)",
+        "note: from exact to approximate the distance is up to 5.77, near (330, 40)",
+    ]
+
+
+def test_too_many_samples(run):
+    done = run("skeleton-approx", SHAPES, "--step", "1e-9")
+    assert (done.code, done.err) == (
+        5,
+        "error: a step of 1e-09 gives too many seeds, more than 268435456: use a larger one\n",
+    )
+
+
+@pytest.mark.parametrize("command", ["skeleton-approx", "skeleton-exact"])
+@pytest.mark.parametrize(
+    ("polygon", "words"),
+    [
+        ([[0, 0], [1e300, 0], [1e300, 1e300]], "a.json: a coordinate is 1e+300, too large to compute with"),
+        ([[0, 0], [1e-300, 0], [0, 1e-300]], "a.json: the extent is 1e-300, too small to compute with"),
+    ],
+)
+def test_magnitudes_whose_products_are_no_numbers(run, folder, command, polygon, words):
+    (folder / "a.json").write_text(json.dumps(polygon))
+    more = ["--step", "1"] if command == "skeleton-approx" else []
+    done = run(command, "a.json", *more, "--verify", "-o", "out.json")
+    assert (done.code, words in done.err) == (3, True)
+    assert not (folder / "out.json").exists()
+
+
+@pytest.mark.parametrize("factor", [1e-70, 1e69])
+def test_magnitudes_at_the_limits(run, folder, factor):
+    (folder / "a.json").write_text(json.dumps([[0, 0], [10 * factor, 0], [factor, 7 * factor]]))
+    options = ["--what", "skeleton,table,centerline,offset", "-d", f"{-factor},{factor}", "--verify", "-o", "out"]
+    assert run("skeleton-exact", "a.json", *options).code == 0
+    assert run("skeleton-approx", "a.json", "--step", factor, "--side", "both", "--verify", "-o", "b.svg").code == 0

@@ -142,6 +142,9 @@ BAD = {
     "nested": (b"[" * 5000, 3, "a.json"),
     "points": (b'{"type": "Point", "coordinates": [0, 0]}', 3, "point"),
     "short": (b"[[0, 0]", 3, "JSON"),
+    "empty": (b" ", 3, "a.json is empty: JSON was expected"),
+    "table": (b'[{"polygon": 0, "area": 2}]', 3, "a.json holds a table, whose rows have polygon, area, not polygons"),
+    "offsets": (b'{"type": "vorotool.offsets", "polygons": []}', 3, "write them as GeoJSON (--what offset -f geojson)"),
 }
 
 
@@ -157,6 +160,29 @@ def test_bad_input(run, folder, name):
     assert leftovers(folder) == []
 
 
+def test_the_polygons_of_a_skeleton_are_read_again(run):
+    assert run("skeleton-exact", SHAPES, "-o", "a.json").code == 0
+    again = run("skeleton-exact", "a.json", "--what", "table")
+    assert (again.code, again.err) == (0, "note: a.json holds a skeleton: the polygons in it are read\n")
+    assert again.out == run("skeleton-exact", SHAPES, "--what", "table").out
+
+
+@pytest.mark.parametrize("command", [["skeleton-exact"], ["skeleton-approx", "--step", "1", "--compare"]])
+def test_the_inside_of_lines_is_missed_once_and_where_it_is_asked_for(run, folder, command):
+    (folder / "a.wkt").write_text("LINESTRING (0 0, 9 0, 9 9)")
+    done = run(*command, "a.wkt", "-o", "a.json")
+    assert [line for line in done.err.splitlines() if line.startswith("warning")] == [
+        "warning: the interior skeleton is empty: open lines have no inside: use --side exterior"
+    ]
+    done = run(*command, "a.wkt", "--side", "both", "-o", "a.json")
+    assert (done.code, "warning" in done.err) == (0, False)
+
+
+def test_what_is_no_text_is_called_so(run, folder):
+    (folder / "a.npz").write_bytes(b"PK\0\1" * 20)
+    assert "a.npz is binary, not points or polygons" in run("skeleton-exact", "a.npz").err
+
+
 def test_too_many_vertices(run):
     done = run("skeleton-exact", SHAPES, "--max-sites", "10")
     assert done.code == 5
@@ -169,7 +195,7 @@ def test_too_many_vertices(run):
         (["--gap", "-1"], "0 or more"),
         (["--gap", "x"], "no length"),
         (["--flatten", "0", "-f", "wkt"], "above 0"),
-        (["--flatten", "1"], "without curves"),
+        (["--flatten", "1"], "no curves"),
         (["--complete"], "--gap STEP"),
         (["--frame", "0,0,1,1"], "--side exterior"),
         (["--side", "both", "--frame", "0,0,1"], "four numbers"),

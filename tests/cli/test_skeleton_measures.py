@@ -179,9 +179,18 @@ def test_pictures(run, folder):
         (["--what", "shape", "--side", "exterior"], "rebuilt from inside"),
         (["--what", "shape", "-f", "csv"], "shape cannot be written as csv"),
         (["--what", "offset", "-d", "1", "-f", "graphml"], "offset cannot be written as graphml: use --what skeleton"),
-        (["--what", "offset", "-d", "1", "-f", "svg", "--layers", "nodes"], "a picture of offset has polygons, offset"),
-        (["-f", "svg", "--layers", "offset"], "a picture of skeleton has polygons"),
-        (["--what", "offset", "-d", "1", "--flatten", "1", "-f", "csv"], "--flatten is for formats without curves"),
+        (
+            ["--what", "offset", "-d", "1", "-f", "svg", "--layers", "nodes"],
+            "a picture of offset in SVG has polygons, offset;",
+        ),
+        (
+            ["-f", "svg", "--layers", "offset"],
+            "skeleton in SVG has polygons, elements, points, skeleton, nodes, labels;",
+        ),
+        (["-f", "png", "--layers", "labels"], "skeleton in PNG has polygons, elements, points, skeleton, nodes;"),
+        (["--what", "offset", "-d", "-1e71"], "use at most 1e+70"),
+        (["--side", "both", "--frame", "0,0,1e71,1"], "use numbers of at most 1e+70"),
+        (["--what", "offset", "-d", "1", "--flatten", "1", "-f", "csv"], "--flatten is for what has no curves"),
     ],
 )
 def test_wrong_options(run, folder, options, words):

@@ -109,7 +109,7 @@ def test_a_missing_directory(tmp_path):
     assert message == f"{path} cannot be written: the directory does not exist; create the directory first"
     path = tmp_path / "file"
     path.write_bytes(b"")
-    assert "create the directory first" in error_of(OutputError, path / "out.csv")
+    assert "a part of the path is a file, choose another folder" in error_of(OutputError, path / "out.csv")
 
 
 @pytest.mark.parametrize("name", [".", "sub/"])

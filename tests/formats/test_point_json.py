@@ -153,7 +153,7 @@ def test_geojson_notes():
         ('{"type": "Circle"}', "a.geojson: 'Circle' is not a point; use Point or MultiPoint"),
         ("[]", "a.geojson: GeoJSON is an object with a type; use --input-format json for [[x, y], …]"),
         ('{"a":' * 1000, "a.geojson, line 1: brackets are nested more than 100 deep; check the brackets"),
-        ("", "a.geojson, line 1, column 1: this is not JSON"),
+        ("", "a.geojson is empty: JSON was expected"),
     ],
 )
 def test_bad_geojson(text, message):

@@ -104,7 +104,7 @@ def test_points_and_polygons_in_one_file(tmp_path, geometries, message):
             "a",
             "a: .gpkg files are not read; convert it: ogr2ogr -f GeoJSON FILE.geojson FILE.gpkg",
         ),
-        (b"1,2\n", "a.csv", "a.csv holds no polygons or lines that are read (it looks like csv); use JSON, GeoJSON"),
+        (b"1,2\n", "a.csv", "a.csv holds no polygons or lines that are read (it looks like csv): use JSON, GeoJSON"),
         (b"\xff\xfea", "a.wkt", "a.wkt is UTF-16 text"),
         (b"\0", "a.wkt", "a.wkt is binary"),
     ],

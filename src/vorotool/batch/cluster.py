@@ -118,6 +118,8 @@ def completed(client: Any) -> Any:
 def _client(distributed: Any, address: str, jobs: int | None, stack: ExitStack) -> Any:
     for name in ("distributed", "distributed.client"):
         logging.getLogger(name).setLevel(logging.CRITICAL)  # what it would say is in the outcomes
+    if address != LOCAL:
+        _check_address(address)
     cluster = stack.enter_context(_started(distributed, jobs)) if address == LOCAL else address
     try:
         client = distributed.Client(cluster, timeout=PATIENCE, set_as_default=False)
@@ -128,6 +130,27 @@ def _client(distributed: Any, address: str, jobs: int | None, stack: ExitStack) 
     except (OSError, ValueError) as error:
         raise UsageError(f"--cluster {address}: no scheduler answers there ({error}); check the address") from None
     return client
+
+
+def _check_address(address: str) -> None:
+    """Refuse at once what can be no address: a client that fails as it begins ends late, and not quietly."""
+    from distributed import Security
+    from distributed.comm.addressing import get_address_host_port, normalize_address, parse_address
+
+    try:
+        full = normalize_address(address)
+        scheme, _ = parse_address(full)
+        host, port = get_address_host_port(full, strict=True)
+        if not host or not 0 < port < 1 << 16:
+            raise ValueError("HOST must not be empty, and PORT from 1 to 65535")
+    except ValueError as error:
+        raise UsageError(
+            f"--cluster {address!r} is no address of a scheduler ({error}): give HOST:PORT, or local to start a cluster"
+        ) from None
+    if scheme in ("tls", "wss") and Security().get_connection_args("client").get("ssl_context") is None:
+        raise UsageError(
+            f"--cluster {address} needs certificates: name them in distributed.comm.tls of Dask's settings"
+        )
 
 
 @contextmanager

@@ -104,10 +104,13 @@ def read_names(path: str, *, null: bool = False) -> list[str]:
         data = sys.stdin.buffer.read() if path == STANDARD_INPUT else Path(path).read_bytes()
     except (OSError, ValueError, AttributeError) as error:
         name = "standard input" if path == STANDARD_INPUT else path
-        raise InputError(f"the list {name} cannot be read: {getattr(error, 'strerror', None) or error}") from None
+        reason = getattr(error, "strerror", None) or error
+        raise InputError(f"the list {name or repr(name)} cannot be read: {reason}; check its name") from None
     names = data.split(b"\0") if null else [line.removesuffix(b"\r") for line in data.split(b"\n")]
     if not null and b"\0" in data:
         raise InputError(f"the list {path} holds NUL bytes: are names ended by them? then give -0, too")
+    if null and b"\0" not in data and b"\n" in data:
+        raise InputError(f"the list {path} holds no NUL bytes, by which -0 ends names: leave it out for names on lines")
     return [os.fsdecode(name) for name in names if name]
 
 

@@ -77,6 +77,8 @@ def _check_collisions(tasks: Sequence[Task], folder: str | os.PathLike[str], oth
     for task in tasks:
         for path in task.outputs:
             key = _comparable(path)
+            if owner.get(key) == task.source:
+                raise UsageError(f"{task.source} is given twice: leave one out")
             if key in owner:
                 raise UsageError(
                     f"{owner[key]} and {task.source} would both be written to {path}: rename one, "

@@ -124,6 +124,8 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     if o.overlay is not None and not pictures:
         raise click.UsageError("--overlay is for pictures of a shape: use -f svg or -f png, or leave it out")
     plots = ["svg"] if ("curves", "svg") in {(target.what, target.fmt) for target in targets} else []
+    if o.y_up is not None and plots and not pictures and "html" not in formats:
+        raise click.UsageError("--y-up and --y-down are for pictures of a shape, but curves are a plot: leave them out")
     check_picture_options(o, pictures or plots, PICTURE_LAYERS, png_has_width=True, has_page="html" in formats)
 
 

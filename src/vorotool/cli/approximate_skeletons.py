@@ -50,6 +50,7 @@ class ApproximateProducts(SkeletonProducts):
         sampling = SamplingOptions(options.step, options.tolerance, options.sampling)
         self._most = min(options.max_sites, MOST_SEEDS)
         self._found: ApproximateSkeleton | None = None
+        self._apart: dict[str, Any] | None = None
         with run.phase("place"):
             self._graph = planar_graph(polygons, strict=options.strict, **self._common)
             placed = placed_shapes(self._graph, threads=options.threads)
@@ -137,10 +138,17 @@ class ApproximateProducts(SkeletonProducts):
 
         found["error"] = error_summary(self.found, step=o.step)
         if o.compare:
-            found["comparison"] = self._comparison()
+            found["comparison"] = self._apart
         return found
 
+    def check(self, target: Target) -> None:
+        """Compute a result, and compare the skeleton if that is asked for: it is said whether statistics are or not."""
+        super().check(target)
+        if self.options.compare and self._apart is None:
+            self._apart = self._comparison()
+
     def _comparison(self) -> dict[str, Any]:
+        """How far the exact skeleton is."""
         from vorotool.engines.skeleton_comparison import compare_with_exact
 
         with self.run.phase("compare"):

@@ -25,7 +25,7 @@ COMMANDS = {
     "alphashape": "Alpha shapes of points, of one radius or of all.",
     "skeleton-approx": "Skeleton of polygons and lines from samples, with certified errors.",
     "skeleton-exact": "Exact skeleton (medial axis) of polygons and lines.",
-    "draw": "Draw a label image or a skeleton again, without computing it again.",
+    "draw": "Draw label images, skeletons, offset curves and shapes again.",
     "completion": "Print the script by which bash, zsh or fish complete arguments.",
 }
 """Commands and what they do; the module of a command is imported when it is called."""

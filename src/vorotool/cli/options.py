@@ -164,6 +164,13 @@ class Names(click.ParamType[tuple[str, ...]]):
         return listed(self.choices, incomplete)
 
 
+def _named_folder(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
+    """Refuse an empty name, such as a variable of a shell that is not set leaves: it would stand for this folder."""
+    if value == "":
+        raise click.BadParameter("'' is no name: name a folder, or . for this one", ctx, param)
+    return value
+
+
 OPTIONS: dict[str, Decorator] = {
     "input-format": click.option(
         "--input-format",
@@ -172,7 +179,11 @@ OPTIONS: dict[str, Decorator] = {
         shell_complete=words(ALL_NAMES),
     ),
     "out-dir": click.option(
-        "--out-dir", metavar="DIR", help="Folder for outputs named after the inputs.", shell_complete=folders
+        "--out-dir",
+        metavar="DIR",
+        callback=_named_folder,
+        help="Folder for outputs named after the inputs.",
+        shell_complete=folders,
     ),
     "jobs": click.option("-j", "--jobs", type=click.IntRange(0, 1024), help="Worker processes; 0 uses all cores."),
     "table": click.option(
@@ -215,7 +226,11 @@ OPTIONS: dict[str, Decorator] = {
         "--max-pixels", type=click.IntRange(min=1), default=2**31, show_default=True, help="Most pixels in memory."
     ),
     "max-sites": click.option(
-        "--max-sites", type=click.IntRange(min=1), default=2**31 - 1, show_default=True, help="Most seeds."
+        "--max-sites",
+        type=click.IntRange(min=1),
+        default=2**31 - 1,
+        show_default=True,
+        help="Most seeds, samples or vertices.",
     ),
     "no-clobber": click.option("--no-clobber", is_flag=True, help="Refuse to replace an existing file."),
     "no-properties": click.option(
@@ -240,7 +255,9 @@ OPTIONS: dict[str, Decorator] = {
     "size": click.option("--size", type=Size(), help="Frame of W x H pixels from pixel (0, 0)."),
     "window": click.option("--window", type=Window(), help="Frame whose first pixel is (X, Y)."),
     "width": click.option(
-        "--width", type=click.IntRange(min=16), help="Pixels across an SVG picture; by default 1000."
+        "--width",
+        type=click.IntRange(min=16),
+        help="Pixels across a picture that is not the size of an image; by default 1000.",
     ),
     "overlay": click.option(
         "--overlay",

@@ -80,7 +80,9 @@ class Run:
             click.echo(f"note: {message}", err=True)
 
     def warn(self, message: str) -> None:
-        """Say what was repaired, snapped or guessed: on standard error and in the statistics."""
+        """Say what was repaired, snapped or guessed: on standard error and in the statistics, each once."""
+        if message in self.warnings:
+            return
         self.warnings.append(message)
         if not self._quiet:
             click.echo(f"warning: {message}", err=True)

@@ -29,6 +29,7 @@ from vorotool.cli.recipes import Recipe
 from vorotool.cli.results import DERIVED, PICTURES, SKELETON_LAYERS, TABLES
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options
+from vorotool.errors import InputError
 from vorotool.formats.input_formats import NAMES_WITH
 
 if TYPE_CHECKING:
@@ -62,6 +63,10 @@ PICTURE_LAYERS = {
 _WITHOUT_DIGITS = frozenset({"npz", "html", *PICTURES})
 _WITHOUT_CURVES = frozenset({"geojson", "wkt", "graphml"})
 _CURVED = frozenset({"skeleton", "diagram", "centerline", "offset"})
+
+
+LARGEST = 1e70
+"""Magnitude of lengths and coordinates: products of four of these, or of parts of them, are floating-point numbers."""
 
 
 class Length(click.ParamType[float]):
@@ -100,9 +105,12 @@ class Distances(click.ParamType[tuple[float, ...]]):
         from vorotool.errors import UsageError
 
         try:
-            return tuple(checked_distances(numbers))
+            wanted = tuple(checked_distances(numbers))
         except UsageError as error:
             self.fail(str(error), param, ctx)
+        if (largest := max(map(abs, wanted))) > LARGEST:
+            self.fail(f"a distance of {largest:g} is too large to compute with: use at most {LARGEST:g}", param, ctx)
+        return wanted
 
 
 _BEFORE: tuple[Decorator, ...] = (
@@ -147,7 +155,8 @@ _READING: tuple[Decorator, ...] = (
         "--flatten",
         type=Length(zero=False),
         metavar="TOLERANCE",
-        help="How far lines may be from curves where a format has none; by default 1/4096 of the extent.",
+        help="How far lines may be from curves where a format (GeoJSON, WKT, GraphML) or --what shape has none; by "
+        "default 1/4096 of the extent.",
     ),
     click.option(
         "--simplify",
@@ -161,7 +170,12 @@ _READING: tuple[Decorator, ...] = (
         type=click.Choice(["crack", "contour"]),
         help="Of an image: around pixels (default), or half-way between the centres of pixels.",
     ),
-    shared("seeds", "connectivity", "threshold", "invert"),
+    click.option(
+        "--seeds",
+        type=click.Choice(["components", "labels"]),
+        help="What an image's objects are; by default components of two values, labels of more.",
+    ),
+    shared("connectivity", "threshold", "invert"),
 )
 """Options before a command's own, and after them."""
 
@@ -193,22 +207,33 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
         raise click.UsageError("--precision is for numbers in text: use -f json, csv, geojson or wkt, or leave it out")
     curved = any(target.what in _CURVED and target.fmt in _WITHOUT_CURVES for target in targets)
     if o.flatten is not None and not curved and "shape" not in o.what:
-        raise click.UsageError("--flatten is for formats without curves: use -f geojson or -f wkt, or leave it out")
+        raise click.UsageError(
+            "--flatten is for what has no curves: use -f geojson, -f wkt or --what shape, or leave it out"
+        )
     _check_measures(o)
     _check_shapes(o)
     if o.frame is not None and o.side == "interior" and "diagram" not in o.what:
         raise click.UsageError("--frame cuts what is outside: use --side exterior or both, or leave it out")
+    if o.frame is not None and max(map(abs, o.frame)) > LARGEST:
+        raise click.UsageError(f"--frame goes too far to compute with: use numbers of at most {LARGEST:g}")
     _check_centerline(o)
-    if o.seeds in ("pixels", "centroids"):
-        raise click.UsageError(f"--seeds {o.seeds} have no outlines: use --seeds components or labels")
     pictures = sorted(formats & set(PICTURES))
     if o.layers is not None and not pictures:
         raise click.UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
+    _check_layers(o, targets)
     check_picture_options(o, pictures, PICTURE_LAYERS, png_has_width=True, has_page="html" in formats)
-    for what in (target.what for target in targets if target.fmt in PICTURES):
-        own = DERIVED.get(what, (*SKELETON_LAYERS, "exact"))
+
+
+def _check_layers(o: SimpleNamespace, targets: list[Target]) -> None:
+    """Each picture has each of the layers."""
+    usual = (*SKELETON_LAYERS, "exact") if hasattr(o, "compare") else SKELETON_LAYERS
+    for target in (target for target in targets if target.fmt in PICTURES):
+        own = [name for name in DERIVED.get(target.what, usual) if name != "labels" or target.fmt == "svg"]
         for layer in (layer for layer in o.layers or () if layer not in own):
-            raise click.UsageError(f"--layers {layer}: a picture of {what} has {', '.join(own)}; choose of these")
+            raise click.UsageError(
+                f"--layers {layer}: a picture of {target.what} in {target.fmt.upper()} has {', '.join(own)}; "
+                "choose of these"
+            )
 
 
 def _check_centerline(o: SimpleNamespace) -> None:
@@ -263,7 +288,19 @@ def _read_polygons(run: Run, o: SimpleNamespace, source: str) -> PolygonSet:
         return _outlines(run, o, value)
     assert isinstance(value, PolygonSet)  # what is asked for is polygons, or an image
     refuse(o, (*IMAGE_OPTIONS, "outline"), "is for images, but the input is polygons or lines")
+    _check_magnitude(value)
     return value if o.simplify is None else _simplified(run, o, value)
+
+
+def _check_magnitude(polygons: PolygonSet) -> None:
+    """Refuse polygons so large, or so small, that products of distances are no numbers."""
+    if not len(polygons.xy):
+        return
+    largest, extent = float(abs(polygons.xy).max()), float((polygons.xy.max(axis=0) - polygons.xy.min(axis=0)).max())
+    if largest > LARGEST:
+        raise InputError(f"a coordinate is {largest:g}, too large to compute with: scale them to {LARGEST:g} at most")
+    if 0 < extent < 1 / LARGEST:
+        raise InputError(f"the extent is {extent:g}, too small to compute with: scale it to {1 / LARGEST:g} at least")
 
 
 def _outlines(run: Run, o: SimpleNamespace, image: Raster) -> PolygonSet:

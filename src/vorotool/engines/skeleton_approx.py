@@ -158,9 +158,7 @@ def sampled_graph(
         else:
             made = _core.sample_by_step(*graph_arrays(graph), step, most, threads, progress)
     except _core.TooManySeedsError as error:
-        raise LimitError(
-            f"a step of {options.step:g} gives {error} seeds, more than {most}: use a larger one"
-        ) from None
+        raise LimitError(f"a step of {options.step:g} gives {error}, more than {most}: use a larger one") from None
     return diagram_of_samples(graph, placed, made, threads=threads, progress=progress)
 
 
@@ -195,7 +193,7 @@ def approximate_skeleton(
     check_skeleton_options(side, 0, frame)
     graph, placed = shapes.graph, shapes.placed
     if side != "exterior" and not graph.is_inside.any():
-        warn_empty(placed.polygons)
+        warn_empty(placed.polygons, side)
     clip = None if side == "interior" else (frame or default_frame(placed.polygons))
     made: dict[str, Any] = shapes.diagram.skeleton(
         face_groups(placed, side),

@@ -92,7 +92,7 @@ def skeleton_of(
     group = face_groups(shapes.placed, side)[faces]
     kept = group >= 0
     if side != "exterior" and not shapes.graph.is_inside.any():
-        warn_empty(shapes.placed.polygons)
+        warn_empty(shapes.placed.polygons, side)
     return assembled(
         shapes.graph,
         shapes.diagram,
@@ -259,11 +259,13 @@ def diagram_arrays(diagram: SegmentVoronoiDiagram) -> tuple[_Rows, _Rows, _Point
     )
 
 
-def warn_empty(polygons: PolygonSet) -> None:
-    """Say why there is no interior."""
+def warn_empty(polygons: PolygonSet, side: str) -> None:
+    """Say why there is no interior; with both sides, that of open lines is not missed."""
     if not len(polygons):
         reason = "there are no polygons"
     elif polygons.is_line.all():
+        if side == "both":
+            return
         reason = "open lines have no inside: use --side exterior"
     else:
         reason = "no polygon has an inside"

@@ -14,6 +14,7 @@ NPY_MAGIC = b"\x93NUMPY"
 
 if TYPE_CHECKING:
     from vorotool.geometry.label_image import LabelImage
+    from vorotool.geometry.offsets import Offsets
     from vorotool.geometry.points import PointSet
     from vorotool.geometry.polygons import PolygonSet
     from vorotool.geometry.raster import Raster
@@ -32,8 +33,8 @@ def read(
     properties: bool = True,
     threads: int = 0,
     note: Callable[[str], None] | None = None,
-) -> PointSet | PolygonSet | Raster | Skeleton:
-    """Read points, polygons and lines, an image, or a skeleton that was written as JSON.
+) -> PointSet | PolygonSet | Raster | Skeleton | Offsets:
+    """Read points, polygons and lines, an image, or a skeleton or offset curves that were written as JSON.
 
     A plain JSON list of pairs holds points, unless ``geometry`` is polygons. GeoJSON and WKT hold either points or
     polygons and lines: what their first geometry is.
@@ -62,7 +63,7 @@ def read(
 
     Returns
     -------
-    PointSet, PolygonSet, Raster or Skeleton
+    PointSet, PolygonSet, Raster, Skeleton or Offsets
 
     Raises
     ------
@@ -96,10 +97,13 @@ def read(
         return read_rows(rows, max_pixels=max_pixels)
     source = read_source(fspath(path))
     if geometry is None and input_format in (None, "json"):
+        from vorotool.formats.offset_json import read_offsets, says_offsets
         from vorotool.formats.skeleton_json import read_skeleton, says_skeleton
 
         if says_skeleton(source.data):
             return read_skeleton(source, properties=properties, max_sites=max_sites, note=note)
+        if says_offsets(source.data):
+            return read_offsets(source, properties=properties, max_sites=max_sites, note=note)
     is_points = columns is not None and source.data.startswith(NPY_MAGIC)  # the one format that holds either
     if input_format in ("png", "tiff", "pnm", "zarr") or (
         input_format in (None, "npy") and not is_points and is_image(source)

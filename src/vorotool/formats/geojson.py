@@ -36,6 +36,8 @@ def parse_json(source: Source) -> Any:
 
     if isinstance(source, JsonSource):
         return source.document
+    if not source.data.strip():
+        raise InputError(f"{source.name} is empty: JSON was expected; check what was to write it")
     check_nesting(source.data, name=source.name)
     try:
         return orjson.loads(source.data)
@@ -43,6 +45,29 @@ def parse_json(source: Source) -> Any:
         raise InputError(
             f"{source.name}, line {error.lineno}, column {error.colno}: this is not JSON ({error.msg}); correct it"
         ) from None
+
+
+def refuse_table(name: str, document: Sequence[Any], advice: str) -> None:
+    """Refuse a list of objects that are rows of a table, such as ``--what table -f json`` writes.
+
+    Parameters
+    ----------
+    name : str
+        The input.
+    document : sequence
+        Whose first item tells: rows have fields that are no coordinates.
+    advice : str
+        What it is not, and what to do.
+
+    Raises
+    ------
+    InputError
+        With the first fields of the first row.
+    """
+    row = document[0] if document else None
+    if isinstance(row, dict) and row and not row.keys() & {"type", "shell", "line"}:
+        fields = ", ".join([*list(row)[:4], *["…"] * (len(row) > 4)])
+        raise InputError(f"{name} holds a table, whose rows have {fields}, not {advice}")
 
 
 def features_of(name: str, document: Mapping[str, Any]) -> list[Any]:

@@ -35,8 +35,8 @@ IMAGE_NAMES = {
 ALL_NAMES = {**POINT_NAMES, **POLYGON_NAMES, **IMAGE_NAMES}
 NAMES_WITH = {"points": {**POINT_NAMES, **IMAGE_NAMES}, "polygons": {**POLYGON_NAMES, **IMAGE_NAMES}, None: ALL_NAMES}
 """Formats of inputs that hold an image or such geometry."""
-DRAWN_NAMES = {**IMAGE_NAMES, "json": "json"}
-"""Formats of what is drawn again: label images, and skeletons."""
+DRAWN_NAMES = {**IMAGE_NAMES, **POLYGON_NAMES}
+"""Formats of what is drawn again: label images, skeletons, offset curves, polygons and lines."""
 
 _KINDS = ((POINT_NAMES, "points"), (POLYGON_NAMES, "polygons"), (IMAGE_NAMES, "images"))
 

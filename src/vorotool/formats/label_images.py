@@ -17,6 +17,7 @@ from vorotool.formats.png import write_png
 from vorotool.formats.tiff import write_tiff
 from vorotool.geometry.frame import MAX_PIXELS
 from vorotool.geometry.label_image import LabelImage
+from vorotool.geometry.raster import Raster
 
 LabelFormat = Literal["png", "tiff", "npy", "text"]
 
@@ -145,12 +146,29 @@ def read_label_image(
     >>> read_label_image(SimpleNamespace(name="a.pgm", data=b"P2 3 1 9 1 1 2")).labels
     array([[1, 1, 2]], dtype=uint8)
     """
-    values = read_image(source, input_format=input_format, page=page, max_pixels=max_pixels).values
+    image = read_image(source, input_format=input_format, page=page, max_pixels=max_pixels)
+    return label_image_of(image, source.name)
+
+
+def label_image_of(image: Raster, name: str) -> LabelImage:
+    """Take the values of an image for labels.
+
+    Raises
+    ------
+    InputError
+        As of `read_label_image`.
+
+    Examples
+    --------
+    >>> label_image_of(Raster(np.array([[1, 1, 2]])), "a.zarr").labels
+    array([[1, 1, 2]], dtype=uint32)
+    """
+    values = image.values
     if values.ndim != 2:
-        raise InputError(f"{source.name} has {values.shape[2]} channels: labels need a single one")
+        raise InputError(f"{name} has {values.shape[2]} channels: labels need a single one")
     if values.dtype.kind not in "ui":
-        raise InputError(f"{source.name} holds {values.dtype} values: labels need integers")
-    return LabelImage(_as_labels(values, source.name))
+        raise InputError(f"{name} holds {values.dtype} values: labels need integers")
+    return LabelImage(_as_labels(values, name))
 
 
 def _as_labels(values: NDArray[Any], name: str) -> NDArray[Any]:

@@ -4,21 +4,16 @@ from __future__ import annotations
 
 from typing import Any, BinaryIO
 
-import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.formats.choices import check_format
-from vorotool.formats.json_lists import choice, integers, number_or_null, optional_pair, write_list, write_sites
-from vorotool.formats.polygon_json import write_items
+from vorotool.formats.offset_json import write_json
 from vorotool.formats.polygons import write_polygons
-from vorotool.formats.tables import json_text, write_arrays, write_table
-from vorotool.formats.text_rows import Column
+from vorotool.formats.tables import write_arrays, write_table
 from vorotool.geometry.flattening import checked_flatten
-from vorotool.geometry.offsets import PIECE_KINDS, RING_KINDS, Offsets
+from vorotool.geometry.offsets import Offsets
 
 OFFSET_FORMATS = ("json", "csv", "geojson", "npz", "wkt")
-TYPE = "vorotool.offsets"
-VERSION = 1
 
 
 def write_offsets(
@@ -69,7 +64,7 @@ def write_offsets(
     if fmt == "csv":
         write_table(out, offsets.table(), fmt, precision=precision, threads=threads)
     elif fmt == "json":
-        _write_json(out, offsets, precision, threads)
+        write_json(out, offsets, precision=precision, threads=threads)
     elif fmt == "npz":
         write_arrays(out, offset_arrays(offsets), threads=threads)
     else:
@@ -100,48 +95,3 @@ def offset_arrays(offsets: Offsets) -> dict[str, NDArray[Any]]:
         "site_ring": offsets.site_table.ring,
         "site_index": offsets.site_table.index,
     }
-
-
-def _write_json(out: BinaryIO, offsets: Offsets, precision: int | None, threads: int) -> None:
-    """Polygons, sites, shapes, rings and pieces, one object a line of text; all indices are 0-based.
-
-    The rings of a shape begin with the ring ``first``, its shell; the pieces of a ring with the piece ``first``.
-    """
-    polygons = offsets.polygons
-    head: dict[str, Any] = {"type": TYPE, "version": VERSION}
-    if polygons.y_up:
-        head["y_up"] = True
-    if polygons.crs is not None:
-        head["crs"] = polygons.crs
-    out.write(json_text(head).removesuffix("}").encode() + b",\n")
-    write_items(out, polygons, precision)
-    write_sites(out, offsets.site_table, threads=threads)
-    shapes = [
-        Column("", offsets.distance),
-        number_or_null(offsets.polygon, len(polygons)),
-        integers(offsets.shape_start[:-1]),
-        integers(np.diff(offsets.shape_start)),
-    ]
-    around: tuple[str, ...] = ('{"distance":', ',"polygon":', ',"first":', ',"rings":', "}")
-    write_list(out, "shapes", shapes, around, precision=precision, threads=threads)
-    rings = [
-        integers(offsets.shape_of_ring),
-        choice(RING_KINDS, offsets.ring_kind),
-        integers(offsets.ring_start[:-1]),
-        integers(np.diff(offsets.ring_start)),
-    ]
-    around = ('{"shape":', ',"kind":"', '","first":', ',"pieces":', "}")
-    write_list(out, "rings", rings, around, threads=threads)
-    places = [Column("", values.copy()) for values in (*offsets.start.T, *offsets.end.T)]
-    pieces = [
-        choice(PIECE_KINDS, offsets.is_arc),
-        *places,
-        *optional_pair(offsets.is_arc, [values.copy() for values in offsets.centre.T]),
-        choice(["null", "true", "false"], np.where(offsets.is_arc, np.where(offsets.piece_distance > 0, 1, 2), 0)),
-        integers(offsets.site),
-    ]
-    around = (
-        '{"kind":"', '","start":[', ",", '],"end":[', ",", '],"centre":', "", "", "", "", ',"ccw":', ',"site":', "}",
-    )  # fmt: skip
-    write_list(out, "pieces", pieces, around, precision=precision, threads=threads)
-    out.write(b"}\n")

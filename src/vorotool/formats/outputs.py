@@ -307,7 +307,7 @@ def failure(name: str, error: OSError) -> OutputError:
     """Say why an output cannot be written, and what to do."""
     advice = {
         "ENOENT": "create the directory first",
-        "ENOTDIR": "create the directory first",
+        "ENOTDIR": "a part of the path is a file, choose another folder",
         "ENOSPC": "free some space, or write elsewhere with -o",
         "EDQUOT": "free some space, or write elsewhere with -o",
     }

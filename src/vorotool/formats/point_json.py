@@ -15,6 +15,7 @@ from vorotool.formats.geojson import (
     list_of,
     parse_json,
     property_columns,
+    refuse_table,
 )
 from vorotool.formats.point_options import PointOptions, position_array, shortened
 from vorotool.formats.sources import Source
@@ -29,6 +30,7 @@ def read_json(source: Source, options: PointOptions) -> PointSet:
         return _read_document(source.name, document, options)
     if not isinstance(document, list):
         raise InputError(f"{source.name}: {shortened(document)} is no list of points; write [[x, y], …]")
+    refuse_table(source.name, document, "points: write it as CSV (-f csv), or as [[x, y], …]")
     for index, point in enumerate(document):
         if type(point) is list and len(point) > 2:
             raise InputError(
@@ -56,6 +58,11 @@ class _Collected:
 
 
 def _read_document(name: str, document: Mapping[str, Any], options: PointOptions) -> PointSet:
+    if "polygons" in document:
+        raise InputError(
+            f"{name} holds polygons, or what was made of them, not points: skeleton-exact reads it; for places along a "
+            "skeleton use --what points -f csv there"
+        )
     features = features_of(name, document)
     place = feature_places(name, document)
     collected = _Collected()

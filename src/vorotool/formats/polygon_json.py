@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, BinaryIO
 
 from vorotool.errors import InputError
-from vorotool.formats.geojson import parse_json, property_columns
+from vorotool.formats.geojson import parse_json, property_columns, refuse_table
 from vorotool.formats.point_options import shortened
 from vorotool.formats.polygon_geojson import read_geojson
 from vorotool.formats.polygon_options import PolygonOptions, RingCollector
@@ -19,6 +19,7 @@ _FORM = '{"polygons": [{"shell": [[x, y], …], "holes": [[[x, y], …], …]}, 
 def read_json(source: Source, options: PolygonOptions) -> PolygonSet:
     """Read ``[[x, y], …]``, a list of such shells, ``{"polygons": […]}``, or GeoJSON where the object has a type."""
     document = parse_json(source)
+    _check_type(source.name, document, options)
     if isinstance(document, dict) and "polygons" not in document and "type" in document:
         return read_geojson(source, options)
     items = _items(source.name, document)
@@ -41,6 +42,18 @@ def read_json(source: Source, options: PolygonOptions) -> PolygonSet:
     return polygons
 
 
+def _check_type(name: str, document: Any, options: PolygonOptions) -> None:
+    """Refuse curves in whose place the polygons that they are around would be read; say so of a skeleton."""
+    kind = document.get("type") if isinstance(document, dict) and "polygons" in document else None
+    if kind == "vorotool.offsets":
+        raise InputError(
+            f"{name} holds offset curves, with arcs: write them as GeoJSON (--what offset -f geojson), which has "
+            "polygons instead, or give the file that they were made from"
+        )
+    if kind == "vorotool.skeleton":
+        options.note(f"{name} holds a skeleton: the polygons in it are read")
+
+
 def _items(name: str, document: Any) -> list[Any]:
     if isinstance(document, dict):
         items = document.get("polygons")
@@ -49,6 +62,7 @@ def _items(name: str, document: Any) -> list[Any]:
         return items
     if not isinstance(document, list):
         raise InputError(f"{name}: {shortened(document)} is no polygon; write [[x, y], …], or {_FORM}")
+    refuse_table(name, document, f"polygons: give the file that it was made from, or write {_FORM}")
     return document if is_list_of_shells(document) else [document] if document else []
 
 

@@ -57,9 +57,15 @@ def detect_polygon_format(source: Source) -> str:
         return "json"
     if found in POLYGON_FORMATS:
         return found
+    if not source.data.strip():
+        raise InputError(
+            f"{source.name} is empty: polygons, lines or an image were expected; check what was to write it"
+        )
+    if found != "npy":
+        text_source(source)
     raise InputError(
-        f"{source.name} holds no polygons or lines that are read (it looks like {found}); use JSON, GeoJSON, WKT or "
-        ".poly, or say which with --input-format"
+        f"{source.name} holds no polygons or lines that are read (it looks like {found}): use JSON, GeoJSON, WKT or "
+        ".poly, or say which with --input-format; of points alphashape makes polygons"
     )
 
 

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.formats.geojson import JsonSource, parse_json
 from vorotool.formats.json_lists import (
-    SITE_KINDS,
     choice,
     integers,
     number_or_null,
@@ -19,9 +17,8 @@ from vorotool.formats.json_lists import (
     write_list,
     write_sites,
 )
+from vorotool.formats.json_rows import JsonRows, opened_rows, read_polygons_of, read_sites, says
 from vorotool.formats.point_options import no_note, shortened
-from vorotool.formats.points import text_source
-from vorotool.formats.polygon_json import read_json as read_polygon_json
 from vorotool.formats.polygon_json import write_items
 from vorotool.formats.polygon_options import PolygonOptions
 from vorotool.formats.sources import Source
@@ -93,12 +90,7 @@ def _write_arcs(out: BinaryIO, skeleton: Skeleton, precision: int | None, thread
 # ---- reading -------------------------------------------------------------------------------------
 def says_skeleton(data: bytes) -> bool:
     """Whether text looks like the JSON of a skeleton, which is not parsed to tell."""
-    return f'"{TYPE}"'.encode() in data and data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{")
-
-
-def is_skeleton(document: Any) -> bool:
-    """Whether a JSON document says that it is a skeleton."""
-    return isinstance(document, Mapping) and document.get("type") == TYPE
+    return says(data, TYPE)
 
 
 def read_skeleton(
@@ -132,135 +124,16 @@ def read_skeleton(
     >>> len(read_skeleton(Source("square.json", out.getvalue())))
     4
     """
-    document = parse_json(source if isinstance(source, JsonSource) else text_source(source))
-    if not is_skeleton(document):
-        raise InputError(f'{source.name}: this is no skeleton; its type should be "{TYPE}"')
-    if document.get("version") != VERSION:
-        version = shortened(document.get("version"))
-        raise InputError(f"{source.name}: version {version} of skeletons is not known; write version {VERSION}")
-    rows = _Rows(source.name, document)
-    options = PolygonOptions(properties, max_sites, note or no_note)
-    only_polygons = {"polygons": rows.list_of("polygons")}
-    polygons = _described(read_polygon_json(JsonSource(source.name, b"", only_polygons), options), document)
-    sites = _read_sites(rows, polygons)
+    rows = opened_rows(source, TYPE, VERSION, "skeleton")
+    polygons = read_polygons_of(rows, PolygonOptions(properties, max_sites, note or no_note))
+    sites = read_sites(rows, polygons)
     vertices = rows.list_of("vertices")
     x, y, radius = (rows.numbers("vertices", vertices, name) for name in ("x", "y", "r"))
     return _read_arcs(rows, polygons, sites, np.stack([x, y], axis=1), radius)
 
 
-class _Rows:
-    """Lists of objects, whose members are taken out as arrays."""
-
-    def __init__(self, name: str, document: Mapping[str, Any]) -> None:
-        self.name, self.document = name, document
-
-    def list_of(self, member: str) -> list[Any]:
-        value = self.document.get(member)
-        if not isinstance(value, list):
-            raise InputError(f"{self.name}: {member} are {shortened(value)}; write a list")
-        for index, row in enumerate(value):
-            if not isinstance(row, dict):
-                raise InputError(f"{self.name}, {member} {index}: {shortened(row)} is no object")
-        return value
-
-    def fault(self, member: str, rows: list[Any], name: str, is_right: Callable[[Any], bool], what: str) -> InputError:
-        at = next((i for i, row in enumerate(rows) if not is_right(row.get(name))), 0)
-        value = rows[at].get(name)
-        return InputError(f"{self.name}, {member} {at}: {name} is {shortened(value)}; write {what}")
-
-    def numbers(self, member: str, rows: list[Any], name: str, *, optional: bool = False) -> NDArray[np.float64]:
-        """Numbers; None becomes NaN where it is allowed."""
-
-        def is_right(value: Any) -> bool:
-            return type(value) in (int, float) or (value is None and optional)
-
-        values = [row.get(name) for row in rows]
-        if not all(map(is_right, values)):
-            raise self.fault(member, rows, name, is_right, "a number")
-        return np.array([np.nan if value is None else value for value in values], dtype=np.float64)
-
-    def frame(self) -> tuple[float, float, float, float] | None:
-        value = self.document.get("frame")
-        if value is None:
-            return None
-        if type(value) is not list or len(value) != 4 or not all(type(v) in (int, float) for v in value):
-            raise InputError(f"{self.name}: the frame is {shortened(value)}; write [x, y, w, h]")
-        x, y, w, h = map(float, value)
-        return (x, y, w, h)
-
-    def gap(self) -> float:
-        value = self.document.get("gap", 0)
-        if type(value) not in (int, float) or not value >= 0:
-            raise InputError(f"{self.name}: the gap is {shortened(value)}; write a length")
-        return float(value)
-
-    def indices(self, member: str, rows: list[Any], name: str, limit: int, default: Any = None) -> NDArray[np.int32]:
-        """Integers from 0 to below a limit; None becomes -1 where it is the default."""
-
-        def is_right(value: Any) -> bool:
-            return (type(value) is int and 0 <= value < limit) or (value is None and default is not None)
-
-        values = [row.get(name) for row in rows]
-        if not all(map(is_right, values)):
-            raise self.fault(member, rows, name, is_right, f"a whole number from 0 to {limit - 1}")
-        return np.array([-1 if value is None else value for value in values], dtype=np.int32)
-
-    def choices(self, member: str, rows: list[Any], name: str, names: tuple[str | None, ...]) -> NDArray[np.int8]:
-        number = {text: index for index, text in enumerate(names)}
-        values = [row.get(name) for row in rows]
-        if not all(isinstance(value, str | None) and value in number for value in values):
-            listed = " or ".join(json_text(text) for text in names)
-            raise self.fault(member, rows, name, lambda v: isinstance(v, str | None) and v in number, listed)
-        return np.array([number[value] for value in values], dtype=np.int8)
-
-    def pairs(self, member: str, rows: list[Any], name: str, *, optional: bool) -> NDArray[np.float64]:
-        def is_right(value: Any) -> bool:
-            if value is None:
-                return optional
-            return type(value) is list and len(value) == 2 and all(type(v) in (int, float) for v in value)
-
-        values = [row.get(name) for row in rows]
-        if not all(map(is_right, values)):
-            raise self.fault(member, rows, name, is_right, "[number, number]")
-        nothing = (np.nan, np.nan)
-        return np.array([nothing if value is None else value for value in values], dtype=np.float64).reshape(-1, 2)
-
-
-def _described(polygons: PolygonSet, document: Mapping[str, Any]) -> PolygonSet:
-    return PolygonSet(
-        polygons.xy,
-        polygons.ring_start,
-        polygons.ring_kind,
-        polygons.ring_polygon,
-        polygons.ids,
-        polygons.feature,
-        polygons.properties,
-        y_up=document.get("y_up") is True,
-        crs=document.get("crs"),
-        connectivity=document.get("connectivity"),
-    )
-
-
-def _read_sites(rows: _Rows, polygons: PolygonSet) -> SiteTable:
-    items = rows.list_of("sites")
-    kind = rows.choices("sites", items, "kind", SITE_KINDS)
-    polygon = rows.indices("sites", items, "polygon", len(polygons))
-    ring = rows.indices("sites", items, "ring", len(polygons.xy))
-    index = rows.indices("sites", items, "index", len(polygons.xy))
-    number = polygons.polygon_start[polygon] + ring
-    bad = np.flatnonzero(number >= polygons.polygon_start[polygon + 1])
-    if bad.size:
-        raise InputError(f"{rows.name}, sites {bad[0]}: there is no ring {ring[bad[0]]} in polygon {polygon[bad[0]]}")
-    bad = np.flatnonzero(index >= np.diff(polygons.ring_start)[number])
-    if bad.size:
-        raise InputError(f"{rows.name}, sites {bad[0]}: the ring has no vertex {index[bad[0]]}")
-    source = rows.pairs("sites", items, "source", optional=True)
-    source_ring, source_index = np.where(np.isnan(source), -1, source).astype(np.int32).T
-    return SiteTable(kind, polygon, ring, index, source_ring, source_index)
-
-
 def _read_arcs(
-    rows: _Rows, polygons: PolygonSet, sites: SiteTable, vertices: NDArray[np.float64], radius: NDArray[np.float64]
+    rows: JsonRows, polygons: PolygonSet, sites: SiteTable, vertices: NDArray[np.float64], radius: NDArray[np.float64]
 ) -> Skeleton:
     items = rows.list_of("arcs")
     ends = [rows.indices("arcs", items, name, len(vertices)) for name in ("source", "target")]
@@ -293,6 +166,23 @@ def _read_arcs(
         np.where(np.isnan(length), 0.0, length),
         rows.numbers("arcs", items, "error_bound", optional=True),
         polygons,
-        rows.frame(),
-        rows.gap(),
+        _frame(rows),
+        _gap(rows),
     )
+
+
+def _frame(rows: JsonRows) -> tuple[float, float, float, float] | None:
+    value = rows.document.get("frame")
+    if value is None:
+        return None
+    if type(value) is not list or len(value) != 4 or not all(type(v) in (int, float) for v in value):
+        raise InputError(f"{rows.name}: the frame is {shortened(value)}; write [x, y, w, h]")
+    x, y, w, h = map(float, value)
+    return (x, y, w, h)
+
+
+def _gap(rows: JsonRows) -> float:
+    value = rows.document.get("gap", 0)
+    if type(value) not in (int, float) or not value >= 0:
+        raise InputError(f"{rows.name}: the gap is {shortened(value)}; write a length")
+    return float(value)

@@ -28,7 +28,7 @@ def polygon_layers(
     name, fill : str
         Of the layer of closed rings.
     edge : str, optional
-        Colour of their outlines.
+        Colour of their outlines, and of lines.
 
     Examples
     --------
@@ -54,18 +54,18 @@ def polygon_layers(
     first = np.flatnonzero(~corner_is_closed)
     last = np.isin(first, polygons.ring_start[1:] - 1)
     pairs = np.stack([first[~last], first[~last] + 1], axis=1).astype(np.int32)
-    lines = Lines("lines", polygons.xy, pairs, FAINT, width)
+    lines = Lines("lines", polygons.xy, pairs, edge or FAINT, width)
     return [filled, lines] if len(pairs) else [filled]
 
 
-def shape_layers(polygons: PolygonSet, _page: Page, layers: Iterable[str]) -> list[Layer]:
-    """Polygons as what is shown: filled, with outlines.
+def shape_layers(polygons: PolygonSet, page: Page, layers: Iterable[str]) -> list[Layer]:
+    """Polygons and lines as what is shown: filled, with outlines, which get finer where there are many vertices.
 
     Parameters
     ----------
     polygons : PolygonSet
         What to draw.
-    _page : Page
+    page : Page
         Where it will be drawn.
     layers : iterable of str
         "shape", if at all.
@@ -77,7 +77,8 @@ def shape_layers(polygons: PolygonSet, _page: Page, layers: Iterable[str]) -> li
     """
     if "shape" not in checked_layers(layers, SHAPE_LAYERS):
         return []
-    return polygon_layers(polygons, 1.5, name="shape", edge=RESULT)
+    width = min(max(page.spacing(max(len(polygons.xy), 1)) / 16, 0.2), 1.5)
+    return polygon_layers(polygons, width, name="shape", edge=RESULT)
 
 
 def polygon_page(polygons: PolygonSet, *, width: int = 1000, y_up: bool | None = None) -> Page:

@@ -1,0 +1,165 @@
+"""Pictures of results that were written before: what the file holds decides."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from types import SimpleNamespace
+from typing import Any, BinaryIO
+
+from vorotool.cli.inputs import refuse
+from vorotool.cli.results import DERIVED, SKELETON_LAYERS
+from vorotool.cli.run import Run
+from vorotool.cli.targets import Target, check_picture_options
+from vorotool.errors import InputError
+from vorotool.formats import NPY_MAGIC
+from vorotool.formats.geojson import JsonSource
+from vorotool.formats.image_rows import is_zarr, open_rows, read_rows
+from vorotool.formats.images import is_image
+from vorotool.formats.input_formats import DRAWN_NAMES, POLYGON_NAMES, known_input_format
+from vorotool.formats.label_images import label_image_of, read_label_image
+from vorotool.formats.offset_json import read_offsets, says_offsets
+from vorotool.formats.outputs import open_output
+from vorotool.formats.polygons import read_polygons, recognise
+from vorotool.formats.skeleton_json import read_skeleton, says_skeleton
+from vorotool.formats.sources import Source, read_source
+from vorotool.geometry.label_image import LabelImage
+from vorotool.geometry.offsets import Offsets
+from vorotool.geometry.polygons import PolygonSet
+from vorotool.geometry.skeleton import Skeleton
+from vorotool.pictures import drawing_of, write_label_picture, write_layers
+
+LABEL_LAYERS = {"png": ("cells", "diagram"), "svg": ("cells", "labels")}
+"""A label image from a file has no seeds."""
+
+Lined = Skeleton | Offsets | PolygonSet
+"""What is drawn in layers of lines and areas."""
+
+Drawing = tuple[Callable[[BinaryIO], None], dict[str, Any]]
+"""What draws, and what it draws in numbers."""
+
+
+class Picture:
+    """The picture of one input.
+
+    Parameters
+    ----------
+    run : Run
+        Takes notes and seconds.
+    options : namespace
+        Options of the command line.
+    source : str
+        The input; ``-`` is standard input.
+    """
+
+    def __init__(self, run: Run, options: SimpleNamespace, source: str) -> None:
+        self._run, self._options, self._source = run, options, source
+
+    def check(self, target: Target) -> None:
+        """Read the input, and prepare what draws it."""
+        run, o = self._run, self._options
+        with run.phase("read"):
+            value = _read(run, o, self._source)
+        if isinstance(value, LabelImage):
+            self._draw, self._counts = _of_labels(run, o, value, target.fmt)
+        else:
+            self._draw, self._counts = _of_layers(run, o, value, target.fmt)
+
+    def verify(self) -> None:
+        """There is nothing to check in a picture."""
+
+    def write(self, target: Target, *, inputs: Sequence[str]) -> None:
+        """Draw."""
+        no_clobber = self._options.no_clobber
+        with open_output(target.path, binary=target.is_binary, no_clobber=no_clobber, inputs=inputs) as out:
+            self._draw(out)
+
+    def stats(self) -> dict[str, Any]:
+        """Counts and sizes."""
+        return self._counts
+
+
+def _read(run: Run, o: SimpleNamespace, path: str) -> LabelImage | Lined:
+    """Read whatever is drawn: its content tells what it is, where the options do not."""
+    fmt = known_input_format(o.input_format, DRAWN_NAMES)
+    if is_zarr(path, fmt):
+        rows = open_rows(path, input_format=fmt, page=o.page)
+        assert rows is not None
+        return label_image_of(read_rows(rows, max_pixels=o.max_pixels), path)
+    source = read_source(path)
+    if says_skeleton(source.data):
+        return read_skeleton(source, properties=False)
+    if says_offsets(source.data):
+        return read_offsets(source, properties=False)
+    is_array = source.data.startswith(NPY_MAGIC)  # of two columns, too: points are not drawn
+    if (is_array or is_image(source)) if fmt is None else fmt not in POLYGON_NAMES:
+        return read_label_image(source, input_format=fmt, page=o.page, max_pixels=o.max_pixels)
+    if not source.data.strip():
+        raise InputError(f"{source.name} is empty: there is nothing to draw; check what was to write it")
+    source, has_shapes = recognise(source, fmt)
+    if not (has_shapes or _is_empty_collection(source)):
+        raise InputError(
+            f"{source.name} is not drawn: give a label image, the JSON of a skeleton or of offset curves, or polygons "
+            "and lines (GeoJSON, WKT, JSON, .poly); other results are drawn by the command that makes them, with -f svg"
+        )
+    return read_polygons(source, input_format=fmt, properties=False, note=partial(_note, run))
+
+
+def _is_empty_collection(source: Source) -> bool:
+    """Whether it is GeoJSON that does not tell what it is of, since there is nothing in it."""
+    document = source.document if isinstance(source, JsonSource) else None
+    return isinstance(document, dict) and document.get("features") == []
+
+
+def _note(run: Run, message: str) -> None:
+    """Say what was left out; pictures have no lengths, so that these are in degrees says nothing."""
+    if "degrees" not in message:
+        run.note(message)
+
+
+def _of_labels(run: Run, o: SimpleNamespace, image: LabelImage, fmt: str) -> Drawing:
+    from vorotool.engines.regions import region_colours
+
+    check_picture_options(o, [fmt], LABEL_LAYERS)
+    with run.phase("colour"):
+        colours = region_colours(image, threads=o.threads)
+    draw = partial(
+        write_label_picture,
+        image=image,
+        colours=colours,
+        fmt=fmt,
+        layers=o.layers or (("cells", "labels") if fmt == "svg" else ("cells",)),
+        width=o.width or 1000,
+        y_up=bool(o.y_up),
+        backdrop=o.backdrop,
+        threads=o.threads,
+    )
+    return draw, {"shape": image.shape, "colours": int(colours[1].max(initial=0))}
+
+
+def _of_layers(run: Run, o: SimpleNamespace, value: Lined, fmt: str) -> Drawing:
+    from vorotool.render.layers_png import check_picture_size
+
+    kind, layers, counts = _described(value)
+    in_format = {"svg": layers, "png": tuple(layer for layer in layers if layer != "labels")}
+    check_picture_options(o, [fmt], in_format, png_has_width=True)
+    refuse(o, ("page",), f"is for images, but the input is {kind}")
+    if not len(value):
+        run.warn(f"the picture is empty: the input is {kind}, but there are none in it")
+    drawing = drawing_of(value, layers=o.layers, width=o.width or 1000, y_up=o.y_up, backdrop=o.backdrop)
+    if fmt == "png":
+        check_picture_size(drawing.page, o.max_pixels)
+    return partial(write_layers, layers=drawing.layers, page=drawing.page, fmt=fmt, threads=o.threads), counts
+
+
+def _described(value: Lined) -> tuple[str, tuple[str, ...], dict[str, Any]]:
+    """What it is called, the layers that there are of it, and how much it is."""
+    if isinstance(value, Skeleton):
+        return "arcs of a skeleton", SKELETON_LAYERS, {"arcs": len(value), "nodes": len(value.vertices)}
+    if isinstance(value, Offsets):
+        return "offset curves", DERIVED["offset"], {"shapes": len(value), "pieces": len(value.site)}
+    return (
+        "polygons or lines",
+        DERIVED["shape"],
+        {"polygons": int((~value.is_line).sum()), "lines": int(value.is_line.sum())},
+    )
