@@ -76,7 +76,7 @@ std::vector<std::uint32_t> along_points(std::span<const Segment> segments,
 SegmentVoronoi::SegmentVoronoi(const SegmentGraph& graph, unsigned threads, const Monitor& monitor) {
   check(graph);
   make_point_diagram(graph, threads, monitor);
-  return_freed_memory();
+  return_freed_memory(records_->all.size() * sizeof(VoronoiRecord));
   InsertionRounds rounds(sites_, *records_, threads);
   try {
     rounds.run(monitor);

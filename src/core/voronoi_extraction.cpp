@@ -251,7 +251,8 @@ void EdgeWriter::put(std::size_t place, const Edge& edge) {
 DiagramArrays extract_diagram(SegmentSites sites, VoronoiRecords records, std::span<const std::int32_t> given,
                               unsigned threads, const Monitor& monitor) {
   records.corner_of_point = std::vector<Corner>();
-  return_freed_memory();
+  const std::size_t in_use = records.all.size() * sizeof(VoronoiRecord);
+  return_freed_memory(in_use);
   DiagramArrays out;
   LargeArray<std::int32_t> targets;  // [sites around vertices] where the edge before each leads
   std::vector<Edge> without_vertex;
@@ -271,7 +272,7 @@ DiagramArrays extract_diagram(SegmentSites sites, VoronoiRecords records, std::s
     out.radius = with_small_pages<double>(vertices);
     out.vertex_sites = with_small_pages<std::int32_t>(ring);
     targets = with_small_pages<std::int32_t>(ring);
-    return_freed_memory();
+    return_freed_memory(in_use);
     VertexWriter(records, numbers, out, targets).run(threads, monitor);
   }
   records.all = {};

@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields, replace
+from itertools import accumulate
 from typing import Any
 
 import numpy as np
@@ -43,8 +44,9 @@ def batched_skeleton(polygons: PolygonSet, *, threads: int, progress: Progress =
     corners = np.stack([placement.vertices.min(axis=0), placement.vertices.max(axis=0)])
     ranges = zip(starts[:-1].tolist(), starts[1:].tolist(), strict=True)
     batches = [_Batch(polygons, placement, corners, begin, end) for begin, end in ranges]
-    parts = _made(batches, threads or available_threads(), progress)
-    return joined(parts, batches, polygons) if len(parts) == len(batches) else None
+    threads = threads or available_threads()
+    parts = _made(batches, threads, progress)
+    return joined(parts, batches, polygons, threads=threads) if len(parts) == len(batches) else None
 
 
 def batch_starts(polygons: PolygonSet, vertices: NDArray[np.int32]) -> Integers:
@@ -152,46 +154,66 @@ def _made(batches: list[_Batch], threads: int, progress: Progress) -> list[Skele
     return [part for part in found if part is not None]
 
 
-def joined(parts: list[Skeleton], batches: list[_Batch], polygons: PolygonSet) -> Skeleton:
-    """Make one skeleton of those of batches, in their order."""
+def joined(parts: list[Skeleton], batches: list[_Batch], polygons: PolygonSet, *, threads: int = 1) -> Skeleton:
+    """Make one skeleton of those of batches, in their order. Its arrays are filled on several threads."""
     points = [int(np.count_nonzero(part.site_table.kind == VERTEX)) for part in parts]
     segments = [len(part.site_table) - count for part, count in zip(parts, points, strict=True)]
-    point, segment = _before(points), sum(points) + _before(segments)
-    node, branch = (_before([count(part) for part in parts]) for count in (_nodes, _branches))
-    rows: dict[str, list[Any]] = {name: [] for name in ("arcs", "sites", "polygon", "branch")}
-    for k, (part, batch) in enumerate(zip(parts, batches, strict=True)):
-        is_segment = part.sites >= points[k]
-        rows["arcs"].append(part.arcs + node[k])
-        rows["sites"].append(part.sites + np.where(is_segment, segment[k] - points[k], point[k]))
-        rows["polygon"].append(part.polygon + batch.begin)
-        rows["branch"].append(part.branch + branch[k])
-    for name in ("vertices", "radius", "control", "side", "length", "error_bound"):
-        rows[name] = [getattr(part, name) for part in parts]
-    arrays: dict[str, Any] = {name: np.concatenate(values) for name, values in rows.items()}
-    return Skeleton(**arrays, site_table=_joined_sites(parts, batches, points), polygons=polygons)
+    shifts = {
+        "arcs": _before([len(part.radius) for part in parts]),
+        "branch": _before([_branches(part) for part in parts]),
+        "polygon": [batch.begin for batch in batches],
+    }
+    first_segment = [sum(points) + count for count in _before(segments)]
+    with ThreadPoolExecutor(threads) as pool:
+        sites = pool.submit(_joined_sites, [part.sites for part in parts], points, _before(points), first_segment)
+        table = {
+            field.name: pool.submit(_joined_column, field.name, parts, batches, points) for field in fields(SiteTable)
+        }
+        names = ("vertices", "radius", "arcs", "control", "polygon", "side", "branch", "length", "error_bound")
+        rows = {
+            name: pool.submit(_stacked, [getattr(part, name) for part in parts], shifts.get(name)) for name in names
+        }
+        arrays: dict[str, Any] = {name: row.result() for name, row in rows.items()}
+        columns: dict[str, Any] = {name: column.result() for name, column in table.items()}
+        return Skeleton(**arrays, sites=sites.result(), site_table=SiteTable(**columns), polygons=polygons)
 
 
-def _joined_sites(parts: list[Skeleton], batches: list[_Batch], points: list[int]) -> SiteTable:
-    """All points, then all segments."""
-    columns: dict[str, Any] = {}
-    for field in fields(SiteTable):
-        shift = {"polygon": "begin", "source_ring": "first_ring"}.get(field.name)
-        values = [
-            getattr(part.site_table, field.name) + (getattr(batch, shift) if shift else 0)
-            for part, batch in zip(parts, batches, strict=True)
-        ]
-        firsts = [value[:count] for value, count in zip(values, points, strict=True)]
-        columns[field.name] = np.concatenate([*firsts, *(v[n:] for v, n in zip(values, points, strict=True))])
-    return SiteTable(**columns)
+def _stacked(arrays: list[NDArray[Any]], shifts: list[int] | None = None) -> NDArray[Any]:
+    """Arrays one after the other, each with a number of its own added."""
+    if shifts is None:
+        return np.concatenate(arrays)
+    stacked = np.empty((sum(map(len, arrays)), *arrays[0].shape[1:]), arrays[0].dtype)
+    for array, begin, shift in zip(arrays, _before([len(array) for array in arrays]), shifts, strict=True):
+        np.add(array, shift, out=stacked[begin : begin + len(array)])
+    return stacked
 
 
-def _before(counts: list[int]) -> Integers:
+def _joined_sites(
+    sites: list[NDArray[np.int32]], points: list[int], first_point: list[int], first_segment: list[int]
+) -> NDArray[Any]:
+    """Sites of arcs: of each batch so many points, then segments."""
+    stacked = _stacked(sites, first_point)
+    for k, begin in enumerate(_before([len(part) for part in sites])):
+        own = stacked[begin : begin + len(sites[k])]
+        np.add(own, first_segment[k] - points[k] - first_point[k], out=own, where=sites[k] >= points[k])
+    return stacked
+
+
+def _joined_column(name: str, parts: list[Skeleton], batches: list[_Batch], points: list[int]) -> NDArray[Any]:
+    """Of the table of sites: all points, then all segments."""
+    columns = [getattr(part.site_table, name) for part in parts]
+    shift = {"polygon": "begin", "source_ring": "first_ring"}.get(name)
+    shifts = None if shift is None else 2 * [getattr(batch, shift) for batch in batches]
+    return _stacked(
+        [column[:count] for column, count in zip(columns, points, strict=True)]
+        + [column[count:] for column, count in zip(columns, points, strict=True)],
+        shifts,
+    )
+
+
+def _before(counts: list[int]) -> list[int]:
     """How many come before each."""
-    return np.cumsum([0, *counts[:-1]])
-
-
-def _nodes(skeleton: Skeleton) -> int:
-    return len(skeleton.radius)
+    return [0, *accumulate(counts[:-1])]
 
 
 def _branches(skeleton: Skeleton) -> int:
