@@ -82,9 +82,7 @@ class ArcMeasures:
         across, between = sites[0] - sites[1], (sites[0] + sites[1]) / 2
         self.half = np.where(self.is_parting, _norm(across) / 2, 0)
         way = np.stack([across[:, 1], -across[:, 0]], axis=1)
-        slopes = [
-            _ratio(((end - between) * way).sum(axis=1), 2 * self.half * self.half) for end in (self.source, self.target)
-        ]
+        slopes = [_ratio(_dot(end - between, way), 2 * self.half * self.half) for end in (self.source, self.target)]
         self.slope0 = np.where(self.is_parting, slopes[0], middle - half_way)
         self.slope1 = np.where(self.is_parting, slopes[1], middle + half_way)
 
@@ -184,6 +182,11 @@ def mean_root(s: Floats, t: Floats) -> Floats:
     ratio = np.where(x > 0, _ratio(inverse_sinh(x), x), 1.0)
     mean: Floats = (products + factor * ratio) / 2
     return mean
+
+
+def _dot(a: Floats, b: Floats) -> Floats:
+    product: Floats = a[:, 0] * b[:, 0] + a[:, 1] * b[:, 1]
+    return product
 
 
 def _norm(way: Floats) -> Floats:

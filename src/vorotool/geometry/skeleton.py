@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.arc_measures import ArcMeasures
 from vorotool.geometry.arc_radii import arc_radii
+from vorotool.geometry.checks import available_threads, checked_threads
 from vorotool.geometry.polygons import PolygonSet
 
 INTERIOR, EXTERIOR = 0, 1
@@ -213,7 +214,15 @@ class Skeleton:
     @cached_property
     def arc_radii(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
         """Smallest and largest radius on each arc, and the integral of the radius along it."""
-        return arc_radii(*self._arc_arrays(slice(None)))
+        return self.arc_radii_on(1)
+
+    def arc_radii_on(self, threads: int) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Compute `arc_radii` on several threads, if they are not there yet; 0 uses all."""
+        if "arc_radii" not in self.__dict__:
+            count = checked_threads(threads) or available_threads()
+            self.__dict__["arc_radii"] = arc_radii(len(self), self._arc_arrays, threads=count)
+        found: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]] = self.__dict__["arc_radii"]
+        return found
 
     def measures(self, arcs: NDArray[np.integer]) -> ArcMeasures:
         """Places, radii and lengths along some arcs, which may come more than once."""

@@ -137,13 +137,15 @@ def ids_of(polygons: PolygonSet, polygon: NDArray[np.int32]) -> Lookup:
     return Lookup([*names, None], np.where(polygon < 0, len(polygons), polygon).astype(np.int32))
 
 
-def branch_table(skeleton: Skeleton) -> Table:
+def branch_table(skeleton: Skeleton, *, threads: int = 0) -> Table:
     """Give one row a branch, a chain of arcs between nodes with one arc or more than two.
 
     Parameters
     ----------
     skeleton : Skeleton
         Rows are in the order of its branches.
+    threads : int
+        0 uses all.
 
     Returns
     -------
@@ -165,7 +167,7 @@ def branch_table(skeleton: Skeleton) -> Table:
         return Table(dict.fromkeys(names, empty))
     last = np.append(start[1:], len(skeleton)) - 1
     a, b = skeleton.arcs[start, 0], skeleton.arcs[last, 1]
-    least, most, integral = skeleton.arc_radii
+    least, most, integral = skeleton.arc_radii_on(threads)
     length = np.add.reduceat(skeleton.length, start)
     integral = np.add.reduceat(integral, start)
     mean = np.divide(integral, length, out=skeleton.radius[a].copy(), where=length > 0)
@@ -194,11 +196,11 @@ def _branch_starts(skeleton: Skeleton) -> NDArray[np.int64]:
 
 
 def _distance(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    way = b - a
-    return np.asarray(np.sqrt((way * way).sum(axis=-1)))  # the same on every machine, as hypot is not
+    x, y = b[:, 0] - a[:, 0], b[:, 1] - a[:, 1]
+    return np.asarray(np.sqrt(x * x + y * y))  # the same on every machine, as hypot is not
 
 
-def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = None) -> Table:
+def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = None, threads: int = 0) -> Table:
     """Give one row a polygon, with what the skeleton inside tells of it.
 
     Parameters
@@ -207,6 +209,8 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
         Its polygons' properties are the last columns.
     columns : mapping of str to array, optional
         Columns before these, one value a polygon: what :func:`vorotool.geometry.centerline.centerline_columns` gives.
+    threads : int
+        0 uses all.
 
     Returns
     -------
@@ -234,7 +238,7 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
 
     arcs = np.bincount(of_arc, minlength=count)
     length = np.bincount(of_arc, skeleton.length[inside], count)
-    _, most, integral = skeleton.arc_radii
+    _, most, integral = skeleton.arc_radii_on(threads)
     widest = np.zeros(count)
     np.maximum.at(widest, of_arc, 2 * most[inside])
     mean = np.divide(2 * np.bincount(of_arc, integral[inside], count), length, out=np.zeros(count), where=length > 0)
@@ -305,8 +309,8 @@ def _measures(polygons: PolygonSet) -> tuple[NDArray[np.float64], NDArray[np.flo
     ring_length = _distance(polygons.xy, polygons.xy[following])
     ring_length[(polygons.ring_start[1:] - 1)[polygons.is_line[polygons.ring_polygon]]] = 0
     perimeter = np.add.reduceat(np.add.reduceat(ring_length, first), polygons.polygon_start[:-1])
-    own = polygons.xy - np.repeat(polygons.xy[first], np.diff(polygons.ring_start), axis=0)
-    products = own[:, 0] * own[following, 1] - own[:, 1] * own[following, 0]
+    x, y = (column - np.repeat(column[first], np.diff(polygons.ring_start)) for column in polygons.xy.T)
+    products = x * y[following] - y * x[following]
     twice = np.abs(np.add.reduceat(products, first))
     twice = np.where(polygons.ring_kind == 1, -twice, twice)
     area = np.add.reduceat(twice, polygons.polygon_start[:-1]) / 2
