@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from vorotool.engines.label_arrays import Progress
 from vorotool.engines.placed_rings import placed_shapes
 from vorotool.engines.planar_graph import Placement, graph_of_placement, placed_vertices
-from vorotool.engines.segment_voronoi import segment_voronoi
+from vorotool.engines.segment_voronoi import NEITHER, idle_sides, segment_voronoi
 from vorotool.engines.skeleton_exact import ShapeDiagram, skeleton_of
 from vorotool.errors import InputError
 from vorotool.geometry.checks import available_threads
@@ -116,12 +116,15 @@ class _Batch:
         except InputError:
             return None
         known = (graph.points[:, None] == self.corners).all(axis=2).any(axis=0)
-        points = np.concatenate([graph.points, self.corners[~known]])
-        diagram = segment_voronoi(points, graph.segments, threads=threads, progress=progress)
+        beyond = self.corners[~known]  # points without segments, outside
+        points = np.concatenate([graph.points, beyond])
+        idle = idle_sides(graph, graph.is_inside)
+        idle = np.insert(idle, len(graph.points), np.full(len(beyond), NEITHER, dtype=np.uint8))
+        diagram = segment_voronoi(points, graph.segments, idle=idle, threads=threads, progress=progress)
         shapes = ShapeDiagram(graph, diagram, placed_shapes(graph, threads=threads))
         made = skeleton_of(shapes, threads=threads, progress=progress)
-        beyond = made.sites >= len(points)
-        return replace(made, sites=made.sites - beyond * np.int32(len(points) - len(graph.points)))
+        is_segment = made.sites >= len(points)
+        return replace(made, sites=made.sites - is_segment * np.int32(len(beyond)))
 
 
 def _made(batches: list[_Batch], threads: int, progress: Progress) -> list[Skeleton]:
