@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import threading
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields, replace
-from itertools import accumulate
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.label_arrays import Progress
+from vorotool.engines.parts import in_threads, stacked, starts_of
 from vorotool.engines.placed_rings import placed_shapes
 from vorotool.engines.planar_graph import Placement, graph_of_placement, placed_vertices
 from vorotool.engines.segment_voronoi import NEITHER, idle_sides, segment_voronoi
@@ -136,23 +136,8 @@ def _made(batches: list[_Batch], threads: int, progress: Progress) -> list[Skele
     for k in [k for k, size in enumerate(sizes) if size > share]:
         parts[k] = batches[k].skeleton(threads, progress)
     rest = [k for k in range(len(batches)) if k not in parts]
-    stop = threading.Event()
-
-    def poll(_: float) -> None:
-        if stop.is_set():
-            raise KeyboardInterrupt
-
-    with ThreadPoolExecutor(threads) as pool:
-        futures = {k: pool.submit(batches[k].skeleton, 1, poll) for k in rest}
-        try:
-            for done, (k, future) in enumerate(futures.items()):
-                parts[k] = future.result()
-                if progress is not None:
-                    progress((done + 1) / len(rest))
-        except BaseException:
-            stop.set()
-            pool.shutdown(cancel_futures=True)
-            raise
+    tasks = [partial(batches[k].skeleton, 1) for k in rest]
+    parts.update(zip(rest, in_threads(tasks, threads, progress), strict=True))
     found = [parts[k] for k in range(len(batches))]
     return [part for part in found if part is not None]
 
@@ -162,44 +147,32 @@ def joined(parts: list[Skeleton], batches: list[_Batch], polygons: PolygonSet, *
     points = [int(np.count_nonzero(part.site_table.kind == VERTEX)) for part in parts]
     segments = [len(part.site_table) - count for part, count in zip(parts, points, strict=True)]
     shifts = {
-        "arcs": _before([len(part.radius) for part in parts]),
-        "branch": _before([_branches(part) for part in parts]),
+        "arcs": starts_of([len(part.radius) for part in parts]),
+        "branch": starts_of([_branches(part) for part in parts]),
         "polygon": [batch.begin for batch in batches],
     }
-    first_segment = [sum(points) + count for count in _before(segments)]
+    first_segment = [sum(points) + count for count in starts_of(segments)]
     with ThreadPoolExecutor(threads) as pool:
-        sites = pool.submit(_joined_sites, [part.sites for part in parts], points, _before(points), first_segment)
+        sites = pool.submit(_joined_sites, [part.sites for part in parts], points, starts_of(points), first_segment)
         table = {
             field.name: pool.submit(_joined_column, field.name, parts, batches, points) for field in fields(SiteTable)
         }
         names = ("vertices", "radius", "arcs", "control", "polygon", "side", "branch", "length", "error_bound")
-        rows = {
-            name: pool.submit(_stacked, [getattr(part, name) for part in parts], shifts.get(name)) for name in names
-        }
+        rows = {name: pool.submit(stacked, [getattr(part, name) for part in parts], shifts.get(name)) for name in names}
         arrays: dict[str, Any] = {name: row.result() for name, row in rows.items()}
         columns: dict[str, Any] = {name: column.result() for name, column in table.items()}
         return Skeleton(**arrays, sites=sites.result(), site_table=SiteTable(**columns), polygons=polygons)
-
-
-def _stacked(arrays: list[NDArray[Any]], shifts: list[int] | None = None) -> NDArray[Any]:
-    """Arrays one after the other, each with a number of its own added."""
-    if shifts is None:
-        return np.concatenate(arrays)
-    stacked = np.empty((sum(map(len, arrays)), *arrays[0].shape[1:]), arrays[0].dtype)
-    for array, begin, shift in zip(arrays, _before([len(array) for array in arrays]), shifts, strict=True):
-        np.add(array, shift, out=stacked[begin : begin + len(array)])
-    return stacked
 
 
 def _joined_sites(
     sites: list[NDArray[np.int32]], points: list[int], first_point: list[int], first_segment: list[int]
 ) -> NDArray[Any]:
     """Sites of arcs: of each batch so many points, then segments."""
-    stacked = _stacked(sites, first_point)
-    for k, begin in enumerate(_before([len(part) for part in sites])):
-        own = stacked[begin : begin + len(sites[k])]
+    made = stacked(sites, first_point)
+    for k, begin in enumerate(starts_of([len(part) for part in sites])):
+        own = made[begin : begin + len(sites[k])]
         np.add(own, first_segment[k] - points[k] - first_point[k], out=own, where=sites[k] >= points[k])
-    return stacked
+    return made
 
 
 def _joined_column(name: str, parts: list[Skeleton], batches: list[_Batch], points: list[int]) -> NDArray[Any]:
@@ -207,16 +180,11 @@ def _joined_column(name: str, parts: list[Skeleton], batches: list[_Batch], poin
     columns = [getattr(part.site_table, name) for part in parts]
     shift = {"polygon": "begin", "source_ring": "first_ring"}.get(name)
     shifts = None if shift is None else 2 * [getattr(batch, shift) for batch in batches]
-    return _stacked(
+    return stacked(
         [column[:count] for column, count in zip(columns, points, strict=True)]
         + [column[count:] for column, count in zip(columns, points, strict=True)],
         shifts,
     )
-
-
-def _before(counts: list[int]) -> list[int]:
-    """How many come before each."""
-    return [0, *accumulate(counts[:-1])]
 
 
 def _branches(skeleton: Skeleton) -> int:
