@@ -111,12 +111,13 @@ def prune(
     check_threshold(criterion, threshold)
     compared = half_tangent(threshold) if criterion == "angle" else float(threshold)
     group = np.where(skeleton.polygon < 0, len(skeleton.polygons), skeleton.polygon).astype(np.int32)
-    arrays = skeleton_arrays(skeleton)
+    threads = checked_threads(threads) or available_threads()
+    arrays = skeleton_arrays(skeleton, threads=threads)
     tasks = [
         partial(_pruned_part, skeleton, arrays, group, part, CRITERIA.index(criterion), compared)
         for part in independent_parts(skeleton, group)
     ]
-    made = in_threads(tasks, checked_threads(threads) or available_threads(), progress)
+    made = in_threads(tasks, threads, progress)
     shifts = {
         "arcs": starts_of([len(part["radius"]) for part in made]),
         "branch": starts_of([int(part["branch"].max(initial=-1)) + 1 for part in made]),
@@ -256,7 +257,7 @@ def check_threshold(criterion: str, threshold: float) -> None:
         raise UsageError(f"{criterion} is {threshold}: use a number {limits}")
 
 
-def skeleton_arrays(skeleton: Skeleton) -> tuple[Any, ...]:
+def skeleton_arrays(skeleton: Skeleton, *, threads: int = 1) -> tuple[Any, ...]:
     """The arrays of a skeleton as the core takes them."""
     return (
         skeleton.vertices,
@@ -265,7 +266,7 @@ def skeleton_arrays(skeleton: Skeleton) -> tuple[Any, ...]:
         skeleton.control,
         skeleton.sites,
         skeleton.length,
-        np.ascontiguousarray(skeleton.site_ends.reshape(-1, 4)),
+        np.ascontiguousarray(skeleton.site_ends_on(threads).reshape(-1, 4)),
         skeleton.on_frame.view(np.uint8),
         skeleton.gap > 0,
         float(max(skeleton.vertices.max(initial=0), -skeleton.vertices.min(initial=0))),

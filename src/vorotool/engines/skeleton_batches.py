@@ -115,8 +115,9 @@ class _Batch:
             graph = graph_of_placement(self.part(), given, strict=True, progress=progress)
         except InputError:
             return None
-        known = (graph.points[:, None] == self.corners).all(axis=2).any(axis=0)
-        beyond = self.corners[~known]  # points without segments, outside
+        x, y = graph.points.T
+        known = [bool(((x == corner_x) & (y == corner_y)).any()) for corner_x, corner_y in self.corners]
+        beyond = self.corners[np.logical_not(known)]  # points without segments, outside
         points = np.concatenate([graph.points, beyond])
         idle = idle_sides(graph, graph.is_inside)
         idle = np.insert(idle, len(graph.points), np.full(len(beyond), NEITHER, dtype=np.uint8))

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.arc_measures import ArcMeasures
+from vorotool.geometry.chunks import in_chunks
 
 Floats = NDArray[np.float64]
-
-CHUNK = 1 << 14
-"""Arcs that are taken at a time: what is made of them stays in the cache."""
 
 
 def arc_radii(
@@ -29,7 +26,7 @@ def arc_radii(
     arrays_of : callable
         Gives the arrays of some of them, as `radii_of_arcs` takes them; called in several threads at once.
     threads : int
-        At least 1. Every arc is on its own: the result is the same for any number.
+        0 uses all.
 
     Returns
     -------
@@ -38,12 +35,10 @@ def arc_radii(
     """
     made = np.empty((3, count))
 
-    def fill(begin: int) -> None:
-        part = slice(begin, begin + CHUNK)
+    def fill(part: slice) -> None:
         made[:, part] = radii_of_arcs(*arrays_of(part))
 
-    with ThreadPoolExecutor(threads) as pool:
-        list(pool.map(fill, range(0, count, CHUNK)))
+    in_chunks(count, fill, threads=threads)
     least, most, integral = made
     return least, most, integral
 

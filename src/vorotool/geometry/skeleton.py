@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.arc_measures import ArcMeasures
 from vorotool.geometry.arc_radii import arc_radii
-from vorotool.geometry.checks import available_threads, checked_threads
+from vorotool.geometry.chunks import in_chunks
 from vorotool.geometry.polygons import PolygonSet
 
 INTERIOR, EXTERIOR = 0, 1
@@ -199,7 +199,20 @@ class Skeleton:
     @cached_property
     def site_ends(self) -> NDArray[np.float64]:
         """(s, 2, 2) the ends of each site, with a gap those of the shortened edges; a vertex has one place twice."""
-        return self._ends_of(slice(None))
+        return self.site_ends_on(1)
+
+    def site_ends_on(self, threads: int) -> NDArray[np.float64]:
+        """Compute `site_ends` on several threads, if they are not there yet; 0 uses all."""
+        if "site_ends" not in self.__dict__:
+            made = np.empty((len(self.site_table), 2, 2))
+
+            def fill(sites: slice) -> None:
+                made[sites] = self._ends_of(sites)
+
+            in_chunks(len(made), fill, threads=threads)
+            self.__dict__["site_ends"] = made
+        ends: NDArray[np.float64] = self.__dict__["site_ends"]
+        return ends
 
     def _ends_of(self, sites: Any) -> NDArray[np.float64]:
         ends = ends_of_sites(self.polygons, self.site_table, sites)
@@ -219,8 +232,7 @@ class Skeleton:
     def arc_radii_on(self, threads: int) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
         """Compute `arc_radii` on several threads, if they are not there yet; 0 uses all."""
         if "arc_radii" not in self.__dict__:
-            count = checked_threads(threads) or available_threads()
-            self.__dict__["arc_radii"] = arc_radii(len(self), self._arc_arrays, threads=count)
+            self.__dict__["arc_radii"] = arc_radii(len(self), self._arc_arrays, threads=threads)
         found: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]] = self.__dict__["arc_radii"]
         return found
 

@@ -227,10 +227,12 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
     [[8.0], [4], [2], [0], [2.0]]
     """
     polygons, count = skeleton.polygons, len(skeleton.polygons)
-    inside = np.flatnonzero(skeleton.side == INTERIOR)
+    is_inside = skeleton.side == INTERIOR
+    inside: Any = slice(None) if is_inside.all() else np.flatnonzero(is_inside)
     of_arc = skeleton.polygon[inside]
     node_polygon = np.full(len(skeleton.vertices), -1)
-    node_polygon[skeleton.arcs[inside]] = of_arc[:, None]
+    for ends in skeleton.arcs[inside].T:
+        node_polygon[ends] = of_arc
     own = node_polygon >= 0
 
     def counted(nodes: NDArray[np.bool_]) -> NDArray[np.int64]:
@@ -267,9 +269,7 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
     return table.with_properties(polygons.properties)
 
 
-def _components(
-    skeleton: Skeleton, inside: NDArray[np.int64], node_polygon: NDArray[np.int64], count: int
-) -> NDArray[np.int64]:
+def _components(skeleton: Skeleton, inside: Any, node_polygon: NDArray[np.int64], count: int) -> NDArray[np.int64]:
     """Connected components of the skeleton in each polygon."""
     root = connected_roots(skeleton.arcs[inside], len(skeleton.vertices))
     roots = np.flatnonzero((root == np.arange(len(root))) & (node_polygon >= 0))
