@@ -77,7 +77,7 @@ fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CAS
 	$(RUN) tests/fuzz/offsets.py --cases $(or $(CASES),1000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/rotation.py --cases $(or $(CASES),1000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/outlines.py --cases $(or $(CASES),20000) --seed $(or $(SEED),1)
-	$(RUN) tests/fuzz/segment_voronoi.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/segment_voronoi.py --cases $(or $(CASES),800000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/segment_voronoi.py --cases 10000 --seed $(or $(SEED),1) --family clusters --largest 100 --symmetries 1
 	$(RUN) tests/fuzz/batch.py --kills $(or $(KILLS),20) --seed $(or $(SEED),1)
 

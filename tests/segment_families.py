@@ -28,7 +28,9 @@ BOOST_FAILURE = [
 
 
 def lattice(points):
-    return np.rint(np.asarray(points, dtype=np.float64)).astype(np.int32).reshape(-1, 2)
+    points = np.rint(np.asarray(points, dtype=np.float64)).reshape(-1, 2)
+    assert np.abs(points).max(initial=0) <= LIMIT
+    return points.astype(np.int32)
 
 
 def polygon(points):

@@ -10,14 +10,15 @@ import pytest
 PACKAGE = Path(__file__).parents[1] / "src" / "vorotool"
 BELOW = {
     "errors": set(),
+    "signals": set(),
     "geometry": {"errors"},
     "engines": {"errors", "geometry"},
     "formats": {"errors", "geometry"},
     "render": {"errors", "geometry"},
     "pictures": {"errors", "geometry", "engines", "formats", "render"},
     "writing": {"errors", "geometry", "engines", "formats", "render", "pictures"},
-    "batch": {"errors", "geometry", "engines", "formats", "render", "pictures", "writing"},
-    "cli": {"errors", "geometry", "engines", "formats", "render", "pictures", "writing", "batch"},
+    "batch": {"errors", "geometry", "engines", "formats", "render", "pictures", "writing", "signals"},
+    "cli": {"errors", "geometry", "engines", "formats", "render", "pictures", "writing", "batch", "signals"},
 }
 MAY_IMPORT_CORE = {"engines", "formats", "render"}
 

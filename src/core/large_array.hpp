@@ -28,17 +28,6 @@ class LargeArray {
   const T* data() const { return data_.get(); }
   T& operator[](std::size_t i) { return data_[i]; }
   const T& operator[](std::size_t i) const { return data_[i]; }
-  // Gives the whole pages among items begin ... end - 1 back to the system: these items are indeterminate
-  // then.
-  void discard(std::size_t begin, std::size_t end) {
-#ifdef __linux__
-    const std::size_t first = (begin * sizeof(T) + page - 1) / page * page,
-                      last = end * sizeof(T) / page * page;
-    if (first < last) madvise(reinterpret_cast<char*>(data()) + first, last - first, MADV_DONTNEED);
-#else
-    static_cast<void>(begin + end);
-#endif
-  }
   // Gives the memory away; it is to be freed by LargeArray<T>::free.
   T* release() { return data_.release(); }
   static void free(T* data) { ::operator delete(data, alignment); }

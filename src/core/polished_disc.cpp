@@ -26,6 +26,14 @@ bool is_sharp(const VoronoiRecord& v) {
          static_cast<double>(v.radius_error) <= sharp * v.radius;
 }
 
+// The end of a segment that is nearer to the centre: what is measured from it is rounded least. Whichever way
+// the segment is given, the ends are looked at in one order.
+const LatticePoint& nearer_end(const SegmentSite& s, const VoronoiRecord& v, bool is_left) {
+  const LatticePoint &start = is_left ? s.a : s.b, &end = is_left ? s.b : s.a;
+  const auto reach = [&](const LatticePoint& p) { return std::abs(v.x - p.x) + std::abs(v.y - p.y); };
+  return reach(end) < reach(start) ? end : start;
+}
+
 // By how much the distance of a site from the centre is more than the radius, and the unit vector from the
 // site to the centre, roughly.
 struct Excess {
@@ -35,7 +43,8 @@ struct Excess {
 
 Excess excess_of(const SegmentSites& sites, const VoronoiRecord& v, const Contact& contact) {
   const bool is_point = sites.is_point(contact.site);
-  const LatticePoint& from = is_point ? sites.point(contact.site) : sites.segment(contact.site).a;
+  const LatticePoint& from =
+      is_point ? sites.point(contact.site) : nearer_end(sites.segment(contact.site), v, contact.is_left);
   const DoubleDouble dx = two_difference(v.x, from.x), dy = two_difference(v.y, from.y);
   const double reach = std::abs(dx.head) + std::abs(dy.head);
   const DoubleDouble radius(v.radius), square = radius * radius;

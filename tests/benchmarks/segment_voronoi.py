@@ -1,7 +1,8 @@
 """Measure the segment Voronoi diagram beside Boost, in one run: `make bench`.
 
 Nanoseconds a segment, the least of several runs: of the engine, and of the arrays made from it. Ratios are what to
-compare, since machines differ: `(4.0 ×)` is four times as long as ours. `visited` are the Voronoi vertices tested a
+compare, since machines differ: `(5.0 ×, 4.0 ×)` is five times as long as the engine, which makes what Boost makes, and
+four times as long as both. `visited` are the Voronoi vertices tested a
 segment, `exact` the tests of a thousand segments that took multiprecision; memory is the most that the process grew by,
 bytes a segment: the engine alone, and with the arrays.
 
@@ -123,17 +124,20 @@ def measure(name: str, n: int, threads: int, runs: int, boost: Path | None) -> s
     whole_memory = peak() - before
     count = len(segments)
     made = [1e9 * min(times) / count for times in (engine, arrays)]
+
+    def beside(peer: float) -> str:
+        return f"{peer:,.0f} ({peer / made[0]:.1f} ×, {peer / sum(made):.1f} ×)"
+
     row = f"| {name} | {count:,} | {threads} | {made[0]:,.0f} + {made[1]:,.0f} |"
     row += f" {diagram.counts['visited'] / count:.1f} | {1000 * diagram.counts['exact'] / count:.2f} |"
     row += f" {memory / count:.0f} | {whole_memory / count:.0f} |"
     if boost and threads == 1:
         peer, peer_memory = boost_measures(boost, points, segments, runs)
-        row += f" {peer:,.0f} ({peer / sum(made):.1f} ×) | {peer_memory:.0f} |"
+        row += f" {beside(peer)} | {peer_memory:.0f} |"
     else:
         row += " | |"
     if find_spec("pyvoronoi") and n <= 10**5 and threads == 1:
-        peer = 1e9 * pyvoronoi_seconds(points, segments) / count
-        row += f" {peer:,.0f} ({peer / sum(made):.1f} ×) |"
+        row += f" {beside(1e9 * pyvoronoi_seconds(points, segments) / count)} |"
     else:
         row += " |"
     return row

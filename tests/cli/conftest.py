@@ -20,6 +20,7 @@ class Outcome:
 def run(tmp_path, monkeypatch, capfd):
     """Run a command in an empty folder; a traceback fails the test whatever the command was."""
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "unraisablehook", sys.unraisablehook)  # which the command sets
 
     def call(*arguments):
         with pytest.raises(SystemExit) as end:

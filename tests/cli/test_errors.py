@@ -311,6 +311,31 @@ def test_interrupt_in_the_kernel(process, folder, number, code):
     assert leftovers(folder) == []
 
 
+DEAF = """
+import time, click
+from vorotool.cli import main
+class Sleeper:
+    def __del__(self):
+        print("asleep", flush=True)
+        time.sleep(60)
+@click.command()
+def deaf():
+    Sleeper()
+    time.sleep(60)
+main.LazyGroup.get_command = lambda *_: deaf
+main.main(["deaf"])
+"""
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_an_interrupt_ends_quietly_where_exceptions_are_swallowed(number, code):
+    child = subprocess.Popen([sys.executable, "-c", DEAF], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    assert child.stdout.readline() == b"asleep\n"
+    child.send_signal(number)
+    assert child.communicate(timeout=30) == (b"", b"")
+    assert child.returncode == code
+
+
 def test_version(run):
     done = run("--version")
     assert done.code == 0

@@ -125,6 +125,16 @@ def test_numbers_of_sites_change_nothing_else(name):
     assert np.array_equal(number[diagram.edge_sites], other.edge_sites)
 
 
+def test_the_direction_of_a_long_segment_changes_nothing():
+    """An ordinate that cancels, on the side of a segment whose far end rounds more than its near one."""
+    points = np.array([[4, 0], [3, 1], [LIMIT - 38, 0], [2, 1]], dtype=np.int32)
+    segments = np.array([[1, 2], [3, 1]], dtype=np.int32)
+    one = segment_voronoi(points, segments)
+    other = segment_voronoi(points, np.ascontiguousarray(segments[:, ::-1]))
+    for array in ARRAYS:
+        assert np.array_equal(getattr(one, array), getattr(other, array))
+
+
 @pytest.mark.parametrize("name", ["star_smooth", "star_rough", "comb", "hilbert", "wheel"])
 def test_threads_change_nothing(name):
     """Rounds long enough to be shared."""

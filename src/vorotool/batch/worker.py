@@ -11,6 +11,7 @@ from multiprocessing.connection import Connection
 from typing import NoReturn
 
 from vorotool.batch.tasks import Process, Task, carry_out
+from vorotool.signals import insist_on_the_end
 
 
 def main(descriptor: int) -> None:
@@ -23,7 +24,7 @@ def main(descriptor: int) -> None:
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent decides
     signal.signal(signal.SIGTERM, _end)
-    sys.unraisablehook = _end_all_the_same
+    insist_on_the_end()
     threading.Thread(target=_end_with_parent, args=(descriptor,), daemon=True).start()
     connection = Connection(descriptor)
     try:
@@ -35,19 +36,10 @@ def main(descriptor: int) -> None:
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
 
 
-def _end(_number: int, _frame: object) -> NoReturn:
+def _end(number: int, _frame: object) -> NoReturn:
     """End as an exception does: temporary files are removed. A second signal does not disturb this."""
-    signal.signal(signal.SIGTERM, signal.SIG_IGN)
-    sys.exit(128 + signal.SIGTERM)
-
-
-def _end_all_the_same(swallowed: sys.UnraisableHookArgs) -> None:
-    """End a moment later where the signal came in a method that lets no exception out, such as ``__del__``."""
-    if isinstance(swallowed.exc_value, SystemExit):
-        signal.signal(signal.SIGALRM, _end)
-        signal.setitimer(signal.ITIMER_REAL, 0.001)
-    else:
-        sys.__unraisablehook__(swallowed)
+    signal.signal(number, signal.SIG_IGN)
+    sys.exit(128 + number)
 
 
 def _end_with_parent(descriptor: int) -> None:

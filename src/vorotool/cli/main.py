@@ -14,6 +14,7 @@ import click
 from vorotool import __version__
 from vorotool.cli.failures import explained
 from vorotool.errors import VorotoolError
+from vorotool.signals import insist_on_the_end
 
 if TYPE_CHECKING:
     from click.shell_completion import CompletionItem
@@ -100,6 +101,7 @@ def main(arguments: list[str] | None = None) -> NoReturn:
     for number in (signal.SIGTERM, signal.SIGHUP):
         if signal.getsignal(number) is not signal.SIG_IGN:  # under nohup a hang-up ends nothing
             signal.signal(number, _terminate)
+    insist_on_the_end()
     code = _run(arguments)
     try:
         sys.stdout.flush()
