@@ -21,8 +21,8 @@ from vorotool.geometry.checks import available_threads
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.skeleton import VERTEX, SiteTable, Skeleton
 
-BATCH = 1 << 14
-"""Vertices of a batch or more: some megabytes of its diagram, which stay in the cache."""
+BATCH = 1 << 13
+"""Vertices of a batch or more: some megabytes of its diagram, which stay in the cache, and soon done by any thread."""
 
 Integers = NDArray[np.int64]
 

@@ -196,7 +196,10 @@ def _branch_starts(skeleton: Skeleton) -> NDArray[np.int64]:
 
 
 def _distance(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    x, y = b[:, 0] - a[:, 0], b[:, 1] - a[:, 1]
+    return _length(b[:, 0] - a[:, 0], b[:, 1] - a[:, 1])
+
+
+def _length(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(np.sqrt(x * x + y * y))  # the same on every machine, as hypot is not
 
 
@@ -306,11 +309,13 @@ def _measures(polygons: PolygonSet) -> tuple[NDArray[np.float64], NDArray[np.flo
         return np.zeros(0), np.zeros(0)
     first = polygons.ring_start[:-1]
     following = polygons.following
-    ring_length = _distance(polygons.xy, polygons.xy[following])
+    x, y = np.ascontiguousarray(polygons.xy.T)
+    next_x, next_y = x[following], y[following]
+    ring_length = _length(next_x - x, next_y - y)
     ring_length[(polygons.ring_start[1:] - 1)[polygons.is_line[polygons.ring_polygon]]] = 0
     perimeter = np.add.reduceat(np.add.reduceat(ring_length, first), polygons.polygon_start[:-1])
-    x, y = (column - np.repeat(column[first], np.diff(polygons.ring_start)) for column in polygons.xy.T)
-    products = x * y[following] - y * x[following]
+    first_x, first_y = np.repeat(np.stack([x[first], y[first]]), np.diff(polygons.ring_start), axis=1)
+    products = (x - first_x) * (next_y - first_y) - (y - first_y) * (next_x - first_x)
     twice = np.abs(np.add.reduceat(products, first))
     twice = np.where(polygons.ring_kind == 1, -twice, twice)
     area = np.add.reduceat(twice, polygons.polygon_start[:-1]) / 2
