@@ -4,13 +4,15 @@ import warnings
 
 import numpy as np
 import pytest
+import shapely
 
+import vorotool
 from skeleton_shapes import FAMILIES, TOUCHING
 from vorotool import _core
 from vorotool.engines.placed_rings import placed_shapes
 from vorotool.engines.planar_graph import planar_graph
 from vorotool.engines.segment_voronoi import NEITHER, idle_sides, segment_voronoi
-from vorotool.engines.skeleton_exact import ShapeDiagram, skeleton_of
+from vorotool.engines.skeleton_exact import ShapeDiagram, shape_diagram, skeleton_of
 
 ARRAYS = ("vertices", "radius", "arcs", "control", "sites", "polygon", "side", "branch", "length")
 
@@ -20,7 +22,8 @@ def graphs(family):
         warnings.simplefilter("ignore")
         for seed in range(12):
             graph = planar_graph(family(np.random.default_rng(seed)))
-            if graph.is_inside.any():
+            is_joined = np.isin(np.arange(len(graph.points)), graph.segments).all()
+            if graph.is_inside.any() and is_joined:
                 yield graph
 
 
@@ -65,6 +68,15 @@ def test_points_without_segments_are_outside():
     assert np.array_equal(beside.vertices, alone.vertices)
     finite = [diagram.edges[(diagram.edges >= 0).all(axis=1)].tolist() for diagram in (beside, alone)]
     assert finite[0] == finite[1] == [[0, 4], [1, 4], [2, 5], [3, 5], [4, 5]]
+
+
+def test_a_line_of_one_place_may_be_inside():
+    shape = shapely.GeometryCollection([shapely.box(0, 0, 8, 4), shapely.LineString([[3, 2], [3, 2]])])
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        made, whole = vorotool.skeleton_exact(shape), skeleton_of(shape_diagram(shape))
+    assert 0 < len(made) == len(whole)
+    assert made.vertices.tobytes() == whole.vertices.tobytes()
 
 
 def test_a_byte_for_each_site_is_needed():

@@ -104,12 +104,12 @@ def idle_sides(graph: PlanarGraph, is_wanted: NDArray[np.bool_]) -> NDArray[np.u
     Examples
     --------
     >>> from vorotool.engines.planar_graph import planar_graph
-    >>> graph = planar_graph([[0, 0], [4, 0], [4, 3]])
+    >>> graph = planar_graph([[0, 0], [6, 0], [3, 2], [0, 6]])
     >>> sides = idle_sides(graph, graph.is_inside)
     >>> sides.tolist()
-    [3, 3, 3, 2, 2, 2]
-    >>> len(segment_voronoi(graph.points, graph.segments, idle=sides).edges)
-    3
+    [3, 3, 0, 3, 2, 2, 2, 2]
+    >>> [len(segment_voronoi(graph.points, graph.segments, idle=idle)) for idle in (None, sides)]
+    [9, 7]
     """
     return _core.idle_sides(graph.points, graph.segments, graph.segment_faces, is_wanted.view(np.uint8))
 

@@ -35,7 +35,7 @@ def batched_skeleton(polygons: PolygonSet, *, threads: int, progress: Progress =
     the corners of their bounds are sites of its diagram: then its sites are ordered as those of all, and with them what
     is numbered or rounded along them. A batch with more than a thread's share of the vertices has all threads.
     """
-    if polygons.connectivity is None or len(polygons.xy) < 2 * BATCH:
+    if polygons.connectivity is None or polygons.is_line.any() or len(polygons.xy) < 2 * BATCH:
         return None
     placement = placed_vertices(polygons, threads=threads, progress=progress)
     starts = batch_starts(polygons, placement.vertices)
