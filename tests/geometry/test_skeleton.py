@@ -1,5 +1,6 @@
 """The value type of skeletons, and its tables."""
 
+import time
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -129,3 +130,17 @@ def test_chunks_and_threads_change_nothing(monkeypatch):
         for one, other in zip(made, expected, strict=True):
             assert all(np.array_equal(one[name][:], other[name][:]) for name in other)
         assert np.array_equal(replace(MADE).site_ends_on(threads), ends)
+
+
+def test_chunks_that_were_not_begun_are_left_when_one_fails(monkeypatch):
+    monkeypatch.setattr(chunks, "CHUNK", 1)
+    seen = []
+
+    def fill(rows):
+        seen.append(rows.start)
+        time.sleep(0.01)
+        raise ValueError("no")
+
+    with pytest.raises(ValueError, match="no"):
+        chunks.in_chunks(100, fill, threads=2)
+    assert len(seen) < 50

@@ -39,5 +39,9 @@ def in_chunks(count: int, fill: Callable[[slice], None], *, threads: int = 1) ->
             fill(chunk)
         return
     with ThreadPoolExecutor(threads) as pool:
-        for _ in pool.map(fill, chunks):
-            pass
+        try:
+            for _ in pool.map(fill, chunks):
+                pass
+        except BaseException:
+            pool.shutdown(cancel_futures=True)
+            raise
