@@ -69,7 +69,8 @@ bool VertexNumbers::is_idle(const VoronoiRecord& v, std::span<const std::uint8_t
   return false;
 }
 
-// As if it were alone at its place. Records at one place are all idle, or none.
+// As if it were alone at its place. Where points have cells without area, a record of these alone may be not
+// idle while others at its place are: then it stays alone, outside.
 void VertexNumbers::look_at(const SegmentSites& sites, std::span<const std::uint8_t> idle, std::int32_t u,
                             Found& found) {
   if (static_cast<std::size_t>(u) + ahead < code_.size()) {
@@ -90,7 +91,7 @@ void VertexNumbers::look_at(const SegmentSites& sites, std::span<const std::uint
   add(count_at(first), 1);
   for (int i = 0; i < 3; ++i) {
     const std::int32_t w = record_of(v.twins[static_cast<std::size_t>(i)]);
-    if (w < u || records_[w].is_infinite()) continue;
+    if (w < u || records_[w].is_infinite() || is_idle(records_[w], idle)) continue;
     if (are_coincident(sites, v, i, records_[w])) found.coincident.push_back({u, w});
   }
 }

@@ -17,6 +17,15 @@ from vorotool.engines.skeleton_exact import ShapeDiagram, shape_diagram, skeleto
 ARRAYS = ("vertices", "radius", "arcs", "control", "sites", "polygon", "side", "branch", "length")
 
 
+def contours(random):
+    """Polygons with vertices inside straight edges, at which cells have no area."""
+    image = np.kron(random.integers(0, 2, (6, 8)), np.ones((3, 3), dtype=int))
+    return vorotool.outlines(image, outline="contour")
+
+
+SHAPES = (*FAMILIES, *TOUCHING, contours)
+
+
 def graphs(family):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -27,7 +36,7 @@ def graphs(family):
                 yield graph
 
 
-@pytest.mark.parametrize("family", FAMILIES + TOUCHING, ids=lambda family: family.__name__)
+@pytest.mark.parametrize("family", SHAPES, ids=lambda family: family.__name__)
 def test_the_skeleton_inside_is_the_same(family):
     saved = 0
     for graph in graphs(family):
@@ -41,7 +50,7 @@ def test_the_skeleton_inside_is_the_same(family):
     assert saved > 0
 
 
-@pytest.mark.parametrize("family", FAMILIES + TOUCHING, ids=lambda family: family.__name__)
+@pytest.mark.parametrize("family", SHAPES, ids=lambda family: family.__name__)
 def test_what_is_left_is_of_the_whole_diagram_and_in_its_order(family):
     for graph in graphs(family):
         whole = segment_voronoi(graph.points, graph.segments)
