@@ -33,6 +33,7 @@ struct SkeletonInput {
   Matrix<const double> site_ends;  // four columns
   Vector<const std::uint8_t> is_anchored;
   bool has_gap;
+  double reach;
 
   SkeletonInput(const nb::tuple& arrays)
       : vertices(cast<Matrix<const double>>(arrays, 0)),
@@ -43,7 +44,8 @@ struct SkeletonInput {
         length(cast<Vector<const double>>(arrays, 5)),
         site_ends(cast<Matrix<const double>>(arrays, 6)),
         is_anchored(cast<Vector<const std::uint8_t>>(arrays, 7)),
-        has_gap(nb::cast<bool>(arrays[8])) {}
+        has_gap(nb::cast<bool>(arrays[8])),
+        reach(nb::cast<double>(arrays[9])) {}
 
   core::SkeletonView skeleton() const {
     const core::SkeletonView s{rows<Place>(vertices),
@@ -54,7 +56,8 @@ struct SkeletonInput {
                                view(length),
                                rows<std::array<Place, 2>, 4>(site_ends),
                                view(is_anchored),
-                               has_gap};
+                               has_gap,
+                               reach};
     const std::size_t nodes = s.vertices.size(), count = s.arcs.size();
     if (s.radius.size() != nodes || s.is_anchored.size() != nodes || s.control.size() != count ||
         s.sites.size() != count || s.length.size() != count) {

@@ -1,7 +1,10 @@
 // The segment Voronoi diagram.
+#include <nanobind/stl/optional.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -9,6 +12,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "core/idle_sides.hpp"
 #include "core/segment_voronoi.hpp"
 #include "interrupts.hpp"
 
@@ -38,6 +42,16 @@ std::span<const std::array<std::int32_t, 2>> as_segments(const Rows& array) {
   return {reinterpret_cast<const std::array<std::int32_t, 2>*>(array.data()), array.shape(0)};
 }
 
+void check_range(std::span<const std::array<std::int32_t, 2>> pairs, std::size_t count) {
+  for (const auto& pair : pairs) {
+    for (const std::int32_t index : pair) {
+      if (index < 0 || static_cast<std::size_t>(index) >= count) {
+        throw std::invalid_argument("an index of the graph is out of range");
+      }
+    }
+  }
+}
+
 void make_diagram(SegmentVoronoi* self, const Rows& points, const Rows& segments, unsigned threads,
                   nb::handle progress) {
   const core::SegmentGraph graph{as_points(points), as_segments(segments)};
@@ -46,15 +60,27 @@ void make_diagram(SegmentVoronoi* self, const Rows& points, const Rows& segments
 }
 
 // Vertices, radii, where their sites begin, their sites, edges, and the sites of these.
-nb::tuple take_arrays(SegmentVoronoi& diagram, unsigned threads, nb::handle progress) {
+nb::tuple take_arrays(SegmentVoronoi& diagram, const std::optional<Vector<const std::uint8_t>>& idle,
+                      unsigned threads, nb::handle progress) {
+  const std::span<const std::uint8_t> sides = idle ? view(*idle) : std::span<const std::uint8_t>();
   core::DiagramArrays made = run_interruptible(
-      progress, [&](const Monitor& monitor) { return diagram.take_arrays(threads, monitor); });
+      progress, [&](const Monitor& monitor) { return diagram.take_arrays(sides, threads, monitor); });
   const std::size_t vertices = made.radius.size(), ring = made.vertex_sites.size(),
                     edges = made.edges.size() / 2;
   return nb::make_tuple(
       to_numpy(std::move(made.vertices), {vertices, 2}), to_numpy(std::move(made.radius), {vertices}),
       to_numpy(std::move(made.vertex_start), {vertices + 1}), to_numpy(std::move(made.vertex_sites), {ring}),
       to_numpy(std::move(made.edges), {edges, 2}), to_numpy(std::move(made.edge_sites), {edges, 2}));
+}
+
+// A byte a site.
+nb::object idle_sides(const Rows& points, const Rows& segments, const Rows& segment_faces,
+                      const Vector<const std::uint8_t>& is_wanted) {
+  const auto faces = as_segments(segment_faces);
+  if (faces.size() != segments.shape(0)) throw std::invalid_argument("each segment must have two faces");
+  check_range(as_segments(segments), points.shape(0));
+  check_range(faces, is_wanted.size());
+  return to_numpy(core::idle_sides(as_points(points), as_segments(segments), faces, view(is_wanted)));
 }
 
 nb::dict counts_of(const SegmentVoronoi& diagram) {
@@ -71,11 +97,13 @@ nb::dict counts_of(const SegmentVoronoi& diagram) {
 }  // namespace
 
 void bind_segment_voronoi(nb::module_& module) {
+  module.def("idle_sides", &idle_sides, "points"_a.noconvert(), "segments"_a.noconvert(),
+             "segment_faces"_a.noconvert(), "is_wanted"_a.noconvert());
   nb::class_<SegmentVoronoi>(module, "SegmentVoronoi")
       .def("__init__", &make_diagram, "points"_a.noconvert(), "segments"_a.noconvert(), "threads"_a,
            "progress"_a.none())
       .def_prop_ro("counts", &counts_of)
-      .def("take_arrays", &take_arrays, "threads"_a, "progress"_a.none());
+      .def("take_arrays", &take_arrays, "idle"_a.none(), "threads"_a, "progress"_a.none());
 }
 
 }  // namespace vorotool::bindings

@@ -337,11 +337,7 @@ class EnlargedDiscs : public Pruner {
   }
 
   // Centres and radii are right to 32 ulp of the largest coordinate.
-  double rounding() const {
-    double largest = 0;
-    for (const Place& p : skeleton_.vertices) largest = std::max({largest, std::abs(p[0]), std::abs(p[1])});
-    return 32 * std::numeric_limits<double>::epsilon() * largest;
-  }
+  double rounding() const { return 32 * std::numeric_limits<double>::epsilon() * skeleton_.reach; }
 
   // The root of a tree is on several arcs: on that which is removed last the place is kept.
   void keep_roots() {

@@ -16,10 +16,16 @@
 
 namespace vorotool::core {
 
-// Memory that was freed and is kept for later goes back to the system.
-inline void return_freed_memory() {
+// Less memory than this is soon used again, by the next of many small diagrams for one: to give it back and
+// to get it anew, page by page and filled with zeros, would take a third as long as the work on it.
+constexpr std::size_t worth_returning = std::size_t{1} << 26;  // bytes
+
+// Memory that was freed and is kept for later goes back to the system, if there was so much in use.
+inline void return_freed_memory(std::size_t bytes) {
 #ifdef __GLIBC__
-  malloc_trim(0);
+  if (bytes >= worth_returning) malloc_trim(0);
+#else
+  static_cast<void>(bytes);
 #endif
 }
 
@@ -35,11 +41,12 @@ void advise(LargeArray<T>& array, std::size_t begin, std::size_t end, int advice
 }
 #endif
 
-// Gives back items begin ... end - 1, which are indeterminate then, but for a page at either end.
+// Gives back items begin ... end - 1 of a large array, which are indeterminate then, but for a page at either
+// end.
 template <class T>
 void discard(LargeArray<T>& array, std::size_t begin, std::size_t end) {
 #ifdef __linux__
-  advise(array, begin, end, MADV_DONTNEED);
+  if (array.size() * sizeof(T) >= worth_returning) advise(array, begin, end, MADV_DONTNEED);
 #else
   static_cast<void>(array), static_cast<void>(begin), static_cast<void>(end);
 #endif

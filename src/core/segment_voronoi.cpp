@@ -76,7 +76,7 @@ std::vector<std::uint32_t> along_points(std::span<const Segment> segments,
 SegmentVoronoi::SegmentVoronoi(const SegmentGraph& graph, unsigned threads, const Monitor& monitor) {
   check(graph);
   make_point_diagram(graph, threads, monitor);
-  return_freed_memory();
+  return_freed_memory(records_->all.size() * sizeof(VoronoiRecord));
   InsertionRounds rounds(sites_, *records_, threads);
   try {
     rounds.run(monitor);
@@ -86,11 +86,14 @@ SegmentVoronoi::SegmentVoronoi(const SegmentGraph& graph, unsigned threads, cons
   counts_ = rounds.counts();
 }
 
-DiagramArrays SegmentVoronoi::take_arrays(unsigned threads, const Monitor& monitor) {
+DiagramArrays SegmentVoronoi::take_arrays(std::span<const std::uint8_t> idle, unsigned threads,
+                                          const Monitor& monitor) {
+  if (!idle.empty() && idle.size() != given_.size())
+    throw std::invalid_argument("each site must have its idle sides");
   if (!records_) throw std::logic_error("the arrays of the diagram were taken before");
   VoronoiRecords records = std::move(*records_);
   records_.reset();
-  return extract_diagram(std::move(sites_), std::move(records), given_, threads, monitor);
+  return extract_diagram(std::move(sites_), std::move(records), given_, idle, threads, monitor);
 }
 
 // The triangulation is gone when segments are inserted.

@@ -31,8 +31,9 @@ class SegmentVoronoi {
   SegmentVoronoi(const SegmentGraph& graph, unsigned threads, const Monitor& monitor);
 
   const SegmentVoronoiCounts& counts() const { return counts_; }
-  // Arrays of the diagram: once, then it is gone, and this throws std::logic_error.
-  DiagramArrays take_arrays(unsigned threads, const Monitor& monitor);
+  // Arrays of the diagram: once, then it is gone, and this throws std::logic_error. What is idle is left out
+  // (core/voronoi_extraction.hpp); it throws std::invalid_argument unless nothing or each site has its sides.
+  DiagramArrays take_arrays(std::span<const std::uint8_t> idle, unsigned threads, const Monitor& monitor);
 
  private:
   void make_point_diagram(const SegmentGraph& graph, unsigned threads, const Monitor& monitor);

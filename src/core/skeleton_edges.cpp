@@ -6,8 +6,8 @@
 #include <string>
 
 #include "core/disjoint_sets.hpp"
+#include "core/idle_sides.hpp"
 #include "core/large_array.hpp"
-#include "core/lattice_vector.hpp"
 #include "core/parallel.hpp"
 
 namespace vorotool::core {
@@ -22,9 +22,7 @@ std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 class FaceFinder {
  public:
   FaceFinder(const SegmentDiagram& diagram, std::span<const Pair> faces)
-      : diagram_(diagram), faces_(faces), point_face_(diagram.points.size(), unknown) {
-    find_point_faces();
-  }
+      : diagram_(diagram), faces_(faces), point_face_(point_faces(diagram.points, diagram.segments, faces)) {}
 
   // The face of an edge as far as its own sites and ends tell.
   std::int32_t face(std::size_t edge) const {
@@ -56,35 +54,9 @@ class FaceFinder {
   std::int32_t face_right_of(std::int32_t segment, std::int32_t end) const {
     return faces_[at(segment) - diagram_.points.size()][diagram_.ends(segment)[0] == end ? 1 : 0];
   }
-  std::int32_t face_left_of(std::int32_t segment, std::int32_t end) const {
-    return faces_[at(segment) - diagram_.points.size()][diagram_.ends(segment)[0] == end ? 0 : 1];
-  }
-
-  LatticeVector way_from(std::int32_t end, std::int32_t segment) const {
-    const Pair& ends = diagram_.ends(segment);
-    return diagram_.point(ends[0] == end ? ends[1] : ends[0]) - diagram_.point(end);
-  }
-
-  // The sector over 180 degrees at a point begins at the segment to the left of which no other one leaves.
-  void find_point_faces() {
-    const auto first = static_cast<std::int32_t>(diagram_.points.size());
-    std::vector<std::int32_t> border(diagram_.points.size(), unknown);
-    for (std::size_t j = 0; j < diagram_.segments.size(); ++j) {
-      const std::int32_t segment = first + static_cast<std::int32_t>(j);
-      for (const std::int32_t end : diagram_.segments[j]) {
-        std::int32_t& so_far = border[at(end)];
-        if (so_far == unknown || cross(way_from(end, so_far), way_from(end, segment)) > 0) so_far = segment;
-      }
-    }
-    for (std::size_t i = 0; i < border.size(); ++i) {
-      if (border[i] != unknown) point_face_[i] = face_left_of(border[i], static_cast<std::int32_t>(i));
-    }
-  }
 
   const SegmentDiagram& diagram_;
   std::span<const Pair> faces_;
-  // [n] of the sector over 180 degrees; points with segments and no such sector have no cell, so that what
-  // stands here is never asked for. Unknown for a point without segments.
   std::vector<std::int32_t> point_face_;
 };
 

@@ -19,6 +19,7 @@ struct SkeletonView {
   std::span<const std::array<Place, 2>> site_ends;     // [s] twice the same: a point
   std::span<const std::uint8_t> is_anchored;           // [v] ends that are no leaves: cut off by a frame
   bool has_gap;                                        // sites are closed: an end of one may be what is near
+  double reach;  // largest magnitude of a coordinate, of the whole if this is a part of a skeleton
 
   const Place& source(std::size_t arc) const { return vertices[static_cast<std::size_t>(arcs[arc][0])]; }
   const Place& target(std::size_t arc) const { return vertices[static_cast<std::size_t>(arcs[arc][1])]; }

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "core/coincident_vertices.hpp"
+#include "core/idle_sides.hpp"
 #include "core/parallel.hpp"
 
 namespace vorotool::core {
@@ -34,15 +35,15 @@ void prefetch_neighbours(const VoronoiRecords& records, std::int32_t record) {
 
 }  // namespace
 
-VertexNumbers::VertexNumbers(const SegmentSites& sites, const VoronoiRecords& records, unsigned threads,
-                             const Monitor& monitor)
+VertexNumbers::VertexNumbers(const SegmentSites& sites, const VoronoiRecords& records,
+                             std::span<const std::uint8_t> idle, unsigned threads, const Monitor& monitor)
     : records_(records),
       code_(records.all.size()),
       is_merged_(records.all.size()),
       begin_(static_cast<std::size_t>(sites.infinite()) + 2) {
   std::vector<Found> found(piece_count(code_.size(), piece_size));
   for_pieces(code_.size(), threads, monitor, [&](std::size_t piece, std::int32_t begin, std::int32_t end) {
-    for (std::int32_t v = begin; v < end; ++v) look_at(sites, v, found[piece]);
+    for (std::int32_t v = begin; v < end; ++v) look_at(sites, idle, v, found[piece]);
   });
   for (const Found& some : found)
     infinite_.insert(infinite_.end(), some.infinite.begin(), some.infinite.end());
@@ -58,8 +59,20 @@ void VertexNumbers::assign(unsigned threads, const Monitor& monitor) {
   make_starts();
 }
 
-// As if it were alone at its place.
-void VertexNumbers::look_at(const SegmentSites& sites, std::int32_t u, Found& found) {
+// Its disc, if it has a radius, is in the face of each site on that side.
+bool VertexNumbers::is_idle(const VoronoiRecord& v, std::span<const std::uint8_t> idle) const {
+  if (idle.empty() || v.radius == 0) return false;
+  for (int i = 0; i < 3; ++i) {
+    const auto site = static_cast<std::size_t>(v.sites[static_cast<std::size_t>(i)]);
+    if ((idle[site] & (v.is_left(i) ? idle_left : idle_right)) != 0) return true;
+  }
+  return false;
+}
+
+// As if it were alone at its place. Where points have cells without area, a record of these alone may be not
+// idle while others at its place are: then it stays alone, outside.
+void VertexNumbers::look_at(const SegmentSites& sites, std::span<const std::uint8_t> idle, std::int32_t u,
+                            Found& found) {
   if (static_cast<std::size_t>(u) + ahead < code_.size()) {
     prefetch_neighbours(records_, u + static_cast<std::int32_t>(ahead));
   }
@@ -69,12 +82,16 @@ void VertexNumbers::look_at(const SegmentSites& sites, std::int32_t u, Found& fo
     found.infinite.push_back(u);
     return;
   }
+  if (is_idle(v, idle)) {
+    code(u) = ~left_out;
+    return;
+  }
   const SiteIndex first = *std::min_element(v.sites.begin(), v.sites.end());
   code(u) = ~first;
   add(count_at(first), 1);
   for (int i = 0; i < 3; ++i) {
     const std::int32_t w = record_of(v.twins[static_cast<std::size_t>(i)]);
-    if (w < u || records_[w].is_infinite()) continue;
+    if (w < u || records_[w].is_infinite() || is_idle(records_[w], idle)) continue;
     if (are_coincident(sites, v, i, records_[w])) found.coincident.push_back({u, w});
   }
 }
@@ -184,7 +201,7 @@ void VertexNumbers::sort_by_first_site(unsigned threads, const Monitor& monitor)
   };
   for_pieces(code_.size(), threads, monitor, [&](std::size_t, std::int32_t begin, std::int32_t end) {
     for (std::int32_t v = begin; v < end; ++v) {
-      if (code(v) < 0 && code(v) != ~at_infinity) put(v, ~code(v));
+      if (code(v) < 0 && ~code(v) < left_out) put(v, ~code(v));
     }
   });
   for_pieces(merged_leads_.size(), threads, monitor, [&](std::size_t, std::int32_t begin, std::int32_t end) {

@@ -21,6 +21,7 @@ namespace vorotool::core {
 class VertexNumbers {
  public:
   static constexpr std::int32_t at_infinity = std::numeric_limits<std::int32_t>::max();
+  static constexpr std::int32_t left_out = at_infinity - 1;
   // A site around a vertex, and the record to which the edge before it leads.
   struct Spoke {
     std::uint32_t site : 31;
@@ -28,21 +29,23 @@ class VertexNumbers {
     std::int32_t across;
   };
 
-  // Finds the places of the records.
-  VertexNumbers(const SegmentSites& sites, const VoronoiRecords& records, unsigned threads,
-                const Monitor& monitor);
+  // Finds the places of the records. Those are left out that are no corners and where a site is idle; `idle`
+  // tells its sides (core/idle_sides.hpp), or is empty if there is none.
+  VertexNumbers(const SegmentSites& sites, const VoronoiRecords& records, std::span<const std::uint8_t> idle,
+                unsigned threads, const Monitor& monitor);
   // Numbers them, sorted by the lists of their sites, each in the engine's order from its first one.
   void assign(unsigned threads, const Monitor& monitor);
 
   // Once they have numbers:
   // [vertices + 1] where the sites of each vertex begin: the array is given away.
   LargeArray<std::int32_t> take_starts() { return std::move(leads_); }
-  // The number of a record's vertex, or at_infinity.
+  // The number of a record's vertex, or at_infinity, or left_out.
   std::int32_t of(std::int32_t record) const { return ~code_[static_cast<std::size_t>(record)]; }
   // Tells the processor that of() will be asked soon.
   void prefetch(std::int32_t record) const { __builtin_prefetch(&code_[static_cast<std::size_t>(record)]); }
 
   // Before, too:
+  bool is_left_out(std::int32_t record) const { return of(record) == left_out; }
   // Whether a record shares its place with others.
   bool is_merged(std::int32_t record) const { return is_merged_[static_cast<std::size_t>(record)]; }
   // Ascending: a record of each place that has several, and those at infinity.
@@ -67,7 +70,9 @@ class VertexNumbers {
   std::int32_t& code(std::int32_t record) { return code_[static_cast<std::size_t>(record)]; }
   std::uint32_t& count_at(SiteIndex first) { return begin_[static_cast<std::size_t>(first) + 2]; }
 
-  void look_at(const SegmentSites& sites, std::int32_t record, Found& found);
+  bool is_idle(const VoronoiRecord& v, std::span<const std::uint8_t> idle) const;
+  void look_at(const SegmentSites& sites, std::span<const std::uint8_t> idle, std::int32_t record,
+               Found& found);
   void merge(const std::vector<Found>& found);
   std::int32_t root(std::int32_t record);
   void choose_leads();

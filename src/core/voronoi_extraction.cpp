@@ -38,7 +38,7 @@ void for_leads(const VoronoiRecords& records, const VertexNumbers& numbers, std:
   auto k = static_cast<std::size_t>(std::ranges::lower_bound(merged, record) - merged.begin());
   for (; record < last; ++record) {
     if (!numbers.is_merged(record)) {
-      if (!records[record].is_infinite()) on_single(record);
+      if (!records[record].is_infinite() && !numbers.is_left_out(record)) on_single(record);
     } else if (k < merged.size() && merged[k] == record) {
       on_merged(k++, record);
     }
@@ -184,7 +184,7 @@ class EdgeWriter {
  private:
   // An edge is written with the end that has the smaller number: it may be the only one.
   static bool is_written_from(std::size_t vertex, std::int32_t target) {
-    return target > static_cast<std::int32_t>(vertex);
+    return target > static_cast<std::int32_t>(vertex) && target != VertexNumbers::left_out;
   }
   std::size_t start(std::size_t vertex) const { return static_cast<std::size_t>(out_.vertex_start[vertex]); }
   std::size_t count(std::size_t begin, std::size_t end) const;
@@ -199,13 +199,16 @@ class EdgeWriter {
 };
 
 void EdgeWriter::run(const std::vector<Edge>& without_vertex, unsigned threads, const Monitor& monitor) {
-  for (std::size_t k = 0; k < without_vertex.size(); ++k) put(k, without_vertex[k]);
   const std::size_t vertices = out_.radius.size();
   std::vector<std::size_t> first(piece_count(vertices, piece_size));
   for_pieces(vertices, threads, monitor, [&](std::size_t piece, std::size_t begin, std::size_t end) {
     first[piece] = count(begin, end);
   });
+  const std::size_t edges = std::accumulate(first.begin(), first.end(), without_vertex.size());
   std::exclusive_scan(first.begin(), first.end(), first.begin(), without_vertex.size());
+  out_.edges = LargeArray<std::int32_t>(2 * edges);
+  out_.edge_sites = LargeArray<std::int32_t>(2 * edges);
+  for (std::size_t k = 0; k < without_vertex.size(); ++k) put(k, without_vertex[k]);
   for_pieces(vertices, threads, monitor, [&](std::size_t piece, std::size_t begin, std::size_t end) {
     write(begin, end, first[piece]);
     discard(targets_, start(begin), start(end));
@@ -249,16 +252,21 @@ void EdgeWriter::put(std::size_t place, const Edge& edge) {
 }  // namespace
 
 DiagramArrays extract_diagram(SegmentSites sites, VoronoiRecords records, std::span<const std::int32_t> given,
-                              unsigned threads, const Monitor& monitor) {
+                              std::span<const std::uint8_t> idle, unsigned threads, const Monitor& monitor) {
+  std::vector<std::uint8_t> own_idle;  // by the numbers of the engine
+  if (!idle.empty()) {
+    own_idle.resize(given.size());
+    for (std::size_t i = 0; i < given.size(); ++i) own_idle[i] = idle[static_cast<std::size_t>(given[i])];
+  }
   records.corner_of_point = std::vector<Corner>();
-  return_freed_memory();
+  const std::size_t in_use = records.all.size() * sizeof(VoronoiRecord);
+  return_freed_memory(in_use);
   DiagramArrays out;
   LargeArray<std::int32_t> targets;  // [sites around vertices] where the edge before each leads
   std::vector<Edge> without_vertex;
-  std::size_t edges = 0;
   {
     const SiteIndex infinite = sites.infinite();
-    VertexNumbers numbers(sites, records, threads, monitor);
+    VertexNumbers numbers(sites, records, own_idle, threads, monitor);
     polish_discs(sites, records, numbers, threads, monitor);
     sites = SegmentSites();
     numbers.assign(threads, monitor);
@@ -266,17 +274,14 @@ DiagramArrays extract_diagram(SegmentSites sites, VoronoiRecords records, std::s
     out.vertex_start = numbers.take_starts();
     const std::size_t vertices = out.vertex_start.size() - 1;
     const auto ring = static_cast<std::size_t>(out.vertex_start[vertices]);
-    edges = (ring + numbers.infinite().size()) / 2;
     out.vertices = with_small_pages<double>(2 * vertices);
     out.radius = with_small_pages<double>(vertices);
     out.vertex_sites = with_small_pages<std::int32_t>(ring);
     targets = with_small_pages<std::int32_t>(ring);
-    return_freed_memory();
+    return_freed_memory(in_use);
     VertexWriter(records, numbers, out, targets).run(threads, monitor);
   }
   records.all = {};
-  out.edges = LargeArray<std::int32_t>(2 * edges);
-  out.edge_sites = LargeArray<std::int32_t>(2 * edges);
   EdgeWriter(targets, given, out).run(without_vertex, threads, monitor);
   return out;
 }

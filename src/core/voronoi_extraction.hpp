@@ -29,9 +29,10 @@ struct DiagramArrays {
   LargeArray<std::int32_t> edge_sites;  // [2 e] on the left and on the right
 };
 
-// `given` are the numbers of the sites in the input. The memory of the records is given back as the arrays
-// are filled, so that both are never there as a whole.
+// `given` are the numbers of the sites in the input. With `idle`, their sides by these numbers
+// (core/idle_sides.hpp), vertices there are left out, but for corners, and so are the edges to them. The
+// memory of the records is given back as the arrays are filled, so that both are never there as a whole.
 DiagramArrays extract_diagram(SegmentSites sites, VoronoiRecords records, std::span<const std::int32_t> given,
-                              unsigned threads, const Monitor& monitor);
+                              std::span<const std::uint8_t> idle, unsigned threads, const Monitor& monitor);
 
 }  // namespace vorotool::core

@@ -518,6 +518,13 @@ def segment_voronoi_fault(
 
 # ---- segment Voronoi diagrams (bind_segment_voronoi.cpp): arrays of int32, C-contiguous, two columns -----------------
 
+def idle_sides(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    segment_faces: NDArray[np.int32],
+    is_wanted: NDArray[np.uint8],
+) -> NDArray[np.uint8]: ...
+
 class SegmentVoronoi:
     def __init__(
         self, points: NDArray[np.int32], segments: NDArray[np.int32], threads: int, progress: _Progress
@@ -525,7 +532,7 @@ class SegmentVoronoi:
     @property
     def counts(self) -> dict[str, int]: ...
     def take_arrays(
-        self, threads: int, progress: _Progress
+        self, idle: NDArray[np.uint8] | None, threads: int, progress: _Progress
     ) -> tuple[
         NDArray[np.float64],
         NDArray[np.float64],

@@ -107,7 +107,7 @@ def measure(name: str, n: int, threads: int, runs: int, boost: Path | None) -> s
     """One row of the table, from a process of its own."""
     points, segments = graph(name, n)
     small = _core.SegmentVoronoi(points[:3].copy(), segments[:0].copy(), threads, None)
-    small.take_arrays(threads, None)
+    small.take_arrays(None, threads, None)
     reset_peak()
     before = peak()
     engine, arrays = [], []
@@ -118,7 +118,7 @@ def measure(name: str, n: int, threads: int, runs: int, boost: Path | None) -> s
         engine.append(time.perf_counter() - start)
         memory = memory or peak() - before
         start = time.perf_counter()
-        result = diagram.take_arrays(threads, None)
+        result = diagram.take_arrays(None, threads, None)
         arrays.append(time.perf_counter() - start)
         del result
     whole_memory = peak() - before

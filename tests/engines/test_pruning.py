@@ -1,6 +1,7 @@
 """Pruned skeletons and centerlines: beside brute force, nested, connected."""
 
 import warnings
+from dataclasses import replace
 
 import networkx
 import numpy as np
@@ -9,6 +10,8 @@ import pytest
 import vorotool
 from fuzz.pruning import failure
 from skeleton_shapes import FAMILIES
+from vorotool.engines import pruning
+from vorotool.engines.pruning import independent_parts
 from vorotool.errors import UsageError
 
 COMB = [[0, 0], [30, 0], [30, 6], [26, 6], [26, 12], [24, 12], [24, 6], [6, 6], [6, 9], [4, 9], [4, 6], [0, 6]]
@@ -51,3 +54,34 @@ def test_the_centerline_is_the_longest_of_the_shortest_paths():
     longest = max(ways[a][b] for a in leaves for b in leaves)
     found = vorotool.centerline(whole)
     assert found.path.length.sum() == pytest.approx(longest, rel=1e-12)
+
+
+def differing(one, other):
+    names = ("vertices", "radius", "arcs", "control", "sites", "polygon", "side", "branch", "length", "error_bound")
+    return [name for name in names if getattr(one, name).tobytes() != getattr(other, name).tobytes()]
+
+
+@pytest.mark.parametrize("criterion", ["angle", "chord", "scale", "length", "ratio"])
+@pytest.mark.parametrize("threads", [1, 2])
+def test_parts_have_what_the_whole_has(criterion, threads, monkeypatch):
+    random = np.random.default_rng(5)
+    polygons = vorotool.outlines(random.integers(0, 3, (40, 40)), mode="labels", connectivity=4)
+    for side in ("interior", "exterior", "both"):
+        whole = vorotool.skeleton_exact(polygons, side=side)
+        group = np.where(whole.polygon < 0, len(polygons), whole.polygon)
+        for threshold in (1.1, 1.5, 100.0):
+            assert len(independent_parts(whole, group)) == 1
+            expected = vorotool.prune(whole, **{criterion: threshold})
+            with monkeypatch.context() as patch:
+                patch.setattr(pruning, "PART", 50)
+                assert side == "exterior" or len(independent_parts(whole, group)) > 5
+                assert differing(vorotool.prune(whole, **{criterion: threshold}, threads=threads), expected) == []
+
+
+def test_arcs_in_another_order_are_one_part(monkeypatch):
+    monkeypatch.setattr(pruning, "PART", 2)
+    whole = vorotool.skeleton_exact([COMB, np.add(COMB, 40)])
+    assert len(independent_parts(whole, whole.polygon)) == 2
+    assert len(independent_parts(whole, whole.polygon[::-1])) == 1
+    turned = replace(whole, arcs=len(whole.vertices) - 1 - whole.arcs)
+    assert independent_parts(turned, turned.polygon) == [(slice(0, len(whole)), slice(0, len(whole.vertices)))]

@@ -1,5 +1,7 @@
 """The value type of skeletons, and its tables."""
 
+import time
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -8,6 +10,7 @@ import pytest
 
 import vorotool
 from vorotool.errors import InputError, UsageError
+from vorotool.geometry import chunks
 from vorotool.geometry.skeleton_tables import connected_roots
 
 SHAPES = vorotool.read(Path(__file__).parents[2] / "data" / "two-shapes.json")
@@ -116,3 +119,28 @@ def test_connected_roots_are_the_smallest():
     for label in set(labels.tolist()):
         members = np.flatnonzero(labels == label)
         assert (roots[members] == members.min()).all()
+
+
+def test_chunks_and_threads_change_nothing(monkeypatch):
+    expected = [vorotool.branch_table(replace(MADE), threads=1), vorotool.polygon_table(replace(MADE), threads=1)]
+    ends = replace(MADE).site_ends
+    monkeypatch.setattr(chunks, "CHUNK", 7)
+    for threads in (1, 2):
+        made = [make(replace(MADE), threads=threads) for make in (vorotool.branch_table, vorotool.polygon_table)]
+        for one, other in zip(made, expected, strict=True):
+            assert all(np.array_equal(one[name][:], other[name][:]) for name in other)
+        assert np.array_equal(replace(MADE).site_ends_on(threads), ends)
+
+
+def test_chunks_that_were_not_begun_are_left_when_one_fails(monkeypatch):
+    monkeypatch.setattr(chunks, "CHUNK", 1)
+    seen = []
+
+    def fill(rows):
+        seen.append(rows.start)
+        time.sleep(0.01)
+        raise ValueError("no")
+
+    with pytest.raises(ValueError, match="no"):
+        chunks.in_chunks(100, fill, threads=2)
+    assert len(seen) < 50

@@ -77,9 +77,10 @@ class SkeletonProducts(ABC):
             return self.whole
         from vorotool.engines.pruning import prune
 
-        whole, threshold = self.whole, {self.pruning.criterion: self.pruning.threshold}
+        whole = self.whole
+        threshold: dict[str, Any] = {self.pruning.criterion: self.pruning.threshold}
         with self.run.phase("prune"):
-            return prune(whole, **threshold, progress=self.run.progress("pruning"))
+            return prune(whole, **threshold, threads=self.options.threads, progress=self.run.progress("pruning"))
 
     @cached_property
     def centerlines(self) -> Centerlines:

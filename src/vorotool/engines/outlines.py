@@ -154,7 +154,7 @@ def outlines(
         xy, start = grey_contours(made["corners"], made["start"], grey_level(raster.values, threshold))
     ids = made["labels"] if by_label else np.arange(1, len(made["labels"]) + 1)
     polygons = PolygonSet(
-        xy + origin,
+        xy if origin == (0, 0) else xy + origin,
         start,
         made["is_hole"],
         made["ring_object"],

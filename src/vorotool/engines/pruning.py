@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 from decimal import Decimal, localcontext
+from functools import partial
+from itertools import pairwise, starmap
 from typing import Any
 
 import numpy as np
@@ -11,12 +13,17 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.label_arrays import Progress
+from vorotool.engines.parts import in_threads, stacked, starts_of
 from vorotool.errors import UsageError
+from vorotool.geometry.checks import available_threads, checked_threads
 from vorotool.geometry.critical_values import CRITERIA, ArcProfiles, CriticalValues
 from vorotool.geometry.elementary import inverse_sine
 from vorotool.geometry.skeleton import Skeleton
 
 Floats = NDArray[np.float64]
+
+PART = 1 << 15
+"""Arcs of a part or more: what is made of them stays in the cache."""
 
 MASK_PRUNING = ("scale", 1.5)
 """Of outlines of pixels: see `default_pruning_for_masks`."""
@@ -30,6 +37,7 @@ def prune(
     scale: float | None = None,
     length: float | None = None,
     ratio: float | None = None,
+    threads: int = 0,
     progress: Progress = None,
 ) -> Skeleton:
     """Remove pieces of a skeleton that hang on the rest and matter less than a threshold.
@@ -62,6 +70,8 @@ def prune(
         Pieces that hang on a junction go if their longest path to a leaf is shorter than this many radii of the
         junction's disc. It is a measure without a unit that needs neither the boundary nor what else hangs there:
         the branch to a corner of 90 degrees has 1.41 if the disc of its junction touches both edges.
+    threads : int
+        0 uses all.
     progress : callable, optional
         Called with the fraction done of each step.
 
@@ -99,22 +109,76 @@ def prune(
         raise UsageError(f"{len(thresholds)} thresholds are given: give one of {', '.join(CRITERIA)}")
     ((criterion, threshold),) = thresholds.items()
     check_threshold(criterion, threshold)
-    number = CRITERIA.index(criterion)
-    arrays = skeleton_arrays(skeleton)
-    values = _core.critical_values(arrays, number, progress)
     compared = half_tangent(threshold) if criterion == "angle" else float(threshold)
     group = np.where(skeleton.polygon < 0, len(skeleton.polygons), skeleton.polygon).astype(np.int32)
-    left: dict[str, Any] = _core.prune_skeleton(arrays, *values, number, compared, group, progress)
+    threads = checked_threads(threads) or available_threads()
+    arrays = skeleton_arrays(skeleton, threads=threads)
+    tasks = [
+        partial(_pruned_part, skeleton, arrays, group, part, CRITERIA.index(criterion), compared)
+        for part in independent_parts(skeleton, group)
+    ]
+    made = in_threads(tasks, threads, progress)
+    shifts = {
+        "arcs": starts_of([len(part["radius"]) for part in made]),
+        "branch": starts_of([int(part["branch"].max(initial=-1)) + 1 for part in made]),
+    }
+    columns: dict[str, Any] = {name: stacked([part[name] for part in made], shifts.get(name)) for name in made[0]}
+    return replace(skeleton, **columns)
+
+
+def independent_parts(skeleton: Skeleton, group: NDArray[np.int32]) -> list[tuple[slice, slice]]:
+    """Arcs and nodes of parts of a skeleton that have nothing in common; one if its groups are in no such order.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Of what.
+    group : (a,) array
+        Of the arcs: each is in one part as a whole.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> skeleton = skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])
+    >>> independent_parts(skeleton, skeleton.polygon)
+    [(slice(0, 5, None), slice(0, 6, None))]
+    """
+    step = np.diff(group)
+    starts = np.flatnonzero(step) + 1
+    wanted = np.searchsorted(starts, np.arange(PART, len(group), PART))
+    inner = np.unique(starts[wanted[wanted < len(starts)]])
+    ends = skeleton.arcs.reshape(-1)
+    cuts = np.concatenate([[0], inner])
+    arcs = [*cuts.tolist(), len(group)]
+    nodes = [0, len(skeleton.vertices)]
+    if len(inner) and (step >= 0).all():
+        least, most = np.minimum.reduceat(ends, 2 * cuts), np.maximum.reduceat(ends, 2 * cuts)
+        if (least[1:] > most[:-1]).all():
+            nodes[1:1] = least[1:].tolist()
+    if len(nodes) < len(arcs):
+        arcs = [0, len(group)]
+    return list(zip(starmap(slice, pairwise(arcs)), starmap(slice, pairwise(nodes)), strict=True))
+
+
+def _pruned_part(
+    skeleton: Skeleton,
+    arrays: tuple[Any, ...],
+    group: NDArray[np.int32],
+    part: tuple[slice, slice],
+    number: int,
+    compared: float,
+    progress: Progress,
+) -> dict[str, Any]:
+    """What is left of some arcs, in arrays of a skeleton."""
+    arcs, nodes = part
+    own = _arrays_of_part(arrays, arcs, nodes)
+    values = _core.critical_values(own, number, progress)
+    left: dict[str, Any] = _core.prune_skeleton(own, *values, number, compared, group[arcs], progress)
     original, is_reversed = left.pop("original"), left.pop("is_reversed") != 0
-    sites = skeleton.sites[original]
-    return replace(
-        skeleton,
-        **left,
-        sites=np.where(is_reversed[:, None], sites[:, ::-1], sites),
-        polygon=skeleton.polygon[original],
-        side=skeleton.side[original],
-        error_bound=skeleton.error_bound[original],
-    )
+    for name in ("polygon", "side", "error_bound"):
+        left[name] = getattr(skeleton, name)[arcs][original]
+    sites = skeleton.sites[arcs][original]
+    return {**left, "sites": np.where(is_reversed[:, None], sites[:, ::-1], sites)}
 
 
 def critical_values(skeleton: Skeleton, criterion: str, *, progress: Progress = None) -> CriticalValues:
@@ -193,7 +257,7 @@ def check_threshold(criterion: str, threshold: float) -> None:
         raise UsageError(f"{criterion} is {threshold}: use a number {limits}")
 
 
-def skeleton_arrays(skeleton: Skeleton) -> tuple[Any, ...]:
+def skeleton_arrays(skeleton: Skeleton, *, threads: int = 1) -> tuple[Any, ...]:
     """The arrays of a skeleton as the core takes them."""
     return (
         skeleton.vertices,
@@ -202,9 +266,26 @@ def skeleton_arrays(skeleton: Skeleton) -> tuple[Any, ...]:
         skeleton.control,
         skeleton.sites,
         skeleton.length,
-        np.ascontiguousarray(skeleton.site_ends.reshape(-1, 4)),
+        np.ascontiguousarray(skeleton.site_ends_on(threads).reshape(-1, 4)),
         skeleton.on_frame.view(np.uint8),
         skeleton.gap > 0,
+        float(max(skeleton.vertices.max(initial=0), -skeleton.vertices.min(initial=0))),
+    )
+
+
+def _arrays_of_part(whole: tuple[Any, ...], arcs: slice, nodes: slice) -> tuple[Any, ...]:
+    vertices, radius, pairs, control, sites, length, ends, anchored, *of_all = whole
+    own = pairs[arcs] - np.int32(nodes.start)
+    return (
+        vertices[nodes],
+        radius[nodes],
+        own,
+        control[arcs],
+        sites[arcs],
+        length[arcs],
+        ends,
+        anchored[nodes],
+        *of_all,
     )
 
 

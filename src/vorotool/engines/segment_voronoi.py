@@ -11,14 +11,17 @@ from vorotool import _core
 from vorotool.engines.label_arrays import Progress
 from vorotool.errors import InputError, LimitError, VerificationError, VorotoolError
 from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.segment_voronoi import LATTICE_LIMIT, SegmentVoronoiDiagram
 
 MOST_SITES = 2**28 - 1
 """Of n sites there are at most 2 n - 2 vertices, each with four corner numbers in 31 bits."""
+NEITHER = 3
+"""What `idle_sides` tells of a site where neither side is wanted."""
 
 
 def segment_voronoi(
-    points: Any, segments: Any, *, threads: int = 0, progress: Progress = None
+    points: Any, segments: Any, *, idle: NDArray[np.uint8] | None = None, threads: int = 0, progress: Progress = None
 ) -> SegmentVoronoiDiagram:
     """Compute the Voronoi diagram of the points and open segments of a planar straight-line graph.
 
@@ -32,6 +35,9 @@ def segment_voronoi(
     segments : (m, 2) array of integers
         Indices of the ends of each segment. Segments meet at shared ends only, no point lies inside one, and no two
         have the same ends: placement makes such a graph. This is not checked in full.
+    idle : (n + m,) uint8 array, optional
+        Sides of points, then of segments, where the diagram is not asked for, as `idle_sides` gives them: vertices
+        there are left out, but for corners, and so are the edges to them. All else is as in the whole diagram.
     threads : int
         0 uses all.
     progress : callable, optional
@@ -77,7 +83,35 @@ def segment_voronoi(
         raise InputError(f"{error}: place the input on the lattice first") from None
     except RuntimeError as error:
         raise _explained(str(error), places, ends) from None
-    return SegmentVoronoiDiagram(places, ends, *core.take_arrays(threads, progress), counts=core.counts)
+    return SegmentVoronoiDiagram(places, ends, *core.take_arrays(idle, threads, progress), counts=core.counts)
+
+
+def idle_sides(graph: PlanarGraph, is_wanted: NDArray[np.bool_]) -> NDArray[np.uint8]:
+    """Tell on which sides of its points and segments a planar graph has faces that are not wanted.
+
+    Parameters
+    ----------
+    graph : PlanarGraph
+        Points without segments are taken to be in no face that is wanted.
+    is_wanted : (f,) bool array
+        Of the faces.
+
+    Returns
+    -------
+    (n + m,) uint8 array
+        Of each point and segment: 1 for the left side, and 2 for the right one. A point has both or none.
+
+    Examples
+    --------
+    >>> from vorotool.engines.planar_graph import planar_graph
+    >>> graph = planar_graph([[0, 0], [6, 0], [3, 2], [0, 6]])
+    >>> sides = idle_sides(graph, graph.is_inside)
+    >>> sides.tolist()
+    [3, 3, 0, 3, 2, 2, 2, 2]
+    >>> [len(segment_voronoi(graph.points, graph.segments, idle=idle)) for idle in (None, sides)]
+    [9, 7]
+    """
+    return _core.idle_sides(graph.points, graph.segments, graph.segment_faces, is_wanted.view(np.uint8))
 
 
 def _explained(symptom: str, points: NDArray[np.int32], segments: NDArray[np.int32]) -> VorotoolError:

@@ -2,26 +2,27 @@
 
 from __future__ import annotations
 
-import threading
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.label_arrays import Progress
+from vorotool.engines.parts import in_threads, stacked, starts_of
 from vorotool.engines.placed_rings import placed_shapes
 from vorotool.engines.planar_graph import Placement, graph_of_placement, placed_vertices
-from vorotool.engines.segment_voronoi import segment_voronoi
+from vorotool.engines.segment_voronoi import NEITHER, idle_sides, segment_voronoi
 from vorotool.engines.skeleton_exact import ShapeDiagram, skeleton_of
 from vorotool.errors import InputError
 from vorotool.geometry.checks import available_threads
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.skeleton import VERTEX, SiteTable, Skeleton
 
-BATCH = 1 << 14
-"""Vertices of a batch or more: some megabytes of its diagram, which stay in the cache."""
+BATCH = 1 << 13
+"""Vertices of a batch or more: some megabytes of its diagram, which stay in the cache, and soon done by any thread."""
 
 Integers = NDArray[np.int64]
 
@@ -34,7 +35,7 @@ def batched_skeleton(polygons: PolygonSet, *, threads: int, progress: Progress =
     the corners of their bounds are sites of its diagram: then its sites are ordered as those of all, and with them what
     is numbered or rounded along them. A batch with more than a thread's share of the vertices has all threads.
     """
-    if polygons.connectivity is None or len(polygons.xy) < 2 * BATCH:
+    if polygons.connectivity is None or polygons.is_line.any() or len(polygons.xy) < 2 * BATCH:
         return None
     placement = placed_vertices(polygons, threads=threads, progress=progress)
     starts = batch_starts(polygons, placement.vertices)
@@ -43,8 +44,9 @@ def batched_skeleton(polygons: PolygonSet, *, threads: int, progress: Progress =
     corners = np.stack([placement.vertices.min(axis=0), placement.vertices.max(axis=0)])
     ranges = zip(starts[:-1].tolist(), starts[1:].tolist(), strict=True)
     batches = [_Batch(polygons, placement, corners, begin, end) for begin, end in ranges]
-    parts = _made(batches, threads or available_threads(), progress)
-    return joined(parts, batches, polygons) if len(parts) == len(batches) else None
+    threads = threads or available_threads()
+    parts = _made(batches, threads, progress)
+    return joined(parts, batches, polygons, threads=threads) if len(parts) == len(batches) else None
 
 
 def batch_starts(polygons: PolygonSet, vertices: NDArray[np.int32]) -> Integers:
@@ -113,13 +115,17 @@ class _Batch:
             graph = graph_of_placement(self.part(), given, strict=True, progress=progress)
         except InputError:
             return None
-        known = (graph.points[:, None] == self.corners).all(axis=2).any(axis=0)
-        points = np.concatenate([graph.points, self.corners[~known]])
-        diagram = segment_voronoi(points, graph.segments, threads=threads, progress=progress)
+        x, y = graph.points.T
+        known = [bool(((x == corner_x) & (y == corner_y)).any()) for corner_x, corner_y in self.corners]
+        beyond = self.corners[np.logical_not(known)]  # points without segments, outside
+        points = np.concatenate([graph.points, beyond])
+        idle = idle_sides(graph, graph.is_inside)
+        idle = np.insert(idle, len(graph.points), np.full(len(beyond), NEITHER, dtype=np.uint8))
+        diagram = segment_voronoi(points, graph.segments, idle=idle, threads=threads, progress=progress)
         shapes = ShapeDiagram(graph, diagram, placed_shapes(graph, threads=threads))
         made = skeleton_of(shapes, threads=threads, progress=progress)
-        beyond = made.sites >= len(points)
-        return replace(made, sites=made.sites - beyond * np.int32(len(points) - len(graph.points)))
+        is_segment = made.sites >= len(points)
+        return replace(made, sites=made.sites - is_segment * np.int32(len(beyond)))
 
 
 def _made(batches: list[_Batch], threads: int, progress: Progress) -> list[Skeleton]:
@@ -131,67 +137,55 @@ def _made(batches: list[_Batch], threads: int, progress: Progress) -> list[Skele
     for k in [k for k, size in enumerate(sizes) if size > share]:
         parts[k] = batches[k].skeleton(threads, progress)
     rest = [k for k in range(len(batches)) if k not in parts]
-    stop = threading.Event()
-
-    def poll(_: float) -> None:
-        if stop.is_set():
-            raise KeyboardInterrupt
-
-    with ThreadPoolExecutor(threads) as pool:
-        futures = {k: pool.submit(batches[k].skeleton, 1, poll) for k in rest}
-        try:
-            for done, (k, future) in enumerate(futures.items()):
-                parts[k] = future.result()
-                if progress is not None:
-                    progress((done + 1) / len(rest))
-        except BaseException:
-            stop.set()
-            pool.shutdown(cancel_futures=True)
-            raise
+    tasks = [partial(batches[k].skeleton, 1) for k in rest]
+    parts.update(zip(rest, in_threads(tasks, threads, progress), strict=True))
     found = [parts[k] for k in range(len(batches))]
     return [part for part in found if part is not None]
 
 
-def joined(parts: list[Skeleton], batches: list[_Batch], polygons: PolygonSet) -> Skeleton:
-    """Make one skeleton of those of batches, in their order."""
+def joined(parts: list[Skeleton], batches: list[_Batch], polygons: PolygonSet, *, threads: int = 1) -> Skeleton:
+    """Make one skeleton of those of batches, in their order. Its arrays are filled on several threads."""
     points = [int(np.count_nonzero(part.site_table.kind == VERTEX)) for part in parts]
     segments = [len(part.site_table) - count for part, count in zip(parts, points, strict=True)]
-    point, segment = _before(points), sum(points) + _before(segments)
-    node, branch = (_before([count(part) for part in parts]) for count in (_nodes, _branches))
-    rows: dict[str, list[Any]] = {name: [] for name in ("arcs", "sites", "polygon", "branch")}
-    for k, (part, batch) in enumerate(zip(parts, batches, strict=True)):
-        is_segment = part.sites >= points[k]
-        rows["arcs"].append(part.arcs + node[k])
-        rows["sites"].append(part.sites + np.where(is_segment, segment[k] - points[k], point[k]))
-        rows["polygon"].append(part.polygon + batch.begin)
-        rows["branch"].append(part.branch + branch[k])
-    for name in ("vertices", "radius", "control", "side", "length", "error_bound"):
-        rows[name] = [getattr(part, name) for part in parts]
-    arrays: dict[str, Any] = {name: np.concatenate(values) for name, values in rows.items()}
-    return Skeleton(**arrays, site_table=_joined_sites(parts, batches, points), polygons=polygons)
+    shifts = {
+        "arcs": starts_of([len(part.radius) for part in parts]),
+        "branch": starts_of([_branches(part) for part in parts]),
+        "polygon": [batch.begin for batch in batches],
+    }
+    first_segment = [sum(points) + count for count in starts_of(segments)]
+    with ThreadPoolExecutor(threads) as pool:
+        sites = pool.submit(_joined_sites, [part.sites for part in parts], points, starts_of(points), first_segment)
+        table = {
+            field.name: pool.submit(_joined_column, field.name, parts, batches, points) for field in fields(SiteTable)
+        }
+        names = ("vertices", "radius", "arcs", "control", "polygon", "side", "branch", "length", "error_bound")
+        rows = {name: pool.submit(stacked, [getattr(part, name) for part in parts], shifts.get(name)) for name in names}
+        arrays: dict[str, Any] = {name: row.result() for name, row in rows.items()}
+        columns: dict[str, Any] = {name: column.result() for name, column in table.items()}
+        return Skeleton(**arrays, sites=sites.result(), site_table=SiteTable(**columns), polygons=polygons)
 
 
-def _joined_sites(parts: list[Skeleton], batches: list[_Batch], points: list[int]) -> SiteTable:
-    """All points, then all segments."""
-    columns: dict[str, Any] = {}
-    for field in fields(SiteTable):
-        shift = {"polygon": "begin", "source_ring": "first_ring"}.get(field.name)
-        values = [
-            getattr(part.site_table, field.name) + (getattr(batch, shift) if shift else 0)
-            for part, batch in zip(parts, batches, strict=True)
-        ]
-        firsts = [value[:count] for value, count in zip(values, points, strict=True)]
-        columns[field.name] = np.concatenate([*firsts, *(v[n:] for v, n in zip(values, points, strict=True))])
-    return SiteTable(**columns)
+def _joined_sites(
+    sites: list[NDArray[np.int32]], points: list[int], first_point: list[int], first_segment: list[int]
+) -> NDArray[Any]:
+    """Sites of arcs: of each batch so many points, then segments."""
+    made = stacked(sites, first_point)
+    for k, begin in enumerate(starts_of([len(part) for part in sites])):
+        own = made[begin : begin + len(sites[k])]
+        np.add(own, first_segment[k] - points[k] - first_point[k], out=own, where=sites[k] >= points[k])
+    return made
 
 
-def _before(counts: list[int]) -> Integers:
-    """How many come before each."""
-    return np.cumsum([0, *counts[:-1]])
-
-
-def _nodes(skeleton: Skeleton) -> int:
-    return len(skeleton.radius)
+def _joined_column(name: str, parts: list[Skeleton], batches: list[_Batch], points: list[int]) -> NDArray[Any]:
+    """Of the table of sites: all points, then all segments."""
+    columns = [getattr(part.site_table, name) for part in parts]
+    shift = {"polygon": "begin", "source_ring": "first_ring"}.get(name)
+    shifts = None if shift is None else 2 * [getattr(batch, shift) for batch in batches]
+    return stacked(
+        [column[:count] for column, count in zip(columns, points, strict=True)]
+        + [column[count:] for column, count in zip(columns, points, strict=True)],
+        shifts,
+    )
 
 
 def _branches(skeleton: Skeleton) -> int:

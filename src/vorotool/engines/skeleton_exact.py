@@ -13,7 +13,7 @@ from vorotool import _core
 from vorotool.engines.label_arrays import Progress
 from vorotool.engines.placed_rings import PlacedShapes, placed_shapes
 from vorotool.engines.planar_graph import planar_graph
-from vorotool.engines.segment_voronoi import segment_voronoi
+from vorotool.engines.segment_voronoi import idle_sides, segment_voronoi
 from vorotool.errors import InputError, UsageError, VorotoolWarning
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.planar_graph import PlanarGraph
@@ -70,10 +70,18 @@ def shape_diagram(polygons: Any, *, strict: bool = False, threads: int = 0, prog
     return diagram_of_graph(graph, threads=threads, progress=progress)
 
 
-def diagram_of_graph(graph: PlanarGraph, *, threads: int = 0, progress: Progress = None) -> ShapeDiagram:
-    """Compute the segment Voronoi diagram of polygons that are placed."""
+def diagram_of_graph(
+    graph: PlanarGraph, *, interior_only: bool = False, threads: int = 0, progress: Progress = None
+) -> ShapeDiagram:
+    """Compute the segment Voronoi diagram of polygons that are placed.
+
+    If only the interior is asked for, vertices outside are left out, but for corners.
+    """
     threads = checked_threads(threads)
-    diagram = segment_voronoi(graph.points, graph.segments, threads=threads, progress=progress)
+    # a line of one place is a point without segments, which may be inside
+    all_joined = bool((np.bincount(graph.segments.ravel(), minlength=len(graph.points)) > 0).all())
+    idle = idle_sides(graph, graph.is_inside) if interior_only and all_joined else None
+    diagram = segment_voronoi(graph.points, graph.segments, idle=idle, threads=threads, progress=progress)
     return ShapeDiagram(graph, diagram, placed_shapes(graph, threads=threads))
 
 

@@ -10,7 +10,7 @@ from vorotool.engines.planar_graph import planar_graph
 from vorotool.engines.skeleton_approx import SamplingOptions, approximate_skeleton, sampled_graph
 from vorotool.engines.skeleton_batches import batched_skeleton
 from vorotool.engines.skeleton_elements import skeleton_with_gap
-from vorotool.engines.skeleton_exact import Frame, check_skeleton_options, shape_diagram, skeleton_of
+from vorotool.engines.skeleton_exact import Frame, check_skeleton_options, diagram_of_graph, skeleton_of
 from vorotool.engines.skeleton_tolerance import skeleton_within
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.polygon_conversion import as_polygons
@@ -95,7 +95,8 @@ def skeleton_exact(
         made = batched_skeleton(given, threads=checked_threads(threads), progress=progress)
         if made is not None:
             return made
-    shapes = shape_diagram(given, strict=strict, threads=threads, progress=progress)
+    graph = planar_graph(given, strict=strict, threads=threads, progress=progress)
+    shapes = diagram_of_graph(graph, interior_only=side == "interior", threads=threads, progress=progress)
     return skeleton_of(shapes, side=side, frame=frame, threads=threads, progress=progress)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -16,11 +16,9 @@ from vorotool.formats.tables import TABLE_FORMATS, write_arrays, write_table
 from vorotool.geometry.flattening import checked_flatten
 from vorotool.geometry.skeleton import SIDES, Skeleton
 from vorotool.geometry.skeleton_tables import arc_table, branch_table, element_table, polygon_table
-from vorotool.geometry.table import Table
 
 SKELETON_FORMATS = ("json", "csv", "geojson", "npz", "wkt", "graphml")
-_TABLES: dict[str, Callable[[Skeleton], Table]] = {"elements": element_table, "branches": branch_table}
-FORMATS = {"skeleton": SKELETON_FORMATS, **dict.fromkeys((*_TABLES, "table"), TABLE_FORMATS)}
+FORMATS = {"skeleton": SKELETON_FORMATS, **dict.fromkeys(("elements", "branches", "table"), TABLE_FORMATS)}
 
 
 def write_skeleton(
@@ -76,9 +74,13 @@ def write_skeleton(
         raise UsageError(f"{fmt.upper()} is for pictures: draw it with vorotool.write, or vorotool draw")
     check_format(fmt, FORMATS[what], what)
     if what == "table":
-        write_table(out, polygon_table(skeleton, columns=columns), fmt, precision=precision, threads=threads)
-    elif what != "skeleton":
-        write_table(out, _TABLES[what](skeleton), fmt, precision=precision, threads=threads)
+        write_table(
+            out, polygon_table(skeleton, columns=columns, threads=threads), fmt, precision=precision, threads=threads
+        )
+    elif what == "branches":
+        write_table(out, branch_table(skeleton, threads=threads), fmt, precision=precision, threads=threads)
+    elif what == "elements":
+        write_table(out, element_table(skeleton), fmt, precision=precision, threads=threads)
     elif fmt == "csv":
         write_table(out, arc_table(skeleton), fmt, precision=precision, threads=threads)
     elif fmt == "json":
@@ -91,7 +93,7 @@ def write_skeleton(
         write_graphml(out, skeleton, flatten=flatten, precision=precision, threads=threads)
     else:
         points, start, first_arcs = _branch_polylines(skeleton, checked_flatten(flatten, skeleton.polygons))
-        wording = _wording(skeleton, fmt, first_arcs)
+        wording = _wording(skeleton, fmt, first_arcs, threads)
         write_polylines(out, points, start, wording, precision=precision, threads=threads)
 
 
@@ -151,10 +153,10 @@ def _branch_polylines(
     return points[kept], (np.cumsum(kept) - 1)[start[first_arcs]], first_arcs
 
 
-def _wording(skeleton: Skeleton, fmt: str, first_arcs: NDArray[np.int64]) -> Wording:
+def _wording(skeleton: Skeleton, fmt: str, first_arcs: NDArray[np.int64], threads: int) -> Wording:
     if fmt == "wkt":
         return wkt_wording(len(first_arcs))
-    columns = branch_table(skeleton)
+    columns = branch_table(skeleton, threads=threads)
     own = {name: columns[name].tolist() for name in ("branch", "kind", "length", "r_min", "r_max", "r_mean")}
     own["side"] = [None if number < 0 else SIDES[number] for number in skeleton.side[first_arcs].tolist()]
     return geojson_wording(skeleton.polygons, skeleton.polygon[first_arcs].tolist(), own)

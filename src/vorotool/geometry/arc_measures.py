@@ -82,9 +82,7 @@ class ArcMeasures:
         across, between = sites[0] - sites[1], (sites[0] + sites[1]) / 2
         self.half = np.where(self.is_parting, _norm(across) / 2, 0)
         way = np.stack([across[:, 1], -across[:, 0]], axis=1)
-        slopes = [
-            _ratio(((end - between) * way).sum(axis=1), 2 * self.half * self.half) for end in (self.source, self.target)
-        ]
+        slopes = [_ratio(_dot(end - between, way), 2 * self.half * self.half) for end in (self.source, self.target)]
         self.slope0 = np.where(self.is_parting, slopes[0], middle - half_way)
         self.slope1 = np.where(self.is_parting, slopes[1], middle + half_way)
 
@@ -138,9 +136,9 @@ class ArcMeasures:
     @property
     def integral(self) -> Floats:
         """(n,) of the radius along each arc."""
-        linear = self.length * (self.r0 + self.r1) / 2
-        points = self.half * self.length * mean_root(self.slope0, self.slope1)
-        found = np.where(self.is_parting, points, linear)
+        found: Floats = self.length * (self.r0 + self.r1) / 2
+        apart = np.flatnonzero(self.is_parting)
+        found[apart] = self.half[apart] * self.length[apart] * mean_root(self.slope0[apart], self.slope1[apart])
         bent = np.flatnonzero(self.is_parabola)
         found[bent] = self[bent]._integral_along_parabolas()
         return found
@@ -150,12 +148,12 @@ class ArcMeasures:
         flat = self.slope1 - self.slope0 < _FLAT
         found = np.empty_like(self.length)
         found[flat] = self[flat]._quadrature()
-        steep = self[~flat]
-        s, t = steep.slope0, steep.slope1
+        steep = ~flat
+        s, t, along = self.slope0[steep], self.slope1[steep], self.along[steep]
         v, w = np.sqrt(1 + s * s), np.sqrt(1 + t * t)
         # s w^3 at both ends, by (s1 - s0) times a sum of positive numbers
         cubes = (v**3 + w**3) / 2 + (s + t) ** 2 / 2 * (v * v + v * w + w * w) / (v + w)
-        found[~flat] = steep.along**2 / (2 * (t - s)) * (cubes / 4 + 3 / 4 * mean_root(s, t))
+        found[steep] = along**2 / (2 * (t - s)) * (cubes / 4 + 3 / 4 * mean_root(s, t))
         return found
 
     def _quadrature(self) -> Floats:
@@ -184,6 +182,11 @@ def mean_root(s: Floats, t: Floats) -> Floats:
     ratio = np.where(x > 0, _ratio(inverse_sinh(x), x), 1.0)
     mean: Floats = (products + factor * ratio) / 2
     return mean
+
+
+def _dot(a: Floats, b: Floats) -> Floats:
+    product: Floats = a[:, 0] * b[:, 0] + a[:, 1] * b[:, 1]
+    return product
 
 
 def _norm(way: Floats) -> Floats:

@@ -2,18 +2,48 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.arc_measures import ArcMeasures
+from vorotool.geometry.chunks import in_chunks
 
 Floats = NDArray[np.float64]
 
-CHUNK = 1 << 14
-"""Arcs that are taken at a time: what is made of them stays in the cache."""
-
 
 def arc_radii(
+    count: int, arrays_of: Callable[[slice], tuple[NDArray[Any], ...]], *, threads: int = 1
+) -> tuple[Floats, Floats, Floats]:
+    """Smallest and largest radius on each of many arcs, and the integral of the radius along it.
+
+    Parameters
+    ----------
+    count : int
+        Of arcs.
+    arrays_of : callable
+        Gives the arrays of some of them, as `radii_of_arcs` takes them; called in several threads at once.
+    threads : int
+        0 uses all.
+
+    Returns
+    -------
+    tuple of (a,) float64 arrays
+        Least, most, and the integral.
+    """
+    made = np.empty((3, count))
+
+    def fill(part: slice) -> None:
+        made[:, part] = radii_of_arcs(*arrays_of(part))
+
+    in_chunks(count, fill, threads=threads)
+    least, most, integral = made
+    return least, most, integral
+
+
+def radii_of_arcs(
     ends: Floats, radius: Floats, control: Floats, sites: Floats, is_edge: NDArray[np.bool_], length: Floats
 ) -> tuple[Floats, Floats, Floats]:
     """Smallest and largest radius on each arc, and the integral of the radius along it.
@@ -44,23 +74,11 @@ def arc_radii(
     >>> arc = np.array([[[1.0, 1.0], [3.0, 3.0]]])
     >>> edges = np.ones((2, 1), dtype=bool)
     >>> nothing, length = np.full((1, 2), np.nan), np.array([2.0])
-    >>> least, most, integral = arc_radii(arc, np.array([[1.0, 3.0]]), nothing, np.stack([wall, wall]), edges, length)
+    >>> sites = np.stack([wall, wall])
+    >>> least, most, integral = radii_of_arcs(arc, np.array([[1.0, 3.0]]), nothing, sites, edges, length)
     >>> least.tolist(), most.tolist(), integral.tolist()
     ([1.0], [3.0], [4.0])
     """
-    made = np.empty((3, len(length)))
-    for begin in range(0, len(length), CHUNK):
-        part = slice(begin, begin + CHUNK)
-        made[:, part] = _radii_of_part(
-            ends[part], radius[part], control[part], sites[:, part], is_edge[:, part], length[part]
-        )
-    least, most, integral = made
-    return least, most, integral
-
-
-def _radii_of_part(
-    ends: Floats, radius: Floats, control: Floats, sites: Floats, is_edge: NDArray[np.bool_], length: Floats
-) -> tuple[Floats, Floats, Floats]:
     source, target = _columns(ends)
     left, right = _columns(sites[0]), _columns(sites[1])
     on_left, on_right = is_edge

@@ -86,8 +86,9 @@ class PolygonSet:
                 raise InputError(f"{name} must hold one value a polygon, {count}, but holds {len(values)}")
         if self.connectivity not in (None, 4, 8):
             raise InputError(f"connectivity is {self.connectivity}: it must be 4 or 8, or left out")
-        bad = np.flatnonzero(~np.isfinite(self.xy).all(axis=1))
-        if bad.size:
+        finite = np.isfinite(self.xy)
+        if not finite.all():
+            bad = np.flatnonzero(~finite.all(axis=1))
             at = int(bad[0])
             raise InputError(
                 f"{self.place(at)} is ({self.xy[at, 0]}, {self.xy[at, 1]}): coordinates must be finite; "

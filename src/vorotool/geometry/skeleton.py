@@ -13,6 +13,7 @@ from vorotool.errors import InputError
 from vorotool.geometry.arc_measures import ArcMeasures
 from vorotool.geometry.arc_radii import arc_radii
 from vorotool.geometry.checks import set_array
+from vorotool.geometry.chunks import in_chunks
 from vorotool.geometry.polygons import PolygonSet
 
 INTERIOR, EXTERIOR = 0, 1
@@ -192,7 +193,20 @@ class Skeleton:
     @cached_property
     def site_ends(self) -> NDArray[np.float64]:
         """(s, 2, 2) the ends of each site, with a gap those of the shortened edges; a vertex has one place twice."""
-        return self._ends_of(slice(None))
+        return self.site_ends_on(1)
+
+    def site_ends_on(self, threads: int) -> NDArray[np.float64]:
+        """Compute `site_ends` on several threads, if they are not there yet; 0 uses all."""
+        if "site_ends" not in self.__dict__:
+            made = np.empty((len(self.site_table), 2, 2))
+
+            def fill(sites: slice) -> None:
+                made[sites] = self._ends_of(sites)
+
+            in_chunks(len(made), fill, threads=threads)
+            self.__dict__["site_ends"] = made
+        ends: NDArray[np.float64] = self.__dict__["site_ends"]
+        return ends
 
     def _ends_of(self, sites: Any) -> NDArray[np.float64]:
         ends = ends_of_sites(self.polygons, self.site_table, sites)
@@ -207,7 +221,14 @@ class Skeleton:
     @cached_property
     def arc_radii(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
         """Smallest and largest radius on each arc, and the integral of the radius along it."""
-        return arc_radii(*self._arc_arrays(slice(None)))
+        return self.arc_radii_on(1)
+
+    def arc_radii_on(self, threads: int) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Compute `arc_radii` on several threads, if they are not there yet; 0 uses all."""
+        if "arc_radii" not in self.__dict__:
+            self.__dict__["arc_radii"] = arc_radii(len(self), self._arc_arrays, threads=threads)
+        found: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]] = self.__dict__["arc_radii"]
+        return found
 
     def measures(self, arcs: NDArray[np.integer]) -> ArcMeasures:
         """Places, radii and lengths along some arcs, which may come more than once."""

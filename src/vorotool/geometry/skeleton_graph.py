@@ -93,7 +93,7 @@ def skeleton_graph(skeleton: Skeleton, *, by: str = "branch", flatten: float | N
 
 
 def _branches(skeleton: Skeleton, first: NDArray[np.int64]) -> Table:
-    table = branch_table(skeleton)
+    table = branch_table(skeleton, threads=1)
     names = ("branch", "polygon", "id", "kind", "length", "r_min", "r_max", "r_mean")
     columns = {name: table.stored()[name] for name in names}
     return Table({"branch": columns.pop("branch"), "side": _sides(skeleton, first), **columns})

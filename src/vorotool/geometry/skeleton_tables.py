@@ -137,13 +137,15 @@ def ids_of(polygons: PolygonSet, polygon: NDArray[np.int32]) -> Lookup:
     return Lookup([*names, None], np.where(polygon < 0, len(polygons), polygon).astype(np.int32))
 
 
-def branch_table(skeleton: Skeleton) -> Table:
+def branch_table(skeleton: Skeleton, *, threads: int = 0) -> Table:
     """Give one row a branch, a chain of arcs between nodes with one arc or more than two.
 
     Parameters
     ----------
     skeleton : Skeleton
         Rows are in the order of its branches.
+    threads : int
+        0 uses all.
 
     Returns
     -------
@@ -165,7 +167,7 @@ def branch_table(skeleton: Skeleton) -> Table:
         return Table(dict.fromkeys(names, empty))
     last = np.append(start[1:], len(skeleton)) - 1
     a, b = skeleton.arcs[start, 0], skeleton.arcs[last, 1]
-    least, most, integral = skeleton.arc_radii
+    least, most, integral = skeleton.arc_radii_on(threads)
     length = np.add.reduceat(skeleton.length, start)
     integral = np.add.reduceat(integral, start)
     mean = np.divide(integral, length, out=skeleton.radius[a].copy(), where=length > 0)
@@ -194,11 +196,14 @@ def _branch_starts(skeleton: Skeleton) -> NDArray[np.int64]:
 
 
 def _distance(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    way = b - a
-    return np.asarray(np.sqrt((way * way).sum(axis=-1)))  # the same on every machine, as hypot is not
+    return _length(b[:, 0] - a[:, 0], b[:, 1] - a[:, 1])
 
 
-def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = None) -> Table:
+def _length(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.asarray(np.sqrt(x * x + y * y))  # the same on every machine, as hypot is not
+
+
+def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = None, threads: int = 0) -> Table:
     """Give one row a polygon, with what the skeleton inside tells of it.
 
     Parameters
@@ -207,6 +212,8 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
         Its polygons' properties are the last columns.
     columns : mapping of str to array, optional
         Columns before these, one value a polygon: what :func:`vorotool.geometry.centerline.centerline_columns` gives.
+    threads : int
+        0 uses all.
 
     Returns
     -------
@@ -223,10 +230,12 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
     [[8.0], [4], [2], [0], [2.0]]
     """
     polygons, count = skeleton.polygons, len(skeleton.polygons)
-    inside = np.flatnonzero(skeleton.side == INTERIOR)
+    is_inside = skeleton.side == INTERIOR
+    inside: Any = slice(None) if is_inside.all() else np.flatnonzero(is_inside)
     of_arc = skeleton.polygon[inside]
     node_polygon = np.full(len(skeleton.vertices), -1)
-    node_polygon[skeleton.arcs[inside]] = of_arc[:, None]
+    for ends in skeleton.arcs[inside].T:
+        node_polygon[ends] = of_arc
     own = node_polygon >= 0
 
     def counted(nodes: NDArray[np.bool_]) -> NDArray[np.int64]:
@@ -234,7 +243,7 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
 
     arcs = np.bincount(of_arc, minlength=count)
     length = np.bincount(of_arc, skeleton.length[inside], count)
-    _, most, integral = skeleton.arc_radii
+    _, most, integral = skeleton.arc_radii_on(threads)
     widest = np.zeros(count)
     np.maximum.at(widest, of_arc, 2 * most[inside])
     mean = np.divide(2 * np.bincount(of_arc, integral[inside], count), length, out=np.zeros(count), where=length > 0)
@@ -263,9 +272,7 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
     return table.with_properties(polygons.properties)
 
 
-def _components(
-    skeleton: Skeleton, inside: NDArray[np.int64], node_polygon: NDArray[np.int64], count: int
-) -> NDArray[np.int64]:
+def _components(skeleton: Skeleton, inside: Any, node_polygon: NDArray[np.int64], count: int) -> NDArray[np.int64]:
     """Connected components of the skeleton in each polygon."""
     root = connected_roots(skeleton.arcs[inside], len(skeleton.vertices))
     roots = np.flatnonzero((root == np.arange(len(root))) & (node_polygon >= 0))
@@ -302,11 +309,13 @@ def _measures(polygons: PolygonSet) -> tuple[NDArray[np.float64], NDArray[np.flo
         return np.zeros(0), np.zeros(0)
     first = polygons.ring_start[:-1]
     following = polygons.following
-    ring_length = _distance(polygons.xy, polygons.xy[following])
+    x, y = np.ascontiguousarray(polygons.xy.T)
+    next_x, next_y = x[following], y[following]
+    ring_length = _length(next_x - x, next_y - y)
     ring_length[(polygons.ring_start[1:] - 1)[polygons.is_line[polygons.ring_polygon]]] = 0
     perimeter = np.add.reduceat(np.add.reduceat(ring_length, first), polygons.polygon_start[:-1])
-    own = polygons.xy - np.repeat(polygons.xy[first], np.diff(polygons.ring_start), axis=0)
-    products = own[:, 0] * own[following, 1] - own[:, 1] * own[following, 0]
+    first_x, first_y = np.repeat(np.stack([x[first], y[first]]), np.diff(polygons.ring_start), axis=1)
+    products = (x - first_x) * (next_y - first_y) - (y - first_y) * (next_x - first_x)
     twice = np.abs(np.add.reduceat(products, first))
     twice = np.where(polygons.ring_kind == 1, -twice, twice)
     area = np.add.reduceat(twice, polygons.polygon_start[:-1]) / 2

@@ -1,0 +1,31 @@
+"""Independent parts in threads: order, exceptions, interrupts."""
+
+import threading
+
+import pytest
+
+from vorotool.engines.parts import in_threads
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+def test_results_are_in_the_order_of_the_tasks(threads):
+    seen = []
+    tasks = [lambda _, k=k: k * k for k in range(20)]
+    assert in_threads(tasks, threads, seen.append) == [k * k for k in range(20)]
+    assert seen == [(k + 1) / 20 for k in range(20)]
+
+
+def test_an_exception_stops_the_others():
+    started = threading.Event()
+
+    def endless(progress):
+        started.set()
+        while True:
+            progress(0.5)
+
+    def failing(_):
+        started.wait()
+        raise ValueError("no")
+
+    with pytest.raises(ValueError, match="no"):
+        in_threads([failing, endless], 2, None)
