@@ -35,10 +35,11 @@ core::CornerRule corner_rule(const std::string& name) {
 }
 
 template <class Label>
-nb::dict trace_cracks(const Matrix<const Label>& labels, const std::string& rule, std::size_t vertices,
+nb::dict trace_cracks(const Matrix<const Label>& labels, const std::string& rule, unsigned threads,
                       nb::object progress) {
   core::CrackOutlines made = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::trace_cracks<Label>(view(labels), labels.shape(1), corner_rule(rule), vertices, monitor);
+    return core::trace_cracks<Label>(view(labels), labels.shape(1), corner_rule(rule),
+                                     core::resolve_threads(threads), monitor);
   });
   nb::dict result;
   result["corners"] = two_columns(std::move(made.corners));
@@ -53,7 +54,7 @@ template <class Label>
 void bind_label_image(nb::module_& module) {
   module.def("count_crack_vertices", &count_crack_vertices<Label>, "labels"_a.noconvert(), "threads"_a,
              "progress"_a.none());
-  module.def("trace_cracks", &trace_cracks<Label>, "labels"_a.noconvert(), "rule"_a, "vertices"_a,
+  module.def("trace_cracks", &trace_cracks<Label>, "labels"_a.noconvert(), "rule"_a, "threads"_a,
              "progress"_a.none());
 }
 

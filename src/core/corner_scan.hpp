@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 #include "core/label_runs.hpp"
 
@@ -31,7 +32,15 @@ class RowPair {
   // and corner(x, corner) between two stretches, where x is the column on the right.
   template <class Label, class Stretch, class Meet>
   void walk(std::span<const Label> above, std::span<const Label> below, Stretch stretch, Meet corner) {
-    const std::size_t count = above_.cut(above);
+    below_.cut(above);
+    walk_on(above, below, stretch, corner);
+  }
+
+  // The same where the row above was the one below in the call before.
+  template <class Label, class Stretch, class Meet>
+  void walk_on(std::span<const Label> above, std::span<const Label> below, Stretch stretch, Meet corner) {
+    std::swap(above_, below_);
+    const std::size_t count = above_.size();
     below_.cut(below);
     std::size_t i = 0, j = 0;
     for (;;) {

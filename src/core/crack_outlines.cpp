@@ -1,12 +1,13 @@
 #include "core/crack_outlines.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <numeric>
+#include <optional>
 #include <tuple>
 
 #include "core/corner_scan.hpp"
 #include "core/label_runs.hpp"
+#include "core/large_array.hpp"
 #include "core/parallel.hpp"
 
 namespace vorotool::core {
@@ -51,25 +52,84 @@ class Quadrants {
   std::array<std::uint32_t, 4> label_;
 };
 
-// Calls visit(x, y, quadrants) for the corners of lines [first, last) between rows where a crack goes up or
-// down, line by line; outside the image is label 0. Line y is above row y.
+// Lines between the rows of an image: line y is above row y, and outside is label 0.
+struct Lines {
+  std::size_t first, last;
+};
+
+// Calls visit(y, row above, row below) for lines.
 template <class Label, class Visit>
-void scan_corners(std::span<const Label> image, std::size_t width, std::size_t first, std::size_t last,
-                  Visit visit) {
+void for_each_line(std::span<const Label> image, std::size_t width, Lines lines, Visit visit) {
   const std::size_t height = image.size() / width;
   const std::vector<Label> outside(width, 0);
+  const auto row = [&](bool is_inside, std::size_t number) {
+    return is_inside ? image.subspan(number * width, width) : std::span<const Label>(outside);
+  };
+  for (std::size_t y = lines.first; y < lines.last; ++y) visit(y, row(y > 0, y - 1), row(y < height, y));
+}
+
+// Calls visit(x, y, quadrants) for the corners of lines where a crack goes up or down, line by line.
+template <class Label, class Visit>
+void scan_corners(std::span<const Label> image, std::size_t width, Lines lines, Visit visit) {
   RowPair rows(width);
-  for (std::size_t y = first; y < last; ++y) {
-    const auto row = [&](bool is_inside, std::size_t number) {
-      return is_inside ? image.subspan(number * width, width) : std::span<const Label>(outside);
-    };
-    const std::span<const Label> above = row(y > 0, y - 1), below = row(y < height, y);
+  using Row = std::span<const Label>;
+  for_each_line(image, width, lines, [&](std::size_t y, Row above, Row below) {
+    const auto stretch = [](std::uint32_t, std::uint32_t) {};
+    const auto corner = [&](std::size_t x, const Corner& c) { visit(x, y, Quadrants(c)); };
     visit(0, y, Quadrants({0, above.front(), below.front(), 0}));
-    rows.walk(
-        above, below, [](std::uint32_t, std::uint32_t) {},
-        [&](std::size_t x, const Corner& corner) { visit(x, y, Quadrants(corner)); });
+    y == lines.first ? rows.walk(above, below, stretch, corner) : rows.walk_on(above, below, stretch, corner);
     visit(width, y, Quadrants({above.back(), 0, 0, below.back()}));
+  });
+}
+
+// Vertices on a line, as Quadrants::is_vertex has them: a block at a time without a branch.
+template <class Label>
+std::size_t vertices_on_line(std::span<const Label> above, std::span<const Label> below) {
+  constexpr std::size_t block = 128;  // a count of 8 bits holds as many
+  const std::size_t width = above.size();
+  std::size_t count = (above[0] != 0 || below[0] != 0) && above[0] != below[0];
+  count += (above[width - 1] != 0 || below[width - 1] != 0) && above[width - 1] != below[width - 1];
+  for (std::size_t from = 1; from < width; from += block) {
+    const std::size_t to = std::min(width, from + block);
+    Label found = 0;
+    for (std::size_t x = from; x < to; ++x) {
+      const auto along = static_cast<Label>((above[x] ^ above[x - 1]) | (below[x] ^ below[x - 1]));
+      const auto across = static_cast<Label>((above[x] ^ below[x]) | (above[x - 1] ^ below[x - 1]));
+      found = static_cast<Label>(found + ((along != 0) & (across != 0)));
+    }
+    count += found;
   }
+  return count;
+}
+
+// Work on the lines of an image that is done in pieces.
+class Pieces {
+ public:
+  Pieces(std::size_t width, std::size_t height) : lines_(height + 1), size_(rows_per_piece(width)) {}
+
+  std::size_t count() const { return piece_count(lines_, size_); }
+  Lines operator[](std::size_t piece) const { return {piece * size_, std::min(lines_, (piece + 1) * size_)}; }
+
+ private:
+  std::size_t lines_, size_;
+};
+
+// The number of vertices on the lines of each piece.
+template <class Label>
+std::vector<std::size_t> vertices_of_pieces(std::span<const Label> image, std::size_t width, unsigned threads,
+                                            const Monitor& monitor) {
+  const Pieces pieces(width, image.size() / width);
+  std::vector<std::size_t> found(pieces.count());
+  using Row = std::span<const Label>;
+  parallel_for(
+      pieces.count(), threads,
+      [&](std::size_t piece) {
+        for_each_line(image, width, pieces[piece], [&](std::size_t, Row above, Row below) {
+          found[piece] += vertices_on_line(above, below);
+        });
+      },
+      monitor);
+  return found;
 }
 
 struct CrackVertex {
@@ -80,49 +140,116 @@ struct CrackVertex {
   std::uint8_t is_open;    // a bit for each direction that an outline leaves in and was not walked yet
 };
 
-// Cracks between vertices, found line by line.
-class CrackGraph {
+// Cracks between vertices on some lines, found line by line. What leads to vertices above these lines is
+// linked by `join`.
+class CrackBand {
  public:
-  CrackGraph(std::size_t width, CornerRule rule, std::size_t count) : rule_(rule), above_(width + 1, -1) {
-    vertices.reserve(count);
-  }
+  // `vertices` are those of the image, those of these lines begin at `first`.
+  CrackBand(std::span<CrackVertex> vertices, std::size_t first, std::size_t width, CornerRule rule)
+      : vertices_(vertices),
+        next_(static_cast<std::int32_t>(first)),
+        rule_(rule),
+        above_(width + 1, kUnknown) {}
 
   void add(std::size_t x, std::size_t y, const Quadrants& around) {
     const auto column = static_cast<std::int32_t>(x), line = static_cast<std::int32_t>(y);
-    if (column == 0) run_crack_ = -1;
+    if (column == 0) run_column_ = run_crack_ = -1;
     if (around.is_vertex()) add_vertex(column, line, around);
-    if (around.has_crack(kSouth)) run_crack_ = above_[x];
+    if (around.has_crack(kSouth)) {
+      run_column_ = column;
+      run_crack_ = above_[x];
+    }
   }
 
-  std::vector<CrackVertex> vertices;  // by lines
+  // The last line is done.
+  void close() {
+    for (std::size_t x = 0; x < above_.size(); ++x) {
+      if (above_[x] != kUnknown) last_.push_back({static_cast<std::int32_t>(x), above_[x]});
+    }
+    above_ = {};
+  }
+
+  // Bands are joined from above: `above` has the last vertex in each column, and is brought down to here.
+  void join(std::vector<std::int32_t>& above) const {
+    for (const auto& [column, vertex] : from_above_) link(above[at(column)], kSouth, vertex);
+    for (const auto& [column, vertex] : runs_from_above_) vertices_[at(vertex)].run_crack = above[at(column)];
+    for (const auto& [column, vertex] : last_) above[at(column)] = vertex;
+  }
 
  private:
+  static constexpr std::int32_t kUnknown = -1;
+
+  struct Place {
+    std::int32_t column, vertex;
+  };
+
   void add_vertex(std::int32_t x, std::int32_t y, const Quadrants& around) {
-    const auto vertex = static_cast<std::int32_t>(vertices.size());
-    vertices.push_back({.x = x, .y = y, .run_crack = run_crack_, .turns = 0, .is_open = 0});
-    CrackVertex& made = vertices.back();
+    const std::int32_t vertex = next_++;
+    if (run_column_ >= 0 && run_crack_ == kUnknown) runs_from_above_.push_back({run_column_, vertex});
+    CrackVertex& made = vertices_[at(vertex)];
+    made = {.x = x, .y = y, .run_crack = run_crack_, .turns = 0, .is_open = 0};
     for (int direction = 0; direction < 4; ++direction) {
       if (!around.has_crack(direction)) continue;
       const int came = turned(direction, 2);
       made.turns |= static_cast<std::uint8_t>(around.next_direction(came, rule_) << 2 * came);
       if (around[direction] != 0) made.is_open |= static_cast<std::uint8_t>(1 << direction);
     }
-    if (around.has_crack(kNorth)) link(above_[at(x)], kSouth, vertex);
+    if (around.has_crack(kNorth)) link_up(x, vertex);
     if (around.has_crack(kWest)) link(before_, kEast, vertex);
     if (around.has_crack(kSouth)) above_[at(x)] = vertex;
     if (around.has_crack(kEast)) before_ = vertex;
   }
 
-  void link(std::int32_t from, int direction, std::int32_t to) {
-    vertices[at(from)].next[at(direction)] = to;
-    vertices[at(to)].next[at(turned(direction, 2))] = from;
+  void link_up(std::int32_t column, std::int32_t vertex) {
+    const std::int32_t above = above_[at(column)];
+    above == kUnknown ? from_above_.push_back({column, vertex}) : link(above, kSouth, vertex);
   }
 
+  void link(std::int32_t from, int direction, std::int32_t to) const {
+    vertices_[at(from)].next[at(direction)] = to;
+    vertices_[at(to)].next[at(turned(direction, 2))] = from;
+  }
+
+  std::span<CrackVertex> vertices_;  // by lines
+  std::int32_t next_;
   CornerRule rule_;
-  std::vector<std::int32_t> above_;  // the last vertex in each column
-  std::int32_t before_ = -1;         // the last vertex on the line
-  std::int32_t run_crack_ = -1;      // the upper end of the crack that the run at hand below begins at
+  std::vector<std::int32_t> above_;     // the last vertex in each column
+  std::int32_t before_ = -1;            // the last vertex on the line
+  std::int32_t run_column_ = -1;        // of the crack that the run at hand below begins at
+  std::int32_t run_crack_ = -1;         // its upper end
+  std::vector<Place> from_above_;       // cracks from above these lines, with their lower ends
+  std::vector<Place> runs_from_above_;  // such cracks that the run of a vertex begins at
+  std::vector<Place> last_;             // the last vertex in each column, where there is one
 };
+
+// The vertices of the image, with the cracks between them.
+template <class Label>
+LargeArray<CrackVertex> crack_graph(std::span<const Label> image, std::size_t width, CornerRule rule,
+                                    unsigned threads, const Monitor& monitor) {
+  const auto half = [&](double from) -> Monitor {
+    if (!monitor) return {};
+    return [&monitor, from](double fraction) { return monitor(from + fraction / 4); };
+  };
+  std::vector<std::size_t> start{0};
+  for (const std::size_t count : vertices_of_pieces(image, width, threads, half(0)))
+    start.push_back(start.back() + count);
+  const Pieces pieces(width, image.size() / width);
+  LargeArray<CrackVertex> vertices(start.back());
+  std::vector<std::optional<CrackBand>> bands(pieces.count());
+  parallel_for(
+      pieces.count(), threads,
+      [&](std::size_t piece) {
+        CrackBand& band =
+            bands[piece].emplace(std::span(vertices.data(), vertices.size()), start[piece], width, rule);
+        scan_corners(image, width, pieces[piece],
+                     [&](std::size_t x, std::size_t y, const Quadrants& around) { band.add(x, y, around); });
+        band.close();
+      },
+      half(0.25));
+  std::vector<std::int32_t> above(width + 1, -1);
+  for (const std::optional<CrackBand>& band : bands) band->join(above);
+  return vertices;
+}
 
 struct CrackRing {
   std::size_t begin, end;  // of its vertices
@@ -133,12 +260,13 @@ struct CrackRing {
 
 class RingWalk {
  public:
-  RingWalk(std::vector<CrackVertex>& vertices, CornerRule rule, const Monitor& monitor)
+  RingWalk(std::span<CrackVertex> vertices, CornerRule rule, const Monitor& monitor)
       : vertices_(vertices),
         divides_(rule == CornerRule::divided),
         monitor_(monitor),
         north_(vertices.size(), -1) {
     if (divides_) place_.assign(vertices.size(), -1);
+    path.reserve(vertices.size());
   }
 
   // A ring leaves its first vertex to the east if it is a shell, to the south if it is a hole.
@@ -218,7 +346,7 @@ class RingWalk {
     if (++polled_ % kSteps == 0 && monitor_ && !monitor_(0.75)) throw Interrupted();
   }
 
-  std::vector<CrackVertex>& vertices_;
+  std::span<CrackVertex> vertices_;
   bool divides_;  // where a vertex is visited again
   const Monitor& monitor_;
   std::vector<std::int32_t> north_;  // the ring that leaves each vertex to the north
@@ -229,7 +357,7 @@ class RingWalk {
 
 // Puts the objects in the order of their labels, and the rings in that of their objects.
 template <class Label>
-CrackOutlines sorted_outlines(const std::vector<CrackVertex>& vertices, RingWalk& walk,
+CrackOutlines sorted_outlines(std::span<const CrackVertex> vertices, RingWalk& walk,
                               std::span<const Label> image, std::size_t width) {
   std::vector<std::uint32_t> label;  // of objects by their first pixels
   for (const CrackRing& ring : walk.rings) {
@@ -266,35 +394,18 @@ CrackOutlines sorted_outlines(const std::vector<CrackVertex>& vertices, RingWalk
 template <class Label>
 std::size_t count_crack_vertices(std::span<const Label> image, std::size_t width, unsigned threads,
                                  const Monitor& monitor) {
-  const std::size_t lines = image.size() / width + 1, piece_lines = rows_per_piece(width);
-  std::atomic<std::size_t> count = 0;
-  parallel_for(
-      piece_count(lines, piece_lines), threads,
-      [&](std::size_t piece) {
-        const std::size_t first = piece * piece_lines;
-        std::size_t found = 0;
-        scan_corners(image, width, first, std::min(lines, first + piece_lines),
-                     [&](std::size_t, std::size_t, const Quadrants& around) { found += around.is_vertex(); });
-        count += found;
-      },
-      monitor);
-  return count;
+  const std::vector<std::size_t> found = vertices_of_pieces(image, width, threads, monitor);
+  return std::accumulate(found.begin(), found.end(), std::size_t{0});
 }
 
 template <class Label>
-CrackOutlines trace_cracks(std::span<const Label> image, std::size_t width, CornerRule rule,
-                           std::size_t vertices, const Monitor& monitor) {
-  const std::size_t lines = image.size() / width + 1, piece_lines = rows_per_piece(width);
-  CrackGraph graph(width, rule, vertices);
-  for (std::size_t first = 0; first < lines; first += piece_lines) {
-    scan_corners(image, width, first, std::min(lines, first + piece_lines),
-                 [&](std::size_t x, std::size_t y, const Quadrants& around) { graph.add(x, y, around); });
-    if (monitor && !monitor(0.5 * static_cast<double>(first) / static_cast<double>(lines)))
-      throw Interrupted();
-  }
-  RingWalk walk(graph.vertices, rule, monitor);
+CrackOutlines trace_cracks(std::span<const Label> image, std::size_t width, CornerRule rule, unsigned threads,
+                           const Monitor& monitor) {
+  LargeArray<CrackVertex> made = crack_graph(image, width, rule, threads, monitor);
+  const std::span vertices(made.data(), made.size());
+  RingWalk walk(vertices, rule, monitor);
   walk.walk_all();
-  return sorted_outlines(graph.vertices, walk, image, width);
+  return sorted_outlines<Label>(vertices, walk, image, width);
 }
 
 template std::size_t count_crack_vertices(std::span<const std::uint8_t>, std::size_t, unsigned,
@@ -303,11 +414,11 @@ template std::size_t count_crack_vertices(std::span<const std::uint16_t>, std::s
                                           const Monitor&);
 template std::size_t count_crack_vertices(std::span<const std::uint32_t>, std::size_t, unsigned,
                                           const Monitor&);
-template CrackOutlines trace_cracks(std::span<const std::uint8_t>, std::size_t, CornerRule, std::size_t,
+template CrackOutlines trace_cracks(std::span<const std::uint8_t>, std::size_t, CornerRule, unsigned,
                                     const Monitor&);
-template CrackOutlines trace_cracks(std::span<const std::uint16_t>, std::size_t, CornerRule, std::size_t,
+template CrackOutlines trace_cracks(std::span<const std::uint16_t>, std::size_t, CornerRule, unsigned,
                                     const Monitor&);
-template CrackOutlines trace_cracks(std::span<const std::uint32_t>, std::size_t, CornerRule, std::size_t,
+template CrackOutlines trace_cracks(std::span<const std::uint32_t>, std::size_t, CornerRule, unsigned,
                                     const Monitor&);
 
 }  // namespace vorotool::core

@@ -43,9 +43,9 @@ template <class Label>
 std::size_t count_crack_vertices(std::span<const Label> image, std::size_t width, unsigned threads,
                                  const Monitor& monitor);
 
-// `vertices` is their number, below 2^31.
+// There must be fewer than 2^31 vertices. The result does not depend on the threads.
 template <class Label>
-CrackOutlines trace_cracks(std::span<const Label> image, std::size_t width, CornerRule rule,
-                           std::size_t vertices, const Monitor& monitor);
+CrackOutlines trace_cracks(std::span<const Label> image, std::size_t width, CornerRule rule, unsigned threads,
+                           const Monitor& monitor);
 
 }  // namespace vorotool::core

@@ -142,7 +142,7 @@ def outlines(
         threshold = threshold_value(raster.values, threshold)
     values = foreground_values(raster, threshold, invert=invert)
     by_label = (mode or default_objects(values)) == "labels"
-    labels = label_values(values) if by_label else values != 0
+    labels = label_values(values) if by_label or values.dtype == bool else values != 0
     made = _traced(labels, _CORNER_RULES[outline, connectivity], max_sites, threads, progress)
     if not len(made["labels"]):
         warnings.warn("the image has no foreground: use --invert or --threshold", VorotoolWarning, stacklevel=2)
@@ -181,4 +181,4 @@ def _traced(
         raise LimitError(
             f"the outlines have {count} vertices, more than --max-sites {most}: smooth the image, or use a larger limit"
         )
-    return _core.trace_cracks(labels, rule, count, progress)
+    return _core.trace_cracks(labels, rule, threads, progress)
