@@ -47,7 +47,8 @@ struct SkeletonInput {
         has_gap(nb::cast<bool>(arrays[8])),
         reach(nb::cast<double>(arrays[9])) {}
 
-  core::SkeletonView skeleton() const {
+  // Without the ends of sites only for what looks at none.
+  core::SkeletonView skeleton(bool needs_sites = true) const {
     const core::SkeletonView s{rows<Place>(vertices),
                                view(radius),
                                rows<Pair>(arcs),
@@ -64,7 +65,7 @@ struct SkeletonInput {
       throw std::invalid_argument("the arrays of a skeleton have lengths that do not go together");
     }
     check_range(s.arcs, nodes);
-    check_range(s.sites, s.site_ends.size());
+    if (needs_sites) check_range(s.sites, s.site_ends.size());
     return s;
   }
 
@@ -91,8 +92,8 @@ core::Criterion criterion_of(int number) {
 
 nb::tuple critical_values(const nb::tuple& arrays, int criterion, nb::handle progress) {
   const SkeletonInput input(arrays);
-  const core::SkeletonView skeleton = input.skeleton();
   const core::Criterion wanted = criterion_of(criterion);
+  const core::SkeletonView skeleton = input.skeleton(wanted != core::Criterion::scale);
   core::CriticalValues values = run_interruptible(
       progress, [&](const Monitor& monitor) { return core::critical_values(skeleton, wanted, monitor); });
   return nb::make_tuple(two_columns(std::move(values.ends)), to_numpy(std::move(values.most)),
@@ -100,24 +101,14 @@ nb::tuple critical_values(const nb::tuple& arrays, int criterion, nb::handle pro
                         column<double>(values.kept, [](const auto& place) { return place.parameter; }));
 }
 
-nb::dict prune_skeleton(const nb::tuple& arrays, const Matrix<const double>& ends,
-                        const Vector<const double>& most, const Vector<const std::int32_t>& kept_arc,
-                        const Vector<const double>& kept_place, int criterion, double threshold,
+nb::dict prune_skeleton(const nb::tuple& arrays, int criterion, double threshold,
                         const Vector<const std::int32_t>& group, nb::handle progress) {
   const SkeletonInput input(arrays);
-  const core::SkeletonView skeleton = input.skeleton();
   const core::Criterion wanted = criterion_of(criterion);
-  const std::size_t count = skeleton.arcs.size();
-  if (ends.shape(0) != count || most.size() != count || group.size() != count ||
-      kept_arc.size() != kept_place.size()) {
-    throw std::invalid_argument("each arc must have its critical values and a group");
-  }
-  const auto values_of_ends = rows<std::array<double, 2>>(ends);
-  core::CriticalValues values{
-      {values_of_ends.begin(), values_of_ends.end()}, {view(most).begin(), view(most).end()}, {}};
-  for (std::size_t k = 0; k < kept_arc.size(); ++k)
-    values.kept.push_back({view(kept_arc)[k], view(kept_place)[k]});
+  const core::SkeletonView skeleton = input.skeleton(wanted != core::Criterion::scale);
+  if (group.size() != skeleton.arcs.size()) throw std::invalid_argument("each arc must have a group");
   core::PrunedSkeleton left = run_interruptible(progress, [&](const Monitor& monitor) {
+    const core::CriticalValues values = core::critical_values(skeleton, wanted, monitor);
     const auto parts = core::parts_left(skeleton, values, wanted, threshold);
     return core::pruned_skeleton(skeleton, parts, view(group), monitor);
   });
@@ -183,8 +174,7 @@ nb::dict part_geometry(const nb::tuple& arrays, const Vector<const std::int32_t>
 
 void bind_pruning(nb::module_& module) {
   module.def("critical_values", &critical_values, "skeleton"_a, "criterion"_a, "progress"_a.none());
-  module.def("prune_skeleton", &prune_skeleton, "skeleton"_a, "ends"_a.noconvert(), "most"_a.noconvert(),
-             "kept_arc"_a.noconvert(), "kept_place"_a.noconvert(), "criterion"_a, "threshold"_a,
+  module.def("prune_skeleton", &prune_skeleton, "skeleton"_a, "criterion"_a, "threshold"_a,
              "group"_a.noconvert(), "progress"_a.none());
   module.def("arc_profiles", &arc_profiles, "skeleton"_a);
   module.def("part_geometry", &part_geometry, "skeleton"_a, "arc"_a.noconvert(), "first"_a.noconvert(),

@@ -22,10 +22,9 @@ ArcPart cut(const SkeletonView& skeleton, const CriticalValues& values, Criterio
                                      [](const KeptPlace& place, std::int32_t k) { return place.arc < k; });
   const bool is_kept = kept != values.kept.end() && kept->arc == arc;
   const bool has_course = criterion == Criterion::angle || criterion == Criterion::chord;
+  if (!has_course) return {arc, kept->parameter, kept->parameter};  // whole arcs go, but for a place
   const ArcProfile profile(skeleton, at(arc));
-  const double most = !has_course                     ? 0
-                      : criterion == Criterion::angle ? profile.angle().most
-                                                      : profile.chord().most;
+  const double most = criterion == Criterion::angle ? profile.angle().most : profile.chord().most;
   const auto reached = [&](bool from_target) {
     if (most < threshold) return kept->parameter;
     const double u = criterion == Criterion::angle ? profile.angle_reached(threshold, from_target)
@@ -66,6 +65,7 @@ Place control_of(const SkeletonView& skeleton, const ArcPart& part) {
 
 double length_of(const SkeletonView& skeleton, const ArcPart& part) {
   if (is_whole(part)) return skeleton.length[at(part.arc)];
+  if (part.first == part.last) return 0;
   return ArcProfile(skeleton, at(part.arc)).length(part.first, part.last);
 }
 
@@ -90,7 +90,7 @@ class PartWriter {
   std::size_t node_count() const { return skeleton_.vertices.size() + extra_.size(); }
 
   PrunedSkeleton write(const SkeletonOrder& order) const {
-    PrunedSkeleton out;
+    PrunedSkeleton out = reserved(order);
     for (const std::int32_t node : order.nodes) {
       const bool is_old = at(node) < skeleton_.vertices.size();
       const ArcEnd end = is_old ? ArcEnd{skeleton_.vertices[at(node)], skeleton_.radius[at(node)]}
@@ -111,6 +111,19 @@ class PartWriter {
   }
 
  private:
+  static PrunedSkeleton reserved(const SkeletonOrder& order) {
+    PrunedSkeleton out;
+    out.vertices.reserve(order.nodes.size());
+    out.radius.reserve(order.nodes.size());
+    out.arcs.reserve(order.arcs.size());
+    out.control.reserve(order.arcs.size());
+    out.length.reserve(order.arcs.size());
+    out.branch.reserve(order.arcs.size());
+    out.original.reserve(order.arcs.size());
+    out.is_reversed.reserve(order.arcs.size());
+    return out;
+  }
+
   std::int32_t add_node(std::int32_t arc, double u) {
     extra_.push_back(end_at(skeleton_, arc, u));
     return static_cast<std::int32_t>(node_count() - 1);

@@ -327,7 +327,7 @@ def nearest_neighbours(
 # ---- outlines (bind_outlines.cpp): labels are C-contiguous uint8, uint16 or uint32 -----------------------------------
 
 def count_crack_vertices(labels: NDArray[Any], threads: int, progress: _Progress) -> int: ...
-def trace_cracks(labels: NDArray[Any], rule: str, vertices: int, progress: _Progress) -> dict[str, NDArray[Any]]: ...
+def trace_cracks(labels: NDArray[Any], rule: str, threads: int, progress: _Progress) -> dict[str, NDArray[Any]]: ...
 
 # ---- skeletons (bind_skeleton.cpp): the first six arguments are the arrays of a segment Voronoi diagram -------------
 
@@ -408,15 +408,7 @@ def critical_values(
     """
 
 def prune_skeleton(
-    skeleton: _SkeletonArrays,
-    ends: NDArray[np.float64],
-    most: NDArray[np.float64],
-    kept_arc: NDArray[np.int32],
-    kept_place: NDArray[np.float64],
-    criterion: int,
-    threshold: float,
-    group: NDArray[np.int32],
-    progress: _Progress,
+    skeleton: _SkeletonArrays, criterion: int, threshold: float, group: NDArray[np.int32], progress: _Progress
 ) -> dict[str, NDArray[Any]]: ...
 def arc_profiles(
     skeleton: _SkeletonArrays,

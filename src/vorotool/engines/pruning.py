@@ -112,7 +112,7 @@ def prune(
     compared = half_tangent(threshold) if criterion == "angle" else float(threshold)
     group = np.where(skeleton.polygon < 0, len(skeleton.polygons), skeleton.polygon).astype(np.int32)
     threads = checked_threads(threads) or available_threads()
-    arrays = skeleton_arrays(skeleton, threads=threads)
+    arrays = skeleton_arrays(skeleton, threads=threads, has_sites=criterion != "scale")
     tasks = [
         partial(_pruned_part, skeleton, arrays, group, part, CRITERIA.index(criterion), compared)
         for part in independent_parts(skeleton, group)
@@ -172,8 +172,7 @@ def _pruned_part(
     """What is left of some arcs, in arrays of a skeleton."""
     arcs, nodes = part
     own = _arrays_of_part(arrays, arcs, nodes)
-    values = _core.critical_values(own, number, progress)
-    left: dict[str, Any] = _core.prune_skeleton(own, *values, number, compared, group[arcs], progress)
+    left: dict[str, Any] = _core.prune_skeleton(own, number, compared, group[arcs], progress)
     original, is_reversed = left.pop("original"), left.pop("is_reversed") != 0
     for name in ("polygon", "side", "error_bound"):
         left[name] = getattr(skeleton, name)[arcs][original]
@@ -208,7 +207,7 @@ def critical_values(skeleton: Skeleton, criterion: str, *, progress: Progress = 
     if criterion not in CRITERIA:
         raise UsageError(f"{criterion!r} is nothing to prune by: use {', '.join(CRITERIA)}")
     ends, most, kept_arc, kept_place = _core.critical_values(
-        skeleton_arrays(skeleton), CRITERIA.index(criterion), progress
+        skeleton_arrays(skeleton, has_sites=criterion != "scale"), CRITERIA.index(criterion), progress
     )
     if criterion == "angle":
         ends, most = _doubled_degrees(ends), _doubled_degrees(most)
@@ -257,8 +256,9 @@ def check_threshold(criterion: str, threshold: float) -> None:
         raise UsageError(f"{criterion} is {threshold}: use a number {limits}")
 
 
-def skeleton_arrays(skeleton: Skeleton, *, threads: int = 1) -> tuple[Any, ...]:
-    """The arrays of a skeleton as the core takes them."""
+def skeleton_arrays(skeleton: Skeleton, *, threads: int = 1, has_sites: bool = True) -> tuple[Any, ...]:
+    """The arrays of a skeleton as the core takes them; `scale` looks at no site."""
+    site_ends = skeleton.site_ends_on(threads) if has_sites else np.empty((0, 2, 2))
     return (
         skeleton.vertices,
         skeleton.radius,
@@ -266,7 +266,7 @@ def skeleton_arrays(skeleton: Skeleton, *, threads: int = 1) -> tuple[Any, ...]:
         skeleton.control,
         skeleton.sites,
         skeleton.length,
-        np.ascontiguousarray(skeleton.site_ends_on(threads).reshape(-1, 4)),
+        np.ascontiguousarray(site_ends.reshape(-1, 4)),
         skeleton.on_frame.view(np.uint8),
         skeleton.gap > 0,
         float(max(skeleton.vertices.max(initial=0), -skeleton.vertices.min(initial=0))),
