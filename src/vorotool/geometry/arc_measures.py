@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -72,19 +73,24 @@ class ArcMeasures:
 
     def _set_slopes(self, sites: Floats) -> None:
         """Slopes at the source and the target; between two vertices x / c."""
-        growth = self.r1 - self.r0
-        chord = _norm(self.target - self.source)
+        self.along, self.half, self.slope0, self.slope1 = np.zeros((4, len(self.length)))
+        bent = np.flatnonzero(self.is_parabola)
+        growth = self.r1[bent] - self.r0[bent]
+        source, target = self.source[bent], self.target[bent]
+        chord = _norm(target - source)
         along = np.sqrt(np.maximum(chord - np.abs(growth), 0) * (chord + np.abs(growth)))
-        height = _norm(self.source - 2 * self.control + self.target)
-        self.along = np.where(self.is_parabola, along, 0)
-        middle, half_way = _ratio(growth, self.along), _ratio(height, self.along)
+        height = _norm(source - 2 * self.control[bent] + target)
+        middle, half_way = _ratio(growth, along), _ratio(height, along)
+        self.along[bent], self.slope0[bent], self.slope1[bent] = along, middle - half_way, middle + half_way
         # the left site is to the left of the arc
-        across, between = sites[0] - sites[1], (sites[0] + sites[1]) / 2
-        self.half = np.where(self.is_parting, _norm(across) / 2, 0)
+        apart = np.flatnonzero(self.is_parting)
+        left, right = sites[:, apart]
+        across, between = left - right, (left + right) / 2
+        half = _norm(across) / 2
         way = np.stack([across[:, 1], -across[:, 0]], axis=1)
-        slopes = [_ratio(_dot(end - between, way), 2 * self.half * self.half) for end in (self.source, self.target)]
-        self.slope0 = np.where(self.is_parting, slopes[0], middle - half_way)
-        self.slope1 = np.where(self.is_parting, slopes[1], middle + half_way)
+        self.half[apart] = half
+        self.slope0[apart] = _ratio(_dot(self.source[apart] - between, way), 2 * half * half)
+        self.slope1[apart] = _ratio(_dot(self.target[apart] - between, way), 2 * half * half)
 
     def __getitem__(self, chosen: NDArray[Any]) -> ArcMeasures:
         """Measures of some of the arcs."""
@@ -139,30 +145,38 @@ class ArcMeasures:
         found: Floats = self.length * (self.r0 + self.r1) / 2
         apart = np.flatnonzero(self.is_parting)
         found[apart] = self.half[apart] * self.length[apart] * mean_root(self.slope0[apart], self.slope1[apart])
-        bent = np.flatnonzero(self.is_parabola)
-        found[bent] = self[bent]._integral_along_parabolas()
+        bends = self.slope1 - self.slope0
+        flat = np.flatnonzero(self.is_parabola & (bends < _FLAT))
+        found[flat] = _quadrature(self.r0[flat], self.along[flat], self.slope0[flat], bends[flat])
+        steep = np.flatnonzero(self.is_parabola & ~(bends < _FLAT))
+        found[steep] = _closed_integral(self.along[steep], self.slope0[steep], self.slope1[steep])
         return found
 
-    def _integral_along_parabolas(self) -> Floats:
-        """h^2 / 2 times the integral of (1 + s^2)^(3/2) over the slope s, where h = d / (s1 - s0)."""
-        flat = self.slope1 - self.slope0 < _FLAT
-        found = np.empty_like(self.length)
-        found[flat] = self[flat]._quadrature()
-        steep = ~flat
-        s, t, along = self.slope0[steep], self.slope1[steep], self.along[steep]
-        v, w = np.sqrt(1 + s * s), np.sqrt(1 + t * t)
-        # s w^3 at both ends, by (s1 - s0) times a sum of positive numbers
-        cubes = (v**3 + w**3) / 2 + (s + t) ** 2 / 2 * (v * v + v * w + w * w) / (v + w)
-        found[steep] = along**2 / (2 * (t - s)) * (cubes / 4 + 3 / 4 * mean_root(s, t))
-        return found
 
-    def _quadrature(self) -> Floats:
-        total = np.zeros_like(self.length)
-        for node, weight in zip(*np.polynomial.legendre.leggauss(8), strict=True):
-            u = np.full_like(total, (node + 1) / 2)
-            slope = self._slope(u)
-            total += weight / 2 * self.radius(u) * self.along * np.sqrt(1 + slope * slope)
-        return total
+def _closed_integral(along: Floats, s: Floats, t: Floats) -> Floats:
+    """h^2 / 2 times the integral of (1 + x^2)^(3/2) over the slope x from s to t, where h = d / (t - s)."""
+    v, w = np.sqrt(1 + s * s), np.sqrt(1 + t * t)
+    # s w^3 at both ends, by (t - s) times a sum of positive numbers
+    cubes = (v**3 + w**3) / 2 + (s + t) ** 2 / 2 * (v * v + v * w + w * w) / (v + w)
+    integral: Floats = along**2 / (2 * (t - s)) * (cubes / 4 + 3 / 4 * mean_root(s, t))
+    return integral
+
+
+def _quadrature(r0: Floats, along: Floats, slope0: Floats, bend: Floats) -> Floats:
+    total = np.zeros_like(r0)
+    for node, weight in zip(*_gauss_rule(), strict=True):
+        u = (node + 1) / 2
+        slope = slope0 + u * bend
+        radius = r0 + along * u * (slope0 + slope) / 2
+        total += weight / 2 * radius * along * np.sqrt(1 + slope * slope)
+    return total
+
+
+@cache
+def _gauss_rule() -> tuple[Floats, Floats]:
+    """Nodes and weights of 8 Gauss nodes on [-1, 1]."""
+    nodes, weights = np.polynomial.legendre.leggauss(8)
+    return nodes, weights
 
 
 def mean_root(s: Floats, t: Floats) -> Floats:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -47,19 +45,21 @@ def inverse_sinh(z: ArrayLike) -> Floats:
 
 def _by_halves(z: Floats, sign: int) -> Floats:
     """f(z) = 2 f(z / sqrt(2 (1 + sqrt(1 + sign z^2)))) brings z below 1/4, where the series is summed."""
+    shape, z = z.shape, z.flatten()
     factor = np.ones_like(z)
-    while True:
-        large = np.abs(z) > 0.25
-        if not large.any():
-            break
-        root = np.sqrt(1 + z * z if sign > 0 else (1 - z) * (1 + z))
-        z = np.where(large, z / np.sqrt(2 * (1 + root)), z)
-        factor = np.where(large, 2 * factor, factor)
-    square: Any = z * z
-    total: Any = np.zeros_like(z)
+    large = np.flatnonzero(np.abs(z) > 0.25)
+    while large.size:
+        part = z[large]
+        root = np.sqrt(1 + part * part if sign > 0 else (1 - part) * (1 + part))
+        part /= np.sqrt(2 * (1 + root))
+        z[large] = part
+        factor[large] *= 2
+        large = large[np.abs(part) > 0.25]
+    square, total = z * z, np.zeros_like(z)
     for coefficient in reversed(_coefficients(sign)):
-        total = total * square + coefficient
-    result: Floats = factor * z * total
+        total *= square
+        total += coefficient
+    result: Floats = (factor * z * total).reshape(shape)
     return result
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.chunks import in_chunks
 from vorotool.geometry.polygon_conversion import to_shapely
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.skeleton import EDGE, INTERIOR, KINDS, SIDES, Skeleton
@@ -165,14 +166,12 @@ def branch_table(skeleton: Skeleton, *, threads: int = 0) -> Table:
         empty: NDArray[Any] = np.empty(0)
         names = ("polygon", "id", "branch", "kind", "length", "chord", "r_min", "r_max", "r_mean")
         return Table(dict.fromkeys(names, empty))
-    last = np.append(start[1:], len(skeleton)) - 1
-    a, b = skeleton.arcs[start, 0], skeleton.arcs[last, 1]
+    a, b = both = _branch_ends(skeleton, start)
     least, most, integral = skeleton.arc_radii_on(threads)
     length = np.add.reduceat(skeleton.length, start)
     integral = np.add.reduceat(integral, start)
     mean = np.divide(integral, length, out=skeleton.radius[a].copy(), where=length > 0)
     polygon = skeleton.polygon[start]
-    both = np.stack([a, b])
     framed = skeleton.on_frame[both]
     has_end = ((skeleton.degree[both] == 1) & ~framed).any(axis=0)
     kind = np.select([a == b, has_end, framed.any(axis=0)], [2, 0, 3], 1).astype(np.int32)
@@ -193,6 +192,12 @@ def branch_table(skeleton: Skeleton, *, threads: int = 0) -> Table:
 
 def _branch_starts(skeleton: Skeleton) -> NDArray[np.int64]:
     return np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
+
+
+def _branch_ends(skeleton: Skeleton, starts: NDArray[np.int64]) -> NDArray[np.int32]:
+    """(2, b) the nodes that branches begin and end at."""
+    last = np.append(starts, len(skeleton))[1:] - 1
+    return np.stack([skeleton.arcs[starts, 0], skeleton.arcs[last, 1]])
 
 
 def _distance(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -248,9 +253,8 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
     np.maximum.at(widest, of_arc, 2 * most[inside])
     mean = np.divide(2 * np.bincount(of_arc, integral[inside], count), length, out=np.zeros(count), where=length > 0)
     starts = _branch_starts(skeleton)
-    starts = starts[skeleton.side[starts] == INTERIOR]
-    cycles = arcs - counted(own) + _components(skeleton, inside, node_polygon, count)
-    area, perimeter = _measures(polygons)
+    cycles = arcs - counted(own) + _components(skeleton, starts, node_polygon, count)
+    area, perimeter = _measures(polygons, threads)
     empty = arcs == 0
     table = Table(
         {
@@ -260,7 +264,7 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
             "perimeter": perimeter,
             "holes": np.where(polygons.is_line, 0, np.diff(polygons.polygon_start) - 1),
             "length": length,
-            "branches": np.bincount(skeleton.polygon[starts], minlength=count),
+            "branches": np.bincount(skeleton.polygon[starts[skeleton.side[starts] == INTERIOR]], minlength=count),
             "ends": counted(skeleton.degree == 1),
             "junctions": counted(skeleton.degree > 2),
             "cycles": cycles,
@@ -272,11 +276,25 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
     return table.with_properties(polygons.properties)
 
 
-def _components(skeleton: Skeleton, inside: Any, node_polygon: NDArray[np.int64], count: int) -> NDArray[np.int64]:
-    """Connected components of the skeleton in each polygon."""
-    root = connected_roots(skeleton.arcs[inside], len(skeleton.vertices))
-    roots = np.flatnonzero((root == np.arange(len(root))) & (node_polygon >= 0))
-    return np.bincount(node_polygon[roots], minlength=count)
+def _components(
+    skeleton: Skeleton, starts: NDArray[np.int64], node_polygon: NDArray[np.int64], count: int
+) -> NDArray[np.int64]:
+    """Connected components of the skeleton in each polygon: of its branches, each counted at its first node."""
+    inner = skeleton.side[starts] == INTERIOR
+    ends = _branch_ends(skeleton, starts)[:, inner]
+    is_end = np.zeros(len(skeleton.vertices), dtype=bool)
+    is_end[ends] = True
+    number = np.cumsum(is_end) - 1
+    nodes = np.flatnonzero(is_end)
+    root = connected_roots(number[ends].T, len(nodes))
+    np.minimum.at(nodes, root[number[ends[0]]], _least_nodes(skeleton, starts)[inner])
+    return np.bincount(node_polygon[nodes[root == np.arange(len(root))]], minlength=count)
+
+
+def _least_nodes(skeleton: Skeleton, starts: NDArray[np.int64]) -> NDArray[np.int32]:
+    """(b,) the smallest node of each branch."""
+    least: NDArray[np.int32] = np.minimum.reduceat(skeleton.arcs.reshape(-1), 2 * starts)
+    return least
 
 
 def connected_roots(pairs: NDArray[np.integer], count: int) -> NDArray[np.int64]:
@@ -302,26 +320,44 @@ def connected_roots(pairs: NDArray[np.integer], count: int) -> NDArray[np.int64]
     return root
 
 
-def _measures(polygons: PolygonSet) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _measures(polygons: PolygonSet, threads: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Areas and perimeters; an area by the even-odd rule."""
     count = len(polygons)
     if not count:
         return np.zeros(0), np.zeros(0)
     first = polygons.ring_start[:-1]
-    following = polygons.following
-    x, y = np.ascontiguousarray(polygons.xy.T)
-    next_x, next_y = x[following], y[following]
-    ring_length = _length(next_x - x, next_y - y)
-    ring_length[(polygons.ring_start[1:] - 1)[polygons.is_line[polygons.ring_polygon]]] = 0
-    perimeter = np.add.reduceat(np.add.reduceat(ring_length, first), polygons.polygon_start[:-1])
-    first_x, first_y = np.repeat(np.stack([x[first], y[first]]), np.diff(polygons.ring_start), axis=1)
-    products = (x - first_x) * (next_y - first_y) - (y - first_y) * (next_x - first_x)
+    length, products = np.empty((2, len(polygons.xy)))
+
+    def fill(part: slice) -> None:
+        length[part], products[part] = _edge_measures(polygons, part)
+
+    in_chunks(len(length), fill, threads=threads)
+    length[(polygons.ring_start[1:] - 1)[polygons.is_line[polygons.ring_polygon]]] = 0
+    perimeter = np.add.reduceat(np.add.reduceat(length, first), polygons.polygon_start[:-1])
     twice = np.abs(np.add.reduceat(products, first))
     twice = np.where(polygons.ring_kind == 1, -twice, twice)
     area = np.add.reduceat(twice, polygons.polygon_start[:-1]) / 2
     area[polygons.is_line] = 0
     # crack outlines touch themselves, but never cross
     return area if polygons.connectivity is not None else _with_valid_areas(polygons, area), perimeter
+
+
+def _edge_measures(polygons: PolygonSet, part: slice) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Of the edges from some vertices on: lengths, and twice the areas of triangles with the first vertex of a ring."""
+    xy, start = polygons.xy, polygons.ring_start
+    here = xy[part]
+    begin, end = part.start, part.start + len(here)
+    rings = slice(np.searchsorted(start, begin, side="right") - 1, np.searchsorted(start, end))
+    inner = start[rings.start : rings.stop + 1].clip(begin, end)
+    first = xy[start[rings]]
+    following = np.concatenate([here[1:], xy[end : end + 1] if end < len(xy) else first[-1:]])
+    closing = inner[1:] - 1 - begin
+    closing = closing if start[rings.stop] <= end else closing[:-1]
+    following[closing] = first[: len(closing)]
+    way = following - here
+    first = np.repeat(first, np.diff(inner), axis=0)
+    a, b = here - first, following - first
+    return _length(way[:, 0], way[:, 1]), a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
 
 
 def _with_valid_areas(polygons: PolygonSet, area: NDArray[np.float64]) -> NDArray[np.float64]:
