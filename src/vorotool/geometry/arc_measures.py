@@ -67,7 +67,7 @@ class ArcMeasures:
         self.r0, self.r1 = radius.T
         self.length = length
         self.is_parabola = ~np.isnan(control[:, 0])
-        self.control = np.where(self.is_parabola[:, None], control, (self.source + self.target) / 2)
+        self._control = control
         self.is_parting = ~is_edge.any(axis=0) & ~self.is_parabola
         self._set_slopes(sites[:, :, 0])
 
@@ -79,7 +79,7 @@ class ArcMeasures:
         source, target = self.source[bent], self.target[bent]
         chord = _norm(target - source)
         along = np.sqrt(np.maximum(chord - np.abs(growth), 0) * (chord + np.abs(growth)))
-        height = _norm(source - 2 * self.control[bent] + target)
+        height = _norm(source - 2 * self._control[bent] + target)
         middle, half_way = _ratio(growth, along), _ratio(height, along)
         self.along[bent], self.slope0[bent], self.slope1[bent] = along, middle - half_way, middle + half_way
         # the left site is to the left of the arc
@@ -98,12 +98,17 @@ class ArcMeasures:
         part.__dict__ = {name: values[chosen] for name, values in self.__dict__.items()}
         return part
 
+    @property
+    def control(self) -> Floats:
+        """(n, 2) control points; of straight lines half-way."""
+        return np.where(self.is_parabola[:, None], self._control, (self.source + self.target) / 2)
+
     def place(self, u: Floats) -> Floats:
         """(n, 2) a place on each arc."""
-        v = u[:, None]
+        v, control = u[:, None], self.control
         straight = self.source + v * (self.target - self.source)
-        bend = self.source - 2 * self.control + self.target
-        bent = self.source + v * (2 * (self.control - self.source) + v * bend)
+        bend = self.source - 2 * control + self.target
+        bent = self.source + v * (2 * (control - self.source) + v * bend)
         places: Floats = np.where(v >= 1, self.target, np.where(self.is_parabola[:, None], bent, straight))
         return places
 

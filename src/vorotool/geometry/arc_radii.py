@@ -79,24 +79,31 @@ def radii_of_arcs(
     >>> least.tolist(), most.tolist(), integral.tolist()
     ([1.0], [3.0], [4.0])
     """
+    r0, r1 = np.ascontiguousarray(radius.T)
+    least, most = np.minimum(r0, r1), np.maximum(r0, r1)
+    integral = length * (r0 + r1) / 2  # between two edges the radius is linear
+    rest = np.flatnonzero(~(is_edge[0] & is_edge[1]))
+    ends, sites, is_edge = ends.take(rest, axis=0), sites.take(rest, axis=1), is_edge.take(rest, axis=1)
+    least[rest] = np.minimum(least[rest], _least_inside(ends, sites, is_edge))
+    measures = ArcMeasures(
+        ends, radius.take(rest, axis=0), control.take(rest, axis=0), sites, is_edge, length.take(rest)
+    )
+    integral[rest] = measures.integral
+    return least, most, integral
+
+
+def _least_inside(ends: Floats, sites: Floats, is_edge: NDArray[np.bool_]) -> Floats:
+    """Half-way between a vertex and the other site: nearest there, if that is in the middle of the arc; else inf."""
     source, target = _columns(ends)
     left, right = _columns(sites[0]), _columns(sites[1])
-    on_left, on_right = is_edge
-    r0, r1 = radius.T
-    least, most = np.minimum(r0, r1), np.maximum(r0, r1)
-    # nearest to a vertex the arc may be in its middle, half-way between the two sites
-    has_vertex = ~(on_left & on_right)
-    other = np.where(on_right, _foot(right, left[0]), right[0])
-    first = np.where(on_left, _foot(left, right[0]), left[0])
+    other, first = right[0].copy(), left[0].copy()
+    on_left, on_right = map(np.flatnonzero, is_edge)
+    other[:, on_right] = _foot(right.take(on_right, axis=2), left[0].take(on_right, axis=1))
+    first[:, on_left] = _foot(left.take(on_left, axis=2), right[0].take(on_left, axis=1))
     middle, half = (first + other) / 2, _length(other - first) / 2
     way = target - source
     within = _dot(middle - source, way) * _dot(middle - target, way) < 0
-    least = np.where(has_vertex & within, np.minimum(least, half), least)
-    integral = length * (r0 + r1) / 2  # between two edges the radius is linear
-    rest = np.flatnonzero(has_vertex)
-    measures = ArcMeasures(ends[rest], radius[rest], control[rest], sites[:, rest], is_edge[:, rest], length[rest])
-    integral[rest] = measures.integral
-    return least, most, integral
+    return np.where(within, half, np.inf)
 
 
 def _columns(places: Floats) -> Floats:

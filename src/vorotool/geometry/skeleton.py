@@ -236,8 +236,8 @@ class Skeleton:
 
     def _arc_arrays(self, arcs: Any) -> tuple[NDArray[Any], ...]:
         """Ends, radii, control points, ends of the sites, whether these are edges, and lengths."""
-        sites = self.sites[arcs].T
-        nodes = self.arcs[arcs]
+        sites = self.sites[arcs].T.astype(np.intp, order="C")
+        nodes = self.arcs[arcs].astype(np.intp)
         known = "site_ends" in self.__dict__
         return (
             self.vertices.take(nodes, axis=0),
@@ -287,10 +287,15 @@ class Skeleton:
 
 def ends_of_sites(polygons: PolygonSet, table: SiteTable, sites: Any = slice(None)) -> NDArray[np.float64]:
     """(…, 2, 2) the ends of all or some sites of polygons; a vertex has one place twice."""
-    ring = polygons.polygon_start.take(table.polygon[sites]) + table.ring[sites]
-    first = polygons.ring_start.take(ring) + table.index[sites]
-    last = np.where(table.kind[sites] == EDGE, polygons.following.take(first), first)
-    ends: NDArray[np.float64] = polygons.xy.take(np.stack([first, last], axis=-1), axis=0)
+    polygon, ring, index, kind = (
+        column[sites] if isinstance(sites, slice) else column.take(sites)
+        for column in (table.polygon, table.ring, table.index, table.kind)
+    )
+    first = polygons.ring_start.take(polygons.polygon_start.take(polygon) + ring) + index
+    places = np.empty((*first.shape, 2), dtype=np.int64)
+    places[..., 0] = first
+    places[..., 1] = np.where(kind == EDGE, polygons.following.take(first), first)
+    ends: NDArray[np.float64] = polygons.xy.take(places, axis=0)
     return ends
 
 
