@@ -280,3 +280,18 @@ def test_values_that_say_nothing():
     noise = np.random.default_rng(0).integers(0, 255, (64, 64))
     with pytest.raises(InputError, match="a photograph"):
         outlines(noise)
+
+
+@pytest.mark.parametrize("connectivity", [4, 8])
+def test_bands_of_lines_are_joined(connectivity):
+    """In a wide image each line is a band of its own; a narrow one is done at once."""
+    narrow = np.random.default_rng(connectivity).integers(0, 3, (40, 60)).astype(np.uint8)
+    narrow[:, -7:-5] = 1  # a crack through all bands, with holes beside it
+    wide = np.zeros((40, 1 << 19), dtype=np.uint8)
+    wide[:, :60] = narrow
+    expected = outlines(narrow, connectivity=connectivity, mode="labels")
+    for threads in (1, 2):
+        made = outlines(wide, connectivity=connectivity, mode="labels", threads=threads)
+        for name in ("xy", "ring_start", "ring_kind", "ring_polygon"):
+            assert np.array_equal(getattr(made, name), getattr(expected, name))
+        assert made.ids == expected.ids

@@ -144,3 +144,16 @@ def test_chunks_that_were_not_begun_are_left_when_one_fails(monkeypatch):
     with pytest.raises(ValueError, match="no"):
         chunks.in_chunks(100, fill, threads=2)
     assert len(seen) < 50
+
+
+@pytest.mark.parametrize("rows", [1, 2, 3, 5, 7])
+def test_rings_may_go_on_in_another_chunk(rows, monkeypatch):
+    polygons = vorotool.outlines(np.random.default_rng(3).random((12, 15)) < 0.6)
+    for shapes in (SHAPES, polygons):
+        skeleton = vorotool.skeleton_exact(shapes)
+        expected = vorotool.polygon_table(replace(skeleton))
+        with monkeypatch.context() as patch:
+            patch.setattr(chunks, "CHUNK", rows)
+            made = vorotool.polygon_table(replace(skeleton))
+        for name in ("area", "perimeter", "width_mean", "width_max"):
+            assert made[name].tolist() == expected[name].tolist()
