@@ -144,7 +144,7 @@ def independent_parts(skeleton: Skeleton, group: NDArray[np.int32]) -> list[tupl
     [(slice(0, 5, None), slice(0, 6, None))]
     """
     step = np.diff(group)
-    starts = np.flatnonzero(step) + 1
+    starts = np.flatnonzero(step != 0) + 1
     wanted = np.searchsorted(starts, np.arange(PART, len(group), PART))
     inner = np.unique(starts[wanted[wanted < len(starts)]])
     ends = skeleton.arcs.reshape(-1)

@@ -169,8 +169,8 @@ class Skeleton:
     @cached_property
     def on_frame(self) -> NDArray[np.bool_]:
         """(v,) whether each node is an end on the frame."""
-        ends: NDArray[np.bool_] = self.touches_frame & (self.degree == 1)
-        return ends
+        touches: NDArray[np.bool_] = self.touches_frame
+        return touches if self.frame is None else touches & (self.degree == 1)
 
     @cached_property
     def touches_frame(self) -> NDArray[np.bool_]:
