@@ -18,7 +18,7 @@ namespace vorotool::core {
 
 // Less memory than this is soon used again, by the next of many small diagrams for one: to give it back and
 // to get it anew, page by page and filled with zeros, would take a third as long as the work on it.
-constexpr std::size_t worth_returning = std::size_t{1} << 26;  // bytes
+constexpr std::size_t worth_returning = std::size_t{1} << 23;  // bytes
 
 // Memory that was freed and is kept for later goes back to the system, if there was so much in use.
 inline void return_freed_memory(std::size_t bytes) {
