@@ -1,6 +1,7 @@
 #include "core/segment_set.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "core/coordinate_steps.hpp"
@@ -33,6 +34,27 @@ SortedPoints sort_points(std::span<const LatticePoint> points, const Monitor& mo
 }
 
 std::vector<std::int32_t> first_at_place(std::span<const LatticePoint> points, const Monitor& monitor) {
+  const CoordinateSteps columns(points, &LatticePoint::x), rows(points, &LatticePoint::y);
+  const int index_bits = static_cast<int>(std::bit_width(points.size()));
+  const int bits = index_bits + columns.bits() + rows.bits();
+  if (bits <= 64) {  // a word holds place and index
+    std::vector<std::uint64_t> words;
+    words.reserve(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::uint64_t column = columns.of(points[i].x);
+      words.push_back((column << rows.bits() | rows.of(points[i].y)) << index_bits | i);
+    }
+    radix_sort(words, index_bits, bits);
+    if (monitor && !monitor(0)) throw Interrupted();
+    std::vector<std::int32_t> result(points.size());
+    const std::uint64_t index_mask = (std::uint64_t{1} << index_bits) - 1;
+    std::uint64_t first = words.empty() ? 0 : words.front();
+    for (const std::uint64_t word : words) {
+      if ((word ^ first) > index_mask) first = word;
+      result[word & index_mask] = static_cast<std::int32_t>(first & index_mask);
+    }
+    return result;
+  }
   SortedPoints sorted = sort_points(points, monitor);
   for (std::int32_t& each : sorted.rank) each = sorted.first[static_cast<std::size_t>(each)];
   return std::move(sorted.rank);
