@@ -1,5 +1,6 @@
 """Skeletons of broken polygons and lines under symmetries through both checkers: `--cases 100000 --seed 1`.
 
+Those inside must be the same when only what is needed for them is made of the diagram.
 Cases 8 k to 8 k + 7 are one shape under the 8 symmetries of the square; `--first` and `--seconds` do the work in
 pieces. With `--data` the shapes are those in data/, each under all symmetries.
 """
@@ -14,10 +15,17 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from fuzz.runner import Cases, options
 from skeleton_shapes import DATA, FAMILIES, under_symmetries
-from vorotool import VorotoolError, read, verify_skeleton
+from vorotool import Skeleton, VorotoolError, read, skeleton_exact, verify_skeleton
 from vorotool.engines.segment_verification import verify_segment_voronoi
 from vorotool.engines.skeleton_exact import shape_diagram, skeleton_of
 from vorotool.engines.skeleton_verification import verify_exterior
+
+ARRAYS = ("vertices", "radius", "arcs", "control", "sites", "polygon", "side", "branch", "length")
+
+
+def differing(one: Skeleton, other: Skeleton) -> str | None:
+    """The first array that is not the same to the bit."""
+    return next((name for name in ARRAYS if getattr(one, name).tobytes() != getattr(other, name).tobytes()), None)
 
 
 def failure(shape: object) -> str | None:
@@ -26,8 +34,11 @@ def failure(shape: object) -> str | None:
         shapes = shape_diagram(shape, threads=1)
         verify_segment_voronoi(shapes.diagram, threads=1)
         verify_exterior(shapes, threads=1)
-        for side in ("interior", "exterior", "both"):
-            verify_skeleton(skeleton_of(shapes, side=side, threads=1), threads=1)
+        whole = {side: skeleton_of(shapes, side=side, threads=1) for side in ("interior", "exterior", "both")}
+        for skeleton in whole.values():
+            verify_skeleton(skeleton, threads=1)
+        if name := differing(skeleton_exact(shape, threads=2), whole["interior"]):
+            return f"{name} inside are others when nothing else is made"
     except VorotoolError as error:
         return str(error)
     return None
