@@ -16,6 +16,7 @@
 #include "core/border_rings.hpp"
 #include "core/placement.hpp"
 #include "core/planar_graph.hpp"
+#include "core/segment_set.hpp"
 #include "core/verify_planar_graph.hpp"
 #include "interrupts.hpp"
 
@@ -55,6 +56,12 @@ nb::tuple place_on_lattice(const Matrix<const double>& array, unsigned threads, 
       progress, [&](const Monitor& monitor) { return core::place_on_lattice(points, threads, monitor); });
   return nb::make_tuple(pairs(placed.points), nb::make_tuple(placed.origin_x, placed.origin_y),
                         placed.exponent, placed.largest_move);
+}
+
+nb::object first_at_place(const IndexRows& points, nb::handle progress) {
+  const std::span<const LatticePoint> vertices = as_lattice_points(points);
+  return to_numpy(run_interruptible(
+      progress, [&](const Monitor& monitor) { return core::first_at_place(vertices, monitor); }));
 }
 
 nb::dict make_planar_graph(const IndexRows& array, const Vector<const std::int64_t>& ring_start,
@@ -122,6 +129,7 @@ void bind_planar_graph(nb::module_& module) {
   nb::exception<core::TooManyCrossings>(module, "TooManyCrossingsError", PyExc_ValueError);
   nb::exception<core::TooManyOverlaps>(module, "TooManyOverlapsError", PyExc_ValueError);
   module.def("place_on_lattice", &place_on_lattice, "points"_a.noconvert(), "threads"_a, "progress"_a.none());
+  module.def("first_at_place", &first_at_place, "points"_a.noconvert(), "progress"_a.none());
   module.def("make_planar_graph", &make_planar_graph, "vertices"_a.noconvert(), "ring_start"_a.noconvert(),
              "ring_kind"_a.noconvert(), "ring_polygon"_a.noconvert(), "progress"_a.none());
   module.def("border_rings", &border_rings, "points"_a.noconvert(), "segments"_a.noconvert(),

@@ -99,6 +99,8 @@ PlanarFaces find_faces(const SortedSegments& segments, std::span<const std::int3
     if (known < 0) known = result.count++;
     return known;
   };
+  result.left.reserve(segments.lower_end.size());
+  result.right.reserve(segments.lower_end.size());
   for (std::size_t s = 0; s < segments.lower_end.size(); ++s) {
     result.left.push_back(numbered(cycle[2 * s]));
     result.right.push_back(numbered(cycle[2 * s + 1]));

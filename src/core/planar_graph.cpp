@@ -1,11 +1,13 @@
 #include "core/planar_graph.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
 #include "core/disjoint_sets.hpp"
 #include "core/planar_faces.hpp"
+#include "core/rectilinear_sweep.hpp"
 #include "core/segment_set.hpp"
 #include "core/segment_sweep.hpp"
 #include "core/snap_rounding.hpp"
@@ -61,6 +63,10 @@ class Maker {
     vertex_of_point_ = std::move(sorted.first);
     rank_ = std::move(sorted.rank);
     set_ = join_links(std::move(sorted.points), std::move(links));
+    if (auto below = sweep_rectilinear(set_.view(), monitor_)) {
+      below_ = std::move(*below);
+      return;
+    }
     SweepResult swept = sweep_segments(set_.view(), part_of(monitor_, 0, 0.5));
     if (!swept.meetings.empty()) {
       report_meetings(swept);
@@ -172,6 +178,7 @@ class Maker {
   }
 
   void keep_borders(const PlanarFaces& faces, const FacePolygons& inside) {
+    borders_.reserve(set_.size());
     for (std::size_t s = 0; s < set_.size(); ++s) {
       const auto segment = static_cast<std::int32_t>(s);
       const auto left = inside.of(faces.left[s]), right = inside.of(faces.right[s]);
@@ -196,6 +203,8 @@ class Maker {
       is_used[static_cast<std::size_t>(rank_[static_cast<std::size_t>(rings_.start[ring])])] = 1;
     }
     number_.assign(set_.points.size(), -1);
+    graph_.points.reserve(set_.points.size());
+    graph_.point_vertex.reserve(set_.points.size());
     const auto add = [&](std::size_t point, std::int32_t vertex) {
       number_[point] = static_cast<std::int32_t>(graph_.points.size());
       graph_.points.push_back(set_.points[point]);
@@ -229,8 +238,27 @@ class Maker {
       border.is_back =
           dx * (std::int64_t{piece.b.x} - piece.a.x) + dy * (std::int64_t{piece.b.y} - piece.a.y) < 0;
     }
-    std::sort(borders_.begin(), borders_.end(), [this](const Border& s, const Border& t) {
-      if (s.edge != t.edge) return s.edge < t.edge;
+    group_borders();
+    for (auto begin = borders_.begin(); begin != borders_.end();) {
+      const auto end = std::find_if(begin, borders_.end(),
+                                    [&](const Border& border) { return border.edge != begin->edge; });
+      if (end - begin > 1) sort_along_edge(begin, end);
+      begin = end;
+    }
+  }
+
+  // Sorts the borders by their edges: a counting sort.
+  void group_borders() {
+    std::vector<std::size_t> next(vertices_.size() + 1, 0);
+    for (const Border& border : borders_) ++next[static_cast<std::size_t>(border.edge) + 1];
+    std::partial_sum(next.begin(), next.end(), next.begin());
+    std::vector<Border> grouped(borders_.size());
+    for (const Border& border : borders_) grouped[next[static_cast<std::size_t>(border.edge)]++] = border;
+    borders_.swap(grouped);
+  }
+
+  void sort_along_edge(std::vector<Border>::iterator begin, std::vector<Border>::iterator end) const {
+    std::sort(begin, end, [this](const Border& s, const Border& t) {
       const LatticePoint a = set_.points[static_cast<std::size_t>(source_of(s))];
       const LatticePoint b = set_.points[static_cast<std::size_t>(source_of(t))];
       const auto [dx, dy] = vector_of(s.edge);
@@ -251,6 +279,9 @@ class Maker {
 
   void number_segments() {
     direct_borders();
+    graph_.segments.reserve(2 * borders_.size());
+    graph_.source_start.reserve(borders_.size() + 1);
+    graph_.source_edge.reserve(set_.source.size());
     graph_.source_start.push_back(0);
     for (const Border& border : borders_) {
       graph_.segments.push_back(number_[static_cast<std::size_t>(source_of(border))]);
@@ -284,6 +315,7 @@ class Maker {
       return known;
     };
     numbered(0);
+    graph_.segment_faces.reserve(2 * borders_.size());
     for (const Border& border : borders_) {
       const auto i = static_cast<std::size_t>(border.segment);
       graph_.segment_faces.push_back(numbered(border.is_back ? faces.right[i] : faces.left[i]));

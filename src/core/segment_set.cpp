@@ -1,22 +1,23 @@
 #include "core/segment_set.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
+#include "core/coordinate_steps.hpp"
 #include "core/radix_sort.hpp"
 
 namespace vorotool::core {
 
 SortedPoints sort_points(std::span<const LatticePoint> points, const Monitor& monitor) {
-  const auto shifted = [](std::int32_t c) {
-    return static_cast<std::uint64_t>(std::int64_t{c} + lattice_limit);
-  };
+  const CoordinateSteps columns(points, &LatticePoint::x), rows(points, &LatticePoint::y);
   std::vector<Keyed> keyed;
   keyed.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    keyed.push_back({shifted(points[i].x) << 31 | shifted(points[i].y), static_cast<std::uint32_t>(i)});
+    const std::uint64_t column = columns.of(points[i].x);
+    keyed.push_back({column << rows.bits() | rows.of(points[i].y), static_cast<std::uint32_t>(i)});
   }
-  radix_sort(keyed, 62);  // stable: of equal points the smallest index comes first
+  radix_sort(keyed, columns.bits() + rows.bits());  // stable: of equal points the smallest index comes first
   if (monitor && !monitor(0)) throw Interrupted();
   SortedPoints result;
   result.rank.resize(points.size());
@@ -30,6 +31,33 @@ SortedPoints sort_points(std::span<const LatticePoint> points, const Monitor& mo
     result.rank[keyed[i].value] = static_cast<std::int32_t>(result.points.size()) - 1;
   }
   return result;
+}
+
+std::vector<std::int32_t> first_at_place(std::span<const LatticePoint> points, const Monitor& monitor) {
+  const CoordinateSteps columns(points, &LatticePoint::x), rows(points, &LatticePoint::y);
+  const int index_bits = static_cast<int>(std::bit_width(points.size()));
+  const int bits = index_bits + columns.bits() + rows.bits();
+  if (bits <= 64) {  // a word holds place and index
+    std::vector<std::uint64_t> words;
+    words.reserve(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::uint64_t column = columns.of(points[i].x);
+      words.push_back((column << rows.bits() | rows.of(points[i].y)) << index_bits | i);
+    }
+    radix_sort(words, index_bits, bits);
+    if (monitor && !monitor(0)) throw Interrupted();
+    std::vector<std::int32_t> result(points.size());
+    const std::uint64_t index_mask = (std::uint64_t{1} << index_bits) - 1;
+    std::uint64_t first = words.empty() ? 0 : words.front();
+    for (const std::uint64_t word : words) {
+      if ((word ^ first) > index_mask) first = word;
+      result[word & index_mask] = static_cast<std::int32_t>(first & index_mask);
+    }
+    return result;
+  }
+  SortedPoints sorted = sort_points(points, monitor);
+  for (std::int32_t& each : sorted.rank) each = sorted.first[static_cast<std::size_t>(each)];
+  return std::move(sorted.rank);
 }
 
 namespace {
@@ -57,6 +85,10 @@ SegmentSet join_links(std::vector<LatticePoint> points, std::vector<Link> links)
   const auto point = [&](std::int32_t i) { return set.points[static_cast<std::size_t>(i)]; };
   const std::vector<std::int32_t> begin = sort_by_lower_end(links, set.points.size());
   set.start.reserve(set.points.size() + 1);
+  set.lower_end.reserve(links.size());
+  set.upper_end.reserve(links.size());
+  set.source_start.reserve(links.size() + 1);
+  set.source.reserve(links.size());
   for (std::size_t i = 0; i < set.points.size(); ++i) {
     set.start.push_back(static_cast<std::int32_t>(set.lower_end.size()));
     const auto first = links.begin() + begin[i], last = links.begin() + begin[i + 1];

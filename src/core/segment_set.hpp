@@ -20,6 +20,9 @@ struct SortedPoints {
 
 SortedPoints sort_points(std::span<const LatticePoint> points, const Monitor& monitor);
 
+// For each point the smallest index of one at the same place.
+std::vector<std::int32_t> first_at_place(std::span<const LatticePoint> points, const Monitor& monitor);
+
 // A segment between two different points, and the number of what it came from.
 struct Link {
   std::int32_t lower, upper, source;  // lower < upper

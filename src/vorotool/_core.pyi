@@ -447,6 +447,9 @@ def place_on_lattice(
 ) -> tuple[NDArray[np.int32], tuple[float, float], int, float]:
     """Lattice points, origin, exponent of the step and the largest move; the points must be finite."""
 
+def first_at_place(points: NDArray[np.int32], progress: _Progress) -> NDArray[np.int32]:
+    """For each lattice point the smallest index of one at the same place."""
+
 def make_planar_graph(
     vertices: NDArray[np.int32],
     ring_start: NDArray[np.int64],

@@ -66,6 +66,24 @@ def test_labels_that_touch_are_in_one_batch():
     assert differing(made, skeleton_of(shape_diagram(polygons))) == []
 
 
+@pytest.mark.parametrize("connectivity", [4, 8])
+def test_batches_begin_where_they_may(connectivity):
+    """By the definition: polygons before and after have no vertex in common, and the batch is large enough."""
+    for seed in range(8):
+        image = random_labels(np.random.default_rng(seed), 50)
+        if not image.any():
+            continue
+        polygons = vorotool.outlines(image, mode="labels", connectivity=connectivity)
+        corners = [{tuple(v) for ring in polygons.rings_of(k) for v in ring.tolist()} for k in range(len(polygons))]
+        sizes = [sum(map(len, polygons.rings_of(k))) for k in range(len(polygons))]
+        expected = [0]
+        for k in range(1, len(polygons) + 1):
+            is_free = set().union(*corners[:k]).isdisjoint(set().union(*corners[k:]))
+            if is_free and (k == len(polygons) or sum(sizes[expected[-1] : k]) >= skeleton_batches.BATCH):
+                expected.append(k)
+        assert batch_starts(polygons, placed_vertices(polygons).vertices).tolist() == expected
+
+
 def test_what_may_meet_is_not_split():
     polygons = vorotool.outlines(np.tile(np.pad(np.ones((3, 3), dtype=bool), 2), (9, 9)))
     assert batched_skeleton(polygons, threads=2) is not None

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool import _core
 from vorotool.engines.label_arrays import Progress
 from vorotool.engines.parts import in_threads, stacked, starts_of
 from vorotool.engines.placed_rings import placed_shapes
@@ -38,7 +39,7 @@ def batched_skeleton(polygons: PolygonSet, *, threads: int, progress: Progress =
     if polygons.connectivity is None or polygons.is_line.any() or len(polygons.xy) < 2 * BATCH:
         return None
     placement = placed_vertices(polygons, threads=threads, progress=progress)
-    starts = batch_starts(polygons, placement.vertices)
+    starts = batch_starts(polygons, placement.vertices, progress=progress)
     if placement.largest_move > 0 or len(starts) < 3:
         return None
     corners = np.stack([placement.vertices.min(axis=0), placement.vertices.max(axis=0)])
@@ -49,7 +50,7 @@ def batched_skeleton(polygons: PolygonSet, *, threads: int, progress: Progress =
     return joined(parts, batches, polygons, threads=threads) if len(parts) == len(batches) else None
 
 
-def batch_starts(polygons: PolygonSet, vertices: NDArray[np.int32]) -> Integers:
+def batch_starts(polygons: PolygonSet, vertices: NDArray[np.int32], *, progress: Progress = None) -> Integers:
     """First polygon of each batch, and the number of polygons; no two batches have a vertex in common.
 
     Examples
@@ -60,14 +61,12 @@ def batch_starts(polygons: PolygonSet, vertices: NDArray[np.int32]) -> Integers:
     [0, 4]
     """
     first = polygons.ring_start[polygons.polygon_start]
-    key = vertices[:, 0].astype(np.int64) << 32 | vertices[:, 1].view(np.uint32).astype(np.int64)
-    order = np.argsort(key, kind="stable")
-    key = key[order]
-    same = np.flatnonzero(key[1:] == key[:-1])
-    low, high = np.searchsorted(first, np.stack([order[same], order[same + 1]]), side="right") - 1
+    earlier = _core.first_at_place(vertices, progress)
+    again = np.flatnonzero(earlier != np.arange(len(earlier)))
+    low, high = np.searchsorted(first, np.stack([earlier[again], again]), side="right") - 1
     pairs = np.zeros(len(polygons) + 2, dtype=np.int64)  # that begin before, less those that end before
-    np.add.at(pairs, np.minimum(low, high) + 1, 1)
-    np.add.at(pairs, np.maximum(low, high) + 1, -1)
+    np.add.at(pairs, low + 1, 1)
+    np.add.at(pairs, high + 1, -1)
     starts = [0]
     for polygon in np.flatnonzero(np.cumsum(pairs[:-1]) == 0).tolist():
         if first[polygon] - first[starts[-1]] >= BATCH or polygon == len(polygons) > starts[-1]:
