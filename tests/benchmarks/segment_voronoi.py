@@ -111,7 +111,7 @@ def measure(name: str, n: int, threads: int, runs: int, boost: Path | None) -> s
     reset_peak()
     before = peak()
     engine, arrays = [], []
-    memory = 0
+    memory = whole_memory = 0  # of the first run: what is freed may be kept for the next one
     for _ in range(runs):
         start = time.perf_counter()
         diagram = _core.SegmentVoronoi(points, segments, threads, None)
@@ -120,8 +120,8 @@ def measure(name: str, n: int, threads: int, runs: int, boost: Path | None) -> s
         start = time.perf_counter()
         result = diagram.take_arrays(None, threads, None)
         arrays.append(time.perf_counter() - start)
+        whole_memory = whole_memory or peak() - before
         del result
-    whole_memory = peak() - before
     count = len(segments)
     made = [1e9 * min(times) / count for times in (engine, arrays)]
 

@@ -119,3 +119,9 @@ def test_what_is_refused(run, folder, photo, arguments, code, words):
     assert done.code == code
     assert words in done.err
     assert photo.read_bytes() == before
+
+
+def test_a_forgotten_image(run):
+    done = run("draw", "a.json", "--overlay", "-o", "a.png")
+    assert done.code == 2
+    assert "'-o' is no image" in done.err

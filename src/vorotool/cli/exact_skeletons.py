@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 from vorotool.cli.run import Run
 from vorotool.cli.skeletons import SkeletonProducts
+from vorotool.engines.skeleton_batches import batched_skeleton
 from vorotool.engines.skeleton_exact import ShapeDiagram, shape_diagram, skeleton_of, whole_diagram
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.polygons import PolygonSet
@@ -31,49 +33,66 @@ class ExactProducts(SkeletonProducts):
 
     def __init__(self, polygons: PolygonSet, options: SimpleNamespace, run: Run) -> None:
         super().__init__(options, run)
-        progress = run.progress("diagram")
-        common = {"strict": options.strict, "threads": options.threads, "progress": progress}
-        self.shapes: ShapeDiagram | None = None
-        self.elements: ElementDiagram | None = None
-        with run.phase("diagram"):
-            if options.gap:
-                from vorotool.engines.skeleton_elements import element_diagram
+        self._polygons = polygons
+        # what is refused is refused here, where the input has its name
+        _ = self.graph if options.gap or self._wants_diagram else self.whole
 
-                self.elements = element_diagram(polygons, options.gap, **common)
-            else:
-                self.shapes = shape_diagram(polygons, **common)
+    @cached_property
+    def shapes(self) -> ShapeDiagram:
+        """The diagram of all."""
+        with self.run.phase("diagram"):
+            return shape_diagram(self._polygons, strict=self.options.strict, **self._common)
+
+    @cached_property
+    def elements(self) -> ElementDiagram:
+        """That of shortened edges."""
+        from vorotool.engines.skeleton_elements import element_diagram
+
+        with self.run.phase("diagram"):
+            return element_diagram(self._polygons, self.options.gap, strict=self.options.strict, **self._common)
+
+    @property
+    def _common(self) -> dict[str, Any]:
+        return {"threads": self.options.threads, "progress": self.run.progress("diagram")}
+
+    @property
+    def _wants_diagram(self) -> bool:
+        """Whether anything but the skeleton inside is asked for."""
+        o = self.options
+        return o.side != "interior" or o.verify or o.stats is not None or not {"diagram", "offset"}.isdisjoint(o.what)
 
     def _make_skeleton(self) -> Skeleton:
         o = self.options
-        common: dict[str, Any] = {"side": o.side, "frame": o.frame, "threads": o.threads}
-        if self.shapes is not None:
-            return skeleton_of(self.shapes, **common)
-        from vorotool.engines.skeleton_elements import skeleton_of_elements
+        wanted: dict[str, Any] = {"side": o.side, "frame": o.frame, "threads": o.threads}
+        if o.gap:
+            from vorotool.engines.skeleton_elements import skeleton_of_elements
 
-        assert self.elements is not None
-        return skeleton_of_elements(self.elements, complete=o.complete is not False, **common)
+            return skeleton_of_elements(self.elements, complete=o.complete is not False, **wanted)
+        if not self._wants_diagram:
+            made = batched_skeleton(self._polygons, **self._common)
+            if made is not None:
+                return made
+        return skeleton_of(self.shapes, **wanted)
 
     def _make_diagram(self) -> Skeleton:
-        if self.shapes is not None:
-            return whole_diagram(self.shapes, frame=self.options.frame, threads=self.options.threads)
+        o = self.options
+        if not o.gap:
+            return whole_diagram(self.shapes, frame=o.frame, threads=o.threads)
         from vorotool.engines.skeleton_elements import whole_element_diagram
 
-        assert self.elements is not None
-        return whole_element_diagram(self.elements, frame=self.options.frame, threads=self.options.threads)
+        return whole_element_diagram(self.elements, frame=o.frame, threads=o.threads)
 
     def _shape_diagram(self) -> ShapeDiagram:
-        return self.shapes if self.shapes is not None else super()._shape_diagram()
+        return super()._shape_diagram() if self.options.gap else self.shapes
 
     @property
     def _part(self) -> ShapeDiagram | ElementDiagram:
-        part = self.shapes if self.shapes is not None else self.elements
-        assert part is not None
-        return part
+        return self.elements if self.options.gap else self.shapes
 
     @property
     def graph(self) -> PlanarGraph:
         """The shapes as they were placed."""
-        return self._part.graph if self.elements is None else self.elements.shapes
+        return self.elements.shapes if self.options.gap else self.shapes.graph
 
     def _verify_whole(self) -> None:
         """Check the diagram and the skeleton, from their arrays alone."""
@@ -82,7 +101,7 @@ class ExactProducts(SkeletonProducts):
 
         progress = self.run.progress("verifying")
         verify_segment_voronoi(self._part.diagram, threads=self.options.threads, progress=progress)
-        if self.shapes is not None and self.options.side != "interior":
+        if not self.options.gap and self.options.side != "interior":
             verify_exterior(self.shapes, threads=self.options.threads)
         verify_skeleton(self.whole, threads=self.options.threads, progress=progress)
 
@@ -92,7 +111,7 @@ class ExactProducts(SkeletonProducts):
 
     def _more_stats(self) -> dict[str, Any]:
         """How far a skeleton with a gap is from the exact one: a second diagram, so only for whom it is written."""
-        if self.elements is None:
+        if not self.options.gap:
             return {}
         elements = self.elements
         found: dict[str, Any] = {"gap": elements.gap, "complete": self.options.complete is not False}

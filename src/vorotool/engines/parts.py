@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, wait
 from itertools import accumulate
 from typing import Any, TypeVar
 
@@ -14,6 +14,9 @@ from numpy.typing import NDArray
 from vorotool.engines.label_arrays import Progress
 
 Result = TypeVar("Result")
+
+POLL_INTERVAL = 0.1
+"""Seconds between two looks at how far others are."""
 
 
 def in_threads(tasks: Sequence[Callable[[Progress], Result]], threads: int, progress: Progress) -> list[Result]:
@@ -36,24 +39,35 @@ def in_threads(tasks: Sequence[Callable[[Progress], Result]], threads: int, prog
     if len(tasks) == 1:
         return [tasks[0](progress)]
     stop = threading.Event()
+    done = [0.0] * len(tasks)
 
-    def poll(_: float) -> None:
-        if stop.is_set():
-            raise KeyboardInterrupt
+    def progress_of(k: int) -> Progress:
+        def poll(fraction: float) -> None:
+            if stop.is_set():
+                raise KeyboardInterrupt
+            done[k] = fraction
 
-    results = []
+        return poll
+
+    def report() -> None:
+        if progress is not None:
+            progress(
+                sum(1 if future.done() else share for future, share in zip(futures, done, strict=True)) / len(tasks)
+            )
+
     with ThreadPoolExecutor(threads) as pool:
-        futures = [pool.submit(task, poll) for task in tasks]
+        futures = [pool.submit(task, progress_of(k)) for k, task in enumerate(tasks)]
         try:
             for future in futures:
-                results.append(future.result())
-                if progress is not None:
-                    progress(len(results) / len(tasks))
+                while wait([future], POLL_INTERVAL).not_done:
+                    report()
+                future.result()
+                report()
         except BaseException:
             stop.set()
             pool.shutdown(cancel_futures=True)
             raise
-    return results
+    return [future.result() for future in futures]
 
 
 def stacked(arrays: Sequence[NDArray[Any]], shifts: Sequence[int] | None = None) -> NDArray[Any]:

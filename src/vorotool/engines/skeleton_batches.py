@@ -5,6 +5,7 @@ from __future__ import annotations
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields, replace
 from functools import partial
+from math import ceil
 from typing import Any
 
 import numpy as np
@@ -34,7 +35,8 @@ def batched_skeleton(polygons: PolygonSet, *, threads: int, progress: Progress =
     Crack outlines of different objects do not cross, and their insides are disjoint: what is nearest to a place inside
     one is its own boundary. So polygons that share no vertex are independent. Each batch is on the lattice of all, and
     the corners of their bounds are sites of its diagram: then its sites are ordered as those of all, and with them what
-    is numbered or rounded along them. A batch with more than a thread's share of the vertices has all threads.
+    is numbered or rounded along them. A batch has as many threads as it has shares of the vertices, and others go on
+    while a large one is at what one thread does alone.
     """
     if polygons.connectivity is None or polygons.is_line.any() or len(polygons.xy) < 2 * BATCH:
         return None
@@ -128,16 +130,12 @@ class _Batch:
 
 
 def _made(batches: list[_Batch], threads: int, progress: Progress) -> list[Skeleton]:
-    """Skeletons of batches, as far as the first that has none."""
-    total = len(batches[0].polygons.xy)
-    share = total / threads
+    """Skeletons of batches, but of those that have none."""
+    share = len(batches[0].polygons.xy) / threads
     sizes = [batch.vertices.stop - batch.vertices.start for batch in batches]
-    parts: dict[int, Skeleton | None] = {}
-    for k in [k for k, size in enumerate(sizes) if size > share]:
-        parts[k] = batches[k].skeleton(threads, progress)
-    rest = [k for k in range(len(batches)) if k not in parts]
-    tasks = [partial(batches[k].skeleton, 1) for k in rest]
-    parts.update(zip(rest, in_threads(tasks, threads, progress), strict=True))
+    order = sorted(range(len(batches)), key=lambda k: -sizes[k])  # a large one that is late would be waited for
+    tasks = [partial(batches[k].skeleton, ceil(sizes[k] / share)) for k in order]
+    parts = dict(zip(order, in_threads(tasks, threads, progress), strict=True))
     found = [parts[k] for k in range(len(batches))]
     return [part for part in found if part is not None]
 

@@ -63,8 +63,8 @@ class ArcMeasures:
         is_edge: NDArray[np.bool_],
         length: Floats,
     ) -> None:
-        self.source, self.target = ends.swapaxes(0, 1)
-        self.r0, self.r1 = radius.T
+        self.source, self.target = np.ascontiguousarray(ends.swapaxes(0, 1))
+        self.r0, self.r1 = np.ascontiguousarray(radius.T)
         self.length = length
         self.is_parabola = ~np.isnan(control[:, 0])
         self._control = control
@@ -76,21 +76,21 @@ class ArcMeasures:
         self.along, self.half, self.slope0, self.slope1 = np.zeros((4, len(self.length)))
         bent = np.flatnonzero(self.is_parabola)
         growth = self.r1[bent] - self.r0[bent]
-        source, target = self.source[bent], self.target[bent]
+        source, target = self.source.take(bent, axis=0), self.target.take(bent, axis=0)
         chord = _norm(target - source)
         along = np.sqrt(np.maximum(chord - np.abs(growth), 0) * (chord + np.abs(growth)))
-        height = _norm(source - 2 * self._control[bent] + target)
+        height = _norm(source - 2 * self._control.take(bent, axis=0) + target)
         middle, half_way = _ratio(growth, along), _ratio(height, along)
         self.along[bent], self.slope0[bent], self.slope1[bent] = along, middle - half_way, middle + half_way
         # the left site is to the left of the arc
         apart = np.flatnonzero(self.is_parting)
-        left, right = sites[:, apart]
+        left, right = sites.take(apart, axis=1)
         across, between = left - right, (left + right) / 2
         half = _norm(across) / 2
         way = np.stack([across[:, 1], -across[:, 0]], axis=1)
         self.half[apart] = half
-        self.slope0[apart] = _ratio(_dot(self.source[apart] - between, way), 2 * half * half)
-        self.slope1[apart] = _ratio(_dot(self.target[apart] - between, way), 2 * half * half)
+        for slope, ends in ((self.slope0, self.source), (self.slope1, self.target)):
+            slope[apart] = _ratio(_dot(ends.take(apart, axis=0) - between, way), 2 * half * half)
 
     def __getitem__(self, chosen: NDArray[Any]) -> ArcMeasures:
         """Measures of some of the arcs."""
