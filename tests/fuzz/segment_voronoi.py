@@ -109,6 +109,8 @@ def failure(points: np.ndarray, segments: np.ndarray, rng: np.random.Generator, 
         diagram = segment_voronoi(points, segments, threads=1)
         verify_segment_voronoi(diagram, threads=1)
         wrong = changed_by_numbers(diagram, rng)
+        if not len(points):
+            return wrong  # a drawing may be empty: there is nothing to move, and nothing to compare
         if wrong is None and moves < MOVED:
             done["moved"] += 1
             wrong = changed_by_motion(diagram, rng)
