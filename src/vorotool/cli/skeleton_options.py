@@ -296,7 +296,10 @@ def _check_magnitude(polygons: PolygonSet) -> None:
     """Refuse polygons so large, or so small, that products of distances are no numbers."""
     if not len(polygons.xy):
         return
-    largest, extent = float(abs(polygons.xy).max()), float((polygons.xy.max(axis=0) - polygons.xy.min(axis=0)).max())
+    from vorotool.geometry.box import bounds
+
+    low, high = bounds(polygons.xy)
+    largest, extent = float(max(-low.min(), high.max())), float((high - low).max())
     if largest > LARGEST:
         raise InputError(f"a coordinate is {largest:g}, too large to compute with: scale them to {LARGEST:g} at most")
     if 0 < extent < 1 / LARGEST:

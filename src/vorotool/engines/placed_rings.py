@@ -129,21 +129,23 @@ def _table(
     polygons: PolygonSet, vertex: NDArray[np.int64], segments: int, given: PolygonSet, source: NDArray[np.int64]
 ) -> SiteTable:
     """Sites by the vertices where they are or begin, among those used and those given (-1: none)."""
-    ring = _ring_of_vertex(polygons)[vertex]
+    ring, index = _places(polygons, vertex)
+    source_ring, source_index = (ring, index) if polygons is given else _places(given, source)
     polygon = polygons.ring_polygon[ring]
-    has_source = source >= 0
-    source_ring = np.where(has_source, _ring_of_vertex(given)[source], -1)
     kind = np.full(len(vertex), VERTEX, dtype=np.int8)
     kind[len(vertex) - segments :] = EDGE
-    return SiteTable(
-        kind,
-        polygon,
-        (ring - polygons.polygon_start[polygon]).astype(np.int32),
-        (vertex - polygons.ring_start[ring]).astype(np.int32),
-        source_ring.astype(np.int32),
-        np.where(has_source, source - given.ring_start[source_ring], -1).astype(np.int32),
-    )
+    first = polygons.polygon_start.astype(np.int32)[polygon]
+    return SiteTable(kind, polygon, ring - first, index, source_ring, source_index)
 
 
-def _ring_of_vertex(polygons: PolygonSet) -> NDArray[np.int64]:
-    return np.repeat(np.arange(len(polygons.ring_start) - 1), np.diff(polygons.ring_start))
+def _places(polygons: PolygonSet, vertex: NDArray[np.int64]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Rings of vertices, and where in these: -1 of those that are -1."""
+    ring = _ring_of_vertex(polygons)[vertex]
+    index = (vertex - polygons.ring_start[ring]).astype(np.int32)
+    none = vertex < 0
+    ring[none], index[none] = -1, -1
+    return ring, index
+
+
+def _ring_of_vertex(polygons: PolygonSet) -> NDArray[np.int32]:
+    return np.repeat(np.arange(len(polygons.ring_start) - 1, dtype=np.int32), np.diff(polygons.ring_start))

@@ -19,6 +19,7 @@ from vorotool.engines.planar_graph import Placement, graph_of_placement, placed_
 from vorotool.engines.segment_voronoi import NEITHER, idle_sides, segment_voronoi
 from vorotool.engines.skeleton_exact import ShapeDiagram, skeleton_of
 from vorotool.errors import InputError
+from vorotool.geometry.box import bounds
 from vorotool.geometry.checks import available_threads
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.skeleton import VERTEX, SiteTable, Skeleton
@@ -44,7 +45,7 @@ def batched_skeleton(polygons: PolygonSet, *, threads: int, progress: Progress =
     starts = batch_starts(polygons, placement.vertices, progress=progress)
     if placement.largest_move > 0 or len(starts) < 3:
         return None
-    corners = np.stack([placement.vertices.min(axis=0), placement.vertices.max(axis=0)])
+    corners = np.stack(bounds(placement.vertices))
     ranges = zip(starts[:-1].tolist(), starts[1:].tolist(), strict=True)
     batches = [_Batch(polygons, placement, corners, begin, end) for begin, end in ranges]
     threads = threads or available_threads()

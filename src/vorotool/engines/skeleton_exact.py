@@ -15,6 +15,7 @@ from vorotool.engines.placed_rings import PlacedShapes, placed_shapes
 from vorotool.engines.planar_graph import planar_graph
 from vorotool.engines.segment_voronoi import idle_sides, segment_voronoi
 from vorotool.errors import InputError, UsageError, VorotoolWarning
+from vorotool.geometry.box import bounds
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.polygons import PolygonSet
@@ -168,7 +169,7 @@ def default_frame(polygons: PolygonSet) -> Frame:
     """Bounds of polygons and a tenth of their larger side around them; of a single place a square of side 2."""
     if not len(polygons.xy):
         return (-1.0, -1.0, 2.0, 2.0)
-    low, high = polygons.xy.min(axis=0), polygons.xy.max(axis=0)
+    low, high = bounds(polygons.xy)
     margin = FRAME_MARGIN * float((high - low).max()) or 1.0
     x, y = (low - margin).tolist()
     w, h = (high - low + 2 * margin).tolist()

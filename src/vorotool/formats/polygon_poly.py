@@ -13,6 +13,7 @@ from vorotool.formats.point_options import shortened
 from vorotool.formats.polygon_options import PolygonOptions
 from vorotool.formats.polygon_text import Digits
 from vorotool.formats.sources import Source
+from vorotool.geometry.box import bounds
 from vorotool.geometry.polygon_conversion import to_shapely
 from vorotool.geometry.polygons import HOLE, LINE, SHELL, PolygonSet, set_of_rings
 
@@ -194,7 +195,7 @@ class _Frame:
 
     @staticmethod
     def of(xy: NDArray[np.float64]) -> _Frame:
-        low, high = xy.min(axis=0), xy.max(axis=0)
+        low, high = bounds(xy)
         return _Frame(low / 2 + high / 2, int(np.frexp((high / 2 - low / 2).max())[1]))
 
     def scaled(self, xy: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -12,6 +12,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import LimitError
 from vorotool.geometry.alpha_complex import AlphaComplex, Radius
+from vorotool.geometry.box import bounds
 from vorotool.geometry.table import Table
 
 MOST_POINTS = 100_000
@@ -90,7 +91,7 @@ def _data(family: AlphaComplex, curves: Table, r: float, y_up: bool) -> dict[str
     with np.errstate(over="ignore"):
         exponent = int(np.frexp(np.abs(family.points).max(initial=0.0))[1])
     points = np.ldexp(family.points, -exponent)
-    low, high = points.min(axis=0), points.max(axis=0)
+    low, high = bounds(points)
     span = high - low
     size = float(span.max()) or 1.0
     places = np.stack([points[:, 0] - low[0], (high[1] - points[:, 1]) if y_up else (points[:, 1] - low[1])], axis=1)

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.box import bounds
 from vorotool.geometry.circular_arcs import chords_of
 from vorotool.render.palettes import INK, SEED
 
@@ -253,11 +254,10 @@ def bounds_of(layers: Iterable[Layer]) -> tuple[float, float, float, float]:
     >>> bounds_of([Points("sites", np.array([[1.0, 5.0], [3.0, 2.0]]))])
     (1.0, 2.0, 3.0, 5.0)
     """
-    used = [layer.points for layer in layers if len(layer.points)]
+    used = [bounds(layer.points) for layer in layers if len(layer.points)]
     if not used:
         return (0.0, 0.0, 1.0, 1.0)
-    low = np.min([points.min(axis=0) for points in used], axis=0)
-    high = np.max([points.max(axis=0) for points in used], axis=0)
+    low, high = np.min([low for low, _ in used], axis=0), np.max([high for _, high in used], axis=0)
     return (*low.tolist(), *high.tolist())
 
 

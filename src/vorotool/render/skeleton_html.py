@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import LimitError
+from vorotool.geometry.box import bounds
 from vorotool.geometry.critical_values import ArcProfiles, CriticalValues
 from vorotool.geometry.skeleton import Skeleton
 
@@ -106,8 +107,7 @@ def _shapes(skeleton: Skeleton, y_up: bool) -> dict[str, Any]:
     """Arrays as the page decodes them; coordinates from the upper left corner, in parts of the larger side."""
     polygons = skeleton.polygons
     shown = np.concatenate([polygons.xy, skeleton.vertices])
-    low = shown.min(axis=0) if len(shown) else np.zeros(2)
-    high = shown.max(axis=0) if len(shown) else np.ones(2)
+    low, high = bounds(shown) if len(shown) else (np.zeros(2), np.ones(2))
     span = high - low
     size = float(span.max()) or 1.0
 
