@@ -7,7 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 from vorotool.geometry.checks import available_threads, checked_threads
 
-CHUNK = 1 << 14
+CHUNK = 1 << 15
 """Rows that are taken at a time: what is made of them stays in the cache."""
 
 
