@@ -226,12 +226,12 @@ class CrackBand {
 template <class Label>
 LargeArray<CrackVertex> crack_graph(std::span<const Label> image, std::size_t width, CornerRule rule,
                                     unsigned threads, const Monitor& monitor) {
-  const auto half = [&](double from) -> Monitor {
+  const auto quarter = [&](double from) -> Monitor {
     if (!monitor) return {};
     return [&monitor, from](double fraction) { return monitor(from + fraction / 4); };
   };
   std::vector<std::size_t> start{0};
-  for (const std::size_t count : vertices_of_pieces(image, width, threads, half(0)))
+  for (const std::size_t count : vertices_of_pieces(image, width, threads, quarter(0)))
     start.push_back(start.back() + count);
   const Pieces pieces(width, image.size() / width);
   LargeArray<CrackVertex> vertices(start.back());
@@ -245,7 +245,7 @@ LargeArray<CrackVertex> crack_graph(std::span<const Label> image, std::size_t wi
                      [&](std::size_t x, std::size_t y, const Quadrants& around) { band.add(x, y, around); });
         band.close();
       },
-      half(0.25));
+      quarter(0.25));
   std::vector<std::int32_t> above(width + 1, -1);
   for (const std::optional<CrackBand>& band : bands) band->join(above);
   return vertices;

@@ -16,8 +16,8 @@ struct SkeletonView {
   std::span<const Place> control;                      // [a] NaN on straight lines
   std::span<const std::array<std::int32_t, 2>> sites;  // [a] left and right
   std::span<const double> length;                      // [a]
-  std::span<const std::array<Place, 2>>
-      site_ends;                              // [s] twice the same: a point; none where none is looked at
+  // [s] twice the same: a point; none where none is looked at
+  std::span<const std::array<Place, 2>> site_ends;
   std::span<const std::uint8_t> is_anchored;  // [v] ends that are no leaves: cut off by a frame
   bool has_gap;                               // sites are closed: an end of one may be what is near
   double reach;  // largest magnitude of a coordinate, of the whole if this is a part of a skeleton

@@ -11,6 +11,9 @@ import tifffile
 from PIL import Image
 
 import vorotool
+from vorotool.cli import exact_skeletons
+from vorotool.engines import skeleton_batches
+from vorotool.engines.skeleton_batches import batched_skeleton
 
 DATA = Path(__file__).parents[2] / "data"
 BLOBS, CELLS = DATA / "blobs.png", DATA / "cells.png"
@@ -28,6 +31,32 @@ def test_a_mask_has_a_skeleton(run, folder):
     assert (stats["polygons"], stats["outline"], stats["connectivity"]) == (24, "crack", 8)
     expected = vorotool.skeleton_exact(vorotool.outlines(vorotool.read(BLOBS)))
     assert np.array_equal(np.load(folder / "a.npz")["vertex_r"], expected.radius)
+
+
+@pytest.mark.parametrize("what", ["skeleton", "branches", "table", "centerline", "shape"])
+def test_batches_of_objects_give_the_same_bytes(run, monkeypatch, what):
+    """With --verify the diagram of all objects is made, otherwise that of each batch."""
+    batches = []
+
+    def counted(*arguments, **options):
+        batches.append(made := batched_skeleton(*arguments, **options))
+        return made
+
+    monkeypatch.setattr(skeleton_batches, "BATCH", 60)
+    monkeypatch.setattr(exact_skeletons, "batched_skeleton", counted)
+    command = (
+        "skeleton-exact",
+        BLOBS,
+        *WHOLE,
+        "--what",
+        what,
+        "-f",
+        "csv" if what in ("branches", "table") else "geojson",
+    )
+    made, whole = run(*command), run(*command, "--verify")
+    assert (made.code, made.err, made.out) == (0, "", whole.out)
+    assert len(batches) == 1
+    assert batches[0] is not None
 
 
 def test_a_label_image_has_an_object_a_label(run):

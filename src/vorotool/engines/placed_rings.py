@@ -130,6 +130,7 @@ def _table(
 ) -> SiteTable:
     """Sites by the vertices where they are or begin, among those used and those given (-1: none)."""
     ring, index = _places(polygons, vertex)
+    # without repairs the vertices are those given
     source_ring, source_index = (ring, index) if polygons is given else _places(given, source)
     polygon = polygons.ring_polygon[ring]
     kind = np.full(len(vertex), VERTEX, dtype=np.int8)

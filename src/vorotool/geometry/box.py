@@ -15,7 +15,7 @@ LARGEST = float(np.finfo(np.float64).max)
 
 
 def bounds(points: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Smallest and largest coordinates of points: column by column, which takes a fiftieth of the time of rows.
+    """Smallest and largest coordinates of points.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ def bounds(points: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
     >>> bounds(np.array([[1, 5], [3, 2]]))
     (array([1, 2]), array([3, 5]))
     """
-    columns = points.T
+    columns = points.T  # NumPy goes down a column much faster than over many short rows
     return np.array([column.min() for column in columns]), np.array([column.max() for column in columns])
 
 
