@@ -83,7 +83,7 @@ def plan_targets(
     """
     if output is not None and out_dir is not None:
         raise click.UsageError("give -o or --out-dir, not both")
-    fmt = _known_format(fmt)
+    fmt = _known_format(fmt, formats)
     several = len(what) > 1
     if out_dir is not None:
         stem = Path(out_dir) / ("stdin" if source == "-" else Path(source).stem)
@@ -225,12 +225,14 @@ def _is_same_file(one: str, other: str) -> bool:
     return a.is_file() and a.samefile(b)
 
 
-def _known_format(fmt: str | None) -> str | None:
+def _known_format(fmt: str | None, formats: Mapping[str, Sequence[str]]) -> str | None:
+    """Return the format that a name stands for; one of another command is refused where its result is known."""
     if fmt is None:
         return None
     known = {**{name: name for name in FORMATS}, **{ext[1:]: name for ext, name in EXTENSIONS.items()}}
     if fmt.lower() not in known:
-        raise click.UsageError(f"-f {fmt} is no format: use one of {', '.join(FORMATS)}")
+        possible = dict.fromkeys(each for those in formats.values() for each in those)
+        raise click.UsageError(f"-f {fmt} is no format: use one of {', '.join(possible)}")
     return known[fmt.lower()]
 
 

@@ -114,6 +114,11 @@ def refuse_photograph(values: NDArray[Any]) -> None:
     fractional = values.dtype.kind == "f" and bool((values != np.floor(values)).any())
     distinct, fragments = (len(np.unique(values)),) * 2 if fractional else _fragments(label_values(values))
     if fractional or (fragments > 4 * distinct and fragments > 256):
+        if min(values.shape) <= 3 < max(values.shape):  # the sides of a list, which no photograph has
+            raise InputError(
+                f"the array has the shape {values.shape}: a list of points? save x and y as one of shape (n, 2); "
+                "for an image use --seeds labels or --threshold"
+            )
         raise InputError(
             f"the image holds {distinct} values in {fragments} fragments: a photograph? use --threshold otsu, "
             f"or --seeds labels if these are labels"

@@ -15,6 +15,8 @@ from vorotool.formats.sources import Source, check_nesting
 
 MOST_CELLS = 10**8
 """Properties times objects: as a table, features that share no names would need memory by the square."""
+_LINES_LOOKED_AT = 1 << 24
+"""Bytes in which two lines must end to be told from a document over several lines."""
 
 
 @dataclass(frozen=True)
@@ -42,9 +44,25 @@ def parse_json(source: Source) -> Any:
     try:
         return orjson.loads(source.data)
     except orjson.JSONDecodeError as error:
+        if _is_json_lines(source.data):
+            raise InputError(
+                f"{source.name} holds a JSON document a line, which is not read; join them to one: "
+                f"jq -s '{{type: \"FeatureCollection\", features: .}}' {source.name} > joined.geojson"
+            ) from None
         raise InputError(
             f"{source.name}, line {error.lineno}, column {error.colno}: this is not JSON ({error.msg}); correct it"
         ) from None
+
+
+def _is_json_lines(data: bytes) -> bool:
+    """Whether the first two lines are JSON objects of their own."""
+    import orjson
+
+    lines = [line for line in data[:_LINES_LOOKED_AT].split(b"\n", 2)[:2] if line.startswith(b"{")]
+    try:
+        return len(lines) == 2 and all(isinstance(orjson.loads(line), dict) for line in lines)
+    except orjson.JSONDecodeError:
+        return False
 
 
 def refuse_table(name: str, document: Sequence[Any], advice: str) -> None:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.errors import InputError, UsageError
+from vorotool.formats.convertible import refuse_geometry_column
 from vorotool.formats.point_options import LARGEST_LABEL, LATITUDES, LONGITUDES, PointOptions, no_points
 from vorotool.formats.sources import Source
 from vorotool.geometry.points import PointSet
@@ -64,6 +65,19 @@ def read_text(source: Source, options: PointOptions) -> PointSet:
         rows = _core.count_rows(data, delimiter, layout.header_records, options.threads)
         options.check_sites(source.name, rows)
     return _read_rows(layout, options)
+
+
+def header_fields(data: bytes) -> list[str]:
+    """Fields of the first record of delimited text.
+
+    Examples
+    --------
+    >>> header_fields(b"id;WKT\\n1;POINT (1 2)\\n")
+    ['id', 'WKT']
+    """
+    data = _plain_lines(data)
+    first = _core.first_record(data, _guess_delimiter(data))
+    return [] if first is None else first[2]
 
 
 def _plain_lines(data: bytes) -> bytes:
@@ -160,6 +174,8 @@ def _unknown_columns(name: str, fields: list[str], header: bool) -> InputError:
             f"{name}: the first line has one column, {fields[0][:40]!r}; give x and y, separated by "
             "a comma, a semicolon, a tab or blanks"
         )
+    if header:
+        refuse_geometry_column(name, fields)
     what = "the header names no known pair of coordinates" if header else f"{len(fields)} columns without a header"
     example = ",".join(fields[:2]) if header and all(fields[:2]) else "1,2"
     return InputError(f"{name}: {what}; say which are x and y, for example --columns {example} ({_listing(fields)})")

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from pathlib import Path
 
 from vorotool.errors import InputError, UsageError
+from vorotool.formats.convertible import refuse_convertible
 from vorotool.formats.input_formats import POINT_NAMES, known_input_format
 from vorotool.formats.point_json import read_geojson, read_json
 from vorotool.formats.point_node import read_node
@@ -36,8 +36,6 @@ _BY_SUFFIX = {
     ".geojson": "geojson",
     ".wkt": "wkt",
 }
-_CONVERTIBLE = (".shp", ".gpkg", ".dxf", ".kml", ".gml", ".fgb")
-_CONVERTIBLE_HEADS = {b"SQLite format 3\0": ".gpkg", b"\0\0\x27\x0a": ".shp", b"fgb": ".fgb"}
 _WKT = re.compile(
     rb"\s*(SRID\s*=\s*\d+\s*;\s*)?(MULTI)?(POINT|LINESTRING|POLYGON|GEOMETRYCOLLECTION)\s*(Z|M|ZM)?\s*(\(|EMPTY)",
     re.IGNORECASE,
@@ -70,28 +68,6 @@ def detect_point_format(source: Source) -> str:
     if head.startswith(b"["):
         return "json"
     return "wkt" if _WKT.match(head) else "csv"
-
-
-def refuse_convertible(source: Source) -> None:
-    """Refuse the formats of geographic information systems that are not read, by extension or content.
-
-    Raises
-    ------
-    InputError
-        With the command that converts the file.
-
-    Examples
-    --------
-    >>> refuse_convertible(Source("seeds.csv", b"1,2"))
-    """
-    heads = (suffix for head, suffix in _CONVERTIBLE_HEADS.items() if source.data.startswith(head))
-    found = source.suffix if source.suffix in _CONVERTIBLE else next(heads, None)
-    if found is not None:
-        file = source.name if source.suffix == found else f"FILE{found}"
-        raise InputError(
-            f"{source.name}: {found} files are not read; convert it: "
-            f"ogr2ogr -f GeoJSON {Path(file).with_suffix('.geojson')} {file}"
-        )
 
 
 def read_points(

@@ -6,9 +6,11 @@ from collections.abc import Callable
 from typing import BinaryIO
 
 from vorotool.errors import InputError, UsageError
+from vorotool.formats.convertible import refuse_geometry_column
 from vorotool.formats.geojson import JsonSource, holds_shapes, parse_json
 from vorotool.formats.input_formats import POLYGON_NAMES, known_input_format
 from vorotool.formats.point_options import no_note
+from vorotool.formats.point_text import header_fields
 from vorotool.formats.points import detect_point_format, text_source
 from vorotool.formats.polygon_geojson import read_geojson, write_geojson
 from vorotool.formats.polygon_json import is_list_of_shells, read_json, write_json
@@ -62,7 +64,7 @@ def detect_polygon_format(source: Source) -> str:
             f"{source.name} is empty: polygons, lines or an image were expected; check what was to write it"
         )
     if found != "npy":
-        text_source(source)
+        refuse_geometry_column(source.name, header_fields(text_source(source).data))
     raise InputError(
         f"{source.name} holds no polygons or lines that are read (it looks like {found}): use JSON, GeoJSON, WKT or "
         ".poly, or say which with --input-format; of points alphashape makes polygons"

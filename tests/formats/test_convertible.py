@@ -1,0 +1,83 @@
+"""Files that are known and not read."""
+
+import subprocess
+
+import numpy as np
+import pytest
+
+import vorotool
+from vorotool.errors import InputError
+
+FEATURE = '{"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [%d, 2]}}\n'
+FILES = {
+    "logo.svg": b'<?xml version="1.0"?>\n<!-- made by hand --><svg xmlns="http://www.w3.org/2000/svg"/>',
+    "drawing": b"\xef\xbb\xbf<svg>",
+    "old.svg": b'<!DOCTYPE svg PUBLIC "-//W3C//DTD SVG 1.1//EN" [ <!ENTITY a "b"> ]><svg/>',
+    "plan.pdf": b"%PDF-1.7\n",
+    "plan": b"%PDF-1.7\n",
+}
+
+
+@pytest.mark.parametrize("geometry", [None, "points", "polygons"])
+@pytest.mark.parametrize("name", FILES)
+def test_drawings(tmp_path, name, geometry):
+    path = tmp_path / name
+    path.write_bytes(FILES[name])
+    tool = "pdftoppm" if b"PDF" in FILES[name] else "inkscape"
+    with pytest.raises(
+        InputError, match=rf"files are not read; make an image of it and give --threshold otsu.* {tool}"
+    ):
+        vorotool.read(path, geometry=geometry)
+
+
+@pytest.mark.parametrize("geometry", [None, "points", "polygons"])
+@pytest.mark.parametrize(
+    "text", ["WKT,name\nPOINT (1 2),a\n", 'id;the_geom\n1;"POLYGON ((0 0, 4 0, 0 3, 0 0))"\n', "x1,geometry,y\n1,a,2\n"]
+)
+def test_columns_of_geometry(tmp_path, text, geometry):
+    path = tmp_path / "towns.csv"
+    path.write_text(text)
+    column = next(name for name in ("WKT", "the_geom", "geometry") if name in text)
+    with pytest.raises(InputError, match=rf"geometry in a column \({column}\).*_NAMES={column}$"):
+        vorotool.read(path, geometry=geometry)
+
+
+def test_a_column_of_geometry_beside_x_and_y_is_a_column(tmp_path):
+    (tmp_path / "towns.csv").write_text("x,y,WKT\n1,2,POINT (1 2)\n")
+    assert vorotool.read(tmp_path / "towns.csv").xy.tolist() == [[1, 2]]
+
+
+@pytest.mark.parametrize("name", ["a.geojsonl", "a.geojson", "a.json", "a"])
+def test_a_document_a_line(tmp_path, name):
+    (tmp_path / name).write_text(FEATURE % 1 + FEATURE % 3)
+    with pytest.raises(
+        InputError, match=r"a JSON document a line.* jq -s '\{type: \"FeatureCollection\", features: \.\}' "
+    ):
+        vorotool.read(tmp_path / name)
+
+
+def test_the_command_joins_them(tmp_path):
+    path = tmp_path / "a.ndjson"
+    path.write_text(FEATURE % 1 + FEATURE % 3)
+    with pytest.raises(InputError) as refused:
+        vorotool.read(path)
+    command = str(refused.value).partition("join them to one: ")[2]
+    if subprocess.run(["sh", "-c", "command -v jq"], stdout=subprocess.DEVNULL, check=False).returncode:
+        pytest.skip("jq is not there")
+    subprocess.run(["sh", "-c", command], cwd=tmp_path, check=True)
+    assert vorotool.read(tmp_path / "joined.geojson").xy.tolist() == [[1, 2], [3, 2]]
+
+
+@pytest.mark.parametrize("text", ['{"type": \n"Point"\n', '{"a": 1}\n[1]\n', "[[1, 2],\n[3, 4]\n"])
+def test_other_json_is_told_where_it_is_wrong(tmp_path, text):
+    (tmp_path / "a.json").write_text(text)
+    with pytest.raises(InputError, match=r"line \d, column \d: this is not JSON"):
+        vorotool.read(tmp_path / "a.json")
+
+
+@pytest.mark.parametrize("shape", [(1000, 3), (2, 1000), (3, 1000)])
+def test_arrays_that_are_lists(tmp_path, shape):
+    np.save(tmp_path / "a.npy", np.random.default_rng(1).random(shape))
+    image = vorotool.read(tmp_path / "a.npy")
+    with pytest.raises(InputError, match=r"a list of points\? save x and y as one of shape \(n, 2\)"):
+        vorotool.outlines(image)
