@@ -16,7 +16,14 @@ except SystemExit as end:
 
 def peak_memory(arguments, folder):
     """Run a command; the peak of its resident memory in bytes, as Linux counts it since the program began."""
+    code, errors, peak = watched(arguments, folder)
+    assert code == 0, errors
+    return peak
+
+
+def watched(arguments, folder):
+    """Run a command; its exit code, the lines of its messages, and the peak of its memory."""
     command = [sys.executable, "-c", SCRIPT, *map(str, arguments)]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    return int(done.stderr.splitlines()[-1]) * 1024
+    *errors, peak = done.stderr.splitlines()
+    return done.returncode, errors, int(peak) * 1024

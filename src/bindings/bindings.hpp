@@ -6,6 +6,7 @@
 namespace vorotool::bindings {
 
 void bind_text(nanobind::module_& module);
+void bind_packed_bytes(nanobind::module_& module);
 void bind_tessellation(nanobind::module_& module);
 void bind_regions(nanobind::module_& module);
 void bind_components(nanobind::module_& module);

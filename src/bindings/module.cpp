@@ -4,6 +4,7 @@
 NB_MODULE(_core, module) {
   module.doc() = "Compiled core of vorotool (private: use the functions of the package).";
   vorotool::bindings::bind_text(module);
+  vorotool::bindings::bind_packed_bytes(module);
   vorotool::bindings::bind_tessellation(module);
   vorotool::bindings::bind_regions(module);
   vorotool::bindings::bind_components(module);

@@ -123,6 +123,6 @@ def test_limits_and_options(tmp_path, monkeypatch):
     (tmp_path / "file.zarr").write_text("")
     with pytest.raises(InputError, match="a Zarr store is a folder"):
         vorotool.read(tmp_path / "file.zarr", input_format="zarr")
-    monkeypatch.setitem(sys.modules, "zarr", None)
-    with pytest.raises(UsageError, match="pip install"):
+    monkeypatch.setitem(sys.modules, "numcodecs.zstd", None)
+    with pytest.raises(UsageError, match="packed with zstd need the numcodecs package: pip install"):
         vorotool.read(path)

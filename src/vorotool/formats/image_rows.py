@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,8 +14,11 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.formats.limits import check_pixels, decoding
 from vorotool.formats.stores import is_array, is_group, is_store
-from vorotool.formats.tiff_reader import Resolution, check_segments, opened_tiff, page_of, resolution_of
-from vorotool.formats.zarr_arrays import zarr_module
+from vorotool.formats.tiff_layout import TiffLayout
+from vorotool.formats.tiff_reader import Resolution, opened_tiff, page_layout, page_of, resolution_of
+from vorotool.formats.tiff_segments import decode_rows, is_decoded_here
+from vorotool.formats.zarr_metadata import read_metadata
+from vorotool.formats.zarr_reader import StoredArray
 from vorotool.geometry.frame import MAX_PIXELS
 from vorotool.geometry.raster import Raster
 
@@ -45,18 +47,21 @@ class ZarrRows:
     resolution: Resolution | None = None
 
     @cached_property
-    def _array(self) -> Any:
-        zarr = zarr_module()
+    def _array(self) -> StoredArray:
         if not is_array(self.path):
             if is_group(self.path):
                 example = f"{self.name.rstrip(os.sep)}/0"
                 raise InputError(f"{self.name} is a Zarr group: name an array in it, such as {example}")
+            try:
+                read_metadata(self.path)
+            except InputError as error:
+                raise InputError(f"{self.name} holds no Zarr array: {error}") from None
             raise InputError(
                 f"{self.name} holds no Zarr array: a zarr.json or .zarray that describes one must be in it"
             )
         with decoding(self.name, "Zarr"):
-            array = zarr.open_array(self.path, mode="r")
-            kind, shape = np.dtype(array.dtype), array.shape
+            array = StoredArray(self.name, self.path)
+        shape, kind = array.shape, array.dtype
         if len(shape) != 2:
             raise InputError(f"{self.name} has {len(shape)} axes, shape {shape}: an image has two, rows and columns")
         if kind.kind not in "biuf":
@@ -73,7 +78,7 @@ class ZarrRows:
     def rows(self, first: int, count: int) -> NDArray[Any]:
         """Read some rows; bool becomes uint8."""
         with decoding(self.name, "Zarr"):
-            return _plain(np.asarray(self._array[first : first + count]))
+            return _plain(self._array.read((slice(first, first + count), slice(0, self.shape[1]))))
 
     def __getstate__(self) -> dict[str, Any]:
         """Leave out what is open."""
@@ -102,16 +107,16 @@ class TiffRows:
     page: int | None = None
 
     @cached_property
-    def _opened(self) -> tuple[Any, Resolution | None]:
-        """The page, whose pixels are read from the file when they are asked for, and its resolution."""
+    def _opened(self) -> tuple[TiffLayout, Resolution | None]:
+        """Where the pixels of the page are, which are read when they are asked for, and its resolution."""
         with opened_tiff(self.name, self.path) as file:
             page = page_of(file, self.name, self.page)
-            check_segments(self.name, file.filehandle.size, page)
+            layout = page_layout(self.name, file.filehandle.size, page)
             with decoding(self.name, "TIFF"):
-                return page, resolution_of(file, page)
+                return layout, resolution_of(file, page)
 
     @property
-    def _page(self) -> Any:
+    def _layout(self) -> TiffLayout:
         return self._opened[0]
 
     @property
@@ -122,44 +127,31 @@ class TiffRows:
     @property
     def is_plain(self) -> bool:
         """Whether each pixel has one number, in a form that is decoded strip by strip."""
-        page = self._page
-        return bool(page.samplesperpixel == 1 and page.imagedepth == 1 and page.dtype is not None)
+        return self._layout.samples == 1 and is_decoded_here(self._layout)
 
     @property
     def shape(self) -> tuple[int, int]:
         """Rows and columns."""
-        return int(self._page.imagelength), int(self._page.imagewidth)
+        return self._layout.height, self._layout.width
 
     def rows(self, first: int, count: int) -> NDArray[Any]:
         """Read some rows; bool becomes uint8."""
-        page = self._page
-        rows = np.zeros((count, self.shape[1]), page.dtype)
+        layout = self._layout
+        rows = np.empty((count, layout.width), layout.dtype)
         with decoding(self.name, "TIFF"), Path(self.path).open("rb") as file:
-            for index in self._segments(first, count):
-                self._put(rows, first, index, file)
+
+            def read(offset: int, size: int) -> bytes:
+                file.seek(offset)
+                return file.read(size)
+
+            for band in range(first // layout.rows, -(-(first + count) // layout.rows)):
+                for index in range(band * layout.across, (band + 1) * layout.across):
+                    _, y, x, height = layout.place(index)
+                    top, bottom = max(y, first), min(y + height, first + count)
+                    place = rows[top - first : bottom - first, x : x + layout.columns]
+                    decoded = decode_rows(layout, read, index, top - y, bottom - top)
+                    place[...] = decoded[:, : place.shape[1], 0]
         return _plain(rows)
-
-    def _segments(self, first: int, count: int) -> Iterator[int]:
-        """Numbers of the strips or tiles that have some of these rows."""
-        page = self._page
-        height, across = page.rowsperstrip, 1
-        if page.is_tiled:
-            height, across = page.tilelength, -(-self.shape[1] // page.tilewidth)
-        for band in range(first // height, -(-(first + count) // height)):
-            yield from range(band * across, (band + 1) * across)
-
-    def _put(self, rows: NDArray[Any], first: int, index: int, file: BinaryIO) -> None:
-        """Decode a strip or a tile, and put what is of these rows in its place; one without bytes is zeros."""
-        page = self._page
-        length = page.databytecounts[index]
-        if not length:
-            return
-        file.seek(page.dataoffsets[index])
-        tables = {} if page.jpegtables is None else {"jpegtables": page.jpegtables}
-        segment, (_, _, y, x, _), shape = page.decode(file.read(length), index, **tables)
-        top, bottom = max(y, first), min(y + shape[1], first + len(rows), self.shape[0])
-        right = min(x + shape[2], self.shape[1])
-        rows[top - first : bottom - first, x:right] = segment[0, top - y : bottom - y, : right - x, 0]
 
     def __getstate__(self) -> dict[str, Any]:
         """Leave out what is open."""

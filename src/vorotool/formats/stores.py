@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from vorotool.errors import OutputError, UsageError
+from vorotool.errors import InputError, OutputError, UsageError
 from vorotool.formats.outputs import check_folder, clobber_error, explained, is_same_file, remove, temporary_beside
 
 _METADATA = ("zarr.json", ".zarray", ".zgroup")
@@ -37,9 +36,11 @@ def is_group(path: str | os.PathLike[str]) -> bool:
 
 def _node_type(path: str | os.PathLike[str]) -> object:
     """What the metadata of format 3 say, if they can be read."""
+    from vorotool.formats.zarr_metadata import read_metadata
+
     try:
-        return json.loads((Path(path) / "zarr.json").read_bytes())["node_type"]
-    except (OSError, ValueError, KeyError, TypeError):
+        return (read_metadata(path) or {}).get("node_type")
+    except (OSError, InputError):
         return None
 
 

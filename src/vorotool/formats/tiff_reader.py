@@ -1,4 +1,4 @@
-"""Reading one page of a TIFF with tifffile, or with Pillow where a compression needs its decoders."""
+"""Reading one page of a TIFF: its tags by tifffile, its pixels as they are checked, pictures within it by Pillow."""
 
 from __future__ import annotations
 
@@ -8,20 +8,24 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError
+from vorotool.errors import InputError, LimitError
+from vorotool.formats.jpeg_sizes import check_jpegs
 from vorotool.formats.limits import SourceLike, check_pixels, decoding
+from vorotool.formats.tiff_layout import JPEGS, TiffLayout, layout_of
+from vorotool.formats.tiff_segments import decode_image, is_decoded_here
 
 Resolution = tuple[float, float, str]
 
 _UNITS = {2: "inch", 3: "cm"}
+_MOST_CHANNELS = 4
 _PILLOW_MODES = {"1", "L", "P", "LA", "RGB", "RGBA", "I;16", "I;16B"}
 
 
 def tiff_size(source: SourceLike, page: int | None) -> tuple[int, int]:
     """Read width and height of a page from its tags."""
     with opened_tiff(source.name, io.BytesIO(source.data)) as file:
-        chosen = page_of(file, source.name, page)
-        return int(chosen.imagewidth), int(chosen.imagelength)
+        layout = page_layout(source.name, len(source.data), page_of(file, source.name, page))
+        return layout.width, layout.height
 
 
 def tiff_pages(source: SourceLike) -> int:
@@ -34,20 +38,28 @@ def read_tiff(source: SourceLike, *, page: int | None, max_pixels: int) -> tuple
     """Return the stored values, (H, W) or (H, W, C), and pixels a unit, where the file states them."""
     with opened_tiff(source.name, io.BytesIO(source.data)) as file:
         chosen = page_of(file, source.name, page)
+        layout = page_layout(source.name, len(source.data), chosen)
+        check_pixels(source.name, layout.width, layout.height, max_pixels)
+        if layout.width * layout.height * layout.samples > _MOST_CHANNELS * max_pixels:
+            raise LimitError(
+                f"{source.name} has {layout.samples} values a pixel: with {layout.width} x {layout.height} pixels "
+                f"these are more than {_MOST_CHANNELS} x --max-pixels {max_pixels}"
+            )
         with decoding(source.name, "TIFF"):
-            size = int(chosen.imagewidth), int(chosen.imagelength), int(chosen.imagedepth)
             resolution = resolution_of(file, chosen)
-        check_pixels(source.name, size[0], size[1] * size[2], max_pixels)
-        if size[2] != 1:
-            raise InputError(f"{source.name} is a volume {size[2]} deep: save its slices as pages")
-        check_segments(source.name, len(source.data), chosen)
-        with decoding(source.name, "TIFF"):
-            values = _values(source, chosen)
+            is_here = is_decoded_here(layout)
+            values = decode_image(layout, source.data) if is_here else _by_library(source, chosen, layout)
     if values.dtype.kind not in "buif" or not 2 <= values.ndim <= 3:
         raise InputError(
             f"{source.name} holds {values.dtype} of shape {values.shape}: an image of numbers was expected"
         )
     return values, resolution
+
+
+def page_layout(name: str, size: int, page: Any) -> TiffLayout:
+    """Check a page of a file of so many bytes: see `layout_of`."""
+    with decoding(name, "TIFF"):
+        return layout_of(name, size, page)
 
 
 def opened_tiff(name: str, file: str | BinaryIO) -> Any:
@@ -73,26 +85,20 @@ def page_of(file: Any, name: str, page: int | None) -> Any:
             return file.pages[page or 0]
     if page is None and count > 1:
         raise InputError(f"{name} has {count} pages: choose one with --page 0 to --page {count - 1}")
-    raise InputError(f"{name} has {count} page{'s' * (count != 1)}, counted from 0: there is no --page {page or 0}")
+    if count == 0:
+        raise InputError(f"{name} is damaged: it begins as a TIFF, but there is no image in it")
+    raise InputError(f"{name} has {count} page{'s' * (count != 1)}, counted from 0: there is no --page {page}")
 
 
-def check_segments(name: str, size: int, page: Any) -> None:
-    """Every strip or tile must lie in the file: tifffile would fill missing ones with zeros."""
-    for index, (offset, length) in enumerate(zip(page.dataoffsets, page.databytecounts, strict=False)):
-        if offset + length > size:
-            raise InputError(
-                f"{name} is cut off after {size} bytes: "
-                f"{'tile' if page.is_tiled else 'strip'} {index} ends at byte {offset + length}"
-            )
+def _by_library(source: SourceLike, page: Any, layout: TiffLayout) -> NDArray[Any]:
+    """Decode what other libraries know: JPEG, fax and further pictures within TIFF."""
+    import tifffile
 
-
-def _values(source: SourceLike, page: Any) -> NDArray[Any]:
-    try:
-        values = np.asarray(page.asarray())
-    except ValueError as error:
-        if "imagecodecs" not in str(error):
-            raise
+    if layout.compression in JPEGS:
+        check_jpegs(layout, source.data)
+    if layout.compression not in tifffile.TIFF.DECOMPRESSORS:
         return _by_pillow(source, page)
+    values = np.asarray(page.asarray())
     if values.ndim == 3 and page.planarconfig == 2 and page.samplesperpixel == values.shape[0]:
         values = np.moveaxis(values, 0, 2)
     return values
@@ -104,6 +110,8 @@ def _by_pillow(source: SourceLike, page: Any) -> NDArray[Any]:
     compression = getattr(page.compression, "name", str(page.compression))
     with TiffImageFile(io.BytesIO(source.data)) as image:
         image.seek(page.index)
+        if image.size != (page.imagewidth, page.imagelength):
+            raise InputError(f"{source.name} is damaged: its size is stated twice, the second time as {image.size}")
         if image.mode not in _PILLOW_MODES:
             raise InputError(
                 f"{source.name} has {compression} compression of {page.dtype} pixels: "

@@ -1,0 +1,246 @@
+"""How the pixels of a TIFF page lie in its strips or tiles: all that its tags say is checked before any is decoded."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+
+LARGEST_TILE = 2**26
+"""Bytes of a tile; only a larger image may have larger ones."""
+
+_NUMBERS = {
+    "imagewidth": "ImageWidth",
+    "imagelength": "ImageLength",
+    "imagedepth": "ImageDepth",
+    "samplesperpixel": "SamplesPerPixel",
+    "planarconfig": "PlanarConfiguration",
+    "compression": "Compression",
+    "predictor": "Predictor",
+    "fillorder": "FillOrder",
+    "rowsperstrip": "RowsPerStrip",
+}
+_TILE_NUMBERS = {"tilewidth": "TileWidth", "tilelength": "TileLength", "tiledepth": "TileDepth"}
+_MOST_EXPANSION = {5: 2731, 8: 1032, 32946: 1032, 32773: 64}
+"""By LZW (4096 bytes for 12 bits), deflate (258 bytes for 2 bits) and PackBits (128 for 2 bytes)."""
+_PLAIN, _SEPARATE = 1, 2
+
+JPEGS = {6, 7, 33007, 34892}
+"""Compressions that are JPEG."""
+
+
+@dataclass(frozen=True)
+class TiffLayout:
+    """Strips or tiles of a page, all of which are in the file.
+
+    Parameters
+    ----------
+    name : str
+        Of the file, for messages.
+    width, height : int
+        Of the image.
+    samples : int
+        Values a pixel.
+    planes : int
+        1, or ``samples`` where each has its own segments.
+    bits : int
+        Of a value; 0 where values differ in that.
+    dtype : dtype, optional
+        Of the values, native; None if it is none that numpy has.
+    byte_order : {"<", ">"}
+        Of the file.
+    compression, predictor, fill_order : int
+        As in the tags.
+    is_tiled : bool
+        Tiles, not strips.
+    rows, columns : int
+        Of a segment: a strip or a tile.
+    offsets, counts : (n,) int64 arrays
+        Where the segments are in the file, in order of planes, rows and columns; one that has neither offset nor
+        bytes is all background: GDAL leaves out what is empty.
+    background : number
+        Of what is left out.
+    """
+
+    name: str
+    width: int
+    height: int
+    samples: int
+    planes: int
+    bits: int
+    dtype: np.dtype[Any] | None
+    byte_order: Literal["<", ">"]
+    compression: int
+    predictor: int
+    fill_order: int
+    is_tiled: bool
+    rows: int
+    columns: int
+    offsets: NDArray[np.int64]
+    counts: NDArray[np.int64]
+    background: float
+
+    @property
+    def kind(self) -> str:
+        """What a segment is called."""
+        return "tile" if self.is_tiled else "strip"
+
+    @property
+    def across(self) -> int:
+        """Segments beside each other."""
+        return -(-self.width // self.columns)
+
+    @property
+    def down(self) -> int:
+        """Segments below each other."""
+        return -(-self.height // self.rows)
+
+    @property
+    def values(self) -> int:
+        """Values a pixel of a segment."""
+        return self.samples // self.planes
+
+    @property
+    def row_bytes(self) -> int:
+        """Bytes of a row of a segment; rows begin at whole bytes."""
+        return -(-self.columns * self.values * self.bits // 8)
+
+    def place(self, index: int) -> tuple[int, int, int, int]:
+        """Plane, first row, first column of a segment, and how many of its rows are in the image."""
+        plane, within = divmod(index, self.across * self.down)
+        row, column = divmod(within, self.across)
+        return plane, row * self.rows, column * self.columns, min(self.rows, self.height - row * self.rows)
+
+
+def layout_of(name: str, size: int, page: Any) -> TiffLayout:
+    """Check the tags of a page of a file of so many bytes.
+
+    Raises
+    ------
+    InputError
+        If a tag is no number or out of range, or there are fewer segments, or shorter ones, than the image needs.
+    """
+    is_tiled = bool(page.is_tiled)
+    numbers = _checked_numbers(name, page, is_tiled)
+    width, height, samples = (numbers[key] for key in ("imagewidth", "imagelength", "samplesperpixel"))
+    if numbers["imagedepth"] != 1 or (is_tiled and numbers["tiledepth"] != 1):
+        raise InputError(f"{name} is a volume {numbers['imagedepth']} deep: save its slices as pages")
+    layout = TiffLayout(
+        name,
+        width,
+        height,
+        samples,
+        planes=samples if numbers["planarconfig"] == _SEPARATE else 1,
+        bits=page.bitspersample if isinstance(page.bitspersample, int) else 0,
+        dtype=page.dtype,
+        byte_order=">" if page.parent.byteorder == ">" else "<",
+        compression=numbers["compression"],
+        predictor=numbers["predictor"],
+        fill_order=numbers["fillorder"],
+        is_tiled=is_tiled,
+        rows=numbers["tilelength"] if is_tiled else min(numbers["rowsperstrip"], height),
+        columns=numbers["tilewidth"] if is_tiled else width,
+        offsets=_table(name, "offsets", page.dataoffsets),
+        counts=_table(name, "byte counts", page.databytecounts),
+        background=page.nodata if isinstance(page.nodata, int | float) else 0,
+    )
+    if page.is_subsampled and layout.compression not in JPEGS:
+        raise InputError(f"{name} has fewer colours than pixels, but no JPEG compression: save it as RGB")
+    _check_tile_size(layout)
+    _check_segments(layout, size)
+    return _joined(layout)
+
+
+def _checked_numbers(name: str, page: Any, is_tiled: bool) -> dict[str, int]:
+    """Tags that must be whole numbers from 1 on."""
+    if is_tiled:
+        tags = {key: tag for key, tag in _NUMBERS.items() if key != "rowsperstrip"} | _TILE_NUMBERS
+    else:
+        tags = _NUMBERS
+    numbers = {}
+    for key, tag in tags.items():
+        value = getattr(page, key)
+        if not isinstance(value, int):
+            raise InputError(f"{name} is damaged: its {tag} is {value!r:.40}, which is no whole number")
+        if value < (key != "fillorder"):  # in which 0 means nothing
+            shown = f"{page.imagewidth} x {page.imagelength} pixels: an image needs at least 1 x 1"
+            is_side = key in ("imagewidth", "imagelength")
+            raise InputError(f"{name} is {shown}" if is_side else f"{name} is damaged: its {tag} is {value}")
+        numbers[key] = value
+    return numbers
+
+
+def _table(name: str, what: str, values: Any) -> NDArray[np.int64]:
+    table = np.asarray(values)
+    if table.size == 0:
+        return np.zeros(0, np.int64)
+    if table.ndim != 1 or table.dtype.kind not in "iu" or int(table.min()) < 0 or int(table.max()) >= 2**62:
+        raise InputError(f"{name} is damaged: the {what} of its strips or tiles are {values!r:.40}")
+    return table.astype(np.int64)
+
+
+def _check_tile_size(layout: TiffLayout) -> None:
+    """Tiles reach beyond the image, but not so far that they are all there is to decode."""
+    image = layout.width * layout.height * layout.samples * layout.bits // 8
+    tile = layout.rows * layout.row_bytes
+    if layout.is_tiled and tile > max(LARGEST_TILE, 4 * image):
+        raise InputError(
+            f"{layout.name} is damaged: it has tiles of {layout.columns} x {layout.rows} pixels "
+            f"for an image of {layout.width} x {layout.height}"
+        )
+
+
+def _check_segments(layout: TiffLayout, size: int) -> None:
+    """Every segment must be in the file: tifffile would fill missing ones with zeros."""
+    name, kind, needed = layout.name, layout.kind, layout.planes * layout.across * layout.down
+    for what, table in (("offsets", layout.offsets), ("byte counts", layout.counts)):
+        if len(table) < needed:
+            raise InputError(
+                f"{name} is damaged: its image of {layout.width} x {layout.height} pixels needs {needed} "
+                f"{kind}{'s' * (needed != 1)}, but there are {what} of {len(table)}"
+            )
+    offsets, counts = layout.offsets[:needed], layout.counts[:needed]
+    is_left_out = (offsets == 0) & (counts == 0)
+    if is_left_out.all():
+        raise InputError(f"{name} is damaged: none of its {needed} {kind}s has any bytes")
+    _refuse(
+        layout, (counts == 0) != (offsets == 0), "{kind} {index} has {count} bytes at byte {offset}, which cannot be"
+    )
+    ends = offsets + counts
+    if (ends > size).any():
+        index = int(np.argmax(ends > size))
+        raise InputError(f"{name} is cut off after {size} bytes: {kind} {index} ends at byte {ends[index]}")
+    if layout.bits:
+        rows = np.full(needed, layout.rows, np.int64)
+        rows.reshape(layout.planes, layout.down, layout.across)[:, -1] = layout.height - layout.rows * (layout.down - 1)
+        least = rows * layout.row_bytes
+        if layout.compression == _PLAIN:
+            _refuse(layout, (counts < least) & ~is_left_out, "{kind} {index} has {count} bytes, but its rows need more")
+        elif layout.compression in _MOST_EXPANSION:
+            most = counts * _MOST_EXPANSION[layout.compression]
+            _refuse(
+                layout, (most < least) & ~is_left_out, "{kind} {index} has {count} bytes, which cannot hold its pixels"
+            )
+
+
+def _joined(layout: TiffLayout) -> TiffLayout:
+    """Take strips that follow each other for one, which is read at once."""
+    needed = layout.down
+    offsets, counts = layout.offsets[:needed], layout.counts[:needed]
+    sizes = np.full(needed, layout.rows * layout.row_bytes)
+    sizes[-1] = (layout.height - layout.rows * (needed - 1)) * layout.row_bytes
+    is_one = layout.compression == _PLAIN and layout.bits > 0 and layout.planes == 1 and not layout.is_tiled
+    if not (is_one and (counts >= sizes).all() and (np.diff(offsets) == sizes[:-1]).all()):
+        return layout
+    return replace(layout, rows=layout.height, offsets=offsets[:1], counts=sizes.sum(keepdims=True))
+
+
+def _refuse(layout: TiffLayout, is_wrong: NDArray[np.bool_], words: str) -> None:
+    if is_wrong.any():
+        index = int(np.argmax(is_wrong))
+        text = words.format(kind=layout.kind, index=index, count=layout.counts[index], offset=layout.offsets[index])
+        raise InputError(f"{layout.name} is damaged: {text}")
