@@ -27,6 +27,7 @@ from vorotool.cli.targets import Target
 from vorotool.cli.units import unit_stats
 from vorotool.errors import OutputError
 from vorotool.formats.outputs import check_output, open_output
+from vorotool.formats.temporaries import new_folder, temporary_beside
 
 
 def process_one(
@@ -88,7 +89,6 @@ def run_many(recipe: Recipe, o: SimpleNamespace) -> None:
                 tasks,
                 _results(recipe, o, plan, len(tasks)),
                 manifest=plan.manifest,
-                history=plan.history,
                 keep_going=o.keep_going,
                 told=report.tell,
             )
@@ -120,9 +120,9 @@ def _folder_of_parts(recipe: Recipe, o: SimpleNamespace, stack: ExitStack) -> st
     """Where the tables of inputs are kept: with the record of what was done, else until the end."""
     if o.out_dir is not None:
         return str(Path(o.out_dir) / f".{recipe.name}.tables")
-    folder = None if o.table == "-" else Path(o.table).parent
+    folder = Path(tempfile.gettempdir()) if o.table == "-" else Path(os.path.realpath(o.table)).parent
     try:
-        return stack.enter_context(tempfile.TemporaryDirectory(prefix=".vorotool-", suffix=".tmp", dir=folder))
+        return str(stack.enter_context(temporary_beside(folder / "tables", new_folder)).path)
     except OSError as error:
         raise OutputError(f"tables cannot be written in {folder}: {error.strerror}; choose another name") from error
 
