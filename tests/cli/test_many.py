@@ -387,3 +387,15 @@ def test_a_manifest_that_somebody_else_wrote(run, inputs, lines):
     done = run("delaunay", "points", "--out-dir", "out", "--resume", "-q")
     assert (done.code, done.err) == (0, "")
     assert all(path.exists() for path in victims)
+
+
+@pytest.mark.parametrize("name", ["tessellate.manifest.jsonl", ".tessellate.tables"])
+def test_records_that_links_lead_elsewhere(run, inputs, name):
+    (inputs / "out").mkdir()
+    (inputs / "elsewhere").mkdir()
+    (inputs / "victim").write_text("x")
+    (inputs / "out" / name).symlink_to(inputs / ("victim" if name.endswith("l") else "elsewhere"))
+    done = run("tessellate", "points", "--out-dir", "out", "--table", "all.csv", "-q", "--resume")
+    assert (done.code, "through a link: remove the link" in done.err) == (4, True), done.err
+    assert (inputs / "victim").read_text() == "x"
+    assert [*(inputs / "elsewhere").iterdir(), *inputs.glob("all.csv"), *inputs.glob("out/*.png")] == []

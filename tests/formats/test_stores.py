@@ -162,3 +162,15 @@ def test_a_folder_that_vanishes_and_is_made_again_is_no_store(tmp_path):
     with pytest.raises(OutputError, match=r"a\.zarr cannot be written"):
         vanish()
     assert names(tmp_path) == []
+
+
+@pytest.mark.parametrize("kind", ["folder", "file"])
+def test_what_comes_meanwhile_and_is_no_store_stays(tmp_path, kind):
+    def come():
+        with open_store(tmp_path / "a.zarr"):
+            (tmp_path / "a.zarr").mkdir() if kind == "folder" else (tmp_path / "a.zarr").write_text("mine")
+
+    with pytest.raises(OutputError, match="is no Zarr array"):
+        come()
+    assert names(tmp_path) == ["a.zarr"]
+    assert (tmp_path / "a.zarr").is_dir() == (kind == "folder")

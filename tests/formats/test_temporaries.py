@@ -230,3 +230,22 @@ def test_the_lock_is_held_until_the_file_has_its_name(tmp_path, monkeypatch):
     monkeypatch.setattr(temporaries.Temporary, "move_to", look)
     write(tmp_path / "a.csv")
     assert names(tmp_path) == ["a.csv"]
+
+
+def test_an_interrupt_while_it_is_removed_has_to_wait(tmp_path, monkeypatch):
+    discard, times = temporaries._discard, []
+
+    def interrupted(path):
+        times.append(path)
+        if len(times) == 1:
+            raise KeyboardInterrupt
+        discard(path)
+
+    def fail():
+        with temporary_beside(tmp_path / "a", new_folder):
+            raise ValueError
+
+    monkeypatch.setattr(temporaries, "_discard", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        fail()
+    assert names(tmp_path) == []

@@ -89,7 +89,7 @@ def check_store(
         target = Path(os.path.realpath(name))
         exists = target.exists()
     if exists and not is_array(target):
-        raise OutputError(f"{name!r} is there and is no Zarr array, which alone is replaced: choose another name")
+        raise _other_error(name)
     for each in inputs:
         within = target in Path(os.path.realpath(each)).parents
         if exists and (within or is_same_file(target, os.fspath(each))):
@@ -98,6 +98,10 @@ def check_store(
         raise clobber_error(name)
     check_folder(name, target.parent, makes_folder=makes_folder)
     return target
+
+
+def _other_error(name: str) -> OutputError:
+    return OutputError(f"{name!r} is there and is no Zarr array, which alone is replaced: choose another name")
 
 
 @contextmanager
@@ -149,6 +153,8 @@ def _replace(target: Path, temporary: Temporary, no_clobber: bool) -> None:
     """
     if no_clobber:
         raise clobber_error(str(target))
+    if not is_array(target):
+        raise _other_error(str(target))
     temporary.check()
     if _exchange(temporary.path, target):
         return

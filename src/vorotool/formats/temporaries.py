@@ -28,7 +28,7 @@ import secrets
 import shutil
 import stat
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from dataclasses import dataclass
@@ -113,8 +113,7 @@ def temporary_beside(target: Path, make: Callable[[Path], int], *, ending: str =
         temporary.path = names[-1]
         yield temporary
     finally:
-        for path in names:  # 64 random bits are nobody else's, so that whatever happens they are ours to remove
-            _discard(path)
+        _discard_ours(names)
         if temporary.descriptor >= 0:
             os.close(temporary.descriptor)
 
@@ -194,6 +193,20 @@ def _remove_dead_once(folder: Path) -> None:
     if key not in _SEEN:
         _SEEN.add(key)
         remove_dead(folder)
+
+
+def _discard_ours(names: Sequence[Path]) -> None:
+    """Remove what is left under names: 64 random bits are nobody else's, so that whatever happens they are ours.
+
+    An interrupt that comes meanwhile has to wait.
+    """
+    try:
+        for path in names:
+            _discard(path)
+    except BaseException:
+        for path in names:
+            _discard(path)
+        raise
 
 
 def _make_ours(folder: Path, make: Callable[[Path], int], ending: str, names: list[Path]) -> int:
