@@ -1,6 +1,8 @@
 """The record of what was done survives kills, and is believed only where files are as it says."""
 
 import json
+import os
+from types import SimpleNamespace
 
 import pytest
 
@@ -34,7 +36,6 @@ def test_what_was_written_is_read(manifest):
         {"input": "b", "status": "failed", "exit": 3, "error": "bad", "options": "options", "sha256": "f"},
     ]
     history = read_history([manifest.path, "missing"])
-    assert history.runs == ["run"]
     assert manifest.done_before("a", history) == {INPUT: "d", "out/x/a.csv": "e"}
     assert manifest.done_before("b", history) is None
     assert Manifest("out/t", "others", "out").done_before("a", history) is None
@@ -62,10 +63,34 @@ def test_any_torn_line_is_left_out(manifest):
         assert set(history.done) == ({"a", "b"} if size >= len(whole) - 1 else {"b"})
 
 
-@pytest.mark.parametrize("line", ["[]", "1", "null", '{"input": [], "status": "done"}', '{"status": "done"}', "\xff"])
-def test_lines_that_are_none_of_ours(tmp_path, line):
-    (tmp_path / "m").write_text(line + "\n", encoding="latin-1")
-    assert read_history([tmp_path / "m"]).done == {}
+def line(**members):
+    """A line that says that a was done, but for some members."""
+    whole = {"input": "a", "status": "done", "options": "o", "sha256": "d", "outputs": {"a.csv": "e"}}
+    return json.dumps(whole | members)
+
+
+NONE_OF_OURS = [
+    *("[]", "1", "null", "NaN", '"x"', "\xff", "\0\0\0{", "[" * 100_000, '{"input":' * 100_000, "9" * 10_000),
+    *('{"input": [], "status": "done"}', '{"status": "done"}', '{"input": "a"}', "{" * 9 + "}" * 9),
+    *('{"run": "*"}', '{"run": "x/../../victim/"}', '{"run": []}'),
+    *(line(input=None), line(input=["a"]), line(options=1), line(sha256=None), line(outputs=["a.csv"])),
+    *(line(outputs=None), line(outputs={"a.csv": 1}), line(outputs={"a.csv": "e", "../b.csv": "e"})),
+    *(line(outputs={"/etc/passwd": "e"}), line(outputs={"sub/../../a.csv": "e"})),
+]
+
+
+@pytest.mark.parametrize("text", NONE_OF_OURS, ids=lambda text: ascii(text[:40]))
+def test_lines_that_are_none_of_ours(tmp_path, text):
+    (tmp_path / "m").write_text(f"{text}\n{line(input='b')}\n", encoding="latin-1")
+    assert set(read_history([tmp_path / "m"]).done) == {"b"}
+
+
+def test_lines_of_any_length(tmp_path, monkeypatch):
+    monkeypatch.setattr("vorotool.batch.manifest.LONGEST_LINE", len(line()) + 2)
+    for size in range(3 * len(line())):
+        text = f"{'x' * size}\n{line()}\n{'x' * size}{line(input='b')}\n"
+        (tmp_path / "m").write_text(text)
+        assert set(read_history([tmp_path / "m"]).done) == ({"a", "b"} if size == 0 else {"a"})
 
 
 def test_names_that_are_no_text(manifest):
@@ -81,8 +106,19 @@ def test_a_manifest_that_cannot_be_written(tmp_path):
     (tmp_path / "folder").mkdir()
     with pytest.raises(OutputError, match="cannot be written"), Manifest(tmp_path / "folder", "o", tmp_path):
         pass
-    with pytest.raises(OutputError, match="cannot be read"):
-        read_history([tmp_path / "folder"])
+    os.mkfifo(tmp_path / "pipe")
+    for name in ("folder", "pipe"):
+        with pytest.raises(OutputError, match="cannot be read: it is no file"):
+            read_history([tmp_path / name])
+
+
+def test_a_full_disk_is_not_passed_over(manifest, monkeypatch):
+    with manifest:
+        monkeypatch.setattr(
+            manifest, "_file", SimpleNamespace(write=lambda line: len(line) - 3, close=manifest._file.close)
+        )
+        with pytest.raises(OutputError, match="No space left on device"):
+            manifest.add(Task("a", ()), DONE)
 
 
 def test_options_have_one_digest():

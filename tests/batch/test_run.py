@@ -1,8 +1,12 @@
 """Tasks are started in order, until one fails; what killed runs have left is removed."""
 
-from vorotool.batch.manifest import History, Manifest
+import fcntl
+from pathlib import Path
+
+from vorotool.batch.manifest import Manifest
 from vorotool.batch.run import run_batch, run_tasks
 from vorotool.batch.tasks import Outcome, Task
+from vorotool.formats.temporaries import _host
 
 TASKS = [Task(name, (f"out/{name}",)) for name in "abcde"]
 
@@ -49,13 +53,35 @@ def test_results_are_closed_when_it_ends():
         raise AssertionError("the interrupt is lost")
 
 
-def test_leftovers_of_earlier_runs_are_removed(tmp_path):
+def test_what_the_dead_have_left_is_removed_and_what_others_write_is_not(tmp_path):
     out = tmp_path / "out"
     out.mkdir()
-    for name in (".vorotool-run1-3-abc.tmp", ".vorotool-run2-3-abc.tmp", "run1-3.tmp"):
-        (out / name).write_text("x")
+    (out / dead_name("0a1b2c3d-3-")).write_text("of a killed run")
+    live = ".vorotool-0123456789abcdef.tmp"
+    (out / live).write_text("of version 0.1.0")
     tasks = [Task("a", (str(out / "a.csv"),))]
-    manifest = Manifest(out / "m", "o", out)
-    outcomes = run_batch("draw", tasks, two_at_a_time, manifest=manifest, history=History(runs=["run1"]))
+    with (out / dead_name("0a1b2c3d-4-")).open("w") as writer:
+        fcntl.flock(writer, fcntl.LOCK_EX)
+        outcomes = run_batch("draw", tasks, two_at_a_time, manifest=Manifest(out / "m", "o", out))
+        assert {path.name for path in out.iterdir()} == {Path(writer.name).name, live, "m"}
     assert [outcome.code for outcome in outcomes] == [0]
-    assert sorted(path.name for path in out.iterdir()) == [".vorotool-run2-3-abc.tmp", "m", "run1-3.tmp"]
+
+
+def test_what_lost_workers_have_left_is_removed_at_the_end(tmp_path):
+    """Also of another machine: the batch is over."""
+    left = []
+
+    def results(tasks):
+        for number, task in tasks:
+            left.append(tmp_path / f".vorotool-{24 * 'f'}-{task.tag}{16 * '0'}.tmp")
+            left[-1].write_text("x")
+            yield number, Outcome(code=3 * (task.source == "b"))
+
+    tasks = [Task(name, (str(tmp_path / name),)) for name in "abc"]
+    run_batch("draw", tasks, results, manifest=Manifest(tmp_path / "m", "o", tmp_path))
+    assert len(left) == 2
+    assert [path.name for path in tmp_path.iterdir()] == ["m"]
+
+
+def dead_name(tag):
+    return f".vorotool-{''.join(_host())}-{tag}{16 * '0'}.tmp"

@@ -334,3 +334,68 @@ def test_killed_and_resumed(process, tmp_path):
     done = Counter(record["input"] for record in records(manifest) if record.get("status") == "done")
     assert len(done) == 40
     assert set(done.values()) == {1}
+
+
+def test_a_run_beside_a_running_one_leaves_its_temporaries(run, process, tmp_path):
+    many_points(tmp_path, 2, seeds=20_000)
+    options = ("--size", "60000x60000", "-f", "npy", "--out-dir", "out", "-q")
+    child = process("tessellate", "many/p000.csv", *options, "-j", "1")
+    wait_until(child, lambda: list(tmp_path.glob("out/.*.tmp")))
+    begun = list(tmp_path.glob("out/.*.tmp"))
+    ended = run("tessellate", "many", "--what", "table", "--out-dir", "out", "-q", "--resume")
+    left = list(tmp_path.glob("out/.*.tmp"))
+    child.kill()
+    child.communicate()
+    assert (ended.code, len(begun), left) == (0, 1, begun)
+
+
+def test_two_shards_that_are_started_together_lose_nothing(process, tmp_path):
+    many_points(tmp_path, 12)
+    options = ("delaunay", "many", "-q", "-j", "2", "--out-dir")
+    assert process(*options, "whole").communicate() == (b"", b"")
+    for _ in range(3):
+        children = [process(*options, "parts", "--resume", "--shard", f"{part}/2") for part in (1, 2)]
+        assert [child.communicate() for child in children] == 2 * [(b"", b"")]
+        assert [child.returncode for child in children] == [0, 0]
+        assert files(tmp_path / "parts") == files(tmp_path / "whole")
+        for path in (tmp_path / "parts").glob("*.csv"):
+            path.unlink()
+
+
+def test_what_a_killed_run_of_one_input_has_left_is_removed_by_the_next(run, process, tmp_path):
+    many_points(tmp_path, 1, seeds=20_000)
+    (tmp_path / "a.csv").write_text("old")
+    child = process("tessellate", "many/p000.csv", "--size", "60000x60000", "-o", "a.npy", "-q")
+    wait_until(child, lambda: list(tmp_path.glob(".*.tmp")))
+    child.kill()
+    child.communicate()
+    assert child.returncode == -signal.SIGKILL
+    assert len(list(tmp_path.glob(".*.tmp"))) == 1
+    assert run("delaunay", "many/p000.csv", "-o", "a.csv", "-q").code == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.csv", "many"]
+
+
+@pytest.mark.parametrize(
+    "lines", ['{"run": "*"}', '{"run": "x/../../victim/"}', "[" * 100_000, "\0\xff\n{}", '{"run": "' + "x" * 10**6]
+)
+def test_a_manifest_that_somebody_else_wrote(run, inputs, lines):
+    victims = [inputs / "victim/-important.tmp", inputs / f"out/.vorotool-0a1b2c3d-1-{16 * 'a'}.tmp"]
+    for path in (*victims, inputs / "out/.vorotool-x/-y.tmp"):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("x")
+    (inputs / "out/delaunay.manifest.jsonl").write_text(f"{lines}\n", encoding="latin-1")
+    done = run("delaunay", "points", "--out-dir", "out", "--resume", "-q")
+    assert (done.code, done.err) == (0, "")
+    assert all(path.exists() for path in victims)
+
+
+@pytest.mark.parametrize("name", ["tessellate.manifest.jsonl", ".tessellate.tables"])
+def test_records_that_links_lead_elsewhere(run, inputs, name):
+    (inputs / "out").mkdir()
+    (inputs / "elsewhere").mkdir()
+    (inputs / "victim").write_text("x")
+    (inputs / "out" / name).symlink_to(inputs / ("victim" if name.endswith("l") else "elsewhere"))
+    done = run("tessellate", "points", "--out-dir", "out", "--table", "all.csv", "-q", "--resume")
+    assert (done.code, "through a link: remove the link" in done.err) == (4, True), done.err
+    assert (inputs / "victim").read_text() == "x"
+    assert [*(inputs / "elsewhere").iterdir(), *inputs.glob("all.csv"), *inputs.glob("out/*.png")] == []

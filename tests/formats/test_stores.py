@@ -1,11 +1,12 @@
 """Stores appear whole or not at all, and replace nothing but stores."""
 
-import shutil
+import signal
+import subprocess
+import sys
 
 import pytest
 
 from vorotool.errors import OutputError, UsageError
-from vorotool.formats.outputs import remove_temporaries, tagged_temporaries
 from vorotool.formats.stores import check_store, is_array, is_store, open_store
 
 
@@ -110,10 +111,66 @@ def test_one_that_comes_meanwhile_is_not_clobbered(tmp_path):
     assert names(tmp_path) == ["a.zarr"]
 
 
-def test_what_a_killed_process_has_left_is_removed(tmp_path):
-    with tagged_temporaries("run-1-"), open_store(tmp_path / "a.zarr") as folder:
-        (folder / "c").mkdir()
-        shutil.copytree(folder, tmp_path / "copy")
-        remove_temporaries(tmp_path, "run-1-")
-        assert not folder.exists()
-        shutil.copytree(tmp_path / "copy", folder)
+@pytest.mark.parametrize("can_exchange", [True, False])
+def test_an_older_store_with_and_without_exchange(tmp_path, monkeypatch, can_exchange):
+    if not can_exchange:
+        monkeypatch.setattr("vorotool.formats.stores._exchange", lambda one, other: False)
+    old = make(tmp_path / "a.zarr", "old")
+    (old / "chunk").write_text("old")
+    write(old, "new")
+    assert "new" in text_of(old)
+    assert names(tmp_path) == ["a.zarr"]
+    assert names(old) == ["c", "zarr.json"] or names(old) == ["zarr.json", "c"]
+
+
+def test_the_older_store_comes_back_after_an_interrupt_between_the_moves(tmp_path, monkeypatch):
+    old = make(tmp_path / "a.zarr", "old")
+    monkeypatch.setattr("vorotool.formats.stores._exchange", lambda one, other: False)
+
+    def interrupt(self, target):
+        assert not old.exists()
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("vorotool.formats.temporaries.Temporary.move_to", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        write(old, "new")
+    assert "old" in text_of(old)
+    assert names(tmp_path) == ["a.zarr"]
+
+
+def test_the_older_store_comes_back_after_a_kill_between_the_moves(tmp_path):
+    old = make(tmp_path / "a.zarr", "old")
+    script = (
+        "import os, signal\nfrom vorotool.formats import stores, temporaries\n"
+        "stores._exchange = lambda one, other: False\n"
+        "temporaries.Temporary.move_to = lambda self, target: os.kill(os.getpid(), signal.SIGKILL)\n"
+        "with stores.open_store('a.zarr') as folder:\n    (folder / 'zarr.json').write_text('{}')\n"
+    )
+    assert subprocess.run([sys.executable, "-c", script], cwd=tmp_path, check=False).returncode == -signal.SIGKILL
+    assert not old.exists()
+    write(tmp_path / "b.zarr", "other")
+    assert "old" in text_of(old)
+    assert sorted(names(tmp_path)) == ["a.zarr", "b.zarr"]
+
+
+def test_a_folder_that_vanishes_and_is_made_again_is_no_store(tmp_path):
+    def vanish():
+        with open_store(tmp_path / "a.zarr") as folder:
+            folder.rmdir()
+            folder.mkdir()
+
+    with pytest.raises(OutputError, match=r"a\.zarr cannot be written"):
+        vanish()
+    assert names(tmp_path) == []
+
+
+@pytest.mark.parametrize("kind", ["folder", "file"])
+def test_what_comes_meanwhile_and_is_no_store_stays(tmp_path, kind):
+    def come():
+        with open_store(tmp_path / "a.zarr"):
+            (tmp_path / "a.zarr").mkdir() if kind == "folder" else (tmp_path / "a.zarr").write_text("mine")
+
+    with pytest.raises(OutputError, match="is no Zarr array"):
+        come()
+    assert names(tmp_path) == ["a.zarr"]
+    assert (tmp_path / "a.zarr").is_dir() == (kind == "folder")

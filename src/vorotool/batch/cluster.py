@@ -15,7 +15,6 @@ from typing import Any
 from vorotool import __version__
 from vorotool.batch.tasks import Outcome, Process, Task, carry_out
 from vorotool.errors import UsageError
-from vorotool.formats.outputs import remove_temporaries
 
 LOCAL = "local"
 PATIENCE = 10.0
@@ -201,10 +200,7 @@ def _outcome(task: Task, future: Any, result: Any) -> Outcome:
 
 
 def _give_up(client: Any, given: dict[Any, tuple[int, Task]]) -> None:
-    """Forget the tasks that are not done when the batch ends, and remove what they have begun."""
+    """Forget the tasks that are not done when the batch ends."""
     if given:
         with suppress(OSError):
             client.cancel(list(given))
-    for _, task in given.values():
-        for folder in {Path(path).parent for path in task.outputs}:
-            remove_temporaries(folder, task.tag)

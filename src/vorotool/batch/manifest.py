@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import json
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePath
 from types import TracebackType
 from typing import Any, BinaryIO
 
 from vorotool import __version__
 from vorotool.batch.tasks import INPUT, Outcome, Task
-from vorotool.errors import OutputError
+from vorotool.errors import InputError, OutputError
 from vorotool.formats.outputs import make_folder
+
+LEVELS = 8
+"""Of brackets in a line; ours have three."""
+
+LONGEST_LINE = 2**24
+"""Bytes of a line that is read; ours have hundreds, and thousands where much was said."""
 
 
 def digest_of_values(values: Any) -> str:
@@ -29,19 +36,33 @@ def digest_of_values(values: Any) -> str:
 
 
 @dataclass(frozen=True)
+class Done:
+    """What a manifest says of an input that was done: all of it is text that anybody may have written.
+
+    Parameters
+    ----------
+    options, digest : str
+        Digests of the options and of the input.
+    outputs : dict of str to str
+        Digests of the outputs by their paths in the folder.
+    """
+
+    options: str
+    digest: str
+    outputs: dict[str, str]
+
+
+@dataclass(frozen=True)
 class History:
     """What manifests say.
 
     Parameters
     ----------
-    runs : list of str
-        Tags of temporary files of earlier runs.
-    done : dict of str to dict
+    done : dict of str to Done
         The last line of each input, if it says that it was done.
     """
 
-    runs: list[str] = field(default_factory=list)
-    done: dict[str, dict[str, Any]] = field(default_factory=dict)
+    done: dict[str, Done] = field(default_factory=dict)
 
 
 def read_history(paths: Iterable[str | os.PathLike[str]]) -> History:
@@ -60,30 +81,55 @@ def read_history(paths: Iterable[str | os.PathLike[str]]) -> History:
     history = History()
     for path in map(Path, paths):
         try:
-            data = path.read_bytes()
+            if path.exists() and not path.is_file():
+                raise OSError(errno.EINVAL, "it is no file")
+            with path.open("rb") as file:
+                for line in _lines(file):
+                    _take(history, line)
         except FileNotFoundError:
             continue
         except OSError as error:
             raise OutputError(f"the manifest {path} cannot be read: {error.strerror}; leave out --resume") from None
-        for line in data.split(b"\n"):
-            _take(history, line)
     return history
 
 
+def _lines(file: BinaryIO) -> Iterator[bytes]:
+    """Lines; those that are longer than ours can be are left out."""
+    while line := file.readline(LONGEST_LINE):
+        if len(line) < LONGEST_LINE:
+            yield line
+        while len(line) == LONGEST_LINE and line[-1:] != b"\n":
+            line = file.readline(LONGEST_LINE)
+
+
 def _take(history: History, line: bytes) -> None:
+    """Take what a line says of an input; the lines of runs are for people."""
+    from vorotool.formats.sources import check_nesting
+
     try:
+        check_nesting(line, LEVELS)
         record = json.loads(line)
-        if "run" in record:
-            history.runs.append(str(record["run"]))
-        elif record["status"] != "done":
-            history.done.pop(record["input"], None)
-        else:
-            outputs = {str(path): str(digest) for path, digest in record["outputs"].items()}
-            history.done[record["input"]] = {
-                "options": record["options"], "sha256": record["sha256"], "outputs": outputs
-            }  # fmt: skip
-    except (ValueError, TypeError, KeyError, AttributeError):
+        source, status = record["input"], record["status"]
+    except (InputError, ValueError, TypeError, KeyError):
         return
+    if isinstance(source, str) and status != "done":
+        history.done.pop(source, None)
+    elif isinstance(source, str) and (done := _done(record)) is not None:
+        history.done[source] = done
+
+
+def _done(record: Mapping[str, Any]) -> Done | None:
+    options, digest, outputs = (record.get(name) for name in ("options", "sha256", "outputs"))
+    if not (isinstance(options, str) and isinstance(digest, str) and isinstance(outputs, dict)):
+        return None
+    if not all(isinstance(each, str) for each in outputs.values()) or any(map(_leaves, outputs)):
+        return None
+    return Done(options, digest, outputs)
+
+
+def _leaves(path: str) -> bool:
+    """Whether a path may lead out of the folder that it is in."""
+    return PurePath(path).is_absolute() or ".." in PurePath(path).parts
 
 
 class Manifest:
@@ -131,13 +177,13 @@ class Manifest:
     def done_before(self, source: str, history: History) -> dict[str, str] | None:
         """Digests of an input (at `INPUT`) and of its outputs by their paths, if it was done with the same options."""
         record = history.done.get(source)
-        if record is None or record["options"] != self.options:
+        if record is None or record.options != self.options:
             return None
-        outputs = {str(self.folder / path): digest for path, digest in record["outputs"].items()}
-        return {INPUT: record["sha256"], **outputs}
+        outputs = {str(self.folder / path): digest for path, digest in record.outputs.items()}
+        return {INPUT: record.digest, **outputs}
 
     def begin(self, run: str, command: str, inputs: int) -> None:
-        """Say that a run begins, and by which tag its temporary files are known."""
+        """Say that a run begins, and which tag is in the names of its temporary files."""
         self._add({"run": run, "command": command, "version": __version__, "inputs": inputs})
 
     def add(self, task: Task, outcome: Outcome) -> None:
@@ -149,15 +195,17 @@ class Manifest:
             record |= {"exit": outcome.code, "error": outcome.message}
         record |= {"options": self.options, "sha256": outcome.digest}
         if not outcome.code:
-            above = f"{self.folder}{os.sep}"
-            record["outputs"] = {path.removeprefix(above): digest for path, digest in outcome.outputs.items()}
+            outputs = outcome.outputs.items()
+            record["outputs"] = {str(PurePath(path).relative_to(self.folder)): digest for path, digest in outputs}
         said = {"warnings": outcome.warnings, "notes": outcome.notes}
         self._add(record | {name: texts for name, texts in said.items() if texts})
 
     def _add(self, record: Mapping[str, Any]) -> None:
         assert self._file is not None
-        try:
-            self._file.write(json.dumps(record).encode() + b"\n")
+        line = json.dumps(record).encode() + b"\n"
+        try:  # in one piece, so that lines of two processes do not mix
+            if self._file.write(line) != len(line):
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
         except OSError as error:
             raise self._failure(error) from error
 

@@ -69,7 +69,7 @@ above both, whose folders are mirrored
     written = {option: path for option, path in (others or {}).items() if path not in (None, "-")}
     _check_collisions(tasks, folder, written)
     _check_inputs(tasks, written)
-    _check_folders(tasks, Path(os.path.realpath(folder)))
+    check_inside((path for task in tasks for path in task.outputs), folder)
 
 
 def _check_collisions(tasks: Sequence[Task], folder: str | os.PathLike[str], others: Mapping[str, str]) -> None:
@@ -119,9 +119,20 @@ def _identity(path: str) -> tuple[int, int]:
     return found.st_dev, found.st_ino
 
 
-def _check_folders(tasks: Sequence[Task], inside: Path) -> None:
-    known: set[Path] = set()
-    for path in (Path(path) for task in tasks for path in task.outputs):
+def check_inside(paths: Iterable[str | os.PathLike[str]], folder: str | os.PathLike[str]) -> None:
+    """Refuse files that would be written outside a folder, through links in it.
+
+    Raises
+    ------
+    OutputError
+        If one leaves the folder.
+
+    Examples
+    --------
+    >>> check_inside(["out/a.png", "out/sub/b.png"], "out")
+    """
+    inside, known = Path(os.path.realpath(folder)), set[Path]()
+    for path in map(Path, paths):
         place = path if path.is_symlink() else path.parent
         if place not in known and not Path(os.path.realpath(place)).is_relative_to(inside):
             raise OutputError(f"{path} would lie outside {inside}, through a link: remove the link")

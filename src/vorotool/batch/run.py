@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import secrets
-from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 
-from vorotool.batch.manifest import History, Manifest
+from vorotool.batch.manifest import Manifest
 from vorotool.batch.tasks import Outcome, Task
-from vorotool.formats.outputs import remove_temporaries
+from vorotool.formats.temporaries import remove_dead, remove_tagged
 
 Results = Callable[[Iterator[tuple[int, Task]]], Generator[tuple[int, Outcome], None, None]]
 """Does numbered tasks, which it takes when there is somebody to do them, and yields what became of each."""
@@ -70,11 +70,13 @@ def run_batch(
     results: Results,
     *,
     manifest: Manifest | None = None,
-    history: History | None = None,
     keep_going: bool = False,
     told: Told | None = None,
 ) -> list[Outcome | None]:
     """Do tasks, and record what becomes of them.
+
+    What dead runs have begun in the folders of the outputs is removed first, and at the end what was begun by the
+    workers of this one that were lost.
 
     Parameters
     ----------
@@ -84,8 +86,6 @@ def run_batch(
         As of `run_tasks`.
     manifest : Manifest, optional
         The record, which is opened here.
-    history : History, optional
-        What was done before: files that killed runs have left are removed.
     """
     run = secrets.token_hex(4)
     tasks = [replace(task, tag=f"{run}-{number}-") for number, task in enumerate(tasks)]
@@ -97,14 +97,12 @@ def run_batch(
         if told is not None:
             told(task, outcome)
 
-    with manifest:
-        _remove_leftovers(tasks, history.runs if history is not None else ())
-        manifest.begin(run, command, len(tasks))
-        return run_tasks(tasks, results, keep_going=keep_going, told=tell)
-
-
-def _remove_leftovers(tasks: Sequence[Task], runs: Iterable[str]) -> None:
     folders = {Path(path).parent for task in tasks for path in task.outputs}
-    for run in runs:
+    with manifest:
         for folder in folders:
-            remove_temporaries(folder, f"{run}-")
+            remove_dead(folder)
+        manifest.begin(run, command, len(tasks))
+        try:
+            return run_tasks(tasks, results, keep_going=keep_going, told=tell)
+        finally:
+            remove_tagged(folders, f"{run}-")

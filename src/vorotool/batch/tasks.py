@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from vorotool import __version__
-from vorotool.formats.outputs import tagged_temporaries
+from vorotool.formats.temporaries import tagged_temporaries
 
 INPUT = ""
 """Stands for the input where digests are by the paths of outputs."""

@@ -14,7 +14,7 @@ from multiprocessing.connection import Connection, wait
 from pathlib import Path
 
 from vorotool.batch.tasks import Outcome, Process, Task
-from vorotool.formats.outputs import remove_temporaries
+from vorotool.formats.temporaries import remove_tagged
 
 START = "import sys; sys.path[:] = sys.argv[2:]; from vorotool.batch.worker import main; main(int(sys.argv[1]))"
 """What a worker runs: modules are looked for where this process finds them, and not in the current folder."""
@@ -95,8 +95,7 @@ class Worker:
             self._process.kill()
             self._process.wait()
         if self._task is not None:
-            for folder in {Path(path).parent for path in self._task.outputs}:
-                remove_temporaries(folder, self._task.tag)
+            remove_tagged({Path(path).parent for path in self._task.outputs}, self._task.tag)
 
 
 def local_results(

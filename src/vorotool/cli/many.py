@@ -15,6 +15,7 @@ from typing import Any
 
 import click
 
+from vorotool.batch.plan import check_inside
 from vorotool.batch.run import Results, run_batch
 from vorotool.batch.tables import join_tables, part_path
 from vorotool.batch.tasks import Outcome, Process, Task, digest_of, is_done
@@ -27,6 +28,7 @@ from vorotool.cli.targets import Target
 from vorotool.cli.units import unit_stats
 from vorotool.errors import OutputError
 from vorotool.formats.outputs import check_output, open_output
+from vorotool.formats.temporaries import new_folder, temporary_beside
 
 
 def process_one(
@@ -79,6 +81,7 @@ def run_many(recipe: Recipe, o: SimpleNamespace) -> None:
     _check_files(o)
     with ExitStack() as stack:
         tasks = _with_parts(plan, _folder_of_parts(recipe, o, stack)) if plan.table else plan.tasks
+        _check_records(plan, tasks)
         run = stack.enter_context(
             Run(recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber)
         )
@@ -88,7 +91,6 @@ def run_many(recipe: Recipe, o: SimpleNamespace) -> None:
                 tasks,
                 _results(recipe, o, plan, len(tasks)),
                 manifest=plan.manifest,
-                history=plan.history,
                 keep_going=o.keep_going,
                 told=report.tell,
             )
@@ -120,9 +122,9 @@ def _folder_of_parts(recipe: Recipe, o: SimpleNamespace, stack: ExitStack) -> st
     """Where the tables of inputs are kept: with the record of what was done, else until the end."""
     if o.out_dir is not None:
         return str(Path(o.out_dir) / f".{recipe.name}.tables")
-    folder = None if o.table == "-" else Path(o.table).parent
+    folder = Path(tempfile.gettempdir()) if o.table == "-" else Path(os.path.realpath(o.table)).parent
     try:
-        return stack.enter_context(tempfile.TemporaryDirectory(prefix=".vorotool-", suffix=".tmp", dir=folder))
+        return str(stack.enter_context(temporary_beside(folder / "tables", new_folder)).path)
     except OSError as error:
         raise OutputError(f"tables cannot be written in {folder}: {error.strerror}; choose another name") from error
 
@@ -130,6 +132,13 @@ def _folder_of_parts(recipe: Recipe, o: SimpleNamespace, stack: ExitStack) -> st
 def _with_parts(plan: Plan, folder: str) -> list[Task]:
     assert plan.table is not None
     return [replace(task, outputs=(*task.outputs, part_path(folder, task.source, plan.table))) for task in plan.tasks]
+
+
+def _check_records(plan: Plan, tasks: Sequence[Task]) -> None:
+    """Refuse a record, and tables of inputs, that links would lead out of the folder that they are in."""
+    if plan.manifest is not None:
+        parts = [task.outputs[-1] for task in tasks] if plan.table else []
+        check_inside([plan.manifest.path, *parts], plan.manifest.folder)
 
 
 def _results(recipe: Recipe, o: SimpleNamespace, plan: Plan, count: int) -> Results:

@@ -42,15 +42,12 @@ class Plan:
         Format of the table of all inputs.
     manifest : Manifest, optional
         Where it is recorded what was done.
-    history : History
-        What was done before.
     """
 
     tasks: list[Task]
     targets: list[Target]
     table: str | None
     manifest: Manifest | None
-    history: History
 
 
 def plan_batch(recipe: Recipe, o: SimpleNamespace) -> Plan:
@@ -87,7 +84,7 @@ def plan_batch(recipe: Recipe, o: SimpleNamespace) -> Plan:
         targets.append(Target("table", f"part.{table}", table))
     recipe.check_options(o, targets)
     check_units(o, targets)
-    return Plan(tasks, targets, table, manifest, history)
+    return Plan(tasks, targets, table, manifest)
 
 
 def _check_options(o: SimpleNamespace) -> None:

@@ -4,22 +4,18 @@ from __future__ import annotations
 
 import errno
 import os
-import secrets
-import shutil
 import stat
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
-from contextvars import ContextVar
+from functools import partial
 from pathlib import Path
 from typing import BinaryIO
 
 from vorotool.errors import OutputError, UsageError, VorotoolError
+from vorotool.formats.temporaries import new_file, temporary_beside
 
 STANDARD_OUTPUT = "standard output"
-
-_TAG: ContextVar[str] = ContextVar("tag", default="")
-"""In the names of temporary files."""
 
 
 @contextmanager
@@ -146,50 +142,6 @@ def make_folder(path: str | os.PathLike[str]) -> None:
         raise OutputError(f"the folder {os.fspath(path)!r} cannot be made: {reason}; name another") from error
 
 
-@contextmanager
-def tagged_temporaries(tag: str) -> Iterator[None]:
-    """Put a tag in the names of the temporary files that are made within.
-
-    Whoever knows it can remove what a process that was killed has left: `remove_temporaries`.
-
-    Parameters
-    ----------
-    tag : str
-        Letters, digits and hyphens.
-    """
-    token = _TAG.set(tag)
-    try:
-        yield
-    finally:
-        _TAG.reset(token)
-
-
-def remove_temporaries(folder: str | os.PathLike[str], tag: str) -> None:
-    """Remove temporary files with a tag that nobody writes any more.
-
-    Examples
-    --------
-    >>> remove_temporaries("build", "run-1-")
-    """
-    with suppress(OSError):
-        for path in Path(folder).glob(f".vorotool-{tag}*.tmp"):
-            remove(path)
-
-
-def remove(path: Path) -> None:
-    """Remove a file or a folder with all that is in it, as far as it is there and can be removed."""
-    if path.is_dir() and not path.is_symlink():
-        shutil.rmtree(path, ignore_errors=True)
-    else:
-        with suppress(OSError):
-            path.unlink()
-
-
-def temporary_beside(target: Path) -> Path:
-    """Name a temporary file: 64 random bits are nobody else's, so that whatever happens it is ours to remove."""
-    return target.with_name(f".vorotool-{_TAG.get()}{secrets.token_hex(8)}.tmp")
-
-
 def _refuse_terminal(binary: bool) -> None:
     if binary and sys.stdout.isatty():
         raise UsageError("binary output is not written to a terminal: name a file with -o, or a text format with -f")
@@ -271,25 +223,20 @@ def _direct(name: str, target: Path) -> Iterator[BinaryIO]:
 
 @contextmanager
 def _replacing(name: str, target: Path, no_clobber: bool) -> Iterator[BinaryIO]:
-    temporary = temporary_beside(target)
-    try:
-        with explained(name):
-            with _create(temporary, target) as out:
-                yield out
-            if no_clobber and target.exists():
-                raise clobber_error(name)
-            temporary.replace(target)
-    except BaseException:
-        remove(temporary)
-        raise
+    with explained(name), temporary_beside(target, partial(_create, target=target)) as temporary:
+        with temporary.opened() as out:
+            yield out
+        if no_clobber and target.exists():
+            raise clobber_error(name)
+        temporary.move_to(target)
 
 
-def _create(temporary: Path, target: Path) -> BinaryIO:
+def _create(temporary: Path, target: Path) -> int:
     """Create the temporary file with the permissions of the older file, else those of the umask."""
-    descriptor = os.open(temporary, os.O_RDWR | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o666)
+    descriptor = new_file(temporary)
     with suppress(OSError):  # no older file, or a file system without permissions
         temporary.chmod(stat.S_IMODE(target.stat().st_mode))
-    return os.fdopen(descriptor, "w+b")
+    return descriptor
 
 
 @contextmanager

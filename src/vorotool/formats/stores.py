@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from vorotool.errors import InputError, OutputError, UsageError
-from vorotool.formats.outputs import check_folder, clobber_error, explained, is_same_file, remove, temporary_beside
+from vorotool.formats.outputs import check_folder, clobber_error, explained, is_same_file
+from vorotool.formats.temporaries import ASIDE, Temporary, new_folder, temporary_beside
 
 _METADATA = ("zarr.json", ".zarray", ".zgroup")
 
@@ -88,7 +90,7 @@ def check_store(
         target = Path(os.path.realpath(name))
         exists = target.exists()
     if exists and not is_array(target):
-        raise OutputError(f"{name!r} is there and is no Zarr array, which alone is replaced: choose another name")
+        raise _other_error(name)
     for each in inputs:
         within = target in Path(os.path.realpath(each)).parents
         if exists and (within or is_same_file(target, os.fspath(each))):
@@ -99,14 +101,18 @@ def check_store(
     return target
 
 
+def _other_error(name: str) -> OutputError:
+    return OutputError(f"{name!r} is there and is no Zarr array, which alone is replaced: choose another name")
+
+
 @contextmanager
 def open_store(
     path: str | os.PathLike[str], *, no_clobber: bool = False, inputs: Iterable[str | os.PathLike[str]] = ()
 ) -> Iterator[Path]:
     """Give a folder to write a store in; it takes its place when all of it has been written.
 
-    It is made beside its place under a temporary name. An older store is moved aside for the moment in which the new
-    one moves in, and removed then. On any exception the folder is removed, and the older store is as it was.
+    It is made beside its place under a temporary name, and exchanged with an older store, which is removed then. On any
+    exception the folder is removed, and the older store is as it was.
 
     Parameters
     ----------
@@ -132,29 +138,41 @@ def open_store(
     """
     name = os.fspath(path)
     target = check_store(name, no_clobber=no_clobber, inputs=inputs)
-    temporary = temporary_beside(target)
-    try:
-        with explained(name):
-            temporary.mkdir()
-            yield temporary
-            if target.exists():
-                _replace(target, temporary, no_clobber)
-            else:
-                temporary.rename(target)
-    except BaseException:
-        remove(temporary)
-        raise
+    with explained(name), temporary_beside(target, new_folder) as temporary:
+        yield temporary.path
+        if target.exists():
+            _replace(target, temporary, no_clobber)
+        else:
+            temporary.move_to(target)
 
 
-def _replace(target: Path, temporary: Path, no_clobber: bool) -> None:
-    """Put a folder in the place of another: no system call that Python knows does both moves in one."""
+def _replace(target: Path, temporary: Temporary, no_clobber: bool) -> None:
+    """Put a folder in the place of another, which then goes with the temporary name or with a folder aside.
+
+    Where the system cannot exchange the two, the older store is away for a moment. Of a process that is killed then
+    it is put back by the next one that writes in the folder.
+    """
     if no_clobber:
         raise clobber_error(str(target))
-    aside = temporary_beside(target)
-    target.rename(aside)
+    if not is_array(target):
+        raise _other_error(str(target))
+    temporary.check()
+    if _exchange(temporary.path, target):
+        return
+    with temporary_beside(target, new_folder, ending=ASIDE) as aside:
+        target.rename(aside.path / target.name)
+        temporary.move_to(target)
+
+
+def _exchange(one: Path, other: Path) -> bool:
+    """Exchange two folders at once, or say that the system or the file system cannot."""
+    if sys.platform != "linux":
+        return False
+    import ctypes
+
+    here, exchange = -100, 2  # AT_FDCWD, RENAME_EXCHANGE
     try:
-        temporary.rename(target)
-    except BaseException:
-        aside.rename(target)
-        raise
-    remove(aside)
+        rename = ctypes.CDLL(None).renameat2
+    except (OSError, AttributeError):
+        return False
+    return bool(rename(here, os.fsencode(one), here, os.fsencode(other), exchange) == 0)

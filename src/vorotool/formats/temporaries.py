@@ -1,0 +1,310 @@
+"""Temporary files and folders beside outputs: whose they are, and who may remove those of the dead.
+
+An output is written beside its place under a temporary name and moved in when it is whole. A process that is killed
+leaves its temporary behind. The next process that writes in the folder removes it, but never one that is still being
+written, by whatever process of whatever machine. Two things together tell:
+
+- The name, ``.vorotool-HOST-TAG-RANDOM.tmp``: HOST is a digest of this boot of the system and one of the machine.
+- An advisory lock (``flock``) that the owner holds on the temporary itself, file or folder, from before anything is
+  written until it has its final name. The system releases it at death, also by ``kill -9`` or a loss of power.
+
+An owner is dead if HOST says that it ran on this machine and its lock can be taken. All locks of one kernel are seen
+by all its processes, in containers, too, and on network file systems whose locks are not shared. Of other machines a
+lock proves nothing there, and neither does a process number, so that their temporaries are never removed: they stay
+until something is written in the folder from that machine, or somebody removes them who knows that nothing runs there.
+Process numbers and times of start would tell no more on this machine, and less where containers count their own.
+
+Where a file system or a system has no such locks, names have no HOST, and nothing but the end of the batch that they
+are tagged with removes them; so it is with names of version 0.1.0.
+"""
+
+from __future__ import annotations
+
+import errno
+import hashlib
+import os
+import re
+import secrets
+import shutil
+import stat
+import sys
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from contextvars import ContextVar
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import BinaryIO
+
+if sys.platform != "win32":
+    import fcntl
+
+_TAG: ContextVar[str] = ContextVar("tag", default="")
+"""In the names of temporaries."""
+
+_NAME = re.compile(r"\.vorotool-(?:([0-9a-f]{12})([0-9a-f]{12})-)?((?:[A-Za-z0-9]+-)*)[0-9a-f]{16}\.(?:tmp|aside)")
+"""Boot, machine and tag."""
+
+ASIDE = ".aside"
+"""Ends the names of folders that hold what is moved out of the way, under its own name: it must not be lost."""
+
+_UNKNOWN = "0" * 12
+
+
+@dataclass
+class Temporary:
+    """A file or folder that is being written, and is ours.
+
+    Parameters
+    ----------
+    path : Path
+        Its name for now.
+    descriptor : int
+        Holds the lock; -1 where there are no locks.
+    """
+
+    path: Path
+    descriptor: int
+
+    def opened(self) -> BinaryIO:
+        """Open a file for writing; closing this does not give the lock back."""
+        if sys.platform != "win32":
+            return os.fdopen(os.dup(self.descriptor), "w+b")
+        descriptor, self.descriptor = self.descriptor, -1  # there a file that is open cannot be renamed
+        return os.fdopen(descriptor, "w+b")
+
+    def check(self) -> None:
+        """Raise an `OSError` if it is not there any more: somebody has removed it, or the folder."""
+        if self.descriptor >= 0 and not _is_at(self.path, self.descriptor):
+            raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), os.fspath(self.path))
+
+    def move_to(self, target: Path) -> None:
+        """Give it its final name, in the place of an older file."""
+        self.check()
+        self.path.replace(target)
+
+
+@contextmanager
+def temporary_beside(target: Path, make: Callable[[Path], int], *, ending: str = ".tmp") -> Iterator[Temporary]:
+    """Make a temporary file or folder, and remove what is left of it at the end, whatever happens.
+
+    What dead processes have left is removed when a process, or a batch, first writes in a folder.
+
+    Parameters
+    ----------
+    target : Path
+        What it is beside.
+    make : callable
+        ``make(path)`` makes it, and gives an open descriptor of it.
+    ending : str
+        Of the name.
+
+    Examples
+    --------
+    >>> with temporary_beside(Path("build/folder"), new_folder) as temporary:
+    ...     temporary.path.is_dir()
+    True
+    """
+    _remove_dead_once(target.parent)
+    names: list[Path] = []
+    temporary = Temporary(target, -1)
+    try:
+        temporary.descriptor = _make_ours(target.parent, make, ending, names)
+        temporary.path = names[-1]
+        yield temporary
+    finally:
+        _discard_ours(names)
+        if temporary.descriptor >= 0:
+            os.close(temporary.descriptor)
+
+
+def new_file(path: Path) -> int:
+    """Make an empty file with the permissions of the umask; its descriptor."""
+    return os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o666)
+
+
+def new_folder(path: Path) -> int:
+    """Make an empty folder; its descriptor, or -1 where folders cannot be opened, or it is gone already."""
+    path.mkdir()
+    if sys.platform == "win32":
+        return -1
+    with suppress(FileNotFoundError):
+        return os.open(path, os.O_RDONLY | os.O_DIRECTORY)
+    return -1
+
+
+@contextmanager
+def tagged_temporaries(tag: str) -> Iterator[None]:
+    """Put a tag in the names of temporaries that are made within.
+
+    Parameters
+    ----------
+    tag : str
+        Letters and digits, ended by a hyphen, once or more often; the first is that of a batch.
+    """
+    token = _TAG.set(tag)
+    try:
+        yield
+    finally:
+        _TAG.reset(token)
+
+
+def remove_tagged(folders: Iterable[str | os.PathLike[str]], tag: str) -> None:
+    """Remove temporaries with a tag that nobody needs any more, of dead and living processes of all machines.
+
+    Examples
+    --------
+    >>> remove_tagged(["build"], "0a1b2c3d-")
+    """
+    for folder in folders:
+        for path, found in _temporaries(folder):
+            if found[3].startswith(tag):
+                _discard(path)
+
+
+def remove_dead(folder: str | os.PathLike[str]) -> None:
+    """Remove temporaries whose owners are proved dead; the folder is listed once.
+
+    Examples
+    --------
+    >>> remove_dead("build")
+    """
+    boot, machine = _host()
+    for path, found in _temporaries(folder):
+        if (found[1] == boot != _UNKNOWN) or (found[2] == machine != _UNKNOWN):
+            _remove_unless_held(path)
+
+
+def remove(path: Path) -> None:
+    """Remove a file or a folder with all that is in it, as far as it is there and can be removed."""
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path, ignore_errors=True)
+    else:
+        with suppress(OSError):
+            path.unlink()
+
+
+_SEEN: set[tuple[str, str]] = set()
+"""Folders, with tags of batches, from which this process has removed what the dead have left."""
+
+
+def _remove_dead_once(folder: Path) -> None:
+    key = (os.fspath(folder), _TAG.get().partition("-")[0])
+    if key not in _SEEN:
+        _SEEN.add(key)
+        remove_dead(folder)
+
+
+def _discard_ours(names: Sequence[Path]) -> None:
+    """Remove what is left under names: 64 random bits are nobody else's, so that whatever happens they are ours.
+
+    An interrupt that comes meanwhile has to wait.
+    """
+    try:
+        for path in names:
+            _discard(path)
+    except BaseException:
+        for path in names:
+            _discard(path)
+        raise
+
+
+def _make_ours(folder: Path, make: Callable[[Path], int], ending: str, names: list[Path]) -> int:
+    """Make a temporary, the last of the names, and lock it.
+
+    Another process may take it for a dead one's before it is locked, and remove it: then the next name is tried.
+    """
+    host = "".join(_host()) + "-"
+    if sys.platform == "win32" or host == f"{_UNKNOWN}{_UNKNOWN}-":
+        host = ""
+    while True:
+        names.append(folder / f".vorotool-{host}{_TAG.get()}{secrets.token_hex(8)}{ending}")
+        descriptor = make(names[-1])
+        if not host:
+            return descriptor
+        if descriptor < 0:
+            continue
+        try:
+            if _lock(descriptor) and _is_at(names[-1], descriptor):
+                return descriptor
+        except OSError:  # no such locks here
+            host = ""
+        os.close(descriptor)
+
+
+def _lock(descriptor: int) -> bool:
+    """Take the lock, or say that somebody else has it."""
+    if sys.platform == "win32":
+        return False
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    return True
+
+
+def _is_at(path: Path, descriptor: int) -> bool:
+    try:
+        return os.path.samestat(path.lstat(), os.fstat(descriptor))
+    except FileNotFoundError:
+        return False
+
+
+def _temporaries(folder: str | os.PathLike[str]) -> list[tuple[Path, re.Match[str]]]:
+    """Temporaries in a folder and the parts of their names; none if it cannot be listed."""
+    with suppress(OSError), os.scandir(folder) as entries:
+        names = [entry.name for entry in entries if entry.name.startswith(".vorotool-")]
+        return [(Path(folder) / name, found) for name in names if (found := _NAME.fullmatch(name))]
+    return []
+
+
+def _remove_unless_held(path: Path) -> None:
+    """Remove a temporary of this machine if its lock can be taken, which is held meanwhile."""
+    if sys.platform == "win32":
+        return
+    with suppress(OSError):
+        kind = path.lstat().st_mode
+        if not (stat.S_ISREG(kind) or stat.S_ISDIR(kind)):
+            return
+        access = os.O_RDONLY | os.O_DIRECTORY if stat.S_ISDIR(kind) else os.O_RDWR  # which network locks ask for
+        descriptor = os.open(path, access | os.O_NOFOLLOW | os.O_NONBLOCK)
+        try:
+            if _lock(descriptor) and _is_at(path, descriptor):
+                _discard(path)
+        finally:
+            os.close(descriptor)
+
+
+def _discard(path: Path) -> None:
+    """Remove a temporary; what was moved aside goes back where nothing has taken its place."""
+    if path.suffix == ASIDE:
+        try:
+            for each in path.iterdir():
+                if not os.path.lexists(path.with_name(each.name)):
+                    each.rename(path.with_name(each.name))
+        except OSError:  # what is in it may be all that there is
+            return
+    remove(path)
+
+
+@cache
+def _host() -> tuple[str, str]:
+    """Digests of this boot of the system and of this machine, as far as they can be known."""
+    boot, machine = (_text(Path(name)) for name in ("/proc/sys/kernel/random/boot_id", "/etc/machine-id"))
+    if not machine and sys.platform == "darwin":
+        import uuid
+
+        machine = f"{uuid.getnode():x}"
+    name = "" if sys.platform == "win32" else os.uname().nodename  # which tells machines with copied disks apart
+    return _digest(boot), _digest(machine and f"{machine} {name}")
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()[:12] if text else _UNKNOWN
+
+
+def _text(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8", errors="replace").strip()
+    except OSError:
+        return ""
