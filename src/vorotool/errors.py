@@ -1,12 +1,71 @@
-"""Errors that a user can act on, each with the exit code of the command line."""
+"""Errors that a user can act on, each with the exit code of the command line; and what is said beside them."""
 
 from __future__ import annotations
 
+from enum import Enum, auto
+
+
+class Kind(Enum):
+    """What a note or a warning is about, where something hangs on it."""
+
+    GENERAL = auto()
+    DEGREES = auto()
+    """Longitude and latitude are treated as planar."""
+
+
+class Message(str):
+    """A line for the user that knows what it is about: nothing is to be told from its words.
+
+    It is text, and equal to text, so that whoever takes lines takes these as well.
+
+    Parameters
+    ----------
+    text : str
+        The line.
+    kind : Kind
+        What it is about.
+    source : str, optional
+        The input that the words name; None where they name none.
+
+    Examples
+    --------
+    >>> said = Message("degrees.csv: lengths are in degrees", Kind.DEGREES, source="degrees.csv")
+    >>> said.kind is Kind.DEGREES, said.source, said == "degrees.csv: lengths are in degrees"
+    (True, 'degrees.csv', True)
+    """
+
+    kind: Kind
+    source: str | None
+
+    def __new__(cls, text: str = "", kind: Kind = Kind.GENERAL, *, source: str | None = None) -> Message:
+        """Make the line."""
+        line = super().__new__(cls, text)
+        line.kind, line.source = kind, source
+        return line
+
+    @classmethod
+    def of(cls, text: str) -> Message:
+        """Give a line as a message; plain text is about nothing in particular, and names no input.
+
+        Examples
+        --------
+        >>> Message.of("3 points are left out").source is None
+        True
+        """
+        return text if isinstance(text, Message) else cls(text)
+
 
 class VorotoolError(Exception):
-    """Base of all errors raised on purpose; a bare one is a defect of ours (exit 1)."""
+    """Base of all errors raised on purpose; a bare one is a defect of ours (exit 1).
+
+    Attributes
+    ----------
+    source : str or None
+        The input that the words name; None where they name none.
+    """
 
     exit_code = 1
+    source: str | None = None
 
 
 class VerificationError(VorotoolError):
@@ -45,3 +104,8 @@ class BatchError(VorotoolError):
 
 class VorotoolWarning(UserWarning):
     """Something was repaired, snapped or guessed; one line that counts what was done."""
+
+    @property
+    def message(self) -> Message:
+        """The line."""
+        return Message.of(*self.args[:1])

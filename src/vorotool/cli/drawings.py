@@ -11,7 +11,7 @@ from vorotool.cli.inputs import refuse
 from vorotool.cli.results import DERIVED, SKELETON_LAYERS
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options
-from vorotool.errors import InputError
+from vorotool.errors import InputError, Kind, Message
 from vorotool.formats import NPY_MAGIC
 from vorotool.formats.geojson import JsonSource
 from vorotool.formats.image_rows import is_zarr, open_rows, read_rows
@@ -22,7 +22,7 @@ from vorotool.formats.offset_json import read_offsets, says_offsets
 from vorotool.formats.outputs import open_output
 from vorotool.formats.polygons import read_polygons, recognise
 from vorotool.formats.skeleton_json import read_skeleton, says_skeleton
-from vorotool.formats.sources import Source, read_source
+from vorotool.formats.sources import Source, read_source, reading
 from vorotool.geometry.label_image import LabelImage
 from vorotool.geometry.offsets import Offsets
 from vorotool.geometry.polygons import PolygonSet
@@ -58,7 +58,7 @@ class Picture:
     def check(self, target: Target) -> None:
         """Read the input, and prepare what draws it."""
         run, o = self._run, self._options
-        with run.phase("read"):
+        with reading(self._source), run.phase("read"):
             value = _read(run, o, self._source)
         if isinstance(value, LabelImage):
             self._draw, self._counts = _of_labels(run, o, value, target.fmt)
@@ -113,7 +113,7 @@ def _is_empty_collection(source: Source) -> bool:
 
 def _note(run: Run, message: str) -> None:
     """Say what was left out; pictures have no lengths, so that these are in degrees says nothing."""
-    if "degrees" not in message:
+    if Message.of(message).kind is not Kind.DEGREES:
         run.note(message)
 
 

@@ -6,10 +6,10 @@ import traceback
 
 import click
 
-from vorotool.errors import LimitError, VorotoolError
+from vorotool.errors import LimitError, Message, VorotoolError
 
 
-def explained(error: Exception) -> tuple[str, int]:
+def explained(error: Exception) -> tuple[Message, int]:
     """Give the message and the exit code of an error; of a defect of ours the lines that help to mend it are printed.
 
     Examples
@@ -18,11 +18,12 @@ def explained(error: Exception) -> tuple[str, int]:
     ('too large', 5)
     """
     if isinstance(error, VorotoolError):
-        return str(error), error.exit_code
+        return Message(str(error), source=error.source), error.exit_code
     if isinstance(error, click.ClickException):
-        return error.format_message(), error.exit_code
+        return Message(error.format_message()), error.exit_code
     if isinstance(error, MemoryError):
         text = "there is not enough memory: use a smaller frame, or an output that is streamed"
-        return text, LimitError.exit_code
+        return Message(text), LimitError.exit_code
     traceback.print_exception(error)
-    return f"a defect of vorotool, please report it with the lines above: {error}", VorotoolError.exit_code
+    text = f"a defect of vorotool, please report it with the lines above: {error}"
+    return Message(text), VorotoolError.exit_code

@@ -142,10 +142,11 @@ def read_backdrop(o: SimpleNamespace) -> Backdrop | None:
 
     from vorotool.formats.picture_images import read_picture
     from vorotool.formats.png import write_png
-    from vorotool.formats.sources import read_source
+    from vorotool.formats.sources import read_source, reading
     from vorotool.render.layers import Backdrop
 
-    pixels = read_picture(read_source(o.overlay), page=o.page, max_pixels=o.max_pixels)
+    with reading(o.overlay):
+        pixels = read_picture(read_source(o.overlay), page=o.page, max_pixels=o.max_pixels)
     height, width = pixels.shape[:2]
 
     def encode() -> bytes:
@@ -165,11 +166,12 @@ def refuse(o: SimpleNamespace, names: tuple[str, ...], reason: str) -> None:
 
 @contextmanager
 def naming(source: str) -> Iterator[None]:
-    """Let messages about the content of the input begin with its name."""
+    """Let messages about the content of the input begin with its name, unless they name an input already."""
     try:
         yield
     except InputError as error:
-        name = "standard input" if source == "-" else source
-        if str(error).startswith((name, repr(name))):
+        if error.source is not None:
             raise
-        raise InputError(f"{name}: {error}") from error
+        named = InputError(f"{'standard input' if source == '-' else source}: {error}")
+        named.source = source
+        raise named from error

@@ -13,7 +13,7 @@ import click
 
 from vorotool.batch.tasks import Outcome, Task
 from vorotool.cli.run import Run
-from vorotool.errors import BatchError
+from vorotool.errors import BatchError, Message
 
 NO_COUNTS = frozenset({"threads", "passes", "steps_per_pixel", "largest_label"})
 """Whole numbers in statistics that mean nothing when they are added."""
@@ -58,11 +58,11 @@ class Report:
         self._counts[status] += 1
         if self._bar is not None and (outcome.warnings or outcome.code):
             click.echo("\r\033[K", err=True, nl=False)  # in the place of the bar, which is drawn again below
-        for text in outcome.warnings:
-            self._run.warn(_named(task.source, text))
+        for warning in outcome.warnings:
+            self._run.warn(_named(task.source, Message.of(warning)))
         if outcome.code:
             self._failures.append({"input": task.source, "exit": outcome.code, "error": outcome.message})
-            click.echo(f"error: {_named(task.source, outcome.message)}", err=True)
+            click.echo(f"error: {_named(task.source, Message.of(outcome.message))}", err=True)
         if self._bar is not None:
             self._bar.update(1)
         elif not self._quiet:
@@ -94,5 +94,8 @@ class Report:
         return BatchError(f"{len(self._failures)} of {self._total} inputs failed{rest}")
 
 
-def _named(source: str, text: str) -> str:
-    return text if source in text else f"{source}: {text}"
+def _named(source: str, message: Message) -> Message:
+    """A line that names its input."""
+    if message.source == source:
+        return message
+    return Message(f"{source}: {message}", message.kind, source=source)

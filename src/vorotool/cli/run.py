@@ -13,7 +13,7 @@ from typing import Any
 import click
 
 from vorotool import __version__
-from vorotool.errors import VorotoolWarning
+from vorotool.errors import Message, VorotoolWarning
 
 PROGRESS_AFTER = 1.0
 """Seconds before a progress bar appears on a terminal."""
@@ -39,7 +39,7 @@ class Run:
         Statistics, beside seconds and warnings.
     seconds : dict of str to float
         By phases.
-    warnings, notes : list of str
+    warnings, notes : list of Message
         What was said, or would have been.
     """
 
@@ -48,8 +48,8 @@ class Run:
     ) -> None:
         self._quiet, self._verbose = quiet, verbose and not quiet
         self._target, self._no_clobber = stats, no_clobber
-        self.warnings: list[str] = []
-        self.notes: list[str] = []
+        self.warnings: list[Message] = []
+        self.notes: list[Message] = []
         self.seconds: dict[str, float] = {}
         self._inner: list[float] = []
         self._stack = ExitStack()
@@ -75,7 +75,7 @@ class Run:
 
     def note(self, message: str) -> None:
         """Say something useful on standard error."""
-        self.notes.append(message)
+        self.notes.append(Message.of(message))
         if not self._quiet:
             click.echo(f"note: {message}", err=True)
 
@@ -83,7 +83,7 @@ class Run:
         """Say what was repaired, snapped or guessed: on standard error and in the statistics, each once."""
         if message in self.warnings:
             return
-        self.warnings.append(message)
+        self.warnings.append(Message.of(message))
         if not self._quiet:
             click.echo(f"warning: {message}", err=True)
 
@@ -117,8 +117,8 @@ class Run:
         return show
 
     def _show_warning(self, message: Warning | str, category: type[Warning], *_: Any, **__: Any) -> None:
-        if issubclass(category, VorotoolWarning):  # a library's own remark says nothing about the user's data
-            self.warn(str(message))
+        if isinstance(message, VorotoolWarning):  # a library's own remark says nothing about the user's data
+            self.warn(message.message)
 
     def _write_stats(self, target: str) -> None:
         import orjson

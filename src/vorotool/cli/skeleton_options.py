@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 from functools import partial
 from itertools import chain
@@ -29,7 +28,7 @@ from vorotool.cli.recipes import Recipe
 from vorotool.cli.results import DERIVED, PICTURES, SKELETON_LAYERS, TABLES
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options
-from vorotool.errors import InputError
+from vorotool.errors import InputError, Kind, Message
 from vorotool.formats.input_formats import NAMES_WITH
 
 if TYPE_CHECKING:
@@ -339,9 +338,7 @@ def _simplified(run: Run, o: SimpleNamespace, polygons: PolygonSet) -> PolygonSe
 
 def _note(run: Run, message: str) -> None:
     """Say what the reader noticed; that lengths are in degrees is a warning, as it is about the result."""
-    if "degrees" in message:
-        from vorotool.errors import VorotoolWarning
-
-        warnings.warn(message, VorotoolWarning, stacklevel=2)
+    if Message.of(message).kind is Kind.DEGREES:
+        run.warn(message)
     else:
         run.note(message)

@@ -34,14 +34,17 @@ def open_large(o: SimpleNamespace, source: str) -> Any:
     """Open an image band by band, if it is large or its bands go to a cluster, and the options allow that."""
     from vorotool.formats.image_rows import open_rows
     from vorotool.formats.input_formats import NAMES_WITH, known_input_format
+    from vorotool.formats.sources import reading
 
     held = o.verify or o.seeds == "centroids" or o.threshold == "otsu" or o.method != "exact" or o.columns is not None
     if source == "-" or held or not set(o.what) <= STREAMED:
         return None
-    rows = open_rows(source, input_format=known_input_format(o.input_format, NAMES_WITH["points"]), page=o.page)
-    if rows is None:
-        return None
-    height, width = rows.shape
+    fmt = known_input_format(o.input_format, NAMES_WITH["points"])
+    with reading(source):
+        rows = open_rows(source, input_format=fmt, page=o.page)
+        if rows is None:
+            return None
+        height, width = rows.shape
     on_cluster = o.cluster is not None and o.out_dir is None
     return rows if on_cluster or height * width > LARGE else None
 

@@ -79,10 +79,8 @@ def read(
     >>> len(read("data/dots.csv"))
     53
     """
-    from vorotool.formats.image_rows import is_zarr, open_rows, read_rows
-    from vorotool.formats.images import is_image, read_image
     from vorotool.formats.input_formats import NAMES_WITH, known_input_format
-    from vorotool.formats.sources import read_source
+    from vorotool.formats.sources import reading
     from vorotool.geometry.checks import checked_threads
 
     if geometry not in NAMES_WITH:
@@ -91,11 +89,45 @@ def read(
     threads = checked_threads(threads)
     if not isinstance(path, str | PathLike):
         raise InputError(f"{path!r} is no path: give the name of a file; arrays need not be read")
-    if is_zarr(fspath(path), input_format):
-        rows = open_rows(path, input_format=input_format, page=page)
+    name = fspath(path)
+    with reading(name):
+        return _read(
+            name,
+            geometry=geometry,
+            input_format=input_format,
+            columns=columns,
+            page=page,
+            max_pixels=max_pixels,
+            max_sites=max_sites,
+            properties=properties,
+            threads=threads,
+            note=note,
+        )
+
+
+def _read(
+    name: str,
+    *,
+    geometry: str | None,
+    input_format: str | None,
+    columns: str | None,
+    page: int | None,
+    max_pixels: int,
+    max_sites: int | None,
+    properties: bool,
+    threads: int,
+    note: Callable[[str], None] | None,
+) -> PointSet | PolygonSet | Raster | Skeleton | Offsets:
+    """Read a file with options that have been checked."""
+    from vorotool.formats.image_rows import is_zarr, open_rows, read_rows
+    from vorotool.formats.images import is_image, read_image
+    from vorotool.formats.sources import read_source
+
+    if is_zarr(name, input_format):
+        rows = open_rows(name, input_format=input_format, page=page)
         assert rows is not None
         return read_rows(rows, max_pixels=max_pixels)
-    source = read_source(fspath(path))
+    source = read_source(name)
     if geometry is None and input_format in (None, "json"):
         from vorotool.formats.offset_json import read_offsets, says_offsets
         from vorotool.formats.skeleton_json import read_skeleton, says_skeleton

@@ -56,4 +56,6 @@ def decoding(name: str, kind: str) -> Iterator[None]:
         raise
     except Exception as error:  # decoders raise nearly everything on damaged bytes, IndexError included
         reason = " ".join(str(error).split()) or type(error).__name__
-        raise InputError(f"{name} cannot be read as {kind}: {reason}; is the file damaged or cut off?") from error
+        damage = InputError(f"{name} cannot be read as {kind}: {reason}; is the file damaged or cut off?")
+        damage.source = name
+        raise damage from error

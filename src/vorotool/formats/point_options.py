@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError, LimitError
+from vorotool.errors import InputError, Kind, LimitError, Message
 
 LARGEST_LABEL = 0xFFFFFFFF
 """Labels are uint32: there cannot be more sites either."""
@@ -42,7 +42,13 @@ class PointOptions:
 
     def note_degrees(self, name: str) -> None:
         """Say that longitude and latitude are taken for planar coordinates."""
-        self.note(f"{name}: longitude and latitude are treated as planar, lengths are in degrees")
+        self.note(degrees_note(name))
+
+
+def degrees_note(name: str) -> Message:
+    """Say that longitude and latitude are taken for planar coordinates."""
+    text = f"{name}: longitude and latitude are treated as planar, lengths are in degrees"
+    return Message(text, Kind.DEGREES, source=name)
 
 
 def no_points() -> NDArray[np.float64]:

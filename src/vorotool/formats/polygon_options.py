@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from vorotool.errors import InputError, LimitError
-from vorotool.formats.point_options import no_note, position_array, shortened
+from vorotool.formats.point_options import degrees_note, no_note, position_array, shortened
 from vorotool.geometry.polygons import HOLE, LINE, SHELL, PolygonSet, set_of_rings
 
 MOST_VERTICES = 2**28
@@ -43,7 +43,7 @@ class PolygonOptions:
 
     def note_degrees(self, name: str) -> None:
         """Say that longitude and latitude are taken for planar coordinates."""
-        self.note(f"{name}: longitude and latitude are treated as planar, lengths are in degrees")
+        self.note(degrees_note(name))
 
 
 @dataclass

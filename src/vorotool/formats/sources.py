@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 from vorotool import _core
-from vorotool.errors import InputError
+from vorotool.errors import InputError, UsageError, VorotoolError
 
 STANDARD_INPUT = "standard input"
 NESTING_LIMIT = 100
@@ -69,6 +71,34 @@ def read_source(path: str | os.PathLike[str]) -> Source:
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
         raise InputError(f"{name!r} cannot be read: {reason}; check the path") from None
+
+
+@contextmanager
+def reading(name: str) -> Iterator[None]:
+    """Let errors carry the name of an input that is read: the words of all readers name it.
+
+    Errors in the use of options are about these, whatever the input.
+
+    Parameters
+    ----------
+    name : str
+        As the user wrote it; ``-`` is standard input.
+
+    Examples
+    --------
+    >>> try:
+    ...     with reading("no-such-file.csv"):
+    ...         read_source("no-such-file.csv")
+    ... except InputError as error:
+    ...     print(error.source)
+    no-such-file.csv
+    """
+    try:
+        yield
+    except VorotoolError as error:
+        if error.source is None and not isinstance(error, UsageError):
+            error.source = name
+        raise
 
 
 def _read_standard_input() -> bytes:

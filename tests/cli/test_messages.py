@@ -1,0 +1,54 @@
+"""What is said is known by its kind and by the input that it is about, never by its words."""
+
+import json
+
+import pytest
+
+from vorotool.errors import Kind, Message
+
+POLYGON = {"type": "Polygon", "coordinates": [[[0, 0], [40, 0], [40, 30], [0, 0]]]}
+
+
+def collection(*geometries):
+    features = [{"type": "Feature", "geometry": each, "properties": None} for each in geometries]
+    return json.dumps({"type": "FeatureCollection", "features": features})
+
+
+@pytest.mark.parametrize("command", ["draw", "skeleton-exact"])
+def test_a_note_about_an_input_named_degrees_stays_a_note(run, tmp_path, command):
+    path = tmp_path / "degrees.geojson"
+    path.write_text(collection(POLYGON, None))
+    outcome = run(command, path, "-o", tmp_path / "a.svg")
+    assert outcome.code == 0
+    assert outcome.err == f"note: {path}: 1 features without a geometry are left out\n"
+
+
+def test_that_lengths_are_in_degrees_is_a_warning_of_skeletons_and_nothing_to_pictures(run, tmp_path):
+    path = tmp_path / "a.geojson"
+    path.write_text(json.dumps({"type": "LineString", "coordinates": [[0.5, 0.5], [1.5, 3.5]]}))
+    outcome = run("skeleton-exact", path, "--side", "exterior", "-o", tmp_path / "a.json")
+    assert outcome.err.startswith(f"warning: {path}: longitude and latitude are treated as planar")
+    assert run("draw", path, "-o", tmp_path / "a.svg").err == ""
+
+
+def test_an_input_whose_name_begins_the_message_is_named(run, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "there").write_text("x,y\n")
+    outcome = run("tessellate", "there", "-f", "text")
+    assert outcome.code == 3
+    assert outcome.err.startswith("error: there: there are no seeds")
+
+
+def test_an_input_of_a_batch_whose_name_is_in_the_warning_is_named_all_the_same(run, tmp_path):
+    for name in ("seeds", "other"):
+        (tmp_path / name).write_text("1,2\n1,2\n")
+    outcome = run("tessellate", "seeds", "other", "--out-dir", "out", "-f", "npy")
+    said = sorted(line for line in outcome.err.splitlines() if "warning" in line)
+    assert [line.split(" of 2 seeds lie ")[0] for line in said] == ["warning: other: 1", "warning: seeds: 1"]
+
+
+def test_a_message_keeps_what_it_is_about_on_its_way_from_another_process():
+    import pickle
+
+    said = pickle.loads(pickle.dumps(Message("a: b", Kind.DEGREES, source="a")))
+    assert (said, said.kind, said.source) == ("a: b", Kind.DEGREES, "a")
