@@ -293,3 +293,8 @@ def test_an_empty_shape_is_said(run):
     assert done.code == 0
     assert done.err == f"warning: there are no edges at r = 1: shapes begin at r = {FAMILY.spectrum[0]}\n"
     assert len(done.out.splitlines()) == 1
+
+
+def test_an_infinite_radius_is_in_the_statistics(run, folder):
+    done = run("alphashape", "dots.csv", "-r", "inf", "-o", "shape.csv", "--stats", "-")
+    assert (done.code, json.loads(done.out)["r"]) == (0, "inf")

@@ -68,7 +68,6 @@ BAD_INPUTS = {
     "bomb.png": (png_header(60_000, 60_000), 5, ["60000", "--max-pixels"]),
     "bomb.npy": (npy_header("{'descr': '<f8', 'fortran_order': False, 'shape': (100000000000, 2), }\n"), 5, ["--max"]),
     "cut.npy": (npy_header("{'descr': '<f8', 'fortran_order': False, 'shape': (100, 2), }\n") + b"123", 3, ["cut.npy"]),
-    "black.pbm": (b"P1 3 2 0 0 0 0 0 0", 3, ["no foreground"]),
 }
 
 

@@ -11,7 +11,7 @@ from scipy import ndimage
 from vorotool.engines.seeding import seeds_from_raster
 from vorotool.engines.streamed_image import ObjectRows, StreamedImage
 from vorotool.engines.sweep import Tessellator
-from vorotool.errors import InputError, LimitError
+from vorotool.errors import InputError, LimitError, VorotoolWarning
 
 rng = np.random.default_rng(7)
 
@@ -113,7 +113,9 @@ def test_what_shares_a_label_is_found_out():
     def mode(values):
         return ObjectRows(Held(np.array(values))).with_mode().mode
 
-    assert mode([[0, 7], [7, 0]]) == "components"
+    assert mode([[0, 1], [1, 0]]) == "components"
+    assert mode([[0, 0], [0, 0]]) == "components"
+    assert mode([[0, 7], [7, 0]]) == "labels"
     assert mode([[0, 7], [8, 0]]) == "labels"
     assert mode([[7, 7], [7, 7]]) == "labels"
     assert mode([[7, 7], [8, 8]]) == "labels"
@@ -121,9 +123,34 @@ def test_what_shares_a_label_is_found_out():
         ObjectRows(Held(rng.integers(0, 200, (90, 90)))).with_mode()
 
 
+@pytest.mark.parametrize("value", [1, 7, 255, 65535])
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.int32, np.float32])
+def test_one_value_is_a_mask_or_a_label_as_in_memory(bands, value, dtype):
+    if value > 255 and dtype == np.uint8:
+        value = 254
+    values = np.where(blobs((40, 30), 0.6), value, 0).astype(dtype)
+    told, heard = [], []
+    seeds = seeds_from_raster(values, note=heard.append)
+    source = ObjectRows(Held(values))
+    StreamedImage(source, note=told.append)
+    assert told == heard
+    np.testing.assert_array_equal(streamed(source, "labels", np.dtype(np.uint32), [9]), Tessellator(seeds).labels())
+
+
+def test_without_foreground_all_labels_are_0(bands):
+    source = ObjectRows(Held(np.zeros((30, 20), np.uint16)))
+    with pytest.warns(VorotoolWarning, match="no foreground"):
+        image = StreamedImage(source)
+    band = pickle.loads(pickle.dumps(image.band("labels", np.dtype(np.uint16), 3, 20, 5)))
+    assert band.rows().tolist() == np.zeros((20, 20)).tolist()
+    for refused in (lambda: image.band("distance", np.dtype(np.float32), 0, 30), lambda: image.square_dtype):
+        with pytest.raises(InputError, match="no foreground"):
+            refused()
+
+
 def test_what_is_refused(bands):
     with pytest.raises(InputError, match="no foreground"):
-        StreamedImage(ObjectRows(Held(np.zeros((30, 20), np.uint8))))
+        StreamedImage(ObjectRows(Held(np.zeros((30, 20), np.uint8))), strict=True)
     noise = Held((rng.random((40, 40)) < 0.3).astype(np.uint8))
     for mode in ("pixels", "components"):
         with pytest.raises(LimitError, match="more than --max-sites 5"):

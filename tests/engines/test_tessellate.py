@@ -15,7 +15,7 @@ import vorotool
 from families import FAMILIES, random_case
 from oracles import nearest_labels, nearest_squares
 from vorotool import _core
-from vorotool.engines.digital import SIMD_LEVELS, default_frame
+from vorotool.engines.digital import SIMD_LEVELS, as_seeds, default_frame
 from vorotool.engines.sweep import Tessellator
 from vorotool.engines.tessellate import verify_rows
 from vorotool.errors import InputError, LimitError, UsageError, VerificationError, VorotoolWarning
@@ -331,3 +331,12 @@ def test_many_rows_of_many_columns(simd, seed):
     np.testing.assert_array_equal(
         sweep_of(x, y, labels, frame, scale).labels(), nearest_labels(x, y, labels, frame, scale)
     )
+
+
+def test_a_frame_that_nobody_gave_has_at_most_2_to_28_pixels():
+    side = 2**14
+    for far in ([side, side - 1], [704052.0, 663838.0]):
+        with pytest.raises(LimitError, match=r"more than 268435456: give shape=\(H, W\) or window=\(x, y, w, h\)"):
+            vorotool.tessellate([far], max_pixels=10**15)
+    assert default_frame(as_seeds([[side - 1, side - 1]])).pixels == 2**28
+    assert vorotool.tessellate([[side, side]], shape=(2, 2)).labels.tolist() == [[1, 1], [1, 1]]

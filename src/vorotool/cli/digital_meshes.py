@@ -7,6 +7,7 @@ from functools import cached_property
 from types import SimpleNamespace
 from typing import Any, BinaryIO
 
+from vorotool.cli.inputs import window_of
 from vorotool.cli.meshes import MeshProducts
 from vorotool.cli.run import Run
 from vorotool.cli.units import table_in_units
@@ -33,8 +34,7 @@ class DigitalProducts(MeshProducts):
     @property
     def where(self) -> dict[str, Any]:
         """Options of the engines: the frame, and the threads."""
-        o = self.options
-        return {"window": o.window or (o.size and (0, 0, *o.size)), "threads": o.threads}
+        return {"window": window_of(self.options, self.seeds), "threads": self.options.threads}
 
     def _triangulate(self, points: PointSet | SeedSet) -> AnyTriangulation:
         progress = self.run.progress("triangulating")

@@ -13,6 +13,7 @@ from vorotool.cli.run import Run
 from vorotool.errors import InputError
 
 if TYPE_CHECKING:
+    from vorotool.geometry.frame import Frame
     from vorotool.geometry.points import PointSet
     from vorotool.geometry.raster import Raster
     from vorotool.geometry.seeds import SeedSet
@@ -84,9 +85,30 @@ def read_sites(run: Run, o: SimpleNamespace, source: str, *, properties: bool, i
         connectivity=int(o.connectivity or 8),
         threshold=o.threshold,
         invert=o.invert,
+        strict=o.strict,
         max_sites=o.max_sites,
-        allow_empty=True,
+        note=run.note,
     )
+
+
+def frame_of(o: SimpleNamespace, seeds: SeedSet) -> Frame | None:
+    """Give the frame that is asked for, else the one that the seeds bring or need; None where there are no seeds."""
+    from vorotool.engines.digital import default_frame
+    from vorotool.geometry.frame import Frame
+
+    if o.window is not None:
+        return Frame(*o.window)
+    if o.size is not None:
+        return Frame(0, 0, *o.size)
+    if not len(seeds) and not seeds.is_empty_image:
+        return None
+    return default_frame(seeds, how="give one with --size WxH or --window X,Y,W,H", instead="delaunay --what cells")
+
+
+def window_of(o: SimpleNamespace, seeds: SeedSet) -> tuple[int, int, int, int] | None:
+    """Give the same as the engines take it."""
+    frame = frame_of(o, seeds)
+    return None if frame is None else (frame.x, frame.y, frame.width, frame.height)
 
 
 def read_clip(run: Run, o: SimpleNamespace, path: str) -> Sequence[Any]:

@@ -252,7 +252,7 @@ OPTIONS: dict[str, Decorator] = {
     "seeds": click.option(
         "--seeds",
         type=click.Choice(["pixels", "components", "labels", "centroids"]),
-        help="What an image's seeds are; by default components of two values, labels of more.",
+        help="What an image's seeds are; by default components of a mask (0, and 1 or 255 or all bits), else labels.",
     ),
     "connectivity": click.option(
         "--connectivity", type=click.Choice(["8", "4"]), help="Of the components of an image; by default 8."

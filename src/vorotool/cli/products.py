@@ -166,7 +166,8 @@ class Products:
 
     def _table(self) -> Any:
         image, measures = self.image, self.measures  # refuses a frame that is too large, before distances are taken
-        squares = self.rows.squared_distances() if isinstance(self.rows, Tessellator) else None
+        has_distances = isinstance(self.rows, Tessellator) and len(self.rows.seeds)
+        squares = self._exact_rows().squared_distances() if has_distances else None
         table = region_table(image, distance2=squares, measures=measures, threads=self.options.threads)
         return table_in_units(self.options, table, properties=self.rows.seeds.properties)
 

@@ -12,6 +12,7 @@ from math import inf
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, BinaryIO
 
+from vorotool.cli.inputs import window_of
 from vorotool.cli.results import OF_ONE_SHAPE
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
@@ -64,11 +65,13 @@ class ShapeProducts:
         if set(options.what) & OF_ONE_SHAPE:
             with run.phase("shape"):
                 self.shape = self._shape()
-            if options.radius is None:
+            if options.radius is None and len(self.family.points):
                 regions = "one region" if options.regions in (None, 1) else f"at most {options.regions} regions"
                 run.note(f"r = {radius_text(self.shape.r)}, the smallest whose shape is {regions} with every point")
 
-    def _triangulation(self, points: PointSet | SeedSet) -> AnyTriangulation:
+    def _triangulation(self, points: PointSet | SeedSet) -> AnyTriangulation | SeedSet:
+        if isinstance(points, SeedSet) and points.is_empty_image:
+            return points
         from vorotool.engines.delaunay import delaunay
         from vorotool.engines.digital_triangulation import digital_triangulation, repair_digital
         from vorotool.engines.seeding import seeds_from_points
@@ -77,7 +80,7 @@ class ShapeProducts:
         if o.method == "exact":
             return delaunay(points, strict=o.strict, threads=o.threads, progress=progress)
         seeds = points if isinstance(points, SeedSet) else seeds_from_points(points, strict=o.strict)
-        frame: Any = {"window": o.window or (o.size and (0, 0, *o.size)), "strict": o.strict, "threads": o.threads}
+        frame: Any = {"window": window_of(o, seeds), "strict": o.strict, "threads": o.threads}
         mesh: AnyTriangulation
         if o.method == "digital":
             mesh = digital_triangulation(seeds, **frame, progress=progress)
@@ -153,7 +156,7 @@ class ShapeProducts:
             "table": lambda: not len(self.shape.polygons),
             "hull": lambda: not len(self.hull),
         }.get(target.what)
-        if empty is not None and empty():
+        if empty is not None and len(self.family.spectrum) and empty():
             words = {"table": "regions", "hull": "arcs in the hull"}.get(target.what, target.what)
             smallest = radius_text(float(self.family.spectrum[0]))
             warnings.warn(
@@ -288,7 +291,7 @@ class ShapeProducts:
             return counts
         shape = self.shape
         chosen: dict[str, Any] = {
-            "r": _json_number(shape.r),
+            "r": _json_number(shape.r) if len(mesh.points) or self.options.radius is not None else None,
             "alpha": shape.alpha,
             "automatic": self.options.radius is None,
         }
@@ -324,4 +327,4 @@ def radius_text(r: Radius) -> str:
 
 def _json_number(r: Radius) -> float | str:
     """A number where it says all; JSON has no infinity."""
-    return float(r) if Fraction(float(r)) == r and float(r) != inf else radius_text(r)
+    return radius_text(r) if r == inf or Fraction(float(r)) != r else float(r)

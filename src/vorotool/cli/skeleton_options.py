@@ -172,7 +172,7 @@ _READING: tuple[Decorator, ...] = (
     click.option(
         "--seeds",
         type=click.Choice(["components", "labels"]),
-        help="What an image's objects are; by default components of two values, labels of more.",
+        help="What an image's objects are; by default components of a mask (0, and 1 or 255 or all bits), else labels.",
     ),
     shared("connectivity", "threshold", "invert"),
 )
@@ -317,9 +317,11 @@ def _outlines(run: Run, o: SimpleNamespace, image: Raster) -> PolygonSet:
             threshold=o.threshold,
             invert=o.invert,
             simplify=o.simplify,
+            strict=o.strict,
             max_sites=o.max_sites,
             threads=o.threads,
             progress=run.progress("outlines"),
+            note=run.note,
         )
 
 

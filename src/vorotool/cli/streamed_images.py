@@ -75,7 +75,15 @@ class StreamedProducts:
             options.invert,
             CHUNK[0] if options.chunk is None else max(LEAST_ROWS, options.chunk[1]),
         )
-        self.image = StreamedImage(source, max_sites=options.max_sites, progress=run.progress("reading"))
+        self.image = StreamedImage(
+            source,
+            max_sites=options.max_sites,
+            strict=options.strict,
+            progress=run.progress("reading"),
+            note=run.note,
+        )
+        if set(options.what) & {"distance", "distance2"}:
+            self.image.check_distances()
         self.dtype = label_dtype(self.image.largest_label, options.dtype)
 
     def check(self, target: Target) -> None:

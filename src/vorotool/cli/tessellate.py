@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from vorotool.cli.commands import run_command
-from vorotool.cli.inputs import check_components, check_frame_options, naming, read_seed_input, refuse
+from vorotool.cli.inputs import check_components, check_frame_options, frame_of, naming, read_seed_input, refuse
 from vorotool.cli.option_groups import site_options
 from vorotool.cli.options import (
     Decimal,
@@ -26,7 +26,6 @@ from vorotool.formats.input_formats import NAMES_WITH
 if TYPE_CHECKING:
     from vorotool.cli.products import Products
     from vorotool.cli.streamed_images import StreamedProducts
-    from vorotool.geometry.frame import Frame
     from vorotool.geometry.seeds import SeedSet
 
 _IMAGES = ("png", "tiff", "npy", "text")
@@ -128,15 +127,8 @@ def _read_seeds(run: Run, o: SimpleNamespace, source: str) -> SeedSet:
         invert=o.invert,
         strict=o.strict,
         max_sites=o.max_sites,
+        note=run.note,
     )
-
-
-def _frame(o: SimpleNamespace) -> Frame | None:
-    from vorotool.geometry.frame import Frame
-
-    if o.window is not None:
-        return Frame(*o.window)
-    return None if o.size is None else Frame(0, 0, *o.size)
 
 
 def _products(run: Run, o: SimpleNamespace, source: str) -> Products | StreamedProducts:
@@ -160,13 +152,15 @@ def _prepare(run: Run, o: SimpleNamespace, seeds: SeedSet) -> Products:
 
     if len(seeds) > o.max_sites:
         raise LimitError(f"there are {len(seeds)} seeds, more than --max-sites {o.max_sites}")
-    frame = _frame(o)
+    frame = frame_of(o, seeds)
     progress = run.progress("tessellating")
     rows: Tessellator | PropagatedRows
     if o.method == "exact":
         rows = Tessellator(
             seeds, frame, max_distance=o.max_distance, threads=o.threads, strict=o.strict, progress=progress
         )
+        if {"distance", "distance2"} & set(o.what):
+            rows.check_distances()
     else:
         with run.phase("tessellate"):
             rows = PropagatedRows(seeds, frame, passes=o.passes or 2, max_pixels=o.max_pixels, progress=progress)

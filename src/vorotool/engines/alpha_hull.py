@@ -53,7 +53,7 @@ def alpha_hull(shape: AlphaShape) -> AlphaHull:
     >>> len(hull), hull.points.tolist()
     (3, [0, 1, 2])
     """
-    if np.isinf(float(shape.r)):
+    if np.isinf(float(shape.r)) and len(shape.points):
         raise UsageError("the hull of an infinite radius is the convex hull: use vorotool delaunay, or a finite r")
     arcs = _Arcs(shape)
     pieces = arcs.pieces()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import isnan
+from math import inf, isnan
 from typing import Any
 
 import numpy as np
@@ -20,6 +20,7 @@ from vorotool.geometry.alpha_shape import AlphaShape
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.polygons import HOLE, SHELL, PolygonSet
+from vorotool.geometry.seeds import SeedSet
 from vorotool.geometry.table import Table
 from vorotool.geometry.triangulation import Triangulation
 
@@ -80,7 +81,7 @@ def alpha_complex(
         mesh = points if given else delaunay(points, strict=strict, threads=threads, progress=progress)
         edges, sides = _edges_and_sides(mesh, threads, progress)
     count = len(mesh.points) - mesh.duplicates
-    if count < 2:
+    if count < 2 and not (isinstance(points, SeedSet) and points.is_empty_image):
         held = "is 1 point" if len(mesh.points) == 1 else f"are {len(mesh.points)} points"
         where = ", all at one place" if len(mesh.points) > 1 else ""
         raise InputError(f"there {held}{where}: an alpha shape needs at least two distinct points")
@@ -244,7 +245,9 @@ def alpha_shape(
         family = points
     else:
         family = alpha_complex(points, rule=rule, strict=strict, threads=threads, progress=progress)
-    if radius is None:
+    if radius is None and not len(family.points):
+        radius, reached, entered = inf, 0, 0  # of an image without foreground: there is nothing to join
+    elif radius is None:
         reached = automatic_rank(family, regions=regions, progress=progress) + 1
         radius = family.radius_from(reached - 1)
         entered = reached

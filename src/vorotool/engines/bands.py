@@ -88,6 +88,7 @@ class SeedBands:
 
     def __init__(self, seeds: SeedSet, frame: Frame) -> None:
         self.frame, self.scale = frame, seeds.scale
+        self._brought = seeds.frame
         order = np.lexsort((seeds.labels, seeds.x, seeds.y))
         x, y = seeds.x[order], seeds.y[order]
         is_first = np.ones(len(order), bool)  # of those at one place: the one with the smallest label
@@ -112,6 +113,7 @@ class SeedBands:
             self._y[chosen],
             self._labels[chosen],
             scale=self.scale,
+            frame=self._brought,
             sites=np.empty((0, 2)),
             site_labels=np.empty(0, np.uint32),
         )

@@ -25,6 +25,9 @@ SIMD_LEVELS = ("portable", "avx2", "avx512")
 BAND_PIXELS = 2**24
 """Pixels of a band when rows are streamed: large enough to keep all threads busy."""
 
+MOST_UNASKED = 2**28
+"""Pixels that a frame may have which follows from the points alone: more are likely points in map units."""
+
 
 def as_seeds(source: Any) -> SeedSet:
     """Seeds from whatever `tessellate` accepts."""
@@ -37,8 +40,8 @@ def as_seeds(source: Any) -> SeedSet:
 
 
 def require_seeds(seeds: SeedSet) -> None:
-    """Refuse an empty list: nothing could be labelled."""
-    if len(seeds) == 0:
+    """Refuse an empty list: nothing could be labelled. An image without foreground has been told of."""
+    if not len(seeds) and not seeds.is_empty_image:
         raise InputError("there are no seeds, so nothing could be labelled: give at least one point")
 
 
@@ -57,13 +60,24 @@ def report_duplicates(duplicates: int, seeds: int, *, strict: bool) -> None:
     )
 
 
-def default_frame(seeds: SeedSet) -> Frame:
+def default_frame(
+    seeds: SeedSet, *, how: str = "give shape=(H, W) or window=(x, y, w, h)", instead: str = "voronoi_cells"
+) -> Frame:
     """Give the frame that the input brings, else the smallest at the origin that holds the points.
+
+    Parameters
+    ----------
+    seeds : SeedSet
+        Points or an image.
+    how, instead : str
+        How a frame is given, and what needs none, for messages.
 
     Raises
     ------
     InputError
         If a coordinate is negative: such points need a window.
+    LimitError
+        If the points need a frame that is larger than anyone would take without asking for it.
 
     Examples
     --------
@@ -77,6 +91,11 @@ def default_frame(seeds: SeedSet) -> Frame:
             low, high = values.min() / seeds.scale, values.max() / seeds.scale
             raise InputError(f"points span {name} {low:g}..{high:g}: use --window X,Y,W,H, or delaunay --what cells")
     nearest = [int((2 * v.max() + seeds.scale) // (2 * seeds.scale)) + 1 for v in (seeds.x, seeds.y)]
+    if nearest[0] * nearest[1] > MOST_UNASKED:
+        raise LimitError(
+            f"no frame is given, and one that holds the points has {nearest[0]} x {nearest[1]} pixels, more than "
+            f"{MOST_UNASKED}: {how}; for points in map units use {instead}"
+        )
     return Frame(0, 0, nearest[0], nearest[1])
 
 

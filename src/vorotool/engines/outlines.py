@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import Any, get_args
 
 import numpy as np
@@ -12,16 +11,18 @@ from vorotool import _core
 from vorotool.engines.contours import grey_contours, grey_level, half_way_contours
 from vorotool.engines.label_arrays import Progress
 from vorotool.engines.raster_objects import (
+    Note,
     Objects,
     Threshold,
     default_objects,
     foreground_values,
     grey_values,
     label_values,
+    report_no_foreground,
     threshold_value,
 )
 from vorotool.engines.simplification import simplified_polygons
-from vorotool.errors import LimitError, UsageError, VorotoolWarning
+from vorotool.errors import LimitError, UsageError
 from vorotool.geometry.label_image import LabelImage
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.raster import Raster
@@ -51,9 +52,11 @@ def outlines(
     threshold: Threshold = None,
     invert: bool = False,
     simplify: float | None = None,
+    strict: bool = False,
     max_sites: int = MOST_VERTICES,
     threads: int = 0,
     progress: Progress = None,
+    note: Note = None,
 ) -> PolygonSet:
     """Give the outlines of the objects of a mask or a label image, with holes, as polygons.
 
@@ -77,7 +80,8 @@ def outlines(
     outline : {"crack", "contour"}
         Which line.
     mode : {"components", "labels"}, optional
-        What an object is; by default a component of an image of two values, else a label.
+        What an object is; by default a component of a mask, whose only value besides 0 is 1, 255, the largest of its
+        type, or True; else a label.
     connectivity : {8, 4}
         Of the pixels of an object.
     threshold : float or "otsu", optional
@@ -87,12 +91,16 @@ def outlines(
     simplify : float, optional
         Leave out vertices where outlines move by no more than this; see
         :func:`vorotool.engines.simplification.simplified_polygons`.
+    strict : bool
+        Refuse an image without foreground.
     max_sites : int
         More vertices are refused before memory is taken for them.
     threads : int
         0 uses all.
     progress : callable, optional
         Called with the fraction done.
+    note : callable, optional
+        Called with what was taken for a mask or a label, where that may surprise.
 
     Returns
     -------
@@ -103,7 +111,8 @@ def outlines(
     Raises
     ------
     InputError
-        If the image has colours or looks like a photograph and there is no threshold, or a value is not finite.
+        If the image has colours or looks like a photograph and there is no threshold, or a value is not finite; or
+        there is no foreground, and `strict`.
     LimitError
         If there are more vertices than `max_sites`.
     UsageError
@@ -141,11 +150,11 @@ def outlines(
         raster = Raster(grey_values(raster))
         threshold = threshold_value(raster.values, threshold)
     values = foreground_values(raster, threshold, invert=invert)
-    by_label = (mode or default_objects(values)) == "labels"
+    by_label = (mode or default_objects(values, note=note)) == "labels"
     labels = label_values(values) if by_label or values.dtype == bool else values != 0
     made = _traced(labels, _CORNER_RULES[outline, connectivity], max_sites, threads, progress)
     if not len(made["labels"]):
-        warnings.warn("the image has no foreground: use --invert or --threshold", VorotoolWarning, stacklevel=2)
+        report_no_foreground(strict=strict)
     if outline == "crack":
         xy, start = made["corners"] - 0.5, made["start"]
     elif threshold is None:

@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+import warnings
+from collections.abc import Callable
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.errors import InputError
+from vorotool.errors import InputError, VorotoolWarning
 from vorotool.geometry.raster import Raster
 
 Objects = Literal["components", "labels"]
 Threshold = float | Literal["otsu"] | None
+Note = Callable[[str], None] | None
+"""Called with what may surprise."""
 
 LARGEST_LABEL = 0xFFFFFFFF
+
+MASK_VALUES = (1, 255)
+"""Of masks, beside the largest value of the type."""
 
 _LUMINANCE = (0.2125, 0.7154, 0.0721)
 """Weights of red, green and blue (ITU-R BT.709, as scikit-image has them)."""
@@ -86,8 +93,15 @@ def threshold_value(grey: NDArray[Any], threshold: float | Literal["otsu"]) -> f
     return float(threshold_otsu(grey))
 
 
-def default_objects(values: NDArray[Any]) -> Objects:
-    """Tell whether the nonzero values are of a mask or labels: two values of which one is 0 are a mask.
+def default_objects(values: NDArray[Any], *, note: Note = None) -> Objects:
+    """Tell whether the nonzero values are of a mask or labels: several are labels, of one `objects_of_value` tells.
+
+    Parameters
+    ----------
+    values : (H, W) array
+        Of an image.
+    note : callable, optional
+        As of `objects_of_value`.
 
     Raises
     ------
@@ -96,17 +110,71 @@ def default_objects(values: NDArray[Any]) -> Objects:
 
     Examples
     --------
-    >>> default_objects(np.array([[0, 255]])), default_objects(np.array([[1, 2]]))
-    ('components', 'labels')
+    >>> default_objects(np.array([[0, 255]])), default_objects(np.array([[0, 7]])), default_objects(np.array([[1, 2]]))
+    ('components', 'labels', 'labels')
     """
     if values.dtype == bool:
         return "components"
     is_zero = values == 0
     first = values.flat[int(is_zero.argmin())]  # nonzero, if any is
-    if first == 0 or (is_zero.any() and (is_zero | (values == first)).all()):
-        return "components"
+    if (is_zero | (values == first)).all():
+        return objects_of_value(first, note=note)
     refuse_photograph(values)
     return "labels"
+
+
+def objects_of_value(value: Any, *, note: Note = None) -> Objects:
+    """Tell what an image holds that has no value but this one and 0: a mask or a label.
+
+    A mask has 1, 255, the largest value of its type, or True; any other value is the label that it is.
+
+    Parameters
+    ----------
+    value : NumPy scalar
+        The value; 0 where the image has no foreground.
+    note : callable, optional
+        Called with what was taken, where that may surprise: of a label, and of 1 and 255 in a type of more than 8 bits,
+        in which labels are written.
+
+    Examples
+    --------
+    >>> [objects_of_value(np.uint16(value)) for value in (0, 1, 7, 255, 65535)]
+    ['components', 'components', 'labels', 'components', 'components']
+    """
+    kind = value.dtype
+    is_largest = kind == np.bool_ or (kind.kind in "iu" and value == np.iinfo(kind).max)
+    if value == 0 or is_largest:
+        return "components"
+    is_mask = value in MASK_VALUES
+    if note is not None and not is_mask:
+        note(f"{value} is the only value besides 0, and taken for a label: --seeds components takes a mask")
+    if note is not None and is_mask and kind.itemsize > 1:
+        note(f"{value} is the only value besides 0, and taken for a mask: --seeds labels takes a label")
+    return "components" if is_mask else "labels"
+
+
+def report_no_foreground(*, strict: bool) -> None:
+    """Warn of an image in which there is nothing, or refuse it.
+
+    Raises
+    ------
+    InputError
+        If it is refused.
+    """
+    if strict:
+        raise InputError("the image has no foreground: use --invert or --threshold, or leave out --strict")
+    warnings.warn("the image has no foreground: use --invert or --threshold", VorotoolWarning, stacklevel=3)
+
+
+def refuse_distances() -> None:
+    """Refuse distances to nothing.
+
+    Raises
+    ------
+    InputError
+        Always.
+    """
+    raise InputError("the image has no foreground, so that there are no distances to it: use --invert or --threshold")
 
 
 def refuse_photograph(values: NDArray[Any]) -> None:
@@ -165,6 +233,6 @@ def label_values(values: NDArray[Any], *, first_row: int = 0) -> NDArray[Any]:
         row, column = np.unravel_index(int(bad.argmax()), bad.shape)
         raise InputError(
             f"the image holds the value {values[row, column]} in row {first_row + row}, column {column}: labels must "
-            f"be integers from 0 to {LARGEST_LABEL}; use --threshold T for a mask"
+            f"be integers from 0 to {LARGEST_LABEL}; use --threshold T or --seeds components for a mask"
         )
     return values.astype(np.uint32)

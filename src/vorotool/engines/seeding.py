@@ -11,7 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.raster_objects import LARGEST_LABEL, default_objects, foreground_values, label_values
+from vorotool.engines.raster_objects import (
+    LARGEST_LABEL,
+    Note,
+    default_objects,
+    foreground_values,
+    label_values,
+    report_no_foreground,
+)
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
 from vorotool.geometry.frame import Frame
 from vorotool.geometry.points import PointSet
@@ -130,7 +137,7 @@ def seeds_from_raster(
     invert: bool = False,
     strict: bool = False,
     max_sites: int = LARGEST_LABEL,
-    allow_empty: bool = False,
+    note: Note = None,
 ) -> SeedSet:
     """Take seeds from an image.
 
@@ -140,7 +147,8 @@ def seeds_from_raster(
         Nonzero pixels are foreground.
     mode : {"pixels", "components", "labels", "centroids"}, optional
         What shares a label: nothing, a connected component, or all pixels of one value; or one seed at the
-        centroid of each component or label. By default components of an image of two values, else labels.
+        centroid of each component or label. By default components of a mask, whose only value besides 0 is 1, 255,
+        the largest of its type, or True; else labels.
     connectivity : {8, 4}
         Neighbourhood of components.
     threshold : float or "otsu", optional
@@ -148,12 +156,12 @@ def seeds_from_raster(
     invert : bool
         Exchange foreground and background.
     strict : bool
-        Refuse centroids that would have to move to the lattice of 1/256 pixel.
+        Refuse an image without foreground, and centroids that would have to move to the lattice of 1/256 pixel.
     max_sites : int
         More seeds, which are the foreground pixels unless centroids are taken, are refused before memory is
         taken for them.
-    allow_empty : bool
-        An image without foreground has no seeds, instead of being refused.
+    note : callable, optional
+        Called with what was taken for a mask or a label, where that may surprise.
 
     Returns
     -------
@@ -163,12 +171,16 @@ def seeds_from_raster(
     Raises
     ------
     InputError
-        If there is no foreground (unless `allow_empty`), or the image looks like a photograph and no
-        threshold is given.
+        If the image looks like a photograph and no threshold is given; or there is no foreground, and `strict`.
     LimitError
         If there are more seeds than `max_sites`.
     UsageError
         If options do not go together.
+
+    Warns
+    -----
+    VorotoolWarning
+        If there is no foreground, and so no seed.
 
     Examples
     --------
@@ -179,21 +191,28 @@ def seeds_from_raster(
         raise UsageError(f"connectivity is {connectivity}: it must be 4 or 8")
     raster = raster if isinstance(raster, Raster) else Raster(raster)
     values = foreground_values(raster, threshold, invert=invert)
-    mode = mode or default_objects(values)
-    if mode not in get_args(SeedMode):
+    if mode not in (None, *get_args(SeedMode)):
         raise UsageError(f"mode is {mode!r}: it must be one of {', '.join(get_args(SeedMode))}")
     frame = Frame(0, 0, values.shape[1], values.shape[0])
-    if allow_empty and not values.any():
-        nothing = np.empty(0, dtype=np.int64)
-        return SeedSet(nothing, nothing, nothing.astype(np.uint32), frame=frame)
-    if mode == "pixels":
+    if not values.any():
+        report_no_foreground(strict=strict)
+        return _no_seeds(frame, has_objects=mode != "pixels")
+    kind = default_objects(values, note=note) if mode in (None, "centroids") else mode
+    if kind == "pixels":
         x, y = _foreground(values, max_sites)
         labels = np.arange(1, len(x) + 1, dtype=np.uint32)
         sites = np.stack([x, y], axis=1).astype(np.float64)
         return SeedSet(x, y, labels, frame=frame, sites=sites, site_labels=labels)
-    by_value = mode == "labels" or (mode == "centroids" and default_objects(values) == "labels")
-    objects = label_values(values) if by_value else _components(values, connectivity)
+    objects = label_values(values) if kind == "labels" else _components(values, connectivity)
     return _seeds_of_objects(objects, frame, centroids_only=mode == "centroids", max_sites=max_sites, strict=strict)
+
+
+def _no_seeds(frame: Frame, *, has_objects: bool) -> SeedSet:
+    """Of an image without foreground; with the columns that others have."""
+    nothing = np.empty(0, dtype=np.int64)
+    labels = np.empty(0, np.uint32)
+    area = nothing if has_objects else None
+    return SeedSet(nothing, nothing, labels, frame=frame, sites=np.empty((0, 2)), site_labels=labels, object_area=area)
 
 
 def _components(values: NDArray[Any], connectivity: int) -> NDArray[Any]:
@@ -206,8 +225,6 @@ def _components(values: NDArray[Any], connectivity: int) -> NDArray[Any]:
 def _foreground(objects: NDArray[Any], most: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Columns and rows of the nonzero pixels, in raster order; counted before memory is taken for them."""
     count = int(np.count_nonzero(objects))
-    if count == 0:
-        raise InputError("the image has no foreground, so nothing could be labelled: use --invert or --threshold")
     if count > most:
         raise LimitError(
             f"the image has {count} foreground pixels, more than --max-sites {most}: use --seeds centroids, or a "

@@ -15,9 +15,18 @@ from vorotool import _core
 from vorotool.engines.bands import Quantity, SeedBand
 from vorotool.engines.column_lists import ColumnList, first_seeds, last_seeds
 from vorotool.engines.label_arrays import Progress
-from vorotool.engines.raster_objects import LARGEST_LABEL, foreground_values, label_values, refuse_photograph
+from vorotool.engines.raster_objects import (
+    LARGEST_LABEL,
+    Note,
+    foreground_values,
+    label_values,
+    objects_of_value,
+    refuse_distances,
+    refuse_photograph,
+    report_no_foreground,
+)
 from vorotool.engines.surrounded_seeds import surrounded_pixels
-from vorotool.errors import InputError, LimitError
+from vorotool.errors import LimitError
 from vorotool.geometry.frame import Frame
 from vorotool.geometry.raster import Raster
 from vorotool.geometry.seeds import SeedSet
@@ -88,22 +97,21 @@ class ObjectRows:
         step = max(1, min(self.height, BAND_PIXELS // width))
         return ((first, min(step, height - first)) for first in range(0, height, step))
 
-    def with_mode(self) -> ObjectRows:
-        """Find out what shares a label, where it is not said."""
+    def with_mode(self, *, note: Note = None) -> ObjectRows:
+        """Find out what shares a label, where it is not said; see `objects_of_value`."""
         if self.mode is not None:
             return self
         if self.threshold is not None or self.invert:
             return replace(self, mode="components")
-        one, has_zero = 0, False
+        one: Any = np.uint8(0)
         for first, count in self.limits():
             values = self.values(first, count)
             is_zero = values == 0
-            has_zero |= bool(is_zero.any())
             one = one or values.flat[int(is_zero.argmin())]  # the first that is not 0, if any is
             if not (is_zero | (values == one)).all():
                 refuse_photograph(values)
                 return replace(self, mode="labels")
-        return replace(self, mode="components" if has_zero else "labels")
+        return replace(self, mode=objects_of_value(one, note=note))
 
 
 @dataclass(frozen=True)
@@ -213,8 +221,8 @@ class ImageBand:
     ) -> None:
         is_object = objects != 0
         if not is_object.all():
-            seeds = _seeds_near(objects, first, above, below)
             frame = Frame(0, first, objects.shape[1], len(objects))
+            seeds = _seeds_near(objects, frame, above, below)
             out[...] = SeedBand(seeds, frame, self.what, self.dtype, self.max_distance).rows(threads=threads)
         np.copyto(out, objects if self.what == "labels" else 0, where=is_object, casting="unsafe")
 
@@ -228,15 +236,24 @@ class StreamedImage:
         The image.
     max_sites : int
         More pixels, or provisional components, that need numbers are refused.
+    strict : bool
+        Refuse an image without foreground.
     progress : callable, optional
         Called with the fraction read, the first time.
+    note : callable, optional
+        As of `seeds_from_raster`.
 
     Raises
     ------
     InputError
-        If the image has no foreground, or cannot be read.
+        If the image cannot be read; or there is no foreground, and `strict`.
     LimitError
         If there are too many components or pixels.
+
+    Warns
+    -----
+    VorotoolWarning
+        If there is no foreground, so that all labels are 0 and there are no distances.
 
     Notes
     -----
@@ -255,8 +272,16 @@ class StreamedImage:
     [[1, 1, 2, 2], [1, 1, 2, 2]]
     """
 
-    def __init__(self, source: ObjectRows, *, max_sites: int = LARGEST_LABEL, progress: Progress = None) -> None:
-        self.source = source.with_mode()
+    def __init__(
+        self,
+        source: ObjectRows,
+        *,
+        max_sites: int = LARGEST_LABEL,
+        strict: bool = False,
+        progress: Progress = None,
+        note: Note = None,
+    ) -> None:
+        self.source = source.with_mode(note=note)
         height, width = source.image.shape
         self.frame = Frame(0, 0, width, height)
         self.pixels = self.largest_label = 0
@@ -265,6 +290,8 @@ class StreamedImage:
         self._bands: list[ObjectBand] = []
         self._components = _core.StreamingComponents(width, source.connectivity == 8)
         self._scan(progress)
+        if not self.pixels:
+            report_no_foreground(strict=strict)
         self._number()
         del self._components
 
@@ -277,12 +304,20 @@ class StreamedImage:
         max_distance: float | Fraction | None = None,
     ) -> ImageBand:
         """Give some rows as what computes them anywhere."""
+        if what != "labels":
+            self.check_distances()
         parts = tuple(band for band in self._bands if band.first < first + rows and band.first + band.count > first)
         return ImageBand(parts, first, rows, what, dtype, max_distance)
+
+    def check_distances(self) -> None:
+        """Refuse distances where there is no foreground."""
+        if not self.pixels:
+            refuse_distances()
 
     @property
     def square_dtype(self) -> np.dtype[Any]:
         """The type of squared distances, as `Tessellator.square_dtype`: none is larger than from the first seed."""
+        self.check_distances()
         x, y = self._corner or (0, 0)
         dx, dy = max(x, self.frame.width - 1 - x), max(y, self.frame.height - 1 - y)
         return np.dtype(np.uint32 if dx * dx + dy * dy < 2**32 else np.uint64)
@@ -304,8 +339,6 @@ class StreamedImage:
             row_above = objects[-1].copy()
             if progress is not None:
                 progress((first + count) / self.frame.height)
-        if not self.pixels:
-            raise InputError("the image has no foreground, so nothing could be labelled: use --invert or --threshold")
 
     def _provisional(self, first: int, count: int, start: int) -> tuple[NDArray[np.uint32], int]:
         """Label some rows, as far as the rows above them tell; gives how many labels need numbers so far, too."""
@@ -369,7 +402,7 @@ def _numbered_pixels(mask: NDArray[np.uint8], start: int) -> NDArray[np.uint32]:
     return numbers
 
 
-def _seeds_near(objects: NDArray[np.uint32], first: int, above: ColumnList, below: ColumnList) -> SeedSet:
+def _seeds_near(objects: NDArray[np.uint32], frame: Frame, above: ColumnList, below: ColumnList) -> SeedSet:
     """Give the seeds that are nearest to pixels of these rows: those that are not surrounded, and the lists.
 
     See `needed_seeds` and `SeedBands`.
@@ -378,8 +411,9 @@ def _seeds_near(objects: NDArray[np.uint32], first: int, above: ColumnList, belo
     (x_above, y_above, above_labels), (x_below, y_below, below_labels) = above.seeds(), below.seeds()
     return SeedSet(
         np.concatenate([x_above, x, x_below]),
-        np.concatenate([y_above, y + first, y_below]),
+        np.concatenate([y_above, y + frame.y, y_below]),
         np.concatenate([above_labels, objects[y, x], below_labels]),
+        frame=frame,
         sites=np.empty((0, 2)),
         site_labels=np.empty(0, np.uint32),
     )

@@ -20,11 +20,28 @@ from vorotool.engines.digital import (
     squared_limit,
 )
 from vorotool.engines.label_arrays import Progress
+from vorotool.engines.raster_objects import refuse_distances
 from vorotool.engines.surrounded_seeds import needed_seeds, paint_seeds
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.frame import MAX_SIDE, Frame
 from vorotool.geometry.seeds import SeedSet
+
+
+class _NothingLabelled:
+    """What the core would be for no seeds: those of an image without foreground."""
+
+    duplicates = 0
+    is_wide = False
+    products_exact = True
+
+    def labels(self, rows: NDArray[Any], *_: Any) -> None:
+        rows[...] = 0
+
+    def squared_distances(self, *_: Any) -> None:
+        refuse_distances()
+
+    distances = squared_distances
 
 
 class Tessellator:
@@ -33,7 +50,7 @@ class Tessellator:
     Parameters
     ----------
     seeds : SeedSet
-        At least one seed.
+        At least one seed, unless they are those of an image.
     frame : Frame, optional
         The pixels to label; by default `default_frame` of the seeds.
     max_distance : float or Fraction, optional
@@ -93,8 +110,11 @@ class Tessellator:
         self.duplicates: int = self._core.duplicates
         report_duplicates(self.duplicates, len(seeds), strict=strict)
 
-    def _prepare(self) -> _core.Tessellation:
+    def _prepare(self) -> _core.Tessellation | _NothingLabelled:
         seeds, frame = self.seeds, self.frame
+        self._paints = False
+        if not len(seeds):
+            return _NothingLabelled()
         needed = needed_seeds(seeds)
         self._paints = needed is not None
         chosen = slice(None) if needed is None else needed
@@ -208,9 +228,15 @@ class Tessellator:
         self._paint(array, first, 0)
         return array
 
+    def check_distances(self) -> None:
+        """Refuse distances where there are no seeds."""
+        if not len(self.seeds):
+            refuse_distances()
+
     @cached_property
     def square_dtype(self) -> np.dtype[Any]:
         """The type of squared distances: the smaller one that holds the largest possible."""
+        self.check_distances()
         scale, frame = self.seeds.scale, self.frame
         # No pixel is farther from its nearest seed than from this one, and none farther than a corner.
         dx = max(abs(int(self.seeds.x[0]) - scale * c) for c in (frame.x, frame.x + frame.width - 1))

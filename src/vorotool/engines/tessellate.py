@@ -72,7 +72,7 @@ def tessellate(
     InputError
         If there is no seed, a seed is unusable, or the points have negative coordinates and no window.
     LimitError
-        If the frame has more than `max_pixels` pixels.
+        If the frame has more than `max_pixels` pixels; or none is given, and the points need more than 2^28.
     UsageError
         If options do not go together.
 
@@ -87,7 +87,7 @@ def tessellate(
     """
     seed_set = as_seeds(seeds)
     frame = asked_frame(shape, window)
-    if len(seed_set):
+    if len(seed_set) or seed_set.is_empty_image:
         require_memory(frame or default_frame(seed_set), max_pixels)
     if method == "propagation":
         if max_distance is not None:

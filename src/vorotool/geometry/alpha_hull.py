@@ -76,6 +76,8 @@ class AlphaHull:
         ring_start : (q + 1,) int64 array
             The first vertex of each ring, and n.
         """
+        if not len(self):  # of an image without foreground the radius is infinite
+            return np.empty((0, 2)), np.zeros(1, np.int64)
         # A chord over an angle a is off by r (1 - cos(a / 2)).
         widest = 2 * acos(max(1 - tolerance / self.r, -1.0)) or pi / 512
         counts = np.maximum(np.ceil(self.angles / widest), 1).astype(np.int64)

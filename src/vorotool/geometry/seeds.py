@@ -90,6 +90,11 @@ class SeedSet:
         return len(self.x)
 
     @property
+    def is_empty_image(self) -> bool:
+        """Whether these are the seeds of an image without foreground: no list of points brings a frame."""
+        return not len(self) and self.frame is not None
+
+    @property
     def largest_label(self) -> int:
         """The largest label, 0 for no seeds."""
         return int(self.labels.max(initial=0))

@@ -82,6 +82,8 @@ def write_alpha_html(
 def _first_radius(family: AlphaComplex, r: Radius | None) -> float:
     """The radius, or one beyond all where it is infinite."""
     finite = family.spectrum[np.isfinite(family.spectrum)]
+    if not len(finite):  # no points, no radii
+        return 1.0 if r is None or np.isinf(float(r)) else float(r)
     chosen = float(finite[len(finite) // 2]) if r is None else float(r)
     return chosen if np.isfinite(chosen) else 2 * float(finite[-1])
 
@@ -91,7 +93,7 @@ def _data(family: AlphaComplex, curves: Table, r: float, y_up: bool) -> dict[str
     with np.errstate(over="ignore"):
         exponent = int(np.frexp(np.abs(family.points).max(initial=0.0))[1])
     points = np.ldexp(family.points, -exponent)
-    low, high = bounds(points)
+    low, high = bounds(points) if len(points) else np.zeros((2, 2))
     span = high - low
     size = float(span.max()) or 1.0
     places = np.stack([points[:, 0] - low[0], (high[1] - points[:, 1]) if y_up else (points[:, 1] - low[1])], axis=1)

@@ -1,0 +1,159 @@
+"""Masks, label images and images without foreground on the command line; frames that nobody gave."""
+
+import csv
+import io
+import json
+
+import numpy as np
+import pytest
+
+from vorotool.errors import LimitError
+
+FAR = "x,y\n704052,10\n5,663838\n100,100\n"
+NO_FOREGROUND = "warning: the image has no foreground: use --invert or --threshold"
+
+
+@pytest.fixture
+def fields(folder):
+    """Images of one label, of two, and of none."""
+    two = np.zeros((20, 30), np.uint16)
+    two[2:5, 3:8] = 7
+    two[12:15, 20:24] = 7
+    np.save(folder / "empty.npy", 0 * two)
+    np.save(folder / "one.npy", two)
+    two[8:10, 10:14] = 9
+    np.save(folder / "two.npy", two)
+    return folder
+
+
+def labels_of(table):
+    return [row["label"] for row in csv.DictReader(io.StringIO(table))]
+
+
+def test_the_only_label_of_a_field_stays(run, fields):
+    done = run("tessellate", "one.npy", "--what", "table")
+    assert (done.code, labels_of(done.out)) == (0, ["7"])
+    note = "note: 7 is the only value besides 0, and taken for a label: --seeds components takes a mask\n"
+    assert done.err == note
+    assert labels_of(run("tessellate", "two.npy", "--what", "table").out) == ["7", "9"]
+    done = run("tessellate", "one.npy", "--what", "table", "--seeds", "components")
+    assert (labels_of(done.out), done.err) == (["1", "2"], "")
+    for command, column in (("delaunay", "label"), ("skeleton-exact", "id")):
+        done = run(command, "one.npy", "--what", "table", "--seeds", "labels")
+        known = {row[column] for row in csv.DictReader(io.StringIO(done.out))}
+        again = run(command, "one.npy", "--what", "table")
+        assert (known, again.out, note in again.err) == ({"7"}, done.out, True)
+
+
+def test_a_mask_is_taken_without_a_word(run, folder):
+    done = run("tessellate", "mask.pbm", "--what", "table")
+    assert (labels_of(done.out), done.err) == (["1", "2"], "")
+
+
+def test_a_batch_of_fields_goes_on_without_foreground(run, fields):
+    names = ["empty.npy", "one.npy", "two.npy"]
+    done = run("tessellate", *names, "--out-dir", "out", "-f", "npy", "--table", "all.csv")
+    assert done.code == 0
+    assert f"warning: empty.npy: {NO_FOREGROUND.removeprefix('warning: ')}" in done.err.splitlines()
+    assert not np.load(fields / "out/empty.npy").any()
+    rows = list(csv.DictReader(io.StringIO((fields / "all.csv").read_text())))
+    assert [(row["input"], row["label"]) for row in rows] == [("one.npy", "7"), ("two.npy", "7"), ("two.npy", "9")]
+    assert run("tessellate", *names, "--out-dir", "strict", "-f", "npy", "--strict", "--keep-going").code == 6
+
+
+@pytest.mark.parametrize("what", ["table", "neighbours"])
+def test_tables_without_foreground_have_the_header_of_others(run, fields, what):
+    empty, other = (run("tessellate", name, "--what", what, "--verify") for name in ("empty.npy", "one.npy"))
+    assert (empty.code, empty.err) == (0, f"{NO_FOREGROUND}\n")
+    assert empty.out == other.out.splitlines(keepends=True)[0]
+
+
+@pytest.mark.parametrize("method", ["exact", "propagation"])
+@pytest.mark.parametrize("name", ["labels.npy", "labels.png", "labels.tif", "labels.svg", "diagram.png", "colour.png"])
+def test_images_and_pictures_without_foreground(run, fields, name, method):
+    what = name.partition(".")[0]
+    done = run("tessellate", "empty.npy", "--what", what, "-o", name, "--method", method, "--verify")
+    assert (done.code, done.err) == (0, f"{NO_FOREGROUND}\n")
+    assert (fields / name).stat().st_size > 0
+
+
+@pytest.mark.parametrize("what", ["distance", "distance2", "labels,distance"])
+def test_distances_to_nothing_do_not_exist(run, fields, what):
+    done = run("tessellate", "empty.npy", "--what", what, "--out-dir", "out", "-f", "npy")
+    assert done.code == 3
+    assert "empty.npy" in done.err
+    assert "there are no distances" in done.err
+    assert not list(fields.rglob("out/*.npy"))
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("delaunay", "--verify"),
+        ("delaunay", "--what", "cells", "-f", "geojson"),
+        ("delaunay", "--method", "digital"),
+        ("delaunay", "--method", "digital-valid", "--what", "table"),
+        ("alphashape",),
+        ("alphashape", "-r", "4", "--verify"),
+        ("alphashape", "-f", "geojson"),
+        ("alphashape", "--what", "hull"),
+        ("alphashape", "--what", "curves"),
+        ("alphashape", "-r", "4", "--method", "digital"),
+        ("alphashape", "-f", "html"),
+        ("skeleton-exact", "--what", "table", "--verify"),
+        ("skeleton-exact", "--what", "centerline"),
+        ("skeleton-approx", "--step", "1", "--verify"),
+    ],
+    ids=" ".join,
+)
+def test_what_follows_from_an_image_without_foreground_is_empty(run, fields, arguments):
+    command, *options = arguments
+    options += ["-o", "page.html"] if "html" in options else []
+    done = run(command, "empty.npy", *options, "--stats", "stats.json")
+    lines = done.err.splitlines()
+    assert done.code == 0
+    assert lines[0] == NO_FOREGROUND
+    assert all(line.startswith("warning: ") for line in lines)
+    assert lines[0].removeprefix("warning: ") in json.loads((fields / "stats.json").read_text())["warnings"]
+    done = run(command, "empty.npy", *options, "--strict")
+    assert done.code == 3
+    assert "the image has no foreground" in done.err
+
+
+def test_an_empty_list_of_points_is_refused_as_before(run, folder):
+    (folder / "none.csv").write_text("x,y\n")
+    done = run("tessellate", "none.csv", "--size", "4x4", "-f", "text")
+    assert done.code == 3
+    assert "there are no seeds" in done.err
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("tessellate", "-o", "far.tif"),
+        ("tessellate", "--what", "table"),
+        ("tessellate", "--method", "propagation", "-f", "text"),
+        ("delaunay", "--method", "digital"),
+        ("delaunay", "--method", "digital-valid"),
+        ("delaunay", "--what", "compare"),
+        ("alphashape", "--method", "digital", "-r", "9"),
+        ("alphashape", "--method", "digital-valid"),
+    ],
+    ids=" ".join,
+)
+def test_a_frame_that_nobody_gave_is_small(run, folder, arguments):
+    (folder / "far.csv").write_text(FAR)
+    command, *options = arguments
+    done = run(command, "far.csv", *options, "--max-pixels", 10**15)
+    assert done.code == LimitError.exit_code
+    assert "704053 x 663839 pixels" in done.err
+    assert "--size WxH" in done.err
+    assert "delaunay --what cells" in done.err
+    assert not (folder / "far.tif").exists()
+
+
+def test_a_frame_that_somebody_gave_may_be_large(run, folder):
+    (folder / "far.csv").write_text(FAR)
+    done = run("tessellate", "far.csv", "--size", "100000x99999", "--what", "table", "--max-pixels", 10**9)
+    assert done.code == LimitError.exit_code
+    assert "more than --max-pixels" in done.err
