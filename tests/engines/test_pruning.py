@@ -46,16 +46,6 @@ def test_one_criterion_is_needed():
             vorotool.prune(whole, **options)
 
 
-def test_the_centerline_is_the_longest_of_the_shortest_paths():
-    whole = vorotool.skeleton_exact(COMB)
-    graph = vorotool.to_networkx(whole, by="arc")
-    leaves = [node for node, degree in graph.degree() if degree == 1]
-    ways = dict(networkx.all_pairs_dijkstra_path_length(graph, weight="length"))
-    longest = max(ways[a][b] for a in leaves for b in leaves)
-    found = vorotool.centerline(whole)
-    assert found.path.length.sum() == pytest.approx(longest, rel=1e-12)
-
-
 def differing(one, other):
     names = ("vertices", "radius", "arcs", "control", "sites", "polygon", "side", "branch", "length", "error_bound")
     return [name for name in names if getattr(one, name).tobytes() != getattr(other, name).tobytes()]

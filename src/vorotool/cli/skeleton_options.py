@@ -64,6 +64,9 @@ _WITHOUT_CURVES = frozenset({"geojson", "wkt", "graphml"})
 _CURVED = frozenset({"skeleton", "diagram", "centerline", "offset"})
 
 
+ENDS = ("middle", "corner", "none")
+"""As `vorotool.engines.centerline` has them, which ``--help`` does not import."""
+
 LARGEST = 1e70
 """Magnitude of lengths and coordinates: products of four of these, or of parts of them, are floating-point numbers."""
 
@@ -136,6 +139,12 @@ _BEFORE: tuple[Decorator, ...] = (
         "--from", "start", type=Place(), help="Begin the centerline at the place on the skeleton nearest to this."
     ),
     click.option("--to", "end", type=Place(), help="End it at the nearest place."),
+    click.option(
+        "--ends",
+        type=click.Choice(ENDS),
+        help="Where centerlines end: in the middle of the edge that the skeleton forks to (default), in a corner, or "
+        "where it forks.",
+    ),
 )
 _READING: tuple[Decorator, ...] = (
     click.option(
@@ -238,6 +247,10 @@ def _check_layers(o: SimpleNamespace, targets: list[Target]) -> None:
 def _check_centerline(o: SimpleNamespace) -> None:
     if "centerline" in o.what and o.side == "exterior":
         raise click.UsageError("centerlines are inside polygons: use --side interior or both")
+    if o.ends is not None and not {"centerline", "table"} & set(o.what):
+        raise click.UsageError(
+            "--ends is for centerlines, skeletons lead into corners: use --what centerline or table, or leave it out"
+        )
     if (o.start is not None or o.end is not None) and "centerline" not in o.what:
         raise click.UsageError("--from and --to are ends of centerlines: use --what centerline, or leave them out")
 

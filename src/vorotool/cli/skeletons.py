@@ -101,7 +101,8 @@ class SkeletonProducts(ABC):
 
         skeleton = self.skeleton
         with self.run.phase("centerline"):
-            return centerline(skeleton, start=start, end=end, progress=self.run.progress("centerlines"))
+            ends: Any = self.options.ends or "middle"
+            return centerline(skeleton, start=start, end=end, ends=ends, progress=self.run.progress("centerlines"))
 
     @cached_property
     def diagram(self) -> Skeleton:

@@ -1,39 +1,54 @@
-"""Centerlines: the longest of the shortest paths along the skeleton of each polygon, extended to the boundary."""
+"""Centerlines: the longest of the shortest paths along the skeleton of each polygon, to the middles of its ends."""
 
 from __future__ import annotations
 
 import warnings
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool import _core
+from vorotool.engines.boundary_rays import first_hits
 from vorotool.engines.label_arrays import Progress
-from vorotool.engines.pruning import skeleton_arrays
-from vorotool.engines.skeleton_places import nearest_place
+from vorotool.engines.path_network import Network, Paths, geometry_of
+from vorotool.engines.skeleton_ends import Unforked, forked, middles_ahead, unforked
 from vorotool.errors import InputError, UsageError, VorotoolWarning
 from vorotool.geometry.centerline import Centerlines, without_centerline
-from vorotool.geometry.skeleton import EDGE, INTERIOR, Skeleton
+from vorotool.geometry.skeleton import Skeleton
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int32]
+Booleans = NDArray[np.bool_]
 Place = tuple[float, float]
+Ends = Literal["middle", "corner", "none"]
 
 MOST_NAMED = 10
 """Polygons without a centerline that a warning names."""
 
 
 def centerline(
-    skeleton: Skeleton, *, start: Place | None = None, end: Place | None = None, progress: Progress = None
+    skeleton: Skeleton,
+    *,
+    start: Place | None = None,
+    end: Place | None = None,
+    ends: Ends = "middle",
+    progress: Progress = None,
 ) -> Centerlines:
-    """Find the centerline of each polygon: the longest of the shortest paths between leaves of its skeleton.
+    """Find the centerline of each polygon: the longest of the shortest paths between ends of its skeleton.
 
-    Where a connected skeleton has no leaf, paths between its nodes are compared; where it has one, paths from it. Of
-    equally long paths that whose ends have the smallest numbers is taken. Usually the skeleton is pruned before, so
-    that a path does not lead into a
-    corner. Leaves inside are extended to the boundary, straight on from the place of the path one radius of the
-    leaf's disc before.
+    An *end* is a leaf, or a fork of two arcs to both corners of one edge, as far as its longer arc reaches. The longest
+    path is decided first; of equally long ones that at the first edges of the polygon. Then a fork is replaced by the
+    straight line to the middle of its edge, and round ends, which fan out to more corners, and leaves inside are led
+    straight on to the boundary, from the place of the path one radius before; a leaf between the edges on both sides of
+    an edge ahead is led to the middle of that edge, as the fork there would be. Where the angles at both ends of an
+    edge differ by more than a right angle, the sharper corner is a tip: the path leads into it, as into all other
+    corners. Where a connected skeleton has no end, paths between its nodes are compared; where it has one, paths from
+    it.
+
+    A triangle has its end at the shortest edge, and a centerline from there to the corner opposite; a quadrilateral
+    around a circle, such as a square, has two at opposite edges, where these are no tips; of equal ones the first.
 
     Trees take linear time. Let a skeleton have F branches on cycles, and trees at K places of these (all nodes, if
     there is no tree): that takes at most K searches in F branches, most of which bounds on distances save.
@@ -43,8 +58,12 @@ def centerline(
     skeleton : Skeleton
         Its arcs inside polygons are used.
     start, end : (x, y), optional
-        Give the one path between the places on the skeleton nearest to these, which are not extended. With one of
-        the two, the path leads to the leaf that is farthest from there.
+        Give the one path between the places nearest to these on the skeleton whose forks are led to the middles of
+        their edges, and whose round ends are left out: it goes up no corner of these. With one of the two, the path
+        leads to the end that is farthest from there.
+    ends : {"middle", "corner", "none"}
+        As told above; or paths lead along the whole skeleton, and from leaves inside straight on; or they stop at
+        forks, round ends, and leaves inside.
     progress : callable, optional
         Called with the fraction done.
 
@@ -58,7 +77,7 @@ def centerline(
     InputError
         If there is no path between the places that are given.
     UsageError
-        If a place is not finite.
+        If a place is not finite, or there is no such kind of ends.
 
     Warns
     -----
@@ -67,121 +86,145 @@ def centerline(
 
     Examples
     --------
-    >>> from vorotool import prune, skeleton_exact
-    >>> skeleton = prune(skeleton_exact([[0, 0], [6, 0], [6, 2], [0, 2]]), scale=1.5)
-    >>> line = centerline(skeleton)
-    >>> line.flattened(0.1)[0].tolist()
-    [[0.0, 1.0], [1.0, 1.0], [5.0, 1.0], [6.0, 1.0]]
+    >>> from vorotool import skeleton_exact
+    >>> skeleton = skeleton_exact([[0, 0], [6, 0], [6, 2], [0, 2]])
+    >>> centerline(skeleton).flattened(0.1)[0].tolist()
+    [[0.0, 1.0], [6.0, 1.0]]
+    >>> centerline(skeleton, ends="corner").flattened(0.1)[0].tolist()
+    [[0.0, 0.0], [1.0, 1.0], [5.0, 1.0], [6.0, 0.0]]
     >>> centerline(skeleton, start=(2, 2), end=(3, 0)).flattened(0.1)[0].tolist()
     [[2.0, 1.0], [3.0, 1.0]]
     """
-    inside = np.flatnonzero(skeleton.side == INTERIOR)
-    network = _Network(skeleton, inside)
+    if ends not in get_args(Ends):
+        raise UsageError(f"ends is {ends!r}: use {', '.join(get_args(Ends))}")
+    is_whole = ends == "corner"
+    network = Network(forked(skeleton) if is_whole else unforked(skeleton), by_edge=not is_whole)
     if start is None and end is None:
-        lines = _made(skeleton, network, network.longest_paths(progress), extends=(True, True))
+        lines = _made(network, network.longest_paths(progress), ends, wanted=(True, True))
         _warn_missing(lines)
         return lines
+    return _path_between(network, skeleton, start, end, ends, progress)
+
+
+def _path_between(
+    network: Network, skeleton: Skeleton, start: Place | None, end: Place | None, ends: Ends, progress: Progress
+) -> Centerlines:
+    """The one path with a place that is given at one end or both."""
     for place in (start, end):
         if place is not None and not np.isfinite(place).all():
             raise UsageError(f"({place[0]}, {place[1]}) is no place: its coordinates must be finite")
-    if not len(inside):
+    if not len(network.arc):
         raise InputError("there is no skeleton inside polygons for a path to follow")
+    first, last = (-1 if place is None else network.node_near(place) for place in (start, end))
     is_reversed = start is None
-    one, other = (end, start) if is_reversed else (start, end)
-    assert one is not None
-    first = network.node_at(*nearest_place(skeleton, one, inside))
-    last = -1 if other is None else network.node_at(*nearest_place(skeleton, other, inside))
-    path = network.path(first, last, progress)
+    path = network.path(last if is_reversed else first, -1 if is_reversed else last, progress)
     if path is None or not len(path.arcs):
         raise InputError(_no_path(skeleton, start, end, is_apart=path is None))
-    extends = (False, other is None)
-    made = path.reversed() if is_reversed else path
-    return _made(skeleton, network, made, extends=extends[::-1] if is_reversed else extends)
+    line = _made(network, path.reversed() if is_reversed else path, ends, wanted=(start is None, end is None))
+    if not len(line):
+        raise InputError(_no_path(skeleton, start, end, is_apart=False))
+    return line
 
 
+# ---- paths as skeletons ---------------------------------------------------------------------------
 @dataclass(frozen=True, eq=False)
-class _Paths:
-    """Arcs of paths that follow one another, and the nodes that each leads from and to."""
+class _Pieces:
+    """Parts of arcs along lines, each in the direction of its line."""
 
-    start: NDArray[np.int64]
-    arcs: Indices
-    sources: Indices
-    targets: Indices
+    line: Indices
+    arc: Indices
+    first: Floats
+    last: Floats
+    is_turned: Booleans
 
-    def reversed(self) -> _Paths:
-        """One path, the other way round."""
-        return _Paths(self.start, self.arcs[::-1], self.targets[::-1], self.sources[::-1])
-
-
-class _Network:
-    """Arcs of a skeleton, or parts of them, as a graph; places inside arcs can be made nodes."""
-
-    def __init__(self, skeleton: Skeleton, arcs: NDArray[np.intp]) -> None:
-        self.skeleton = skeleton
-        self.arc = arcs.astype(np.int32)
-        self.ends = np.ascontiguousarray(skeleton.arcs[arcs])
-        self.first, self.last = np.zeros(len(arcs)), np.ones(len(arcs))
-        self.length = np.ascontiguousarray(skeleton.length[arcs])
-        self.nodes = len(skeleton.vertices)
-
-    def node_at(self, arc: int, place: float) -> int:
-        """The node at a place of an arc, which is parted there if need be."""
-        k = int(np.flatnonzero((self.arc == arc) & (self.first <= place) & (place <= self.last))[0])
-        for end, own in ((0, self.first[k]), (1, self.last[k])):
-            if place == own:
-                return int(self.ends[k, end])
-        node, self.nodes = self.nodes, self.nodes + 1
-        self.arc = np.append(self.arc, self.arc[k])
-        self.ends = np.concatenate([self.ends, [[node, self.ends[k, 1]]]]).astype(np.int32)
-        self.first, self.last = np.append(self.first, place), np.append(self.last, self.last[k])
-        self.ends[k, 1], self.last[k] = node, place
-        both = [k, len(self.arc) - 1]
-        self.length = np.append(self.length, 0.0)
-        self.length[both] = _geometry(self.skeleton, self.arc[both], self.first[both], self.last[both])["length"]
-        return node
-
-    def longest_paths(self, progress: Progress) -> _Paths:
-        """One path a polygon that has one of more than a place."""
-        count = len(self.skeleton.polygons)
-        polygon = np.ascontiguousarray(self.skeleton.polygon[self.arc])
-        start, arcs, targets = _core.longest_paths(self.ends, self.length, polygon, count, self.nodes, progress)
-        path = np.repeat(np.arange(count), np.diff(start))
-        length = np.bincount(path, self.length[arcs], minlength=count)
-        kept = (length > 0)[path]
-        sizes = np.diff(start)[length > 0]
-        return self._with_sources(np.concatenate([[0], np.cumsum(sizes)]), arcs[kept], targets[kept])
-
-    def path(self, first: int, last: int, progress: Progress) -> _Paths | None:
-        """The shortest path between two nodes; with last -1 the longest of those to leaves."""
-        found = _core.path_from(self.ends, self.length, self.nodes, first, last, progress)
-        return None if found is None else self._with_sources(np.array([0, len(found[0])]), *found)
-
-    def _with_sources(self, start: NDArray[np.int64], arcs: Indices, targets: Indices) -> _Paths:
-        ends = self.ends[arcs]
-        return _Paths(start, arcs, np.where(ends[:, 1] == targets, ends[:, 0], ends[:, 1]), targets)
+    def __getitem__(self, chosen: NDArray[np.generic]) -> _Pieces:
+        return _Pieces(*(values[chosen] for values in self.__dict__.values()))
 
 
-def _geometry(skeleton: Skeleton, arc: Indices, first: Floats, last: Floats) -> dict[str, Floats]:
-    return _core.part_geometry(skeleton_arrays(skeleton), arc, first, last)
+def _made(network: Network, paths: Paths, ends: Ends, *, wanted: tuple[bool, bool]) -> Centerlines:
+    """Put the arcs of paths together as skeletons, and lead them on."""
+    count = len(paths.start) - 1
+    pieces = _Pieces(
+        np.repeat(np.arange(count, dtype=np.int32), np.diff(paths.start)),
+        network.arc[paths.arcs],
+        network.first[paths.arcs],
+        network.last[paths.arcs],
+        network.ends[paths.arcs, 0] != paths.sources,
+    )
+    is_lead, is_round = _marked(network.axis, pieces, paths.start)
+    outer = paths.start[:-1], paths.start[1:] - 1
+    leads = np.stack([is_lead[places] for places in outer], axis=1)
+    rounds = np.stack([is_round[places] for places in outer], axis=1)
+    middles = _outer_places(network.skeleton, pieces, outer)
+    middles[~leads] = np.nan
+    left = _without(pieces, is_lead, is_lead | is_round)
+    if ends == "none":
+        path = _joined(network.skeleton, _with_length(left))
+        return Centerlines(path, np.full((int(path.branch.max(initial=-1)) + 1, 2, 2), np.nan))
+    lines = Centerlines(_joined(network.skeleton, left), middles)
+    is_leaf = paths.end_nodes < network.leaves
+    return _led_on(lines, (is_leaf | rounds) & ~leads & np.array(wanted), to_middles=ends == "middle")
 
 
-def _made(skeleton: Skeleton, network: _Network, paths: _Paths, *, extends: tuple[bool, bool]) -> Centerlines:
-    """Put the arcs of paths together as skeletons, each in the direction of its path."""
-    arc = network.arc[paths.arcs]
-    parts = _geometry(skeleton, arc, network.first[paths.arcs], network.last[paths.arcs])
-    is_reversed = network.ends[paths.arcs, 0] != paths.sources
-    turned = is_reversed[:, None]
-    line = np.repeat(np.arange(len(paths.start) - 1, dtype=np.int32), np.diff(paths.start))
+def _marked(axis: Unforked, pieces: _Pieces, start: NDArray[np.int64]) -> tuple[Booleans, Booleans]:
+    """Which pieces are taken off the ends of lines: whole leads, and round ends where there is more.
+
+    A lead stays that is all of its line.
+    """
+    is_lead, is_round = axis.is_lead[pieces.arc], axis.is_round[pieces.arc]
+    is_lead &= (pieces.first == 0) & (pieces.last == 1)
+    count = len(start) - 1
+
+    def has_more(taken: Booleans) -> Booleans:
+        return np.bincount(pieces.line[~taken], minlength=count) > 0
+
+    is_round &= has_more(is_lead | is_round)[pieces.line]
+    is_lead &= (np.diff(start) > 1)[pieces.line]
+    return is_lead, is_round
+
+
+def _outer_places(skeleton: Skeleton, pieces: _Pieces, outer: Sequence[NDArray[np.int64]]) -> Floats:
+    """(k, 2, 2) where lines begin and end."""
+    places = np.empty((len(outer[0]), 2, 2))
+    for end, chosen in enumerate(outer):
+        made = pieces[chosen]
+        parts = geometry_of(skeleton, made.arc, made.first, made.last)
+        is_target = made.is_turned == (end == 0)
+        places[:, end] = np.where(is_target[:, None], parts["last"], parts["first"])
+    return places
+
+
+def _without(pieces: _Pieces, is_lead: Booleans, taken: Booleans) -> _Pieces:
+    """What is left of lines; a single place, the fork, of those of two leads."""
+    left = np.bincount(pieces.line[~taken], minlength=int(pieces.line.max(initial=-1)) + 1) > 0
+    single = ~left[pieces.line] & is_lead & (np.diff(pieces.line, prepend=-1) > 0)
+    made = pieces[np.flatnonzero(~taken | single)]
+    single = single[~taken | single]
+    return replace(made, last=np.where(single, made.first, made.last))
+
+
+def _with_length(pieces: _Pieces) -> _Pieces:
+    """Lines that are more than a single place, numbered again."""
+    long = np.flatnonzero(pieces.first != pieces.last)
+    _, line = np.unique(pieces.line[long], return_inverse=True)
+    return replace(pieces[long], line=line.reshape(-1).astype(np.int32))
+
+
+def _joined(skeleton: Skeleton, pieces: _Pieces) -> Skeleton:
+    """The pieces as a skeleton: one branch a line."""
+    arc, line, is_turned = pieces.arc, pieces.line, pieces.is_turned
+    parts = geometry_of(skeleton, arc, pieces.first, pieces.last)
+    turned = is_turned[:, None]
     is_first = np.diff(line, prepend=-1) > 0
     node = np.arange(len(arc)) + line  # at the source of each arc: one more than arcs on each line
-    count = len(arc) + len(paths.start) - 1
+    count = len(arc) + int(is_first.sum())
     vertices, radius = np.empty((count, 2)), np.empty(count)
     vertices[node[is_first]] = np.where(turned, parts["last"], parts["first"])[is_first]
-    radius[node[is_first]] = np.where(is_reversed, parts["last_radius"], parts["first_radius"])[is_first]
+    radius[node[is_first]] = np.where(is_turned, parts["last_radius"], parts["first_radius"])[is_first]
     vertices[node + 1] = np.where(turned, parts["first"], parts["last"])
-    radius[node + 1] = np.where(is_reversed, parts["first_radius"], parts["last_radius"])
+    radius[node + 1] = np.where(is_turned, parts["first_radius"], parts["last_radius"])
     sites = skeleton.sites[arc]
-    path = replace(
+    return replace(
         skeleton,
         vertices=vertices,
         radius=radius,
@@ -195,25 +238,23 @@ def _made(skeleton: Skeleton, network: _Network, paths: _Paths, *, extends: tupl
         error_bound=skeleton.error_bound[arc],
         frame=None,
     )
-    lines = Centerlines(path, np.full((len(paths.start) - 1, 2, 2), np.nan))
-    is_leaf = np.append(skeleton.degree == 1, False)[np.minimum(_end_nodes(paths), len(skeleton.vertices))]
-    return replace(lines, ends=_extended(lines, is_leaf & np.array(extends)))
-
-
-def _end_nodes(paths: _Paths) -> Indices:
-    """(k, 2) the first and the last node of each path."""
-    return np.stack([paths.sources[paths.start[:-1]], paths.targets[paths.start[1:] - 1]], axis=1)
 
 
 # ---- to the boundary ------------------------------------------------------------------------------
-def _extended(lines: Centerlines, wanted: NDArray[np.bool_]) -> Floats:
-    """Where rays from the ends of paths meet the boundary first; NaN where an end stays, or is there already."""
-    ends = lines.ends.copy()
+def _led_on(lines: Centerlines, wanted: Booleans, *, to_middles: bool) -> Centerlines:
+    """Lead ends of paths that are inside to the middle of the edge ahead, or straight on."""
+    origin = lines.path.vertices[lines.end_nodes]
     wanted = wanted & (lines.path.radius[lines.end_nodes] > 0)
-    if wanted.any():
-        origin = lines.path.vertices[lines.end_nodes]
-        ends[wanted] = _first_hits(origin[wanted], (origin - _places_before(lines))[wanted], _boundary(lines.path))
-    return ends
+    if not wanted.any():
+        return lines
+    way, origin = (origin - _places_before(lines))[wanted], origin[wanted]
+    arcs = np.stack([lines.arc_start[:-1], lines.arc_start[1:] - 1], axis=1)[wanted]
+    places = np.full_like(origin, np.nan) if not to_middles else middles_ahead(lines.path, arcs, origin, way)
+    rest = np.isnan(places[:, 0])
+    places[rest], _ = first_hits(lines.path.polygons, lines.path.polygon[arcs][rest], origin[rest], way[rest])
+    ends = lines.ends.copy()
+    ends[wanted] = places
+    return replace(lines, ends=ends)
 
 
 def _places_before(lines: Centerlines) -> Floats:
@@ -227,34 +268,6 @@ def _places_before(lines: Centerlines) -> Floats:
     measures = path.measures(arc)
     places: Floats = measures.place(measures.parameter(position.reshape(-1) - along[arc]))
     return places.reshape(-1, 2, 2)
-
-
-def _boundary(skeleton: Skeleton) -> Floats:
-    """(e, 2, 2) ends of all edges of polygons and lines."""
-    edges: Floats = replace(skeleton, gap=0.0).site_ends[skeleton.site_table.kind == EDGE]
-    return edges
-
-
-def _first_hits(origin: Floats, way: Floats, edges: Floats) -> Floats:
-    """Where each ray meets an edge first."""
-    import shapely
-
-    size = np.sqrt((way * way).sum(axis=1))
-    way = way / size[:, None]
-    reach = 2 * float(np.ptp(edges.reshape(-1, 2), axis=0).sum())
-    rays = shapely.linestrings(np.stack([origin, origin + reach * way], axis=1))
-    ray, edge = shapely.STRtree(shapely.linestrings(edges)).query(rays, predicate="intersects")
-    a, along = edges[edge, 0] - origin[ray], edges[edge, 1] - edges[edge, 0]
-    direction = way[ray]
-    across = direction[:, 0] * along[:, 1] - direction[:, 1] * along[:, 0]
-    over = a[:, 0] * along[:, 1] - a[:, 1] * along[:, 0]
-    beside = np.minimum((a * direction).sum(axis=1), ((a + along) * direction).sum(axis=1))
-    distance = np.divide(over, across, out=beside, where=across != 0)
-    nearest = np.full(len(origin), np.inf)
-    np.minimum.at(nearest, ray, np.where(distance > 0, distance, np.inf))
-    with np.errstate(invalid="ignore"):
-        hits: Floats = np.where(np.isfinite(nearest)[:, None], origin + nearest[:, None] * way, np.nan)
-    return hits
 
 
 # ---- what is said ---------------------------------------------------------------------------------

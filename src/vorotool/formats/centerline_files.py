@@ -52,7 +52,7 @@ def write_centerlines(
     >>> out = io.BytesIO()
     >>> write_centerlines(out, lines, "wkt")
     >>> out.getvalue()
-    b'LINESTRING (0 1, 1 1, 3 1, 4 1)\n'
+    b'LINESTRING (0 1, 4 1)\n'
     """
     check_format(fmt, CENTERLINE_FORMATS, "centerlines")
     if fmt in TABLE_FORMATS:

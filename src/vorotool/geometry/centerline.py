@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.geometry.collinearity import is_straight
 from vorotool.geometry.skeleton import KINDS, Skeleton
 from vorotool.geometry.skeleton_tables import ids_of
 from vorotool.geometry.table import Lookup, Table
@@ -17,19 +18,20 @@ from vorotool.geometry.table import Lookup, Table
 Floats = NDArray[np.float64]
 
 EXTENSION = "extension"
-"""Kind of the straight lines that lead to the boundary."""
+"""Kind of the straight lines that lead on to the ends."""
 
 
 @dataclass(frozen=True, eq=False)
 class Centerlines:
-    """Paths along a skeleton, at most one a polygon, and straight lines from their ends to the boundary.
+    """Paths along a skeleton, at most one a polygon, and straight lines that lead on from these.
 
     Parameters
     ----------
     path : Skeleton
-        The arcs of the paths: one branch a path, from its start to its end.
+        The arcs of the paths, without the forks at their ends: one branch a path, from its start to its end. All that
+        is told of widths is of these.
     ends : (k, 2, 2) float64 array
-        The place on the boundary that the start and the end of each path are extended to; NaN where they are not.
+        The place on the boundary that the start and the end of each path are led on to; NaN where they are not.
 
     Raises
     ------
@@ -89,15 +91,16 @@ class Centerlines:
 
     @cached_property
     def length(self) -> Floats:
-        """(k,) lengths, with what leads to the boundary."""
+        """(k,) lengths, with what leads on."""
         lengths: Floats = self._summed(self.path.length) + self.extension_length.sum(axis=1)
         return lengths
 
     @cached_property
     def width_mean(self) -> Floats:
-        """(k,) twice the mean of the radius over the length of each path, without what leads to the boundary."""
-        mean: Floats = 2 * self._summed(self.path.arc_radii[2]) / self._summed(self.path.length)
-        return mean
+        """(k,) twice the mean of the radius along each path, or at a single place, without what leads on."""
+        length, radius = self._summed(self.path.length), self.path.radius[self.end_nodes[:, 0]]
+        mean = np.divide(self._summed(self.path.arc_radii[2]), length, out=radius, where=length > 0)
+        return np.asarray(2 * mean)
 
     @cached_property
     def width_range(self) -> tuple[Floats, Floats]:
@@ -112,7 +115,7 @@ class Centerlines:
         return np.add.reduceat(values, self.arc_start[:-1]) if len(self) else np.zeros(0)
 
     def flattened(self, tolerance: float) -> tuple[Floats, NDArray[np.int64]]:
-        """Whole lines, as polylines.
+        """Whole lines, as polylines; no vertex is where a path is led on exactly straight.
 
         Parameters
         ----------
@@ -140,11 +143,17 @@ class Centerlines:
         first, last = self.extended
         whole = np.concatenate([self.ends[first, 0], points, self.ends[last, 1]])
         line = np.concatenate([first, line, last])
-        return whole[np.argsort(line, kind="stable")], np.searchsorted(np.sort(line), np.arange(len(self) + 1))
+        whole, line = whole[np.argsort(line, kind="stable")], np.sort(line)
+        for extended, place in ((first, 1), (last, -2)):
+            start = np.searchsorted(line, np.arange(len(self) + 1))
+            joint = (start[:-1] if place > 0 else start[1:])[extended] + place
+            straight = joint[is_straight(whole[joint - 1], whole[joint], whole[joint + 1])]
+            whole, line = np.delete(whole, straight, axis=0), np.delete(line, straight)
+        return whole, np.searchsorted(line, np.arange(len(self) + 1))
 
 
 def centerline_table(lines: Centerlines) -> Table:
-    """Give one row an arc, line by line, with the straight lines that lead to the boundary.
+    """Give one row an arc, line by line, with the straight lines that lead on.
 
     Parameters
     ----------

@@ -1,0 +1,60 @@
+"""Centerlines on the command line: ends in the middle, in corners or at forks."""
+
+import csv
+import io
+import json
+
+import pytest
+
+RECTANGLE = "POLYGON((0 0,10 0,10 4,0 4,0 0))"
+
+
+@pytest.fixture
+def rectangle(folder):
+    (folder / "rectangle.wkt").write_text(RECTANGLE)
+    return "rectangle.wkt"
+
+
+@pytest.mark.parametrize(
+    ("options", "line"),
+    [
+        ([], "0 2, 10 2"),
+        (["--prune", "none"], "0 2, 10 2"),
+        (["--prune", "scale=1.3"], "0 2, 10 2"),
+        (["--prune", "scale=1.42"], "0 2, 10 2"),
+        (["--from", "0,2", "--to", "10,2"], "0 2, 10 2"),
+        (["--to", "0,2", "--from", "10,2"], "10 2, 0 2"),
+        (["--ends", "middle"], "0 2, 10 2"),
+        (["--ends", "corner"], "0 0, 2 2, 8 2, 10 0"),
+        (["--ends", "none"], "2 2, 8 2"),
+    ],
+)
+def test_a_rectangle(run, rectangle, options, line):
+    done = run("skeleton-exact", rectangle, "--what", "centerline", "-f", "wkt", *options)
+    assert (done.code, done.out, done.err) == (0, f"LINESTRING ({line})\n", "")
+
+
+def test_lengths_and_widths_follow(run, rectangle):
+    for options, expected in (([], ("10", "4")), (["--ends", "none"], ("6", "4"))):
+        done = run("skeleton-exact", rectangle, "--what", "table", *options)
+        (row,) = csv.DictReader(io.StringIO(done.out))
+        assert (row["centerline_length"], row["centerline_width_mean"]) == expected
+    done = run("skeleton-exact", rectangle, "--what", "centerline", "-f", "geojson")
+    properties = json.loads(done.out)["features"][0]["properties"]
+    assert (properties["length"], properties["width_mean"], properties["width_min"]) == (10, 4, 4)
+
+
+def test_rows_tell_what_leads_on(run, rectangle):
+    rows = list(csv.DictReader(io.StringIO(run("skeleton-exact", rectangle, "--what", "centerline", "-f", "csv").out)))
+    assert [(row["kind"], row["x0"], row["x1"], row["r0"], row["r1"]) for row in rows] == [
+        ("extension", "0", "2", "0", "2"),
+        ("line", "2", "8", "2", "2"),
+        ("extension", "8", "10", "2", "0"),
+    ]
+
+
+def test_ends_are_of_centerlines(run, rectangle):
+    done = run("skeleton-exact", rectangle, "--ends", "middle")
+    assert done.code == 2
+    assert "use --what centerline or table" in done.err
+    assert run("skeleton-exact", rectangle, "--what", "centerline", "--ends", "round").code == 2

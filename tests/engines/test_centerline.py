@@ -1,0 +1,208 @@
+"""Centerlines: along the middle to the middles of the ends, beside brute force, alone and together."""
+
+import warnings
+
+import numpy as np
+import pytest
+import shapely
+
+import vorotool
+from centerline_oracle import expected
+from vorotool.errors import InputError, UsageError, VorotoolWarning
+
+RECTANGLE = [[0, 0], [10, 0], [10, 4], [0, 4]]
+T = [[0, 0], [2, 0], [2, 8], [6, 8], [6, 10], [-4, 10], [-4, 8], [0, 8]]
+PLUS = [[1, 0], [2, 0], [2, 1], [3, 1], [3, 2], [2, 2], [2, 3], [1, 3], [1, 2], [0, 2], [0, 1], [1, 1]]
+
+
+def places(polygon, **options):
+    return vorotool.centerline(vorotool.skeleton_exact(polygon), **options).flattened(0.01)[0].tolist()
+
+
+def ends(polygon, **options):
+    line = places(polygon, **options)
+    return [line[0], line[-1]]
+
+
+@pytest.mark.parametrize(
+    "criterion", [{}, {"scale": 1.3}, {"scale": 1.42}, {"angle": 100}, {"ratio": 2}, {"length": 1}]
+)
+def test_a_rectangle_is_gone_through_in_the_middle(criterion):
+    skeleton = vorotool.skeleton_exact(RECTANGLE)
+    line = vorotool.centerline(vorotool.prune(skeleton, **criterion) if criterion else skeleton)
+    assert line.flattened(1)[0].tolist() == [[0, 2], [10, 2]]
+    assert (line.length.tolist(), line.width_mean.tolist()) == ([10], [4])
+
+
+def test_an_approximate_skeleton_has_the_same_ends():
+    line = vorotool.centerline(vorotool.skeleton_approx(RECTANGLE, step=0.5)).flattened(1)[0]
+    assert line[[0, -1]].tolist() == [[0, 2], [10, 2]]
+
+
+@pytest.mark.parametrize(
+    ("kind", "line", "length"),
+    [
+        ("middle", [[0, 2], [10, 2]], 10),
+        ("corner", [[0, 0], [2, 2], [8, 2], [10, 0]], 6 + 4 * 2**0.5),
+        ("none", [[2, 2], [8, 2]], 6),
+    ],
+)
+def test_kinds_of_ends(kind, line, length):
+    made = vorotool.centerline(vorotool.skeleton_exact(RECTANGLE), ends=kind)
+    assert (made.flattened(1)[0].tolist(), made.length.tolist()) == (line, [pytest.approx(length, rel=1e-15)])
+
+
+@pytest.mark.parametrize(
+    ("start", "end", "line"),
+    [
+        ((0, 2), (10, 2), [[0, 2], [10, 2]]),
+        ((0, 0), (10, 4), [[0, 2], [10, 2]]),
+        ((-5, 2), (4, 3), [[0, 2], [4, 2]]),
+        ((0.5, 2), (1, 2), [[0.5, 2], [1, 2]]),
+        ((4, 0), None, [[4, 2], [10, 2]]),
+        (None, (4, 0), [[10, 2], [4, 2]]),
+    ],
+)
+def test_paths_between_places_go_up_no_corner(start, end, line):
+    found = vorotool.centerline(vorotool.skeleton_exact(RECTANGLE), start=start, end=end).flattened(1)[0]
+    assert found[[0, -1]].tolist() == line
+    assert (found[:, 1] == 2).all()
+
+
+@pytest.mark.parametrize(
+    ("name", "polygon", "line"),
+    [
+        ("square", [[3, 3], [5, 3], [5, 5], [3, 5]], [[4, 3], [4, 5]]),
+        ("from another corner", [[5, 3], [5, 5], [3, 5], [3, 3]], [[3, 4], [5, 4]]),
+        ("3-4-5", [[0, 0], [4, 0], [0, 3]], [[0, 1.5], [1, 1], [4, 0]]),
+        ("parallelogram", [[0, 0], [10, 0], [12, 2], [2, 2]], [[1, 1], [11, 1]]),
+        ("thin rhombus", [[0, 0], [5, 1], [10, 0], [5, -1]], [[0, 0], [10, 0]]),
+        ("pencil", [[0, 0], [8, 0], [10, 2], [8, 4], [0, 4]], [[0, 2], [10, 2]]),
+        ("end of two edges", [[0, 0], [10, 0], [10, 4], [0, 4], [-0.03125, 2]], [[-0.03125, 2], [10, 2]]),
+    ],
+)
+def test_shapes_by_hand(name, polygon, line):
+    found = np.array(places(polygon))
+    assert found[[0, -1]].tolist() == pytest.approx(np.array(line)[[0, -1]], abs=1e-12)
+    assert shapely.LineString(line).hausdorff_distance(shapely.LineString(found)) < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("polygon", "found"),
+    [
+        (T, [[1, 0], [6, 9]]),  # both arms are as long: the first edge
+        ([*T[4:], *T[:4]], [[1, 0], [-4, 9]]),
+        (PLUS, [[1.5, 0], [3, 1.5]]),
+        ([[-x, y] for x, y in T], [[-1, 0], [-6, 9]]),
+    ],
+)
+def test_of_equally_long_paths_the_first_edges_count(polygon, found):
+    assert sorted(ends(polygon)) == sorted(found)
+
+
+def test_tips_are_led_into():
+    flat = [[0, 0], [20, 0], [10, 2]]  # both acute corners are tips
+    assert ends(flat) == [[0, 0], [20, 0]]
+    dart = [[0, 0], [-4, -4], [6, 0], [-4, 4]]
+    assert ends(dart) == [[-4, -4], [-4, 4]]
+    drop = [[0, 0], [6, 2], [9, 2], [9, -2], [6, -2]]
+    assert ends(drop) == [[0, 0], [9, 0]]
+
+
+def test_a_round_end_is_led_straight_on():
+    turns = np.linspace(-np.pi / 2, np.pi / 2, 33)
+    cap = np.round(np.stack([10 + 2 * np.cos(turns), 2 * np.sin(turns)], axis=1) * 1024) / 1024
+    for criterion in ({"scale": 1.3},):
+        skeleton = vorotool.skeleton_exact([[0, -2], *cap.tolist(), [0, 2]])
+        line = vorotool.centerline(vorotool.prune(skeleton, **criterion) if criterion else skeleton).flattened(0.01)[0]
+        assert line[[0, -1]] == pytest.approx(np.array([[0, 0], [12, 0]]), abs=0.1)
+
+
+def test_an_oblique_end_is_met_in_the_middle_where_its_fork_is_pruned_too():
+    road = [[0, 0], [20, 0], [22, 4], [-2, 4]]
+    skeleton = vorotool.skeleton_exact(road)
+    for criterion in ({}, {"scale": 2.0}):
+        line = vorotool.centerline(vorotool.prune(skeleton, **criterion) if criterion else skeleton)
+        assert line.ends.tolist() == [[[-1, 2], [21, 2]]]
+
+
+def test_a_ring_is_gone_round_as_before():
+    ring = {"shell": [[0, 0], [10, 0], [10, 10], [0, 10]], "holes": [[[3, 3], [7, 3], [7, 7], [3, 7]]]}
+    skeleton = vorotool.prune(vorotool.skeleton_exact([ring]), scale=1.5)
+    middle, corner = (vorotool.centerline(skeleton, ends=kind) for kind in ("middle", "corner"))
+    assert np.isnan(middle.ends).all()
+    assert middle.path.vertices.tolist() == corner.path.vertices.tolist()
+
+
+def random_polygon(random):
+    """Around the origin, with spikes or without."""
+    count = int(random.integers(4, 14))
+    angle = np.sort(random.random(count)) * 2 * np.pi
+    radius = random.choice([(900, 1000), (100, 1000)][int(random.integers(2))], count) + random.random(count)
+    return np.round(np.stack([3 * radius * np.cos(angle), radius * np.sin(angle)], axis=1) * 64) / 64
+
+
+def random_skeletons(count):
+    for seed in range(count):
+        polygon = random_polygon(np.random.default_rng(seed))
+        if shapely.Polygon(polygon).is_valid:
+            yield polygon, vorotool.skeleton_exact(polygon.tolist())
+
+
+def test_brute_force_agrees():
+    compared = 0
+    for _, skeleton in random_skeletons(300):
+        brute = expected(skeleton)
+        if brute is None:
+            continue
+        line = vorotool.centerline(skeleton)
+        found = line.flattened(1e-3)[0]
+        assert sorted(found[[0, -1]].tolist()) == pytest.approx(np.array(brute[0]), abs=1e-9)
+        assert line.path.length.sum() == pytest.approx(brute[1], rel=1e-9)
+        compared += 1
+    assert compared > 150
+
+
+def test_centerlines_stay_inside():
+    for polygon, skeleton in random_skeletons(60):
+        shape = shapely.Polygon(polygon).buffer(1e-6)
+        for kind in ("middle", "corner", "none"):
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", VorotoolWarning)
+                line = vorotool.centerline(skeleton, ends=kind)
+            assert all(shape.contains(shapely.LineString(line.flattened(1e-9)[0])) for _ in range(len(line)))
+
+
+def test_lines_move_with_their_polygons():
+    turn = np.array([[0, 1], [-1, 0]])
+    for polygon, skeleton in random_skeletons(40):
+        expected_line = vorotool.centerline(skeleton).flattened(1e-3)[0]
+        for moved, back in (
+            (polygon @ turn, lambda line: line @ turn.T),
+            (polygon * [-1, 1], lambda line: line * [-1, 1]),
+            (polygon * 4, lambda line: line / 4),
+            (np.add(polygon, [64, -128]), lambda line: line - [64, -128]),
+        ):
+            line = back(vorotool.centerline(vorotool.skeleton_exact(moved.tolist())).flattened(1e-3)[0])
+            ends_of = sorted(line[[0, -1]].round(6).tolist())
+            assert ends_of == pytest.approx(np.array(sorted(expected_line[[0, -1]].round(6).tolist())), abs=2e-6)
+
+
+def test_no_feature_changes_the_line_of_another():
+    shapes = [polygon.tolist() for polygon, _ in random_skeletons(12)]
+    apart = [np.add(shape, [8192 * k, 0]).tolist() for k, shape in enumerate(shapes)]
+    together = vorotool.centerline(vorotool.skeleton_exact(apart))
+    points, start = together.flattened(1)
+    for k, shape in enumerate(apart):
+        alone = vorotool.centerline(vorotool.skeleton_exact([shape])).flattened(1)[0]
+        assert points[start[k] : start[k + 1]] == pytest.approx(alone, abs=1e-6)
+
+
+def test_what_is_refused():
+    skeleton = vorotool.skeleton_exact(RECTANGLE)
+    with pytest.raises(UsageError, match="'round': use middle, corner, none"):
+        vorotool.centerline(skeleton, ends="round")
+    with pytest.raises(InputError, match="single place"):
+        vorotool.centerline(skeleton, start=(3, 2), end=(3, 2))
+    with pytest.warns(VorotoolWarning, match="gave no centerline"):
+        assert len(vorotool.centerline(vorotool.skeleton_exact([[0, 0], [2, 0], [2, 2], [0, 2]]), ends="none")) == 0
