@@ -14,6 +14,7 @@ from vorotool.engines.pruning import skeleton_arrays
 from vorotool.engines.skeleton_places import nearest_place
 from vorotool.errors import InputError, UsageError, VorotoolWarning
 from vorotool.geometry.centerline import Centerlines, without_centerline
+from vorotool.geometry.magnitude import check_lengths
 from vorotool.geometry.skeleton import EDGE, INTERIOR, Skeleton
 
 Floats = NDArray[np.float64]
@@ -84,6 +85,7 @@ def centerline(
     for place in (start, end):
         if place is not None and not np.isfinite(place).all():
             raise UsageError(f"({place[0]}, {place[1]}) is no place: its coordinates must be finite")
+        check_lengths(place or (), "coordinate")
     if not len(inside):
         raise InputError("there is no skeleton inside polygons for a path to follow")
     is_reversed = start is None
