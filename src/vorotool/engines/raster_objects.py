@@ -47,12 +47,14 @@ def foreground_values(raster: Raster, threshold: Threshold, *, invert: bool) -> 
     values = raster.values
     if threshold is not None:
         grey = grey_values(raster)
-        values = grey > whole_threshold(grey, threshold_value(grey, threshold))
+        seen = grey if raster.mask is None else grey[~raster.mask]
+        values = grey > whole_threshold(grey, threshold_value(seen, threshold))
     elif raster.is_colour:
         raise InputError("a colour image holds no objects by itself: use --threshold T or --threshold otsu")
     if values.dtype.kind == "f" and not np.isfinite(values).all():
         raise InputError("the image holds NaN or infinite values: use --threshold T, a number, or repair them")
-    return values == 0 if invert else values
+    values = values == 0 if invert else values
+    return values if raster.mask is None else np.where(raster.mask, values.dtype.type(0), values)
 
 
 def grey_values(raster: Raster) -> NDArray[Any]:
