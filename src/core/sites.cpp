@@ -51,12 +51,21 @@ class RelativeSeeds {
   std::uint64_t x_range() const { return static_cast<std::uint64_t>(most_.x - least_.x); }
   std::uint64_t y_range() const { return static_cast<std::uint64_t>(most_.y - least_.y); }
   std::int64_t largest_coordinate() const { return std::max({-least_.x, most_.x, -least_.y, most_.y}); }
-  Seed operator[](std::size_t i) const { return {y_[i] - middle_y_, x_[i] - middle_x_, label_[i]}; }
+  // Within the bounds also where somebody writes to the seeds meanwhile: places in tables hang on that.
+  Seed operator[](std::size_t i) const {
+    return {std::clamp(wrapped(y_[i], middle_y_), least_.y, most_.y),
+            std::clamp(wrapped(x_[i], middle_x_), least_.x, most_.x), label_[i]};
+  }
 
  private:
   struct Bounds {
     std::int64_t x, y;
   };
+
+  static std::int64_t wrapped(std::int64_t coordinate, std::int64_t middle) {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(coordinate) -
+                                     static_cast<std::uint64_t>(middle));
+  }
 
   static std::int64_t relative(std::int64_t coordinate, std::int64_t middle, std::size_t index) {
     std::int64_t difference = 0;

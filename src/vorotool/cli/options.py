@@ -263,7 +263,7 @@ OPTIONS: dict[str, Decorator] = {
     "window": click.option("--window", type=Window(), help="Frame whose first pixel is (X, Y)."),
     "width": click.option(
         "--width",
-        type=click.IntRange(min=16),
+        type=click.IntRange(16, 2**31 - 1),
         help="Pixels across a picture that is not the size of an image; by default 1000.",
     ),
     "overlay": click.option(

@@ -21,6 +21,7 @@ from vorotool.engines.alphashape import alpha_complex, alpha_curves, alpha_edges
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.alpha_complex import AlphaComplex, Radius
 from vorotool.geometry.alpha_shape import AlphaShape
+from vorotool.geometry.numbers import nearest_double
 from vorotool.geometry.points import PointSet
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.seeds import SeedSet
@@ -327,4 +328,5 @@ def radius_text(r: Radius) -> str:
 
 def _json_number(r: Radius) -> float | str:
     """A number where it says all; JSON has no infinity."""
-    return radius_text(r) if r == inf or Fraction(float(r)) != r else float(r)
+    number = nearest_double(r)
+    return number if number == r and number != inf else radius_text(r)

@@ -28,7 +28,7 @@ from vorotool.cli.recipes import Recipe
 from vorotool.cli.results import DERIVED, PICTURES, SKELETON_LAYERS, TABLES
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options
-from vorotool.errors import InputError, Kind, Message
+from vorotool.errors import Kind, Message
 from vorotool.formats.input_formats import NAMES_WITH
 
 if TYPE_CHECKING:
@@ -66,9 +66,6 @@ _CURVED = frozenset({"skeleton", "diagram", "centerline", "offset"})
 
 ENDS = ("middle", "corner", "none")
 """As `vorotool.engines.centerline` has them, which ``--help`` does not import."""
-
-LARGEST = 1e70
-"""Magnitude of lengths and coordinates: products of four of these, or of parts of them, are floating-point numbers."""
 
 
 class Length(click.ParamType[float]):
@@ -110,8 +107,6 @@ class Distances(click.ParamType[tuple[float, ...]]):
             wanted = tuple(checked_distances(numbers))
         except UsageError as error:
             self.fail(str(error), param, ctx)
-        if (largest := max(map(abs, wanted))) > LARGEST:
-            self.fail(f"a distance of {largest:g} is too large to compute with: use at most {LARGEST:g}", param, ctx)
         return wanted
 
 
@@ -222,14 +217,21 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     _check_shapes(o)
     if o.frame is not None and o.side == "interior" and "diagram" not in o.what:
         raise click.UsageError("--frame cuts what is outside: use --side exterior or both, or leave it out")
-    if o.frame is not None and max(map(abs, o.frame)) > LARGEST:
-        raise click.UsageError(f"--frame goes too far to compute with: use numbers of at most {LARGEST:g}")
+    if o.frame is not None:
+        _check_frame(o.frame)
     _check_centerline(o)
     pictures = sorted(formats & set(PICTURES))
     if o.layers is not None and not pictures:
         raise click.UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
     _check_layers(o, targets)
     check_picture_options(o, pictures, PICTURE_LAYERS, png_has_width=True, has_page="html" in formats)
+
+
+def _check_frame(frame: tuple[float, ...]) -> None:
+    from vorotool.geometry.magnitude import LARGEST
+
+    if max(map(abs, frame)) > LARGEST:
+        raise click.UsageError(f"--frame goes too far to compute with: use numbers of at most {LARGEST:g}")
 
 
 def _check_layers(o: SimpleNamespace, targets: list[Target]) -> None:
@@ -300,22 +302,7 @@ def _read_polygons(run: Run, o: SimpleNamespace, source: str) -> PolygonSet:
         return _outlines(run, o, value)
     assert isinstance(value, PolygonSet)  # what is asked for is polygons, or an image
     refuse(o, (*IMAGE_OPTIONS, "outline"), "is for images, but the input is polygons or lines")
-    _check_magnitude(value)
     return value if o.simplify is None else _simplified(run, o, value)
-
-
-def _check_magnitude(polygons: PolygonSet) -> None:
-    """Refuse polygons so large, or so small, that products of distances are no numbers."""
-    if not len(polygons.xy):
-        return
-    from vorotool.geometry.box import bounds
-
-    low, high = bounds(polygons.xy)
-    largest, extent = float(max(-low.min(), high.max())), float((high - low).max())
-    if largest > LARGEST:
-        raise InputError(f"a coordinate is {largest:g}, too large to compute with: scale them to {LARGEST:g} at most")
-    if 0 < extent < 1 / LARGEST:
-        raise InputError(f"the extent is {extent:g}, too small to compute with: scale it to {1 / LARGEST:g} at least")
 
 
 def _outlines(run: Run, o: SimpleNamespace, image: Raster) -> PolygonSet:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
+from contextlib import contextmanager
 from fractions import Fraction
 from types import SimpleNamespace
 from typing import Any, NamedTuple, TypeVar
@@ -73,7 +74,8 @@ def in_units(o: SimpleNamespace, value: Value) -> Value:
         return value
     from vorotool.geometry.scaling import scaled
 
-    result: Value = scaled(value, o.pixel_size.factor)
+    with _within_doubles():
+        result: Value = scaled(value, o.pixel_size.factor)
     return result
 
 
@@ -83,7 +85,22 @@ def table_in_units(o: SimpleNamespace, table: Any, *, properties: Collection[str
         return table
     from vorotool.geometry.scaling import scaled_table
 
-    return scaled_table(table, o.pixel_size.factor, properties=properties)
+    with _within_doubles():
+        return scaled_table(table, o.pixel_size.factor, properties=properties)
+
+
+@contextmanager
+def _within_doubles() -> Iterator[None]:
+    """Refuse a size that makes numbers infinite."""
+    import numpy as np
+
+    try:
+        with np.errstate(over="raise"):
+            yield
+    except FloatingPointError:
+        raise click.UsageError(
+            "--pixel-size makes coordinates or areas too large for numbers: use a smaller one"
+        ) from None
 
 
 def length_in_units(o: SimpleNamespace, length: Any) -> Any:

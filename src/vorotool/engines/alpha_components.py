@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.label_arrays import Progress
 from vorotool.geometry.alpha_complex import AlphaComplex
+from vorotool.geometry.numbers import nearest_double
 from vorotool.geometry.triangulation import Triangulation
 
 
@@ -59,7 +60,7 @@ def _in_small(mesh: Triangulation, component: NDArray[np.int32], threshold: Frac
     areas = np.bincount(numbers, weights=mesh.areas()[chosen])
     # A triangle's area is off by about 1e-15 times the product of two sides at most, a sum of n terms by n 2^-53 of it.
     corners = mesh.points[mesh.triangles[chosen]]
-    limit = float(threshold)
+    limit = nearest_double(threshold)
     with np.errstate(over="ignore", invalid="ignore"):
         extent = np.ptp(corners, axis=1).max(axis=1, initial=0.0)
         scale = np.bincount(numbers, weights=extent**2)

@@ -9,14 +9,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import UsageError
+from vorotool.errors import InputError, UsageError
 from vorotool.geometry.alpha_complex import CLASSES
 from vorotool.geometry.alpha_hull import AlphaHull
 from vorotool.geometry.alpha_shape import AlphaShape
+from vorotool.geometry.numbers import nearest_double, shown_number
 
 # Which discs there are is exact. Where their arcs meet is computed in doubles: crossings closer together than this
 # part of the radius are not told apart, some thousand roundings of it.
 _CLOSE = 2.0**-40
+
+_MOST_BITS = 400
+"""Of the exponent of a radius or a coordinate: products of two are floating-point numbers, and half so many bits below
+1 leave room for the squares of lengths that are shorter by `_FLATTEST`."""
+
+_FLATTEST = 2.0**300
+"""A radius, or a coordinate, in parts of the shortest edge: with more bits in between squares of edges are nothing."""
 
 # A piece between two crossings is covered as a whole or not at all, and if it is, then near its ends by a disc with
 # two points on its circle: points near the ends and between them decide.
@@ -39,6 +47,8 @@ def alpha_hull(shape: AlphaShape) -> AlphaHull:
     ------
     UsageError
         If the radius is infinite: the hull is the convex hull then.
+    InputError
+        If the radius is beyond all proportion to an edge, so that nothing tells its arc from it.
 
     References
     ----------
@@ -53,24 +63,42 @@ def alpha_hull(shape: AlphaShape) -> AlphaHull:
     >>> len(hull), hull.points.tolist()
     (3, [0, 1, 2])
     """
-    if np.isinf(float(shape.r)) and len(shape.points):
+    if shape.r == np.inf and len(shape.points):
         raise UsageError("the hull of an infinite radius is the convex hull: use vorotool delaunay, or a finite r")
-    arcs = _Arcs(shape)
+    exponent = _scale(shape)
+    arcs = _Arcs(shape, exponent)
     pieces = arcs.pieces()
     order, ring_start = _rings(pieces)
     on_arcs = {int(node) for node in pieces.nodes[order].reshape(-1) if node >= 0}
     outer = np.flatnonzero((shape.point_classes() < 3) & (shape.family.mesh.first == np.arange(len(shape.points))))
     alone = np.array([v for v in outer.tolist() if v not in on_arcs], dtype=np.int32)
     arc = pieces.arc[order]
+    place, centre = np.ldexp(pieces.place[order], exponent), np.ldexp(arcs.centre[arc], exponent)
     return AlphaHull(
         shape,
-        pieces.place[order, 0],
-        pieces.place[order, 1],
-        arcs.centre[arc],
+        place[:, 0],
+        place[:, 1],
+        centre,
         arcs.edge[arc],
         ring_start,
         alone,
     )
+
+
+def _scale(shape: AlphaShape) -> int:
+    """The power of two to divide by: 0 unless products of two lengths would be no floating-point numbers."""
+    r = nearest_double(shape.r)
+    ends = shape.points[shape.edges]
+    with np.errstate(over="ignore"):
+        shortest = float(np.hypot(*(ends[:, 1] - ends[:, 0]).T).min(initial=np.inf))
+    largest = max(r, float(np.abs(shape.points).max()))
+    if not (np.isfinite(largest) and largest <= shortest * _FLATTEST):
+        raise InputError(
+            f"the radius {shown_number(shape.r)} is beyond all proportion to an edge of length {shortest:g}: the arcs "
+            "of the hull cannot be told from the edges; give a smaller r, or leave the hull out"
+        )
+    exponent = int(np.frexp(largest)[1])
+    return exponent if exponent > _MOST_BITS or exponent < -_MOST_BITS // 2 else 0
 
 
 class _Pieces:
@@ -88,12 +116,13 @@ class _Pieces:
 class _Arcs:
     """The arc of each boundary edge, clockwise around the centre of its empty disc."""
 
-    def __init__(self, shape: AlphaShape) -> None:
-        family, self.r = shape.family, float(shape.r)
+    def __init__(self, shape: AlphaShape, exponent: int) -> None:
+        self.r = float(np.ldexp(float(shape.r), -exponent))
+        self.points = np.ldexp(shape.points, -exponent)
         self.edge = shape.edge_index[shape.kind == CLASSES.index("boundary")]
         a, b = self._directed(shape)
         self.a, self.b = a, b
-        self.start, self.end = family.points[a], family.points[b]
+        self.start, self.end = self.points[a], self.points[b]
         # The triangle is on the left of a to b, the centre on the right by what Pythagoras says.
         across = self.end - self.start
         half = np.hypot(*across.T) / 2
@@ -117,7 +146,7 @@ class _Arcs:
         return np.where(forward, a, b), np.where(forward, b, a)
 
     def _singular_centres(self, shape: AlphaShape) -> list[NDArray[np.float64]]:
-        ends = shape.points[shape.family.edges[shape.edge_index[shape.kind == CLASSES.index("singular")]]]
+        ends = self.points[shape.family.edges[shape.edge_index[shape.kind == CLASSES.index("singular")]]]
         across = ends[:, 1] - ends[:, 0]
         half = np.hypot(*across.T) / 2
         depth = np.sqrt(np.maximum((self.r - half) * (self.r + half), 0))

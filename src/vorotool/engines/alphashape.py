@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import inf, isnan
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -19,6 +19,7 @@ from vorotool.geometry.alpha_complex import AlphaComplex, Radius, checked_radius
 from vorotool.geometry.alpha_shape import AlphaShape
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.digital_triangulation import DigitalTriangulation
+from vorotool.geometry.numbers import real_number, shown_number
 from vorotool.geometry.polygons import HOLE, SHELL, PolygonSet
 from vorotool.geometry.seeds import SeedSet
 from vorotool.geometry.table import Table
@@ -165,30 +166,17 @@ def chosen_radius(r: Any, alpha: Any, automatic: bool = False) -> Radius | None:
     if len(named) > 1:
         raise UsageError(f"{' and '.join(named)} are given, but each sets the radius: give one of r, alpha and auto")
     if alpha is not None:
-        value = _number(alpha, "alpha")
+        value = real_number(alpha, "alpha")
         if not value < 0:
-            known = f"for the alphashape package's {_plain(value)} use -r {_plain(1 / value)}" if value > 0 else ""
+            known = (
+                f"for the alphashape package's {shown_number(value)} use -r {shown_number(1 / value)}"
+                if value > 0
+                else ""
+            )
             hint = f": {known or 'for the convex hull use -r inf'}"
             raise UsageError(f"alpha must be negative (α = −1/r){hint}")
         return checked_radius(-1 / value)
-    return None if r is None else checked_radius(_number(r, "r"))
-
-
-def _number(value: Any, name: str) -> Radius:
-    if isinstance(value, Fraction):
-        return value
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        raise UsageError(f"{name} is {value!r}: give a number") from None
-    if isnan(number):
-        raise UsageError(f"{name} is {value}: give a number")
-    return number
-
-
-def _plain(value: Radius) -> str:
-    number = float(value)
-    return repr(number).removesuffix(".0")
+    return None if r is None else checked_radius(r)
 
 
 def alpha_shape(
@@ -263,9 +251,9 @@ def alpha_shape(
 def _threshold(value: Any, name: str) -> Fraction | None:
     if value is None:
         return None
-    number = _number(value, name)
+    number = real_number(value, name)
     if not 0 <= number < float("inf"):
-        raise UsageError(f"{name} is {value}: give an area of at least 0")
+        raise UsageError(f"{name} is {shown_number(value)}: give an area of at least 0")
     return Fraction(number)
 
 

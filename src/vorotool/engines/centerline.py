@@ -16,6 +16,7 @@ from vorotool.engines.path_network import Network, Paths, geometry_of
 from vorotool.engines.skeleton_ends import Unforked, forked, middles_ahead, unforked
 from vorotool.errors import InputError, UsageError, VorotoolWarning
 from vorotool.geometry.centerline import Centerlines, without_centerline
+from vorotool.geometry.magnitude import check_lengths
 from vorotool.geometry.skeleton import Skeleton
 
 Floats = NDArray[np.float64]
@@ -113,6 +114,7 @@ def _path_between(
     for place in (start, end):
         if place is not None and not np.isfinite(place).all():
             raise UsageError(f"({place[0]}, {place[1]}) is no place: its coordinates must be finite")
+        check_lengths(place or (), "coordinate")
     if not len(network.arc):
         raise InputError("there is no skeleton inside polygons for a path to follow")
     first, last = (-1 if place is None else network.node_near(place) for place in (start, end))

@@ -12,6 +12,7 @@ from vorotool import _core
 from vorotool.engines.label_arrays import Progress
 from vorotool.engines.skeleton_exact import ShapeDiagram, diagram_arrays, kept_edges, shape_diagram
 from vorotool.errors import UsageError
+from vorotool.geometry.magnitude import check_lengths
 from vorotool.geometry.offsets import Offsets
 from vorotool.geometry.skeleton import Skeleton
 
@@ -89,6 +90,7 @@ def checked_distances(distances: float | Sequence[float]) -> list[float]:
     if wrong.size:
         raise UsageError(f"a distance is {wrong[0]:g}: use finite ones, above 0 outwards, below 0 inwards")
     found: list[float] = wanted.tolist()
+    check_lengths(found, "distance")
     repeated = next((one for one in found if found.count(one) > 1), None)
     if repeated is not None:
         raise UsageError(f"the distance {repeated:g} is there {found.count(repeated)} times: give each one once")

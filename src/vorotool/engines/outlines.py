@@ -147,8 +147,9 @@ def outlines(
         mode, origin, image = mode or "labels", (image.frame.x, image.frame.y), image.labels
     raster = image if isinstance(image, Raster) else Raster(image)
     if threshold is not None:
-        raster = Raster(grey_values(raster))
-        threshold = threshold_value(raster.values, threshold)
+        raster = Raster(grey_values(raster), mask=raster.mask)
+        seen = raster.values if raster.mask is None else raster.values[~raster.mask]
+        threshold = threshold_value(seen, threshold)
     values = foreground_values(raster, threshold, invert=invert)
     by_label = (mode or default_objects(values, note=note)) == "labels"
     labels = label_values(values) if by_label or values.dtype == bool else values != 0
@@ -182,7 +183,7 @@ def _traced(
         raise LimitError(
             f"the image is {labels.shape[1]} x {labels.shape[0]} pixels: a side has at most {LARGEST_SIDE}"
         )
-    labels = np.ascontiguousarray(labels)
+    labels = np.array(labels, order="C")  # a copy: vertices are counted, then filled in, and links followed
     labels = labels.view(np.uint8) if labels.dtype == bool else labels
     most = min(max_sites, MOST_VERTICES)
     count = _core.count_crack_vertices(labels, threads, progress)

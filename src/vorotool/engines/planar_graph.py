@@ -14,6 +14,7 @@ from vorotool import _core
 from vorotool.engines.label_arrays import Progress
 from vorotool.errors import InputError, LimitError, VerificationError, VorotoolWarning
 from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.magnitude import check_magnitude
 from vorotool.geometry.planar_graph import REPAIRS, PlanarGraph
 from vorotool.geometry.polygon_conversion import as_polygons
 from vorotool.geometry.polygons import LINE, PolygonSet
@@ -53,8 +54,8 @@ def planar_graph(polygons: Any, *, strict: bool = False, threads: int = 0, progr
     Raises
     ------
     InputError
-        If a coordinate is not finite, or `strict` and something would be repaired: polygon, ring, vertex or edge and
-        its coordinates are named.
+        If a coordinate is not finite or beyond 1e70, or `strict` and something would be repaired: polygon, ring,
+        vertex or edge and its coordinates are named.
     LimitError
         If there are more than 2^28 vertices or crossings, or 2^26 entries in `PlanarGraph.face_polygon`.
 
@@ -107,6 +108,7 @@ class Placement:
 
 def placed_vertices(polygons: PolygonSet, *, threads: int = 0, progress: Progress = None) -> Placement:
     """Place the vertices of polygons on the lattice; arguments as of `planar_graph`."""
+    check_magnitude(polygons.xy)
     return Placement(*_core.place_on_lattice(polygons.xy, checked_threads(threads), progress))
 
 

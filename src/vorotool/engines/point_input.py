@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from vorotool.errors import InputError
+from vorotool.geometry.coordinates import number_array
 from vorotool.geometry.points import PointSet
 from vorotool.geometry.polygons import PolygonSet
 
@@ -46,15 +47,12 @@ def as_points(
         source = source.geoms
     elif hasattr(source, "geom_type"):
         source = [] if source.is_empty and source.geom_type == "Point" else [source]
-    try:
-        if not (isinstance(source, np.ndarray) and source.dtype.kind in "fiub"):
+    if not isinstance(source, np.ndarray):
+        try:
             source = [_position(p, f"{noun} {i}") for i, p in enumerate(source, 1)]
-        xy = np.asarray(source, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        if isinstance(error, InputError):
-            raise
-        raise InputError(expected) from None
-    return PointSet(xy)
+        except TypeError:
+            raise InputError(expected) from None
+    return PointSet(number_array(source, noun, expected))
 
 
 def _position(point: Any, name: str) -> Any:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
+from math import floor
 from typing import Any, Literal
 
 import numpy as np
@@ -53,12 +54,14 @@ def foreground_values(raster: Raster, threshold: Threshold, *, invert: bool) -> 
     values = raster.values
     if threshold is not None:
         grey = grey_values(raster)
-        values = grey > threshold_value(grey, threshold)
+        seen = grey if raster.mask is None else grey[~raster.mask]
+        values = grey > whole_threshold(grey, threshold_value(seen, threshold))
     elif raster.is_colour:
         raise InputError("a colour image holds no objects by itself: use --threshold T or --threshold otsu")
     if values.dtype.kind == "f" and not np.isfinite(values).all():
         raise InputError("the image holds NaN or infinite values: use --threshold T, a number, or repair them")
-    return values == 0 if invert else values
+    values = values == 0 if invert else values
+    return values if raster.mask is None else np.where(raster.mask, values.dtype.type(0), values)
 
 
 def grey_values(raster: Raster) -> NDArray[Any]:
@@ -84,13 +87,24 @@ def threshold_value(grey: NDArray[Any], threshold: float | Literal["otsu"]) -> f
     """
     if threshold != "otsu":
         return threshold
-    from skimage.filters import threshold_otsu
+    from vorotool.engines.otsu import otsu_threshold
 
     if grey.dtype.kind == "f" and not np.isfinite(grey).all():
         raise InputError("the image holds NaN or infinite values: use --threshold T, a number, or repair them")
     if grey.min() == grey.max():
         raise InputError(f"all pixels have the value {grey.flat[0]}: --threshold otsu needs two values")
-    return float(threshold_otsu(grey))
+    return otsu_threshold(grey)
+
+
+def whole_threshold(grey: NDArray[Any], threshold: float) -> float:
+    """Give a threshold as an integer where values are: a float would round those beyond 2^53 when it is compared.
+
+    Examples
+    --------
+    >>> whole_threshold(np.array([3, 200]), 99.5), whole_threshold(np.array([0.5]), 0.25)
+    (99, 0.25)
+    """
+    return floor(threshold) if grey.dtype.kind in "iu" else threshold
 
 
 def default_objects(values: NDArray[Any], *, note: Note = None) -> Objects:

@@ -151,4 +151,4 @@ def _on_lattice(array: NDArray[Any], name: str) -> NDArray[np.int32]:
     largest = max(int(array.max()), -int(array.min()))
     if largest > LATTICE_LIMIT:
         raise InputError(f"{name} hold {largest}, beyond {LATTICE_LIMIT}: place the input on the lattice first")
-    return np.ascontiguousarray(array, dtype=np.int32)
+    return np.array(array, dtype=np.int32, order="C")  # a copy: no kernel reads memory that others may change

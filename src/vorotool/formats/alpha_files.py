@@ -232,14 +232,17 @@ def _nested(hull: AlphaHull) -> list[list[Any]]:
     import shapely
 
     xy, starts = hull.flattened(hull.r * (1 - np.cos(np.pi / HULL_STEPS)))
-    rings = [xy[a:b] for a, b in zip(starts[:-1].tolist(), starts[1:].tolist(), strict=True)]
-    areas = np.array([_signed_area(ring) for ring in rings])
+    exponent = int(np.frexp(np.abs(xy).max(initial=0.0))[1])
+    near_one = np.ldexp(xy, -exponent)  # of any magnitude areas are floating-point numbers then
+    spans = [slice(a, b) for a, b in zip(starts[:-1].tolist(), starts[1:].tolist(), strict=True)]
+    rings, small = [xy[span] for span in spans], [near_one[span] for span in spans]
+    areas = np.array([_signed_area(ring) for ring in small])
     shells = sorted(np.flatnonzero(areas > 0).tolist(), key=lambda k: (areas[k], k))
     polygons = {k: [rings[k]] for k in shells}
     for k in np.flatnonzero(areas < 0).tolist():
-        middle = shapely.Polygon(rings[k]).representative_point()
+        middle = shapely.Polygon(small[k]).representative_point()
         for shell in shells:
-            if areas[shell] > -areas[k] and shapely.contains(shapely.Polygon(rings[shell]), middle):
+            if areas[shell] > -areas[k] and shapely.contains(shapely.Polygon(small[shell]), middle):
                 polygons[shell].append(rings[k])
                 break
     return [polygons[k] for k in sorted(polygons)]

@@ -12,6 +12,7 @@ from vorotool.formats.tables import json_text
 from vorotool.formats.text_rows import Column, RowShape, check_precision, write_rows
 from vorotool.geometry.skeleton import Skeleton
 from vorotool.geometry.skeleton_graph import SkeletonGraph, skeleton_graph
+from vorotool.geometry.xml_text import xml_characters
 
 _NODE_KEYS = ("x", "y", "r")
 _HEAD = (
@@ -31,6 +32,8 @@ def write_graphml(
     threads: int = 0,
 ) -> None:
     """Write a skeleton as an undirected graph in GraphML, with what `to_networkx` gives; geometry is WKT.
+
+    Characters in names and texts that XML cannot hold become U+FFFD.
 
     Parameters
     ----------
@@ -67,7 +70,8 @@ def write_graphml(
     for name in _NODE_KEYS:
         out.write(f'<key id="n_{name}" for="node" attr.name="{name}" attr.type="double"/>\n'.encode())
     for number, (name, kind) in enumerate(edges.kinds.items()):
-        out.write(f'<key id="e{number}" for="edge" attr.name={quoteattr(name)} attr.type="{kind}"/>\n'.encode())
+        named = quoteattr(xml_characters(name))
+        out.write(f'<key id="e{number}" for="edge" attr.name={named} attr.type="{kind}"/>\n'.encode())
     out.write(b'<graph edgedefault="undirected">\n')
     if len(graph.nodes):
         x, y = skeleton.vertices[graph.nodes].T.copy()
@@ -114,7 +118,8 @@ class _EdgeTexts:
         if kind == "double":
             return f"{value:.{self.precision}g}" if self.precision else repr(float(value)).removesuffix(".0")
         if kind == "string":
-            return escape(value if isinstance(value, str) else json_text(value))
+            text = value if isinstance(value, str) else json_text(value)
+            return escape(xml_characters(text), {"\r": "&#13;"})  # which parsers would take for the end of a line
         return json_text(value)
 
 

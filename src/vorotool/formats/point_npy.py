@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.formats.point_options import LARGEST_LABEL, PointOptions
 from vorotool.formats.sources import Source
+from vorotool.geometry.coordinates import INEXACT, first_inexact
 from vorotool.geometry.points import PointSet
 
 _ADVICE = "save an (n, 2) or (n, 3) array of numbers with numpy.save"
@@ -30,6 +31,9 @@ def read_npy(source: Source, options: PointOptions) -> PointSet:
         )
     values = np.frombuffer(source.data, dtype, math.prod(shape), offset)
     table = values.reshape(shape, order="F" if fortran_order else "C")
+    row = first_inexact(table[:, :2])
+    if row is not None:
+        raise InputError(f"{source.name}, row {row + 1}: ({table[row, 0]}, {table[row, 1]}): {INEXACT}")
     xy = np.ascontiguousarray(table[:, :2], dtype=np.float64)
     _check_finite(source.name, xy)
     return PointSet(xy, _labels(source.name, table[:, 2]) if shape[1] == 3 else None)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.convertible import refuse_geometry_column
-from vorotool.formats.point_options import LARGEST_LABEL, LATITUDES, LONGITUDES, PointOptions, no_points
+from vorotool.formats.point_options import LARGEST_LABEL, LATITUDES, LONGITUDES, PointOptions, no_points, shortened
 from vorotool.formats.sources import Source
 from vorotool.geometry.points import PointSet
 
@@ -94,9 +94,10 @@ def _guess_delimiter(data: bytes) -> str:
 # ---- which columns -------------------------------------------------------------------------------
 def _parse_columns(columns: str) -> list[str]:
     parts = [part.strip() for part in columns.split(",")]
-    if len(parts) not in (2, 3) or not all(parts) or "0" in parts or len(set(parts)) < len(parts):
+    is_zero = [_is_number(part) and not part.strip("0") for part in parts]
+    if len(parts) not in (2, 3) or not all(parts) or any(is_zero) or len(set(parts)) < len(parts):
         raise UsageError(
-            f"--columns is {columns!r}: name two or three different columns as X,Y or X,Y,LABEL, by name or "
+            f"--columns is {shortened(columns)}: name two or three different columns as X,Y or X,Y,LABEL, by name or "
             "by number from 1"
         )
     return parts
@@ -147,25 +148,31 @@ def _look_up(name: str, fields: list[str], wanted: list[str]) -> tuple[bool, Seq
     """Find the columns that the user named; a name makes the first record a header."""
     chosen = [_find_column(name, fields, column) for column in wanted]
     if len(set(chosen)) < len(chosen):
-        raise InputError(f"{name}: --columns {','.join(wanted)} names one column twice; {_listing(fields)}")
-    named = not all(column.isdecimal() for column in wanted)
+        raise InputError(f"{name}: --columns {_cut(','.join(wanted))} names one column twice; {_listing(fields)}")
+    named = not all(map(_is_number, wanted))
     values = [fields[i] for i in chosen]
     return named or (any(values) and not any(_looks_numeric(value) for value in values)), chosen
 
 
+def _is_number(column: str) -> bool:
+    """Whether a column is named by its number; digits of other scripts may be a name."""
+    return column.isascii() and column.isdecimal()
+
+
 def _find_column(name: str, fields: list[str], wanted: str) -> int:
-    if wanted.isdecimal():
-        if int(wanted) > len(fields):
+    if _is_number(wanted):
+        digits = wanted.lstrip("0")
+        if len(digits) > len(str(len(fields))) or int(digits) > len(fields):
             raise InputError(
-                f"{name}: --columns names column {wanted}, but there are {len(fields)}; {_listing(fields)}"
+                f"{name}: --columns names column {_cut(wanted)}, but there are {len(fields)}; {_listing(fields)}"
             )
-        return int(wanted) - 1
+        return int(digits) - 1
     for names, key in ((fields, wanted), ([_lower(field) for field in fields], _lower(wanted))):
         if names.count(key) == 1:
             return names.index(key)
         if names.count(key) > 1:
-            raise InputError(f"{name}: several columns are called {wanted!r}; give --columns by number")
-    raise InputError(f"{name}: there is no column {wanted!r}; {_listing(fields)}; correct --columns")
+            raise InputError(f"{name}: several columns are called {shortened(wanted)}; give --columns by number")
+    raise InputError(f"{name}: there is no column {shortened(wanted)}; {_listing(fields)}; correct --columns")
 
 
 def _unknown_columns(name: str, fields: list[str], header: bool) -> InputError:
@@ -185,6 +192,10 @@ def _listing(fields: list[str]) -> str:
     shown = ", ".join(f"{i} = {field[:24] or 'empty'}" for i, field in enumerate(fields[:_MOST_LISTED], 1))
     more = f", … {len(fields)} in all" if len(fields) > _MOST_LISTED else ""
     return f"its columns are {shown}{more}"
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= 40 else f"{text[:39]}…"
 
 
 def _lower(text: str) -> str:

@@ -5,11 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from math import floor, inf, isqrt, log10
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
+from vorotool.geometry.numbers import nearest_double, real_number, shown_number
 from vorotool.geometry.triangulation import Triangulation
 
 Radius = float | Fraction
@@ -97,10 +99,7 @@ class AlphaComplex:
 
     def _count(self, r: Radius, *, or_equal: bool) -> int:
         """Doubles that differ compare as the exact values do; among equal ones the exact squares are compared."""
-        try:
-            rounded = float(r)
-        except OverflowError:
-            rounded = inf
+        rounded = nearest_double(r)
         low, high = (int(np.searchsorted(self.spectrum, rounded, side=side)) for side in ("left", "right"))
         square = None if r == inf else Fraction(r) ** 2
         while low < high:
@@ -177,29 +176,26 @@ def classes_of(family: AlphaComplex, reached: int, entered: int) -> NDArray[np.u
     return classes
 
 
-def checked_radius(r: Radius) -> Radius:
+def checked_radius(r: Any) -> Radius:
     """Return a radius that is positive; infinity is one.
 
     Raises
     ------
-    InputError
+    UsageError
         If it is not positive, or no number.
 
     Examples
     --------
-    >>> checked_radius(2)
-    2.0
+    >>> checked_radius(2), checked_radius(10**400) > 10**399
+    (2.0, True)
     """
-    value = r if isinstance(r, Fraction) else float(r)
+    value = real_number(r, "r")
     if not value > 0:
         raise UsageError(
-            f"r is {_told(r)}: a radius must be positive; leave it out for the smallest that joins all points"
+            f"r is {shown_number(value)}: a radius must be positive; "
+            "leave it out for the smallest that joins all points"
         )
     return value
-
-
-def _told(r: Radius) -> str:
-    return repr(float(r)).removesuffix(".0")
 
 
 def _ceiling_root(value: Fraction) -> int:

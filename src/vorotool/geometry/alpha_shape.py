@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.alpha_complex import CLASSES, AlphaComplex, Radius
+from vorotool.geometry.numbers import nearest_double
 from vorotool.geometry.polygons import HOLE, PolygonSet
 
 POINT_CLASSES = ("isolated", "singular", "boundary", "interior")
@@ -60,7 +61,7 @@ class AlphaShape:
     @property
     def alpha(self) -> float:
         """The paper's parameter, -1/r."""
-        return -float(1 / self.r)
+        return -nearest_double(1 / self.r)
 
     @property
     def points(self) -> NDArray[np.float64]:

@@ -143,6 +143,8 @@ def whole_numbers(values: Any, name: str, dtype: DTypeLike, least: int | None = 
     kind = np.dtype(dtype)
     limits = np.iinfo(kind)
     low = limits.min if least is None else least
+    if np.ma.is_masked(values):
+        raise InputError(f"each {name} must be an integer, but some are masked: leave them out")
     try:
         array = np.asarray(values)
     except ValueError:

@@ -37,7 +37,8 @@ class LabelImage:
     seeds: SeedSet | None = None
 
     def __post_init__(self) -> None:
-        labels = np.asarray(self.labels)
+        labels = self.labels
+        labels = labels.filled(0) if isinstance(labels, np.ma.MaskedArray) else np.asarray(labels)
         if labels.ndim != 2 or labels.dtype.kind not in "ui":
             raise InputError(f"labels must be a 2-D integer array, but are {labels.ndim}-D of type {labels.dtype}")
         object.__setattr__(self, "labels", labels)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.geometry.checks import whole_numbers
+from vorotool.geometry.coordinates import coordinate_rows
 
 
 @dataclass(frozen=True)
@@ -19,7 +20,7 @@ class PointSet:
     Parameters
     ----------
     xy : (n, 2) float64 array
-        Coordinates in the units of the input; finite.
+        Coordinates in the units of the input; finite. They are copied.
     labels : (n,) int64 array, optional
         The input's own labels (each at least 1). Without them point i has label i + 1.
     properties : dict of str to sequence, optional
@@ -34,7 +35,8 @@ class PointSet:
     Raises
     ------
     InputError
-        If the shape is not (n, 2), a coordinate is not finite or a label is below 1; the row is named.
+        If the shape is not (n, 2), a coordinate is not finite, masked or an integer beyond 2^53, or a label is below 1;
+        the row is named.
 
     Examples
     --------
@@ -50,14 +52,7 @@ class PointSet:
     first_number: int = 1
 
     def __post_init__(self) -> None:
-        try:
-            xy = np.ascontiguousarray(self.xy, dtype=np.float64)
-        except (TypeError, ValueError) as error:
-            raise InputError(f"points must be an (n, 2) array of numbers: {error}") from None
-        if xy.size == 0:
-            xy = xy.reshape(0, 2)
-        if xy.ndim != 2 or xy.shape[1] != 2:
-            raise InputError(f"points must have shape (n, 2), but have shape {xy.shape}")
+        xy = coordinate_rows(self.xy, "point")
         finite = np.isfinite(xy)
         bad = np.flatnonzero(~(finite[:, 0] & finite[:, 1]))  # an `all` along rows this short is slow
         if bad.size:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.geometry.coordinates import coordinate_rows, number_array
 from vorotool.geometry.polygons import HOLE, LINE, SHELL, PolygonSet, set_of_rings
 
 _LINESTRING, _LINEARRING, _POLYGON = 1, 2, 3  # type numbers of GEOS
@@ -51,6 +52,8 @@ def as_polygons(source: Any) -> PolygonSet:
         return source
     if hasattr(source, "geom_type"):
         return polygons_of_geometry([source])
+    if isinstance(source, Iterator):
+        source = list(source)
     if isinstance(source, Mapping) or _is_ring(source):
         source = [source]
     if isinstance(source, str | bytes) or not isinstance(source, Iterable) or getattr(source, "ndim", 1) == 0:
@@ -176,12 +179,7 @@ def _polygons_of(item: Any, place: str) -> list[list[Part]]:
 
 
 def _ring(vertices: Any, place: str) -> NDArray[np.float64]:
-    try:
-        array = np.asarray(vertices, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise InputError(f"{place} is no (n, 2) array of numbers; {_EXPECTED}") from None
-    if array.size == 0:
-        return np.empty((0, 2))
-    if array.ndim != 2 or array.shape[1] != 2:
+    array = number_array(vertices, "vertex", f"{place} is no (n, 2) array of numbers; {_EXPECTED}")
+    if array.size and (array.ndim != 2 or array.shape[1] != 2):
         raise InputError(f"{place} must have shape (n, 2), but has shape {array.shape}; {_EXPECTED}")
-    return array
+    return coordinate_rows(array, f"{place}, vertex")

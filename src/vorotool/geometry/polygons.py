@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vorotool.errors import InputError
+from vorotool.geometry.coordinates import coordinate_rows
 
 SHELL, HOLE, LINE = 0, 1, 2
 """Kinds of rings: the outer boundary of a polygon, a hole in it, an open line."""
@@ -28,7 +29,7 @@ class PolygonSet:
     Parameters
     ----------
     xy : (n, 2) float64 array
-        Vertices of all rings, one ring after the other, in the units of the input; finite.
+        Vertices of all rings, one ring after the other, in the units of the input; finite. All arrays are copied.
     ring_start : (r + 1,) int64 array
         Ring k has the vertices ``ring_start[k]`` to ``ring_start[k + 1] - 1``, at least one.
     ring_kind : (r,) int8 array
@@ -74,7 +75,7 @@ class PolygonSet:
     connectivity: int | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "xy", _checked_vertices(self.xy))
+        object.__setattr__(self, "xy", coordinate_rows(self.xy, "vertex"))
         for name, dtype in (("ring_start", np.int64), ("ring_kind", np.int8), ("ring_polygon", np.int32)):
             object.__setattr__(self, name, _integers(getattr(self, name), dtype, name))
         _check_rings(self.ring_start, self.ring_kind, self.ring_polygon, len(self.xy))
@@ -169,7 +170,7 @@ def set_of_rings(
     >>> set_of_rings([[0, 0], [1, 0], [0, 1], [0, 0]], [4], [SHELL], [0]).ring_start.tolist()
     [0, 3]
     """
-    vertices = _checked_vertices(xy)
+    vertices = coordinate_rows(xy, "vertex")
     lengths = np.array(sizes, dtype=np.int64).reshape(-1)
     starts = np.cumsum(lengths) - lengths
     kept = np.ones(len(vertices), dtype=bool)
@@ -185,20 +186,8 @@ def set_of_rings(
     return PolygonSet(vertices[kept], starts, kinds, polygons, **described)  # type: ignore[arg-type]
 
 
-def _checked_vertices(xy: Any) -> NDArray[np.float64]:
-    try:
-        array = np.ascontiguousarray(xy, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"vertices must be an (n, 2) array of numbers: {error}") from None
-    if array.size == 0:
-        array = array.reshape(0, 2)
-    if array.ndim != 2 or array.shape[1] != 2:
-        raise InputError(f"vertices must have shape (n, 2), but have shape {array.shape}")
-    return array
-
-
 def _integers(values: Any, dtype: Any, name: str) -> NDArray[Any]:
-    array = np.ascontiguousarray(values, dtype=dtype)
+    array = np.array(values, dtype=dtype, order="C")
     if array.ndim != 1:
         raise InputError(f"{name} must have one dimension, but has shape {array.shape}")
     return array

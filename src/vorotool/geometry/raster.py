@@ -21,6 +21,8 @@ class Raster:
         bool, integer or float. PBM: 1 is foreground. Palette images: the indices.
     resolution : tuple of (float, float, str), optional
         Pixels a unit in x and y, and the unit, where the file says so.
+    mask : (H, W) bool array, optional
+        Pixels that are background whatever their values, as those of a masked array are.
 
     Raises
     ------
@@ -35,8 +37,13 @@ class Raster:
 
     values: NDArray[Any]
     resolution: tuple[float, float, str] | None = None
+    mask: NDArray[np.bool_] | None = None
 
     def __post_init__(self) -> None:
+        if isinstance(self.values, np.ma.MaskedArray):
+            mask = np.ma.getmaskarray(self.values)
+            object.__setattr__(self, "mask", mask.any(axis=2) if mask.ndim == 3 else mask)
+            object.__setattr__(self, "values", self.values.filled(0))
         values = np.asarray(self.values)
         if values.ndim not in (2, 3):
             raise InputError(f"an image must have shape (H, W) or (H, W, C), but has shape {values.shape}")

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.checks import check_as_long, set_rows
+from vorotool.geometry.numbers import nearest_double
 
 FLAT = 2.0**-20
 """Triangles whose largest angle has a smaller sine are computed in rationals: floating point would lose half."""
@@ -145,7 +146,7 @@ class Triangulation:
         with np.errstate(over="ignore", under="ignore"):
             areas = np.ldexp(0.5 * cross, 2 * exponent)
         for t in np.flatnonzero(flat):
-            areas[t] = _rounded(abs(_exact_cross(self.points[self.triangles[t]])) / 2)
+            areas[t] = nearest_double(abs(_exact_cross(self.points[self.triangles[t]])) / 2)
         return areas
 
     def _circles(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -231,18 +232,11 @@ def _exact_circle(triangle: NDArray[np.float64]) -> tuple[tuple[float, float], f
     bx, by, cx, cy = bx - ax, by - ay, cx - ax, cy - ay
     b2, c2, cross = bx * bx + by * by, cx * cx + cy * cy, bx * cy - by * cx
     x, y = (cy * b2 - by * c2) / (2 * cross), (bx * c2 - cx * b2) / (2 * cross)
-    return (_rounded(ax + x), _rounded(ay + y)), _root(x * x + y * y)
-
-
-def _rounded(value: Fraction) -> float:
-    try:
-        return float(value)
-    except OverflowError:
-        return float("inf") if value > 0 else float("-inf")
+    return (nearest_double(ax + x), nearest_double(ay + y)), _root(x * x + y * y)
 
 
 def _root(value: Fraction) -> float:
     """The square root of a fraction of any size."""
     shift = (value.numerator.bit_length() - value.denominator.bit_length()) // 2
     reduced = float(value / Fraction(4) ** shift) ** 0.5
-    return _rounded(Fraction(reduced) * Fraction(2) ** shift)
+    return nearest_double(Fraction(reduced) * Fraction(2) ** shift)

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 from base64 import b64encode
+from math import isfinite
 from pathlib import Path
+from sys import float_info
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -13,6 +15,7 @@ from numpy.typing import DTypeLike, NDArray
 from vorotool.errors import LimitError
 from vorotool.geometry.alpha_complex import AlphaComplex, Radius
 from vorotool.geometry.box import bounds
+from vorotool.geometry.numbers import nearest_double
 from vorotool.geometry.table import Table
 
 MOST_POINTS = 100_000
@@ -82,10 +85,11 @@ def write_alpha_html(
 def _first_radius(family: AlphaComplex, r: Radius | None) -> float:
     """The radius, or one beyond all where it is infinite."""
     finite = family.spectrum[np.isfinite(family.spectrum)]
-    if not len(finite):  # no points, no radii
-        return 1.0 if r is None or np.isinf(float(r)) else float(r)
-    chosen = float(finite[len(finite) // 2]) if r is None else float(r)
-    return chosen if np.isfinite(chosen) else 2 * float(finite[-1])
+    largest = float(finite[-1]) if len(finite) else 1.0
+    if r is None:
+        return float(finite[len(finite) // 2]) if len(finite) else largest
+    chosen = nearest_double(r)
+    return chosen if isfinite(chosen) else min(2 * largest, float_info.max)
 
 
 def _data(family: AlphaComplex, curves: Table, r: float, y_up: bool) -> dict[str, Any]:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.geometry.xml_text import xml_characters
 from vorotool.render.layers import Arcs, Backdrop, Curves, Layer, Lines, Page, Points, Polygons, Texts
 from vorotool.render.palettes import WHITE
 
@@ -96,7 +97,7 @@ def _chunks(count: int, size: int) -> Iterator[slice]:
 
 def _lines(layer: Lines, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
     across, down = _core.NumberTexts(x, 0, threads), _core.NumberTexts(y, 0, threads)
-    yield f'<g id="{escape(layer.name)}" fill="none" {_stroke(layer.colour, layer.width)}>\n'.encode()
+    yield f'<g id="{_escaped(layer.name)}" fill="none" {_stroke(layer.colour, layer.width)}>\n'.encode()
     for rows in _chunks(len(layer.pairs), PATH_ROWS):
         a, b = layer.pairs[rows].T
         yield f"<path {_UNSCALED} d=".encode() + b'"'
@@ -109,7 +110,7 @@ def _curves(layer: Curves, x: NDArray[Any], y: NDArray[Any], threads: int) -> It
     """One row a place: M before the begin of a path, Q before a control point, then L or nothing before an end."""
     across, down = _core.NumberTexts(x, 0, threads), _core.NumberTexts(y, 0, threads)
     dashes = f' stroke-dasharray="{DASH:g}"' if layer.is_broken else ""
-    yield f'<g id="{escape(layer.name)}" fill="none" {_stroke(layer.colour, layer.width)}{dashes}>\n'.encode()
+    yield f'<g id="{_escaped(layer.name)}" fill="none" {_stroke(layer.colour, layer.width)}{dashes}>\n'.encode()
     for rows in _chunks(len(layer.pairs), PATH_ROWS):
         source, target = layer.pairs[rows].T
         control = layer.control[rows]
@@ -135,7 +136,7 @@ def _polygons(layer: Polygons, x: NDArray[Any], y: NDArray[Any], style: str, thr
     """One row a corner: what stands before it is L, the end of a ring, or the end of a path and another's begin."""
     across, down = _core.NumberTexts(x, 0, threads), _core.NumberTexts(y, 0, threads)
     stroke = "" if layer.edge is None else f" {_stroke(layer.edge, layer.width)}"
-    yield f'<g id="{escape(layer.name)}" fill-rule="evenodd"{style}{stroke}>\n'.encode()
+    yield f'<g id="{_escaped(layer.name)}" fill-rule="evenodd"{style}{stroke}>\n'.encode()
     texts, before = _openings(layer)
     for rows in _chunks(len(layer.corners), SLICE_ROWS):
         corners = layer.corners[rows]
@@ -160,7 +161,7 @@ def _openings(layer: Polygons) -> tuple[list[str], NDArray[np.int32]]:
         fills = colour[polygon]
         opens &= (order % PATH_ROWS == 0) | np.append(True, fills[1:] != fills[:-1])
     for number, of in enumerate(polygon[opens].tolist()):
-        name = "" if ids is None else f' id="{escape(ids[of])}"'
+        name = "" if ids is None else f' id="{_escaped(ids[of])}"'
         fill = layer.colours[int(colour[of])]
         end = 'Z"/>\n' if number else ""
         texts.append(f'{end}<path{name} {_UNSCALED} fill="{fill}" d="M')
@@ -172,7 +173,7 @@ def _points(layer: Points, x: NDArray[Any], y: NDArray[Any], threads: int) -> It
     if len(x) > MOST_ELEMENTS:
         yield from _dots(layer, x, y, threads)
         return
-    yield f'<g id="{escape(layer.name)}" fill="{layer.colour}">\n'.encode()
+    yield f'<g id="{_escaped(layer.name)}" fill="{layer.colour}">\n'.encode()
     radius = f'" r="{layer.radius:.3g}"/>\n'
     yield from _rows([x, y], ('<circle cx="', '" cy="', radius), threads)
     yield b"</g>\n"
@@ -180,7 +181,7 @@ def _points(layer: Points, x: NDArray[Any], y: NDArray[Any], threads: int) -> It
 
 def _dots(layer: Points, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
     """Lines of no length with round ends are discs."""
-    yield f'<g id="{escape(layer.name)}" fill="none" {_stroke(layer.colour, 2 * layer.radius)}>\n'.encode()
+    yield f'<g id="{_escaped(layer.name)}" fill="none" {_stroke(layer.colour, 2 * layer.radius)}>\n'.encode()
     for rows in _chunks(len(x), PATH_ROWS):
         yield f"<path {_UNSCALED} d=".encode() + b'"'
         yield from _rows([x[rows], y[rows]], ("M", " ", "h0"), threads)
@@ -191,8 +192,8 @@ def _dots(layer: Points, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iter
 def _texts(layer: Texts, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
     """Above the points in the lower half of the page, below them in the upper one, where the margin is narrow."""
     font = f'font-family="Helvetica, Arial, sans-serif" font-size="{layer.size:g}"'
-    yield f'<g id="{escape(layer.name)}" text-anchor="middle" {font} fill="{layer.colour}">\n'.encode()
-    texts = [escape(text) for text in layer.texts]
+    yield f'<g id="{_escaped(layer.name)}" text-anchor="middle" {font} fill="{layer.colour}">\n'.encode()
+    texts = [_escaped(text) for text in layer.texts]
     below = y < (y.min(initial=0.0) + y.max(initial=0.0)) / 2
     y = np.round(y + layer.size * np.where(below, 1.1, -0.5), DECIMALS)
     for rows in _chunks(len(x), SLICE_ROWS):
@@ -220,10 +221,14 @@ def _arcs(layer: Arcs, page: Page) -> Iterator[bytes]:
     style = 'fill="none"'
     if layer.fill is not None:
         style = f'fill="{layer.fill}" fill-rule="evenodd"{fill_style(page.backdrop)}'
-    yield f'<g id="{escape(layer.name)}" {style} {_stroke(layer.edge, layer.width)}>\n'.encode()
+    yield f'<g id="{_escaped(layer.name)}" {style} {_stroke(layer.edge, layer.width)}>\n'.encode()
     for begin in range(0, len(paths), PATH_ROWS):
         yield f'<path {_UNSCALED} d="{"".join(paths[begin : begin + PATH_ROWS])}"/>\n'.encode()
     yield b"</g>\n"
+
+
+def _escaped(text: str) -> str:
+    return escape(xml_characters(text))
 
 
 def _short(number: float) -> str:

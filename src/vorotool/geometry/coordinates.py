@@ -1,0 +1,126 @@
+"""Coordinates that users give, made an array of our own: no kernel reads memory that others may change meanwhile."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from decimal import Decimal
+from numbers import Real
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.geometry.numbers import nearest_double, shown_number
+
+LARGEST_INTEGER = 2**53
+"""Integers up to here are doubles; of those beyond only some are, and points that differ would become one."""
+
+
+def coordinate_rows(values: Any, noun: str, expected: str | None = None) -> NDArray[np.float64]:
+    """Copy (n, 2) coordinates; nothing is rounded but decimal fractions.
+
+    Parameters
+    ----------
+    values : (n, 2) array-like
+        Integers, floating-point numbers, or fractions and decimal numbers of Python; an iterator of pairs.
+    noun : str
+        What a message calls one row.
+    expected : str, optional
+        What a message says of values that are none; by default made of the noun.
+
+    Returns
+    -------
+    (n, 2) float64 array
+        Of its own memory; not checked for NaN and infinity.
+
+    Raises
+    ------
+    InputError
+        If these are no numbers, are masked, are integers beyond 2^53, or have another shape.
+
+    Examples
+    --------
+    >>> coordinate_rows(((x, x * x) for x in range(3)), "point").tolist()
+    [[0.0, 0.0], [1.0, 1.0], [2.0, 4.0]]
+    """
+    array = number_array(values, noun, expected)
+    if array.size == 0:
+        array = array.reshape(0, 2)
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise InputError(f"{plural(noun)} must have shape (n, 2), but have shape {array.shape}")
+    row = first_inexact(array)
+    if row is not None:
+        x, y = map(shown_number, array[row].tolist())
+        raise InputError(f"{noun} {row + 1} is ({x}, {y}): {INEXACT}")
+    if array.dtype.kind == "O":  # float() fails for fractions beyond all doubles
+        array = np.array([[nearest_double(value) for value in row] for row in array.tolist()])
+    return np.array(array, dtype=np.float64, order="C")
+
+
+INEXACT = "integers beyond 2^53 would be rounded; subtract an offset from all of them, or give floating-point numbers"
+"""What a message says of coordinates that `first_inexact` finds."""
+
+
+def number_array(values: Any, noun: str, expected: str | None = None) -> NDArray[Any]:
+    """Give values as an array of integers or floating-point numbers, or of objects that are numbers; not a copy.
+
+    Raises
+    ------
+    InputError
+        If they are none, or some are masked.
+
+    Examples
+    --------
+    >>> number_array(["a"], "point")
+    Traceback (most recent call last):
+    vorotool.errors.InputError: points must be an (n, 2) array of numbers; these have type <U1
+    """
+    said = expected or f"{plural(noun)} must be an (n, 2) array of numbers"
+    if isinstance(values, np.ma.MaskedArray):
+        if np.ma.is_masked(values):
+            raise InputError(
+                f"{plural(noun)} are masked in part: leave them out, as in points[~points.mask.any(axis=1)]"
+            )
+        values = values.data
+    try:
+        array = np.asarray(list(values) if isinstance(values, Iterator) else values)
+    except (TypeError, ValueError) as error:
+        if isinstance(error, InputError):  # of an iterator of ours
+            raise
+        raise InputError(said) from None
+    if array.dtype.kind == "O" and all(isinstance(value, Real | Decimal | np.number) for value in array.flat):
+        return array
+    if array.dtype.kind not in "iufb" and array.size:
+        raise InputError(said if array.ndim == 0 else f"{said}; these have type {array.dtype}")
+    return array
+
+
+def first_inexact(array: NDArray[Any]) -> int | None:
+    """Give the first row with an integer that doubles may round, None where there is none.
+
+    Examples
+    --------
+    >>> first_inexact(np.array([[1, 2], [2**53 + 1, 0]])), first_inexact(np.array([[1e300, 0]]))
+    (1, None)
+    """
+    if array.dtype.kind == "O":
+        far = np.array([[isinstance(value, int) and abs(value) > LARGEST_INTEGER for value in row] for row in array])
+    elif array.dtype.kind in "iu" and array.dtype.itemsize == 8 and array.size:
+        if int(array.max()) <= LARGEST_INTEGER and int(array.min()) >= -LARGEST_INTEGER:
+            return None
+        far = (array > LARGEST_INTEGER) | (array < -LARGEST_INTEGER)
+    else:
+        return None
+    return int(far.any(axis=1).argmax()) if far.any() else None
+
+
+def plural(noun: str) -> str:
+    """Several of what a message speaks of.
+
+    Examples
+    --------
+    >>> plural("vertex"), plural("point")
+    ('vertices', 'points')
+    """
+    return "vertices" if noun == "vertex" else f"{noun}s"

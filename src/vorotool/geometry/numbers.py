@@ -1,0 +1,116 @@
+"""Numbers that users give, of any kind that Python knows: taken exactly, or refused in words."""
+
+from __future__ import annotations
+
+from decimal import Decimal
+from fractions import Fraction
+from math import inf, isfinite, isnan
+from numbers import Rational
+from typing import Any
+
+import numpy as np
+
+from vorotool.errors import UsageError
+
+LARGEST_EXPONENT = 400
+"""Of decimal numbers: an exact power of ten beyond any double's takes time and memory, and means nothing."""
+
+MOST_SHOWN = 40
+"""Characters of what stands in the place of a number."""
+
+
+def real_number(value: Any, name: str) -> float | Fraction:
+    """Return a number exactly: as a double where that is what it is or where it equals one, else as a fraction.
+
+    Parameters
+    ----------
+    value : number
+        Of Python or NumPy: an integer of any size, a fraction, a decimal number; infinity.
+    name : str
+        What the message calls it.
+
+    Raises
+    ------
+    UsageError
+        If it is no real number, or NaN.
+
+    Examples
+    --------
+    >>> real_number(2, "r"), real_number(Fraction(1, 3), "r"), real_number(Decimal("0.1"), "r")
+    (2.0, Fraction(1, 3), Fraction(1, 10))
+    """
+    if isinstance(value, np.ndarray) and value.ndim == 0:
+        value = value[()]
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, np.floating) and np.isfinite(value):  # a long double, which has no type of Python
+        return _simplest(Fraction(*value.as_integer_ratio()))
+    if isinstance(value, Fraction):
+        return value
+    if isinstance(value, Rational):
+        return _simplest(Fraction(int(value.numerator), int(value.denominator)))
+    if isinstance(value, Decimal) and value.is_finite() and abs(value.adjusted()) <= LARGEST_EXPONENT:
+        return Fraction(value)
+    if isinstance(value, float | np.floating) or (isinstance(value, Decimal) and value.is_infinite()):
+        number = float(value)
+        if not isnan(number):
+            return number
+    raise UsageError(f"{name} is {shown_number(value)}: give a number")
+
+
+def _simplest(exact: Fraction) -> float | Fraction:
+    number = nearest_double(exact)
+    return number if number == exact else exact
+
+
+def nearest_double(value: float | Fraction) -> float:
+    """Return the double nearest to a number; infinity for what is beyond all.
+
+    Examples
+    --------
+    >>> nearest_double(Fraction(1, 4)), nearest_double(Fraction(-(10**400)))
+    (0.25, -inf)
+    """
+    try:
+        return float(value)
+    except OverflowError:
+        return inf if value > 0 else -inf
+
+
+def finite_double(value: Any, name: str) -> float:
+    """Return a number as a double.
+
+    Raises
+    ------
+    UsageError
+        If it is none, not finite, or beyond the largest double.
+
+    Examples
+    --------
+    >>> finite_double(10**400, "step")
+    Traceback (most recent call last):
+    vorotool.errors.UsageError: step is 1.0e+400: give a finite number
+    """
+    number = nearest_double(real_number(value, name))
+    if not isfinite(number):
+        raise UsageError(f"{name} is {shown_number(value)}: give a finite number")
+    return number
+
+
+def shown_number(value: Any) -> str:
+    """Give what was given as a number, or in the place of one, as a message shows it: short, however long it is.
+
+    Examples
+    --------
+    >>> shown_number(2.5), shown_number(10**5000), shown_number("9" * 50)
+    ('2.5', '1.0e+5000', "'99999999999999999999999999999999999999…")
+    """
+    if isinstance(value, float):
+        return repr(float(value)).removesuffix(".0")
+    if isinstance(value, int | Fraction) and not isinstance(value, bool):
+        number = nearest_double(value)
+        if number == value and isfinite(number):
+            return repr(number).removesuffix(".0")
+        return f"{Decimal(value.numerator) / Decimal(value.denominator):.1e}"
+    text = repr(value)
+    return text if len(text) <= MOST_SHOWN else f"{text[: MOST_SHOWN - 1]}…"

@@ -1,0 +1,58 @@
+"""Arrays that another thread writes to while an engine reads them: it ends, and what it made is right for something."""
+
+import subprocess
+import sys
+
+import pytest
+
+MUTATED = """
+import threading
+import numpy as np
+import vorotool
+random = np.random.default_rng(5)
+{made}
+going = True
+def change():
+    while going:
+        given[...] = {value}
+thread = threading.Thread(target=change)
+thread.start()
+try:
+    for _ in range(15):
+        {work}
+finally:
+    going = False
+    thread.join()
+print("done")
+"""
+POINTS = {"made": "given = random.random((20000, 2))", "value": "random.random(given.shape)"}
+LABELS = {
+    "made": "given = random.integers(0, 3, (600, 600)).astype(np.uint8)",
+    "value": "random.integers(0, 3, given.shape, dtype=np.uint8)",
+}
+SEEDS = {
+    "made": "given = random.integers(0, 500, (2, 20000)); labels = np.arange(1, 20001, dtype=np.uint32)",
+    "value": "random.integers(-9000, 9000, given.shape)",
+}
+
+
+@pytest.mark.parametrize(
+    ("parts", "work"),
+    [
+        (POINTS, "vorotool.verify_triangulation(vorotool.delaunay(given))"),
+        (POINTS, "vorotool.alpha_complex(given)"),
+        (POINTS, "vorotool.voronoi_cells(vorotool.delaunay(vorotool.PointSet(given)))"),
+        (POINTS, "vorotool.tessellate(given * 200, shape=(200, 200))"),
+        (POINTS, "vorotool.skeleton_exact(given[:200])"),
+        (POINTS, "vorotool.planar_graph(given[:300])"),
+        (LABELS, "vorotool.outlines(given, mode='labels')"),
+        (LABELS, "vorotool.region_table(vorotool.LabelImage(given))"),
+        (LABELS, "vorotool.seeds_from_raster(given, mode='components')"),
+        (SEEDS, "vorotool.tessellate(vorotool.SeedSet(given[0], given[1], labels), shape=(500, 500))"),
+    ],
+)
+def test_an_engine_ends_whatever_becomes_of_its_input(parts, work):
+    program = MUTATED.format(work=work, **parts)
+    options = ["-W", "ignore", "-X", "faulthandler", "-c", program]
+    done = subprocess.run([sys.executable, *options], capture_output=True, text=True, timeout=120, check=False)
+    assert done.stdout == "done\n", done.stderr[-2000:]

@@ -1,0 +1,89 @@
+"""Numbers of every kind, taken exactly or refused in words."""
+
+from decimal import Decimal
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import vorotool
+from vorotool.errors import UsageError
+from vorotool.geometry.numbers import finite_double, real_number, shown_number
+
+POINTS = [[0, 0], [2, 0], [2, 2], [0, 2], [9, 1]]
+NO_NUMBERS = ["10", b"10", None, float("nan"), Decimal("nan"), Decimal("sNaN"), 1j, [1], np.array([1.0]), object(),
+              np.datetime64("2020"), np.float64("nan"), Decimal("1e999999999")]  # fmt: skip
+
+
+@pytest.mark.parametrize("value", NO_NUMBERS, ids=shown_number)
+def test_what_is_no_number_is_refused(value):
+    with pytest.raises(UsageError, match=r"^r is .*: give a number$"):
+        real_number(value, "r")
+
+
+@pytest.mark.parametrize(
+    ("value", "exact"),
+    [
+        (np.float32(0.1), Fraction(float(np.float32(0.1)))),
+        (np.int64(2**62 + 1), Fraction(2**62 + 1)),
+        (np.array(3), Fraction(3)),
+        (Decimal("0.1"), Fraction(1, 10)),
+        (Fraction(1, 3), Fraction(1, 3)),
+        (2**53 + 1, Fraction(2**53 + 1)),
+        (np.longdouble(1) / 4, Fraction(1, 4)),
+        (10**400, Fraction(10**400)),
+    ],
+)
+def test_numbers_are_taken_exactly(value, exact):
+    assert Fraction(real_number(value, "r")) == exact
+
+
+def test_doubles_stay_doubles():
+    assert [type(real_number(value, "r")) for value in (2, 2.5, np.float64(3), np.int8(4), np.inf)] == [float] * 5
+
+
+@pytest.mark.parametrize(
+    "value", [10**400, float("inf"), -(10**5000), Fraction(10**400), Decimal("Infinity")], ids=shown_number
+)
+def test_lengths_are_finite(value):
+    with pytest.raises(UsageError, match="give a finite number"):
+        finite_double(value, "step")
+
+
+def test_numbers_beyond_doubles_are_shown_briefly():
+    assert shown_number(-(10**5000)) == "-1.0e+5000"
+    assert shown_number(Fraction(1, 10**5000)) == "1.0e-5000"
+
+
+@pytest.mark.parametrize(
+    "r", [10**400, Fraction(10**400), Decimal("1e400"), 10**5000, float("inf"), np.inf], ids=shown_number
+)
+def test_a_radius_beyond_doubles_gives_the_hull(r):
+    shape = vorotool.alpha_shape(POINTS, r=r)
+    assert shape.area == vorotool.alpha_shape(POINTS, r=float("inf")).area
+    assert shape.alpha == 0
+    vorotool.verify_alpha_shape(shape)
+
+
+@pytest.mark.parametrize("r", [Fraction(1, 10**400), Decimal("1e-400"), 5e-324])
+def test_a_radius_below_doubles_gives_points(r):
+    assert len(vorotool.alpha_shape(POINTS, r=r).edges) == 0
+
+
+@pytest.mark.parametrize(
+    "r", [*NO_NUMBERS[:2], *NO_NUMBERS[3:], 0, -1, -(10**400), Fraction(-1, 2), Decimal(-1)], ids=shown_number
+)
+def test_what_is_no_radius_is_refused(r):
+    with pytest.raises(UsageError, match=r"^r is"):
+        vorotool.alpha_shape(POINTS, r=r)
+    with pytest.raises(UsageError, match=r"^r is"):
+        vorotool.alpha_edges(vorotool.alpha_complex(POINTS), r)
+
+
+@pytest.mark.parametrize("name", ["hole_threshold", "region_threshold"])
+def test_thresholds_beyond_doubles_are_compared_exactly(name):
+    whole = vorotool.alpha_shape(POINTS, r=10, **{name: 10**400})
+    assert whole.area == (0 if name == "region_threshold" else vorotool.alpha_shape(POINTS, r=10).area)
+    for wrong in (-1, float("inf"), float("nan"), "2"):
+        with pytest.raises(UsageError, match=name):
+            vorotool.alpha_shape(POINTS, r=10, **{name: wrong})
