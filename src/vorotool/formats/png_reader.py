@@ -68,8 +68,10 @@ def png_palette(source: SourceLike) -> NDArray[np.uint8] | None:
     """Give the (256, 3) colours of the indices of a palette PNG, black beyond its own; None of another PNG."""
     from PIL.PngImagePlugin import PngImageFile
 
-    if png_header(source).colour_type != _PALETTE:
+    header = png_header(source)
+    if header.colour_type != _PALETTE:
         return None
+    _check_chunks(source, header)
     with decoding(source.name, "PNG"), PngImageFile(io.BytesIO(source.data)) as image:
         image.load()
         colours = np.frombuffer(bytes(image.getpalette("RGB") or []), np.uint8).reshape(-1, 3)
@@ -95,6 +97,8 @@ def _chunks(source: SourceLike) -> Iterator[tuple[bytes, int]]:
             raise InputError(
                 f"{source.name} is damaged: chunk {kind.decode('latin-1')} at byte {at} has a wrong checksum"
             )
+        if kind == b"IHDR" and at > len(SIGNATURE):  # Pillow would go by the last one, the checks by the first
+            raise InputError(f"{source.name} is damaged: at byte {at} there is a second header")
         yield kind, length
         if kind == b"IEND":
             return

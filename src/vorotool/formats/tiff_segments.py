@@ -20,6 +20,9 @@ SPARE = 2**16
 LARGEST_SEGMENT = 2**31
 """Bytes of a segment, which is decoded as a whole if it is compressed."""
 
+_WORTH_THREADS = 2**20
+"""Bytes of an image from which threads take less time than they cost."""
+
 _PLAIN, _ZSTD = 1, 50000
 _UNPACKERS: dict[int, unpacking.Unpacker] = {
     5: unpacking.unpack_lzw,
@@ -62,7 +65,7 @@ def decode_image(layout: TiffLayout, data: bytes) -> NDArray[Any]:
 
     # segments that take long are decoded in this thread, which sees signals in between
     is_short = layout.rows * layout.row_bytes <= unpacking.PIECE
-    for _ in in_order(put, range(count), 0 if is_short else 1):
+    for _ in in_order(put, range(count), 0 if is_short and image.nbytes >= _WORTH_THREADS else 1):
         pass
     return image[:, :, 0] if layout.samples == 1 else image
 

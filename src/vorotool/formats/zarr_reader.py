@@ -15,6 +15,9 @@ from vorotool.formats.bands import in_order
 from vorotool.formats.zarr_codecs import overlap, places_within
 from vorotool.formats.zarr_metadata import ZarrMetadata, array_metadata, read_metadata
 
+_WORTH_THREADS = 2**20
+"""Bytes from which threads take less time than they cost."""
+
 
 class StoredArray:
     """An array in a folder, of format 2 or 3; its values are read when they are asked for.
@@ -68,7 +71,7 @@ class StoredArray:
             else:
                 result[target] = self.metadata.pipeline.decoded(data, source)
 
-        for _ in in_order(put, places_within(region, chunk), threads):
+        for _ in in_order(put, places_within(region, chunk), 1 if result.nbytes < _WORTH_THREADS else threads):
             pass
         return result
 

@@ -1,0 +1,146 @@
+"""What must hold of every input, however damaged: it is read, or refused with a message."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import os
+import random
+import shutil
+import sys
+import traceback
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+import vorotool
+from fuzz.byte_seeds import Bundle
+from vorotool.cli.main import main
+from vorotool.formats.image_rows import open_rows
+
+LIMITS = {"max_pixels": 2**16, "max_sites": 2**14, "threads": 1}
+READ, REFUSED, LIMIT, WRONG = "read", "refused", "limit", "wrong"
+IMAGES = {"png", "tiff", "npy", "pnm", "zarr"}
+SHAPES = {"json", "geojson", "wkt", "poly", "skeleton"}
+COMMANDS = {
+    "images": (
+        ["tessellate", "{}", "-o", "out.npy"],
+        ["draw", "{}", "-o", "out.svg"],
+        ["skeleton-exact", "{}", "-o", "out.json"],
+    ),
+    "points": (["tessellate", "{}", "-o", "out.tif", "--size", "40x30"], ["delaunay", "{}", "-o", "out.geojson"]),
+    "shapes": (["skeleton-exact", "{}", "-o", "out.geojson"], ["draw", "{}", "-o", "out.svg"]),
+}
+
+
+def write_bundle(bundle: Bundle, folder: Path) -> Path:
+    """Put the files of an input in an empty folder; the path to read."""
+    for name, data in bundle.files.items():
+        path = folder / name
+        with contextlib.suppress(OSError, ValueError):  # a chunk named like a folder of chunks
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(data)
+    return folder / bundle.name
+
+
+def judge_reading(path: Path, kind: str, chance: random.Random) -> tuple[str, str]:
+    """Read a file in one of the ways in which it can be read; the outcome, and what is wrong."""
+    options: dict[str, object] = dict(LIMITS)
+    if chance.random() < 0.3:
+        options["geometry"] = chance.choice(("points", "polygons"))
+    if kind == "tiff" and chance.random() < 0.5:
+        options["page"] = 0
+    if kind in ("csv", "npy") and chance.random() < 0.2:
+        options["columns"] = chance.choice(("1,2", "x,y", "2,1,3"))
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            value = vorotool.read(path, **options)
+            if kind in ("tiff", "zarr"):
+                _check_rows(path, value.values, options.get("page"))
+    except vorotool.VorotoolError as error:
+        return (
+            (LIMIT, "") if error.exit_code == 5 else (WRONG, _place(error)) if error.exit_code == 1 else (REFUSED, "")
+        )
+    except BaseException as error:  # all others are what is looked for
+        return WRONG, _place(error)
+    return READ, ""
+
+
+def _check_rows(path: Path, values: np.ndarray, page: object) -> None:
+    rows = open_rows(path, page=page)
+    if rows is None or values.ndim != 2:
+        return
+    height = rows.shape[0]
+    bands = [rows.rows(first, min(5, height - first)) for first in range(0, height, 5)]
+    if not np.array_equal(np.concatenate(bands), values, equal_nan=values.dtype.kind == "f"):
+        raise AssertionError("bands of rows differ from the image that is read whole")
+
+
+def judge_command(path: Path, kind: str, chance: random.Random) -> tuple[str, str]:
+    """Give a file to a command in a folder of its own; the outcome, and what is wrong."""
+    key = "images" if kind in IMAGES else "shapes" if kind in SHAPES and chance.random() < 0.7 else "points"
+    command = [word.format(path.name) for word in chance.choice(COMMANDS[key])]
+    limits = ["--max-pixels", "65536"] * ("draw" not in command) + ["--max-sites", "2000"] * ("draw" not in command)
+    before = set(os.listdir(path.parent))  # noqa: PTH208
+    code, said = run_command([*command, *limits, "-q"], path.parent)
+    if code not in (0, 2, 3, 5) or "Traceback" in said:
+        return WRONG, f"{' '.join(command)}: exit {code}: {said[-1500:]}"
+    made = set(os.listdir(path.parent)) - before  # noqa: PTH208
+    if any(name.startswith(".") for name in made) or (code and made):
+        return WRONG, f"{' '.join(command)}: exit {code} leaves {sorted(made)}"
+    if code and "error:" not in said:
+        return WRONG, f"{' '.join(command)}: exit {code} without a message"
+    return (LIMIT if code == 5 else REFUSED if code else READ), ""
+
+
+def judge_manifest(data: bytes, folder: Path, chance: random.Random) -> tuple[str, str]:
+    """Resume a batch of two inputs by a manifest that is damaged."""
+    (folder / "in").mkdir()
+    for name in ("a.csv", "b.csv"):
+        (folder / "in" / name).write_text("1,2\n3,4\n5,1\n")
+    command = ["tessellate", "in", "--out-dir", "out", "-f", "npy", "--size", "6x5", "-q", "-j", "1"]
+    run_command(command, folder)
+    manifest = next((folder / "out").glob("*.jsonl"))
+    manifest.write_bytes(data)
+    (folder / "keep-1.tmp").write_text("mine")
+    code, said = run_command([*command, "--resume"], folder)
+    left = list(folder.rglob(".vorotool-*.tmp"))
+    if code not in (0, 2, 3, 4) or "Traceback" in said or left or not (folder / "keep-1.tmp").exists():
+        return WRONG, f"--resume: exit {code}, left {left}: {said[-1500:]}"
+    return (REFUSED if code else READ), ""
+
+
+def run_command(arguments: list[str], folder: Path) -> tuple[object, str]:
+    """Run a command in this process; its exit code, and what it says."""
+    said, hook, before = io.StringIO(), sys.unraisablehook, Path.cwd()
+    os.chdir(folder)
+    try:
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said), warnings.catch_warnings():
+            main([*arguments, "--threads", "1"])
+    except SystemExit as end:
+        return end.code, said.getvalue()
+    except BaseException:  # which nothing should let through
+        return None, said.getvalue() + traceback.format_exc()
+    finally:
+        sys.unraisablehook = hook
+        os.chdir(before)
+
+
+def judge(bundle: Bundle, folder: Path, chance: random.Random, commands: float) -> tuple[str, str]:
+    """Judge one input in a folder, which is emptied then."""
+    try:
+        if bundle.kind == "manifest":
+            return judge_manifest(bundle.files[bundle.name], folder, chance)
+        path = write_bundle(bundle, folder)
+        if chance.random() < commands:
+            return judge_command(path, bundle.kind, chance)
+        return judge_reading(path, bundle.kind, chance)
+    finally:
+        for entry in os.scandir(folder):
+            shutil.rmtree(entry.path) if entry.is_dir() else os.unlink(entry.path)  # noqa: PTH108
+
+
+def _place(error: BaseException) -> str:
+    return "".join(traceback.format_exception(error))[-2500:]

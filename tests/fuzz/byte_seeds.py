@@ -1,0 +1,204 @@
+"""Small valid files of every format that is read: what the fuzzer of bytes begins with."""
+
+from __future__ import annotations
+
+import io
+import itertools
+import tempfile
+import zlib
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import tifffile
+from PIL import Image
+
+import vorotool
+from tiff_files import LONG, SHORT, grey, tiff_file
+
+
+@dataclass(frozen=True)
+class Bundle:
+    """An input: its kind, the name that is read, and the content of its files by their names."""
+
+    kind: str
+    name: str
+    files: dict[str, bytes]
+
+
+GREY = np.random.default_rng(1).integers(0, 9, (13, 11), dtype=np.uint8)
+DOTS = [[1, 2], [8.5, 3], [4, 9.25], [7, 7], [0.5, 0]]
+SHAPES = [[[0, 0], [9, 0], [9, 6], [0, 6]], [[2, 2], [2, 4], [5, 4]], [[20, 1], [25, 3], [21, 8]]]
+
+
+def seeds() -> list[Bundle]:
+    """All of them, in the same order on every run."""
+    return [
+        Bundle(kind, name, {name: data})
+        for kind, name, data in (*_pngs(), *_tiffs(), *_arrays(), *_maps(), *_texts(), *_results())
+    ] + _stores()
+
+
+def _saved(image: Image.Image, fmt: str, **options: object) -> bytes:
+    out = io.BytesIO()
+    image.save(out, fmt, **options)
+    return out.getvalue()
+
+
+def _pngs() -> list[tuple[str, str, bytes]]:
+    grey = Image.fromarray(GREY * 20)
+    palette = Image.fromarray(GREY)
+    palette.putpalette(list(range(27)))
+    images = [grey, Image.fromarray(GREY > 4), palette, grey.convert("RGB"), grey.convert("RGBA"), grey.convert("LA")]
+    images.append(Image.fromarray(GREY.astype(np.uint16) * 999))
+    files = [_saved(image, "PNG") for image in images]
+    text = b"iTXtComment\0\1\0\0\0" + zlib.compress(b"a comment " * 9)
+    chunk = (len(text) - 4).to_bytes(4, "big") + text + zlib.crc32(text).to_bytes(4, "big")
+    return [("png", "a.png", data) for data in (*files, files[0][:33] + chunk + files[0][33:])]
+
+
+def _tiffs() -> list[tuple[str, str, bytes]]:
+    files = []
+    for dtype, options in itertools.product(
+        ("u1", ">u2", "i4", "f4", "?"),
+        (
+            {},
+            {"compression": "zlib"},
+            {"compression": "lzma", "rowsperstrip": 4},
+            {"tile": (16, 16)},
+            {"bigtiff": True},
+        ),
+    ):
+        out = io.BytesIO()
+        byteorder = ">" if dtype[0] == ">" else "<"
+        tifffile.imwrite(out, GREY.astype(dtype), byteorder=byteorder, metadata=None, **options)
+        files.append(out.getvalue())
+    for options in ({"compression": "zlib", "predictor": 2, "tile": (16, 16)}, {"imagej": True, "resolution": (4, 5)}):
+        out = io.BytesIO()
+        tifffile.imwrite(out, GREY.astype("u2"), **options)
+        files.append(out.getvalue())
+    colour = np.dstack([GREY, GREY + 1, GREY + 2])
+    for options in ({"planarconfig": "separate"}, {"planarconfig": "contig", "compression": "zlib"}):
+        out = io.BytesIO()
+        value = np.moveaxis(colour, 2, 0) if options["planarconfig"] == "separate" else colour
+        tifffile.imwrite(out, value, photometric="rgb", metadata=None, **options)
+        files.append(out.getvalue())
+    out = io.BytesIO()
+    with tifffile.TiffWriter(out) as writer:
+        for page in (GREY, GREY[:5]):
+            writer.write(page, contiguous=False, metadata=None)
+    files.append(out.getvalue())
+    for compression in ("tiff_lzw", "packbits", "jpeg"):
+        files += [_saved(Image.fromarray(value), "TIFF", compression=compression) for value in (GREY, colour)]
+    files.append(_saved(Image.fromarray(GREY > 4), "TIFF", compression="group4"))
+    four = GREY[:, :10] & 7
+    files.append(tiff_file(grey(10, 13, bits=4), [(four[:, ::2] << 4 | four[:, 1::2]).tobytes()]))
+    strips = [row.tobytes() for row in GREY]
+    files.append(tiff_file(grey(11, 13, 1) | {42113: (2, [55, 0]), 266: (SHORT, [2])}, strips, left_out=[3, 4]))
+    files.append(tiff_file(grey(11, 13, 1) | {282: (LONG, [3])}, strips))
+    return [("tiff", "a.tif", data) for data in files]
+
+
+def _arrays() -> list[tuple[str, str, bytes]]:
+    files = []
+    values = (GREY, GREY.astype(">i4"), GREY > 3, GREY / 3, np.asfortranarray(GREY), np.dstack([GREY] * 3))
+    for value in (*values, np.array(DOTS), np.array(DOTS, np.float32), np.ones((4, 3))):
+        out = io.BytesIO()
+        np.save(out, value)
+        files.append(out.getvalue())
+    text = "\n".join(" ".join(map(str, row)) for row in GREY).encode()
+    pixels = [b"P2 11 13 # largest\n9\n" + text, b"P5\n11 13\n255\n" + GREY.tobytes(), b"P4 10 2\n\xff\x40\x01\x80"]
+    pixels += [b"P1 3 2\n1 0 1 010", b"P3 2 1 255 1 2 3 4 5 6", b"P6 1 2 65535\n" + bytes(12)]
+    return [("npy", "a.npy", data) for data in files] + [("pnm", "a.pgm", data) for data in pixels]
+
+
+def _maps() -> list[tuple[str, str, bytes]]:
+    import json
+
+    rings = [[*ring, ring[0]] for ring in SHAPES]
+    geometries = [
+        {"type": "Polygon", "coordinates": rings[:2]},
+        {"type": "MultiPolygon", "coordinates": [rings[:2], rings[2:]]},
+        {"type": "LineString", "coordinates": DOTS},
+        {"type": "MultiLineString", "coordinates": [DOTS[:2], DOTS[2:]]},
+        {"type": "Point", "coordinates": [1, 2, 3]},
+        {"type": "MultiPoint", "coordinates": DOTS},
+    ]
+    features = [
+        {"type": "Feature", "properties": {"id": n, "name": "a\u00e9"}, "geometry": g} for n, g in enumerate(geometries)
+    ]
+    crs = {"type": "name", "properties": {"name": "EPSG:3057"}}
+    values = [{"type": "FeatureCollection", "features": part} for part in (features[:4], features[4:], features)]
+    values += [values[0] | {"crs": crs}, geometries[1], {"type": "GeometryCollection", "geometries": geometries[:3]}]
+    wkt = "POLYGON ((0 0, 9 0, 9 6, 0 6, 0 0), (2 2, 2 4, 5 4, 2 2))"
+    texts = [wkt, "MULTIPOLYGON (((0 0, 1 0, 0 1, 0 0)), ((5 5, 6 5, 5 6, 5 5)))", "LINESTRING Z (0 0 1, 5 5 2, 9 1 3)"]
+    texts += [
+        "MULTIPOINT ((1 2), (3 4))\nPOINT (5 6)",
+        "SRID=3057;POINT (1 2)",
+        f"GEOMETRYCOLLECTION ({wkt})",
+        "POINT EMPTY",
+    ]
+    return [("geojson", "a.geojson", json.dumps(value).encode()) for value in values] + [
+        ("wkt", "a.wkt", text.encode()) for text in texts
+    ]
+
+
+def _texts() -> list[tuple[str, str, bytes]]:
+    rows = "".join(f"{x},{y},n{i}\n" for i, (x, y) in enumerate(DOTS))
+    tables = [
+        rows,
+        "x,y,name\n" + rows,
+        "lon;lat\n1;2\n3;4\n",
+        "x\ty\n1\t2\n",
+        "# made\n 1 2\n 3 4\n",
+        '"x","y"\n"1","2"\n',
+    ]
+    tables += ["id,WKT\n1,POINT (1 2)\n", "\ufeffX,Y\r\n1e3,-.5\r\n", "label,x,y\n3,1,2\n4,5,6\n"]
+    node = "4 2 1 1\n# points\n1 0 0 5 1\n2 9 0 6 0\n3 9 6 7 0\n4 0 6 8 1\n"
+    poly = "4 2 0 1\n1 0 0 1\n2 9 0 1\n3 9 6 1\n4 0 6 1\n4 1\n1 1 2 1\n2 2 3 1\n3 3 4 1\n4 4 1 1\n1\n1 4 3\n"
+    lists = ["[[1,2],[3,4.5],[6,7]]", "[[[0,0],[9,0],[9,6]],[[1,1],[2,1],[2,2]]]", '{"points":[[1,2]]}']
+    lists += [
+        '{"polygons":[[[[0,0],[4,0],[4,4]]]],"polylines":[[[1,1],[2,2]]]}',
+        '{"labels":[1,2],"points":[[1,2],[3,4]]}',
+    ]
+    return (
+        [("csv", "a.csv", text.encode()) for text in tables]
+        + [("node", "a.node", node.encode()), ("poly", "a.poly", poly.encode())]
+        + [("json", "a.json", text.encode()) for text in lists]
+    )
+
+
+def _results() -> list[tuple[str, str, bytes]]:
+    """What the tool itself writes and reads."""
+    found = []
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "a.json"
+        shape = vorotool.skeleton_exact([[0, 0], [6, 0], [6, 3], [0, 5]])
+        vorotool.write(shape, path)
+        found.append(("skeleton", "a.json", path.read_bytes()))
+        vorotool.write(vorotool.offset(shape, [0.5, 1]), path)
+        found.append(("offsets", "a.json", path.read_bytes()))
+    return found
+
+
+def _stores() -> list[Bundle]:
+    import zarr
+    from zarr import codecs
+
+    options = [
+        {},
+        {"compressors": None, "serializer": codecs.BytesCodec(endian="big")},
+        {"compressors": [codecs.GzipCodec(), codecs.Crc32cCodec()], "filters": [codecs.TransposeCodec(order=(1, 0))]},
+        {"compressors": [codecs.BloscCodec(cname="lz4")]},
+        {"shards": (16, 12)},
+        {"zarr_format": 2, "order": "F"},
+    ]
+    found = []
+    with tempfile.TemporaryDirectory() as folder:
+        for number, option in enumerate(options):
+            path = Path(folder) / f"{number}.zarr"
+            array = zarr.create_array(path, shape=GREY.shape, dtype="u2", chunks=(8, 6), **option)
+            array[:9] = GREY[:9]
+            files = {f"a.zarr/{p.relative_to(path)}": p.read_bytes() for p in sorted(path.rglob("*")) if p.is_file()}
+            found.append(Bundle("zarr", "a.zarr", files))
+    return found
