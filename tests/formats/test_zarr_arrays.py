@@ -1,13 +1,16 @@
 """Images as Zarr arrays: any library reads them, and the bytes depend on the pixels and the chunks alone."""
 
+import signal
 import sys
+import threading
+import time
 
 import numpy as np
 import pytest
 
 from vorotool.errors import OutputError, UsageError
 from vorotool.formats.space import check_space
-from vorotool.formats.zarr_arrays import chunks_of, create_array, open_array, write_rows, zarr_module
+from vorotool.formats.zarr_arrays import chunks_of, create_array, open_array, write_rows, write_zarr, zarr_module
 
 zarr = pytest.importorskip("zarr")
 IMAGE = np.random.default_rng(1).integers(0, 9, (70, 50)).cumsum(axis=1).astype(np.uint16)
@@ -71,3 +74,27 @@ def test_room_is_asked_for_only_where_it_may_lack(tmp_path, monkeypatch):
         check_space(tmp_path / "a.npy", 2 * 10**12, lambda: 1200 * 10**9)
     check_space("-", 10**12, never)
     check_space("/dev/null", 10**12, never)
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+@pytest.mark.parametrize("step", ["metadata", "chunk"])
+def test_an_interrupt_waits_for_what_is_being_written(tmp_path, monkeypatch, threads, step):
+    """Zarr's threads would make the folder again while, or after, it is removed."""
+    import zarr.storage._local as local
+
+    put, main = local._put, threading.main_thread().ident
+
+    def slow(path, *arguments, **options):
+        if (path.name == "zarr.json") == (step == "metadata"):
+            if not interrupted:
+                interrupted.append(signal.pthread_kill(main, signal.SIGINT))
+            time.sleep(0.3)
+        return put(path, *arguments, **options)
+
+    interrupted = []
+    monkeypatch.setattr(local, "_put", slow)
+    with pytest.raises(KeyboardInterrupt):
+        write_zarr(tmp_path / "a.zarr", np.ones((4, 9000), np.uint8), threads=threads)
+    assert list(tmp_path.iterdir()) == []
+    time.sleep(0.5)
+    assert list(tmp_path.iterdir()) == []

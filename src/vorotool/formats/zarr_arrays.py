@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from typing import Any
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
@@ -12,6 +14,9 @@ from numpy.typing import DTypeLike, NDArray
 from vorotool.errors import UsageError
 from vorotool.formats.bands import in_order
 from vorotool.formats.stores import open_store
+from vorotool.geometry.checks import available_threads
+
+Result = TypeVar("Result")
 
 CHUNK = (512, 2048)
 """Rows and columns of a chunk: so large that there are few files, and so wide since a row of chunks is held."""
@@ -71,7 +76,8 @@ def create_array(store: Any, shape: tuple[int, int], *, dtype: DTypeLike, chunks
     zarr.Array
     """
     zarr = zarr_module()
-    return zarr.create_array(
+    return _to_its_end(
+        zarr.create_array,
         store if isinstance(store, dict) else os.fspath(store),
         shape=shape,
         chunks=chunks,
@@ -123,8 +129,23 @@ def write_rows(
             check()
         array[first : first + len(rows), column : column + width] = rows[:, column : column + width]
 
-    for _ in in_order(write, range(0, array.shape[1], width), threads):
-        pass
+    columns = range(0, array.shape[1], width)
+    if (threads or available_threads()) == 1:
+        for column in columns:
+            _to_its_end(write, column)
+        return
+    with closing(in_order(write, columns, threads)) as written:
+        for _ in written:
+            pass
+
+
+def _to_its_end(function: Callable[..., Result], *arguments: Any, **options: Any) -> Result:
+    """Call what writes in a store, and wait until it has ended, through an interrupt, too.
+
+    Zarr writes in threads of its own, which would go on in a folder that is being removed.
+    """
+    with ThreadPoolExecutor(1) as pool:
+        return pool.submit(function, *arguments, **options).result()
 
 
 def write_zarr(path: str | os.PathLike[str], image: NDArray[Any], *, threads: int = 0) -> None:
