@@ -11,6 +11,8 @@ class Kind(Enum):
     GENERAL = auto()
     DEGREES = auto()
     """Longitude and latitude are treated as planar."""
+    UNNAMED_CRS = auto()
+    """Coordinates that may be longitude and latitude are taken for planar ones."""
 
 
 class Message(str):

@@ -25,7 +25,8 @@ def test_a_note_about_an_input_named_degrees_stays_a_note(run, tmp_path, command
 
 def test_that_lengths_are_in_degrees_is_a_warning_of_skeletons_and_nothing_to_pictures(run, tmp_path):
     path = tmp_path / "a.geojson"
-    path.write_text(json.dumps({"type": "LineString", "coordinates": [[0.5, 0.5], [1.5, 3.5]]}))
+    crs = {"type": "name", "properties": {"name": "EPSG:4258"}}
+    path.write_text(json.dumps({"type": "LineString", "coordinates": [[0.5, 0.5], [1.5, 3.5]], "crs": crs}))
     outcome = run("skeleton-exact", path, "--side", "exterior", "-o", tmp_path / "a.json")
     assert outcome.err.startswith(f"warning: {path}: longitude and latitude are treated as planar")
     assert run("draw", path, "-o", tmp_path / "a.svg").err == ""

@@ -116,11 +116,14 @@ def test_geojson_notes():
     assert notes_of(text, "a.geojson") == [
         "a.geojson: 2 features without a geometry are left out",
         "a.geojson: only x and y are used, heights are left out",
-        "a.geojson: longitude and latitude are treated as planar, lengths are in degrees",
+        "a.geojson names no coordinate reference system, and is taken for planar: if it is longitude and latitude, say "
+        "so with --input-crs OGC:CRS84",
     ]
     assert len(read(text, "a.geojson")) == 1
     wgs84 = {"type": "name", "properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}}
-    assert len(notes_of(collection(feature([7, 46]), crs=wgs84), "a.geojson")) == 1
+    assert notes_of(collection(feature([7, 46]), crs=wgs84), "a.geojson") == [
+        "a.geojson: longitude and latitude are treated as planar, lengths are in degrees"
+    ]
     assert len(read(collection(), "a.geojson")) == 0
 
 

@@ -48,7 +48,11 @@ def test_recognised_headers(header, used, point):
         return
     assert notes[0] == f"seeds.csv: columns {used} are read as x, y"
     degrees = "seeds.csv: longitude and latitude are treated as planar, lengths are in degrees"
-    assert notes[1:] == ([degrees] if used.lower().startswith("lon") else [])
+    is_map = used.lower().startswith("lon")
+    assert notes[1:] == ([degrees] if is_map else [])
+    points = read(text)
+    assert points.y_up == is_map
+    assert points.crs == ({"type": "name", "properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}} if is_map else None)
 
 
 def test_labels():

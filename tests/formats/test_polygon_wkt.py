@@ -1,5 +1,7 @@
 """Polygons and lines in well-known text."""
 
+from dataclasses import replace
+
 import pytest
 
 from polygon_reading import assert_same, error_of, notes_of, read, rings, written
@@ -24,7 +26,12 @@ def test_wkt():
     ]  # fmt: skip
     assert shapes.part.tolist() == [1, 1, 2, 1, 1, 2, 1, 2]
     assert shapes.y_up
-    assert_same(read(written(shapes, "wkt"), "a.wkt"), shapes)
+    assert shapes.crs == {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::4326"}}
+    assert_same(read(written(shapes, "wkt"), "a.wkt"), replace(shapes, crs=None))
+    assert read("LINESTRING (0 0, 1 1)", "a.wkt").crs is None
+    assert "line 2: the geometry is in EPSG:3857, but that of line 1 in EPSG:4326" in error_of(
+        "SRID=4326;LINESTRING (0 0, 1 1)\nsrid = 3857 ; LINESTRING (0 0, 1 1)", "a.wkt"
+    )
     assert written(shapes, "wkt").splitlines() == [
         "POLYGON ((0 0, 9 0, 0 9, 0 0), (1 1, 2 1, 1 2, 1 1))",
         "MULTIPOLYGON (((0 0, 9 0, 0 9, 0 0)), ((20 20, 30 20.5, 20 30, 20 20)))",

@@ -88,7 +88,7 @@ def _products(run: Run, o: SimpleNamespace, source: str) -> MeshProducts:
         points = read_sites(run, o, source, properties=properties, is_digital=_is_digital(o))
     if o.clip is not None:
         with run.phase("read polygons"):
-            o.clip = read_clip(run, o, o.clip)
+            o.clip, points = read_clip(run, o, o.clip, points, source)
     with naming(source):
         return _kind(o)(points, o, run)
 

@@ -112,8 +112,8 @@ def _is_empty_collection(source: Source) -> bool:
 
 
 def _note(run: Run, message: str) -> None:
-    """Say what was left out; pictures have no lengths, so that these are in degrees says nothing."""
-    if Message.of(message).kind is not Kind.DEGREES:
+    """Say what was left out; pictures have no lengths, so that these are in degrees, or may be, says nothing."""
+    if Message.of(message).kind not in (Kind.DEGREES, Kind.UNNAMED_CRS):
         run.note(message)
 
 

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from vorotool.cli.run import Run
-from vorotool.errors import InputError
+from vorotool.errors import InputError, Kind, Message
 
 if TYPE_CHECKING:
     from vorotool.geometry.frame import Frame
     from vorotool.geometry.points import PointSet
+    from vorotool.geometry.polygons import PolygonSet
     from vorotool.geometry.raster import Raster
     from vorotool.geometry.seeds import SeedSet
     from vorotool.render.layers import Backdrop
@@ -45,6 +47,7 @@ def read_seed_input(run: Run, o: SimpleNamespace, source: str, *, properties: bo
         properties=properties and not o.no_properties,
         threads=o.threads,
         note=run.note,
+        crs=o.input_crs,
     )
     if isinstance(value, PointSet):
         refuse(o, IMAGE_OPTIONS, "is for images, but the input is a list of points")
@@ -111,27 +114,85 @@ def window_of(o: SimpleNamespace, seeds: SeedSet) -> tuple[int, int, int, int] |
     return None if frame is None else (frame.x, frame.y, frame.width, frame.height)
 
 
-def read_clip(run: Run, o: SimpleNamespace, path: str) -> Sequence[Any]:
+def read_clip(
+    run: Run, o: SimpleNamespace, path: str, points: PointSet | SeedSet, source: str
+) -> tuple[Sequence[Any], PointSet | SeedSet]:
     """Read the polygons of ``--clip``, as shapely geometry; lines are left out with a note.
+
+    Of polygons and points that name no coordinate reference system, the ones are taken to be in that of the others.
+
+    Returns
+    -------
+    polygons : sequence of shapely geometry
+        To clip to.
+    points : PointSet or SeedSet
+        The points, in a system if the polygons are in one.
 
     Raises
     ------
     InputError
-        If there are none.
+        If there are no polygons, or they are in another system than the points.
     """
     from vorotool.formats import read
     from vorotool.geometry.polygon_conversion import to_shapely
     from vorotool.geometry.polygons import PolygonSet
 
-    value = read(path, geometry="polygons", properties=False, threads=o.threads, note=run.note)
+    value = read(path, geometry="polygons", properties=False, threads=o.threads, note=partial(_note_of_clip, run))
     if not isinstance(value, PolygonSet):
         raise InputError(f"{path} is an image: give --clip a file of polygons")
+    points = _in_one_crs(run, (path, value), (source, points))
     lines = int(value.is_line.sum())
     if lines:
         run.note(f"{path}: {lines} open lines are left out of --clip")
     if lines == len(value):
         raise InputError(f"{path} holds no polygons: give --clip a file that does")
-    return list(to_shapely(value)[~value.is_line])
+    return list(to_shapely(value)[~value.is_line]), points
+
+
+def _note_of_clip(run: Run, message: str) -> None:
+    """Say what the reader noticed, but what is said of the points, or of both together."""
+    if Message.of(message).kind not in (Kind.DEGREES, Kind.UNNAMED_CRS):
+        run.note(message)
+
+
+def _in_one_crs(run: Run, clip: tuple[str, PolygonSet], data: tuple[str, PointSet | SeedSet]) -> PointSet | SeedSet:
+    """Check that polygons and points are in one coordinate reference system, as far as they name any."""
+    from vorotool.formats.reference_systems import with_crs
+    from vorotool.formats.sources import STANDARD_INPUT
+    from vorotool.geometry.crs import crs_name, same_crs
+    from vorotool.geometry.points import PointSet
+
+    (path, polygons), (source, points) = clip, data
+    if not isinstance(points, PointSet) or (points.crs is None and polygons.crs is None):
+        return points
+    source = STANDARD_INPUT if source == "-" else source
+    if points.crs is None or polygons.crs is None:
+        unnamed, named, crs = (source, path, polygons.crs) if points.crs is None else (path, source, points.crs)
+        _check_they_meet(points, polygons, f"{unnamed} names no coordinate reference system", f"{named} is in", crs)
+        run.note(f"{unnamed} names no coordinate reference system: it is taken to be in {crs_name(crs)}, as {named} is")
+        return with_crs(points, source, crs, run.note) if points.crs is None else points
+    if not same_crs(points.crs, polygons.crs):
+        wanted = crs_name(points.crs)
+        raise InputError(
+            f"{path} is in {crs_name(polygons.crs)}, but {source} in {wanted}: bring them into one coordinate "
+            f"reference system, for example: ogr2ogr -f GeoJSON -t_srs {wanted} clip.geojson {path}"
+        )
+    return points
+
+
+def _check_they_meet(points: PointSet, polygons: PolygonSet, unnamed: str, named: str, crs: Any) -> None:
+    """Refuse to take what lies elsewhere to be in the same system."""
+    from vorotool.geometry.box import bounds
+    from vorotool.geometry.crs import crs_name
+
+    if not len(points.xy) or not len(polygons.xy):
+        return
+    (low_a, high_a), (low_b, high_b) = bounds(points.xy), bounds(polygons.xy)
+    if (low_a > high_b).any() or (low_b > high_a).any():
+        raise InputError(
+            f"{unnamed}, {named} {crs_name(crs)}, and the points lie outside the polygons: bring them into one system "
+            "that both name, for example with ogr2ogr -t_srs, or with --input-crs for the points"
+        )
 
 
 def read_backdrop(o: SimpleNamespace) -> Backdrop | None:

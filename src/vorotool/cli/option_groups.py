@@ -9,7 +9,8 @@ from vorotool.cli.units import pixel_size_option
 def site_options(layers: tuple[str, ...]) -> Decorator:
     """Add the options of commands whose input is points or an image, and whose pictures have these layers."""
     return together(
-        shared("size", "window", "columns", "input-format", "page", "seeds", "connectivity", "threshold", "invert"),
+        shared("size", "window", "columns", "input-format", "input-crs"),
+        shared("page", "seeds", "connectivity", "threshold", "invert"),
         result_options(layers),
     )
 

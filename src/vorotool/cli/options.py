@@ -116,6 +116,20 @@ class Decimal(click.ParamType[Fraction]):
             self.fail(f"{value!r} is no number: give a decimal such as 12.5", param, ctx)
 
 
+class CrsName(click.ParamType[str]):
+    """The name of a coordinate reference system."""
+
+    name = "CRS"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """Check the name."""
+        from vorotool.geometry.crs import crs_member
+
+        if crs_member(value) is None:
+            self.fail(f"{value!r} is none: write authority and code, such as EPSG:3857 or OGC:CRS84", param, ctx)
+        return str(value)
+
+
 class Radius(Decimal):
     """A decimal number, kept exactly, or infinity."""
 
@@ -184,6 +198,11 @@ OPTIONS: dict[str, Decorator] = {
         metavar="FORMAT",
         help="Format of the input, where it is unclear.",
         shell_complete=words(ALL_NAMES),
+    ),
+    "input-crs": click.option(
+        "--input-crs",
+        type=CrsName(),
+        help="Coordinate reference system of an input that names none, such as EPSG:3857; nothing is reprojected.",
     ),
     "out-dir": click.option(
         "--out-dir",

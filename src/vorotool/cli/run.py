@@ -13,7 +13,7 @@ from typing import Any
 import click
 
 from vorotool import __version__
-from vorotool.errors import Message, VorotoolWarning
+from vorotool.errors import Kind, Message, VorotoolWarning
 
 PROGRESS_AFTER = 1.0
 """Seconds before a progress bar appears on a terminal."""
@@ -74,7 +74,10 @@ class Run:
             self._write_stats(self._target)
 
     def note(self, message: str) -> None:
-        """Say something useful on standard error."""
+        """Say something useful on standard error; that lengths are in degrees is about the result: a warning."""
+        if Message.of(message).kind is Kind.DEGREES:
+            self.warn(message)
+            return
         self.notes.append(Message.of(message))
         if not self._quiet:
             click.echo(f"note: {message}", err=True)

@@ -28,7 +28,6 @@ from vorotool.cli.recipes import Recipe
 from vorotool.cli.results import DERIVED, PICTURES, SKELETON_LAYERS, TABLES
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options
-from vorotool.errors import Kind, Message
 from vorotool.formats.input_formats import NAMES_WITH
 
 if TYPE_CHECKING:
@@ -167,7 +166,7 @@ _READING: tuple[Decorator, ...] = (
         metavar="TOLERANCE",
         help="Leave out vertices first, where outlines move by no more than this; what touches still does.",
     ),
-    shared("input-format", "page"),
+    shared("input-format", "input-crs", "page"),
     click.option(
         "--outline",
         type=click.Choice(["crack", "contour"]),
@@ -295,7 +294,8 @@ def _read_polygons(run: Run, o: SimpleNamespace, source: str) -> PolygonSet:
         max_sites=o.max_sites,
         properties=not o.no_properties,
         threads=o.threads,
-        note=partial(_note, run),
+        note=run.note,
+        crs=o.input_crs,
     )
     o.is_mask = isinstance(value, Raster)
     if isinstance(value, Raster):
@@ -334,11 +334,3 @@ def _simplified(run: Run, o: SimpleNamespace, polygons: PolygonSet) -> PolygonSe
     with run.phase("simplify"):
         graph = planar_graph(polygons, strict=o.strict, threads=o.threads)
         return simplified_polygons(placed_shapes(graph, threads=o.threads).polygons, o.simplify)
-
-
-def _note(run: Run, message: str) -> None:
-    """Say what the reader noticed; that lengths are in degrees is a warning, as it is about the result."""
-    if Message.of(message).kind is Kind.DEGREES:
-        run.warn(message)
-    else:
-        run.note(message)

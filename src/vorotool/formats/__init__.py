@@ -33,6 +33,7 @@ def read(
     properties: bool = True,
     threads: int = 0,
     note: Callable[[str], None] | None = None,
+    crs: str | None = None,
 ) -> PointSet | PolygonSet | Raster | Skeleton | Offsets:
     """Read points, polygons and lines, an image, or a skeleton or offset curves that were written as JSON.
 
@@ -60,6 +61,8 @@ def read(
         0 uses all.
     note : callable, optional
         Told in words what was recognised.
+    crs : str, optional
+        The coordinate reference system of points or polygons that name none, such as EPSG:3857.
 
     Returns
     -------
@@ -102,7 +105,18 @@ def read(
             properties=properties,
             threads=threads,
             note=note,
+            crs=None if crs is None else _declared(crs),
         )
+
+
+def _declared(crs: str) -> dict[str, Any]:
+    """Give the ``crs`` member of GeoJSON for a name."""
+    from vorotool.geometry.crs import crs_member
+
+    member = crs_member(crs)
+    if member is None:
+        raise UsageError(f"{crs!r} names no coordinate reference system: write authority and code, such as EPSG:3857")
+    return member
 
 
 def _read(
@@ -117,6 +131,7 @@ def _read(
     properties: bool,
     threads: int,
     note: Callable[[str], None] | None,
+    crs: Any,
 ) -> PointSet | PolygonSet | Raster | Skeleton | Offsets:
     """Read a file with options that have been checked."""
     from vorotool.formats.image_rows import is_zarr, open_rows, read_rows
@@ -124,6 +139,7 @@ def _read(
     from vorotool.formats.sources import read_source
 
     if is_zarr(name, input_format):
+        _refuse_crs(crs)
         rows = open_rows(name, input_format=input_format, page=page)
         assert rows is not None
         return read_rows(rows, max_pixels=max_pixels)
@@ -140,6 +156,7 @@ def _read(
     if input_format in ("png", "tiff", "pnm", "zarr") or (
         input_format in (None, "npy") and not is_points and is_image(source)
     ):
+        _refuse_crs(crs)
         return read_image(source, input_format=input_format, page=page, max_pixels=max_pixels)
     from vorotool.formats.points import read_points
     from vorotool.formats.polygons import read_polygons, recognise
@@ -150,7 +167,9 @@ def _read(
     if has_shapes:
         if columns is not None:
             raise UsageError("--columns is for lists of points: leave it out for polygons")
-        return read_polygons(source, input_format=input_format, properties=properties, max_sites=max_sites, note=note)
+        return read_polygons(
+            source, input_format=input_format, properties=properties, max_sites=max_sites, note=note, crs=crs
+        )
     return read_points(
         source,
         input_format=input_format,
@@ -159,7 +178,13 @@ def _read(
         max_sites=max_sites,
         threads=threads,
         note=note,
+        crs=crs,
     )
+
+
+def _refuse_crs(crs: Any) -> None:
+    if crs is not None:
+        raise UsageError("--input-crs is for points, polygons and lines, but the input is an image: leave it out")
 
 
 def write(

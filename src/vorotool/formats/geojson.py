@@ -6,9 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from vorotool.errors import InputError, LimitError
 from vorotool.formats.point_options import shortened
 from vorotool.formats.sources import Source, check_nesting
@@ -153,18 +150,6 @@ def holds_shapes(document: Any) -> bool:
         elif isinstance(kind, str):
             return kind.removeprefix("Multi") in ("Polygon", "LineString")
     return False
-
-
-def in_degrees(crs: Any, xy: NDArray[np.float64]) -> bool:
-    """Whether GeoJSON coordinates are taken for longitude and latitude.
-
-    With a ``crs`` member: if that names CRS84 or EPSG:4326. Without one RFC 7946 has it that all are; many planar files
-    leave the member out too, so it is required that all fit in ±180 and ±90 and that not all are whole numbers.
-    """
-    if crs is not None:
-        text = str(crs).upper()
-        return "CRS84" in text or "4326" in text
-    return len(xy) > 0 and bool((np.abs(xy) <= (180.0, 90.0)).all()) and bool((xy % 1 != 0).any())
 
 
 def property_columns(

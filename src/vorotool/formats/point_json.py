@@ -11,13 +11,13 @@ from vorotool.formats.geojson import (
     feature_places,
     features_of,
     geometry_of,
-    in_degrees,
     list_of,
     parse_json,
     property_columns,
     refuse_table,
 )
 from vorotool.formats.point_options import PointOptions, position_array, shortened
+from vorotool.formats.reference_systems import note_unnamed
 from vorotool.formats.sources import Source
 from vorotool.geometry.points import PointSet
 
@@ -75,8 +75,8 @@ def _read_document(name: str, document: Mapping[str, Any], options: PointOptions
     if any(len(position) > 2 for position in collected.positions):
         options.note(f"{name}: only x and y are used, heights are left out")
     crs = document.get("crs")
-    if in_degrees(crs, xy):
-        options.note_degrees(name)
+    if crs is None and options.crs is None:
+        note_unnamed(name, xy, options.note)
     properties = _properties(name, features, collected) if options.properties else {}
     return PointSet(xy, None, properties, y_up=True, crs=crs)
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import InputError, Kind, LimitError, Message
+from vorotool.errors import InputError, LimitError
 
 LARGEST_LABEL = 0xFFFFFFFF
 """Labels are uint32: there cannot be more sites either."""
@@ -32,6 +32,7 @@ class PointOptions:
     max_sites: int | None = None
     threads: int = 0
     note: Callable[[str], None] = no_note
+    crs: Any = None
 
     def check_sites(self, name: str, count: int) -> None:
         """Raise LimitError if ``count`` sites are too many."""
@@ -39,16 +40,6 @@ class PointOptions:
         if count > limit:
             advice = "raise --max-sites or split the file" if limit < LARGEST_LABEL else "split the file"
             raise LimitError(f"{name} holds {count} points, more than the limit of {limit}: {advice}")
-
-    def note_degrees(self, name: str) -> None:
-        """Say that longitude and latitude are taken for planar coordinates."""
-        self.note(degrees_note(name))
-
-
-def degrees_note(name: str) -> Message:
-    """Say that longitude and latitude are taken for planar coordinates."""
-    text = f"{name}: longitude and latitude are treated as planar, lengths are in degrees"
-    return Message(text, Kind.DEGREES, source=name)
 
 
 def no_points() -> NDArray[np.float64]:

@@ -14,6 +14,7 @@ from vorotool.errors import InputError, UsageError
 from vorotool.formats.convertible import refuse_geometry_column
 from vorotool.formats.point_options import LARGEST_LABEL, LATITUDES, LONGITUDES, PointOptions, no_points, shortened
 from vorotool.formats.sources import Source
+from vorotool.geometry.crs import LONGITUDE_LATITUDE, crs_member
 from vorotool.geometry.points import PointSet
 
 COORDINATE_NAMES = (
@@ -119,8 +120,6 @@ def _choose_layout(
     x, y, label = (*chosen, None)[:3] if len(chosen) == 2 else chosen
     assert x is not None
     assert y is not None
-    if header and _lower(fields[x]) in LONGITUDES and _lower(fields[y]) in LATITUDES:
-        options.note_degrees(name)
     return _Layout(name, data, delimiter, line, fields, header, x, y, label)
 
 
@@ -220,7 +219,14 @@ def _read_rows(layout: _Layout, options: PointOptions) -> PointSet:
     options.check_sites(layout.name, len(values))
     labels = None if layout.label is None else _labels(layout, values[:, 2])
     rest = [i for i in range(fields) if i not in columns] if options.properties else []
-    return PointSet(values[:, :2], labels, _properties(layout, rest, options.threads))
+    is_map = layout.header and _are_degrees(layout.first_record[layout.x], layout.first_record[layout.y])
+    crs = crs_member(LONGITUDE_LATITUDE) if is_map and options.crs is None else None
+    return PointSet(values[:, :2], labels, _properties(layout, rest, options.threads), y_up=is_map, crs=crs)
+
+
+def _are_degrees(x: str, y: str) -> bool:
+    """Whether columns of these names are longitude and latitude."""
+    return _lower(x) in LONGITUDES and _lower(y) in LATITUDES
 
 
 def _counted_by(layout: _Layout) -> str:

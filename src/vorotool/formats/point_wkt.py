@@ -10,10 +10,11 @@ import numpy as np
 from vorotool.errors import InputError
 from vorotool.formats.point_json import not_a_point_advice
 from vorotool.formats.point_options import PointOptions, no_points, shortened
+from vorotool.formats.reference_systems import crs_of_numbers
 from vorotool.formats.sources import Source, check_nesting
 from vorotool.geometry.points import PointSet
 
-_SRID = re.compile(r"\ASRID\s*=\s*\d+\s*;\s*", re.IGNORECASE)
+_SRID = re.compile(r"\ASRID\s*=\s*(\d{1,9})\s*;\s*", re.IGNORECASE)
 _POINT, _MULTIPOINT, _COLLECTION = 0, 4, 7  # type numbers of GEOS
 
 
@@ -22,7 +23,8 @@ def read_wkt(source: Source, options: PointOptions) -> PointSet:
     import shapely
 
     check_nesting(source.data, name=source.name)
-    texts, lines = geometry_texts(source)
+    texts, lines, srids = geometry_texts(source)
+    crs = crs_of_numbers(source.name, srids, lines)
     with np.errstate(all="ignore"):  # numbers beyond the largest double are found below
         geometries = shapely.from_wkt(np.array(texts, dtype=object), on_invalid="ignore")
     for index in np.flatnonzero(shapely.get_type_id(geometries) != _POINT):
@@ -30,7 +32,7 @@ def read_wkt(source: Source, options: PointOptions) -> PointSet:
     points, owners = _single_points(geometries)
     options.check_sites(source.name, len(points))
     if not len(points):
-        return PointSet(no_points(), y_up=True)
+        return PointSet(no_points(), y_up=True, crs=crs)
     xy = shapely.get_coordinates(points)
     bad = np.flatnonzero(~np.isfinite(xy).all(axis=1))
     if bad.size:
@@ -40,13 +42,14 @@ def read_wkt(source: Source, options: PointOptions) -> PointSet:
         options.note(f"{source.name}: only x and y are used, heights are left out")
     parts = _part_numbers(owners)
     properties = {"part": parts.tolist()} if options.properties and parts.max() > 1 else {}
-    return PointSet(xy, None, properties, y_up=True)
+    return PointSet(xy, None, properties, y_up=True, crs=crs)
 
 
-def geometry_texts(source: Source) -> tuple[list[str], list[int]]:
-    """Cut a text into geometries, and give the line of each: it ends when its brackets are closed."""
+def geometry_texts(source: Source) -> tuple[list[str], list[int], list[int]]:
+    """Cut a text into geometries, and give the line and the SRID (or 0) of each: it ends when its brackets close."""
     texts: list[str] = []
     lines: list[int] = []
+    srids: list[int] = []
     depth = 0
     for number, line in enumerate(source.data.decode("utf-8", "replace").splitlines(), 1):
         text = line.strip()
@@ -55,10 +58,12 @@ def geometry_texts(source: Source) -> tuple[list[str], list[int]]:
         if depth > 0 or (texts and text.startswith("(")):
             texts[-1] += " " + text
         else:
-            texts.append(_SRID.sub("", text, count=1))
+            srid = _SRID.match(text)
+            texts.append(text if srid is None else text[srid.end() :])
             lines.append(number)
+            srids.append(0 if srid is None else int(srid[1]))
         depth = max(0, depth + text.count("(") - text.count(")"))
-    return texts, lines
+    return texts, lines, srids
 
 
 def _check_geometry(geometry: Any, text: str, place: str) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from typing import Any
 
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.convertible import refuse_convertible
@@ -14,6 +15,7 @@ from vorotool.formats.point_npy import read_npy
 from vorotool.formats.point_options import PointOptions, no_note
 from vorotool.formats.point_text import read_text
 from vorotool.formats.point_wkt import read_wkt
+from vorotool.formats.reference_systems import with_crs
 from vorotool.formats.sources import Source
 from vorotool.geometry.points import PointSet
 
@@ -79,6 +81,7 @@ def read_points(
     max_sites: int | None = None,
     threads: int = 0,
     note: Callable[[str], None] | None = None,
+    crs: Any = None,
 ) -> PointSet:
     r"""Read points, in the order of the input.
 
@@ -86,7 +89,8 @@ def read_points(
     semicolons, tabs or blanks between fields. A header with x,y, lon,lat, longitude,latitude,
     centroid-1,centroid-0 or axis-1,axis-0 (in any case) says which columns are the coordinates; without a
     header two columns are x, y; all else needs ``columns``. A column ``label`` is used when ``columns`` names
-    it, or when the header is x, y and label alone. GeoJSON and WKT are points with y upwards.
+    it, or when the header is x, y and label alone. GeoJSON, WKT, and longitude and latitude by the header are points
+    with y upwards.
 
     Parameters
     ----------
@@ -104,6 +108,8 @@ def read_points(
         Threads for text; 0 for all.
     note : callable, optional
         Called with a line for each thing that was guessed or left out.
+    crs : object, optional
+        The ``crs`` member of GeoJSON for an input that names none.
 
     Returns
     -------
@@ -129,8 +135,8 @@ def read_points(
         raise UsageError(f"--columns is for delimited text, but {source.name} is read as {chosen}: leave it out")
     if chosen != "npy":
         source = text_source(source)
-    options = PointOptions(columns, properties, max_sites, threads, note or no_note)
-    return _READERS[chosen](source, options)
+    options = PointOptions(columns, properties, max_sites, threads, note or no_note, crs)
+    return with_crs(_READERS[chosen](source, options), source.name, crs, options.note)
 
 
 def text_source(source: Source) -> Source:

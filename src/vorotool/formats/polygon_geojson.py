@@ -14,7 +14,6 @@ from vorotool.formats.geojson import (
     feature_places,
     features_of,
     geometry_of,
-    in_degrees,
     list_of,
     parse_json,
     property_columns,
@@ -22,6 +21,7 @@ from vorotool.formats.geojson import (
 from vorotool.formats.point_options import shortened
 from vorotool.formats.polygon_options import PolygonOptions, RingCollector
 from vorotool.formats.polygon_text import Digits
+from vorotool.formats.reference_systems import note_unnamed
 from vorotool.formats.sources import Source
 from vorotool.geometry.polygons import PolygonSet
 
@@ -44,8 +44,8 @@ def read_geojson(source: Source, options: PolygonOptions) -> PolygonSet:
     crs = document.get("crs")
     polygons = collector.finish(ids=ids if options.properties else None, properties=own, y_up=True, crs=crs)
     options.note_left_out(source.name, len(features) - len(set(owners)))
-    if in_degrees(crs, polygons.xy):
-        options.note_degrees(source.name)
+    if crs is None and options.crs is None:
+        note_unnamed(source.name, polygons.xy, options.note)
     return polygons
 
 

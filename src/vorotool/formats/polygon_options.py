@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from vorotool.errors import InputError, LimitError
-from vorotool.formats.point_options import degrees_note, no_note, position_array, shortened
+from vorotool.formats.point_options import no_note, position_array, shortened
 from vorotool.geometry.polygons import HOLE, LINE, SHELL, PolygonSet, set_of_rings
 
 MOST_VERTICES = 2**28
@@ -24,6 +24,7 @@ class PolygonOptions:
     properties: bool = True
     max_sites: int | None = None
     note: Callable[[str], None] = no_note
+    crs: Any = None
 
     def check_vertices(self, name: str, count: int) -> None:
         """Raise LimitError if ``count`` vertices are too many."""
@@ -40,10 +41,6 @@ class PolygonOptions:
     def note_heights(self, name: str) -> None:
         """Say that coordinates beyond x and y are not used."""
         self.note(f"{name}: only x and y are used, heights are left out")
-
-    def note_degrees(self, name: str) -> None:
-        """Say that longitude and latitude are taken for planar coordinates."""
-        self.note(degrees_note(name))
 
 
 @dataclass

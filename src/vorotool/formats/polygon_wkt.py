@@ -14,6 +14,7 @@ from vorotool.formats.point_wkt import geometry_texts
 from vorotool.formats.polygon_geojson import feature_ranges, not_a_shape_advice
 from vorotool.formats.polygon_options import PolygonOptions
 from vorotool.formats.polygon_text import Digits
+from vorotool.formats.reference_systems import crs_of_numbers
 from vorotool.formats.sources import Source, check_nesting
 from vorotool.geometry.polygon_conversion import polygons_of_geometry
 from vorotool.geometry.polygons import PolygonSet
@@ -28,7 +29,8 @@ def read_wkt(source: Source, options: PolygonOptions) -> PolygonSet:
     import shapely
 
     check_nesting(source.data, name=source.name)
-    texts, lines = geometry_texts(source)
+    texts, lines, srids = geometry_texts(source)
+    crs = crs_of_numbers(source.name, srids, lines)
     with np.errstate(all="ignore"):  # numbers beyond the largest double are found below
         geometries = shapely.from_wkt(np.array(texts, dtype=object), on_invalid="ignore")
     for index in np.flatnonzero(~np.isin(shapely.get_type_id(geometries), _SHAPES)):
@@ -38,7 +40,7 @@ def read_wkt(source: Source, options: PolygonOptions) -> PolygonSet:
     if shapely.has_z(geometries).any():
         options.note_heights(source.name)
     options.note_left_out(source.name, int(shapely.is_empty(geometries).sum()))
-    return replace(polygons_of_geometry(geometries), y_up=True)
+    return replace(polygons_of_geometry(geometries), y_up=True, crs=crs)
 
 
 def holds_shapes(data: bytes) -> bool:

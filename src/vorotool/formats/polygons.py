@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.convertible import refuse_geometry_column
@@ -18,6 +18,7 @@ from vorotool.formats.polygon_options import PolygonOptions
 from vorotool.formats.polygon_poly import read_poly, write_poly
 from vorotool.formats.polygon_wkt import holds_shapes as wkt_holds_shapes
 from vorotool.formats.polygon_wkt import read_wkt, write_wkt
+from vorotool.formats.reference_systems import with_crs
 from vorotool.formats.sources import Source
 from vorotool.geometry.polygons import PolygonSet
 
@@ -117,6 +118,7 @@ def read_polygons(
     properties: bool = True,
     max_sites: int | None = None,
     note: Callable[[str], None] | None = None,
+    crs: Any = None,
 ) -> PolygonSet:
     """Read polygons and open lines, in the order of the input.
 
@@ -125,9 +127,9 @@ def read_polygons(
     GeoJSON and WKT the parts of a multi-part geometry are polygons of one feature. Rings may repeat their first vertex
     at their end or not (in WKT they must). Geometry without coordinates is left out with a note.
 
-    GeoJSON without a ``crs`` member is longitude and latitude by RFC 7946. Many planar files leave it out too:
-    coordinates are taken for degrees, with a note that lengths are in degrees, where all fit in ±180 and ±90 and not
-    all are whole numbers, or where the ``crs`` says so. Nothing is reprojected.
+    Coordinates are longitude and latitude where the ``crs`` member of GeoJSON or the SRID of WKT says so, and then a
+    note tells that lengths are in degrees. GeoJSON without it is planar, with a note where all fit in ±180 and ±90 and
+    not all are whole numbers. Nothing is reprojected.
 
     Parameters
     ----------
@@ -141,6 +143,8 @@ def read_polygons(
         The most vertices that are accepted.
     note : callable, optional
         Called with a line for each thing that was guessed or left out.
+    crs : object, optional
+        The ``crs`` member of GeoJSON for an input that names none.
 
     Returns
     -------
@@ -162,8 +166,8 @@ def read_polygons(
     [[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]
     """
     chosen = known_input_format(input_format, POLYGON_NAMES) or detect_polygon_format(source)
-    options = PolygonOptions(properties, max_sites, note or no_note)
-    return _READERS[chosen](text_source(source), options)
+    options = PolygonOptions(properties, max_sites, note or no_note, crs)
+    return with_crs(_READERS[chosen](text_source(source), options), source.name, crs, options.note)
 
 
 def write_polygons(out: BinaryIO, polygons: PolygonSet, fmt: str, *, precision: int | None = None) -> None:

@@ -1,0 +1,154 @@
+"""Coordinate reference systems on the command line: carried on, never mixed, never guessed from numbers."""
+
+import json
+
+import pytest
+
+STATIONS = [[-20.5, 64.1], [-18.2, 65.3], [-22.1, 64.9], [-16, 64.6]]
+DEGREES = "longitude and latitude are treated as planar, lengths are in degrees"
+
+
+def collection(*geometries, crs=None):
+    features = [{"type": "Feature", "geometry": each, "properties": None} for each in geometries]
+    member = {} if crs is None else {"crs": {"type": "name", "properties": {"name": crs}}}
+    return json.dumps({"type": "FeatureCollection", **member, "features": features})
+
+
+def stations(crs=None):
+    return collection(*({"type": "Point", "coordinates": place} for place in STATIONS), crs=crs)
+
+
+def box(x0, y0, x1, y1, crs=None):
+    ring = [[x0, y0], [x1, y0], [x1, y1], [x0, y1], [x0, y0]]
+    return collection({"type": "Polygon", "coordinates": [ring]}, crs=crs)
+
+
+@pytest.fixture
+def maps(folder):
+    (folder / "stations.geojson").write_text(stations("urn:ogc:def:crs:OGC:1.3:CRS84"))
+    (folder / "bare.geojson").write_text(stations())
+    (folder / "stations.csv").write_text("lon,lat\n" + "".join(f"{x},{y}\n" for x, y in STATIONS))
+    (folder / "plain.csv").write_text("x,y\n" + "".join(f"{x},{y}\n" for x, y in STATIONS))
+    (folder / "stations.wkt").write_text("".join(f"SRID=4326;POINT ({x} {y})\n" for x, y in STATIONS))
+    (folder / "metres.geojson").write_text(box(240e3, 300e3, 760e3, 680e3, "urn:ogc:def:crs:EPSG::3057"))
+    (folder / "degrees.geojson").write_text(box(-25, 63, -13, 67.5, "EPSG:4326"))
+    (folder / "unnamed.geojson").write_text(box(-25, 63, -13, 67.5))
+    return folder
+
+
+def crs_of(text):
+    return json.loads(text).get("crs", {}).get("properties", {}).get("name")
+
+
+@pytest.mark.parametrize("name", ["stations.geojson", "stations.csv", "stations.wkt"])
+def test_polygons_to_clip_to_in_another_system_are_refused(run, maps, name):
+    done = run("delaunay", name, "--what", "cells", "--clip", "metres.geojson", "-o", "cells.geojson")
+    assert done.code == 3
+    message = done.err.splitlines()[-1]
+    assert message.startswith("error: metres.geojson is in EPSG:3057, but " + name)
+    assert "CRS84" in message or "EPSG:4326" in message
+    assert "ogr2ogr -f GeoJSON -t_srs" in message
+    assert not (maps / "cells.geojson").exists()
+
+
+def test_polygons_to_clip_to_in_the_same_system_by_another_name(run, maps):
+    done = run("delaunay", "stations.geojson", "--what", "cells", "--clip", "degrees.geojson")
+    assert (done.code, done.err) == (0, f"warning: stations.geojson: {DEGREES}\n")
+    assert crs_of(done.out) == "urn:ogc:def:crs:OGC:1.3:CRS84"
+    assert all(feature["geometry"] for feature in json.loads(done.out)["features"])
+
+
+def test_polygons_to_clip_to_that_name_no_system_take_that_of_the_points(run, maps):
+    done = run("delaunay", "stations.geojson", "--what", "cells", "--clip", "unnamed.geojson")
+    assert done.code == 0
+    assert done.err.splitlines()[1:] == [
+        "note: unnamed.geojson names no coordinate reference system: it is taken to be in OGC:CRS84, as "
+        "stations.geojson is"
+    ]
+
+
+def test_points_that_name_no_system_take_that_of_the_polygons(run, maps):
+    done = run("delaunay", "plain.csv", "--what", "cells", "--clip", "degrees.geojson")
+    assert (done.code, crs_of(done.out)) == (0, "EPSG:4326")
+    assert done.err.splitlines() == [
+        "note: plain.csv names no coordinate reference system: it is taken to be in EPSG:4326, as degrees.geojson is",
+        f"warning: plain.csv: {DEGREES}",
+    ]
+
+
+@pytest.mark.parametrize("name", ["bare.geojson", "plain.csv"])
+def test_points_that_name_no_system_and_lie_elsewhere_are_refused(run, maps, name):
+    done = run("delaunay", name, "--what", "cells", "--clip", "metres.geojson")
+    assert done.code == 3
+    assert f"{name} names no coordinate reference system, metres.geojson is in EPSG:3057" in done.err
+
+
+def test_nothing_is_said_where_neither_names_a_system(run, maps):
+    done = run("delaunay", "plain.csv", "--what", "cells", "--clip", "unnamed.geojson")
+    assert (done.code, done.err, crs_of(done.out)) == (0, "", None)
+
+
+@pytest.mark.parametrize(
+    ("command", "options"),
+    [("delaunay", ("-f", "geojson")), ("alphashape", ("-r", "3", "-f", "geojson")), ("delaunay", ("--what", "cells"))],
+)
+@pytest.mark.parametrize("name", ["stations.csv", "stations.wkt", "stations.geojson"])
+def test_the_system_is_carried_on_and_degrees_are_a_warning(run, maps, name, command, options):
+    done = run(command, name, *options)
+    assert done.code == 0
+    assert f"warning: {name}: {DEGREES}" in done.err.splitlines()
+    assert crs_of(done.out) in ("urn:ogc:def:crs:OGC:1.3:CRS84", "urn:ogc:def:crs:EPSG::4326")
+
+
+@pytest.mark.parametrize("options", [("delaunay",), ("alphashape", "-r", "3"), ("delaunay", "--what", "cells")])
+def test_maps_from_longitude_and_latitude_are_drawn_north_up(run, maps, options):
+    command, *rest = options
+    run(command, "stations.geojson", *rest, "-o", "right.svg")
+    run(command, "stations.csv", *rest, "-o", "made.svg")
+    run(command, "plain.csv", *rest, "-o", "down.svg")
+    right, made, down = ((maps / f"{name}.svg").read_bytes() for name in ("right", "made", "down"))
+    assert made == right != down
+    run(command, "plain.csv", *rest, "-o", "declared.svg", "--input-crs", "EPSG:4258")
+    assert (maps / "declared.svg").read_bytes() == right
+
+
+def test_a_drawing_is_no_map(run, folder):
+    (folder / "drawing.geojson").write_text(box(0.5, 0.5, 100.5, 50.5))
+    done = run("skeleton-exact", "drawing.geojson", "-f", "geojson")
+    assert (done.code, crs_of(done.out)) == (0, None)
+    assert "warning" not in done.err
+    assert done.err.startswith("note: drawing.geojson names no coordinate reference system, and is taken for planar")
+    assert run("draw", "drawing.geojson", "-f", "svg").err == ""
+
+
+def test_a_system_is_declared_for_inputs_that_name_none(run, maps):
+    for command, name in (("skeleton-exact", "unnamed.geojson"), ("skeleton-approx", "unnamed.geojson")):
+        options = ("--step", "0.5") if command == "skeleton-approx" else ()
+        done = run(command, name, *options, "-f", "geojson", "--input-crs", "epsg:3857")
+        assert (done.code, done.err, crs_of(done.out)) == (0, "", "urn:ogc:def:crs:EPSG::3857")
+    done = run("skeleton-exact", "unnamed.geojson", "-f", "geojson", "--input-crs", "OGC:CRS84")
+    assert done.err == f"warning: unnamed.geojson: {DEGREES}\n"
+    assert run("skeleton-exact", "degrees.geojson", "--input-crs", "CRS:84").code == 0
+    done = run("skeleton-exact", "degrees.geojson", "--input-crs", "EPSG:3857")
+    assert done.code == 3
+    assert "degrees.geojson is in EPSG:4326, as it says itself, not in EPSG:3857" in done.err
+
+
+@pytest.mark.parametrize("name", ["Lambert", "", "3857", "EPSG:"])
+def test_what_names_no_system_is_refused(run, maps, name):
+    done = run("delaunay", "plain.csv", "--input-crs", name)
+    assert done.code == 2
+    assert "write authority and code, such as EPSG:3857" in done.err
+
+
+def test_images_have_no_system_to_declare(run, folder):
+    done = run("delaunay", "mask.pbm", "--input-crs", "EPSG:3857")
+    assert done.code == 2
+    assert "is for points, polygons and lines" in done.err
+
+
+def test_each_input_of_a_batch_has_its_own_system(run, maps):
+    done = run("delaunay", "stations.geojson", "plain.csv", "--out-dir", "out", "-f", "geojson")
+    assert done.code == 0
+    systems = [crs_of((maps / f"out/{name}.geojson").read_text()) for name in ("stations", "plain")]
+    assert systems == ["urn:ogc:def:crs:OGC:1.3:CRS84", None]
