@@ -100,6 +100,34 @@ def test_of_equally_long_paths_the_first_edges_count(polygon, found):
     assert sorted(ends(polygon)) == sorted(found)
 
 
+def arms(count, turn):
+    """As many equal arms around the origin, whose coordinates are rounded."""
+    step = 2 * np.pi / count
+    ring = []
+    for k in range(count):
+        way = np.array([np.cos(k * step + turn), np.sin(k * step + turn)])
+        across = np.array([-way[1], way[0]])
+        ring += [(12 * way - across).tolist(), (12 * way + across).tolist()]
+        ring.append((np.hypot(1, 1 / np.tan(step / 2)) * _middle(way, step)).tolist())
+    return ring
+
+
+def _middle(way, step):
+    c, s = np.cos(step / 2), np.sin(step / 2)
+    return np.array([c * way[0] - s * way[1], s * way[0] + c * way[1]])
+
+
+@pytest.mark.parametrize("count", [3, 4, 5])
+def test_ties_are_settled_by_edges_however_lengths_are_rounded(count):
+    for k in range(40):
+        ring = np.add(arms(count, 0.1 * k), [k * 100, k])
+        (ends_of,) = vorotool.centerline(vorotool.skeleton_exact(ring.tolist())).ends
+        middles = (ring[::3] + ring[1::3]) / 2
+        nearest = [int(np.hypot(*(middles - end).T).argmin()) for end in ends_of]
+        assert sorted(nearest) == [0, 1]
+        assert ends_of == pytest.approx(middles[nearest], abs=1e-6)
+
+
 def test_tips_are_led_into():
     flat = [[0, 0], [20, 0], [10, 2]]  # both acute corners are tips
     assert ends(flat) == [[0, 0], [20, 0]]
