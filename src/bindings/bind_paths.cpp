@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
@@ -35,7 +36,7 @@ std::span<const Pair> checked(const Matrix<const std::int32_t>& arcs, const Vect
 
 nb::tuple longest_paths(const Matrix<const std::int32_t>& arcs, const Vector<const double>& length,
                         const Vector<const std::int32_t>& group, std::size_t groups, std::size_t nodes,
-                        nb::handle progress) {
+                        double tie, nb::handle progress) {
   const std::span<const Pair> pairs = checked(arcs, length, nodes);
   if (group.size() != pairs.size()) throw std::invalid_argument("each arc must have a group");
   for (const std::int32_t number : view(group)) {
@@ -43,7 +44,8 @@ nb::tuple longest_paths(const Matrix<const std::int32_t>& arcs, const Vector<con
       throw std::invalid_argument("a group is out of range");
   }
   std::vector<GraphPath> paths = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::longest_paths(pairs, core::whole_lengths(view(length)), view(group), groups, nodes, monitor);
+    const std::vector<std::int64_t> whole = core::whole_lengths(view(length), view(group), groups);
+    return core::longest_paths(pairs, whole, view(group), groups, nodes, tie, monitor);
   });
   std::vector<std::int64_t> start{0};
   std::vector<std::int32_t> path_arcs, path_nodes;
@@ -64,7 +66,8 @@ nb::object path_from(const Matrix<const std::int32_t>& arcs, const Vector<const 
     throw std::invalid_argument("a node is out of range");
   }
   GraphPath path = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::path_from(pairs, core::whole_lengths(view(length)), nodes, first, last, monitor);
+    const std::vector<std::int32_t> group(pairs.size());
+    return core::path_from(pairs, core::whole_lengths(view(length), group, 1), nodes, first, last, monitor);
   });
   if (path.nodes.empty()) return nb::none();
   path.nodes.erase(path.nodes.begin());
@@ -75,7 +78,7 @@ nb::object path_from(const Matrix<const std::int32_t>& arcs, const Vector<const 
 
 void bind_paths(nb::module_& module) {
   module.def("longest_paths", &longest_paths, "arcs"_a.noconvert(), "length"_a.noconvert(),
-             "group"_a.noconvert(), "groups"_a, "nodes"_a, "progress"_a.none());
+             "group"_a.noconvert(), "groups"_a, "nodes"_a, "tie"_a, "progress"_a.none());
   module.def("path_from", &path_from, "arcs"_a.noconvert(), "length"_a.noconvert(), "nodes"_a, "first"_a,
              "last"_a, "progress"_a.none());
 }

@@ -14,14 +14,16 @@ bool is_farther(const ShortestPaths::Start& a, const ShortestPaths::Start& b) {
 
 }  // namespace
 
-std::vector<std::int64_t> whole_lengths(std::span<const double> lengths) {
-  double sum = 0;
-  for (const double length : lengths) sum += length;
-  int exponent = 0;
-  std::frexp(sum, &exponent);  // the sum is below 2^exponent
+std::vector<std::int64_t> whole_lengths(std::span<const double> lengths, std::span<const std::int32_t> group,
+                                        std::size_t groups) {
+  std::vector<double> sum(groups);
+  for (std::size_t k = 0; k < lengths.size(); ++k) sum[at(group[k])] += lengths[k];
+  std::vector<int> exponent(groups);
+  for (std::size_t k = 0; k < groups; ++k) std::frexp(sum[k], &exponent[k]);  // the sum is below 2^exponent
   std::vector<std::int64_t> whole(lengths.size());
   for (std::size_t k = 0; k < lengths.size(); ++k) {
-    whole[k] = static_cast<std::int64_t>(std::floor(std::ldexp(lengths[k], 61 - exponent) + 0.5));
+    const double scaled = std::ldexp(lengths[k], 61 - exponent[at(group[k])]);
+    whole[k] = static_cast<std::int64_t>(std::floor(scaled + 0.5));
   }
   return whole;
 }

@@ -10,9 +10,10 @@
 
 namespace vorotool::core {
 
-// Lengths as whole numbers, in units of the power of two that brings their sum between 2^60 and 2^61: no
-// order of addition changes a sum of them, and the sum of all and as many halves stays below 2^62.
-std::vector<std::int64_t> whole_lengths(std::span<const double> lengths);
+// Lengths as whole numbers, in units of the power of two that brings the sum of a group between 2^60 and
+// 2^61: no order of addition changes a sum of them, and the sum of all and as many halves stays below 2^62.
+std::vector<std::int64_t> whole_lengths(std::span<const double> lengths, std::span<const std::int32_t> group,
+                                        std::size_t groups);
 
 // The arcs at each node, by their numbers.
 class GraphIncidence {

@@ -13,7 +13,8 @@ namespace vorotool::core {
 
 // For each group of arcs the longest among the shortest paths between two leaves of one component, between
 // two nodes of components without a leaf, and from a single leaf to a node; from the end with the smaller
-// number. Of equally long ones that whose ends have the smallest numbers. No path where a group has no arcs.
+// number. Of equally long ones that whose ends have the smallest numbers; in a tree those are equally long
+// that are shorter than the longest by no more than a part `tie` of it. No path where a group has no arcs.
 //
 // Trees take linear time. With cycles, let K be the nodes on them at which trees hang (all, where none does)
 // and F the chains between nodes with three arcs on cycles: at most K searches in F chains, O(K F log K);
@@ -21,7 +22,7 @@ namespace vorotool::core {
 std::vector<GraphPath> longest_paths(std::span<const std::array<std::int32_t, 2>> arcs,
                                      std::span<const std::int64_t> lengths,
                                      std::span<const std::int32_t> group, std::size_t groups,
-                                     std::size_t nodes, const Monitor& monitor);
+                                     std::size_t nodes, double tie, const Monitor& monitor);
 
 // The shortest path between two nodes, or, with last -1, the longest of the shortest paths from a node to the
 // leaves of its component (to its nodes, where it has no leaf but the first). No path between components.

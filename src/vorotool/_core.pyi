@@ -430,6 +430,7 @@ def longest_paths(
     group: NDArray[np.int32],
     groups: int,
     nodes: int,
+    tie: float,
     progress: _Progress,
 ) -> tuple[NDArray[np.int64], NDArray[np.int32], NDArray[np.int32]]:
     """Where the arcs of each group's path begin, the arcs, and the node that each leads to."""

@@ -40,13 +40,13 @@ def centerline(
     """Find the centerline of each polygon: the longest of the shortest paths between ends of its skeleton.
 
     An *end* is a leaf, or a fork of two arcs to both corners of one edge, as far as its longer arc reaches. The longest
-    path is decided first; of equally long ones that at the first edges of the polygon. Then a fork is replaced by the
-    straight line to the middle of its edge, and round ends, which fan out to more corners, and leaves inside are led
-    straight on to the boundary, from the place of the path one radius before; a leaf between the edges on both sides of
-    an edge ahead is led to the middle of that edge, as the fork there would be. Where the angles at both ends of an
-    edge differ by more than a right angle, the sharper corner is a tip: the path leads into it, as into all other
-    corners. Where a connected skeleton has no end, paths between its nodes are compared; where it has one, paths from
-    it.
+    path is decided first; of those as long but for a millionth that at the first edges of the polygon (where it has
+    cycles, of exactly as long ones). Then a fork is replaced by the straight line to the middle of its edge. Round
+    ends, which fan out to more corners, and leaves inside are led straight on to the boundary, from the place of the
+    path one radius before; a leaf between the edges on both sides of an edge ahead is led to the middle of that edge,
+    as the fork there would be. Where the angles at both ends of an edge differ by more than a right angle, the sharper
+    corner is a tip: the path leads into it, as into all other corners. Where a connected skeleton has no end, paths
+    between its nodes are compared; where it has one, paths from it.
 
     A triangle has its end at the shortest edge, and a centerline from there to the corner opposite; a quadrilateral
     around a circle, such as a square, has two at opposite edges, where these are no tips; of equal ones the first.

@@ -19,6 +19,9 @@ Indices = NDArray[np.int32]
 Booleans = NDArray[np.bool_]
 Place = tuple[float, float]
 
+TIE = 2.0**-20
+"""A millionth: far more than equal lengths differ by once vertices are placed on a lattice of 2^-30 of the extent."""
+
 
 def geometry_of(skeleton: Skeleton, arc: Indices, first: Floats, last: Floats) -> dict[str, Floats]:
     """Places, radii, control points and lengths of parts of arcs, by the parameters of their ends."""
@@ -58,12 +61,13 @@ class Paths:
 class Network:
     """Arcs of a skeleton, or parts of them, as a graph; places inside arcs can be made nodes.
 
-    Leaves have the first numbers, in the order of the edges of polygons that they are at: of equally long paths the
-    core takes that whose ends have the smallest ones.
+    Leaves have the first numbers: with `by_edge` in the order of the edges of polygons that they are at. Of equally
+    long paths the core takes that whose ends have the smallest ones; with `by_edge` those are equally long that are as
+    long as the longest but for a part `TIE`.
     """
 
     def __init__(self, axis: Unforked, *, by_edge: bool) -> None:
-        self.axis, self.skeleton = axis, axis.skeleton
+        self.axis, self.skeleton, self.by_edge = axis, axis.skeleton, by_edge
         self.arc = axis.arcs.astype(np.int32)
         node, self.leaves = _numbered(self.skeleton, axis.arcs, by_edge=by_edge)
         self.node = node
@@ -100,7 +104,8 @@ class Network:
         """One path a polygon that has one of more than a place; each from the end with the first leaf."""
         count = len(self.skeleton.polygons)
         polygon = np.ascontiguousarray(self.skeleton.polygon[self.arc])
-        start, arcs, targets = _core.longest_paths(self.ends, self.length, polygon, count, self.nodes, progress)
+        tie = TIE if self.by_edge else 0.0
+        start, arcs, targets = _core.longest_paths(self.ends, self.length, polygon, count, self.nodes, tie, progress)
         path = np.repeat(np.arange(count), np.diff(start))
         length = np.bincount(path, self.length[arcs], minlength=count)
         kept = (length > 0)[path]

@@ -1,10 +1,10 @@
 """Ends of a skeleton: where it forks to both corners of one edge, or fans out into a round end.
 
-A *twig* leads from a leaf to a junction, between two edges with a corner in common. Two twigs of one junction are
-*beside each other* if they have an edge in common and the angles at its corners differ by no more than a right angle:
-otherwise the sharper corner is a tip, which the skeleton leads into. Twigs beside each other make runs. A run of two is
-the *fork* of their edge; a run of more is a *round end*. Where all arcs of a junction are twigs, the polygon is around
-a circle: see `_forks_of_stars`.
+Two twigs of one junction are *beside each other* if they have an edge in common and the angles at its corners differ by
+no more than a right angle: otherwise the sharper corner is a tip, which the skeleton leads into. Twigs beside each
+other make runs. A run of two is the *fork* of their edge; a run of more is a *round end*, also over several junctions
+near each other (`vorotool.engines.round_ends`). Where all arcs of a junction are twigs, the polygon is around a circle:
+see `_forks_of_stars`.
 """
 
 from __future__ import annotations
@@ -15,9 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.boundary_rays import first_hits
+from vorotool.engines.corner_twigs import Pairs, Twigs, branches_inside, corner_twigs, pairs_of
 from vorotool.engines.edge_comparisons import is_blunt, shortest
-from vorotool.geometry.skeleton import EDGE, INTERIOR, Skeleton
-from vorotool.geometry.skeleton_tables import connected_roots
+from vorotool.engines.round_ends import grown_runs
+from vorotool.geometry.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]
@@ -81,150 +82,56 @@ def unforked(skeleton: Skeleton) -> Unforked:
     >>> from vorotool import skeleton_exact
     >>> made = unforked(skeleton_exact([[0, 0], [10, 0], [10, 4], [0, 4]]))
     >>> made.skeleton.vertices[made.skeleton.arcs[made.arcs]].tolist()
-    [[[2.0, 2.0], [8.0, 2.0]], [[2.0, 2.0], [0.0, 2.0]], [[8.0, 2.0], [10.0, 2.0]]]
+    [[[2.0, 2.0], [8.0, 2.0]], [[8.0, 2.0], [10.0, 2.0]], [[2.0, 2.0], [0.0, 2.0]]]
     """
-    twigs = _twigs(skeleton)
-    pairs = _pairs(skeleton, twigs)
-    blunt = is_blunt(_along(skeleton, pairs.edge, twigs.beside(pairs)))
-    on_star = twigs.on_star[pairs.one]
-    joins = blunt & ~on_star
-    runs = connected_roots(np.stack([pairs.one, pairs.other], axis=1)[joins], len(twigs))
-    size = np.bincount(runs, minlength=len(twigs))[runs]
-    stars = np.flatnonzero(on_star)
-    arcs = np.bincount(twigs.node, minlength=len(skeleton.vertices))[twigs.node[pairs.one[stars]]]
-    of_stars = stars[_forks_of_stars(skeleton, pairs[stars], blunt[stars], arcs)]
-    forks = pairs[np.sort(np.concatenate([np.flatnonzero(joins & (size[pairs.one] == 2)), of_stars]))]
+    branches = branches_inside(skeleton)
+    twigs = corner_twigs(skeleton, branches)
+    pairs = pairs_of(skeleton, twigs)
+    is_star = np.bincount(twigs.node, minlength=len(branches.degree)) == branches.degree
+    on_star = is_star[twigs.node[pairs.one]]
+    plain = pairs[~on_star & ~is_star[twigs.node[pairs.other]]]
+    ends = grown_runs(branches, skeleton.radius, twigs, plain)
+    size = np.bincount(ends.run, minlength=len(twigs))[ends.run]
+    at_one = twigs.node[plain.one] == twigs.node[plain.other]
+    stars = _forks_of_stars(skeleton, pairs[on_star], twigs.node[pairs.one[on_star]], branches.degree)
+    forks = plain[at_one & plain.is_blunt & (size[plain.one] == 2)].and_these(stars)
     in_round = np.flatnonzero(size > 2)
-    longest = _longest_of_runs(twigs, runs, in_round)
+    longest = _longest_of_runs(twigs, ends.run, in_round)
     removed = np.concatenate([forks.one, forks.other, np.setdiff1d(in_round, longest)])
-    return _with_leads(skeleton, twigs, forks, removed, longest)
-
-
-@dataclass(frozen=True, eq=False)
-class _Twigs:
-    """Branches from a leaf to a junction, between two edges that have a corner in common."""
-
-    first: Numbers
-    """Of the arcs of each."""
-    last: Numbers
-    leaf: Numbers
-    node: Numbers
-    """The junction."""
-    edges: Numbers
-    """(t, 2) sites."""
-    length: Floats
-    on_star: NDArray[np.bool_]
-    """Whether all arcs at the junction are of twigs."""
-
-    def __len__(self) -> int:
-        return len(self.leaf)
-
-    def beside(self, pairs: _Pairs) -> Numbers:
-        """(p, 2) the edges beside that of each pair."""
-        return np.stack([self.edges[twig].sum(axis=1) - pairs.edge for twig in (pairs.one, pairs.other)], axis=1)
-
-
-@dataclass(frozen=True, eq=False)
-class _Pairs:
-    """Twigs of one junction with an edge in common, the one with the smaller number first."""
-
-    one: Numbers
-    other: Numbers
-    edge: Numbers
-
-    def __getitem__(self, chosen: NDArray[np.generic]) -> _Pairs:
-        return _Pairs(self.one[chosen], self.other[chosen], self.edge[chosen])
-
-
-def _twigs(skeleton: Skeleton) -> _Twigs:
-    inside = np.flatnonzero(skeleton.side == INTERIOR)
-    if not len(inside):
-        nothing = np.empty(0, dtype=np.intp)
-        pairs = nothing.reshape(0, 2)
-        return _Twigs(nothing, nothing, nothing, nothing, pairs, np.empty(0), nothing.astype(bool))
-    begins = np.flatnonzero(np.diff(skeleton.branch[inside], prepend=-1))
-    first, last = inside[begins], inside[np.append(begins[1:], len(inside)) - 1]
-    degree = np.bincount(skeleton.arcs[inside].reshape(-1), minlength=len(skeleton.vertices))
-    ends = np.stack([skeleton.arcs[first, 0], skeleton.arcs[last, 1]]).astype(np.intp)
-    is_leaf = degree[ends] == 1
-    low, high = np.sort(skeleton.sites[inside], axis=1).T
-    edges = np.stack([low[begins], high[begins]], axis=1).astype(np.intp)
-    is_one = (np.maximum.reduceat(low, begins) == np.minimum.reduceat(low, begins)) & (
-        np.maximum.reduceat(high, begins) == np.minimum.reduceat(high, begins)
-    )
-    chosen = np.flatnonzero((is_leaf[0] != is_leaf[1]) & is_one & (skeleton.site_table.kind[edges] == EDGE).all(axis=1))
-    chosen = chosen[_has_corner(skeleton, edges[chosen])]
-    leaf, node = np.where(is_leaf[0], ends, ends[::-1])[:, chosen]
-    length = np.add.reduceat(skeleton.length[inside], begins)[chosen]
-    on_star = (np.bincount(node, minlength=len(degree)) == degree)[node]
-    return _Twigs(first[chosen], last[chosen], leaf, node, edges[chosen], length, on_star)
-
-
-def _ends(skeleton: Skeleton, edges: Numbers) -> Floats:
-    """(…, 2, 2) the ends of edges, without a gap."""
-    return replace(skeleton, gap=0.0)._ends_of(edges) if skeleton.gap else skeleton._ends_of(edges)
-
-
-def _has_corner(skeleton: Skeleton, edges: Numbers) -> NDArray[np.bool_]:
-    """Whether two edges have an end in common."""
-    ends = _ends(skeleton, edges)
-    same: NDArray[np.bool_] = (ends[:, 0, :, None] == ends[:, 1, None]).all(axis=-1).any(axis=(1, 2))
-    return same
-
-
-def _pairs(skeleton: Skeleton, twigs: _Twigs) -> _Pairs:
-    twig = np.repeat(np.arange(len(twigs)), 2)
-    edge = twigs.edges.reshape(-1)
-    node = twigs.node[twig]
-    order = np.lexsort((twig, edge, node))
-    follows = np.flatnonzero((np.diff(edge[order]) == 0) & (np.diff(node[order]) == 0))
-    one = order[follows]
-    return _Pairs(twig[one], twig[order[follows + 1]], edge[one])
-
-
-# ---- which corners are tips -----------------------------------------------------------------------
-def _along(skeleton: Skeleton, edge: Numbers, beside: Numbers) -> Floats:
-    """(p, 4, 2) the ends of edges, between those ends of the edges beside each that are not there."""
-    a, b = _ends(skeleton, edge).swapaxes(0, 1)
-    others = _ends(skeleton, beside)
-    is_at_b = (others[:, 0] == b[:, None]).all(axis=-1).any(axis=1)[:, None]  # the first edge beside
-    near, far = np.where(is_at_b, b, a), np.where(is_at_b, a, b)
-    return np.stack([_far_end(others[:, 0], a, b), near, far, _far_end(others[:, 1], a, b)], axis=1)
-
-
-def _far_end(edges: Floats, a: Floats, b: Floats) -> Floats:
-    """The end of each edge that is neither a nor b."""
-    is_near = (edges == a[:, None]).all(axis=-1) | (edges == b[:, None]).all(axis=-1)
-    far: Floats = np.where(is_near[:, :1], edges[:, 1], edges[:, 0])
-    return far
+    of_round = np.concatenate([twigs.branch[longest], ends.inner])
+    return _with_leads(skeleton, twigs, forks, branches.arcs(twigs.branch[removed]), branches.arcs(of_round))
 
 
 # ---- polygons around a circle ---------------------------------------------------------------------
-def _forks_of_stars(skeleton: Skeleton, pairs: _Pairs, blunt: NDArray[np.bool_], arcs: Numbers) -> Numbers:
-    """Which pairs are forks where all arcs of a skeleton meet in one node; (p,) the number of these arcs.
+def _forks_of_stars(skeleton: Skeleton, pairs: Pairs, node: Numbers, degree: Numbers) -> Pairs:
+    """Which pairs are forks where all arcs of a skeleton are twigs of one node, if all are there.
 
     A triangle has one, at its shortest edge: from there the centerline leads to the corner opposite. A quadrilateral
     has two, at opposite edges. Of equal ones those of the first edge count. Polygons with more edges have none.
     """
-    corners = np.flatnonzero(arcs == 3).reshape(-1, 3)
-    least = corners[np.arange(len(corners)), shortest(_ends(skeleton, pairs.edge[corners]))]
-    sides = np.flatnonzero(arcs == 4).reshape(-1, 2, 2)  # the first and the third edge are opposite
-    is_first, is_second = (blunt[sides[:, 0, k]] & blunt[sides[:, 1, k]] for k in range(2))
+    is_whole = np.bincount(node, minlength=len(degree)) == degree
+    order = np.lexsort((pairs.edge, node))
+    arcs = np.where(is_whole[node], degree[node], 0)[order]
+    corners = order[arcs == 3].reshape(-1, 3)
+    least = corners[
+        np.arange(len(corners)), shortest(ends_of_sites(skeleton.polygons, skeleton.site_table, pairs.edge[corners]))
+    ]
+    sides = order[arcs == 4].reshape(-1, 2, 2)  # the first and the third edge are opposite
+    is_first, is_second = (pairs.is_blunt[sides[:, :, k]].all(axis=1) for k in range(2))
     opposite = np.where(is_first[:, None], sides[:, :, 0], sides[:, :, 1])[is_first | is_second]
-    return np.concatenate([least[blunt[least]], opposite.reshape(-1)])
+    return pairs[np.concatenate([least[pairs.is_blunt[least]], opposite.reshape(-1)])]
 
 
 # ---- what is left ---------------------------------------------------------------------------------
-def _with_leads(skeleton: Skeleton, twigs: _Twigs, forks: _Pairs, removed: Numbers, round_ends: Numbers) -> Unforked:
-    """Without some twigs; those of round ends are marked."""
+def _with_leads(skeleton: Skeleton, twigs: Twigs, forks: Pairs, removed: Numbers, of_round: Numbers) -> Unforked:
+    """Without some arcs, with leads for forks; arcs of round ends are marked."""
     known, count, nodes = len(skeleton), len(forks.edge), len(skeleton.vertices)
-    ends = _ends(skeleton, forks.edge)
+    ends = ends_of_sites(skeleton.polygons, skeleton.site_table, forks.edge)
     middle, node = ends[:, 0] / 2 + ends[:, 1] / 2, twigs.node[forks.one]
-    way = middle - skeleton.vertices[node]
-    mark = np.zeros((2, known + count), dtype=bool)
-    for row, chosen in enumerate((removed, round_ends)):
-        mark[row, _arcs_of(twigs, chosen)] = True
-    is_lead = np.arange(known + count) >= known
+    way, first = middle - skeleton.vertices[node], twigs.arc[forks.one]
+    is_gone, is_round = np.zeros((2, known + count), dtype=bool)
+    is_gone[removed] = is_round[of_round] = True
+    arc = np.append(np.flatnonzero(skeleton.side == INTERIOR), known + np.arange(count))
     length = np.sqrt((way * way).sum(axis=1))
     made = replace(
         skeleton,
@@ -233,32 +140,25 @@ def _with_leads(skeleton: Skeleton, twigs: _Twigs, forks: _Pairs, removed: Numbe
         arcs=np.concatenate([skeleton.arcs, np.stack([node, nodes + np.arange(count)], axis=1)]),
         control=np.concatenate([skeleton.control, np.full((count, 2), np.nan)]),
         sites=np.concatenate([skeleton.sites, np.stack([forks.edge] * 2, axis=1)]),
-        polygon=np.concatenate([skeleton.polygon, skeleton.polygon[twigs.first[forks.one]]]),
+        polygon=np.concatenate([skeleton.polygon, skeleton.polygon[first]]),
         side=np.concatenate([skeleton.side, np.full(count, INTERIOR, dtype=np.int8)]),
         branch=np.concatenate([skeleton.branch, skeleton.branch.max(initial=-1) + 1 + np.arange(count)]),
         length=np.concatenate([skeleton.length, length]),
-        error_bound=np.concatenate([skeleton.error_bound, skeleton.error_bound[twigs.first[forks.one]]]),
+        error_bound=np.concatenate([skeleton.error_bound, skeleton.error_bound[first]]),
     )
     reach = np.maximum(twigs.length[forks.one], twigs.length[forks.other])
     leaf = np.minimum(twigs.leaf[forks.one], twigs.leaf[forks.other])
     return Unforked(
         made,
-        np.flatnonzero((made.side == INTERIOR) & ~mark[0]),
-        is_lead,
-        mark[1],
+        arc[~is_gone[arc]],
+        np.arange(known + count) >= known,
+        is_round,
         np.concatenate([skeleton.length, reach]),
         np.concatenate([np.arange(nodes), leaf]),
     )
 
 
-def _arcs_of(twigs: _Twigs, chosen: Numbers) -> Numbers:
-    """The arcs of some twigs: those of a branch follow one another."""
-    size = twigs.last[chosen] + 1 - twigs.first[chosen]
-    start = np.cumsum(size) - size
-    return np.repeat(twigs.first[chosen] - start, size) + np.arange(size.sum())
-
-
-def _longest_of_runs(twigs: _Twigs, runs: Numbers, chosen: Numbers) -> Numbers:
+def _longest_of_runs(twigs: Twigs, runs: Numbers, chosen: Numbers) -> Numbers:
     """Of some twigs the longest one of each run, the first of equal ones."""
     order = chosen[np.lexsort((chosen, -twigs.length[chosen], runs[chosen]))]
     longest: Numbers = order[np.diff(runs[order], prepend=-1) > 0]
