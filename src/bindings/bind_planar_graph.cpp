@@ -14,6 +14,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "core/border_rings.hpp"
+#include "core/disjoint_boxes.hpp"
 #include "core/placement.hpp"
 #include "core/planar_graph.hpp"
 #include "core/segment_set.hpp"
@@ -64,6 +65,13 @@ nb::object first_at_place(const IndexRows& points, nb::handle progress) {
       progress, [&](const Monitor& monitor) { return core::first_at_place(vertices, monitor); }));
 }
 
+// The sheet of each box, with the columns least x, least y, most x, most y.
+nb::object disjoint_sheets(const Matrix<const std::int64_t>& boxes, nb::handle progress) {
+  const std::span<const core::ClosedBox> closed = rows<core::ClosedBox, 4>(boxes);
+  return to_numpy(run_interruptible(
+      progress, [&](const Monitor& monitor) { return core::disjoint_sheets(closed, monitor); }));
+}
+
 nb::dict make_planar_graph(const IndexRows& array, const Vector<const std::int64_t>& ring_start,
                            const Vector<const std::int8_t>& ring_kind,
                            const Vector<const std::int32_t>& ring_polygon, nb::handle progress) {
@@ -89,6 +97,7 @@ nb::dict make_planar_graph(const IndexRows& array, const Vector<const std::int64
     repairs.append(nb::make_tuple(repair.count, repair.edge, repair.other));
   }
   result["repairs"] = repairs;
+  result["is_repaired"] = to_numpy(std::move(graph.is_repaired));
   return result;
 }
 
@@ -130,6 +139,7 @@ void bind_planar_graph(nb::module_& module) {
   nb::exception<core::TooManyOverlaps>(module, "TooManyOverlapsError", PyExc_ValueError);
   module.def("place_on_lattice", &place_on_lattice, "points"_a.noconvert(), "threads"_a, "progress"_a.none());
   module.def("first_at_place", &first_at_place, "points"_a.noconvert(), "progress"_a.none());
+  module.def("disjoint_sheets", &disjoint_sheets, "boxes"_a.noconvert(), "progress"_a.none());
   module.def("make_planar_graph", &make_planar_graph, "vertices"_a.noconvert(), "ring_start"_a.noconvert(),
              "ring_kind"_a.noconvert(), "ring_polygon"_a.noconvert(), "progress"_a.none());
   module.def("border_rings", &border_rings, "points"_a.noconvert(), "segments"_a.noconvert(),

@@ -39,7 +39,7 @@ DelaunayMesh::DelaunayMesh(std::span<const Point> points, const Triangulate& tri
                            const Monitor& monitor)
     : first_(points.size()) {
   if (points.size() > most_points) throw std::length_error("more than 268435456 points");
-  MortonOrder order = morton_order(points, first_, threads, monitor);
+  MortonOrder order = morton_order(points, first_, FineOrder::of_crowds, threads, monitor);
   index_ = std::move(order.index);
   const std::span<RingVertex> vertices{order.vertices.data(), index_.size()};
   const Subdivision mesh = triangulate({vertices, index_, order.code, order.fine});

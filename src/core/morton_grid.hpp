@@ -46,12 +46,24 @@ class MortonGrid {
   std::uint32_t code(const Point& p) const {
     return spread(cell(p.x, half_least_.x)) << 1 | spread(cell(p.y, half_least_.y));
   }
+  // The same of a grid as fine again in the point's own cell.
+  std::uint32_t fine_code(const Point& p) const {
+    return spread(part(p.x, half_least_.x)) << 1 | spread(part(p.y, half_least_.y));
+  }
 
  private:
   static constexpr double last = (1 << morton_cell_bits) - 1;
 
+  double place(double v, double half_least) const {
+    return std::min((v / 2 - half_least) * blow_up_ * factor_, last);
+  }
   std::uint32_t cell(double v, double half_least) const {
-    return static_cast<std::uint32_t>(std::min((v / 2 - half_least) * blow_up_ * factor_, last));
+    return static_cast<std::uint32_t>(place(v, half_least));
+  }
+  // Exact, as the place less its whole part is.
+  std::uint32_t part(double v, double half_least) const {
+    return static_cast<std::uint32_t>((place(v, half_least) - cell(v, half_least)) *
+                                      (1 << morton_cell_bits));
   }
 
   // Puts the 16 bits of v at the even places.

@@ -27,6 +27,9 @@ class Maker {
       : vertices_(vertices), rings_(rings), monitor_(monitor) {}
 
   PlanarGraph make() {
+    if (!rings_.polygon.empty()) {
+      graph_.is_repaired.assign(static_cast<std::size_t>(rings_.polygon.back()) + 1, 0);
+    }
     arrange();
     const PlanarFaces faces = find_faces(set_.view(), below_);
     const FacePolygons inside =
@@ -49,6 +52,8 @@ class Maker {
   void count_repair(Repair kind, std::int32_t edge, std::int32_t other) {
     RepairCount& repair = graph_.repairs[static_cast<std::size_t>(kind)];
     ++repair.count;
+    const auto ring = static_cast<std::size_t>(ring_of_edge_[static_cast<std::size_t>(edge)]);
+    graph_.is_repaired[static_cast<std::size_t>(rings_.polygon[ring])] = 1;
     if (repair.edge < 0 || edge < repair.edge || (edge == repair.edge && other < repair.other)) {
       repair.edge = edge;
       repair.other = other;

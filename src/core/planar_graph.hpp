@@ -48,6 +48,7 @@ struct PlanarGraph {
   FacePolygons face_polygons;
 
   std::array<RepairCount, repair_kinds> repairs;  // by Repair
+  std::vector<std::uint8_t> is_repaired;          // [polygons] whether an edge of it is named by a repair
 };
 
 // `vertices` are the vertices of all rings, at most 2^28; edge k goes from vertex k to the next one of its

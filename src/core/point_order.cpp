@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <optional>
 
 #include "core/morton_grid.hpp"
 #include "core/parallel.hpp"
@@ -23,15 +24,19 @@ bool same_place(const Point& a, const Point& b) { return a.x == b.x && a.y == b.
 
 class Orderer {
  public:
-  Orderer(std::span<const Point> points, std::span<std::int32_t> first, unsigned threads,
+  Orderer(std::span<const Point> points, std::span<std::int32_t> first, FineOrder fine, unsigned threads,
           const Monitor& monitor)
-      : points_(points), first_(first), threads_(threads), monitor_(monitor) {}
+      : points_(points), first_(first), fine_(fine), threads_(threads), monitor_(monitor) {}
 
   MortonOrder run() {
     const std::size_t count = points_.size();
     std::vector<std::uint64_t> words(count);
     for (std::size_t i = 0; i < count; ++i) words[i] = i;
-    sort_along_curve(words);
+    if (count > 0) {
+      const MortonGrid grid = grid_of(words);
+      sort_by(words, [&grid](const Point& p) { return grid.code(p); });
+      if (fine_ == FineOrder::of_places) whole_ = grid;
+    }
     order_.vertices = LargeArray<RingVertex>(count);
     order_.index.resize(count);
     order_.code.resize(count);
@@ -48,15 +53,19 @@ class Orderer {
     std::size_t begin, end;
   };
 
-  // Sorts words by their place on the curve through a grid over their points, and then by index.
-  void sort_along_curve(std::vector<std::uint64_t>& words) const {
-    if (words.empty()) return;
+  // A grid over the points of some words.
+  MortonGrid grid_of(std::span<const std::uint64_t> words) const {
     Bounds bounds(points_[index_of(words[0])]);
     for (const std::uint64_t word : words) bounds.add(points_[index_of(word)]);
-    const MortonGrid grid(bounds);
+    return MortonGrid(bounds);
+  }
+
+  // Gives words the codes of their points, and sorts them by these and then by index.
+  template <class Code>
+  void sort_by(std::vector<std::uint64_t>& words, Code code) const {
     for (std::uint64_t& word : words) {
       const std::uint32_t index = index_of(word);
-      word = std::uint64_t{grid.code(points_[index])} << 32 | index;
+      word = std::uint64_t{code(points_[index])} << 32 | index;
     }
     if (words.size() < 4096) {
       std::sort(words.begin(), words.end());
@@ -85,7 +94,7 @@ class Orderer {
         __builtin_prefetch(&points_[index_of(words[cell.begin + ahead])]);
       std::fill(order_.code.begin() + offset(cell.begin), order_.code.begin() + offset(cell.end),
                 code_of(words[cell.begin]));
-      if (cell.end - cell.begin > morton_crowd) {
+      if (cell.end - cell.begin > (whole_ ? 1 : morton_crowd)) {
         crowds_[piece].push_back(cell);
       } else {
         put_cell(std::span(words).subspan(cell.begin, cell.end - cell.begin), cell.begin);
@@ -101,7 +110,12 @@ class Orderer {
     const auto put = [&](std::size_t k) {
       const auto [begin, end] = crowds[k];
       std::vector<std::uint64_t> finer(words.begin() + offset(begin), words.begin() + offset(end));
-      sort_along_curve(finer);
+      if (whole_) {
+        sort_by(finer, [this](const Point& p) { return whole_->fine_code(p); });
+      } else {
+        const MortonGrid grid = grid_of(finer);
+        sort_by(finer, [&grid](const Point& p) { return grid.code(p); });
+      }
       for_cells(finer, {0, finer.size()}, [&, begin = begin](Range cell) {
         std::fill(order_.fine.begin() + offset(begin + cell.begin),
                   order_.fine.begin() + offset(begin + cell.end), code_of(finer[cell.begin]));
@@ -153,8 +167,10 @@ class Orderer {
 
   std::span<const Point> points_;
   std::span<std::int32_t> first_;
+  FineOrder fine_;
   unsigned threads_;
   const Monitor& monitor_;
+  std::optional<MortonGrid> whole_;  // over all points, where cells have a finer one in themselves
   MortonOrder order_;
   std::vector<std::uint8_t> repeated_;      // [points in order] whether the one before is at the same place
   std::vector<std::vector<Range>> crowds_;  // [pieces] the cells with many points that begin there
@@ -163,9 +179,9 @@ class Orderer {
 
 }  // namespace
 
-MortonOrder morton_order(std::span<const Point> points, std::span<std::int32_t> first, unsigned threads,
-                         const Monitor& monitor) {
-  return Orderer(points, first, threads, monitor).run();
+MortonOrder morton_order(std::span<const Point> points, std::span<std::int32_t> first, FineOrder fine,
+                         unsigned threads, const Monitor& monitor) {
+  return Orderer(points, first, fine, threads, monitor).run();
 }
 
 }  // namespace vorotool::core

@@ -21,8 +21,14 @@ struct MortonOrder {
       fine;  // the same on the finer curve, 0 in cells without; empty if there are none
 };
 
-// `first` receives for each point given the smallest index at the same place.
-MortonOrder morton_order(std::span<const Point> points, std::span<std::int32_t> first, unsigned threads,
-                         const Monitor& monitor);
+enum class FineOrder {
+  of_crowds,  // the finer curve is one through the bounds of the points in a cell, where these are many
+  of_places,  // wherever a cell has several points, it is one through the cell itself
+};
+
+// `first` receives for each point given the smallest index at the same place. With the order of places, which
+// of two points comes first depends on where they are in the bounds of all, and on no other point.
+MortonOrder morton_order(std::span<const Point> points, std::span<std::int32_t> first, FineOrder fine,
+                         unsigned threads, const Monitor& monitor);
 
 }  // namespace vorotool::core

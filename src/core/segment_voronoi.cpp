@@ -41,7 +41,7 @@ MortonOrder ordered(std::span<const LatticePoint> points, unsigned threads, cons
   places.reserve(points.size());
   for (const LatticePoint& p : points) places.push_back({static_cast<double>(p.x), static_cast<double>(p.y)});
   std::vector<std::int32_t> first(points.size());
-  MortonOrder order = morton_order(places, first, threads, monitor);
+  MortonOrder order = morton_order(places, first, FineOrder::of_places, threads, monitor);
   for (std::size_t i = 0; i < first.size(); ++i) {
     if (static_cast<std::size_t>(first[i]) == i) continue;
     throw std::invalid_argument("points " + std::to_string(first[i]) + " and " + std::to_string(i) +

@@ -460,7 +460,10 @@ def make_planar_graph(
     ring_polygon: NDArray[np.int32],
     progress: _Progress,
 ) -> dict[str, Any]:
-    """Arrays of a PlanarGraph, and ``repairs``: of each kind the count, an edge, and what meets it or -1."""
+    """Arrays of a PlanarGraph; ``repairs``: of each kind the count, an edge, what meets it or -1; ``is_repaired``."""
+
+def disjoint_sheets(boxes: NDArray[np.int64], progress: _Progress) -> NDArray[np.int32]:
+    """Of boxes with the columns least x, least y, most x, most y."""
 
 def border_rings(
     points: NDArray[np.int32],

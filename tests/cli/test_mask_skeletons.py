@@ -11,9 +11,8 @@ import tifffile
 from PIL import Image
 
 import vorotool
-from vorotool.cli import exact_skeletons
-from vorotool.engines import skeleton_batches
-from vorotool.engines.skeleton_batches import batched_skeleton
+from vorotool.engines import feature_sheets
+from vorotool.engines.feature_sheets import Features, batches_of
 
 DATA = Path(__file__).parents[2] / "data"
 BLOBS, CELLS = DATA / "blobs.png", DATA / "cells.png"
@@ -35,28 +34,14 @@ def test_a_mask_has_a_skeleton(run, folder):
 
 @pytest.mark.parametrize("what", ["skeleton", "branches", "table", "centerline", "shape"])
 def test_batches_of_objects_give_the_same_bytes(run, monkeypatch, what):
-    """With --verify the diagram of all objects is made, otherwise that of each batch."""
-    batches = []
-
-    def counted(*arguments, **options):
-        batches.append(made := batched_skeleton(*arguments, **options))
-        return made
-
-    monkeypatch.setattr(skeleton_batches, "BATCH", 60)
-    monkeypatch.setattr(exact_skeletons, "batched_skeleton", counted)
-    command = (
-        "skeleton-exact",
-        BLOBS,
-        *WHOLE,
-        "--what",
-        what,
-        "-f",
-        "csv" if what in ("branches", "table") else "geojson",
-    )
-    made, whole = run(*command), run(*command, "--verify")
+    """These objects do not touch: in one diagram they are the same as in one a batch."""
+    monkeypatch.setattr(feature_sheets, "BATCH", 60)
+    fmt = "csv" if what in ("branches", "table") else "geojson"
+    command = ("skeleton-exact", BLOBS, *WHOLE, "--what", what, "-f", fmt)
+    made, whole = run(*command), run(*command, "--features", "together")
     assert (made.code, made.err, made.out) == (0, "", whole.out)
-    assert len(batches) == 1
-    assert batches[0] is not None
+    features = Features.of(vorotool.outlines(vorotool.read(BLOBS)))
+    assert len(batches_of(features, np.zeros(len(features), dtype=np.int32))) > 5
 
 
 def test_a_label_image_has_an_object_a_label(run):

@@ -113,6 +113,7 @@ def test_a_nearer_site_is_found():
         polygons=beside.polygons,
         site_table=beside.site_table,
         sites=np.where(alone.sites >= 4, alone.sites + 2, 0),
+        features="together",
     )
     with pytest.raises(VerificationError, match="a site is"):
         vorotool.verify_skeleton(mixed)

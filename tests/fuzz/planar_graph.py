@@ -28,6 +28,7 @@ def graph_of(vertices: np.ndarray, rings: list[tuple[int, int, int, int]]) -> Pl
     shapes = PolygonSet(vertices, [0, *columns[:, 1]], columns[:, 2], columns[:, 3])
     made = _core.make_planar_graph(vertices, shapes.ring_start, shapes.ring_kind, shapes.ring_polygon, None)
     counts = [count for count, _, _ in made.pop("repairs")]
+    made.pop("is_repaired")
     return PlanarGraph(**made, repairs=dict(zip(REPAIRS, counts, strict=True)))
 
 

@@ -2,14 +2,26 @@
 
 from __future__ import annotations
 
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cached_property
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 from vorotool.cli.run import Run
 from vorotool.cli.skeletons import SkeletonProducts
-from vorotool.engines.skeleton_batches import batched_skeleton
-from vorotool.engines.skeleton_exact import ShapeDiagram, shape_diagram, skeleton_of, whole_diagram
+from vorotool.engines.feature_batches import together
+from vorotool.engines.feature_sides import sides_of
+from vorotool.engines.feature_skeletons import FeatureSkeleton, feature_skeleton
+from vorotool.engines.skeleton_exact import (
+    ShapeDiagram,
+    diagram_of_graph,
+    shape_diagram,
+    skeleton_of,
+    whole_diagram,
+)
+from vorotool.errors import VorotoolWarning
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.skeleton import Skeleton
@@ -34,14 +46,42 @@ class ExactProducts(SkeletonProducts):
     def __init__(self, polygons: PolygonSet, options: SimpleNamespace, run: Run) -> None:
         super().__init__(options, run)
         self._polygons = polygons
+        self._is_told = False  # what was repaired, once
         # what is refused is refused here, where the input has its name
-        _ = self.graph if options.gap or self._wants_diagram else self.whole
+        _ = self.whole if self._is_inside_only else self.graph
 
     @cached_property
     def shapes(self) -> ShapeDiagram:
         """The diagram of all."""
-        with self.run.phase("diagram"):
-            return shape_diagram(self._polygons, strict=self.options.strict, **self._common)
+        with self.run.phase("diagram"), self._telling_once():
+            strict = self.options.strict
+            if self.options.features == "together":
+                return shape_diagram(self._polygons, strict=strict, **self._common)
+            return diagram_of_graph(together(self._polygons, strict=strict, **self._common), **self._common)
+
+    @cached_property
+    def inside(self) -> FeatureSkeleton[tuple[int, int]]:
+        """What is inside each feature by itself, and the vertices and edges of each diagram that is looked at."""
+        o = self.options
+        look = self._look if o.verify or o.stats is not None else None
+        with self._telling_once():
+            return feature_skeleton(self._polygons, look=look, strict=o.strict, **self._common)
+
+    def _look(self, shapes: ShapeDiagram) -> tuple[int, int]:
+        if self.options.verify:
+            from vorotool.engines.segment_verification import verify_segment_voronoi
+
+            verify_segment_voronoi(shapes.diagram, threads=1)
+        return len(shapes.diagram), len(shapes.diagram.edges)
+
+    @contextmanager
+    def _telling_once(self) -> Iterator[None]:
+        """Let repairs be told where polygons are placed first."""
+        with warnings.catch_warnings():
+            if self._is_told:
+                warnings.simplefilter("ignore", VorotoolWarning)
+            yield
+        self._is_told = True
 
     @cached_property
     def elements(self) -> ElementDiagram:
@@ -56,10 +96,12 @@ class ExactProducts(SkeletonProducts):
         return {"threads": self.options.threads, "progress": self.run.progress("diagram")}
 
     @property
-    def _wants_diagram(self) -> bool:
-        """Whether anything but the skeleton inside is asked for."""
+    def _is_inside_only(self) -> bool:
+        """Whether no diagram of all features together is needed."""
         o = self.options
-        return o.side != "interior" or o.verify or o.stats is not None or not {"diagram", "offset"}.isdisjoint(o.what)
+        if o.gap or o.side != "interior":
+            return False
+        return o.features == "separate" and {"diagram", "offset"}.isdisjoint(o.what)
 
     def _make_skeleton(self) -> Skeleton:
         o = self.options
@@ -68,11 +110,9 @@ class ExactProducts(SkeletonProducts):
             from vorotool.engines.skeleton_elements import skeleton_of_elements
 
             return skeleton_of_elements(self.elements, complete=o.complete is not False, **wanted)
-        if not self._wants_diagram:
-            made = batched_skeleton(self._polygons, **self._common)
-            if made is not None:
-                return made
-        return skeleton_of(self.shapes, **wanted)
+        if o.features == "together":
+            return skeleton_of(self.shapes, **wanted)
+        return self.inside.skeleton if o.side == "interior" else sides_of(self.shapes, **wanted)
 
     def _make_diagram(self) -> Skeleton:
         o = self.options
@@ -100,12 +140,19 @@ class ExactProducts(SkeletonProducts):
         from vorotool.engines.skeleton_verification import verify_exterior, verify_skeleton
 
         progress = self.run.progress("verifying")
-        verify_segment_voronoi(self._part.diagram, threads=self.options.threads, progress=progress)
+        if not self._is_inside_only:  # or else each batch was looked at
+            verify_segment_voronoi(self._part.diagram, threads=self.options.threads, progress=progress)
         if not self.options.gap and self.options.side != "interior":
             verify_exterior(self.shapes, threads=self.options.threads)
         verify_skeleton(self.whole, threads=self.options.threads, progress=progress)
 
+    def _shape_stats(self) -> dict[str, Any]:
+        return self.inside.shapes.counts() if self._is_inside_only else super()._shape_stats()
+
     def _diagram_stats(self) -> dict[str, Any]:
+        if self._is_inside_only:
+            vertices, edges = zip(*self.inside.seen, strict=True) if self.inside.seen else ((), ())
+            return {"diagram_vertices": sum(vertices), "diagram_edges": sum(edges)}
         diagram = self._part.diagram
         return {"diagram_vertices": len(diagram), "diagram_edges": len(diagram.edges)}
 

@@ -261,16 +261,8 @@ class SkeletonProducts(ABC):
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""
-        graph = self.graph
-        assert graph.polygons is not None
         found: dict[str, Any] = {
-            "polygons": len(graph.polygons),
-            "vertices": len(graph.polygons.xy),
-            "sites": len(graph.points) + len(graph),
-            "segments": len(graph),
-            "lattice_step": graph.scale,
-            "largest_move": graph.largest_move,
-            "repairs": graph.repairs,
+            **self._shape_stats(),
             **self._diagram_stats(),
             "side": self.options.side,
             "threads": self.options.threads,
@@ -280,6 +272,19 @@ class SkeletonProducts(ABC):
         if self.wants_skeleton:
             found |= self._skeleton_stats(self.skeleton)
         return found | self.derived.stats()
+
+    def _shape_stats(self) -> dict[str, Any]:
+        graph = self.graph
+        assert graph.polygons is not None
+        return {
+            "polygons": len(graph.polygons),
+            "vertices": len(graph.polygons.xy),
+            "sites": len(graph.points) + len(graph),
+            "segments": len(graph),
+            "lattice_step": graph.scale,
+            "largest_move": graph.largest_move,
+            "repairs": graph.repairs,
+        }
 
     def _skeleton_stats(self, skeleton: Skeleton) -> dict[str, Any]:
         found: dict[str, Any] = {

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool import _core
 from vorotool.engines.used_polygons import used_polygons
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.polygons import PolygonSet
+from vorotool.geometry.ring_arrays import RingArrays
 from vorotool.geometry.skeleton import EDGE, VERTEX, SiteTable
 from vorotool.geometry.skeleton_tables import connected_roots
 from vorotool.geometry.used_polygons import UsedPolygons
@@ -28,14 +28,19 @@ class PlacedShapes:
         Points of the graph, then segments.
     face_polygon : (f,) int32 array
         The first of `polygons` that each face lies in; -1 outside.
+    source : (p,) int64 array
+        The polygon of the input that each of `polygons` is, or is a part of.
     """
 
     polygons: PolygonSet
     sites: SiteTable
     face_polygon: NDArray[np.int32]
+    source: NDArray[np.int64]
 
 
-def placed_shapes(graph: PlanarGraph, *, threads: int = 0) -> PlacedShapes:
+def placed_shapes(
+    graph: PlanarGraph, *, is_repaired: NDArray[np.bool_] | None = None, threads: int = 0
+) -> PlacedShapes:
     """Give the rings as they were used.
 
     Polygons that needed no repair keep their rings, with vertices on the lattice. If any did, all rings are what bounds
@@ -45,6 +50,9 @@ def placed_shapes(graph: PlanarGraph, *, threads: int = 0) -> PlacedShapes:
     ----------
     graph : PlanarGraph
         Of polygons.
+    is_repaired : (p,) bool array, optional
+        Only the rings of these polygons are what bounds them, where any did. No other one may have a site with them in
+        common.
     threads : int
         0 uses all.
 
@@ -57,27 +65,57 @@ def placed_shapes(graph: PlanarGraph, *, threads: int = 0) -> PlacedShapes:
     """
     given = graph.polygons
     assert given is not None
+    assert graph.vertices is not None
     vertex = np.concatenate([graph.point_vertex, graph.source_edge[graph.source_start[:-1]]]).astype(np.int64)
+    moved = replace(given, xy=graph.coordinates(graph.vertices)) if graph.largest_move > 0 else given
     if any(graph.repairs.values()):
-        return _of_borders(graph, given, vertex)
-    first = _first_polygons(graph)
+        if is_repaired is None:
+            return _of_borders(graph, given, vertex)
+        return _of_some_borders(graph, moved, vertex, is_repaired)
     sites = _table(given, vertex, len(graph), given, vertex)
-    if graph.largest_move > 0:
-        lattice, *_ = _core.place_on_lattice(given.xy, threads, None)
-        given = replace(given, xy=graph.coordinates(lattice))
-    return PlacedShapes(given, sites, first)
+    return PlacedShapes(moved, sites, _first_polygons(graph), np.arange(len(given)))
 
 
 def _of_borders(graph: PlanarGraph, given: PolygonSet, source: NDArray[np.int64]) -> PlacedShapes:
     used = used_polygons(graph)
+    vertex = _vertices_of_sites(graph, used)
+    sites = _table(used.polygons, vertex, len(graph), given, source)
+    return PlacedShapes(used.polygons, sites, _first_parts(graph, used), used.source.astype(np.int64))
+
+
+def _vertices_of_sites(graph: PlanarGraph, used: UsedPolygons) -> NDArray[np.int64]:
+    """(s,) the first vertex of used polygons at each site, or from which it leads; their number if there is none."""
     first_at = np.full(len(graph.points), len(used.point), dtype=np.int64)
     np.minimum.at(first_at, used.point, np.arange(len(used.point)))
     first_of = np.full(len(graph), len(used.point), dtype=np.int64)
     has_edge = np.flatnonzero(used.segment >= 0)
     np.minimum.at(first_of, used.segment[has_edge], has_edge)
-    vertex = np.concatenate([first_at, first_of])
-    sites = _table(used.polygons, vertex, len(graph), given, source)
-    return PlacedShapes(used.polygons, sites, _first_parts(graph, used))
+    return np.concatenate([first_at, first_of])
+
+
+def _of_some_borders(
+    graph: PlanarGraph, given: PolygonSet, source: NDArray[np.int64], is_repaired: NDArray[np.bool_]
+) -> PlacedShapes:
+    """Rings of polygons that were repaired as they bound them, those of others as they were given."""
+    used = used_polygons(graph)
+    kept, parts = np.flatnonzero(~is_repaired), np.flatnonzero(is_repaired[used.source])
+    sources = np.concatenate([kept, used.source[parts]])
+    order = np.argsort(sources, kind="stable")
+    both = RingArrays.joined([RingArrays.of(given), RingArrays.of(used.polygons)])
+    arrays, _, vertices = both.taken(np.concatenate([kept, len(given) + parts])[order])
+    polygons = arrays.polygons(given, sources[order])
+    place = np.full(len(both.xy) + 1, len(vertices), dtype=np.int64)  # of each vertex of both
+    place[vertices] = np.arange(len(vertices))
+    own = place[len(given.xy) + _vertices_of_sites(graph, used)]
+    known = np.where(source >= 0, place[source], len(vertices))
+    sites = _table(polygons, np.where(known < len(vertices), known, own), len(graph), given, source)
+    number = np.full(len(both.rings), -1, dtype=np.int32)
+    number[np.concatenate([kept, len(given) + parts])[order]] = np.arange(len(order))
+    first, part = _first_polygons(graph), _first_parts(graph, used)
+    is_part = (first >= 0) & is_repaired[first]
+    face = np.where(is_part, number[len(given) + part], number[first])
+    face[first < 0] = -1
+    return PlacedShapes(polygons, sites, face, sources[order])
 
 
 def _first_polygons(graph: PlanarGraph) -> NDArray[np.int32]:

@@ -112,10 +112,27 @@ def placed_vertices(polygons: PolygonSet, *, threads: int = 0, progress: Progres
     return Placement(*_core.place_on_lattice(polygons.xy, checked_threads(threads), progress))
 
 
-def graph_of_placement(
-    given: PolygonSet, placement: Placement, *, strict: bool = False, progress: Progress = None
-) -> PlanarGraph:
-    """Make the planar graph of polygons whose vertices are placed; errors and warnings as of `planar_graph`."""
+@dataclass(frozen=True, eq=False)
+class Arrangement:
+    """The planar graph of polygons, and what was repaired for it, before anybody is told.
+
+    Parameters
+    ----------
+    graph : PlanarGraph
+        Of the polygons.
+    found : dict
+        Of each kind of repair how often, and where first: an edge, and the vertex or edge that meets it, or -1.
+    is_repaired : (p,) bool array
+        Whether an edge of a polygon is named by any repair.
+    """
+
+    graph: PlanarGraph
+    found: dict[str, tuple[int, int, int]]
+    is_repaired: NDArray[np.bool_]
+
+
+def arranged(given: PolygonSet, placement: Placement, *, progress: Progress = None) -> Arrangement:
+    """Make the planar graph of polygons whose vertices are placed, without a word about repairs."""
     rings = given.ring_start, given.ring_kind, given.ring_polygon
     try:
         made = _core.make_planar_graph(placement.vertices, *rings, progress)
@@ -124,18 +141,42 @@ def graph_of_placement(
     except _core.TooManyOverlapsError:
         raise LimitError(f"the polygons overlap or nest more than {MOST_OVERLAPS} times: split them") from None
     found = dict(zip(REPAIRS, made.pop("repairs"), strict=True))
+    is_repaired = made.pop("is_repaired") != 0
     repairs = {name: count for name, (count, _, _) in found.items()}
     scale, move = math.ldexp(1.0, placement.exponent), placement.largest_move
     if repairs["moved_edges"]:  # within a cell, towards its centre: at most half its diagonal
         move = math.nextafter(move + 0.7072 * scale, math.inf)
     graph = PlanarGraph(
-        **made, origin=placement.origin, scale=scale, largest_move=move, repairs=repairs, polygons=given
+        **made,
+        origin=placement.origin,
+        scale=scale,
+        largest_move=move,
+        repairs=repairs,
+        polygons=given,
+        vertices=placement.vertices,
     )
-    if any(repairs.values()):
-        if strict:
-            raise InputError(_first_repair(given, found))
-        warnings.warn(_summary(repairs, scale), VorotoolWarning, stacklevel=3)
-    return graph
+    return Arrangement(graph, found, is_repaired)
+
+
+def graph_of_placement(
+    given: PolygonSet, placement: Placement, *, strict: bool = False, progress: Progress = None
+) -> PlanarGraph:
+    """Make the planar graph of polygons whose vertices are placed; errors and warnings as of `planar_graph`."""
+    made = arranged(given, placement, progress=progress)
+    report_repairs(given, made.found, made.graph.scale, strict=strict, stacklevel=4)
+    return made.graph
+
+
+def report_repairs(
+    given: PolygonSet, found: dict[str, tuple[int, int, int]], step: float, *, strict: bool, stacklevel: int = 3
+) -> None:
+    """Warn of repairs, if there are any; raise InputError instead if `strict`."""
+    repairs = {name: count for name, (count, _, _) in found.items()}
+    if not any(repairs.values()):
+        return
+    if strict:
+        raise InputError(_first_repair(given, found))
+    warnings.warn(_summary(repairs, step), VorotoolWarning, stacklevel=stacklevel)
 
 
 _WORDS = {

@@ -240,7 +240,14 @@ def _shared_points(a: Indices, b: Indices) -> Indices:
 
 
 def site_points(skeleton: Skeleton) -> Indices:
-    """(s, 2) numbers of the places of both ends of each site; those of a vertex are equal."""
+    """(s, 2) numbers of the places of both ends of each site; those of a vertex are equal.
+
+    Features that are taken by themselves have places of their own.
+    """
     places = skeleton.site_ends.reshape(-1, 2) + 0.0  # no -0
+    if skeleton.features == "separate":
+        feature = skeleton.polygons.feature
+        assert feature is not None
+        places = np.column_stack([np.repeat(feature[skeleton.site_table.polygon], 2), places])
     _, number = np.unique(places, axis=0, return_inverse=True)
     return number.reshape(-1, 2)

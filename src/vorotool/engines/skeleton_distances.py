@@ -32,14 +32,14 @@ def first_wrong(wrong: NDArray[np.bool_]) -> int | None:
 
 
 class SitePlaces:
-    """The places of sites, and distances from them."""
+    """The places of sites, and distances from them; `largest` is a coordinate of what the skeleton is a part of."""
 
-    def __init__(self, skeleton: Skeleton) -> None:
+    def __init__(self, skeleton: Skeleton, largest: float = 0.0) -> None:
         self.is_edge = skeleton.site_table.kind == EDGE
         self.ends = skeleton.site_ends
         shown = [skeleton.polygons.xy, skeleton.vertices]
-        largest = max((float(np.abs(xy).max()) for xy in shown if len(xy)), default=1.0)
-        self.tolerance = ULPS * float(np.spacing(largest))
+        self.largest = max([largest, *(float(np.abs(xy).max()) for xy in shown if len(xy))]) or 1.0
+        self.tolerance = ULPS * float(np.spacing(self.largest))
         if skeleton.gap:  # ends of shortened edges are on the lattice, within 0.71 steps of where they should be
             extent = float(np.ptp(skeleton.polygons.xy, axis=0).max())
             self.tolerance += extent * 2.0**-28

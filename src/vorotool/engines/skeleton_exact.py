@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -24,6 +24,7 @@ from vorotool.geometry.segment_voronoi import SegmentVoronoiDiagram
 from vorotool.geometry.skeleton import EXTERIOR, INTERIOR, Skeleton
 
 SIDE_NAMES = ("interior", "exterior", "both")
+FEATURES = ("separate", "together")
 FRAME_MARGIN = 0.1
 """Of the larger side of the bounds, on each side of the default frame."""
 
@@ -40,6 +41,12 @@ def check_skeleton_options(side: str, gap: float, frame: Frame | None) -> None:
         raise UsageError(f"the frame is {frame}: use X, Y, W, H, the last two above 0")
     if frame is not None and not max(map(abs, frame)) <= LARGEST:
         raise UsageError(f"the frame goes too far to compute with: use numbers of at most {LARGEST:g}")
+
+
+def check_features(features: str) -> None:
+    """Raise UsageError for what tells not how features are taken."""
+    if features not in FEATURES:
+        raise UsageError(f"features is {features!r}: use {' or '.join(FEATURES)}")
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +112,7 @@ def skeleton_of(
     kept = group >= 0
     if side != "exterior" and not shapes.graph.is_inside.any():
         warn_empty(shapes.placed.polygons, side)
-    return assembled(
+    made = assembled(
         shapes.graph,
         shapes.diagram,
         edges[kept],
@@ -113,6 +120,28 @@ def skeleton_of(
         shapes.placed,
         frame=frame if side != "interior" else None,
         clips=side != "interior",
+        threads=threads,
+        progress=progress,
+    )
+    feature = shapes.placed.polygons.feature
+    assert feature is not None
+    has_several = side != "exterior" and len(feature) > 0 and feature[0] != feature[-1]
+    return replace(made, features="together") if has_several else made
+
+
+def interior_skeleton(shapes: ShapeDiagram, *, threads: int = 1, progress: Progress = None) -> Skeleton:
+    """Give the skeleton inside shapes, and no word about it if there is none."""
+    edges, faces = kept_edges(shapes, threads=threads, progress=progress)
+    group = face_groups(shapes.placed, "interior")[faces]
+    kept = group >= 0
+    return assembled(
+        shapes.graph,
+        shapes.diagram,
+        edges[kept],
+        group[kept],
+        shapes.placed,
+        frame=None,
+        clips=False,
         threads=threads,
         progress=progress,
     )

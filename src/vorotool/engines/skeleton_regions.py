@@ -263,8 +263,7 @@ def _check_areas(regions: SkeletonRegions, wanted: NDArray[np.bool_]) -> None:
     face = np.maximum(regions.face[regions.root[skeleton.arcs[:, 0]]], 0)
     summed = np.bincount(face, total, graph.faces)
     area, perimeter = _face_measures(graph)
-    extent = float(np.abs(skeleton.polygons.xy).max(initial=0.0))
-    allowed = AREA * np.abs(area) + AREA_ULPS * np.spacing(extent) * perimeter
+    allowed = AREA * np.abs(area) + AREA_ULPS * np.spacing(sites.largest) * perimeter
     wrong = wanted & ~(np.abs(summed - area) <= allowed)
     wrong[0] = False
     at = first_wrong(wrong)

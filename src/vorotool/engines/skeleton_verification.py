@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from vorotool.engines.feature_batches import BatchShapes, in_batches
 from vorotool.engines.label_arrays import Progress
 from vorotool.engines.planar_graph import planar_graph
 from vorotool.engines.skeleton_distances import (
@@ -17,6 +18,7 @@ from vorotool.engines.skeleton_distances import (
     first_wrong,
 )
 from vorotool.engines.skeleton_exact import ShapeDiagram, kept_edges
+from vorotool.engines.skeleton_parts import PER_ARC, outside_of, with_arcs, with_polygons
 from vorotool.engines.skeleton_regions import SkeletonRegions, border_components, check_regions
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.checks import checked_threads
@@ -35,6 +37,7 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
     the arcs and their feet sum to its area within 1e-9 of it and 8 ulp of the extent times its perimeter. Outside, all
     is connected with the frame. Branches are chains that end where they should. Where pixels hang together at corners
     (`PolygonSet.connectivity`), arcs of one polygon, or outside, share a node there; all else is as if they did not.
+    Unless features are together (`Skeleton.features`), each is looked at as if there were no others.
 
     Parameters
     ----------
@@ -70,14 +73,61 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
         return
     check_arrays(skeleton)
     check_branches(skeleton)
-    sites = SitePlaces(skeleton)
     if skeleton.gap:  # the lines that lead to the corners are no bisectors of the shortened edges
         skeleton = _without_portions(skeleton)
-    check_equal_distances(skeleton, sites)
+    check_equal_distances(skeleton, SitePlaces(skeleton))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", VorotoolWarning)  # what bounds nothing is still in the rings
+        if skeleton.features == "together" or skeleton.gap or not len(skeleton.polygons):
+            graph = planar_graph(skeleton.polygons, threads=threads, progress=progress)
+            _check_in_graph(skeleton, graph, threads, progress)
+        else:
+            _check_sides(skeleton, threads, progress)
+
+
+def _check_sides(skeleton: Skeleton, threads: int, progress: Progress) -> None:
+    """Check what is inside each feature by itself, and what is outside in the arrangement of all."""
+    inside = skeleton.side == INTERIOR
+    if not inside.all():
         graph = planar_graph(skeleton.polygons, threads=threads, progress=progress)
-        check_nothing_nearer(skeleton, sites, _elements(skeleton, graph, threads), threads, progress)
+        _check_in_graph(outside_of(skeleton), graph, threads, progress)
+    if inside.any():
+        _check_own(skeleton)
+        own, largest = with_arcs(skeleton, inside), SitePlaces(skeleton).largest
+
+        def check(shapes: BatchShapes, threads: int, poll: Progress) -> None:
+            of_batch = with_polygons(own, shapes.batch.polygons)
+            if len(of_batch):
+                _check_in_graph(of_batch, shapes.graph, threads, poll, largest=largest)
+
+        in_batches(skeleton.polygons, check, threads=threads, progress=progress)
+
+
+def _check_own(skeleton: Skeleton) -> None:
+    """Raise if an arc inside is between sites of another feature, or shares a corner with arcs in another polygon."""
+    polygons = skeleton.polygons
+    assert polygons.feature is not None
+    inside = np.flatnonzero(skeleton.side == INTERIOR)
+    polygon = skeleton.polygon[inside]
+    of_sites = polygons.feature[skeleton.site_table.polygon][skeleton.sites[inside]]
+    at = first_wrong((of_sites != polygons.feature[polygon][:, None]).any(axis=1))
+    if at is not None:
+        fail(f"arc {inside[at]} is said to be in polygon {polygon[at]}, but is between sites of another feature")
+    owner = np.full(len(skeleton.vertices), -1)
+    for end in (0, 1):
+        owner[skeleton.arcs[inside, end]] = polygon
+    for end in (0, 1):
+        node = skeleton.arcs[inside, end]
+        at = first_wrong((skeleton.radius[node] == 0) & (owner[node] != polygon))
+        if at is not None:
+            fail(f"node {node[at]} is a corner that arcs in different polygons share")
+
+
+def _check_in_graph(
+    skeleton: Skeleton, graph: PlanarGraph, threads: int, progress: Progress, *, largest: float = 0.0
+) -> None:
+    sites = SitePlaces(skeleton, largest)
+    check_nothing_nearer(skeleton, sites, _elements(skeleton, graph, threads), threads, progress)
     if not skeleton.gap:
         check_regions(SkeletonRegions(_with_corners_apart(skeleton), graph, sites))
 
@@ -130,8 +180,7 @@ def verify_exterior(shapes: ShapeDiagram, *, threads: int = 0) -> None:
 
 def _without_portions(skeleton: Skeleton) -> Skeleton:
     kept = (skeleton.radius[skeleton.arcs] > 0).all(axis=1)
-    per_arc = ("arcs", "control", "sites", "polygon", "side", "branch", "length", "error_bound")
-    return replace(skeleton, **{name: getattr(skeleton, name)[kept] for name in per_arc})
+    return replace(skeleton, **{name: getattr(skeleton, name)[kept] for name in PER_ARC})
 
 
 def _with_corners_apart(skeleton: Skeleton) -> Skeleton:

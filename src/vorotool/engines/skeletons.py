@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
+from vorotool.engines.feature_sides import skeleton_of_sides
+from vorotool.engines.feature_skeletons import feature_skeleton
 from vorotool.engines.label_arrays import Progress
 from vorotool.engines.placed_rings import placed_shapes
 from vorotool.engines.planar_graph import planar_graph
 from vorotool.engines.skeleton_approx import SamplingOptions, approximate_skeleton, sampled_graph
-from vorotool.engines.skeleton_batches import batched_skeleton
 from vorotool.engines.skeleton_elements import skeleton_with_gap
-from vorotool.engines.skeleton_exact import Frame, check_skeleton_options, diagram_of_graph, skeleton_of
+from vorotool.engines.skeleton_exact import Frame, check_features, check_skeleton_options, diagram_of_graph, skeleton_of
 from vorotool.engines.skeleton_tolerance import skeleton_within
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.polygon_conversion import as_polygons
@@ -21,6 +22,7 @@ def skeleton_exact(
     polygons: Any,
     *,
     side: str = "interior",
+    features: str = "separate",
     gap: float = 0.0,
     complete: bool = True,
     frame: Frame | None = None,
@@ -32,8 +34,9 @@ def skeleton_exact(
 
     The polygons are placed on a lattice of 31 bits, and from there on every decision is exact: the Voronoi diagram of
     the vertices and open edges is made, and of its edges those between an edge and its own end are deleted. With holes
-    the result is exact just the same; several polygons, and open lines, are boundaries of one diagram. The skeleton of
-    crack outlines goes through corners that pixels hang together at: see :func:`vorotool.outlines`.
+    the result is exact just the same. What is inside a feature, one item of the input with all its parts, is what it
+    would be if there were no others: they may touch it, overlap it, or lie in it. What is outside is of all features.
+    The skeleton of crack outlines goes through corners that pixels hang together at: see :func:`vorotool.outlines`.
 
     Parameters
     ----------
@@ -41,6 +44,8 @@ def skeleton_exact(
         See :func:`vorotool.geometry.polygon_conversion.as_polygons`.
     side : {"interior", "exterior", "both"}
         Inside polygons, outside all of them, or both.
+    features : {"separate", "together"}
+        Take each feature by itself, or all of them, and open lines among them, as boundaries of one diagram.
     gap : float
         Shorten each edge by so much at both ends, as the paper does (Figure 10): then nothing leads to the corners,
         and the result is no longer exact. The new ends go to the nearest points of the lattice.
@@ -86,18 +91,21 @@ def skeleton_exact(
     (1.0, 7.656854249)
     """
     check_skeleton_options(side, gap, frame)
+    check_features(features)
     if gap:
         return skeleton_with_gap(
             polygons, gap, side=side, complete=complete, frame=frame, strict=strict, threads=threads, progress=progress
         )
     given = as_polygons(polygons)
-    if side == "interior":
-        made = batched_skeleton(given, threads=checked_threads(threads), progress=progress)
-        if made is not None:
-            return made
-    graph = planar_graph(given, strict=strict, threads=threads, progress=progress)
-    shapes = diagram_of_graph(graph, interior_only=side == "interior", threads=threads, progress=progress)
-    return skeleton_of(shapes, side=side, frame=frame, threads=threads, progress=progress)
+    common: dict[str, Any] = {"strict": strict, "threads": checked_threads(threads), "progress": progress}
+    if features == "separate":
+        if side == "interior":
+            return feature_skeleton(given, **common).skeleton
+        return skeleton_of_sides(given, side=side, frame=frame, **common)
+    graph = planar_graph(given, **common)
+    common.pop("strict")
+    shapes = diagram_of_graph(graph, interior_only=side == "interior", **common)
+    return skeleton_of(shapes, side=side, frame=frame, **common)
 
 
 def skeleton_approx(

@@ -86,7 +86,8 @@ def _lines(graph: PlanarGraph, given: PolygonSet) -> _Rings:
     ring = np.searchsorted(given.ring_start, edge, side="right") - 1
     on_line = given.ring_kind[ring] == LINE
     segment, edge, ring = segment[on_line], edge[on_line], ring[on_line]
-    vertices = _core.place_on_lattice(given.xy, 1, None)[0].astype(np.int64)
+    assert graph.vertices is not None
+    vertices = graph.vertices.astype(np.int64)
     along = vertices[edge + 1] - vertices[edge]
     ends = graph.segments[segment]
     pieces = graph.points[ends].astype(np.int64)

@@ -65,6 +65,8 @@ class PlanarGraph:
         without any inside.
     polygons : PolygonSet, optional
         The input.
+    vertices : (v, 2) int32 array, optional
+        Where the vertices of the input are on the lattice.
 
     Raises
     ------
@@ -94,6 +96,7 @@ class PlanarGraph:
     largest_move: float = 0.0
     repairs: dict[str, int] = field(default_factory=lambda: dict.fromkeys(REPAIRS, 0))
     polygons: PolygonSet | None = None
+    vertices: NDArray[np.int32] | None = None
 
     def __post_init__(self) -> None:
         pairs = {"points", "segments", "segment_faces"}

@@ -38,6 +38,9 @@ class SiteTable:
     source_ring, source_index : (s,) int32 array
         The ring of the input, counted over all polygons, and the vertex or edge there that it is, or is a part of; -1
         for a crossing of edges.
+    ends : (s, 2, 2) float64 array, optional
+        Where sites are that need not be whole edges of the polygons, or their vertices: those of what is outside, where
+        features overlap. NaN for others.
     """
 
     kind: NDArray[np.int8]
@@ -46,8 +49,11 @@ class SiteTable:
     index: NDArray[np.int32]
     source_ring: NDArray[np.int32]
     source_index: NDArray[np.int32]
+    ends: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
+        if self.ends is not None:
+            set_array(self, "ends", np.float64, (len(self.kind), 2, 2))
         for name in ("kind", "polygon", "ring", "index", "source_ring", "source_index"):
             array = np.ascontiguousarray(getattr(self, name), dtype=np.int8 if name == "kind" else np.int32)
             if array.ndim != 1 or len(array) != len(self.kind):
@@ -56,6 +62,18 @@ class SiteTable:
 
     def __len__(self) -> int:
         return len(self.kind)
+
+    def taken(self, chosen: NDArray[np.intp]) -> SiteTable:
+        """Some of the sites."""
+        return SiteTable(
+            self.kind[chosen],
+            self.polygon[chosen],
+            self.ring[chosen],
+            self.index[chosen],
+            self.source_ring[chosen],
+            self.source_index[chosen],
+            None if self.ends is None else self.ends[chosen],
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,11 +109,14 @@ class Skeleton:
     error_bound : (a,) float64 array
         How far the arc may be from the skeleton of `polygons`; 0 for exact arcs, which are rounded only.
     polygons : PolygonSet
-        As they were used: placed, and cut where they meet.
+        As they were used: placed, and cut where they meet, each feature by itself or all together.
     frame : (x, y, w, h), optional
         The rectangle that arcs outside are cut by.
     gap : float
         By how much edges were shortened at both ends; see `vorotool.skeleton_exact`.
+    features : {"separate", "together"}
+        Whether what is inside a feature is what it would be if there were no others, or all are one arrangement. What
+        is outside always is of all of them.
 
     Raises
     ------
@@ -128,6 +149,7 @@ class Skeleton:
     polygons: PolygonSet
     frame: tuple[float, float, float, float] | None = None
     gap: float = 0.0
+    features: str = "separate"
 
     def __post_init__(self) -> None:
         nodes, arcs = len(self.radius), len(self.arcs)
@@ -296,6 +318,9 @@ def ends_of_sites(polygons: PolygonSet, table: SiteTable, sites: Any = slice(Non
     places[..., 0] = first
     places[..., 1] = np.where(kind == EDGE, polygons.following.take(first), first)
     ends: NDArray[np.float64] = polygons.xy.take(places, axis=0)
+    if table.ends is not None:
+        own = table.ends[sites] if isinstance(sites, slice) else table.ends.take(sites, axis=0)
+        ends = np.where(np.isnan(own), ends, own)
     return ends
 
 

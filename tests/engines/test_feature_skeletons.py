@@ -1,0 +1,190 @@
+"""Skeletons inside features: each is what it would be if there were no others."""
+
+import warnings
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+import shapely
+from scipy.ndimage import gaussian_filter
+
+import vorotool
+from fuzz.features import FAMILIES, as_set, one_case
+from outline_oracle import random_labels
+from vorotool import _core
+from vorotool.engines import feature_sheets
+from vorotool.engines.feature_sheets import Features, batches_of, sheets_of_boxes, sheets_of_cracks
+from vorotool.engines.feature_skeletons import feature_skeleton
+from vorotool.engines.planar_graph import placed_vertices
+from vorotool.engines.skeleton_exact import shape_diagram, skeleton_of
+from vorotool.errors import InputError, VorotoolWarning
+
+ARRAYS = ("vertices", "radius", "arcs", "control", "sites", "polygon", "side", "branch", "length", "error_bound")
+OUTER = [[0, 0], [10, 0], [10, 10], [0, 10]]
+INNER = [[3, 3], [7, 3], [7, 7], [3, 7]]
+
+
+def differing(made, expected):
+    wrong = [name for name in ARRAYS if getattr(made, name).tobytes() != getattr(expected, name).tobytes()]
+    tables = made.site_table, expected.site_table
+    columns = [field.name for field in fields(tables[0])]
+    return wrong + [name for name in columns if not np.array_equal(*(getattr(table, name) for table in tables))]
+
+
+def masks():
+    for seed in range(6):
+        random = np.random.default_rng(seed)
+        yield random_labels(random, 40) > 0
+        yield gaussian_filter(random.standard_normal((90, 70)), 2.0) > 0.02
+        yield random.random((40, 50)) < 0.4
+    nested = np.zeros((60, 60), dtype=bool)
+    for k in range(0, 28, 4):
+        nested[k : 60 - k, k : 60 - k] = True
+        nested[k + 2 : 58 - k, k + 2 : 58 - k] = False
+    yield np.tile(nested, (2, 3))
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_objects_of_masks_that_do_not_touch_are_those_of_one_diagram(threads, monkeypatch):
+    monkeypatch.setattr(feature_sheets, "BATCH", 60)
+    for mask in masks():
+        polygons = vorotool.outlines(mask, connectivity=8)
+        made = feature_skeleton(polygons, threads=threads).skeleton
+        assert differing(made, skeleton_of(shape_diagram(polygons))) == []
+
+
+@pytest.mark.parametrize("case", range(90))
+def test_features_among_others_are_what_they_are_alone(case):
+    """A few cases of what `make fuzz` does with 20 000."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        family, wrong = one_case(case, np.random.default_rng([7, case]))
+    assert wrong is None, family
+
+
+def test_what_lies_inside_has_its_skeleton_and_takes_none():
+    made = vorotool.skeleton_exact([OUTER, INNER])
+    lengths = np.bincount(made.polygon, made.length)
+    assert lengths == pytest.approx([20 * 2**0.5, 8 * 2**0.5])
+    together = vorotool.skeleton_exact([OUTER, INNER], features="together")
+    assert set(together.polygon.tolist()) == {0}
+
+
+def test_of_two_equal_features_both_have_a_skeleton():
+    made = vorotool.skeleton_exact([OUTER, OUTER])
+    assert np.bincount(made.polygon).tolist() == [4, 4]
+
+
+def test_overlaps_are_neither_warned_of_nor_refused():
+    shifted = [[x + 5, y + 3] for x, y in OUTER]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for side in ("interior", "exterior", "both"):
+            vorotool.verify_skeleton(vorotool.skeleton_exact([OUTER, shifted], side=side, strict=True))
+
+
+def test_what_is_repaired_in_a_feature_is_counted_and_refused():
+    bow = [[20, 0], [24, 4], [24, 0], [20, 4]]
+    twice = [[[x, y + k] for x, y in bow] for k in (0, 10)]
+    with pytest.warns(VorotoolWarning, match="2 crossings"):
+        vorotool.skeleton_exact([OUTER, INNER, *twice])
+    with pytest.raises(InputError, match=r"polygon 3, shell, edge 1 .* crosses polygon 3, shell, edge 3 \(2 such"):
+        vorotool.skeleton_exact([OUTER, INNER, *twice], strict=True)
+
+
+def test_what_needs_no_repair_keeps_its_rings_beside_what_does():
+    bow = [[20, 0], [24, 4], [24, 0], [20, 4]]
+    clockwise = OUTER[::-1]
+    with pytest.warns(VorotoolWarning):
+        made = vorotool.skeleton_exact([clockwise, bow, INNER])
+    assert made.polygons.ring(0).tolist() == clockwise
+    assert made.polygons.feature.tolist() == [0, 1, 1, 2]
+    vorotool.verify_skeleton(made)
+
+
+def test_a_line_in_a_polygon_is_a_wall_if_it_is_of_the_same_feature():
+    polygon, line = shapely.Polygon(OUTER), shapely.LineString([(2, 5), (8, 5)])
+    apart = vorotool.skeleton_exact([polygon, line])
+    one = vorotool.skeleton_exact(shapely.GeometryCollection([polygon, line]))
+    assert len(apart) == 4
+    assert len(one) > 4
+    assert differing(vorotool.skeleton_exact([polygon, line], features="together"), one) == []
+
+
+def test_objects_of_a_label_image_have_no_vertices_of_their_neighbours():
+    image = np.array([[0, 0, 2], [0, 1, 1], [2, 1, 1]])
+    outlines = vorotool.outlines(image, mode="labels")
+    made = vorotool.skeleton_exact(outlines)
+    rings = [len(made.polygons.ring(k)) for k in range(3)]
+    assert rings == [4, 4, 4]
+    assert sum(polygon.area for polygon in map(shapely.Polygon, map(made.polygons.ring, range(3)))) == 6
+    table = made.site_table
+    given = outlines.xy[outlines.ring_start[table.source_ring] + table.source_index]
+    assert (given == made.site_ends[:, 0]).all()
+
+
+@pytest.mark.parametrize("connectivity", [4, 8])
+def test_outlines_in_one_sheet_share_no_vertex(connectivity):
+    for seed in range(8):
+        image = random_labels(np.random.default_rng(seed), 50)
+        polygons = vorotool.outlines(image, mode="labels", connectivity=connectivity)
+        features = Features.of(polygons)
+        sheet = sheets_of_cracks(features, placed_vertices(polygons).vertices)
+        places = {}
+        for vertex, feature in zip(map(tuple, polygons.xy.tolist()), features.of_vertex.tolist(), strict=True):
+            assert places.setdefault((vertex, int(sheet[feature])), feature) == feature
+        assert sheet.max(initial=0) < 8
+
+
+def test_bounds_in_one_sheet_are_apart():
+    for seed in range(40):
+        rng = np.random.default_rng(seed)
+        polygons = as_set(FAMILIES[seed % len(FAMILIES)](rng))
+        features, vertices = Features.of(polygons), placed_vertices(polygons).vertices.astype(np.int64)
+        reach = rng.integers(0, 1 << 20, len(features))
+        sheet = sheets_of_boxes(features, vertices.astype(np.int32), reach=reach[:, None])
+        low, high = (bound.reduceat(vertices, features.vertex_start[:-1]) for bound in (np.minimum, np.maximum))
+        wide = reach[:, None] + feature_sheets.APART
+        meet = ((low - wide)[:, None] <= (high + wide)[None]).all(axis=2)
+        assert not (meet & meet.T & (sheet[:, None] == sheet) & ~np.eye(len(features), dtype=bool)).any()
+
+
+def test_many_boxes_over_each_other_are_divided_fast():
+    """More than are tried one by one: piles, and small ones over and beside long ones."""
+    rng = np.random.default_rng(1)
+    count = 20000
+    low = rng.integers(0, 1 << 20, (count, 2))
+    size = (2.0 ** rng.uniform(0, 20, (count, 2))).astype(np.int64)
+    sheet = _core.disjoint_sheets(np.hstack([low, low + size]), None)
+    assert sorted(set(sheet.tolist())) == list(range(int(sheet.max()) + 1))
+    boxes = shapely.box(*low.T, *(low + size).T)
+    one, other = shapely.STRtree(boxes).query(boxes, predicate="intersects")
+    assert not ((sheet[one] == sheet[other]) & (one != other)).any()
+
+
+def test_batches_hold_each_feature_once():
+    rng = np.random.default_rng(2)
+    features = Features(np.arange(1001), np.concatenate([[0], np.cumsum(rng.integers(3, 900, 1000))]))
+    sheet = rng.integers(0, 5, 1000).astype(np.int32)
+    batches = batches_of(features, sheet)
+    assert sorted(np.concatenate(batches).tolist()) == list(range(1000))
+    assert all(len(set(sheet[batch].tolist())) == 1 and (np.diff(batch) > 0).all() for batch in batches)
+    assert len(batches) <= features.vertex_start[-1] // feature_sheets.BATCH + 5
+
+
+def test_outlines_that_cross_all_the_same_are_taken_by_their_bounds():
+    polygons = vorotool.outlines(np.tile(np.pad(np.ones((3, 3), dtype=bool), 2), (2, 2)))
+    moved = replace(polygons, xy=polygons.xy + np.repeat([[0, 0], [-6, 1]], [4, 12], axis=0))
+    made = vorotool.skeleton_exact(moved)
+    assert np.bincount(made.polygon).tolist() == [4, 4, 4, 4]
+
+
+def test_what_progress_raises_stops_the_work(monkeypatch):
+    monkeypatch.setattr(feature_sheets, "BATCH", 60)
+    polygons = vorotool.outlines(np.tile(np.pad(np.ones((3, 3), dtype=bool), 2), (9, 9)))
+
+    def stop(_):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        feature_skeleton(polygons, threads=2, progress=stop)
