@@ -61,7 +61,7 @@ bench: build ## measure beside the peers, in one run
 	$(RUN) tests/benchmarks/batch.py
 
 .PHONY: fuzz
-fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CASES=..., SETS=..., KILLS=..., SEED=...)
+fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CASES=..., SETS=..., KILLS=..., MACHINES=..., SEED=...)
 	$(RUN) tests/fuzz/tessellate.py --pixels $(or $(PIXELS),100000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/predicates.py --calls $(or $(CALLS),1000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/delaunay.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
@@ -80,6 +80,7 @@ fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CAS
 	$(RUN) tests/fuzz/segment_voronoi.py --cases $(or $(CASES),800000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/segment_voronoi.py --cases 10000 --seed $(or $(SEED),1) --family clusters --largest 100 --symmetries 1
 	$(RUN) tests/fuzz/batch.py --kills $(or $(KILLS),20) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/machines.py --settings $(or $(MACHINES),40) --seed $(or $(SEED),1)
 
 .PHONY: long
 long: build ## frames and images far beyond memory: minutes, and a gigabyte of disk (SIDE=..., SEED=...)

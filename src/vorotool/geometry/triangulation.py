@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from fractions import Fraction
+from math import sqrt
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.checks import check_as_long, set_rows
+from vorotool.geometry.elementary import hypotenuse
 
 FLAT = 2.0**-20
 """Triangles whose largest angle has a smaller sine are computed in rationals: floating point would lose half."""
@@ -156,7 +158,7 @@ class Triangulation:
             x = (c[:, 1] * b2 - b[:, 1] * c2) / (2 * cross)
             y = (b[:, 0] * c2 - c[:, 0] * b2) / (2 * cross)
             centres = np.ldexp(np.ldexp(np.stack([x, y], axis=1), (exponent - scale)[:, None]) + a, scale)
-            radii = np.ldexp(np.hypot(x, y), exponent)
+            radii = np.ldexp(hypotenuse(x, y), exponent)
         for t in np.flatnonzero(flat):
             centres[t], radii[t] = _exact_circle(self.points[self.triangles[t]])
         return centres, radii
@@ -244,5 +246,5 @@ def _rounded(value: Fraction) -> float:
 def _root(value: Fraction) -> float:
     """The square root of a fraction of any size."""
     shift = (value.numerator.bit_length() - value.denominator.bit_length()) // 2
-    reduced = float(value / Fraction(4) ** shift) ** 0.5
+    reduced = sqrt(value / Fraction(4) ** shift)
     return _rounded(Fraction(reduced) * Fraction(2) ** shift)
