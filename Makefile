@@ -63,6 +63,7 @@ bench: build ## measure beside the peers, in one run
 .PHONY: fuzz
 fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CASES=..., SETS=..., KILLS=..., MINUTES=..., SEED=...)
 fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CASES=..., SETS=..., KILLS=..., FAULTS=..., MINUTES=..., SEED=...)
+fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CASES=..., SETS=..., KILLS=..., MACHINES=..., SEED=...)
 	$(RUN) tests/fuzz/tessellate.py --pixels $(or $(PIXELS),100000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/predicates.py --calls $(or $(CALLS),1000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/delaunay.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
@@ -83,6 +84,7 @@ fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CAS
 	$(RUN) tests/fuzz/bytes.py --minutes $(or $(MINUTES),5) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/batch.py --kills $(or $(KILLS),20) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/faults.py --kills $(or $(FAULTS),1000) --minutes $(or $(MINUTES),120) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/machines.py --settings $(or $(MACHINES),40) --seed $(or $(SEED),1)
 
 .PHONY: long
 long: build ## frames and images far beyond memory: minutes, and a gigabyte of disk (SIDE=..., SEED=...)

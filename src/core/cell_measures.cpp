@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/elementary.hpp"
 #include "core/parallel.hpp"
 
 namespace vorotool::core {
@@ -11,7 +12,7 @@ namespace {
 
 constexpr std::size_t cells_a_piece = std::size_t{1} << 13;
 
-double distance(const Point& p, const Point& q) { return std::hypot(p.x - q.x, p.y - q.y); }
+double distance(const Point& p, const Point& q) { return hypotenuse(p.x - q.x, p.y - q.y); }
 
 // Twice the signed area, of coordinates times 2^scale relative to the first vertex: products do not overflow.
 double twice_area(std::span<const Point> ring, double factor) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/clearance.hpp"
+#include "core/elementary.hpp"
 
 namespace vorotool::core {
 namespace {
@@ -70,7 +71,7 @@ void NearEdges::search(const Place& centre, double radius, Found& found) {
 }
 
 bool NearEdges::is_surrounded(const Place& centre, double reach) {
-  const auto away = [&](const Place& p) { return std::hypot(p[0] - centre[0], p[1] - centre[1]); };
+  const auto away = [&](const Place& p) { return hypotenuse(p[0] - centre[0], p[1] - centre[1]); };
   const double moved = away(last_);
   last_ = centre;
   Found& found = surroundings_;

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/elementary.hpp"
 #include "core/lattice_vector.hpp"
 #include "core/near_regions.hpp"
 
@@ -21,7 +22,7 @@ double dot(const Place& a, const Place& b) { return a[0] * b[0] + a[1] * b[1]; }
 
 // From one direction to another, counter-clockwise and by at most half a turn.
 double angle(const Place& a, const Place& b) {
-  if (cross(a, b) > 0) return std::atan2(cross(a, b), dot(a, b));
+  if (cross(a, b) > 0) return angle_of(dot(a, b), cross(a, b));
   return dot(a, b) < 0 ? std::numbers::pi : 0;
 }
 

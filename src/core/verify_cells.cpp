@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/double_double.hpp"
+#include "core/elementary.hpp"
 #include "core/number_text.hpp"
 #include "core/parallel.hpp"
 #include "core/site_tree.hpp"
@@ -29,7 +30,7 @@ double rounding_diameter(const Point& p, int scale) {
   const auto ulp = [=](double v) {
     return std::ldexp(std::nextafter(std::abs(v), infinity) - std::abs(v), scale);
   };
-  return std::hypot(ulp(p.x), ulp(p.y));
+  return hypotenuse(ulp(p.x), ulp(p.y));
 }
 
 // An exact sum to a relative error of a few roundings: terms come by increasing magnitude.
@@ -37,7 +38,7 @@ double approximately(std::span<const double> terms) {
   return std::accumulate(terms.begin(), terms.end(), 0.0);
 }
 
-double distance(const Point& p, const Point& q) { return std::hypot(p.x - q.x, p.y - q.y); }
+double distance(const Point& p, const Point& q) { return hypotenuse(p.x - q.x, p.y - q.y); }
 
 std::string text_of(const Point& p) {
   std::string text = "(";
@@ -195,7 +196,7 @@ class Checker {
     };
     const auto squares = product(q.x, own.x, site.x) + product(q.y, own.y, site.y);
     const double d = rounding_diameter(q, scale);
-    const double reach = std::hypot(std::ldexp(q.x, scale) - std::ldexp(site.x, scale),
+    const double reach = hypotenuse(std::ldexp(q.x, scale) - std::ldexp(site.x, scale),
                                     std::ldexp(q.y, scale) - std::ldexp(site.y, scale));
     return approximately(squares.terms()) > (2 * d * reach + d * d) * generous;
   }

@@ -63,7 +63,7 @@ def _in_small(mesh: Triangulation, component: NDArray[np.int32], threshold: Frac
     limit = nearest_double(threshold)
     with np.errstate(over="ignore", invalid="ignore"):
         extent = np.ptp(corners, axis=1).max(axis=1, initial=0.0)
-        scale = np.bincount(numbers, weights=extent**2)
+        scale = np.bincount(numbers, weights=extent * extent)
         doubt = 2.0**-48 * (8 + np.bincount(numbers)) * scale + 2.0**-1000  # what underflows is far less
         small = areas < limit - doubt
         unclear = ~(np.abs(areas - limit) > doubt)

@@ -13,6 +13,7 @@ from vorotool.errors import InputError, UsageError
 from vorotool.geometry.alpha_complex import CLASSES
 from vorotool.geometry.alpha_hull import AlphaHull
 from vorotool.geometry.alpha_shape import AlphaShape
+from vorotool.geometry.elementary import angle_of, cosine_and_sine, hypotenuse, inverse_sine
 from vorotool.geometry.numbers import nearest_double, shown_number
 
 # Which discs there are is exact. Where their arcs meet is computed in doubles: crossings closer together than this
@@ -125,11 +126,11 @@ class _Arcs:
         self.start, self.end = self.points[a], self.points[b]
         # The triangle is on the left of a to b, the centre on the right by what Pythagoras says.
         across = self.end - self.start
-        half = np.hypot(*across.T) / 2
+        half = hypotenuse(*across.T) / 2
         depth = np.sqrt(np.maximum((self.r - half) * (self.r + half), 0))
         right = np.stack([across[:, 1], -across[:, 0]], axis=1) / (2 * half)[:, None]
         self.centre = (self.start + self.end) / 2 + depth[:, None] * right
-        self.angle = 2 * np.arcsin(np.minimum(half / self.r, 1.0))
+        self.angle = 2 * inverse_sine(half / self.r)
         self.centres = np.concatenate([self.centre, *self._singular_centres(shape)])
 
     def _directed(self, shape: AlphaShape) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
@@ -148,7 +149,7 @@ class _Arcs:
     def _singular_centres(self, shape: AlphaShape) -> list[NDArray[np.float64]]:
         ends = self.points[shape.family.edges[shape.edge_index[shape.kind == CLASSES.index("singular")]]]
         across = ends[:, 1] - ends[:, 0]
-        half = np.hypot(*across.T) / 2
+        half = hypotenuse(*across.T) / 2
         depth = np.sqrt(np.maximum((self.r - half) * (self.r + half), 0))
         normal = np.stack([across[:, 1], -across[:, 0]], axis=1) / (2 * half)[:, None] * depth[:, None]
         middle = ends.mean(axis=1)
@@ -157,7 +158,7 @@ class _Arcs:
     def at(self, arc: NDArray[np.int64], turned: NDArray[np.float64]) -> NDArray[np.float64]:
         """Points of arcs, so far from their starts, as an angle."""
         x, y = (self.start[arc] - self.centre[arc]).T
-        cosine, sine = np.cos(turned), np.sin(turned)
+        cosine, sine = cosine_and_sine(turned)
         turned_offsets = np.stack([x * cosine + y * sine, y * cosine - x * sine], axis=1)
         places: NDArray[np.float64] = self.centre[arc] + turned_offsets
         return places
@@ -166,8 +167,7 @@ class _Arcs:
         """How far points on the circles of arcs are from their starts, in (-π, π]."""
         ux, uy = (self.start[arc] - self.centre[arc]).T
         vx, vy = (points - self.centre[arc]).T
-        turned: NDArray[np.float64] = -np.arctan2(ux * vy - uy * vx, ux * vx + uy * vy)
-        return turned
+        return -angle_of(ux * vx + uy * vy, ux * vy - uy * vx)
 
     def crossings(self) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]:
         """Pairs of arcs that cross between their ends, the first number smaller, and where."""
@@ -179,12 +179,12 @@ class _Arcs:
         # A minor arc is within the box of its ends and its middle, made wider by the distance of a quarter-point.
         low = np.minimum(np.minimum(self.start, self.end), middle)
         high = np.maximum(np.maximum(self.start, self.end), middle)
-        slack = self.r * (1 - np.cos(self.angle / 4))[:, None] + _CLOSE * self.r
+        slack = self.r * (1 - cosine_and_sine(self.angle / 4)[0])[:, None] + _CLOSE * self.r
         boxes = shapely.box(*(low - slack).T, *(high + slack).T)
         i, j = shapely.STRtree(boxes).query(boxes)
         i, j = i[i < j], j[i < j]
         between = self.centre[j] - self.centre[i]
-        half = np.hypot(*between.T) / 2
+        half = hypotenuse(*between.T) / 2
         meets = (half > 0) & (half < self.r)
         i, j, between, half = i[meets], j[meets], between[meets], half[meets]
         reach = np.sqrt((self.r - half) * (self.r + half)) / (2 * half)
@@ -270,10 +270,10 @@ def _rings(pieces: _Pieces) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
 def _clockwise_from(pieces: _Pieces, arriving: int) -> Any:
     """How far, clockwise, the chord of a piece is turned from the way back along another."""
     back = pieces.place[arriving, 0] - pieces.place[arriving, 1]
-    start = np.arctan2(back[1], back[0])
+    start = angle_of(*back)
 
     def turn(piece: int) -> float:
         ahead = pieces.place[piece, 1] - pieces.place[piece, 0]
-        return float((start - np.arctan2(ahead[1], ahead[0])) % (2 * np.pi))
+        return float((start - angle_of(*ahead)) % (2 * np.pi))
 
     return turn

@@ -16,6 +16,7 @@ from vorotool.engines.skeleton_verification import check_arrays, check_branches
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.edge_samples import EdgeSamples
+from vorotool.geometry.elementary import hypotenuse
 from vorotool.geometry.polygon_conversion import to_shapely
 from vorotool.geometry.skeleton import EXTERIOR, INTERIOR, Skeleton
 
@@ -137,7 +138,7 @@ def _check_seeds(found: ApproximateSkeleton) -> None:
     tree = shapely.STRtree(shapely.points(xy))
     for end in (0, 1):
         place = skeleton.vertices[skeleton.arcs[sampled, end]]
-        left, right = (np.hypot(*(place - xy[found.seeds[sampled, hand]]).T) for hand in (0, 1))
+        left, right = (hypotenuse(*(place - xy[found.seeds[sampled, hand]]).T) for hand in (0, 1))
         at = first_wrong(~(np.abs(left - right) <= error))
         if at is not None:
             one, other = found.seeds[sampled[at]].tolist()
@@ -159,9 +160,11 @@ def _check_labels(found: ApproximateSkeleton) -> None:
     mixed = np.flatnonzero((own < 0) & (other >= 0))
     share[mixed] = (graph.segments[other[mixed]] == p[mixed, None]).any(axis=1)
     both = np.flatnonzero((own < 0) & (other < 0))
-    edges = np.sort(graph.segments.astype(np.int64), axis=1) @ [len(graph.points), 1]
-    ends = np.sort(np.stack([p[both], q[both]], axis=1).astype(np.int64), axis=1) @ [len(graph.points), 1]
-    share[both] = np.isin(ends, edges)
+    keys = [
+        low.astype(np.int64) * len(graph.points) + high
+        for low, high in (np.sort(pairs, axis=1).T for pairs in (graph.segments, np.stack([p[both], q[both]], axis=1)))
+    ]
+    share[both] = np.isin(keys[1], keys[0])
     at = first_wrong(share)
     if at is not None:
         fail(f"arc {sampled[at]} is between seeds {found.seeds[sampled[at]].tolist()} of one edge")
@@ -215,7 +218,7 @@ def _check_radii(found: ApproximateSkeleton, threads: int, progress: Progress) -
         fail(f"node {at} is {least[at]} from the shapes, but its radius is {skeleton.radius[at]}")
     node = skeleton.arcs[:, 0]
     sampled = found.seeds[:, 0] >= 0
-    far = np.hypot(*(skeleton.vertices[node] - found.shapes.samples.xy[found.seeds[:, 0]]).T)
+    far = hypotenuse(*(skeleton.vertices[node] - found.shapes.samples.xy[found.seeds[:, 0]]).T)
     at = first_wrong(sampled & ~(skeleton.radius[node] <= far + error))
     if at is not None:
         fail(f"node {node[at]} is {far[at]} from its seeds, but its radius is {skeleton.radius[node[at]]}")

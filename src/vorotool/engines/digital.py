@@ -164,7 +164,8 @@ def squared_limit(max_distance: float | Fraction | None, scale: int) -> int | No
     if not isinstance(max_distance, Real) or not 0 <= max_distance < float("inf"):
         raise UsageError(f"max_distance is {max_distance!s}: it must be a number, 0 or larger, and finite")
     exact = Fraction(max_distance) if isinstance(max_distance, Rational) else Fraction(float(max_distance))
-    return int(min((exact * scale) ** 2, Fraction(2**127)))
+    steps = exact * scale
+    return int(min(steps * steps, Fraction(2**127)))
 
 
 def check_out(out: Any, shape: tuple[int, int]) -> None:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.voronoi_edges import voronoi_lengths
 from vorotool.geometry.digital_triangulation import DigitalTriangulation
+from vorotool.geometry.elementary import hypotenuse
 from vorotool.geometry.frame import Frame
 from vorotool.geometry.triangulation import Triangulation
 
@@ -100,7 +101,7 @@ class Causes:
         One Voronoi edge, or several one after the other, lead from the one to the other.
         """
         one, other = (self._vertices(v) for v in edge)
-        return float(np.hypot(*(one[:, None] - other[None]).T).min(initial=np.inf))
+        return float(hypotenuse(*(one[:, None] - other[None]).T).min(initial=np.inf))
 
     @cached_property
     def _triangles_at_four(self) -> set[Members]:

@@ -144,7 +144,7 @@ def _check_nothing_nearer(
 def _clearances(places: Floats, reach: Floats, graph: PlanarGraph, threads: int, progress: Progress) -> Floats:
     """Distances from the nearest site where it is not beyond the reach, else infinity."""
     if not len(graph):  # a lattice of single points may have no step
-        apart = np.sqrt(((places[:, None] - graph.coordinates()[None]) ** 2).sum(axis=2))
+        apart = np.sqrt(np.square(places[:, None] - graph.coordinates()[None]).sum(axis=2))
         return np.asarray(apart.min(axis=1, initial=np.inf))
     lattice = np.ascontiguousarray((places - graph.origin) / graph.scale)
     found = _core.clearances(graph.points, graph.segments, lattice, reach / graph.scale, threads, progress)

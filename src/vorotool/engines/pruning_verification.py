@@ -92,7 +92,7 @@ def _is_part(pruned: Skeleton, own: NDArray[np.intp], skeleton: Skeleton, other:
         right &= np.sqrt((way * way).sum(axis=1)) <= tolerance
         right &= np.abs(part.radius(on_part) - whole.radius(on_whole)) <= tolerance
     # chords give the length of a part to a fraction that does not matter for whether it is the right one
-    chord = np.sqrt(((part.place(np.ones(len(own))) - part.place(np.zeros(len(own)))) ** 2).sum(axis=1))
+    chord = np.sqrt(np.square(part.place(np.ones(len(own))) - part.place(np.zeros(len(own)))).sum(axis=1))
     right &= (part.length >= chord - tolerance) & (part.length <= whole.length + tolerance)
     return right
 

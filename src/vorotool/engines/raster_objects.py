@@ -69,7 +69,11 @@ def grey_values(raster: Raster) -> NDArray[Any]:
     values = raster.values
     if not raster.is_colour:
         return values
-    return values[:, :, :3] @ np.array(_LUMINANCE) if values.shape[2] > 2 else values[:, :, 0]
+    if values.shape[2] <= 2:
+        return values[:, :, 0]
+    red, green, blue = (weight * values[:, :, k] for k, weight in enumerate(_LUMINANCE))
+    luminance: NDArray[np.float64] = red + green + blue
+    return luminance
 
 
 def threshold_value(grey: NDArray[Any], threshold: float | Literal["otsu"]) -> float:

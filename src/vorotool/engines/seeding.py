@@ -20,6 +20,7 @@ from vorotool.engines.raster_objects import (
     report_no_foreground,
 )
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
+from vorotool.geometry.elementary import hypotenuse
 from vorotool.geometry.frame import Frame
 from vorotool.geometry.points import PointSet
 from vorotool.geometry.raster import Raster
@@ -77,7 +78,7 @@ def seeds_from_points(points: PointSet, *, strict: bool = False) -> SeedSet:
     snapped = int(moved.sum())
     largest_move = 0.0
     if snapped:
-        largest_move = float(np.hypot(*(fine - steps).T).max()) / FINEST_SCALE
+        largest_move = float(hypotenuse(*(fine - steps).T).max()) / FINEST_SCALE
         _report_snapped(points, moved, largest_move, strict=strict)
     lattice = steps.astype(np.int64)
     scale = _coarsest_scale(lattice)

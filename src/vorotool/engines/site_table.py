@@ -12,6 +12,7 @@ from vorotool.engines.label_arrays import Progress
 from vorotool.errors import InputError
 from vorotool.geometry.cells import CellSet
 from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.elementary import hypotenuse
 from vorotool.geometry.table import Table
 from vorotool.geometry.triangulation import Triangulation
 
@@ -75,7 +76,7 @@ def site_table(
     alone = nearest < 0
     with np.errstate(over="ignore"):  # beyond the largest double: infinite
         step = mesh.points - mesh.points[nearest]
-        distance = np.hypot(step[:, 0], step[:, 1])
+        distance = hypotenuse(step[:, 0], step[:, 1])
     on_hull = np.zeros(len(mesh.points), dtype=bool)
     on_hull[mesh.hull] = True
     rings, polygons, of_cells = cells.nesting

@@ -142,7 +142,7 @@ def places_on_arcs(skeleton: Skeleton, parameters: NDArray[np.float64]) -> Place
     """(a, k, 2) places on each arc, by the parameter of the Bezier curve that it is."""
     source, control, target = (corner[:, None] for corner in _bezier(skeleton))
     t = parameters[None, :, None]
-    places: Places = (1 - t) ** 2 * source + 2 * t * (1 - t) * control + t * t * target
+    places: Places = np.square(1 - t) * source + 2 * t * (1 - t) * control + t * t * target
     return places
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.skeleton_distances import SitePlaces
+from vorotool.geometry.elementary import angle_of
 from vorotool.geometry.skeleton import EDGE, Skeleton
 from vorotool.geometry.skeleton_tables import connected_roots
 
@@ -185,8 +186,7 @@ class _HalfEdges:
         places, centre = SitePlaces(self.skeleton), self.skeleton.vertices[self.tail[half_edges]]
         right, left = (_unit(places.feet(self.site[k], centre) - centre) for k in (half_edges, half_edges ^ 1))
         x, y = (left - right).T
-        angles: NDArray[np.float64] = np.arctan2(-x, y)
-        return angles
+        return angle_of(y, -x)
 
 
 def _unit(way: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -65,7 +65,7 @@ _INSIDE = (0.25, 0.5, 0.75)
 def _inner_places(skeleton: Skeleton, t: float) -> Floats:
     source, target = skeleton.vertices[skeleton.arcs].swapaxes(0, 1)
     control = np.where(skeleton.is_parabola[:, None], skeleton.control, (source + target) / 2)
-    places: Floats = (1 - t) ** 2 * source + 2 * t * (1 - t) * control + t * t * target
+    places: Floats = np.square(1 - t) * source + 2 * t * (1 - t) * control + t * t * target
     return places
 
 

@@ -26,6 +26,7 @@ from vorotool.engines.skeleton_exact import (
 from vorotool.engines.skeleton_regions import corner_sectors
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.elementary import angle_of, hypotenuse
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.polygons import LINE, PolygonSet
 from vorotool.geometry.segment_voronoi import SegmentVoronoiDiagram
@@ -85,7 +86,7 @@ def element_diagram(
     refuse_short_edges(shapes, placed, gap)
     points = shapes.coordinates()
     a, b = points[shapes.segments].swapaxes(0, 1)
-    way = (b - a) * (gap / np.sqrt(((b - a) ** 2).sum(axis=1, keepdims=True)))
+    way = (b - a) * (gap / np.sqrt(np.square(b - a).sum(axis=1, keepdims=True)))
     ends = np.stack([a + way, b - way], axis=1).reshape(-1, 2)
     count = len(points) + len(shapes)
     starts = np.concatenate([np.arange(len(points)), len(points) + 2 * np.arange(len(shapes) + 1)])
@@ -179,8 +180,8 @@ def _share_label(elements: ElementDiagram) -> NDArray[np.bool_]:
     ends = elements.shapes.segments[right[mixed] - vertices]
     share[mixed] = (ends == left[mixed, None]).any(axis=1)
     both = np.flatnonzero((right < vertices) & ~share)  # neighbouring vertices have the label of the edge between them
-    edges = np.sort(elements.shapes.segments.astype(np.int64), axis=1) @ [vertices, 1]
-    share[both] = np.isin(left[both] * vertices + right[both], edges)
+    low, high = np.sort(elements.shapes.segments.astype(np.int64), axis=1).T
+    share[both] = np.isin(left[both] * vertices + right[both], low * vertices + high)
     return share
 
 
@@ -228,11 +229,11 @@ def _sector_faces(shapes: PlanarGraph, vertex: NDArray[np.int64], place: NDArray
     if not len(at):
         return np.zeros(len(vertex), dtype=np.int32)
     way = (shapes.points[to].astype(np.float64) - shapes.points[at]).T
-    angle = np.arctan2(way[1], way[0])
+    angle = angle_of(*way)
     order = np.lexsort((angle, at))
     at, angle, left = at[order], angle[order], left[order]
     seen = (place - shapes.points[vertex]).T
-    wanted = np.arctan2(seen[1], seen[0])
+    wanted = angle_of(*seen)
     first, stop = np.searchsorted(at, vertex), np.searchsorted(at, vertex, side="right")
     turns = 8.0  # more than a full circle, so that vertices stay apart
     rank = np.searchsorted(at * turns + angle, vertex * turns + wanted, side="right") - 1
@@ -295,7 +296,8 @@ def _portions_to_arcs(
         a, b = (_way_from(shapes, point, segment) for segment in (right, left))
         inside = (a[0] * way[:, 1] > a[1] * way[:, 0]) & (b[0] * way[:, 1] < b[1] * way[:, 0])
         if inside.any():
-            towards = way @ (a / np.sqrt(a @ a) + b / np.sqrt(b @ b)) / np.sqrt((way * way).sum(axis=1))
+            middle = a / hypotenuse(*a) + b / hypotenuse(*b)
+            towards = (way * middle).sum(axis=1) / hypotenuse(*way.T)
             vertex = int(around[np.where(inside, towards, -np.inf).argmax()])
             yield (vertex, point), (site_of[corners + right], site_of[corners + left])
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.skeleton_approx import ApproximateSkeleton
+from vorotool.geometry.elementary import hypotenuse
 from vorotool.geometry.skeleton import EDGE
 
 
@@ -55,7 +56,7 @@ def _beside_the_paper(found: ApproximateSkeleton, step: float) -> dict[str, Any]
     straight = np.flatnonzero(sampled & is_edge.all(axis=1))
     heights = _focal_heights(found, bent, is_edge[bent])
     with np.errstate(divide="ignore"):
-        estimates = step**2 / (8 * heights)
+        estimates = step * step / (8 * heights)
     return {
         "parabolas": {
             "arcs": len(bent),
@@ -79,7 +80,7 @@ def _focal_heights(
     edge = ends[np.where(is_edge[:, 0], sites[:, 0], sites[:, 1])]
     vertex = ends[np.where(is_edge[:, 0], sites[:, 1], sites[:, 0]), 0]
     along, way = edge[:, 1] - edge[:, 0], vertex - edge[:, 0]
-    heights: NDArray[np.float64] = np.abs(along[:, 0] * way[:, 1] - along[:, 1] * way[:, 0]) / np.hypot(*along.T)
+    heights: NDArray[np.float64] = np.abs(along[:, 0] * way[:, 1] - along[:, 1] * way[:, 0]) / hypotenuse(*along.T)
     return heights
 
 

@@ -17,6 +17,7 @@ from vorotool.engines.segment_voronoi import idle_sides, segment_voronoi
 from vorotool.errors import InputError, UsageError, VorotoolWarning
 from vorotool.geometry.box import bounds
 from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.elementary import hypotenuse
 from vorotool.geometry.magnitude import LARGEST
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.polygons import PolygonSet
@@ -316,7 +317,7 @@ def warn_empty(polygons: PolygonSet, side: str) -> None:
 def refuse_short_edges(graph: PlanarGraph, placed: PlacedShapes, gap: float) -> None:
     """Raise InputError for a segment that nothing would be left of, naming the first."""
     ends = graph.coordinates()[graph.segments]
-    length = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+    length = hypotenuse(*(ends[:, 1] - ends[:, 0]).T)
     short = np.flatnonzero(~(length > 2 * gap))
     if not short.size:
         return

@@ -69,12 +69,16 @@ def _nearest_on_arc(skeleton: Skeleton, arc: int, p: Floats) -> tuple[float, flo
     c = skeleton.control[arc] - p if skeleton.is_parabola[arc] else (a + b) / 2
     bend, way = a - 2 * c + b, c - a
     # B(u) = a + 2 u way + u^2 bend; half its product with B'(u) is a cubic
-    cubic = [float(a @ way), float(a @ bend + 2 * (way @ way)), float(3 * (way @ bend)), float(bend @ bend)]
+    cubic = [_dot(a, way), _dot(a, bend) + 2 * _dot(way, way), 3 * _dot(way, bend), _dot(bend, bend)]
     found = []
     for u in (0.0, *_roots(cubic), 1.0):
         at = a + u * (2 * way + u * bend)
-        found.append((float(at @ at), u))
+        found.append((_dot(at, at), u))
     return min(found)
+
+
+def _dot(a: Floats, b: Floats) -> float:
+    return float(a[0] * b[0] + a[1] * b[1])
 
 
 def _roots(coefficients: list[float]) -> list[float]:

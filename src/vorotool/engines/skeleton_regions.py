@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.skeleton_distances import Floats, SitePlaces, fail, first_wrong
+from vorotool.geometry.elementary import angle_of
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.skeleton import EXTERIOR, INTERIOR, Skeleton
 from vorotool.geometry.skeleton_tables import connected_roots
@@ -50,7 +51,7 @@ def corner_sectors(graph: PlanarGraph) -> CornerSectors:
 def _by_angle(at: Indices, way: Indices) -> Indices:
     """Order by point, then counter-clockwise: by halves of the plane, in them exactly by products."""
     half = np.where((way[:, 1] > 0) | ((way[:, 1] == 0) & (way[:, 0] > 0)), 0, 1)
-    angle = np.arctan2(way[:, 1].astype(float), way[:, 0].astype(float))
+    angle = angle_of(*way.T)
     order = np.lexsort((np.where(half == 0, angle, angle + 7), half, at))
     while True:  # rounded angles of neighbours may be out of order
         a, b = order[:-1], order[1:]
@@ -274,7 +275,7 @@ def _check_areas(regions: SkeletonRegions, wanted: NDArray[np.bool_]) -> None:
 def _face_measures(graph: PlanarGraph) -> tuple[Floats, Floats]:
     """Areas and perimeters of faces; the unbounded one's means nothing."""
     way = graph.coordinates()[graph.segments]
-    length = np.sqrt(((way[:, 1] - way[:, 0]) ** 2).sum(axis=1))
+    length = np.sqrt(np.square(way[:, 1] - way[:, 0]).sum(axis=1))
     ends = graph.points[graph.segments].astype(np.float64)
     # relative to a corner of each face, so that products stay small
     first = np.full(graph.faces, len(graph), dtype=np.int64)
@@ -286,4 +287,4 @@ def _face_measures(graph: PlanarGraph) -> tuple[Floats, Floats]:
         a, b = (ends[:, k] - corner[face] for k in (0, 1))
         np.add.at(area, face, sign * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]))
         np.add.at(perimeter, face, length)
-    return area * graph.scale**2, perimeter
+    return area * (graph.scale * graph.scale), perimeter

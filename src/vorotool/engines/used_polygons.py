@@ -111,7 +111,7 @@ def _lines(graph: PlanarGraph, given: PolygonSet) -> _Rings:
 def _first_points(graph: PlanarGraph, places: NDArray[np.int64]) -> NDArray[Any]:
     """The point of the graph at each of these places, where there is one."""
     keys = graph.points[:, 0].astype(np.int64) * 2**31 + graph.points[:, 1]
-    order = np.argsort(keys)
+    order = np.argsort(keys, kind="stable")
     return order[np.searchsorted(keys, places[:, 0] * 2**31 + places[:, 1], sorter=order)]
 
 

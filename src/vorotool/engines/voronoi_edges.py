@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.elementary import hypotenuse
 from vorotool.geometry.triangulation import Triangulation
 
 
@@ -43,11 +44,11 @@ def voronoi_lengths(
     on_hull = other < 0
     start = centres[triangle]
     along = mesh.points[b] - mesh.points[a]
-    outward = np.stack([along[:, 1], -along[:, 0]], axis=1) / np.hypot(along[:, 0], along[:, 1])[:, None]
+    outward = np.stack([along[:, 1], -along[:, 0]], axis=1) / hypotenuse(along[:, 0], along[:, 1])[:, None]
     # Far enough to cross the whole rectangle from wherever the ray begins.
     reach = np.abs(start - low).sum(axis=1) + np.abs(start - high).sum(axis=1) + 1
     step = np.where(on_hull[:, None], outward * reach[:, None], centres[other] - start)
-    size = np.hypot(step[:, 0], step[:, 1])
+    size = hypotenuse(step[:, 0], step[:, 1])
     order = _order_of(mesh, a, b)
     return np.where(on_hull, np.inf, size)[order], (_share_inside(start, step, low, high) * size)[order]
 
@@ -56,7 +57,7 @@ def _order_of(mesh: Triangulation, a: NDArray[np.int32], b: NDArray[np.int32]) -
     """Where each edge of the mesh is among the pairs of ends."""
     count = len(mesh.points)
     ends = np.minimum(a, b).astype(np.int64) * count + np.maximum(a, b)
-    sorter = np.argsort(ends)
+    sorter = np.argsort(ends, kind="stable")
     wanted = mesh.edges[:, 0].astype(np.int64) * count + mesh.edges[:, 1]
     order: NDArray[np.intp] = sorter[np.searchsorted(ends[sorter], wanted)]
     return order

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from math import floor, inf, isqrt, log10
+from math import floor, inf, isqrt
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
+from vorotool.geometry.elementary import hypotenuse
 from vorotool.geometry.numbers import nearest_double, real_number, shown_number
 from vorotool.geometry.triangulation import Triangulation
 
@@ -141,7 +142,7 @@ class AlphaComplex:
     def _fraction_from(self, rank: int, square: Fraction) -> Fraction:
         """Give a decimal at least as large as a radius that another one follows within the spacing of doubles."""
         bits = square.numerator.bit_length() - square.denominator.bit_length()
-        digits = 17 - floor(bits / 2 * log10(2))  # behind the point: at least 16 significant ones
+        digits = 17 - floor(bits / 2 * 0.30103)  # behind the point: at least 16 significant ones
         while True:
             step = Fraction(10) ** -digits
             root = _ceiling_root(square / step**2) * step
@@ -164,7 +165,7 @@ class AlphaComplex:
         """(e,) lengths of the edges; relative error below 1e-15, infinite beyond the largest double."""
         a, b = self.points[self.edges[:, 0]], self.points[self.edges[:, 1]]
         with np.errstate(over="ignore"):
-            lengths: NDArray[np.float64] = np.hypot(*(b - a).T)
+            lengths: NDArray[np.float64] = hypotenuse(*(b - a).T)
         return lengths
 
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import acos, pi
+from math import sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.alpha_shape import AlphaShape
+from vorotool.geometry.elementary import PI, cosine_and_sine, hypotenuse, inverse_sine
 from vorotool.geometry.table import Lookup, Table
 
 
@@ -57,9 +58,7 @@ class AlphaHull:
     @cached_property
     def angles(self) -> NDArray[np.float64]:
         """(k,) angle of each arc at its centre, in radians: at most π, since an arc is less than half a circle."""
-        half = np.hypot(*(self.end - self.start).T) / 2
-        angles: NDArray[np.float64] = 2 * np.arcsin(np.minimum(half / self.r, 1.0))
-        return angles
+        return 2 * inverse_sine(hypotenuse(*(self.end - self.start).T) / 2 / self.r)
 
     @property
     def perimeter(self) -> float:
@@ -78,17 +77,17 @@ class AlphaHull:
         """
         if not len(self):  # of an image without foreground the radius is infinite
             return np.empty((0, 2)), np.zeros(1, np.int64)
-        # A chord over an angle a is off by r (1 - cos(a / 2)).
-        widest = 2 * acos(max(1 - tolerance / self.r, -1.0)) or pi / 512
+        # A chord over an angle a is off by r (1 - cos(a / 2)), which is 2 r times the square of sin(a / 4).
+        widest = 4 * float(inverse_sine(sqrt(tolerance / self.r / 2))) or PI / 512
         counts = np.maximum(np.ceil(self.angles / widest), 1).astype(np.int64)
         arc = np.repeat(np.arange(len(self)), counts)
         ends = np.cumsum(counts)
         step = np.arange(len(arc)) - np.repeat(ends - counts, counts)
         turned = self.angles[arc] * (step / counts[arc])
         offset = self.start[arc] - self.centre[arc]
-        cosine, sine = np.cos(turned), -np.sin(turned)
-        x = offset[:, 0] * cosine - offset[:, 1] * sine
-        y = offset[:, 0] * sine + offset[:, 1] * cosine
+        cosine, sine = cosine_and_sine(turned)
+        x = offset[:, 0] * cosine + offset[:, 1] * sine
+        y = offset[:, 1] * cosine - offset[:, 0] * sine
         xy = np.where((step == 0)[:, None], self.start[arc], self.centre[arc] + np.stack([x, y], axis=1))
         return xy, np.append(0, ends)[self.ring_start]
 

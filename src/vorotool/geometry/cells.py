@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.box import Box
 from vorotool.geometry.checks import set_rows
+from vorotool.geometry.elementary import hypotenuse
 
 
 class Nesting(NamedTuple):
@@ -134,7 +135,7 @@ class CellSet:
         """(n,) lengths of the boundaries, those of holes included; 0 of empty cells."""
         with np.errstate(over="ignore"):  # beyond the largest double: infinite
             step = self.coordinates[_following(self.nesting.rings)] - self.coordinates
-            return self._sum(np.hypot(step[:, 0], step[:, 1]))
+            return self._sum(hypotenuse(step[:, 0], step[:, 1]))
 
     def cell_of_vertices(self) -> NDArray[np.int64]:
         """(n + 1,) where the vertices of each cell begin in `coordinates`, and the end."""

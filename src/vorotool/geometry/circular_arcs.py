@@ -71,7 +71,7 @@ def _halvings(start: Floats, end: Floats, centre: Floats, tolerance: float) -> N
     is_arc = ~np.isnan(centre[:, 0])
     a, b = np.where(is_arc[:, None], [start - centre, end - centre], 0)
     square = (a * a).sum(axis=1)
-    quarter = ((b - a) ** 2).sum(axis=1) / 4
+    quarter = np.square(b - a).sum(axis=1) / 4
     halvings = np.zeros(len(a), dtype=np.int64)
     is_wide = (a * b).sum(axis=1) < 0
     for _ in range(MOST_HALVINGS):
@@ -91,7 +91,7 @@ def _halved(start: Floats, end: Floats, centre: Floats, is_left: NDArray[np.bool
     """(k, 2^count - 1, 2) places inside arcs that divide them evenly."""
     ways = np.empty((len(start), 2**count + 1, 2))
     ways[:, 0], ways[:, -1] = start - centre, end - centre
-    radius = np.sqrt((ways[:, 0] ** 2).sum(axis=1))
+    radius = np.sqrt(np.square(ways[:, 0]).sum(axis=1))
     step = 2**count
     while step > 1:
         a, b = ways[:, :-1:step], ways[:, step::step]

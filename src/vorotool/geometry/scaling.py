@@ -158,4 +158,4 @@ def _scaled_column(name: str, column: Any, factor: Fraction, properties: Collect
     ours = "" if name in properties else name.removeprefix("voro_")
     if ours in LENGTHS:
         return np.ma.asanyarray(column) * float(factor)
-    return np.ma.asanyarray(column) * float(factor**2) if ours in AREAS else column
+    return np.ma.asanyarray(column) * float(factor * factor) if ours in AREAS else column

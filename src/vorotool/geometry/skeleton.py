@@ -14,6 +14,7 @@ from vorotool.geometry.arc_measures import ArcMeasures
 from vorotool.geometry.arc_radii import arc_radii
 from vorotool.geometry.checks import set_array
 from vorotool.geometry.chunks import in_chunks
+from vorotool.geometry.elementary import hypotenuse
 from vorotool.geometry.polygons import PolygonSet
 
 INTERIOR, EXTERIOR = 0, 1
@@ -234,7 +235,7 @@ class Skeleton:
         ends = ends_of_sites(self.polygons, self.site_table, sites)
         if self.gap:
             a, b = ends[..., 0, :], ends[..., 1, :]
-            length = np.sqrt(((b - a) ** 2).sum(axis=-1, keepdims=True))
+            length = np.sqrt(np.square(b - a).sum(axis=-1, keepdims=True))
             way = np.divide(self.gap * (b - a), length, out=np.zeros_like(a), where=length > 0)
             a += way
             b -= way
@@ -296,7 +297,7 @@ class Skeleton:
         control = np.where(self.is_parabola[:, None], self.control, (source + target) / 2)
         bend = source - 2 * control + target
         # a chord over 1/n of the parameter is off by |bend| / (4 n^2)
-        pieces = np.ceil(np.sqrt(np.hypot(*bend.T) / (4 * tolerance)))
+        pieces = np.ceil(np.sqrt(hypotenuse(*bend.T) / (4 * tolerance)))
         pieces = np.where(self.is_parabola, np.clip(pieces, 1, MOST_PIECES), 1).astype(np.int64)
         start = np.concatenate([[0], np.cumsum(pieces + 1)])
         arc = np.repeat(np.arange(len(self)), pieces + 1)

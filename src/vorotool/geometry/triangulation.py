@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from fractions import Fraction
+from math import sqrt
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.checks import check_as_long, set_rows
+from vorotool.geometry.elementary import hypotenuse
 from vorotool.geometry.numbers import nearest_double
 
 FLAT = 2.0**-20
@@ -157,7 +159,7 @@ class Triangulation:
             x = (c[:, 1] * b2 - b[:, 1] * c2) / (2 * cross)
             y = (b[:, 0] * c2 - c[:, 0] * b2) / (2 * cross)
             centres = np.ldexp(np.ldexp(np.stack([x, y], axis=1), (exponent - scale)[:, None]) + a, scale)
-            radii = np.ldexp(np.hypot(x, y), exponent)
+            radii = np.ldexp(hypotenuse(x, y), exponent)
         for t in np.flatnonzero(flat):
             centres[t], radii[t] = _exact_circle(self.points[self.triangles[t]])
         return centres, radii
@@ -238,5 +240,5 @@ def _exact_circle(triangle: NDArray[np.float64]) -> tuple[tuple[float, float], f
 def _root(value: Fraction) -> float:
     """The square root of a fraction of any size."""
     shift = (value.numerator.bit_length() - value.denominator.bit_length()) // 2
-    reduced = float(value / Fraction(4) ** shift) ** 0.5
+    reduced = sqrt(value / Fraction(4) ** shift)
     return nearest_double(Fraction(reduced) * Fraction(2) ** shift)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from math import ceil, floor, log10
+from math import ceil, floor
 from typing import BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.elementary import decimal_logarithm
 from vorotool.geometry.table import Table
 from vorotool.render.palettes import FAINT, INK, PALE, SEED, WHITE
 
@@ -66,22 +67,23 @@ class _Axis:
     """The logarithmic axis of r: where values are, and which pixel each radius falls into."""
 
     def __init__(self, r: NDArray[np.float64], width: int) -> None:
-        low, high = (float(np.log10(r[0])), float(np.log10(r[-1]))) if len(r) else (0.0, 1.0)
+        low, high = decimal_logarithm(r[[0, -1]]).tolist() if len(r) else (0.0, 1.0)
         margin = max((high - low) * 0.03, 0.05)
         self.low, self.high = low - margin, high + margin
         self.left, self.right = _LEFT, width - _RIGHT
-        self.x = self.left + (np.log10(r) - self.low) / (self.high - self.low) * (self.right - self.left)
+        self.x = self.left + (decimal_logarithm(r) - self.low) / (self.high - self.low) * (self.right - self.left)
 
     def place(self, value: float) -> float:
-        return self.left + (log10(value) - self.low) / (self.high - self.low) * (self.right - self.left)
+        share = (float(decimal_logarithm(value)) - self.low) / (self.high - self.low)
+        return self.left + share * (self.right - self.left)
 
     def ticks(self) -> list[float]:
         """Powers of ten; where these are few, 2 and 5 times them too; at most about a dozen."""
         decades = range(floor(self.low), ceil(self.high) + 1)
         steps = (1,) if len(decades) > 5 else (1, 2, 5)
         every = max(1, len(decades) // 12)
-        values = [s * 10.0**d for d in decades if d % every == 0 for s in steps]
-        return [value for value in values if self.low <= log10(value) <= self.high]
+        values = [float(f"{s}e{d}") for d in decades if d % every == 0 for s in steps]
+        return [value for value in values if self.low <= decimal_logarithm(value) <= self.high]
 
 
 def _panel(name: str, axis: _Axis, values: NDArray[np.float64], top: int, width: int, font: str) -> list[str]:

@@ -174,7 +174,7 @@ class _Discs:
         self._set(picture, np.floor(x + 0.5), np.floor(x + 0.5), np.floor(y + 0.5) - top, value)
         for offset in range(-reach, reach + 1):
             row = np.floor(y) + offset
-            square = self.radius**2 - (row - y) ** 2
+            square = self.radius * self.radius - np.square(row - y)
             half = np.sqrt(np.maximum(square, 0.0))
             hit = square >= 0
             left, right = np.ceil(x - half)[hit], np.floor(x + half)[hit]

@@ -185,7 +185,7 @@ class _Canvas:
             x, y = places[begin : begin + _ITEMS].T
             for offset in range(-int(radius) - 1, int(radius) + 2):
                 row = np.floor(y) + offset
-                square = radius * radius - (row + 0.5 - y) ** 2
+                square = radius * radius - np.square(row + 0.5 - y)
                 half = np.sqrt(np.maximum(square, 0.0))
                 hit = square > 0
                 left, right = np.ceil(x - half - 0.5)[hit], np.ceil(x + half - 0.5)[hit]

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.geometry.elementary import hypotenuse
 from vorotool.geometry.xml_text import xml_characters
 from vorotool.render.layers import Arcs, Backdrop, Curves, Layer, Lines, Page, Points, Polygons, Texts
 from vorotool.render.palettes import WHITE
@@ -205,7 +206,7 @@ def _arcs(layer: Arcs, page: Page) -> Iterator[bytes]:
     """One path of all curves; with y downwards what turned clockwise turns counter-clockwise."""
     start, end = (np.round(page.place(places), DECIMALS) + 0.0 for places in (layer.start, layer.end))
     is_arc = ~np.isnan(layer.centre[:, 0])
-    radii = np.hypot(*np.where(is_arc[:, None], layer.start - layer.centre, 0).T).tolist()
+    radii = hypotenuse(*np.where(is_arc[:, None], layer.start - layer.centre, 0).T).tolist()
     sweeps = (layer.turns_left != page.y_up).astype(int).tolist()  # 1 is clockwise as seen
     commands = []
     for k, (x, y) in enumerate(end.tolist()):
