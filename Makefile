@@ -61,9 +61,7 @@ bench: build ## measure beside the peers, in one run
 	$(RUN) tests/benchmarks/batch.py
 
 .PHONY: fuzz
-fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CASES=..., SETS=..., KILLS=..., MINUTES=..., SEED=...)
-fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CASES=..., SETS=..., KILLS=..., FAULTS=..., MINUTES=..., SEED=...)
-fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CASES=..., SETS=..., KILLS=..., MACHINES=..., SEED=...)
+fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CASES=..., SETS=..., KILLS=..., FAULTS=..., MACHINES=..., MINUTES=..., SEED=...)
 	$(RUN) tests/fuzz/tessellate.py --pixels $(or $(PIXELS),100000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/predicates.py --calls $(or $(CALLS),1000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/delaunay.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
