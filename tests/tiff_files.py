@@ -3,7 +3,7 @@
 import struct
 
 SHORT, LONG = 3, 4
-_CODES = {1: "B", 2: "B", 3: "H", 4: "I", 12: "d", 16: "Q"}
+_CODES = {1: "B", 2: "B", 7: "B", 3: "H", 4: "I", 12: "d", 16: "Q"}
 _OFFSETS = {False: (273, 279), True: (324, 325)}
 
 

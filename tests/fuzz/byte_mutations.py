@@ -41,7 +41,7 @@ def mutated(bundle: Bundle, others: list[Bundle], chance: random.Random) -> Bund
     """Change one of the files of a bundle, most often once or twice."""
     name = chance.choice(sorted(bundle.files))
     data = bundle.files[name]
-    for _ in range(1 + int(chance.expovariate(0.7))):
+    for _ in range(1 + int(chance.expovariate(1.3))):
         data = _change(bundle.kind, name)(data, chance) if chance.random() < 0.7 else _any(data, others, chance)
     files = dict(bundle.files)
     files[name] = data[:200_000]

@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+import threading
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future
 from contextlib import contextmanager
-from typing import Protocol
+from typing import Protocol, TypeVar
 
 from vorotool.errors import InputError, LimitError, VorotoolError
+
+_MOMENT = 0.05
+"""Seconds after which signals are looked for."""
+
+Result = TypeVar("Result")
 
 
 class SourceLike(Protocol):
@@ -43,6 +50,36 @@ def check_pixels(name: str, width: int, height: int, max_pixels: int) -> None:
             f"{name} is {width} x {height} = {width * height} pixels, more than --max-pixels {max_pixels}: "
             "raise that if there is memory for it, or crop the image"
         )
+
+
+def interruptible(work: Callable[[], Result]) -> Result:
+    """Call what takes long in a library that does not look for signals: in a thread, so that this one sees them.
+
+    A signal whose handler raises ends the wait. What the other thread still does is lost, and does not keep the
+    process from ending.
+
+    Examples
+    --------
+    >>> interruptible(lambda: 6 * 7)
+    42
+    """
+    if threading.current_thread() is not threading.main_thread():
+        return work()
+    future: Future[Result] = Future()
+    is_over = threading.Event()
+
+    def call() -> None:
+        try:
+            future.set_result(work())
+        except BaseException as error:  # which the waiting thread raises
+            future.set_exception(error)
+        finally:
+            is_over.set()
+
+    threading.Thread(target=call, daemon=True).start()
+    while not is_over.wait(_MOMENT):  # a signal may reach another thread, which does not wake this one
+        pass
+    return future.result()
 
 
 @contextmanager

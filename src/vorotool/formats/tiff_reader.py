@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from pathlib import Path
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -10,9 +11,10 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, LimitError
 from vorotool.formats.jpeg_sizes import check_jpegs
-from vorotool.formats.limits import SourceLike, check_pixels, decoding
+from vorotool.formats.limits import SourceLike, check_pixels, decoding, interruptible
 from vorotool.formats.tiff_layout import JPEGS, TiffLayout, layout_of
 from vorotool.formats.tiff_segments import decode_image, is_decoded_here
+from vorotool.formats.tiff_tags import check_tags
 
 Resolution = tuple[float, float, str]
 
@@ -47,8 +49,10 @@ def read_tiff(source: SourceLike, *, page: int | None, max_pixels: int) -> tuple
             )
         with decoding(source.name, "TIFF"):
             resolution = resolution_of(file, chosen)
-            is_here = is_decoded_here(layout)
-            values = decode_image(layout, source.data) if is_here else _by_library(source, chosen, layout)
+            if is_decoded_here(layout):
+                values = decode_image(layout, source.data)
+            else:
+                values = interruptible(lambda: _by_library(source, chosen, layout))
     if values.dtype.kind not in "buif" or not 2 <= values.ndim <= 3:
         raise InputError(
             f"{source.name} holds {values.dtype} of shape {values.shape}: an image of numbers was expected"
@@ -74,6 +78,11 @@ def opened_tiff(name: str, file: str | BinaryIO) -> Any:
     if not logger.handlers:
         logger.addHandler(logging.NullHandler())
     with decoding(name, "TIFF"):
+        if isinstance(file, str):
+            with Path(file).open("rb") as tags:
+                check_tags(name, tags)
+        else:
+            check_tags(name, file)
         return tifffile.TiffFile(file)
 
 
