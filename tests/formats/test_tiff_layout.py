@@ -6,6 +6,7 @@ import zlib
 import numpy as np
 import pytest
 import tifffile
+from PIL import Image
 
 import vorotool
 from tiff_files import LONG, SHORT, grey, tiff_file
@@ -171,6 +172,18 @@ def test_predictors(tmp_path, dtype, byteorder, tile):
         return
     tifffile.imwrite(out, image, byteorder=byteorder, compression="zlib", predictor=2, tile=tile)
     accepted(tmp_path, out.getvalue(), image)
+
+
+@pytest.mark.parametrize("side", [40, 3000])
+def test_a_jpeg_larger_than_its_strip(tmp_path, side):
+    out = io.BytesIO()
+    Image.fromarray(np.zeros((side, side), np.uint8)).save(out, "JPEG")
+    data = tiff_file(grey(8, 8, compression=7), [out.getvalue()])
+    (tmp_path / "a.tif").write_bytes(data)
+    with pytest.raises(InputError, match=f"strip 0 holds a JPEG of {side} x {side} pixels, but has place for 8 x 8"):
+        vorotool.read(tmp_path / "a.tif")
+    (tmp_path / "a.tif").write_bytes(tiff_file(grey(side, side, compression=7), [out.getvalue()]))
+    assert vorotool.read(tmp_path / "a.tif").values.shape == (side, side)
 
 
 def test_rows_of_a_strip_are_read_alone(tmp_path):

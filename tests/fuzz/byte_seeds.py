@@ -157,10 +157,8 @@ def _texts() -> list[tuple[str, str, bytes]]:
     node = "4 2 1 1\n# points\n1 0 0 5 1\n2 9 0 6 0\n3 9 6 7 0\n4 0 6 8 1\n"
     poly = "4 2 0 1\n1 0 0 1\n2 9 0 1\n3 9 6 1\n4 0 6 1\n4 1\n1 1 2 1\n2 2 3 1\n3 3 4 1\n4 4 1 1\n0\n"
     lists = ["[[1,2],[3,4.5],[6,7]]", "[[[0,0],[9,0],[9,6]],[[1,1],[2,1],[2,2]]]", "[[0,0],[9,0],[9,6],[4,2]]"]
-    lists += [
-        '{"polygons":[[[[0,0],[4,0],[4,4]]]],"polylines":[[[1,1],[2,2]]]}',
-        '{"labels":[1,2],"points":[[1,2],[3,4]]}',
-    ]
+    shell = '{"shell":[[0,0],[9,0],[9,9],[0,9]],"holes":[[[1,1],[2,1],[2,2]]],"properties":{"name":"a"}}'
+    lists.append(f'{{"polygons":[{shell},{{"line":[[10,1],[12,2]]}}]}}')
     return (
         [("csv", "a.csv", text.encode()) for text in tables]
         + [("node", "a.node", node.encode()), ("poly", "a.poly", poly.encode())]
