@@ -81,6 +81,7 @@ def test_a_lost_worker_loses_nothing(run, process, many, cluster):
     assert files(many / "there") == files(many / "here")
     assert (many / "there.csv").read_bytes() == (many / "here.csv").read_bytes()
     assert sorted(done(manifest)) == [f"many/p{number:03}.csv" for number in range(40) if number != 13]
+    assert list((many / "there").rglob(".vorotool-*")) == []
 
 
 def test_a_cluster_that_is_started_here(run, many):

@@ -90,11 +90,11 @@ def kill(known, name, chance, counts):
         counts["ended first"] += 1
         wrong += ["exit code 0, but not the new outputs"] * (outputs(folder) != known.contents[name, 2])
     elif code != ENDS[number]:
-        wrong.append(f"exit code {code}: {(folder / 'messages').read_text()[-300:]}")
+        wrong.append(f"exit code {code}: {said(folder)[-300:]}")
     counts[number.name] += 1
     counts["kills that left a temporary"] += bool(left) and number == signal.SIGKILL
     wrong += [f"{left} left after {number.name}"] * (bool(left) and number != signal.SIGKILL)
-    wrong += [f"{line} said" for line in (folder / "messages").read_text().splitlines()]
+    wrong += [f"{line} said" for line in said(folder).splitlines()]
     wrong += next_run(known, name, folder)
     return [f"{name}, {number.name} at {step}, older {older}: {each}" for each in wrong]
 
@@ -108,6 +108,12 @@ def next_run(known, name, folder):
     if not wrong:
         shutil.rmtree(folder)
     return wrong
+
+
+def said(folder):
+    """What a run has said."""
+    path = folder / "messages"
+    return path.read_text() if path.exists() else "it has not even begun"
 
 
 class Pipe:

@@ -7,6 +7,8 @@ by Python's audit events where Zarr opens the files of a store.
 import io
 import itertools
 import os
+import select
+import signal
 import sys
 import threading
 import time
@@ -19,6 +21,10 @@ WRITES = frozenset({"write", "half", "chunk"})
 
 PATIENCE = 20.0
 """Seconds that a process waits for a signal in the middle of a step."""
+
+
+SIGNALLED = []
+"""A pipe that can be read when this process has got a signal."""
 
 
 class Steps:
@@ -65,6 +71,9 @@ class Raw(io.FileIO):
 
 def install(steps):
     """Tell the steps of all writes of this process from now on."""
+    SIGNALLED[:] = os.pipe()
+    os.set_blocking(SIGNALLED[1], False)
+    signal.set_wakeup_fd(SIGNALLED[1])
     wrap(temporaries, "_lock", "made", "locked", steps)
     wrap(temporaries, "_discard", "discarding", "discarded", steps)
     wrap(temporaries.Temporary, "move_to", "moving", "moved", steps)
@@ -101,8 +110,8 @@ def announce(path, *, wait=True):
             pipe.write(f"{os.getpid()} {name}\n".encode())
         if wait and threading.current_thread() is threading.main_thread():
             time.sleep(PATIENCE)  # which a signal ends
-        elif wait:
-            time.sleep(0.1)
+        elif wait:  # the main thread gets the signal, and waits for this one
+            select.select([SIGNALLED[0]], [], [], PATIENCE)
 
     return act
 

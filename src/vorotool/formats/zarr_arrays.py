@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import os
+import threading
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
-from contextlib import closing
+from concurrent.futures import Future, wait
 from typing import Any, TypeVar
 
 import numpy as np
@@ -14,7 +14,6 @@ from numpy.typing import DTypeLike, NDArray
 from vorotool.errors import UsageError
 from vorotool.formats.bands import in_order
 from vorotool.formats.stores import open_store
-from vorotool.geometry.checks import available_threads
 
 Result = TypeVar("Result")
 
@@ -77,16 +76,17 @@ def create_array(store: Any, shape: tuple[int, int], *, dtype: DTypeLike, chunks
     """
     zarr = zarr_module()
     return _to_its_end(
-        zarr.create_array,
-        store if isinstance(store, dict) else os.fspath(store),
-        shape=shape,
-        chunks=chunks,
-        dtype=np.dtype(dtype),
-        compressors=[zarr.codecs.ZstdCodec(level=_LEVEL)],
-        fill_value=0,
-        dimension_names=("y", "x"),
-        overwrite=False,
-        zarr_format=3,
+        lambda: zarr.create_array(
+            store if isinstance(store, dict) else os.fspath(store),
+            shape=shape,
+            chunks=chunks,
+            dtype=np.dtype(dtype),
+            compressors=[zarr.codecs.ZstdCodec(level=_LEVEL)],
+            fill_value=0,
+            dimension_names=("y", "x"),
+            overwrite=False,
+            zarr_format=3,
+        )
     )
 
 
@@ -124,28 +124,45 @@ def write_rows(
     if first % height or len(rows) != min(height, array.shape[0] - first):
         raise ValueError(f"rows {first} to {first + len(rows) - 1} are not those of chunks of {height} rows")
 
+    stopped = threading.Event()
+
     def write(column: int) -> None:
+        if stopped.is_set():
+            return
         if check is not None:
             check()
         array[first : first + len(rows), column : column + width] = rows[:, column : column + width]
 
-    columns = range(0, array.shape[1], width)
-    if (threads or available_threads()) == 1:
-        for column in columns:
-            _to_its_end(write, column)
-        return
-    with closing(in_order(write, columns, threads)) as written:
-        for _ in written:
+    def write_all() -> None:
+        for _ in in_order(write, range(0, array.shape[1], width), threads):
             pass
 
+    _to_its_end(write_all, stopped.set)
 
-def _to_its_end(function: Callable[..., Result], *arguments: Any, **options: Any) -> Result:
-    """Call what writes in a store, and wait until it has ended, through an interrupt, too.
 
-    Zarr writes in threads of its own, which would go on in a folder that is being removed.
+def _to_its_end(function: Callable[[], Result], stop: Callable[[], None] = lambda: None) -> Result:
+    """Call what writes in a store, and wait until it has ended, through an interrupt, too, which asks it to stop.
+
+    Zarr writes in threads of its own, which would go on in a folder that is being removed. An interrupt comes between
+    any two steps of this thread, so that it must not be the one that knows whether the work has begun.
     """
-    with ThreadPoolExecutor(1) as pool:
-        return pool.submit(function, *arguments, **options).result()
+    work: Future[Result] = Future()
+
+    def run() -> None:
+        if work.set_running_or_notify_cancel():
+            try:
+                work.set_result(function())
+            except BaseException as error:
+                work.set_exception(error)
+
+    try:
+        threading.Thread(target=run, daemon=True).start()
+        return work.result()
+    except BaseException:
+        stop()
+        if not work.cancel():
+            wait([work])
+        raise
 
 
 def write_zarr(path: str | os.PathLike[str], image: NDArray[Any], *, threads: int = 0) -> None:
