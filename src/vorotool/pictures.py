@@ -13,6 +13,7 @@ from vorotool.geometry.label_image import LabelImage
 
 if TYPE_CHECKING:
     from vorotool.geometry.cells import CellSet
+    from vorotool.render.label_png import Names
     from vorotool.render.layers import Backdrop, Layer, Page
 
 BAND_ROWS = 256
@@ -47,7 +48,7 @@ def write_label_picture(
     fmt : {"png", "svg"}
         Kind of picture.
     layers : sequence of str
-        Of cells, diagram (PNG), labels (SVG) and seeds.
+        Of cells, diagram (PNG), labels and seeds.
     width : int
         Pixels across an SVG.
     y_up : bool
@@ -60,12 +61,33 @@ def write_label_picture(
     if y_up:
         image = image.flipped()
     if fmt == "svg":
-        from vorotool.render.label_svg import write_label_svg
+        from vorotool.render.label_svg import has_numbers, write_label_svg
 
         by_label = dict(zip(colours[0].tolist(), colours[1].tolist(), strict=True))
-        write_label_svg(out, image, colour_of_label=by_label, width=width, layers=layers, backdrop=backdrop)
+        names = None if has_numbers(image.shape) else _names(image, layers, threads)
+        write_label_svg(
+            out, image, colour_of_label=by_label, width=width, layers=layers, backdrop=backdrop, names=names
+        )
     else:
         _write_png(out, image, colours, layers, backdrop, threads)
+
+
+def default_layers(image: LabelImage, layers: Sequence[str]) -> tuple[str, ...]:
+    """Layers of a picture for which none are chosen: numbers in the pixels of small images, but no names in others."""
+    from vorotool.render.label_svg import has_numbers
+
+    return tuple(layer for layer in layers if layer != "labels" or has_numbers(image.shape))
+
+
+def _names(image: LabelImage, layers: Sequence[str], threads: int) -> Names | None:
+    """Labels, deep inside their regions."""
+    if "labels" not in layers:
+        return None
+    from vorotool.engines.label_places import label_places
+    from vorotool.render.label_png import Names
+
+    labels, places, _ = label_places(image, threads=threads)
+    return Names([str(label) for label in labels.tolist()], places)
 
 
 def _write_png(
@@ -81,7 +103,8 @@ def _write_png(
     from vorotool.render.label_png import over_image, picture_bands
     from vorotool.render.palettes import picture_palette
 
-    palette = picture_palette(int(colours[1].max(initial=0)))
+    names = _names(image, layers, threads)
+    palette = picture_palette(int(colours[1].max(initial=0)), has_letters=names is not None)
     starts = range(0, image.shape[0], BAND_ROWS)
     diagram = voronoi_diagram(image, threads=threads).view(bool) if "diagram" in layers else None
     number, colour_of_number = _numbering(*colours)
@@ -93,6 +116,7 @@ def _write_png(
         diagram=None if diagram is None else (diagram[row : row + BAND_ROWS] for row in starts),
         seeds=image.seeds,
         frame=image.frame,
+        names=names,
         layers=layers,
     )
     if backdrop is not None:

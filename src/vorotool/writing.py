@@ -131,7 +131,7 @@ def _draw(value: Any, wanted: _Picture) -> None:
 
 
 def _draw_labels(image: LabelImage, wanted: _Picture) -> None:
-    from vorotool.engines.regions import region_colours
+    from vorotool.engines.object_colours import object_colours
     from vorotool.formats.outputs import open_output
     from vorotool.pictures import write_label_picture
 
@@ -140,7 +140,7 @@ def _draw_labels(image: LabelImage, wanted: _Picture) -> None:
     if wanted.fmt == "png" and wanted.width is not None:
         raise UsageError("the PNG of a label image has its own size: leave width out, or use fmt='svg'")
     seeds = ("seeds",) if image.seeds is not None else ()
-    colours = region_colours(image, threads=wanted.threads)
+    colours = object_colours(image, threads=wanted.threads)
     with open_output(wanted.path, binary=wanted.fmt == "png") as out:
         write_label_picture(
             out,

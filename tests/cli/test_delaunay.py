@@ -263,10 +263,6 @@ def test_bad_input(run, folder, name):
         (["--layers", "points"], "--layers is for pictures"),
         (["--width", "300"], "--width is for pictures"),
         (["--layers", "cellar", "-f", "svg"], "not one of cells, triangles, diagram, edges, points, labels"),
-        (
-            ["--layers", "labels", "-o", "a.png"],
-            "--layers labels: a picture in PNG has cells, triangles, diagram, edges, points",
-        ),
         (["--precision", "3", "-o", "a.npz"], "--precision is for numbers in text"),
         (["--precision", "0"], "precision"),
         (["--threshold", "otsu"], "--threshold is for images, but the input is a list of points"),

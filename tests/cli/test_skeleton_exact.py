@@ -200,7 +200,6 @@ def test_too_many_vertices(run):
         (["--frame", "0,0,1,1"], "--side exterior"),
         (["--side", "both", "--frame", "0,0,1"], "four numbers"),
         (["--layers", "skeleton"], "pictures"),
-        (["--layers", "labels", "-o", "a.png"], "PNG"),
         (["--precision", "3", "-o", "a.svg"], "--precision"),
         (["--what", "table", "-o", "a.svg"], "table cannot be written"),
         (["--side", "left"], "left"),

@@ -43,7 +43,7 @@ OF_DIGITAL_RULE = frozenset({"edges", "complex", "family", "spectrum"})
 """Results that need no more than edges and the triangles beside them."""
 LAYERS = ("polygons", "delaunay", "interior", "boundary", "singular", "hull", "points", "labels")
 """Layers of pictures, from below."""
-PICTURE_LAYERS = {"svg": LAYERS, "png": tuple(layer for layer in LAYERS if layer != "labels")}
+PICTURE_LAYERS = {"svg": LAYERS, "png": LAYERS}
 _WITH_LAYERS = frozenset({"edges", "polygons", "complex", "general", "hull"})
 _WITHOUT_DIGITS = frozenset({"npz", "html", *PICTURES})
 

@@ -37,7 +37,7 @@ OF_TRIANGULATIONS = frozenset(
     {("edges", "edge"), ("triangles", "ele")} | {(what, fmt) for what in ("cells", "table") for fmt in FORMATS[what]}
 )
 """Results and formats that what the digital rule finds has no place in."""
-PICTURE_LAYERS = {"svg": MESH_LAYERS, "png": tuple(layer for layer in MESH_LAYERS if layer != "labels")}
+PICTURE_LAYERS = {"svg": MESH_LAYERS, "png": MESH_LAYERS}
 
 _WITHOUT_DIGITS = frozenset({"npz", "edge", "ele", *PICTURES})
 

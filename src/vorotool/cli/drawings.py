@@ -27,9 +27,9 @@ from vorotool.geometry.label_image import LabelImage
 from vorotool.geometry.offsets import Offsets
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.skeleton import Skeleton
-from vorotool.pictures import drawing_of, write_label_picture, write_layers
+from vorotool.pictures import default_layers, drawing_of, write_label_picture, write_layers
 
-LABEL_LAYERS = {"png": ("cells", "diagram"), "svg": ("cells", "labels")}
+LABEL_LAYERS = {"png": ("cells", "diagram", "labels"), "svg": ("cells", "labels")}
 """A label image from a file has no seeds."""
 
 Lined = Skeleton | Offsets | PolygonSet
@@ -118,17 +118,17 @@ def _note(run: Run, message: str) -> None:
 
 
 def _of_labels(run: Run, o: SimpleNamespace, image: LabelImage, fmt: str) -> Drawing:
-    from vorotool.engines.regions import region_colours
+    from vorotool.engines.object_colours import object_colours
 
     check_picture_options(o, [fmt], LABEL_LAYERS)
     with run.phase("colour"):
-        colours = region_colours(image, threads=o.threads)
+        colours = object_colours(image, threads=o.threads)
     draw = partial(
         write_label_picture,
         image=image,
         colours=colours,
         fmt=fmt,
-        layers=o.layers or (("cells", "labels") if fmt == "svg" else ("cells",)),
+        layers=o.layers or default_layers(image, ("cells", "labels") if fmt == "svg" else ("cells",)),
         width=o.width or 1000,
         y_up=bool(o.y_up),
         backdrop=o.backdrop,
@@ -141,7 +141,7 @@ def _of_layers(run: Run, o: SimpleNamespace, value: Lined, fmt: str) -> Drawing:
     from vorotool.render.layers_png import check_picture_size
 
     kind, layers, counts = _described(value)
-    in_format = {"svg": layers, "png": tuple(layer for layer in layers if layer != "labels")}
+    in_format = {"svg": layers, "png": layers}
     check_picture_options(o, [fmt], in_format, png_has_width=True)
     refuse(o, ("page",), f"is for images, but the input is {kind}")
     if not len(value):

@@ -180,14 +180,14 @@ class Products:
         write_table(out, table, fmt, precision=self.options.precision, threads=self.options.threads)
 
     def _write_picture(self, out: BinaryIO, target: Target) -> None:
-        from vorotool.pictures import write_label_picture
+        from vorotool.pictures import default_layers, write_label_picture
 
         write_label_picture(
             out,
             self.image,
             self.colours,
             fmt=target.fmt,
-            layers=self.options.layers or PICTURE[target.what],
+            layers=self.options.layers or default_layers(self.image, PICTURE[target.what]),
             width=self.options.width or 1000,
             y_up=bool(self.options.y_up) and self.options.backdrop is None,
             backdrop=self.options.backdrop,

@@ -55,7 +55,7 @@ APPROXIMATE_LAYERS = (*LAYERS, "exact")
 
 PICTURE_LAYERS = {
     "svg": APPROXIMATE_LAYERS,
-    "png": tuple(layer for layer in APPROXIMATE_LAYERS if layer != "labels"),
+    "png": APPROXIMATE_LAYERS,
 }
 
 _WITHOUT_DIGITS = frozenset({"npz", "html", *PICTURES})
@@ -244,7 +244,7 @@ def _check_layers(o: SimpleNamespace, targets: list[Target]) -> None:
     """Each picture has each of the layers."""
     usual = (*SKELETON_LAYERS, "exact") if hasattr(o, "compare") else SKELETON_LAYERS
     for target in (target for target in targets if target.fmt in PICTURES):
-        own = [name for name in DERIVED.get(target.what, usual) if name != "labels" or target.fmt == "svg"]
+        own = DERIVED.get(target.what, usual)
         for layer in (layer for layer in o.layers or () if layer not in own):
             raise click.UsageError(
                 f"--layers {layer}: a picture of {target.what} in {target.fmt.upper()} has {', '.join(own)}; "

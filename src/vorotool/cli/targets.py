@@ -36,7 +36,7 @@ TRIANGLE_FILES = frozenset({"node", "edge", "ele"})
 _EXTENSION_OF = {"tiff": "tif", "text": "txt"}
 
 
-PICTURE_LAYERS = {"png": ("cells", "diagram", "seeds"), "svg": ("cells", "labels", "seeds")}
+PICTURE_LAYERS = {"png": ("cells", "diagram", "seeds", "labels"), "svg": ("cells", "labels", "seeds")}
 """Layers of pictures by format, as `vorotool.render` draws them."""
 
 

@@ -12,7 +12,7 @@ from vorotool.geometry.alpha_hull import AlphaHull
 from vorotool.geometry.alpha_shape import AlphaShape
 from vorotool.render.label_png import checked_layers
 from vorotool.render.layers import Arcs, Layer, Lines, Page, Points, Polygons, Texts
-from vorotool.render.palettes import BOUNDARY, CELLS, FAINT, INK, PALE, SINGULAR
+from vorotool.render.palettes import BOUNDARY, CELLS, FAINT, INK, PALE, SINGULAR, WHITE
 
 LAYERS = ("polygons", "delaunay", "interior", "boundary", "singular", "hull", "points", "labels")
 """From below."""
@@ -63,7 +63,7 @@ def alpha_layers(shape: AlphaShape, page: Page, layers: Iterable[str], *, hull: 
         made["hull"] = Arcs("hull", hull.start, hull.end, hull.centre, hull.ring_start, CELLS[4], INK, width)
     if "labels" in wanted:
         texts = [str(label) for label in shape.family.mesh.label_array.tolist()]
-        made["labels"] = Texts("labels", points, texts, size=min(max(spacing / 4, 2.0), 16.0))
+        made["labels"] = Texts("labels", points, texts, size=min(max(spacing / 4, 2.0), 16.0), halo=WHITE)
     return [made[name] for name in LAYERS if name in wanted]
 
 

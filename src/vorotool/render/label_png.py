@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
-from typing import Any
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,10 +12,11 @@ from numpy.typing import NDArray
 from vorotool.errors import UsageError
 from vorotool.geometry.frame import Frame
 from vorotool.geometry.seeds import SeedSet
+from vorotool.render.glyphs import text_cells
 from vorotool.render.layers import Backdrop
 from vorotool.render.palettes import PicturePalette
 
-LAYERS = ("cells", "diagram", "seeds")
+LAYERS = ("cells", "diagram", "seeds", "labels")
 
 
 def picture_bands(
@@ -27,9 +28,10 @@ def picture_bands(
     diagram: Iterable[NDArray[np.bool_]] | None = None,
     seeds: SeedSet | None = None,
     frame: Frame | None = None,
+    names: Names | None = None,
     layers: Iterable[str] = LAYERS,
 ) -> Iterator[NDArray[np.uint8]]:
-    """Compose rows of palette indices: cells below, the diagram over them, seeds on top.
+    """Compose rows of palette indices: cells below, the diagram over them, seeds and names on top.
 
     Parameters
     ----------
@@ -47,8 +49,10 @@ def picture_bands(
         Drawn as discs.
     frame : Frame, optional
         Where the image lies; by default pixel (0, 0) is at the origin.
+    names : Names, optional
+        Of the regions.
     layers : iterable of str
-        Which of "cells", "diagram", "seeds" to draw; one without data is left out.
+        Which of "cells", "diagram", "seeds", "labels" to draw; one without data is left out.
 
     Yields
     ------
@@ -73,6 +77,7 @@ def picture_bands(
     classes = np.asarray(colour_of_label).astype(np.uint8)
     masks = iter(diagram) if diagram is not None and "diagram" in wanted else None
     discs = _Discs(seeds, frame or Frame(0, 0, shape[1], shape[0])) if seeds and "seeds" in wanted else None
+    letters = _Letters(names, palette) if names is not None and "labels" in wanted else None
     top = 0
     for labels in bands:
         picture = classes[labels] if "cells" in wanted else np.zeros(labels.shape, np.uint8)
@@ -80,6 +85,8 @@ def picture_bands(
             picture[next(masks)] = palette.line
         if discs is not None:
             discs.draw(picture, top, palette.seed)
+        if letters is not None:
+            letters.draw(picture, top)
         top += len(labels)
         yield picture
 
@@ -122,7 +129,7 @@ def over_image(
         beneath = made[top:bottom, left:right]
         colour = palette.colours[index]
         mixed = ((beneath.astype(np.uint16) + colour + 1) // 2).astype(np.uint8)
-        is_line = (index == palette.line) | (index == palette.seed)
+        is_line = (index == palette.line) | (index == palette.seed) | (index == palette.halo)
         beneath[...] = np.where(is_line[..., None], colour, np.where(index[..., None] > 0, mixed, beneath))
         row += len(band)
     return made.reshape(height, -1)
@@ -154,6 +161,32 @@ def disc_radius(shape: tuple[int, int], count: int) -> float:
     height, width = shape
     spacing = math.sqrt(width * height / max(count, 1))
     return min(max(1.0, min(shape) / 250), max(0.5, spacing / 8))
+
+
+class Names(NamedTuple):
+    """Names of regions, and the (k, 2) column and row of the pixel on which each is centred."""
+
+    texts: Sequence[str]
+    places: NDArray[np.int64]
+
+
+class _Letters:
+    """Pixels of names, sorted by row, so that each band looks at its own only; halos come before letters."""
+
+    def __init__(self, names: Names, palette: PicturePalette) -> None:
+        owner, cells, is_ink = text_cells(names.texts)
+        x, y = (names.places[owner] + cells).T
+        order = np.lexsort((is_ink, y))
+        self.x, self.y = x[order], y[order]
+        self.value = np.where(is_ink[order], palette.line, palette.halo).astype(np.uint8)
+
+    def draw(self, picture: NDArray[np.uint8], top: int) -> None:
+        """Set the pixels of a band; what is outside is left out."""
+        rows, width = picture.shape
+        part = slice(*np.searchsorted(self.y, [top, top + rows]))
+        x, y, value = self.x[part], self.y[part] - top, self.value[part]
+        inside = (x >= 0) & (x < width)
+        picture[y[inside], x[inside]] = value[inside]
 
 
 class _Discs:

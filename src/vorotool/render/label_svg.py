@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping
+from html import escape
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -11,9 +13,9 @@ from numpy.typing import NDArray
 from vorotool.errors import LimitError
 from vorotool.geometry.label_image import LabelImage
 from vorotool.render.crack_outline import Loop, crack_loops
-from vorotool.render.label_png import checked_layers, disc_radius
+from vorotool.render.label_png import Names, checked_layers, disc_radius
 from vorotool.render.layers import Backdrop
-from vorotool.render.layers_svg import fill_style, image_element
+from vorotool.render.layers_svg import CAPITAL, fill_style, halo_style, image_element
 from vorotool.render.palettes import EDGE, FAINT, INK, SEED, WHITE, cell_colour
 
 LAYERS = ("cells", "labels", "seeds")
@@ -30,8 +32,11 @@ def write_label_svg(
     width: int = 1000,
     layers: Iterable[str] = LAYERS,
     backdrop: Backdrop | None = None,
+    names: Names | None = None,
 ) -> None:
     """Draw a label image with one path a label, and numbers in the pixels of images of at most 40 x 40.
+
+    In larger ones a name is written in each region instead.
 
     Seeds are discs or, where there are numbers, bold underlined numbers, as in the paper's Figures 1
     and 2.
@@ -50,6 +55,8 @@ def write_label_svg(
         Which of "cells", "labels", "seeds" to draw; each is a named group.
     backdrop : Backdrop, optional
         An image to draw over, at its size: cells are half see-through then.
+    names : Names, optional
+        Of the regions of an image that is larger than 40 x 40.
 
     Raises
     ------
@@ -69,7 +76,7 @@ def write_label_svg(
     check_size(image.shape)
     wanted = checked_layers(layers, LAYERS)
     page = _Page(image, width, backdrop)
-    numbered = "labels" in wanted and max(image.shape) <= MOST_NUMBERED
+    numbered = "labels" in wanted and has_numbers(image.shape)
     size = f'width="{page.width}" height="{page.height}"'
     parts = [f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="0 0 {page.width} {page.height}">']
     parts.append(f'<rect {size} fill="{WHITE}"/>')
@@ -83,9 +90,16 @@ def write_label_svg(
         parts += _numbers(page, "seeds" in wanted)
     if "seeds" in wanted and image.seeds is not None and not numbered:
         parts += _discs(page)
+    if "labels" in wanted and names is not None and not numbered:
+        parts += _names(page, names)
     if backdrop is not None:
         parts.append("</g>")
     out.write(("\n".join([*parts, "</svg>"]) + "\n").encode())
+
+
+def has_numbers(shape: tuple[int, int]) -> bool:
+    """Whether an image is so small that each pixel shows its label, as in the paper's Figures 1 and 2."""
+    return max(shape) <= MOST_NUMBERED
 
 
 def check_size(shape: tuple[int, int]) -> None:
@@ -191,6 +205,18 @@ def _texts(page: _Page, chosen: NDArray[np.bool_], size: float, attributes: str)
         x, y = page.place(column, row + below_centre)
         faint = "" if label else f' fill="{FAINT}"'
         yield f'<text x="{x}" y="{y}"{attributes}{faint}>{label}</text>'
+
+
+def _names(page: _Page, names: Names) -> Iterator[str]:
+    """Write a name in each region, with an edge around the letters."""
+    spacing = math.sqrt(page.width * page.height / max(len(names.texts), 1))
+    size = min(max(spacing / 4, 6.0), 16.0)
+    style = f'text-anchor="middle" font-family="Helvetica, Arial, sans-serif" font-size="{_short(size)}"'
+    yield f'<g id="labels" {style} fill="{INK}" {halo_style(WHITE, size)}>'
+    for text, (column, row) in zip(names.texts, names.places.tolist(), strict=True):
+        x, y = page.place(column, row + CAPITAL * size / page.scale / 2)
+        yield f'<text x="{x}" y="{y}">{escape(text)}</text>'
+    yield "</g>"
 
 
 def _discs(page: _Page) -> Iterator[str]:

@@ -182,13 +182,51 @@ class Points:
 
 @dataclass(frozen=True, eq=False)
 class Texts:
-    """Short texts beside points; SVG only."""
+    """Short texts beside points.
+
+    Parameters
+    ----------
+    name : str
+        Of the layer.
+    points : (n, 2) float64 array
+        Finite coordinates.
+    texts : sequence of str
+        One a point.
+    colour : str
+        ``#rrggbb``.
+    size : float
+        Of the letters, in px.
+    halo : str, optional
+        Colour of an edge around the letters, which sets them off from what they lie on; in PNG there always is one.
+    is_centred : bool
+        Write them on the points instead, as names of what is around these.
+    """
 
     name: str
     points: NDArray[np.float64]
     texts: Sequence[str]
     colour: str = INK
     size: float = 12.0
+    halo: str | None = None
+    is_centred: bool = False
+
+    def lowered(self, y: NDArray[np.float64], capital: float) -> NDArray[np.float64]:
+        """Give the px from the top at which the letters stand, for points at these.
+
+        They stand above points in the lower half of the page and below those in the upper one, where the margin is
+        narrow.
+
+        Parameters
+        ----------
+        y : (n,) float64 array
+            Px from the top.
+        capital : float
+            Height of capitals, as a part of the size.
+        """
+        if self.is_centred:
+            return y + self.size * capital / 2
+        below = y < (y.min(initial=0.0) + y.max(initial=0.0)) / 2
+        return y + self.size * np.where(below, 1.1, -0.5)
 
 
 @dataclass(frozen=True, eq=False)
@@ -241,6 +279,17 @@ class Arcs:
         colours = [self.edge if self.fill is None else self.fill]
         filled = Polygons(self.name, places, corners, rings, whole, colours, edge=self.edge, width=self.width)
         return Lines(self.name, places, filled.sides(), self.edge, self.width) if self.fill is None else filled
+
+
+def name_size(page: Page, count: int) -> float:
+    """Give the size in px of the names of so many objects, which get smaller where these are many.
+
+    Examples
+    --------
+    >>> name_size(Page((0, 0, 1, 1), width=1000, y_up=False), 100)
+    16.0
+    """
+    return min(max(page.spacing(count) / 4, 6.0), 16.0)
 
 
 Layer = Lines | Curves | Polygons | Points | Texts | Arcs

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import LimitError
-from vorotool.render.layers import Arcs, Curves, Layer, Lines, Page, Points, Polygons
+from vorotool.render.glyphs import HEIGHT, text_cells
+from vorotool.render.layers import Arcs, Curves, Layer, Lines, Page, Points, Polygons, Texts
 from vorotool.render.palettes import WHITE
 
 FINE = 4
@@ -17,11 +18,15 @@ FINE = 4
 FLATNESS = 0.25
 """Pixels of the drawing that lines may be off the curves that they stand for."""
 
+CAPITAL = 0.72
+"""Height of capitals, as a part of the size of letters; as in SVG."""
+
 MOST_COLOURS = 255
 NOTHING = "#000000"
 """What adds nothing to the image beneath."""
 BAND_ROWS = 64
 _PIXELS = 1 << 22  # of the drawing, that are set at a time
+_TEXTS = 1 << 14  # that are written at a time
 _ITEMS = 1 << 18  # lines or corners that are taken at a time
 
 
@@ -42,7 +47,7 @@ def check_picture_size(page: Page, max_pixels: int) -> None:
 
 
 def layer_bands(layers: Iterable[Layer], page: Page) -> Iterator[NDArray[np.uint8]]:
-    """Draw layers from below, over the page's image if it has one; texts are left out.
+    """Draw layers from below, over the page's image if it has one.
 
     Parameters
     ----------
@@ -91,6 +96,8 @@ class _Canvas:
             self._stroke(*lines, layer.width, self._colour(layer.colour))
         elif isinstance(layer, Points):
             self._discs(places, layer.radius * FINE, self._colour(layer.colour))
+        elif isinstance(layer, Texts):
+            self._write(layer, places)
 
     def bands(self) -> Iterator[NDArray[np.uint8]]:
         """Means of the colours of FINE x FINE pixels; where nothing is drawn, that is white or the image."""
@@ -178,6 +185,20 @@ class _Canvas:
         ahead = np.clip((step + 0.5 - a[line, 0]) / along[line], 0.0, 1.0)
         middle = a[line, 1] + ahead * way[line, 1]
         self._set_rows(step, np.ceil(middle - half[line] - 0.5), np.ceil(middle + half[line] - 0.5), value, target)
+
+    def _write(self, layer: Texts, places: NDArray[np.float64]) -> None:
+        """Write texts, each cell of a glyph a square of pixels; halos first, so that they cover no letter."""
+        cell = max(2, round(CAPITAL * layer.size * FINE / HEIGHT))
+        foot = layer.lowered(places[:, 1] / FINE, CAPITAL) * FINE - cell * (HEIGHT - 1) / 2
+        corner = np.floor(np.stack([places[:, 0], foot], axis=1) - cell / 2).astype(np.int64)
+        ink, halo = self._colour(layer.colour), self._colour(layer.halo or WHITE)
+        for begin in range(0, len(layer.texts), _TEXTS):
+            owner, cells, is_ink = text_cells(layer.texts[begin : begin + _TEXTS])
+            at = corner[begin + owner] + cell * cells
+            for chosen, value in ((~is_ink, halo), (is_ink, ink)):
+                left, top = at[chosen].T
+                for row in range(cell):
+                    self._set_rows(top + row, left.astype(np.float64), (left + cell).astype(np.float64), value)
 
     def _discs(self, places: NDArray[np.float64], radius: float, value: int) -> None:
         radius = max(radius, 1.0)

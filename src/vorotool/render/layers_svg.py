@@ -22,6 +22,12 @@ PATH_ROWS = 4096
 MOST_ELEMENTS = 100_000
 """Elements of a layer: resvg refuses files of 10^6, browsers become slow before. More share paths."""
 
+CAPITAL = 0.72
+"""Height of capitals, as a part of the size of letters."""
+
+HALO = 0.25
+"""Width of the edge around letters, half of it outside, as a part of their size."""
+
 SLICE_ROWS = 1 << 17
 DECIMALS = 2
 DASH = 6
@@ -68,6 +74,11 @@ def image_element(backdrop: Backdrop) -> bytes:
     height, width = backdrop.pixels.shape[:2]
     head = f'<image id="image" width="{width}" height="{height}" style="image-rendering:pixelated" href="data:image/png'
     return head.encode() + b";base64," + b64encode(backdrop.encode()) + b'"/>\n'
+
+
+def halo_style(colour: str, size: float) -> str:
+    """Attributes of letters of a size that have an edge around them."""
+    return f'stroke="{colour}" stroke-width="{HALO * size:.3g}" stroke-linejoin="round" paint-order="stroke"'
 
 
 def fill_style(backdrop: Backdrop | None) -> str:
@@ -191,12 +202,11 @@ def _dots(layer: Points, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iter
 
 
 def _texts(layer: Texts, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
-    """Above the points in the lower half of the page, below them in the upper one, where the margin is narrow."""
     font = f'font-family="Helvetica, Arial, sans-serif" font-size="{layer.size:g}"'
-    yield f'<g id="{_escaped(layer.name)}" text-anchor="middle" {font} fill="{layer.colour}">\n'.encode()
+    halo = "" if layer.halo is None else f" {halo_style(layer.halo, layer.size)}"
+    yield f'<g id="{_escaped(layer.name)}" text-anchor="middle" {font} fill="{layer.colour}"{halo}>\n'.encode()
     texts = [_escaped(text) for text in layer.texts]
-    below = y < (y.min(initial=0.0) + y.max(initial=0.0)) / 2
-    y = np.round(y + layer.size * np.where(below, 1.1, -0.5), DECIMALS)
+    y = np.round(layer.lowered(y, CAPITAL), DECIMALS)
     for rows in _chunks(len(x), SLICE_ROWS):
         yield from _rows([x[rows], y[rows], texts[rows]], ('<text x="', '" y="', '">', "</text>\n"), threads)
     yield b"</g>\n"

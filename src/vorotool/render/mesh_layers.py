@@ -9,7 +9,7 @@ import numpy as np
 from vorotool.geometry.digital_triangulation import AnyTriangulation
 from vorotool.render.label_png import checked_layers
 from vorotool.render.layers import Layer, Lines, Page, Points, Polygons, Texts, bounds_of
-from vorotool.render.palettes import CELLS, INK
+from vorotool.render.palettes import CELLS, INK, WHITE
 
 LAYERS = ("triangles", "edges", "points", "labels")
 """From below."""
@@ -50,7 +50,7 @@ def mesh_layers(mesh: AnyTriangulation, page: Page, layers: Iterable[str]) -> li
     }
     if "labels" in wanted:
         texts = [str(label) for label in mesh.label_array.tolist()]
-        made["labels"] = Texts("labels", mesh.points, texts, size=min(max(spacing / 4, 2.0), 16.0))
+        made["labels"] = Texts("labels", mesh.points, texts, size=min(max(spacing / 4, 2.0), 16.0), halo=WHITE)
     return [made[name] for name in LAYERS if name in wanted]
 
 

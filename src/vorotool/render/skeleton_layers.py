@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.centerline import Centerlines
-from vorotool.geometry.skeleton import EDGE, Skeleton
+from vorotool.geometry.skeleton import EDGE, INTERIOR, Skeleton
 from vorotool.geometry.skeleton_tables import site_labels
 from vorotool.render.label_png import checked_layers
-from vorotool.render.layers import Curves, Layer, Lines, Page, Points, Texts, bounds_of
-from vorotool.render.palettes import INK, RESULT, SEED
+from vorotool.render.layers import Curves, Layer, Lines, Page, Points, Texts, bounds_of, name_size
+from vorotool.render.palettes import INK, RESULT, SEED, WHITE
 from vorotool.render.polygon_layers import polygon_layers
 
 LAYERS = ("polygons", "elements", "points", "skeleton", "exact", "nodes", "labels")
@@ -42,8 +42,8 @@ def skeleton_layers(
     page : Page
         Where it will be drawn.
     layers : iterable of str
-        Which of "polygons", "elements" (edges), "points" (their ends), "skeleton", "exact", "nodes", "labels" (the
-        paper's, of elements).
+        Which of "polygons", "elements" (edges), "points" (their ends), "skeleton", "exact", "nodes", "labels":
+        the paper's, of elements, where these are drawn, else the ids of polygons and lines, or their numbers from 0.
     name, colour : str
         Of the layer of arcs: a whole diagram has other ones.
     points : (s, 2) float64 array, optional
@@ -75,7 +75,9 @@ def skeleton_layers(
         "skeleton": lambda: [_arcs(skeleton, name, colour, max(width, _room(skeleton, page)))],
         "exact": lambda: [] if exact is None else [replace(_arcs(exact, "exact", INK, width), is_broken=True)],
         "nodes": lambda: [Points("nodes", skeleton.vertices, colour=colour, radius=radius)],
-        "labels": lambda: [_labels(skeleton, min(max(spacing / 6, 2.0), 16.0))],
+        "labels": lambda: [
+            _labels(skeleton, min(max(spacing / 6, 2.0), 16.0)) if "elements" in wanted else _names(skeleton, page)
+        ],
     }
     return [layer for layer_name in LAYERS if layer_name in wanted for layer in make[layer_name]()]
 
@@ -185,6 +187,24 @@ def _site_places(skeleton: Skeleton) -> NDArray[np.float64]:
 def _labels(skeleton: Skeleton, size: float) -> Texts:
     pairs = [[label for label in pair if label] for pair in site_labels(skeleton).tolist()]
     return Texts("labels", skeleton.site_ends.mean(axis=1), [",".join(map(str, pair)) for pair in pairs], size=size)
+
+
+def _names(skeleton: Skeleton, page: Page) -> Texts:
+    """Ids of the objects, each in the middle of the largest disc of its interior skeleton, else at its first vertex."""
+    polygons = skeleton.polygons
+    assert polygons.feature is not None  # PolygonSet has filled it in
+    _, first = np.unique(polygons.feature, return_index=True)
+    owner = polygons.feature[polygons.ring_polygon]
+    places = polygons.xy[polygons.ring_start[:-1][np.searchsorted(owner, polygons.feature[first])]]
+    arcs = np.flatnonzero((skeleton.side == INTERIOR) & (skeleton.polygon >= 0))
+    nodes = skeleton.arcs[arcs].reshape(-1)
+    of = np.repeat(np.searchsorted(polygons.feature[first], polygons.feature[skeleton.polygon[arcs]]), 2)
+    order = np.lexsort((nodes, -skeleton.radius[nodes], of))
+    found, best = np.unique(of[order], return_index=True)
+    places[found] = skeleton.vertices[nodes[order][best]]
+    ids = [None] * len(polygons) if polygons.ids is None else polygons.ids
+    names = [str(index if ids[index] is None else ids[index]) for index in first.tolist()]
+    return Texts("labels", places, names, size=name_size(page, len(names)), halo=WHITE, is_centred=True)
 
 
 def _arcs(skeleton: Skeleton, name: str, colour: str, width: float) -> Curves:
