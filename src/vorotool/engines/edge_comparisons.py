@@ -7,6 +7,8 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.exact_products import difference, product
+
 Floats = NDArray[np.float64]
 
 UNCERTAIN = 2.0**-48
@@ -69,10 +71,13 @@ def shortest(edges: Floats) -> NDArray[np.intp]:
     >>> shortest(np.array([[[[0, 0], [3, 4]], [[0, 0], [4, 3]], [[0, 0], [9, 9]]]], dtype=float)).tolist()
     [0]
     """
-    way = edges[..., 1, :] - edges[..., 0, :]
-    square = (way * way).sum(axis=-1)
+    way, way_lost = difference(edges[..., 1, :], edges[..., 0, :])
+    squares, squares_lost = product(way, way)
+    square, lost = difference(squares[..., 0], -squares[..., 1])
     found: NDArray[np.intp] = square.argmin(axis=1)
-    close = (square <= square.min(axis=1, keepdims=True) * (1 + UNCERTAIN)).sum(axis=1) > 1
+    is_close = square <= square.min(axis=1, keepdims=True) * (1 + UNCERTAIN)
+    is_exact = (way_lost == 0).all(axis=-1) & (squares_lost == 0).all(axis=-1) & (lost == 0)
+    close = (is_close.sum(axis=1) > 1) & (is_close & ~is_exact).any(axis=1)
     for k in np.flatnonzero(close).tolist():
         exact = [_exact_square(*edge) for edge in edges[k].tolist()]
         found[k] = exact.index(min(exact))
