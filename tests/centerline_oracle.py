@@ -34,14 +34,18 @@ class Ends:
             one, other = leaves[k], leaves[(k + 1) % len(self.ring)]
             if one in self.corner and other in self.corner:
                 (a,), (b,) = graph[one], graph[other]
-                if a == b and abs(angle(self.ring, k) - angle(self.ring, k + 1)) <= 90:
+                if a == b and self.is_blunt(k, k + 1):
                     self.found.append(self.grown(a, {one, other}))
 
     def beside(self, leaf, leaves):
         """Whether a corner is next to one of some, at an edge without tips."""
         k, count = self.corner[leaf], len(self.ring)
         near = [m for m in map(self.corner.get, leaves) if (k - m) % count in (1, count - 1)]
-        return any(abs(angle(self.ring, k) - angle(self.ring, m)) <= 90 for m in near)
+        return any(self.is_blunt(k, m) for m in near)
+
+    def is_blunt(self, k, m):
+        one, other = angle(self.ring, k), angle(self.ring, m)
+        return min(one, other) >= 45 and abs(one - other) <= 90
 
     def grown(self, node, leaves):
         """(node, leaves): from a fork on; None where more than one corner comes, which this does not follow."""

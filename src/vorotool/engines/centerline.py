@@ -42,14 +42,14 @@ def centerline(
     An *end* is a leaf, or a fork of two arcs to both corners of one edge, as far as its longer arc reaches. The longest
     path is decided first; of those as long but for a millionth that at the first edges of the polygon (where it has
     cycles, of exactly as long ones). Then a fork is replaced by the straight line to the middle of its edge. Round
-    ends, which fan out to more corners, and leaves inside are led straight on to the boundary, from the place of the
-    path one radius before; a leaf between the edges on both sides of an edge ahead is led to the middle of that edge,
-    as the fork there would be. Where the angles at both ends of an edge differ by more than a right angle, the sharper
-    corner is a tip: the path leads into it, as into all other corners. Where a connected skeleton has no end, paths
-    between its nodes are compared; where it has one, paths from it.
+    ends, where it forks to more corners that follow each other within half a radius, and leaves inside are led straight
+    on to the boundary, from the place of the path one radius before; a leaf between the edges on both sides of an edge
+    ahead is led to the middle of that edge, as the fork there would be. A path leads into a tip: a corner of less than
+    45 degrees, or sharper than the next one by more than 90; and into all other corners. Where a connected skeleton
+    has no end, paths between its nodes are compared; where it has one, paths from it.
 
-    A triangle has its end at the shortest edge, and a centerline from there to the corner opposite; a quadrilateral
-    around a circle, such as a square, has two at opposite edges, where these are no tips; of equal ones the first.
+    A triangle without tips has its end at the shortest edge, and a centerline from there to the corner opposite; a
+    quadrilateral around a circle, such as a square, has two at opposite edges without tips; of equal ones the first.
 
     Trees take linear time. Let a skeleton have F branches on cycles, and trees at K places of these (all nodes, if
     there is no tree): that takes at most K searches in F branches, most of which bounds on distances save.
