@@ -163,6 +163,11 @@ def test_ends_of_several_edges_stay_where_they_are_as_corners_move(shift):
         assert line[0] == pytest.approx([tip, 2], abs=0.1)
 
 
+def test_a_wall_that_turns_outwards_near_an_end_changes_nothing():
+    road = [[0, 0], [1, 0.25], [10, 0], [10, 4], [9, 3.75], [0, 4]]
+    assert sorted(ends(road)) == [[0, 2], [10, 2]]
+
+
 def test_a_bent_wall_is_no_part_of_an_end():
     assert sorted(ends([[0, 0], [10, 0], [10, 4], [2.5, 4], [0, 3.75]]))[0] == [0, 1.875]
 

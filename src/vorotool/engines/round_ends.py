@@ -135,7 +135,7 @@ class _Growth:
         ends = []
         for k in np.flatnonzero(near).tolist():
             twigs = order[starts[k] : starts[k] + size[first[k]]]
-            edges, count = np.unique(self.twigs.edges[twigs], return_counts=True)
+            edges, count = np.unique(self.twigs.edges[twigs][self.twigs.is_beside[twigs]], return_counts=True)
             outer = set(edges[count == 1].tolist())
             cosine = float(self.twigs.cosine[twigs].max())
             ends.append(_End(twigs.tolist(), [], outer, int(node[first[k]]), int(branch[k]), 0.0, cosine))
@@ -158,7 +158,8 @@ class _Growth:
         return self._joined(end, parts, node, on if left else -1)
 
     def _alone(self, twig: int, node: int) -> _End:
-        return _End([twig], [], set(self.twigs.edges[twig].tolist()), node, -1, 0.0, float(self.twigs.cosine[twig]))
+        edges = set(self.twigs.edges[twig][self.twigs.is_beside[twig]].tolist())
+        return _End([twig], [], edges, node, -1, 0.0, float(self.twigs.cosine[twig]))
 
     def _joined(self, end: _End, parts: list[_End], node: int, on: int) -> _End | None:
         """All parts, each beside what is joined before; where no branch leads on from the node, all but a tip."""
