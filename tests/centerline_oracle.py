@@ -5,8 +5,6 @@ from itertools import combinations
 import networkx
 import numpy as np
 
-import vorotool
-
 
 def angle(ring, k):
     """Inside, at a corner that is convex."""
@@ -15,9 +13,15 @@ def angle(ring, k):
     return np.degrees(np.arctan2(abs(ux * vy - uy * vx), ux * vx + uy * vy))
 
 
-def hops(graph, node):
-    """(other node, length) of each arc at a node."""
-    return [(other, arc["length"]) for other, arcs in graph[node].items() for arc in arcs.values()]
+def branch_graph(skeleton):
+    """Junctions and leaves; on each branch its length, and the sites that are beside all of it."""
+    graph = networkx.MultiGraph()
+    for branch in np.unique(skeleton.branch):
+        arcs = np.flatnonzero(skeleton.branch == branch)
+        beside = set.intersection(*({*pair} for pair in skeleton.sites[arcs].tolist()))
+        ends = int(skeleton.arcs[arcs[0], 0]), int(skeleton.arcs[arcs[-1], 1])
+        graph.add_edge(*ends, length=skeleton.length[arcs].sum(), beside=beside)
+    return graph
 
 
 class Ends:
@@ -26,60 +30,61 @@ class Ends:
     def __init__(self, skeleton, graph):
         self.ring = skeleton.polygons.ring(0).tolist()
         self.graph, self.radius = graph, skeleton.radius
+        table = skeleton.site_table
+        self.edge = {int(table.index[site]): site for site in np.flatnonzero(table.kind == 1).tolist()}
         place = {tuple(at): k for k, at in enumerate(skeleton.vertices.tolist())}
-        leaves = {k: place.get(tuple(at)) for k, at in enumerate(self.ring)}
-        self.corner = {node: k for k, node in leaves.items() if node is not None and graph.degree(node) == 1}
+        leaves = [place.get(tuple(at)) for at in self.ring]
+        self.corner = {node: k for k, node in enumerate(leaves) if graph.has_node(node) and graph.degree(node) == 1}
         self.found = []
-        for k in range(len(self.ring)):
-            one, other = leaves[k], leaves[(k + 1) % len(self.ring)]
+        for k, one in enumerate(leaves):
+            other = leaves[(k + 1) % len(leaves)]
             if one in self.corner and other in self.corner:
                 (a,), (b,) = graph[one], graph[other]
-                if a == b and abs(angle(self.ring, k) - angle(self.ring, k + 1)) <= 90:
+                if a == b and self.is_end(k):
                     self.found.append(self.grown(a, {one, other}))
 
+    def is_end(self, k):
+        """Whether the edge from a corner to the next one is along both branches, and neither is a tip."""
+        count = len(self.ring)
+        angles = [angle(self.ring, corner) for corner in (k, k + 1)]
+        corners = [node for node, at in self.corner.items() if at in (k % count, (k + 1) % count)]
+        branches = [arc for node in corners for _, _, arc in self.graph.edges(node, data=True)]
+        along = all(self.edge[k % count] in arc["beside"] for arc in branches)
+        return len(corners) == 2 and along and min(angles) >= 45 and abs(angles[0] - angles[1]) <= 90
+
     def beside(self, leaf, leaves):
-        """Whether a corner is next to one of some, at an edge without tips."""
+        """Whether a corner is next to one of some, at an edge that is an end of both."""
         k, count = self.corner[leaf], len(self.ring)
-        near = [m for m in map(self.corner.get, leaves) if (k - m) % count in (1, count - 1)]
-        return any(abs(angle(self.ring, k) - angle(self.ring, m)) <= 90 for m in near)
+        others = {self.corner[other] for other in leaves}
+        return ((k + 1) % count in others and self.is_end(k)) or ((k - 1) % count in others and self.is_end(k - 1))
 
     def grown(self, node, leaves):
         """(node, leaves): from a fork on; None where more than one corner comes, which this does not follow."""
-        far, come = 0.0, None
+        far = 0.0
+        come = None
         while True:
-            steps = [other for other, _ in hops(self.graph, node) if other not in leaves and other != come]
+            steps = [(other, arc) for _, other, arc in self.graph.edges(node, data=True) if other not in leaves]
+            steps = [(other, arc) for other, arc in steps if other != come]
             if len(steps) != 1:
                 return (node, leaves) if len(leaves) == 2 else None
-            following, step = self.from_to(node, steps[0])
-            far += step
-            if far > self.radius[following] / 2 or self.graph.degree(following) != 3:
+            ((following, arc),) = steps
+            far += arc["length"]
+            if far > self.radius[following] / 2:
                 return node, leaves
-            more = [other for other, _ in hops(self.graph, following) if other in self.corner]
-            if not more:
+            more = [other for other in self.graph[following] if other in self.corner]
+            if len(more) != 1 or self.graph.degree(following) != 3:
                 return None
-            if len(more) != 1 or not self.beside(more[0], leaves):
+            if not self.beside(more[0], leaves):
                 return node, leaves
             turn = 180 - angle(self.ring, self.corner[more[0]])
             if turn < min(180 - angle(self.ring, self.corner[leaf]) for leaf in leaves) / 2:
                 return node, leaves
-            come = self.before
-            node, leaves = following, {*leaves, *more}
-
-    def from_to(self, node, step):
-        """The next node that is no mere bend; that before it is kept."""
-        far = min(arc["length"] for arc in self.graph[node][step].values())
-        come = node
-        while self.graph.degree(step) == 2:
-            (following,) = [other for other in self.graph[step] if other != come]
-            far += min(arc["length"] for arc in self.graph[step][following].values())
-            come, step = step, following
-        self.before = come
-        return step, far
+            come, node, leaves = node, following, {*leaves, *more}
 
 
 def expected(skeleton):
     """The ends of the longest path (None: a round one), and its length without forks; None if it is not unique."""
-    graph = networkx.MultiGraph(vorotool.to_networkx(skeleton, by="arc"))
+    graph = branch_graph(skeleton)
     ends = Ends(skeleton, graph).found
     if None in ends:
         return None

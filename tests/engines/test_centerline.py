@@ -75,6 +75,10 @@ def test_paths_between_places_go_up_no_corner(start, end, line):
         ("square", [[3, 3], [5, 3], [5, 5], [3, 5]], [[4, 3], [4, 5]]),
         ("from another corner", [[5, 3], [5, 5], [3, 5], [3, 3]], [[3, 4], [5, 4]]),
         ("3-4-5", [[0, 0], [4, 0], [0, 3]], [[0, 1.5], [1, 1], [4, 0]]),
+        ("nearly a square", [[0, 0], [10, 0], [10, 9.5], [0, 9.5]], [[0, 4.75], [10, 4.75]]),
+        ("tall trapezoid", [[0, 0], [8, 0], [5, 5], [3, 5]], [[4, 0], [4, 5]]),
+        ("hexagon", [[0, 0], [2, -1], [4, -1], [6, 0], [4, 1], [2, 1]], [[0, 0], [6, 0]]),
+        ("tip and two edges", [[0, 0], [20, 2], [0, 4], [-0.25, 2]], [[-0.25, 2], [20, 2]]),
         ("parallelogram", [[0, 0], [10, 0], [12, 2], [2, 2]], [[1, 1], [11, 1]]),
         ("thin rhombus", [[0, 0], [5, 1], [10, 0], [5, -1]], [[0, 0], [10, 0]]),
         ("pencil", [[0, 0], [8, 0], [10, 2], [8, 4], [0, 4]], [[0, 2], [10, 2]]),
@@ -157,6 +161,11 @@ def test_ends_of_several_edges_stay_where_they_are_as_corners_move(shift):
         line = sorted(places(polygon))
         assert line[-1] == [10, 2]
         assert line[0] == pytest.approx([tip, 2], abs=0.1)
+
+
+def test_a_wall_that_turns_outwards_near_an_end_changes_nothing():
+    road = [[0, 0], [1, 0.25], [10, 0], [10, 4], [9, 3.75], [0, 4]]
+    assert sorted(ends(road)) == [[0, 2], [10, 2]]
 
 
 def test_a_bent_wall_is_no_part_of_an_end():

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.boundary_rays import first_hits
 from vorotool.engines.label_arrays import Progress
+from vorotool.engines.oblique_ends import led_to_oblique_ends
 from vorotool.engines.path_network import Network, Paths, geometry_of
 from vorotool.engines.skeleton_ends import Unforked, forked, middles_ahead, unforked
 from vorotool.errors import InputError, UsageError, VorotoolWarning
@@ -42,14 +43,15 @@ def centerline(
     An *end* is a leaf, or a fork of two arcs to both corners of one edge, as far as its longer arc reaches. The longest
     path is decided first; of those as long but for a millionth that at the first edges of the polygon (where it has
     cycles, of exactly as long ones). Then a fork is replaced by the straight line to the middle of its edge. Round
-    ends, which fan out to more corners, and leaves inside are led straight on to the boundary, from the place of the
-    path one radius before; a leaf between the edges on both sides of an edge ahead is led to the middle of that edge,
-    as the fork there would be. Where the angles at both ends of an edge differ by more than a right angle, the sharper
-    corner is a tip: the path leads into it, as into all other corners. Where a connected skeleton has no end, paths
-    between its nodes are compared; where it has one, paths from it.
+    ends, where it forks to more corners that follow each other within half a radius, and leaves inside are led straight
+    on to the boundary, from the place of the path one radius before; a leaf between the edges on both sides of an edge
+    ahead is led to the middle of that edge, as the fork there would be. A path leads into a tip: a corner of less than
+    45 degrees, or sharper than the next one by more than 90; and into all other corners, but in outlines of pixels: see
+    `vorotool.engines.oblique_ends`. Where a connected skeleton has no end, paths between its nodes are compared; where
+    it has one, paths from it.
 
-    A triangle has its end at the shortest edge, and a centerline from there to the corner opposite; a quadrilateral
-    around a circle, such as a square, has two at opposite edges, where these are no tips; of equal ones the first.
+    A triangle without tips has its end at the shortest edge, and a centerline from there to the corner opposite; a
+    quadrilateral around a circle, such as a square, has two at opposite edges without tips; of equal ones the first.
 
     Trees take linear time. Let a skeleton have F branches on cycles, and trees at K places of these (all nodes, if
     there is no tree): that takes at most K searches in F branches, most of which bounds on distances save.
@@ -164,8 +166,10 @@ def _made(network: Network, paths: Paths, ends: Ends, *, wanted: tuple[bool, boo
         path = _joined(network.skeleton, _with_length(left))
         return Centerlines(path, np.full((int(path.branch.max(initial=-1)) + 1, 2, 2), np.nan))
     lines = Centerlines(_joined(network.skeleton, left), middles)
-    is_leaf = paths.end_nodes < network.leaves
-    return _led_on(lines, (is_leaf | rounds) & ~leads & np.array(wanted), to_middles=ends == "middle")
+    is_open = ((paths.end_nodes < network.leaves) | rounds) & ~leads & np.array(wanted)
+    if ends == "middle":
+        lines = led_to_oblique_ends(lines, is_open & ~rounds)
+    return _led_on(lines, is_open & np.isnan(lines.ends[:, :, 0]), to_middles=ends == "middle")
 
 
 def _marked(axis: Unforked, pieces: _Pieces, start: NDArray[np.int64]) -> tuple[Booleans, Booleans]:

@@ -64,7 +64,7 @@ def branches_inside(skeleton: Skeleton) -> Branches:
 
 @dataclass(frozen=True, eq=False)
 class Twigs:
-    """Branches from a leaf to a junction, all between two edges with a corner in common.
+    """Branches from a leaf between two edges with a corner in common to a junction, along one of these or both.
 
     Parameters
     ----------
@@ -73,7 +73,9 @@ class Twigs:
     leaf, node : (t,) integer array
         The leaf, and the junction.
     edges : (t, 2) integer array
-        The sites on both sides, the one with the smaller number first.
+        The sites on both sides of the leaf, the one with the smaller number first.
+    is_beside : (t, 2) bool array
+        Whether each is a site of all arcs: where a wall has a corner that turns outwards, it is not.
     length : (t,) float64 array
         Of the branches.
     cosine : (t,) float64 array
@@ -85,6 +87,7 @@ class Twigs:
     leaf: Numbers
     node: Numbers
     edges: Numbers
+    is_beside: Booleans
     length: Floats
     cosine: Floats
 
@@ -105,20 +108,27 @@ def corner_twigs(skeleton: Skeleton, branches: Branches) -> Twigs:
     """
     is_leaf = branches.degree[branches.ends] == 1
     maybe = np.flatnonzero(is_leaf[:, 0] != is_leaf[:, 1])
-    arcs = branches.arcs(maybe)
-    size = branches.last[maybe] + 1 - branches.first[maybe]
-    sites = np.sort(skeleton.sites[arcs], axis=1).astype(np.intp)
-    edges = sites[np.cumsum(size) - size]
-    differs = (sites != np.repeat(edges, size, axis=0)).any(axis=1)
-    same = np.bincount(np.repeat(np.arange(len(maybe)), size)[differs], minlength=len(maybe)) == 0
-    kept = np.flatnonzero(same & (skeleton.site_table.kind[edges] == EDGE).all(axis=1))
+    outer = np.where(is_leaf[maybe, 0], branches.first[maybe], branches.last[maybe])
+    edges = np.sort(skeleton.sites[outer], axis=1).astype(np.intp)
+    is_beside = _are_beside(skeleton, branches, maybe, edges)
+    kept = np.flatnonzero(is_beside.any(axis=1) & (skeleton.site_table.kind[edges] == EDGE).all(axis=1))
     ends = _ends(skeleton, edges[kept])
     meets = (ends[:, 0, :, None] == ends[:, 1, None]).all(axis=-1)  # (k, 2, 2) ends of the one, and of the other
     has_corner = meets.any(axis=(1, 2))
     kept, ends, meets = kept[has_corner], ends[has_corner], meets[has_corner]
-    branch, edges = maybe[kept], edges[kept]
+    branch = maybe[kept]
     leaf, node = np.where(is_leaf[branch, 0], branches.ends[branch].T, branches.ends[branch].T[::-1])
-    return Twigs(branch, branches.first[branch], leaf, node, edges, branches.length[branch], _cosine(ends, meets))
+    length, cosine = branches.length[branch], _cosine(ends, meets)
+    return Twigs(branch, branches.first[branch], leaf, node, edges[kept], is_beside[kept], length, cosine)
+
+
+def _are_beside(skeleton: Skeleton, branches: Branches, chosen: Numbers, edges: Numbers) -> Booleans:
+    """(k, 2) whether each of two sites is one of all arcs of a branch."""
+    arcs, size = branches.arcs(chosen), branches.last[chosen] + 1 - branches.first[chosen]
+    which = np.repeat(np.arange(len(chosen)), size)
+    sites = skeleton.sites[arcs]
+    missed = [(sites != edges[which, k, None]).all(axis=1) for k in range(2)]
+    return np.stack([np.bincount(which[miss], minlength=len(chosen)) == 0 for miss in missed], axis=1)
 
 
 def _ends(skeleton: Skeleton, edges: Numbers) -> Floats:
@@ -175,7 +185,7 @@ def pairs_of(skeleton: Skeleton, twigs: Twigs) -> Pairs:
     >>> pairs.one.tolist(), pairs.other.tolist(), pairs.edge.tolist()
     ([0, 2, 1, 0], [2, 3, 3, 1], [4, 5, 6, 7])
     """
-    twig, edge = np.repeat(np.arange(len(twigs)), 2), twigs.edges.reshape(-1)
+    twig, edge = np.repeat(np.arange(len(twigs)), 2)[twigs.is_beside.reshape(-1)], twigs.edges[twigs.is_beside]
     order = np.lexsort((twig, edge))
     follows = np.flatnonzero(np.diff(edge[order]) == 0)
     one, other, edge = twig[order[follows]], twig[order[follows + 1]], edge[order[follows]]

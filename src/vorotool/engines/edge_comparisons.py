@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from vorotool.geometry.exact_products import difference, product
 
 Floats = NDArray[np.float64]
 
@@ -14,9 +17,10 @@ UNCERTAIN = 2.0**-48
 
 
 def is_blunt(points: Floats) -> NDArray[np.bool_]:
-    """Tell of edges whether the angles at both ends differ by at most a right angle.
+    """Tell of edges whether neither end is a tip.
 
-    The cosine of their difference is not negative then. Where doubles cannot tell, fractions do.
+    A tip is a corner of less than half a right angle, or sharper than the other one by more than a right angle. Where
+    doubles cannot tell, fractions do.
 
     Parameters
     ----------
@@ -27,28 +31,32 @@ def is_blunt(points: Floats) -> NDArray[np.bool_]:
     --------
     >>> is_blunt(np.array([[[0, 9], [0, 0], [4, 4], [4, 9]], [[0, 9], [0, 0], [4, 3], [4, 9]]])).tolist()
     [True, True]
-    >>> is_blunt(np.array([[[0, 9], [0, 0], [4, 5], [4, 9]]])).tolist()
-    [False]
+    >>> is_blunt(np.array([[[0, 9], [0, 0], [4, 5], [4, 9]], [[4, 1], [0, 0], [4, 0], [4, 9]]])).tolist()
+    [False, False]
     """
-    value, magnitude = _cosine(points)
-    blunt: NDArray[np.bool_] = value >= 0
-    for k in np.flatnonzero(np.abs(value) <= UNCERTAIN * magnitude).tolist():
-        blunt[k] = _exact_cosine(points[k]) >= 0
+    values, magnitudes = _comparisons(*((points[:, k] - points[:, m]).T for k, m in ((0, 1), (2, 1), (3, 2))))
+    blunt: NDArray[np.bool_] = (values >= 0).all(axis=0)
+    for k in np.flatnonzero((np.abs(values) <= UNCERTAIN * magnitudes).any(axis=0)).tolist():
+        (px, py), (ax, ay), (bx, by), (qx, qy) = ((Fraction(x), Fraction(y)) for x, y in points[k].tolist())
+        exact, _ = _comparisons((px - ax, py - ay), (bx - ax, by - ay), (qx - bx, qy - by))
+        blunt[k] = all(value >= 0 for value in exact)
     return blunt
 
 
-def _cosine(points: Floats) -> tuple[Floats, Floats]:
-    """The cosine of the difference of the angles, times lengths, and the sum of the magnitudes in it."""
-    (ux, uy), (vx, vy), (wx, wy) = ((points[:, k] - points[:, m]).T for k, m in ((0, 1), (2, 1), (3, 2)))
-    dots, crosses = (ux * vx + uy * vy) * -(vx * wx + vy * wy), (ux * vy - uy * vx) * (vx * wy - vy * wx)
-    x, y, z = np.abs(ux * vx) + np.abs(uy * vy), np.abs(vx * wx) + np.abs(vy * wy), np.abs(ux * vy) + np.abs(uy * vx)
-    return dots + np.abs(crosses), x * y + z * (np.abs(vx * wy) + np.abs(vy * wx))
+def _comparisons(u: Any, v: Any, w: Any) -> tuple[Any, Any]:
+    """What is not negative where an edge v between u and w is blunt, and the magnitudes of what is added there.
+
+    Each angle has a sine of at least its cosine; and the cosine of their difference is not negative.
+    """
+    dots = u[0] * v[0] + u[1] * v[1], -(v[0] * w[0] + v[1] * w[1])
+    sines = abs(u[0] * v[1] - u[1] * v[0]), abs(v[0] * w[1] - v[1] * w[0])
+    sizes = [abs(a[0] * b[0]) + abs(a[1] * b[1]) + abs(a[0] * b[1]) + abs(a[1] * b[0]) for a, b in ((u, v), (v, w))]
+    values = [sines[0] - dots[0], sines[1] - dots[1], dots[0] * dots[1] + sines[0] * sines[1]]
+    return _columns(values), _columns([*sizes, sizes[0] * sizes[1]])
 
 
-def _exact_cosine(points: Floats) -> Fraction:
-    (px, py), (ax, ay), (bx, by), (qx, qy) = ((Fraction(x), Fraction(y)) for x, y in points.tolist())
-    ux, uy, vx, vy, wx, wy = px - ax, py - ay, bx - ax, by - ay, qx - bx, qy - by
-    return (ux * vx + uy * vy) * -(vx * wx + vy * wy) + abs((ux * vy - uy * vx) * (vx * wy - vy * wx))
+def _columns(values: list[Any]) -> Any:
+    return values if isinstance(values[0], Fraction) else np.stack(values)
 
 
 def shortest(edges: Floats) -> NDArray[np.intp]:
@@ -69,10 +77,13 @@ def shortest(edges: Floats) -> NDArray[np.intp]:
     >>> shortest(np.array([[[[0, 0], [3, 4]], [[0, 0], [4, 3]], [[0, 0], [9, 9]]]], dtype=float)).tolist()
     [0]
     """
-    way = edges[..., 1, :] - edges[..., 0, :]
-    square = (way * way).sum(axis=-1)
+    way, way_lost = difference(edges[..., 1, :], edges[..., 0, :])
+    squares, squares_lost = product(way, way)
+    square, lost = difference(squares[..., 0], -squares[..., 1])
     found: NDArray[np.intp] = square.argmin(axis=1)
-    close = (square <= square.min(axis=1, keepdims=True) * (1 + UNCERTAIN)).sum(axis=1) > 1
+    is_close = square <= square.min(axis=1, keepdims=True) * (1 + UNCERTAIN)
+    is_exact = (way_lost == 0).all(axis=-1) & (squares_lost == 0).all(axis=-1) & (lost == 0)
+    close = (is_close.sum(axis=1) > 1) & (is_close & ~is_exact).any(axis=1)
     for k in np.flatnonzero(close).tolist():
         exact = [_exact_square(*edge) for edge in edges[k].tolist()]
         found[k] = exact.index(min(exact))

@@ -116,8 +116,13 @@ class Network:
 
     def path(self, first: int, last: int, progress: Progress) -> Paths | None:
         """The shortest path between two nodes; with last -1 the longest of those to leaves."""
-        found = _core.path_from(self.ends, self.length, self.nodes, first, last, progress)
-        return None if found is None else self._with_sources(np.array([0, len(found[0])]), *found)
+        polygon = self.skeleton.polygon[self.arc]
+        at_ends = ((self.ends == first) | (self.ends == last)).any(axis=1)
+        own = np.flatnonzero(np.isin(polygon, polygon[at_ends]))  # no other is looked at
+        found = _core.path_from(self.ends[own], self.length[own], self.nodes, first, last, progress)
+        if found is None:
+            return None
+        return self._with_sources(np.array([0, len(found[0])]), own[found[0]].astype(np.int32), found[1])
 
     def _with_sources(self, start: NDArray[np.int64], arcs: Indices, targets: Indices) -> Paths:
         ends = self.ends[arcs]

@@ -2,14 +2,14 @@
 
 A node of a skeleton where many arcs meet falls apart if a corner moves a little: what ends there is told from all twigs
 within half a radius. An end begins where all arcs of a junction but one are twigs, beside each other at edges without
-tips. It grows over the one arc that is left to the next junction, if that is near enough, and has one twig, or one
-other such end, beside it at an edge without tips, and only one arc more. The corner of that twig must turn at least
-half as much as the least corner of the end: walls that bend a little are none of it.
+tips. It grows over the one arc that is left to the next junction, if that is near enough, and all its arcs but one are
+of twigs and of other such ends, each beside the others at an edge without tips; the one may lead to a tip. The corner
+of such a twig must turn at least half as much as the least corner of the end: walls that bend a little are none of it.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,11 +45,14 @@ class RoundEnds:
     ----------
     run : (t,) integer array
         Twigs of one run have the same number.
+    grown : (g,) integer array
+        Those runs that are over several junctions.
     inner : (k,) integer array
-        Branches between them.
+        Branches between these.
     """
 
     run: Numbers
+    grown: Numbers
     inner: Numbers
 
 
@@ -82,7 +85,9 @@ def grown_runs(branches: Branches, radius: NDArray[np.float64], twigs: Twigs, pa
     grown = [end for end in growth.grow(run) if end.inner]
     for end in sorted(grown, key=lambda end: len(end.twigs)):  # one that was joined by another before that
         run[end.twigs] = min(end.twigs)
-    return RoundEnds(run, np.array(sorted({k for end in grown for k in end.inner}), dtype=np.intp))
+    inner = {k for end in grown for k in end.inner}
+    numbers = {int(run[end.twigs[0]]) for end in grown}
+    return RoundEnds(run, *(np.array(sorted(values), dtype=np.intp) for values in (numbers, inner)))
 
 
 @dataclass(eq=False)
@@ -91,8 +96,8 @@ class _Growth:
     radius: NDArray[np.float64]
     twigs: Twigs
     pairs: Pairs
-    waiting: dict[int, _End] = field(default_factory=dict)
-    """Ends that lead to a junction where another one may come."""
+    waiting: dict[int, list[_End]] = field(default_factory=dict)
+    """Ends that lead to a junction."""
 
     def __post_init__(self) -> None:
         nodes, is_twig = len(self.branches.degree), np.zeros(len(self.branches.length), dtype=bool)
@@ -100,7 +105,8 @@ class _Growth:
         ends = self.branches.ends
         others = np.flatnonzero(~is_twig)
         self.twig_count = np.bincount(self.twigs.node, minlength=nodes)
-        self.twig_sum = _sums(self.twigs.node, np.arange(len(self.twigs)), nodes)
+        self.twig_order = np.argsort(self.twigs.node, kind="stable")
+        self.twig_start = np.concatenate([[0], np.cumsum(self.twig_count)])
         self.branch_sum = _sums(ends[others].reshape(-1), np.repeat(others, 2), nodes)
         self.blunt = set(self.pairs.edge[self.pairs.is_blunt].tolist())
 
@@ -109,7 +115,7 @@ class _Growth:
         todo, done = self._begun(run), []
         while todo:
             end = todo.pop()
-            larger = self._grown(end)
+            larger = self._grown(end) if end.branch >= 0 else None
             if larger is None:
                 done.append(end)
             else:
@@ -129,47 +135,64 @@ class _Growth:
         ends = []
         for k in np.flatnonzero(near).tolist():
             twigs = order[starts[k] : starts[k] + size[first[k]]]
-            edges, count = np.unique(self.twigs.edges[twigs], return_counts=True)
+            edges, count = np.unique(self.twigs.edges[twigs][self.twigs.is_beside[twigs]], return_counts=True)
             outer = set(edges[count == 1].tolist())
             cosine = float(self.twigs.cosine[twigs].max())
             ends.append(_End(twigs.tolist(), [], outer, int(node[first[k]]), int(branch[k]), 0.0, cosine))
         return ends
 
     def _grown(self, end: _End) -> _End | None:
-        """With what is at the next junction, if that belongs to it."""
+        """With all that is at the next junction, if that belongs to it but for one arc; else it waits there."""
         one, other = self.branches.ends[end.branch].tolist()
         node = other if one == end.node else one
-        depth = end.depth + float(self.branches.length[end.branch])
-        if self.branches.degree[node] != 3 or depth > NEAR * self.radius[node] or one == other:
+        if one == other or end.depth + self.branches.length[end.branch] > NEAR * self.radius[node]:
             return None
-        on = int(self.branch_sum[node]) - end.branch
-        if self.twig_count[node] == 1:
-            twig = int(self.twig_sum[node])
-            cosine = float(self.twigs.cosine[twig])
-            if cosine > 0 and 2 * cosine * cosine - 1 > end.cosine:  # it turns by less than half the least angle
-                return None
-            beside = _End([twig], [], set(self.twigs.edges[twig].tolist()), node, on, 0.0, cosine)
-            return self._joined([end], beside, node, on, depth)
-        if self.twig_count[node] == 0:
-            waiting = self.waiting.pop(node, None)
-            if waiting is None:
-                self.waiting[node] = end
-                return None
-            depth = max(depth, waiting.depth + float(self.branches.length[waiting.branch]))
-            return self._joined([end, waiting], waiting, node, on - waiting.branch, depth)
-        return None
+        waiting = self.waiting.setdefault(node, [])
+        waiting.append(end)
+        twigs = self.twig_order[self.twig_start[node] : self.twig_start[node + 1]].tolist()
+        left = int(self.branches.degree[node]) - len(twigs) - len(waiting)
+        if left > 1:
+            return None
+        on = int(self.branch_sum[node]) - sum(known.branch for known in waiting)
+        parts = [*waiting[:-1], *(self._alone(twig, node) for twig in twigs)]
+        return self._joined(end, parts, node, on if left else -1)
 
-    def _joined(self, ends: list[_End], beside: _End, node: int, on: int, depth: float) -> _End | None:
-        """Both, if they are beside each other at an edge without tips."""
-        end = ends[0]
-        common = end.edges & beside.edges
-        if len(common) != 1 or not common <= self.blunt or depth > NEAR * self.radius[node]:
+    def _alone(self, twig: int, node: int) -> _End:
+        edges = set(self.twigs.edges[twig][self.twigs.is_beside[twig]].tolist())
+        return _End([twig], [], edges, node, -1, 0.0, float(self.twigs.cosine[twig]))
+
+    def _joined(self, end: _End, parts: list[_End], node: int, on: int) -> _End | None:
+        """All parts, each beside what is joined before; where no branch leads on from the node, all but a tip."""
+        depth = max(self._depth(part) for part in [end, *parts])
+        made = _End(end.twigs, [*end.inner, end.branch], end.edges, node, on, depth, end.cosine)
+        while parts:
+            beside = next((part for part in parts if self._is_beside(made, part)), None)
+            if beside is None:
+                break
+            parts = [part for part in parts if part is not beside]
+            inner = [*made.inner, *beside.inner, *([] if beside.branch < 0 else [beside.branch])]
+            cosine = max(made.cosine, beside.cosine)
+            made = _End([*made.twigs, *beside.twigs], inner, made.edges ^ beside.edges, node, on, depth, cosine)
+        if depth > NEAR * self.radius[node] or len(made.twigs) == len(end.twigs):
             return None
-        inner = [*end.inner, *beside.inner, *(joined.branch for joined in ends)]
-        cosine = max(end.cosine, beside.cosine)
-        return _End([*end.twigs, *beside.twigs], inner, end.edges ^ beside.edges, node, on, depth, cosine)
+        if on >= 0:
+            return None if parts else made
+        is_tip = len(parts) == 1 and parts[0].branch < 0 and not made.edges & parts[0].edges & self.blunt
+        return replace(made, branch=-1) if is_tip else None
+
+    def _depth(self, part: _End) -> float:
+        return part.depth + (float(self.branches.length[part.branch]) if part.branch >= 0 else 0.0)
+
+    def _is_beside(self, end: _End, part: _End) -> bool:
+        """Whether both have an edge without tips in common, and a single corner turns enough."""
+        common = end.edges & part.edges
+        if len(common) != 1 or not common <= self.blunt:
+            return False
+        if len(part.twigs) > 1 or part.cosine <= 0:
+            return True
+        return 2 * part.cosine * part.cosine - 1 <= end.cosine  # it turns by half the least angle, or more
 
 
 def _sums(node: Numbers, values: Numbers, nodes: int) -> Numbers:
-    """The sum of values at each node: three of them at most are used, which doubles hold exactly."""
+    """The sum of values at each node, which doubles hold exactly."""
     return np.bincount(node, values, nodes).astype(np.intp)

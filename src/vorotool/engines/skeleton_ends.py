@@ -1,10 +1,10 @@
 """Ends of a skeleton: where it forks to both corners of one edge, or fans out into a round end.
 
-Two twigs of one junction are *beside each other* if they have an edge in common and the angles at its corners differ by
-no more than a right angle: otherwise the sharper corner is a tip, which the skeleton leads into. Twigs beside each
-other make runs. A run of two is the *fork* of their edge; a run of more is a *round end*, also over several junctions
-near each other (`vorotool.engines.round_ends`). Where all arcs of a junction are twigs, the polygon is around a circle:
-see `_forks_of_stars`.
+Two twigs of one junction are *beside each other* if they have an edge in common, and neither of its corners is a tip
+(`vorotool.engines.edge_comparisons.is_blunt`), which the skeleton leads into. Twigs beside each other make runs. A run
+of two is the *fork* of their edge; a run of more is a *round end*, also over several junctions near each other
+(`vorotool.engines.round_ends`). Where all arcs of a junction are twigs, the polygon is around a circle: see
+`_forks_of_stars`.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.boundary_rays import first_hits
-from vorotool.engines.corner_twigs import Pairs, Twigs, branches_inside, corner_twigs, pairs_of
+from vorotool.engines.corner_twigs import Branches, Pairs, Twigs, branches_inside, corner_twigs, pairs_of
 from vorotool.engines.edge_comparisons import is_blunt, shortest
 from vorotool.engines.round_ends import grown_runs
 from vorotool.geometry.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
@@ -87,15 +87,13 @@ def unforked(skeleton: Skeleton) -> Unforked:
     branches = branches_inside(skeleton)
     twigs = corner_twigs(skeleton, branches)
     pairs = pairs_of(skeleton, twigs)
-    is_star = np.bincount(twigs.node, minlength=len(branches.degree)) == branches.degree
-    on_star = is_star[twigs.node[pairs.one]]
-    plain = pairs[~on_star & ~is_star[twigs.node[pairs.other]]]
+    star_forks, is_settled = _forks_of_stars(skeleton, branches, twigs, pairs)
+    plain = pairs[~is_settled[twigs.node[pairs.one]] & ~is_settled[twigs.node[pairs.other]]]
     ends = grown_runs(branches, skeleton.radius, twigs, plain)
     size = np.bincount(ends.run, minlength=len(twigs))[ends.run]
     at_one = twigs.node[plain.one] == twigs.node[plain.other]
-    stars = _forks_of_stars(skeleton, pairs[on_star], twigs.node[pairs.one[on_star]], branches.degree)
-    forks = plain[at_one & plain.is_blunt & (size[plain.one] == 2)].and_these(stars)
-    in_round = np.flatnonzero(size > 2)
+    forks = plain[at_one & plain.is_blunt & (size[plain.one] == 2)].and_these(star_forks)
+    in_round = np.flatnonzero((size > 2) & (size < branches.degree[twigs.node]) | np.isin(ends.run, ends.grown))
     longest = _longest_of_runs(twigs, ends.run, in_round)
     removed = np.concatenate([forks.one, forks.other, np.setdiff1d(in_round, longest)])
     of_round = np.concatenate([twigs.branch[longest], ends.inner])
@@ -103,23 +101,33 @@ def unforked(skeleton: Skeleton) -> Unforked:
 
 
 # ---- polygons around a circle ---------------------------------------------------------------------
-def _forks_of_stars(skeleton: Skeleton, pairs: Pairs, node: Numbers, degree: Numbers) -> Pairs:
-    """Which pairs are forks where all arcs of a skeleton are twigs of one node, if all are there.
+def _forks_of_stars(
+    skeleton: Skeleton, branches: Branches, twigs: Twigs, pairs: Pairs
+) -> tuple[Pairs, NDArray[np.bool_]]:
+    """Which pairs are forks where all arcs of a skeleton are twigs of one node; and the nodes that this settles.
 
-    A triangle has one, at its shortest edge: from there the centerline leads to the corner opposite. A quadrilateral
-    has two, at opposite edges. Of equal ones those of the first edge count. Polygons with more edges have none.
+    A triangle without tips has one, at its shortest edge: from there the centerline leads to the corner opposite. A
+    quadrilateral has two, at opposite edges without tips. Of equal ones those of the first edge count. Polygons with
+    more edges have none, if they have no tips.
     """
-    is_whole = np.bincount(node, minlength=len(degree)) == degree
-    order = np.lexsort((pairs.edge, node))
-    arcs = np.where(is_whole[node], degree[node], 0)[order]
-    corners = order[arcs == 3].reshape(-1, 3)
+    degree = branches.degree
+    is_star = (np.bincount(twigs.node, minlength=len(degree)) == degree) & (degree > 0)
+    node = twigs.node[pairs.one]
+    own = np.flatnonzero(is_star[node] & (node == twigs.node[pairs.other]))
+    whole = np.bincount(node[own], minlength=len(degree)) == degree
+    own = own[np.lexsort((pairs.edge[own], node[own]))]
+    own = own[whole[node[own]]]
+    is_round = np.bincount(node[own], pairs.is_blunt[own], len(degree)) == degree
+    corners = own[(degree[node[own]] == 3) & is_round[node[own]]].reshape(-1, 3)
     least = corners[
         np.arange(len(corners)), shortest(ends_of_sites(skeleton.polygons, skeleton.site_table, pairs.edge[corners]))
     ]
-    sides = order[arcs == 4].reshape(-1, 2, 2)  # the first and the third edge are opposite
+    sides = own[degree[node[own]] == 4].reshape(-1, 2, 2)  # the first and the third edge are opposite
     is_first, is_second = (pairs.is_blunt[sides[:, :, k]].all(axis=1) for k in range(2))
-    opposite = np.where(is_first[:, None], sides[:, :, 0], sides[:, :, 1])[is_first | is_second]
-    return pairs[np.concatenate([least[pairs.is_blunt[least]], opposite.reshape(-1)])]
+    opposite = np.where(is_first[:, None], sides[:, :, 0], sides[:, :, 1])[is_first | is_second].reshape(-1)
+    settled = is_round & is_star
+    settled[node[opposite]] = True
+    return pairs[np.concatenate([least, opposite])], settled
 
 
 # ---- what is left ---------------------------------------------------------------------------------
