@@ -18,7 +18,8 @@ PATIENCE = 120
 HEADER, FOOTER = b"what was there before\n", b"what comes after\n"
 
 INPUTS = ("file", "-", "/dev/stdin", "redirected", "descriptor", "fifo", "substitution")
-OUTPUTS = ("file", "-", "/dev/stdout", "descriptor", "fifo", "appended", "between", "broken -", "broken", "full")
+SHARED = ("appended", "appended -", "between")
+OUTPUTS = ("file", "-", "/dev/stdout", "descriptor", "fifo", *SHARED, "broken -", "broken", "full")
 
 
 @dataclass(frozen=True)
@@ -129,16 +130,21 @@ def fault(expected: Expected, case: Case, given: str, left: str, folder: Path) -
             child.kill()
             child.communicate()
             return "it hangs"
-    code = {"broken": 141, "broken -": 141, "full": 4}.get(left, 0)
-    if child.returncode != code:
-        return f"exit code {child.returncode}, not {code}: {said.decode()}"
-    if bool(said) != (code == 4):
-        return f"it says {said.decode()!r}"
-    wanted = {"appended": HEADER + whole + FOOTER, "between": HEADER + whole + FOOTER}.get(left, whole)
-    if code == 0 and output.content() != wanted:
-        return f"{len(output.content())} bytes that differ from the {len(wanted)} of a file"
     names = {path.name for path in folder.iterdir()} - before - {source.name, output.name, "log"}
-    return f"{sorted(names)} is left" if names else None
+    return f"{sorted(names)} is left" if names else _judged(child.returncode, said.decode(), output, whole)
+
+
+def _judged(code: int, said: str, output: _Output, whole: bytes) -> str | None:
+    """What is wrong with how a process has ended, and with what it has written."""
+    wanted = {"broken": 141, "full": 4}.get(output.way, 0)
+    if code != wanted:
+        return f"exit code {code}, not {wanted}: {said}"
+    if bool(said) != (code == 4):
+        return f"it says {said!r}"
+    content = HEADER + whole + FOOTER if output.is_shared else whole
+    if code == 0 and output.content() != content:
+        return f"{len(output.content())} bytes that differ from the {len(content)} of a file"
+    return None
 
 
 class _Input:
@@ -203,6 +209,8 @@ class _Output:
     """A place for what a process writes."""
 
     def __init__(self, left: str, folder: Path) -> None:
+        self.way = left.removesuffix(" -")
+        self.is_shared = left in SHARED
         self._left, self._folder = left, folder
         self.name, self.stdout, self.passed = "out", subprocess.DEVNULL, ()
         self._theirs: list[int] = []
@@ -216,20 +224,20 @@ class _Output:
             ours, number = os.pipe()
             self._take(number)
             self._read(lambda: ours)
-        elif self._left in ("broken", "broken -"):
+        elif self.way == "broken":
             ours, number = os.pipe()
             os.close(ours)
             self._take(number)
         elif self._left == "full":
             self._take(os.open("/dev/full", os.O_WRONLY))
-        elif self._left in ("appended", "between"):
+        elif self.is_shared:
             (self._folder / "log").write_bytes(HEADER)
-            self._take(os.open(self._folder / "log", os.O_WRONLY | (os.O_APPEND if self._left == "appended" else 0)))
+            self._take(os.open(self._folder / "log", os.O_WRONLY | (os.O_APPEND if self.way == "appended" else 0)))
             os.lseek(self._theirs[0], 0, os.SEEK_END)
         elif self._left == "fifo":
             os.mkfifo(self._folder / self.name)
             self._read(lambda: os.open(self._folder / self.name, os.O_RDONLY))
-        footer = os.dup(self._theirs[0]) if self._left in ("appended", "between") else None
+        footer = os.dup(self._theirs[0]) if self.is_shared else None
         try:
             yield
         finally:
@@ -263,8 +271,8 @@ class _Output:
 
     def content(self) -> bytes:
         """What was written."""
-        if self._left in ("file", "appended", "between"):
-            return (self._folder / ("out" if self._left == "file" else "log")).read_bytes()
+        if self.is_shared or self._left == "file":
+            return (self._folder / ("log" if self.is_shared else "out")).read_bytes()
         return b"".join(self._parts)
 
 

@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -114,6 +115,7 @@ def test_lines_of_a_shell(folder, tmp_path_factory, line, same):
         ("V tessellate dots.csv --what table,labels -o /dev/stdout", 2, "several results need -o STEM"),
         ("V tessellate dots.csv -f zarr -o /dev/stdout", 2, "which does not go to /dev/stdout, an open descriptor"),
         ("V tessellate dots.csv -q -o /dev/stdout >&-", 4, "/dev/stdout cannot be written: Bad file descriptor"),
+        ("V tessellate dots.csv -q -o y.png --stats /dev/stderr 2>&-", 4, ""),
         ("V tessellate dots.csv -q -o /dev/fd/9", 4, "/dev/fd/9 cannot be written: Bad file descriptor: it is closed"),
         ("V tessellate dots.csv -q -o /dev/stdin < dots.csv", 4, "open for reading only"),
         ("V tessellate /dev/fd/9 -o y.png", 3, "/dev/fd/9 cannot be read: Bad file descriptor: it is closed"),
@@ -147,3 +149,18 @@ def test_pipes_in_a_folder_are_left_out(run, folder):
     assert (done.code, done.err, len(done.out.splitlines())) == (0, note, 1)
     assert run("tessellate", "inputs", "--out-dir", "out", "-f", "npy", "-q").err == ""
     assert Path("out/dots.npy").exists()
+
+
+def test_standard_input_that_does_not_wait(folder, process):
+    reading, writing = os.pipe()
+    os.set_blocking(reading, False)
+    child = process("tessellate", "-", "--size", "9x9", "-f", "text", stdin=reading)
+    os.close(reading)
+    lines = (folder / "dots.csv").read_bytes().splitlines(keepends=True)
+    for line in lines:
+        os.write(writing, line)
+        time.sleep(0.3)
+    os.close(writing)
+    out, err = child.communicate(timeout=60)
+    assert (child.returncode, err) == (0, b"")
+    assert out == bash(folder, "V tessellate dots.csv --size 9x9 -f text -q").stdout

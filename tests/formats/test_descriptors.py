@@ -2,6 +2,8 @@
 
 import io
 import os
+import threading
+import time
 
 import pytest
 
@@ -115,3 +117,25 @@ def test_a_file_is_written_from_where_it_stands_and_never_sought(tmp_path, mode)
     os.write(number, b"footer")
     os.close(number)
     assert (tmp_path / "a").read_bytes() == b"header\nnew\nfooter"
+
+
+def test_pipes_that_do_not_wait_are_waited_for():
+    reading, writing = os.pipe()
+    data = bytes(range(256)) * 4096  # 16 times what a pipe holds
+    os.set_blocking(reading, False)
+    os.set_blocking(writing, False)
+
+    def write():
+        with open_output_descriptor(writing) as out:
+            os.close(writing)
+            for part in (data[:3], data[3:]):
+                out.write(part)
+                out.flush()
+                time.sleep(0.05)
+
+    writer = threading.Thread(target=write)
+    writer.start()
+    with open_input(reading) as file:
+        assert file.read() == data
+    writer.join(30)
+    os.close(reading)

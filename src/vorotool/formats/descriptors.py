@@ -13,16 +13,20 @@ import fcntl
 import io
 import os
 import re
+import select
 import stat
 import sys
 from collections.abc import Hashable
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 STANDARD = "-"
 """Standard input where something is read, standard output where something is written."""
 
 MOST_LINKS = 40
 """As many links as Linux follows in a path."""
+
+READ_BYTES = 1 << 20
+"""That are asked for at a time."""
 
 _OF_A_PROCESS = re.compile("/proc/([0-9]+)(?:/task/[0-9]+)?/fd")
 
@@ -141,7 +145,7 @@ def open_input(descriptor: int) -> BinaryIO:
         If it is closed, or open for writing only.
     """
     _check_mode(descriptor, os.O_WRONLY, "writing")
-    return os.fdopen(os.dup(descriptor), "rb")
+    return io.BufferedReader(_PatientReader(os.dup(descriptor), "rb"))
 
 
 def open_output_descriptor(descriptor: int) -> BinaryIO:
@@ -167,8 +171,10 @@ def check_writable(descriptor: int) -> None:
 
 
 def _check_mode(descriptor: int, wrong: int, purpose: str) -> None:
+    # a standard stream that was closed from the start stays so, whatever has got its number since
+    was_closed = descriptor < 3 and (sys.__stdin__, sys.__stdout__, sys.__stderr__)[descriptor] is None
     try:
-        if fcntl.fcntl(descriptor, fcntl.F_GETFL) & os.O_ACCMODE != wrong:
+        if not was_closed and fcntl.fcntl(descriptor, fcntl.F_GETFL) & os.O_ACCMODE != wrong:
             return
     except (OSError, OverflowError):  # no descriptor of this process
         pass
@@ -182,8 +188,26 @@ def _number(stream: object) -> int | None:
         return None
 
 
+class _PatientReader(io.FileIO):
+    """Waits for what is yet to come where the system would not, as others may have asked of what they share with us."""
+
+    def readall(self) -> bytes:
+        parts = []
+        while (part := self.read(READ_BYTES)) != b"":
+            if part is None:
+                select.select([self], [], [])
+            else:
+                parts.append(part)
+        return b"".join(parts)
+
+
 class _OnwardOnly(io.FileIO):
-    """Written in order, like a pipe, whatever it is."""
+    """Written in order, like a pipe, whatever it is; waits for room where the system would not."""
+
+    def write(self, data: Any) -> int:
+        while (written := super().write(data)) is None:
+            select.select([], [self], [])
+        return written
 
     def seekable(self) -> bool:
         return False

@@ -126,11 +126,14 @@ def read_bytes(name: str) -> bytes:
     if number is None:
         return Path(name).read_bytes()
     spoken = STANDARD_INPUT if name == STANDARD else name
+    standard, begun = _number_of_standard_input(), b""
     try:
-        if name == STANDARD or _number_of_standard_input() == number:
-            return sys.stdin.buffer.read()  # with what is in its buffer already
+        if name == STANDARD or standard == number:
+            begun = sys.stdin.buffer.read() or b""  # with what is in its buffer already
+            if standard is None or os.get_blocking(standard):
+                return begun
         with open_input(number) as file:
-            return file.read()
+            return begun + file.read()
     except IsADirectoryError:
         raise
     except (AttributeError, ValueError):  # None or closed, as under a daemon
