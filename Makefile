@@ -80,6 +80,7 @@ fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CAS
 	$(RUN) tests/fuzz/segment_voronoi.py --cases $(or $(CASES),800000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/segment_voronoi.py --cases 10000 --seed $(or $(SEED),1) --family clusters --largest 100 --symmetries 1
 	$(RUN) tests/fuzz/bytes.py --minutes $(or $(MINUTES),5) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/streams.py --runs $(or $(CASES),1000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/batch.py --kills $(or $(KILLS),20) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/faults.py --kills $(or $(FAULTS),1000) --minutes $(or $(MINUTES),120) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/machines.py --settings $(or $(MACHINES),40) --seed $(or $(SEED),1)

@@ -5,8 +5,9 @@ Importing this package imports nothing heavy: every public name is loaded when i
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import Any
+TYPE_CHECKING = False
+if TYPE_CHECKING:  # typing takes longer to import than all that is here
+    from typing import Any
 
 __version__ = "0.1.0"
 
@@ -100,6 +101,8 @@ __all__ = ["__version__", *_HOME]  # noqa: PLE0604 - the keys are strings
 def __getattr__(name: str) -> Any:
     if name not in _HOME:
         raise AttributeError(f"module 'vorotool' has no attribute {name!r}")
+    from importlib import import_module
+
     return getattr(import_module(_HOME[name]), name)
 
 

@@ -1,13 +1,70 @@
-"""Signals end the process through the code that removes what was begun, wherever they come."""
+"""Signals end the process quietly wherever they come.
+
+As long as nothing is begun that must be undone, the process ends at once: no exception runs through imports and
+libraries, some of which swallow it or turn it into another. From then on a signal is an exception, which runs through
+the code that removes what was begun.
+"""
 
 from __future__ import annotations
 
+import os
 import signal
 import sys
 from typing import NoReturn
 
 MOMENT = 0.001
 """Seconds after which an end that was swallowed comes again."""
+
+
+class _End:
+    """What a signal does, and the exit code of the last one that came."""
+
+    is_exception = True
+    code = 0
+
+
+def end_at_once() -> None:
+    """Let signals end the process at once, from its first line on; those that are ignored stay so."""
+    _End.is_exception = False
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        _handle(number)
+
+
+def end_by_exceptions() -> None:
+    """Let signals run through the code that removes what was begun: called before anything is."""
+    _End.is_exception = True
+
+
+def handle_termination() -> None:
+    """Let what ends a process by default be an exit; interrupts stay as they are."""
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        _handle(number)
+
+
+def settled(code: int) -> int:
+    """Give the exit code once nothing is left to be undone: that of a signal, if one came; the next ends at once."""
+    _End.is_exception = signal.getsignal(signal.SIGINT) is not _end
+    received, _End.code = _End.code, 0
+    return received or code
+
+
+def received() -> int:
+    """Exit code of a signal that came, which may have been swallowed or turned into another exception; 0 if none."""
+    return _End.code
+
+
+def _handle(number: signal.Signals) -> None:
+    if signal.getsignal(number) is not signal.SIG_IGN:  # under nohup a hang-up ends nothing
+        signal.signal(number, _end)
+
+
+def _end(number: int, _frame: object) -> NoReturn:
+    _End.code = 128 + number
+    if not _End.is_exception:
+        os._exit(_End.code)
+    if number == signal.SIGINT:
+        raise KeyboardInterrupt
+    sys.exit(_End.code)
 
 
 def insist_on_the_end() -> None:

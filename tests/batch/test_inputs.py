@@ -1,6 +1,8 @@
 """Which inputs names, folders, patterns and lists stand for."""
 
 import io
+import os
+import socket
 import sys
 
 import pytest
@@ -64,6 +66,31 @@ def test_nothing_is_said_in_words(folder):
         assert words in str(caught.value)
     with pytest.raises(UsageError, match="standard input"):
         expanded("a", "-")
+
+
+def test_what_is_no_file_is_left_out_and_said(folder):
+    os.mkfifo(folder / "a/0.csv")
+    with socket.socket(socket.AF_UNIX) as bound:
+        bound.bind("a/2.csv")
+    (folder / "a/3.csv").symlink_to("/dev/null")
+    words = ["a/0.csv is a pipe: left out", "a/2.csv is a socket: left out", "a/3.csv is a device: left out"]
+    for name in ("a", "a/*.csv"):
+        notes = []
+        assert expanded(name, note=notes.append) == [("a/1.csv", "1.csv")]
+        assert notes == words
+    for name, kind in (("a/0.csv", "a pipe"), ("/dev/stdin", "an open descriptor")):
+        with pytest.raises(UsageError, match=f"{name} is {kind}, which this process alone can read"):
+            expanded(name, "b")
+
+
+def test_a_list_that_comes_through_a_pipe(folder):
+    reading, writing = os.pipe()
+    os.write(writing, b"z.csv\n")
+    os.close(writing)
+    try:
+        assert read_names(f"/dev/fd/{reading}") == ["z.csv"]
+    finally:
+        os.close(reading)
 
 
 def test_a_folder_without_permission(folder, monkeypatch):

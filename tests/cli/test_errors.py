@@ -194,6 +194,21 @@ def test_usage(run, folder, arguments, words):
     assert (folder / "dots.csv").read_text().startswith("x,y,name")
 
 
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("delauney", "there is no command 'delauney': did you mean delaunay?"),
+        ("skeleton_exact", "did you mean skeleton-exact"),
+        ("Tesselate", "did you mean tessellate?"),
+        ("voronoise", "use one of tessellate, delaunay,"),
+    ],
+)
+def test_a_mistyped_command(run, name, words):
+    done = run(name, "dots.csv")
+    assert (done.code, done.out) == (2, "")
+    assert words in done.err
+
+
 def test_missing_input(run):
     assert "name of the input is empty" in run("tessellate", "", "-o", "a.png").err
     done = run("tessellate", "nowhere.csv", "-o", "a.png")

@@ -12,7 +12,8 @@ from pathlib import Path
 import pytest
 
 from vorotool.errors import OutputError, UsageError
-from vorotool.formats.outputs import open_output
+from vorotool.formats.outputs import check_output, open_output
+from vorotool.formats.stores import check_store
 
 
 def write(path, data=b"new", **options):
@@ -193,6 +194,85 @@ def test_standard_output(monkeypatch):
     assert buffer.getvalue() == b"new"
     assert "name a file with -o" in error_of(UsageError, "-", binary=True)
     assert buffer.getvalue() == b"new"
+
+
+def test_what_is_open_already_is_gone_on_with(old):
+    for mode in ("ab", "r+b"):
+        old.write_bytes(b"old")
+        with old.open(mode) as file:
+            file.seek(0, os.SEEK_END)
+            name = f"/dev/fd/{file.fileno()}"
+            check_output(name, binary=True, no_clobber=True, inputs=[old])
+            write(name, no_clobber=True, inputs=[old])
+            write(f"/proc/self/fd/{file.fileno()}")
+            os.write(file.fileno(), b"end")
+        assert old.read_bytes() == b"oldnewnewend"
+    assert files_in(old.parent) == ["out.csv"]
+
+
+def test_a_descriptor_that_cannot_be_written(old):
+    with old.open("rb") as file:
+        numbers = [file.fileno(), 250]
+        messages = [error_of(OutputError, f"/dev/fd/{number}") for number in numbers]
+        for number in numbers:
+            with pytest.raises(OutputError, match="Bad file descriptor"):
+                check_output(f"/dev/fd/{number}")
+    for number, message in zip(numbers, messages, strict=True):
+        reason = "Bad file descriptor: it is closed, or open for reading only"
+        assert message == f"/dev/fd/{number} cannot be written: {reason}; write elsewhere with -o"
+    assert old.read_bytes() == b"old"
+
+
+def test_a_link_to_a_descriptor_stays_one(old):
+    with old.open("ab") as file:
+        link = old.with_name("link.csv")
+        link.symlink_to(f"/proc/self/fd/{file.fileno()}")
+        write(link)
+    assert link.is_symlink()
+    assert old.read_bytes() == b"oldnew"
+
+
+def test_a_descriptor_of_another_process(old):
+    with old.open("ab") as file:
+        child = subprocess.Popen(["sleep", "60"], stdout=file)
+    try:
+        message = error_of(OutputError, f"/proc/{child.pid}/fd/1")
+    finally:
+        child.kill()
+        child.wait()
+    assert message.endswith("is open in another process, which alone can go on with it: name a file with -o")
+    assert old.read_bytes() == b"old"
+
+
+def test_links_that_lead_back_to_themselves(tmp_path):
+    one, two = tmp_path / "one.csv", tmp_path / "two.csv"
+    one.symlink_to(two)
+    two.symlink_to(one)
+    message = f"{one} cannot be written: its links lead back to themselves; choose another name"
+    assert error_of(OutputError, one) == message
+    with pytest.raises(OutputError, match="lead back"):
+        check_output(one)
+    with pytest.raises(OutputError, match="lead back"):
+        check_store(one)
+    assert one.is_symlink()
+    link = tmp_path / "new.csv"
+    link.symlink_to(tmp_path / "there.csv")  # which is yet to be made
+    write(link)
+    assert (link.is_symlink(), (tmp_path / "there.csv").read_bytes()) == (True, b"new")
+
+
+def test_a_terminal_by_its_name_gets_no_binary_output():
+    import pty
+
+    master, slave = pty.openpty()
+    try:
+        for name in (os.ttyname(slave), f"/dev/fd/{slave}"):
+            assert "name a file with -o" in error_of(UsageError, name, binary=True)
+            write(name, b"text")
+            assert os.read(master, 10) == b"text"
+    finally:
+        os.close(slave)
+        os.close(master)
 
 
 def run(code, stdout):

@@ -2,11 +2,14 @@
 
 import io
 import json
+import os
 import sys
 
 import pytest
 
+from vorotool.batch.tasks import digest_of
 from vorotool.errors import InputError
+from vorotool.formats.image_rows import open_rows
 from vorotool.formats.sources import Source, check_nesting, read_source
 
 
@@ -32,6 +35,32 @@ def test_standard_input(monkeypatch):
 def test_closed_standard_input(monkeypatch):
     monkeypatch.setattr(sys, "stdin", None)
     assert error_of(read_source, "-") == "standard input is closed: name a file instead of -"
+
+
+def test_what_is_open_already_is_read_from_where_it_stands(tmp_path):
+    (tmp_path / "seeds.csv").write_bytes(b"x,y\n1,2\n")
+    with (tmp_path / "seeds.csv").open("rb", buffering=0) as file:
+        file.read(4)
+        name = f"/dev/fd/{file.fileno()}"
+        assert read_source(name) == Source(name, b"1,2\n")
+        assert read_source(name) == Source(name, b"")
+    message = f"{name} cannot be read: Bad file descriptor: it is closed, or open for writing only; name a file instead"
+    assert error_of(read_source, name) == f"{message} of {name}"
+
+
+def test_what_is_in_the_buffer_of_standard_input_is_read_too(tmp_path, monkeypatch):
+    (tmp_path / "seeds.csv").write_bytes(b"x,y\n1,2\n")
+    with (tmp_path / "seeds.csv").open() as file:
+        monkeypatch.setattr(sys, "stdin", file)
+        assert file.buffer.peek(4).startswith(b"x,y")
+        assert read_source(f"/dev/fd/{file.fileno()}").data == b"x,y\n1,2\n"
+
+
+@pytest.mark.parametrize("input_format", [None, "tiff"])
+def test_a_pipe_is_not_opened_to_look_at_it(tmp_path, input_format):
+    os.mkfifo(tmp_path / "image.tif")
+    assert open_rows(tmp_path / "image.tif", input_format=input_format) is None  # else it waits for a writer
+    assert digest_of(str(tmp_path / "image.tif")) == ""
 
 
 def test_a_missing_file(tmp_path):

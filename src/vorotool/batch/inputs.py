@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import glob
 import os
-import sys
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from vorotool.errors import InputError, UsageError
+from vorotool.formats.descriptors import stream_kind
 from vorotool.formats.stores import is_store
 
 STANDARD_INPUT = "-"
@@ -45,7 +45,11 @@ def is_several(name: str) -> bool:
 
 
 def expand_inputs(
-    names: Iterable[str], *, extensions: Collection[str], without: str | os.PathLike[str] | None = None
+    names: Iterable[str],
+    *,
+    extensions: Collection[str],
+    without: str | os.PathLike[str] | None = None,
+    note: Callable[[str], None] | None = None,
 ) -> list[Input]:
     """Find the inputs that names stand for, in the order of the names, those of one name sorted.
 
@@ -58,13 +62,15 @@ def expand_inputs(
         Without their dots, in lower case.
     without : path, optional
         A folder that is not searched: that of the outputs.
+    note : callable, optional
+        Told in words what was left out: pipes, sockets and devices in folders, and among what patterns match.
 
     Raises
     ------
     InputError
         If there is nothing in a folder or for a pattern, or a folder cannot be read.
     UsageError
-        If one is standard input.
+        If one is standard input, or anything else that is read once: inputs are read by other processes.
 
     Examples
     --------
@@ -74,15 +80,36 @@ def expand_inputs(
     found: list[Input] = []
     excluded = None if without is None else os.path.realpath(without)
     for name in names:
-        if name == STANDARD_INPUT:
-            raise UsageError("- is standard input, which is one input: name files, or give their list to --files-from")
         if _is_pattern(name):
-            found += _matching(name)
+            found += _matching(name, note)
         elif name and _is_folder(Path(name)):
-            found += _inside(name, frozenset(extensions), excluded)
+            found += _inside(name, frozenset(extensions), excluded, note)
         else:
+            _check_file(name)
             found.append(Input(name, Path(name).name))
     return found
+
+
+def _check_file(name: str) -> None:
+    if name == STANDARD_INPUT:
+        raise UsageError("- is standard input, which is one input: name files, or give their list to --files-from")
+    if (kind := stream_kind(name)) is not None:
+        raise UsageError(
+            f"{name} is {kind}, which this process alone can read: give it as the only input with -o, or write what "
+            "comes through it to a file first"
+        )
+
+
+def _files(paths: Iterable[Path], note: Callable[[str], None] | None) -> list[Path]:
+    """Leave out what is no file, and say so, in the order of the names."""
+    files = []
+    for path in sorted(paths):
+        kind = stream_kind(str(path))
+        if kind is None:
+            files.append(path)
+        elif note is not None:
+            note(f"{path} is {kind}: left out")
+    return files
 
 
 def read_names(path: str, *, null: bool = False) -> list[str]:
@@ -100,12 +127,15 @@ def read_names(path: str, *, null: bool = False) -> list[str]:
     InputError
         If the list cannot be read.
     """
+    from vorotool.formats.sources import read_bytes
+
     try:
-        data = sys.stdin.buffer.read() if path == STANDARD_INPUT else Path(path).read_bytes()
-    except (OSError, ValueError, AttributeError) as error:
-        name = "standard input" if path == STANDARD_INPUT else path
+        data = read_bytes(path)
+    except (OSError, ValueError) as error:
+        if isinstance(error, InputError):
+            raise
         reason = getattr(error, "strerror", None) or error
-        raise InputError(f"the list {name or repr(name)} cannot be read: {reason}; check its name") from None
+        raise InputError(f"the list {path or repr(path)} cannot be read: {reason}; check its name") from None
     names = data.split(b"\0") if null else [line.removesuffix(b"\r") for line in data.split(b"\n")]
     if not null and b"\0" in data:
         raise InputError(f"the list {path} holds NUL bytes: are names ended by them? then give -0, too")
@@ -122,23 +152,25 @@ def _is_folder(path: Path) -> bool:
     return path.is_dir() and not is_store(path) and path.suffix.lower() != ".zarr"
 
 
-def _matching(pattern: str) -> list[Input]:
+def _matching(pattern: str, note: Callable[[str], None] | None) -> list[Input]:
     """Files that match, named below the folder that the pattern begins with."""
     parts = Path(pattern).parts
     fixed = Path(*parts[: next(i for i, part in enumerate(parts) if glob.has_magic(part))])
     found = map(Path, glob.glob(pattern, recursive=True))  # noqa: PTH207, as shells do it leaves hidden files out
-    files = sorted(path for path in found if not _is_folder(path))
+    files = _files((path for path in found if not _is_folder(path)), note)
     if not files:
         raise InputError(f"no file matches {pattern}: check the pattern; for what is in a folder name the folder")
     return [Input(str(file), str(file.relative_to(fixed))) for file in files]
 
 
-def _inside(folder: str, extensions: frozenset[str], excluded: str | None) -> list[Input]:
-    files = sorted(_walk(folder, extensions, excluded))
+def _inside(
+    folder: str, extensions: frozenset[str], excluded: str | None, note: Callable[[str], None] | None
+) -> list[Input]:
+    files = _files((Path(folder) / file for file in _walk(folder, extensions, excluded)), note)
     if not files:
         known = ", ".join(sorted(extensions))
         raise InputError(f"{folder} holds no file that is read here ({known}): for others use a pattern, {folder}/*")
-    return [Input(str(Path(folder) / file), str(file)) for file in files]
+    return [Input(str(file), str(file.relative_to(folder))) for file in files]
 
 
 def _walk(folder: str, extensions: frozenset[str], excluded: str | None) -> Iterator[Path]:

@@ -11,6 +11,7 @@ from pathlib import Path, PurePath
 from vorotool.batch.inputs import Input
 from vorotool.batch.tasks import Task
 from vorotool.errors import OutputError, UsageError
+from vorotool.formats.descriptors import STANDARD, descriptor_of
 
 _NOWHERE = (-1, -1)
 
@@ -66,10 +67,15 @@ def check_outputs(
     vorotool.errors.UsageError: a.csv and a.json would both be written to out/a.png: rename one, or name the folder \
 above both, whose folders are mirrored
     """
-    written = {option: path for option, path in (others or {}).items() if path not in (None, "-")}
+    written = {option: path for option, path in (others or {}).items() if path is not None and not _is_open(path)}
     _check_collisions(tasks, folder, written)
     _check_inputs(tasks, written)
     check_inside((path for task in tasks for path in task.outputs), folder)
+
+
+def _is_open(path: str) -> bool:
+    """Whether it is open already, so that it is gone on with and never replaced."""
+    return path == STANDARD or descriptor_of(path) is not None
 
 
 def _check_collisions(tasks: Sequence[Task], folder: str | os.PathLike[str], others: Mapping[str, str]) -> None:

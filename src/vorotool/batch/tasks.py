@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from vorotool import __version__
+from vorotool.formats.descriptors import stream_kind
 from vorotool.formats.temporaries import tagged_temporaries
 
 INPUT = ""
@@ -116,6 +117,8 @@ def is_done(task: Task, digest: str) -> bool:
 def digest_of(path: str) -> str:
     """SHA-256 of a file, or of the names and digests of those in a folder, as text; empty where nothing can be read.
 
+    Of what is neither a file nor a folder there is none: it could be read only once.
+
     Examples
     --------
     >>> digest_of("data/six-seeds.csv")[:8], digest_of("data/no-such-file")
@@ -124,6 +127,8 @@ def digest_of(path: str) -> str:
     try:
         if Path(path).is_dir():
             return _digest_of_folder(Path(path))
+        if stream_kind(path) is not None:
+            return ""
         with Path(path).open("rb") as file:
             return hashlib.file_digest(file, "sha256").hexdigest()
     except (OSError, ValueError):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from types import SimpleNamespace
 
 import click
@@ -12,6 +13,10 @@ from vorotool.cli.recipes import Recipe, process_input
 from vorotool.cli.run import Run
 from vorotool.cli.targets import check_stats, plan_targets
 from vorotool.cli.units import check_units
+from vorotool.formats.descriptors import input_identity
+
+STREAMED = ("files_from", "clip", "overlay")
+"""Options that name what is read."""
 
 
 def run_command(recipe: Recipe, o: SimpleNamespace) -> None:
@@ -29,6 +34,7 @@ def run_command(recipe: Recipe, o: SimpleNamespace) -> None:
     click.UsageError
         If there is no input, or options do not go together.
     """
+    _check_streams(o)
     if _is_batch(o):
         from vorotool.cli.many import run_many
 
@@ -45,6 +51,23 @@ def run_command(recipe: Recipe, o: SimpleNamespace) -> None:
     check_units(o, targets)
     with Run(recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber) as run:
         process_input(recipe, run, o, source, targets)
+
+
+def _check_streams(o: SimpleNamespace) -> None:
+    """Refuse two names of one stream: whoever reads it first leaves nothing for the other."""
+    named = [(name, "the input") for name in o.inputs]
+    named += [(name, f"--{option.replace('_', '-')}") for option in STREAMED if (name := getattr(o, option, None))]
+    readers: dict[Hashable, str] = {}
+    for name, reader in named:
+        identity = input_identity(name)
+        if identity is None:
+            continue
+        if identity in readers:
+            other = readers[identity]
+            raise click.UsageError(
+                f"{reader} {name} and {other} are one stream, which is read once: name a file for one of the two"
+            )
+        readers[identity] = f"{reader} {name}"
 
 
 def _is_batch(o: SimpleNamespace) -> bool:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import signal
 import sys
 from contextlib import suppress
 from importlib import import_module
@@ -14,7 +13,7 @@ import click
 from vorotool import __version__
 from vorotool.cli.failures import explained
 from vorotool.errors import VorotoolError
-from vorotool.signals import insist_on_the_end
+from vorotool.signals import handle_termination, insist_on_the_end, received, settled
 
 if TYPE_CHECKING:
     from click.shell_completion import CompletionItem
@@ -60,6 +59,19 @@ class LazyGroup(click.Group):
         except BrokenPipeError:
             raise SignalledError(EXIT_BROKEN_PIPE) from None
 
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Find the command; one that is mistyped is refused with those that are meant, perhaps."""
+        name = args[0]
+        if not name.startswith("-") and not ctx.resilient_parsing and self.get_command(ctx, name) is None:
+            from difflib import get_close_matches
+
+            meant = " or ".join(get_close_matches(name.lower().replace("_", "-"), COMMANDS))
+            advice = f"did you mean {meant}?" if meant else f"use one of {', '.join(COMMANDS)}"
+            raise click.UsageError(f"there is no command {name!r}: {advice}", ctx)
+        return super().resolve_command(ctx, args)
+
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Names in the order of the registry."""
         return list(COMMANDS)
@@ -98,11 +110,13 @@ def vorotool() -> None:
 def main(arguments: list[str] | None = None) -> NoReturn:
     """Run the command line and leave with its exit code."""
     _replace_closed_streams()
-    for number in (signal.SIGTERM, signal.SIGHUP):
-        if signal.getsignal(number) is not signal.SIG_IGN:  # under nohup a hang-up ends nothing
-            signal.signal(number, _terminate)
+    handle_termination()
     insist_on_the_end()
-    code = _run(arguments)
+    try:
+        code = _run(arguments)
+    except KeyboardInterrupt:  # while the end was being told
+        code = EXIT_INTERRUPTED
+    code = settled(code)
     try:
         sys.stdout.flush()
     except BrokenPipeError:
@@ -153,6 +167,8 @@ def _run(arguments: list[str] | None) -> int:
     except SignalledError as error:
         return error.code
     except Exception as error:
+        if received():  # an interrupt that a library turned into an error of its own
+            return received()
         if isinstance(error, OSError) and not isinstance(error, VorotoolError):
             return _fail(_of_streams(error), EXIT_OUTPUT)
         return _fail(*explained(error))
@@ -167,7 +183,3 @@ def _fail(message: str, code: int) -> int:
     with suppress(OSError):  # the exit code remains
         click.echo(f"error: {message}", err=True)
     return code
-
-
-def _terminate(number: int, _frame: object) -> NoReturn:
-    sys.exit(128 + number)

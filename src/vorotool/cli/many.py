@@ -27,8 +27,10 @@ from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
 from vorotool.cli.units import unit_stats
 from vorotool.errors import OutputError
+from vorotool.formats.descriptors import stream_kind
 from vorotool.formats.outputs import check_output, open_output
 from vorotool.formats.temporaries import new_folder, temporary_beside
+from vorotool.signals import end_by_exceptions
 
 
 def process_one(
@@ -77,14 +79,19 @@ def run_many(recipe: Recipe, o: SimpleNamespace) -> None:
     plan = plan_batch(recipe, o)
     if o.dry_run:
         _print_plan(plan)
+        for text in () if o.quiet else plan.notes:
+            click.echo(f"note: {text}", err=True)
         return
     _check_files(o)
+    end_by_exceptions()
     with ExitStack() as stack:
         tasks = _with_parts(plan, _folder_of_parts(recipe, o, stack)) if plan.table else plan.tasks
         _check_records(plan, tasks)
         run = stack.enter_context(
             Run(recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber)
         )
+        for text in plan.notes:
+            run.note(text)
         with Report(run, len(tasks), quiet=o.quiet) as report:
             outcomes = run_batch(
                 recipe.name,
@@ -122,7 +129,8 @@ def _folder_of_parts(recipe: Recipe, o: SimpleNamespace, stack: ExitStack) -> st
     """Where the tables of inputs are kept: with the record of what was done, else until the end."""
     if o.out_dir is not None:
         return str(Path(o.out_dir) / f".{recipe.name}.tables")
-    folder = Path(tempfile.gettempdir()) if o.table == "-" else Path(os.path.realpath(o.table)).parent
+    is_beside = stream_kind(o.table) is None
+    folder = Path(os.path.realpath(o.table)).parent if is_beside else Path(tempfile.gettempdir())
     try:
         return str(stack.enter_context(temporary_beside(folder / "tables", new_folder)).path)
     except OSError as error:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -18,6 +19,8 @@ from vorotool.cli.options import BATCH_OPTIONS
 from vorotool.cli.recipes import Recipe
 from vorotool.cli.targets import EXTENSIONS, Target, plan_targets
 from vorotool.cli.units import check_units
+from vorotool.formats.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
+from vorotool.formats.outputs import spoken
 
 WITHOUT_EFFECT = frozenset(
     {"inputs", "output", "out_dir", "threads", "quiet", "verbose", "stats", "no_clobber", *BATCH_OPTIONS}
@@ -42,12 +45,15 @@ class Plan:
         Format of the table of all inputs.
     manifest : Manifest, optional
         Where it is recorded what was done.
+    notes : list of str
+        What is said before the work begins.
     """
 
     tasks: list[Task]
     targets: list[Target]
     table: str | None
     manifest: Manifest | None
+    notes: list[str]
 
 
 def plan_batch(recipe: Recipe, o: SimpleNamespace) -> Plan:
@@ -76,7 +82,8 @@ def plan_batch(recipe: Recipe, o: SimpleNamespace) -> Plan:
         recipe.formats, o.what, output=None, fmt=o.format, out_dir=o.out_dir, source="input"
     )  # fmt: skip
     manifest, history = _record(recipe, o, targets)
-    tasks = _tasks(recipe, o, targets)
+    notes: list[str] = []
+    tasks = _tasks(recipe, o, targets, notes.append)
     if manifest is not None:
         tasks = [replace(task, done=manifest.done_before(task.source, history)) for task in tasks]
     if table is not None:
@@ -84,25 +91,29 @@ def plan_batch(recipe: Recipe, o: SimpleNamespace) -> Plan:
         targets.append(Target("table", f"part.{table}", table))
     recipe.check_options(o, targets)
     check_units(o, targets)
-    return Plan(tasks, targets, table, manifest)
+    return Plan(tasks, targets, table, manifest, notes)
 
 
 def _check_options(o: SimpleNamespace) -> None:
     table = getattr(o, "table", None)
-    given = f"{len(o.inputs)} inputs are given" if len(o.inputs) > 1 else "many inputs are asked for"
+    inputs = f"{len(o.inputs)} inputs are given" if len(o.inputs) > 1 else "many inputs are asked for"
     if o.output is not None:
-        raise click.UsageError(f"{given}, but -o names one output: name a folder for all with --out-dir")
+        raise click.UsageError(f"{inputs}, but -o names one output: name a folder for all with --out-dir")
     if o.out_dir is None and table is None:
-        raise click.UsageError(f"{given}: name a folder for their outputs with --out-dir")
+        raise click.UsageError(f"{inputs}: name a folder for their outputs with --out-dir")
     if o.out_dir is None and o.resume:
         raise click.UsageError("--resume needs --out-dir DIR, where it is recorded what was done")
     for name in INPUT_FILES:
-        if getattr(o, name, None) == "-":
-            raise click.UsageError(f"--{name} - is standard input, which not every input can read: name a file")
+        given = getattr(o, name, None)
+        if given is not None and (kind := stream_kind(given)) is not None:
+            what = "standard input" if given == STANDARD else kind
+            raise click.UsageError(f"--{name} {given} is {what}, which not every input can read: name a file")
     if o.null and o.files_from is None:
         raise click.UsageError("-0 is about the list of --files-from: leave it out")
-    if table == "-" and o.stats == "-":
-        raise click.UsageError("--stats - needs --table FILE: standard output holds the table")
+    if table is not None and o.stats is not None and is_same_output(table, o.stats):
+        if descriptor_of(table) is None and table != STANDARD:
+            raise click.UsageError(f"--stats {o.stats} is also --table: choose another name")
+        raise click.UsageError(f"--stats {o.stats} needs --table FILE: {spoken(table)} holds the table")
     if o.cluster not in (None, "local") and o.jobs is not None:
         raise click.UsageError("-j is for this machine: a cluster has the workers that it has")
 
@@ -121,7 +132,7 @@ def _table_format(o: SimpleNamespace) -> str | None:
     if o.out_dir is None and o.format is not None:
         fmt = o.format.lower()
     else:
-        fmt = "csv" if path == "-" else EXTENSIONS.get(Path(path).suffix.lower(), "")
+        fmt = EXTENSIONS.get(Path(path).suffix.lower(), "" if stream_kind(path) is None else "csv")
     if fmt not in TABLE_FORMATS:
         raise click.UsageError(f"--table {path} is written as CSV or JSON: name it .csv or .json")
     return str(fmt)
@@ -145,8 +156,8 @@ def _record(recipe: Recipe, o: SimpleNamespace, targets: list[Target]) -> tuple[
     return manifest, history
 
 
-def _tasks(recipe: Recipe, o: SimpleNamespace, targets: list[Target]) -> list[Task]:
-    inputs = _inputs(recipe, o)
+def _tasks(recipe: Recipe, o: SimpleNamespace, targets: list[Target], note: Callable[[str], None]) -> list[Task]:
+    inputs = _inputs(recipe, o, note)
     endings = [target.path.removeprefix(str(Path(o.out_dir) / "input")) for target in targets]
     tasks = [Task(each.source, output_paths(each.name, endings, o.out_dir or "")) for each in inputs]
     check_outputs(tasks, o.out_dir or "", others={"--stats": o.stats, "--table": getattr(o, "table", None)})
@@ -156,11 +167,11 @@ def _tasks(recipe: Recipe, o: SimpleNamespace, targets: list[Target]) -> list[Ta
     return [task for task in tasks if task.source in chosen]
 
 
-def _inputs(recipe: Recipe, o: SimpleNamespace) -> list[Input]:
+def _inputs(recipe: Recipe, o: SimpleNamespace, note: Callable[[str], None]) -> list[Input]:
     from vorotool.formats.input_formats import DRAWN_NAMES, NAMES_WITH
 
     known = DRAWN_NAMES if recipe.geometry is None else NAMES_WITH[recipe.geometry]
     names = [*o.inputs, *(read_names(o.files_from, null=o.null) if o.files_from is not None else ())]
     if not names:
         raise click.UsageError("0 inputs are given: name files, folders, or a list of them with --files-from")
-    return expand_inputs(names, extensions=known, without=o.out_dir)
+    return expand_inputs(names, extensions=known, without=o.out_dir, note=note)

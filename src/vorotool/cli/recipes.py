@@ -12,6 +12,7 @@ from vorotool.cli.inputs import read_backdrop
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_targets
 from vorotool.cli.units import unit_stats
+from vorotool.signals import end_by_exceptions
 
 
 class Products(Protocol):
@@ -84,6 +85,7 @@ def process_input(recipe: Recipe, run: Run, o: SimpleNamespace, source: str, tar
     if getattr(o, "verify", False):
         with run.phase("verify"):
             products.verify()
+    end_by_exceptions()
     for target in targets:
         if o.out_dir is not None:
             make_folder(Path(target.path).parent)

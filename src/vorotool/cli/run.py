@@ -14,6 +14,7 @@ import click
 
 from vorotool import __version__
 from vorotool.errors import Kind, Message, VorotoolWarning
+from vorotool.signals import end_by_exceptions
 
 PROGRESS_AFTER = 1.0
 """Seconds before a progress bar appears on a terminal."""
@@ -114,6 +115,7 @@ class Run:
             if not bar:
                 if time.monotonic() - start < PROGRESS_AFTER:
                     return
+                end_by_exceptions()  # a bar that is left as it is hides the cursor
                 bar.append(self._stack.enter_context(click.progressbar(length=1000, label=label, file=sys.stderr)))
             bar[0].update(int(1000 * fraction) - bar[0].pos)
 

@@ -9,6 +9,9 @@ from typing import Any
 
 import click
 
+from vorotool.formats.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
+from vorotool.formats.outputs import is_same_file, spoken
+
 EXTENSIONS = {
     ".png": "png",
     ".tif": "tiff",
@@ -91,7 +94,7 @@ def plan_targets(
         chosen = {name: choose(formats, name, fmt, None) for name in what}
         return [Target(name, _named(stem, name if several else None, chosen[name]), chosen[name]) for name in what]
     if several:
-        if output is None or output == "-":
+        if output is None or stream_kind(output) is not None:
             raise click.UsageError("several results need -o STEM (files STEM.<what>.<ext>) or --out-dir DIR")
         given = EXTENSIONS.get(Path(output).suffix.lower())
         stem = Path(output).with_suffix("") if given else Path(output)
@@ -116,15 +119,17 @@ def check_stats(stats: str | None, targets: Sequence[Target], source: str) -> No
     click.UsageError
         If they would.
     """
-    if stats == "-" and any(target.path == "-" for target in targets):
-        raise click.UsageError("--stats - needs -o FILE: standard output holds the result")
-    if stats in (None, "-"):
+    if stats is None:
         return
-    if _is_same_file(stats, source):
+    is_open = stats == STANDARD or descriptor_of(stats) is not None
+    if not is_open and is_same_file(Path(stats), source):
         raise click.UsageError(f"--stats {stats} is also the input, which is never replaced: choose another name")
     for target in targets:
-        if _is_same_file(stats, target.path):
-            raise click.UsageError(f"--stats {stats} is also the output of {target.what}: choose another name")
+        if not is_same_output(stats, target.path):
+            continue
+        if is_open and (target.path == STANDARD or descriptor_of(target.path) is not None):
+            raise click.UsageError(f"--stats {stats} needs -o FILE: {spoken(target.path)} holds the result")
+        raise click.UsageError(f"--stats {stats} is also the output of {target.what}: choose another name")
 
 
 def check_picture_options(
@@ -188,21 +193,19 @@ def check_targets(options: Any, targets: Sequence[Target], source: str) -> None:
     Parameters
     ----------
     options : namespace
-        With ``stats``, ``out_dir``, ``no_clobber`` and ``overlay``.
+        With ``stats``, ``out_dir``, ``no_clobber``, ``overlay`` and perhaps ``clip``.
     targets : sequence of Target
         The outputs.
     source : str
-        The input, which is never replaced; neither is the image beneath a picture.
+        The input, which is never replaced; neither are further files that are read.
     """
     from vorotool.formats.outputs import check_output
     from vorotool.formats.stores import check_store
 
-    overlay = [] if options.overlay is None else [options.overlay]
-    if source == "-" and overlay == ["-"]:
-        raise click.UsageError("--overlay - is the input: name a file for one of the two")
+    further = [path for name in ("overlay", "clip") if (path := getattr(options, name, None)) is not None]
     rules = {
         "no_clobber": options.no_clobber,
-        "inputs": (source, *overlay),
+        "inputs": (source, *further),
         "makes_folder": options.out_dir is not None,
     }
     for target in targets:
@@ -213,16 +216,6 @@ def check_targets(options: Any, targets: Sequence[Target], source: str) -> None:
     if options.stats is not None:
         in_out_dir = options.out_dir is not None and Path(options.stats).parent == Path(options.out_dir)
         check_output(options.stats, no_clobber=options.no_clobber, makes_folder=in_out_dir)
-
-
-def _is_same_file(one: str, other: str) -> bool:
-    """Whether two names are one ordinary file, there already or yet to be written."""
-    if other == "-":
-        return False
-    a, b = Path(one), Path(other)
-    if not (a.exists() and b.exists()):
-        return a.resolve() == b.resolve()
-    return a.is_file() and a.samefile(b)
 
 
 def _known_format(fmt: str | None, formats: Mapping[str, Sequence[str]]) -> str | None:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.formats.descriptors import stream_kind
 from vorotool.formats.limits import check_pixels, decoding
 from vorotool.formats.stores import is_array, is_group, is_store
 from vorotool.formats.tiff_layout import TiffLayout
@@ -161,7 +162,7 @@ class TiffRows:
 def open_rows(
     path: str | os.PathLike[str], *, input_format: str | None = None, page: int | None = None
 ) -> ZarrRows | TiffRows | None:
-    """Open an image that can be read band by band; None if it is none.
+    """Open an image that can be read band by band; None if it is none, or comes through a stream.
 
     Parameters
     ----------
@@ -220,7 +221,10 @@ def _plain(values: NDArray[Any]) -> NDArray[Any]:
 
 
 def _begins_as_tiff(name: str) -> bool:
+    """Whether a file begins as a TIFF does; streams, which have one beginning only, are read whole elsewhere."""
     try:
+        if stream_kind(name) is not None:
+            return False
         with Path(name).open("rb") as file:
             return file.read(4) in _TIFF_MAGIC
     except (OSError, ValueError):  # who reads it says why

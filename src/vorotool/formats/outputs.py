@@ -13,6 +13,13 @@ from pathlib import Path
 from typing import BinaryIO
 
 from vorotool.errors import OutputError, UsageError, VorotoolError
+from vorotool.formats.descriptors import (
+    STANDARD,
+    check_writable,
+    descriptor_of,
+    is_of_another_process,
+    open_output_descriptor,
+)
 from vorotool.formats.temporaries import new_file, temporary_beside
 
 STANDARD_OUTPUT = "standard output"
@@ -30,8 +37,8 @@ def open_output(
 
     A regular file is written beside its place under a temporary name and renamed at the end; on any
     exception, an interrupt too, the temporary file is removed and the older file is as it was. Pipes and
-    devices are written directly. The body should do nothing but write: its ``OSError`` is taken for one of
-    the output.
+    devices are written directly; what is open already, such as ``/dev/stdout``, is written where it stands. The body
+    should do nothing but write: its ``OSError`` is taken for one of the output.
 
     Parameters
     ----------
@@ -65,12 +72,15 @@ def open_output(
     9
     """
     name = os.fspath(path)
-    if name == "-":
-        with _standard_output(binary) as out:
-            yield out
-        return
-    target = _checked_target(name, no_clobber, inputs)
-    writer = _replacing(name, target, no_clobber) if _is_regular(target) else _direct(name, target)
+    descriptor = _checked_descriptor(name, binary)
+    if descriptor is not None:
+        writer = _continuing(name, descriptor)
+    elif name == STANDARD:
+        writer = _embedded_output()
+    else:
+        target = _checked_target(name, no_clobber, inputs)
+        is_regular = _is_regular(target)
+        writer = _replacing(name, target, no_clobber) if is_regular else _direct(name, target, binary)
     with writer as out:
         yield out
 
@@ -104,8 +114,7 @@ def check_output(
     >>> check_output("/dev/null")
     """
     name = os.fspath(path)
-    if name == "-":
-        _refuse_terminal(binary)
+    if _checked_descriptor(name, binary) is not None or name == STANDARD:
         return
     target = _checked_target(name, no_clobber, inputs)
     if not _is_regular(target):
@@ -142,41 +151,60 @@ def make_folder(path: str | os.PathLike[str]) -> None:
         raise OutputError(f"the folder {os.fspath(path)!r} cannot be made: {reason}; name another") from error
 
 
-def _refuse_terminal(binary: bool) -> None:
-    if binary and sys.stdout.isatty():
-        raise UsageError("binary output is not written to a terminal: name a file with -o, or a text format with -f")
+def _checked_descriptor(name: str, binary: bool) -> int | None:
+    """Give the number of the descriptor that an output is, if it is one that can be written.
+
+    Standard output has none where Python is embedded in what has replaced it.
+    """
+    if name != STANDARD:
+        number = descriptor_of(name)
+        is_terminal = number is not None and os.isatty(number)
+    else:
+        number, is_terminal = _number_of_standard_output(), sys.stdout.isatty()
+    if binary and is_terminal:
+        raise terminal_error()
+    if number is not None:
+        with explained(spoken(name)):
+            check_writable(number)
+    return number
+
+
+def terminal_error() -> UsageError:
+    """Say that a terminal is no place for what is not text."""
+    return UsageError("binary output is not written to a terminal: name a file with -o, or a text format with -f")
+
+
+def _number_of_standard_output() -> int | None:
+    try:
+        return sys.stdout.fileno()
+    except (AttributeError, OSError, ValueError):
+        return None
+
+
+def spoken(name: str) -> str:
+    """Give what messages call an output."""
+    return STANDARD_OUTPUT if name == STANDARD else name
 
 
 @contextmanager
-def _standard_output(binary: bool) -> Iterator[BinaryIO]:
-    _refuse_terminal(binary)
-    out: BinaryIO = sys.stdout.buffer
-    try:
-        sys.stdout.flush()
+def _continuing(name: str, descriptor: int) -> Iterator[BinaryIO]:
+    """Write what is open already, in order, after what it holds."""
+    with explained(spoken(name)), open_output_descriptor(descriptor) as out:
         yield out
-        out.flush()
-    except (BrokenPipeError, VorotoolError):
-        raise
-    except OSError as error:
-        _abandon_standard_output()
-        raise failure(STANDARD_OUTPUT, error) from error
 
 
-def _abandon_standard_output() -> None:
-    """Let what is still in the buffer go nowhere, or the interpreter fails on it again when it ends."""
-    with suppress(OSError, ValueError):
-        nowhere = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nowhere, sys.stdout.fileno())
-        os.close(nowhere)
+@contextmanager
+def _embedded_output() -> Iterator[BinaryIO]:
+    """Write to standard output where it is no descriptor."""
+    with explained(STANDARD_OUTPUT):
+        sys.stdout.flush()
+        yield sys.stdout.buffer
+        sys.stdout.buffer.flush()
 
 
 def _checked_target(name: str, no_clobber: bool, inputs: Iterable[str | os.PathLike[str]]) -> Path:
-    """Follow links, so that the file is replaced and not the link to it."""
-    try:
-        target = Path(os.path.realpath(name))
-        exists = target.exists()
-    except (OSError, ValueError) as error:
-        raise OutputError(f"{name!r} cannot be written: {error}; choose another name") from None
+    target = followed(name)
+    exists = target.exists()
     if not name or target.is_dir() or name.endswith(os.sep):
         raise OutputError(f"{name!r} is {'a directory' if name else 'no name'}: name a file{' in it' * bool(name)}")
     if not exists or not _is_regular(target):
@@ -188,6 +216,27 @@ def _checked_target(name: str, no_clobber: bool, inputs: Iterable[str | os.PathL
         raise clobber_error(name)
     if not os.access(target, os.W_OK):
         raise OutputError(f"{name} cannot be written: it is write-protected; choose another name with -o")
+    return target
+
+
+def followed(name: str) -> Path:
+    """Follow links, so that a file is replaced and not the link to it.
+
+    Raises
+    ------
+    OutputError
+        If that leads nowhere, or to what another process has open.
+    """
+    try:
+        if is_of_another_process(name):
+            raise OutputError(f"{name} is open in another process, which alone can go on with it: name a file with -o")
+        target = Path(os.path.realpath(name))
+        if not target.exists() and target.is_symlink():
+            raise OutputError(f"{name} cannot be written: its links lead back to themselves; choose another name")
+    except VorotoolError:
+        raise
+    except (OSError, ValueError) as error:
+        raise OutputError(f"{name!r} cannot be written: {error}; choose another name") from None
     return target
 
 
@@ -207,7 +256,7 @@ def _is_regular(target: Path) -> bool:
 def is_same_file(target: Path, source: str) -> bool:
     """Whether an output is an input; ``-`` is standard input."""
     try:
-        if source == "-":
+        if source == STANDARD:
             return os.path.samestat(target.stat(), os.fstat(sys.stdin.fileno()))
         return target.samefile(source)
     except (OSError, ValueError, AttributeError):  # an input that is not there, or no file, is no output
@@ -215,9 +264,11 @@ def is_same_file(target: Path, source: str) -> bool:
 
 
 @contextmanager
-def _direct(name: str, target: Path) -> Iterator[BinaryIO]:
+def _direct(name: str, target: Path, binary: bool) -> Iterator[BinaryIO]:
     """Write to a pipe or a device."""
     with explained(name), target.open("wb") as out:
+        if binary and out.isatty():
+            raise terminal_error()
         yield out
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from vorotool import _core
 from vorotool.errors import InputError, UsageError, VorotoolError
+from vorotool.formats.descriptors import STANDARD, descriptor_of, open_input
 
 STANDARD_INPUT = "standard input"
 NESTING_LIMIT = 100
@@ -56,18 +57,18 @@ def read_source(path: str | os.PathLike[str]) -> Source:
         If there is no such file, it is a directory, or it cannot be read.
     """
     name = os.fspath(path)
-    if name == "-":
-        return Source(STANDARD_INPUT, _read_standard_input())
     if not name:
         raise InputError("the name of the input is empty: name a file, or - for standard input")
     try:
-        return Source(name, Path(name).read_bytes())
+        return Source(STANDARD_INPUT if name == STANDARD else name, read_bytes(name))
     except FileNotFoundError:
         raise InputError(f"{name}: there is no such file; check the path ({_place(name)})") from None
     except IsADirectoryError:
         raise InputError(f"{name} is a directory: name the files in it, for example {name}/*") from None
     except PermissionError:
         raise InputError(f"{name} cannot be read: permission denied; check who owns it") from None
+    except InputError:
+        raise
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
         raise InputError(f"{name!r} cannot be read: {reason}; check the path") from None
@@ -101,13 +102,51 @@ def reading(name: str) -> Iterator[None]:
         raise
 
 
-def _read_standard_input() -> bytes:
+def read_bytes(name: str) -> bytes:
+    """Read all that a file holds, or that comes through a stream: each is opened once, and read to its end.
+
+    Parameters
+    ----------
+    name : str
+        A path, or ``-`` for standard input. What is open already is read from where it stands.
+
+    Raises
+    ------
+    InputError
+        If it is no file that is open for reading.
+    OSError, ValueError
+        If a path cannot be opened or read.
+
+    Examples
+    --------
+    >>> read_bytes("data/six-seeds.csv")[:3]
+    b'x,y'
+    """
+    number = 0 if name == STANDARD else descriptor_of(name)
+    if number is None:
+        return Path(name).read_bytes()
+    spoken = STANDARD_INPUT if name == STANDARD else name
+    standard, begun = _number_of_standard_input(), b""
     try:
-        return sys.stdin.buffer.read()
+        if name == STANDARD or standard == number:
+            begun = sys.stdin.buffer.read() or b""  # with what is in its buffer already
+            if standard is None or os.get_blocking(standard):
+                return begun
+        with open_input(number) as file:
+            return begun + file.read()
+    except IsADirectoryError:
+        raise
     except (AttributeError, ValueError):  # None or closed, as under a daemon
-        raise InputError("standard input is closed: name a file instead of -") from None
+        raise InputError(f"{spoken} is closed: name a file instead of {name}") from None
     except OSError as error:
-        raise InputError(f"standard input cannot be read: {error.strerror}; name a file instead of -") from None
+        raise InputError(f"{spoken} cannot be read: {error.strerror}; name a file instead of {name}") from None
+
+
+def _number_of_standard_input() -> int | None:
+    try:
+        return sys.stdin.fileno()
+    except (AttributeError, OSError, ValueError):
+        return None
 
 
 def _place(name: str) -> str:

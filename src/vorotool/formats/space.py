@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import os
 import shutil
-import stat
 from collections.abc import Callable
 from pathlib import Path
 
 from vorotool.errors import OutputError
+from vorotool.formats.descriptors import stream_kind
 
 
 def check_space(path: str | os.PathLike[str], most: int, expected: Callable[[], int]) -> None:
@@ -45,12 +45,9 @@ def check_space(path: str | os.PathLike[str], most: int, expected: Callable[[], 
 
 def _free(path: str | os.PathLike[str]) -> int | None:
     """Bytes that are free where a file is, or will be; None where it takes none."""
+    if stream_kind(os.fspath(path)) is not None:
+        return None
     target = Path(os.path.realpath(path))
-    try:
-        if os.fspath(path) == "-" or not (stat.S_ISREG(mode := target.stat().st_mode) or stat.S_ISDIR(mode)):
-            return None
-    except OSError:  # it is not there yet
-        pass
     folder = target.parent
     while not folder.exists():
         folder = folder.parent

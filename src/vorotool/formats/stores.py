@@ -9,7 +9,8 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from vorotool.errors import InputError, OutputError, UsageError
-from vorotool.formats.outputs import check_folder, clobber_error, explained, is_same_file
+from vorotool.formats.descriptors import STANDARD, stream_kind
+from vorotool.formats.outputs import check_folder, clobber_error, explained, followed, is_same_file
 from vorotool.formats.temporaries import ASIDE, Temporary, new_folder, temporary_beside
 
 _METADATA = ("zarr.json", ".zarray", ".zgroup")
@@ -84,10 +85,11 @@ def check_store(
     'new.zarr'
     """
     name = os.fspath(path)
-    if name == "-":
-        raise UsageError("a Zarr store is a folder, which does not go to standard output: name it with -o")
+    if (kind := stream_kind(name)) is not None:
+        place = "standard output" if name == STANDARD else f"{name}, {kind}"
+        raise UsageError(f"a Zarr store is a folder, which does not go to {place}: name it with -o")
     with explained(name):
-        target = Path(os.path.realpath(name))
+        target = followed(name)
         exists = target.exists()
     if exists and not is_array(target):
         raise _other_error(name)

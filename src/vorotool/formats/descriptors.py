@@ -1,0 +1,219 @@
+"""Names of what is open already, or passes by once: descriptors of this process, pipes, sockets, devices.
+
+``/dev/stdin``, ``/dev/stdout``, ``/dev/stderr``, ``/dev/fd/N``, ``/proc/self/fd/N``, links to them, and what a shell
+puts in the place of ``<(...)`` and ``>(...)`` are *descriptors*: they are duplicated, so that reading and writing go on
+where they stand, and never opened by name, which would begin a file again or replace it. A *stream* is a descriptor, or
+whatever else is neither a file nor a folder: it is opened once, and read or written from its beginning to its end.
+"""
+
+from __future__ import annotations
+
+import errno
+import fcntl
+import io
+import os
+import re
+import select
+import stat
+import sys
+from collections.abc import Hashable
+from typing import Any, BinaryIO
+
+STANDARD = "-"
+"""Standard input where something is read, standard output where something is written."""
+
+MOST_LINKS = 40
+"""As many links as Linux follows in a path."""
+
+READ_BYTES = 1 << 20
+"""That are asked for at a time."""
+
+_OF_A_PROCESS = re.compile("/proc/([0-9]+)(?:/task/[0-9]+)?/fd")
+
+_KINDS = (
+    (stat.S_ISFIFO, "a pipe"),
+    (stat.S_ISSOCK, "a socket"),
+    (stat.S_ISCHR, "a device"),
+    (stat.S_ISBLK, "a device"),
+)
+
+
+def descriptor_of(name: str) -> int | None:
+    """Number of the open descriptor that a path stands for, links followed; None where it stands for none.
+
+    Examples
+    --------
+    >>> descriptor_of("/dev/stdout"), descriptor_of("/dev/fd/63"), descriptor_of("data/dots.csv")
+    (1, 63, None)
+    """
+    found = _place(name)
+    return None if found is None or found[0] not in (None, os.getpid()) else found[1]
+
+
+def is_of_another_process(name: str) -> bool:
+    """Whether a path stands for a descriptor of another process, which can be opened only by its name.
+
+    Examples
+    --------
+    >>> is_of_another_process("/dev/fd/1"), is_of_another_process("/proc/0/fd/1")
+    (False, True)
+    """
+    found = _place(name)
+    return found is not None and found[0] not in (None, os.getpid())
+
+
+def _place(name: str) -> tuple[int | None, int] | None:
+    """The process, where the path names it, and the number of a descriptor; its own link is never followed."""
+    path = name
+    try:
+        for _ in range(MOST_LINKS):
+            folder, last = os.path.split(path)
+            folder = os.path.realpath(folder or ".")
+            match = _OF_A_PROCESS.fullmatch(folder)
+            if match or folder == "/dev/fd":
+                return (int(match[1]) if match else None, int(last)) if re.fullmatch("[0-9]{1,9}", last) else None
+            path = str(os.path.join(folder, os.readlink(os.path.join(folder, last))))  # noqa: PTH115, PTH118
+    except (OSError, ValueError):  # no link any more, or no path
+        pass
+    return None
+
+
+def stream_kind(name: str) -> str | None:
+    """What a stream is, in words; None for a file, a folder and what is not there. Nothing is opened.
+
+    Examples
+    --------
+    >>> stream_kind("/dev/null"), stream_kind("data"), stream_kind("no such file")
+    ('a device', None, None)
+    """
+    if name == STANDARD or descriptor_of(name) is not None:
+        return "an open descriptor"
+    try:
+        mode = os.stat(name).st_mode  # noqa: PTH116, since a name may be anything
+    except (OSError, ValueError):
+        return None
+    return next((kind for is_kind, kind in _KINDS if is_kind(mode)), None)
+
+
+def input_identity(name: str) -> Hashable | None:
+    """What two names of one stream that is read have in common; None for files, and for devices, which start anew.
+
+    Examples
+    --------
+    >>> input_identity("-") == input_identity("/dev/stdin"), input_identity("data/dots.csv")
+    (True, None)
+    """
+    number = 0 if name == STANDARD else descriptor_of(name)
+    try:
+        found = os.stat(name) if number is None else os.fstat(number)  # noqa: PTH116
+    except (OSError, ValueError):
+        return number
+    if stat.S_ISFIFO(found.st_mode) or stat.S_ISSOCK(found.st_mode):
+        return found.st_dev, found.st_ino
+    return number
+
+
+def is_same_output(one: str, other: str) -> bool:
+    """Whether two names of outputs are one descriptor, pipe or file, there already or yet to be written.
+
+    Examples
+    --------
+    >>> is_same_output("-", "/dev/stdout"), is_same_output("a.csv", "./a.csv"), is_same_output("/dev/null", "/dev/null")
+    (True, True, False)
+    """
+    numbers = [1 if name == STANDARD else descriptor_of(name) for name in (one, other)]
+    if None not in numbers and numbers[0] == numbers[1]:
+        return True
+    try:
+        a, b = (
+            os.stat(name) if number is None else os.fstat(number)  # noqa: PTH116
+            for name, number in zip((one, other), numbers, strict=True)
+        )
+    except (OSError, ValueError):
+        return numbers == [None, None] and os.path.realpath(one) == os.path.realpath(other)
+    if None not in numbers:  # both are written where they stand, whatever they are
+        return False
+    return os.path.samestat(a, b) and (stat.S_ISREG(a.st_mode) or stat.S_ISFIFO(a.st_mode))
+
+
+def open_input(descriptor: int) -> BinaryIO:
+    """Open what a descriptor reads, from where it stands.
+
+    Raises
+    ------
+    OSError
+        If it is closed, or open for writing only.
+    """
+    _check_mode(descriptor, os.O_WRONLY, "writing")
+    return io.BufferedReader(_PatientReader(os.dup(descriptor), "rb"))
+
+
+def open_output_descriptor(descriptor: int) -> BinaryIO:
+    """Open what a descriptor writes, from where it stands, or from the end of what is appended to.
+
+    What is behind it may be a file, but it holds what others have written: it is never sought.
+
+    Raises
+    ------
+    OSError
+        If it is closed, or open for reading only.
+    """
+    check_writable(descriptor)
+    for stream in (sys.stdout, sys.stderr):  # what was said before comes first
+        if _number(stream) == descriptor:
+            stream.flush()
+    return io.BufferedWriter(_OnwardOnly(os.dup(descriptor), "wb"))
+
+
+def check_writable(descriptor: int) -> None:
+    """Refuse a descriptor that is closed, or open for reading only (OSError)."""
+    _check_mode(descriptor, os.O_RDONLY, "reading")
+
+
+def _check_mode(descriptor: int, wrong: int, purpose: str) -> None:
+    # a standard stream that was closed from the start stays so, whatever has got its number since
+    was_closed = descriptor < 3 and (sys.__stdin__, sys.__stdout__, sys.__stderr__)[descriptor] is None
+    try:
+        if not was_closed and fcntl.fcntl(descriptor, fcntl.F_GETFL) & os.O_ACCMODE != wrong:
+            return
+    except (OSError, OverflowError):  # no descriptor of this process
+        pass
+    raise OSError(errno.EBADF, f"{os.strerror(errno.EBADF)}: it is closed, or open for {purpose} only")
+
+
+def _number(stream: object) -> int | None:
+    try:
+        return int(stream.fileno())  # type: ignore[attr-defined]  # what has none is no stream of the system
+    except (AttributeError, OSError, ValueError):
+        return None
+
+
+class _PatientReader(io.FileIO):
+    """Waits for what is yet to come where the system would not, as others may have asked of what they share with us."""
+
+    def readall(self) -> bytes:
+        parts = []
+        while (part := self.read(READ_BYTES)) != b"":
+            if part is None:
+                select.select([self], [], [])
+            else:
+                parts.append(part)
+        return b"".join(parts)
+
+
+class _OnwardOnly(io.FileIO):
+    """Written in order, like a pipe, whatever it is; waits for room where the system would not."""
+
+    def write(self, data: Any) -> int:
+        while (written := super().write(data)) is None:
+            select.select([], [self], [])
+        return written
+
+    def seekable(self) -> bool:
+        return False
+
+    def seek(self, *_: object) -> int:
+        raise io.UnsupportedOperation("what is open already is written in order")
+
+    def tell(self) -> int:
+        raise io.UnsupportedOperation("what is open already has no position of ours")
