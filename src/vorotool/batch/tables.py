@@ -10,6 +10,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, BinaryIO
 
+from vorotool.formats.tables import safe_text
+
 TABLE_FORMATS = ("csv", "json")
 """Formats that are joined row by row."""
 
@@ -25,7 +27,7 @@ def part_path(folder: str | os.PathLike[str], source: str, fmt: str) -> str:
     return str(Path(folder) / f"{hashlib.sha256(os.fsencode(source)).hexdigest()[:32]}.{fmt}")
 
 
-def join_tables(out: BinaryIO, parts: Sequence[tuple[str, str]], fmt: str) -> None:
+def join_tables(out: BinaryIO, parts: Sequence[tuple[str, str]], fmt: str, *, is_safe: bool = False) -> None:
     r"""Write the rows of several tables as one, after a first column that names their input.
 
     Parameters
@@ -37,6 +39,8 @@ def join_tables(out: BinaryIO, parts: Sequence[tuple[str, str]], fmt: str) -> No
         empty; all come in the order in which they are first met. One part is in memory at a time.
     fmt : {"csv", "json"}
         Of the tables, and of what is written.
+    is_safe : bool
+        Names of inputs in CSV that look like formulas get an apostrophe, as the texts in the tables have it already.
 
     Examples
     --------
@@ -46,8 +50,10 @@ def join_tables(out: BinaryIO, parts: Sequence[tuple[str, str]], fmt: str) -> No
     >>> out.getvalue()[:26]
     b'input,x,y\ndots,4,2\ndots,12'
     """
-    join = _join_csv if fmt == "csv" else _join_json
-    join(out, parts)
+    if fmt == "csv":
+        _join_csv(out, parts, is_safe=is_safe)
+    else:
+        _join_json(out, parts)
 
 
 def _columns(headers: Iterable[Iterable[bytes]]) -> list[bytes]:
@@ -62,12 +68,12 @@ _RECORD = re.compile(rb'(?:[^"\n]+|"[^"]*")*\n')
 _FIELDS = re.compile(rb'(?:^|,)((?:[^",]+|"[^"]*")*)')
 
 
-def _join_csv(out: BinaryIO, parts: Sequence[tuple[str, str]]) -> None:
+def _join_csv(out: BinaryIO, parts: Sequence[tuple[str, str]], *, is_safe: bool) -> None:
     name, *names = _columns(tuple(_header(path)) for _, path in parts)
     out.write(b",".join([name, *names]) + b"\n")
     for source, path in parts:
         header, *records = _RECORD.findall(Path(path).read_bytes())
-        before = _quoted(source) + b","
+        before = _quoted(safe_text(source) if is_safe else source) + b","
         place = _places(_FIELDS.findall(header[:-1]), names)
         for record in records:
             if place is None:
@@ -89,7 +95,7 @@ def _places(header: list[bytes], names: list[bytes]) -> list[int] | None:
 
 def _quoted(name: str) -> bytes:
     text = os.fsencode(name)
-    return text if re.fullmatch(rb"[\w./+@=~%-]+", text) else b'"' + text.replace(b'"', b'""') + b'"'
+    return text if re.fullmatch(rb"[\w./+@=~%'-]+", text) else b'"' + text.replace(b'"', b'""') + b'"'
 
 
 # ---- JSON ----------------------------------------------------------------------------------------

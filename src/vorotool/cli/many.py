@@ -176,4 +176,4 @@ def _write_table(o: SimpleNamespace, fmt: str, tasks: Sequence[Task], outcomes: 
         if outcome is not None and not outcome.code
     ]
     with open_output(o.table, no_clobber=o.no_clobber) as out:
-        join_tables(out, parts, fmt)
+        join_tables(out, parts, fmt, is_safe=o.safe_csv)

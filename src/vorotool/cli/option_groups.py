@@ -23,5 +23,5 @@ def result_options(layers: tuple[str, ...]) -> Decorator:
         shared("max-pixels", "max-sites"),
         pixel_size_option(),
         batch_options(),
-        shared("no-clobber", "no-properties", "quiet", "verbose"),
+        shared("no-clobber", "no-properties", "safe-csv", "quiet", "verbose"),
     )

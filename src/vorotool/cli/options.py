@@ -259,6 +259,11 @@ OPTIONS: dict[str, Decorator] = {
         help="Most seeds, samples or vertices.",
     ),
     "no-clobber": click.option("--no-clobber", is_flag=True, help="Refuse to replace an existing file."),
+    "safe-csv": click.option(
+        "--safe-csv",
+        is_flag=True,
+        help="Put ' before texts in CSV that a spreadsheet would take for formulas; numbers stay.",
+    ),
     "no-properties": click.option(
         "--no-properties",
         is_flag=True,

@@ -75,6 +75,7 @@ def process_input(recipe: Recipe, run: Run, o: SimpleNamespace, source: str, tar
         The outputs.
     """
     from vorotool.formats.outputs import make_folder
+    from vorotool.formats.tables import safe_texts
 
     check_targets(o, targets, source)
     with run.phase("read"):
@@ -89,7 +90,7 @@ def process_input(recipe: Recipe, run: Run, o: SimpleNamespace, source: str, tar
     for target in targets:
         if o.out_dir is not None:
             make_folder(Path(target.path).parent)
-        with run.phase(f"write {target.what}"):
+        with run.phase(f"write {target.what}"), safe_texts(getattr(o, "safe_csv", False)):
             products.write(target, inputs=(source,))
     if o.stats is not None:
         with run.phase("count"):

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import re
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -64,19 +67,48 @@ def write_table(out: BinaryIO, table: Table, fmt: str, *, precision: int | None 
 
 
 # ---- CSV -----------------------------------------------------------------------------------------
+_SAFE: ContextVar[bool] = ContextVar("safe", default=False)
+_FORMULA = re.compile(r"[=+\-@\t\r]")
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+
+
+@contextmanager
+def safe_texts(is_wanted: bool = True) -> Iterator[None]:
+    """Keep spreadsheets from taking texts of the CSV written within for formulas: see `safe_text`."""
+    token = _SAFE.set(is_wanted)
+    try:
+        yield
+    finally:
+        _SAFE.reset(token)
+
+
+def safe_text(text: str) -> str:
+    """Put an apostrophe before a text that begins with =, +, -, @, a tab or a carriage return and is no number.
+
+    Examples
+    --------
+    >>> safe_text("=1+1"), safe_text("-2.5"), safe_text("a=b")
+    ("'=1+1", '-2.5', 'a=b')
+    """
+    return f"'{text}" if _FORMULA.match(text) and not _NUMBER.fullmatch(text) else text
+
+
 def _write_csv(out: BinaryIO, columns: list[Column], precision: int | None, threads: int) -> None:
-    write_rows(out, [Column(c.name, [c.name]) for c in columns])
-    texts = [_with_texts(column, precision) for column in columns]
+    write_rows(out, [Column(c.name, [safe_text(c.name) if _SAFE.get() else c.name]) for c in columns])
+    is_safe = _SAFE.get()
+    texts = [_with_texts(column, precision, is_safe=is_safe) for column in columns]
     write_rows(out, texts, precision=precision, threads=threads)
 
 
-def _with_texts(column: Column, precision: int | None) -> Column:
+def _with_texts(column: Column, precision: int | None, *, is_safe: bool) -> Column:
+    def text(value: Any) -> str:
+        return safe_text(value) if is_safe and isinstance(value, str) else _text_of(value, precision)
+
     if isinstance(column.values, Lookup) and isinstance(column.values.values, list):
-        texts = [_text_of(value, precision) for value in column.values.values]
-        return Column(column.name, Lookup(texts, column.values.index))
+        return Column(column.name, Lookup([text(value) for value in column.values.values], column.values.index))
     if not isinstance(column.values, list):
         return column
-    return Column(column.name, [_text_of(value, precision) for value in column.values], column.missing)
+    return Column(column.name, [text(value) for value in column.values], column.missing)
 
 
 def _text_of(value: Any, precision: int | None) -> str:

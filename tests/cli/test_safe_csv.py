@@ -1,0 +1,71 @@
+"""``--safe-csv``: texts that spreadsheets would take for formulas."""
+
+import csv
+import io
+import json
+
+import pytest
+
+PAIRS = {
+    "=1+1": "'=1+1",
+    "+cmd": "'+cmd",
+    "-cmd": "'-cmd",
+    "@SUM(A1)": "'@SUM(A1)",
+    "\tx": "'\tx",
+    "\rx": "'\rx",
+    "-": "'-",
+    '=1,"2"': '\'=1,"2"',
+    **{text: text for text in ("plain", "-2.5", "+3", "-.5e3", "a=b", "'=quoted", "")},
+}
+TEXTS, SAFE = list(PAIRS), list(PAIRS.values())
+
+
+def rows(text):
+    return list(csv.reader(io.StringIO(text, newline="")))
+
+
+@pytest.fixture
+def features(folder):
+    """Points, squares and their properties."""
+
+    def square(x):
+        return {"type": "Polygon", "coordinates": [[[x, 0], [x + 1, 0], [x + 1, 1], [x, 1], [x, 0]]]}
+
+    for name, geometry in (("points", lambda x: {"type": "Point", "coordinates": [x, x * x]}), ("squares", square)):
+        collection = [
+            {"type": "Feature", "id": text, "geometry": geometry(3 * x), "properties": {"=name": text, "n": -x}}
+            for x, text in enumerate(TEXTS)
+        ]
+        (folder / f"{name}.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": collection}))
+    return folder
+
+
+@pytest.mark.parametrize(
+    "command",
+    ["delaunay points.geojson --what table", "delaunay points.geojson --what cells -f csv",
+     "tessellate points.geojson --what table", "skeleton-exact squares.geojson --what table",
+     "skeleton-approx squares.geojson --step 0.5 --what table", "alphashape points.geojson --what points"],
+)  # fmt: skip
+def test_texts_get_an_apostrophe_and_numbers_stay(run, features, command):
+    plain, safe = (run(*command.split(), "-q", "-o", name, *options) for name, options in
+                   (("a.csv", ()), ("b.csv", ("--safe-csv",))))  # fmt: skip
+    assert (plain.code, safe.code) == (0, 0)
+    (header, *before), (safe_header, *after) = (
+        rows((features / name).read_bytes().decode()) for name in ("a.csv", "b.csv")
+    )
+    name = header.index("=name")
+    assert safe_header[name] == "'=name"
+    assert [row[name] for row in before] == TEXTS
+    assert [row[name] for row in after] == SAFE
+    for column, title in enumerate(header):
+        if title not in ("=name", "id"):
+            assert [row[column] for row in after] == [row[column] for row in before]
+
+
+def test_the_table_of_a_batch_too(run, features):
+    (features / "=in.geojson").write_bytes((features / "points.geojson").read_bytes())
+    done = run("tessellate", "=in.geojson", "points.geojson", "--table", "all.csv", "--safe-csv", "-q")
+    assert done.code == 0
+    header, *found = rows((features / "all.csv").read_bytes().decode())
+    assert {row[0] for row in found} == {"'=in.geojson", "points.geojson"}
+    assert [row[header.index("'=name")] for row in found] == 2 * SAFE
