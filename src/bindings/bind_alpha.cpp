@@ -125,7 +125,7 @@ nb::dict alpha_curves(std::size_t spectrum, const Indices& triangle_rank, const 
   out["area"] = to_numpy(std::move(found.area), {spectrum});
   out["perimeter"] = to_numpy(std::move(found.perimeter), {spectrum});
   out["regions"] = to_numpy(std::move(found.regions), {spectrum});
-  out["holes"] = to_numpy(std::move(found.holes), {spectrum});
+  out["cavities"] = to_numpy(std::move(found.cavities), {spectrum});
   out["edges"] = to_numpy(std::move(found.edges), {spectrum});
   return out;
 }

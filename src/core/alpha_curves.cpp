@@ -56,7 +56,7 @@ class Sweep {
   Curves run() {
     measure();
     count_regions();
-    count_holes();
+    count_cavities();
     return std::move(out_);
   }
 
@@ -121,16 +121,16 @@ class Sweep {
 
   // Downwards: a triangle that leaves is a new hole, and an edge that then has none left joins it with what
   // is on the other side; the unbounded face counts for nothing.
-  void count_holes() {
+  void count_cavities() {
     const ByRank edges(in_.edges.mid, m_);
     const std::vector<std::int32_t> triangles = triangles_by_rank();
     DisjointSets faces(in_.triangle_rank.size() + 1);
-    std::int32_t holes = 0;
+    std::int32_t cavities = 0;
     for (std::size_t k = m_; k-- > 0;) {
       poll(3 * m_ - k);
-      holes += triangles[k + 1];
-      for (const std::uint32_t e : edges[k + 1]) holes -= join(faces, e);
-      out_.holes[k] = holes;
+      cavities += triangles[k + 1];
+      for (const std::uint32_t e : edges[k + 1]) cavities -= join(faces, e);
+      out_.cavities[k] = cavities;
     }
   }
 

@@ -21,11 +21,11 @@ struct CurveInput {
 // Of the shape from each radius of the spectrum on, until the next: m values each. Sums are carried in twice
 // the digits of a double.
 struct Curves {
-  LargeArray<double> area;           // of the triangles
-  LargeArray<double> perimeter;      // length of the boundary edges
-  LargeArray<std::int32_t> regions;  // triangles joined through edges
-  LargeArray<std::int32_t> holes;    // bounded components of what the triangles leave
-  LargeArray<std::int32_t> edges;    // singular and boundary ones
+  LargeArray<double> area;            // of the triangles
+  LargeArray<double> perimeter;       // length of the boundary edges
+  LargeArray<std::int32_t> regions;   // triangles joined through edges
+  LargeArray<std::int32_t> cavities;  // bounded components of what the triangles leave
+  LargeArray<std::int32_t> edges;     // singular and boundary ones
 };
 
 Curves alpha_curves(const CurveInput& input, const Monitor& monitor);

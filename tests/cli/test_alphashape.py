@@ -99,7 +99,7 @@ def test_complex_family_spectrum_and_curves(run):
     rows = table(run("alphashape", DOTS, "--what", "spectrum").out)
     assert [float(row["r"]) for row in rows] == FAMILY.spectrum.tolist()
     rows = table(run("alphashape", DOTS, "--what", "curves").out)
-    assert list(rows[0]) == ["r", "area", "perimeter", "regions", "holes", "edges"]
+    assert list(rows[0]) == ["r", "area", "perimeter", "regions", "cavities", "edges"]
     assert float(rows[-1]["area"]) == FAMILY.mesh.areas().sum()
     at = FAMILY.reached(60) - 1
     assert (float(rows[at]["area"]), int(rows[at]["regions"])) == (SHAPE.area, SHAPE.region_count)
@@ -194,7 +194,7 @@ def test_pictures(run, folder):
     done = run("alphashape", DOTS, "-r", 60, "-f", "svg", "--layers", ",".join(LAYERS))
     assert re.findall(r'<g id="(\w+)"', done.out) == list(LAYERS)
     plot = run("alphashape", DOTS, "--what", "curves", "-f", "svg")
-    assert re.findall(r'<g id="(\w+)"', plot.out) == ["axes", "area", "perimeter", "regions", "holes", "edges"]
+    assert re.findall(r'<g id="(\w+)"', plot.out) == ["axes", "area", "perimeter", "regions", "cavities", "edges"]
 
 
 def test_the_arcs_of_the_picture_bulge_as_the_hull_does(run, folder):
@@ -298,3 +298,22 @@ def test_an_empty_shape_is_said(run):
 def test_an_infinite_radius_is_in_the_statistics(run, folder):
     done = run("alphashape", "dots.csv", "-r", "inf", "-o", "shape.csv", "--stats", "-")
     assert (done.code, json.loads(done.out)["r"]) == (0, "inf")
+
+
+def test_holes_mean_one_thing_and_cavities_another(run, folder):
+    """Six triangles in a ring, joined at their corners, enclose a cavity that is a hole of none; a plate has a hole."""
+    turn = np.pi / 6 * np.arange(12)
+    ring = np.stack([np.cos(turn), np.sin(turn)], axis=1) * np.where(np.arange(12) % 2, 150, 100)[:, None]
+    plate = [(x, y) for x in range(900, 1051, 50) for y in range(0, 151, 50) if not (900 < x < 1050 and 0 < y < 150)]
+    (folder / "p.csv").write_text("".join(f"{x},{y}\n" for x, y in [*ring.tolist(), *plate]))
+    for r, counts in ((60, (0, 1)), (45, None), (80, None), (110, None)):
+        run("alphashape", "p.csv", "-r", r, "--what", "table,polygons", "-f", "json", "-o", "a", "--stats", "s.json")
+        stats = json.loads((folder / "s.json").read_text())
+        tables = json.loads((folder / "a.table.json").read_text())
+        polygons = json.loads((folder / "a.polygons.json").read_text())["polygons"]
+        curves = table(run("alphashape", "p.csv", "--what", "curves").out)
+        reached = [row for row in curves if float(row["r"]) <= r][-1]
+        assert stats["holes"] == sum(row["holes"] for row in tables)
+        assert stats["holes"] == sum(len(polygon["holes"]) for polygon in polygons)
+        assert stats["cavities"] == int(reached["cavities"])
+        assert counts in (None, (stats["holes"], stats["cavities"]))

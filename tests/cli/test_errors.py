@@ -507,3 +507,30 @@ def test_a_plot_has_no_y_of_the_input(run, folder):
     assert (done.code, "curves are a plot: leave them out" in done.err) == (2, True)
     assert run("alphashape", "dots.csv", "--what", "curves,edges", "--y-down", "-f", "svg", "-o", "a").code == 0
     assert not (folder / "out.json").exists()
+
+
+@pytest.mark.parametrize("kind", ["npy", "tif", "zarr"])
+def test_labels_that_do_not_fit_the_type_are_a_limit(run, folder, kind):
+    (folder / "many.csv").write_text("".join(f"{i},0\n" for i in range(300)))
+    done = run("tessellate", "many.csv", "-o", f"a.{kind}", "--dtype", "uint8")
+    assert (done.code, done.err) == (5, "error: labels up to 300 do not fit uint8: use --dtype uint32\n")
+
+
+@pytest.mark.parametrize(
+    ("command", "threshold"),
+    [("tessellate", 9), ("delaunay", 9), ("alphashape", 9), ("skeleton-exact", 9), ("skeleton-approx --step 1", 9)],
+)
+def test_the_threshold_is_said_and_counted(run, folder, command, threshold):
+    values = np.array([[9, 3, 3, 9, 3], [3, 200, 200, 200, 9], [3, 200, 210, 200, 9], [3, 9, 220, 9, 200]], np.uint8)
+    np.save(folder / "grey.npy", values)
+    common = (*command.split(), "grey.npy", "--what", "table", "--stats", "s.json", "-o", "a.json")
+    common = tuple(word for word in common if command != "alphashape" or word not in ("--what", "table"))
+    done = run(*common, "--threshold", "otsu")
+    assert done.code in (0, 3)
+    assert f"note: threshold {threshold}, by Otsu's method" in done.err
+    if done.code == 0:
+        assert json.loads((folder / "s.json").read_text())["threshold"] == threshold
+    done = run(*common, "--threshold", "4.5")
+    assert "Otsu" not in done.err
+    if done.code == 0:
+        assert json.loads((folder / "s.json").read_text())["threshold"] == 4.5

@@ -73,7 +73,7 @@ def test_shapes_and_curves(name):
             assert (shape.family.triangle_rank <= k).tolist() == shape.inside.tolist()
             union = check_polygons(shape)
             assert curves["regions"][k] == shape.region_count
-            assert curves["holes"][k] == shape.hole_count == complement_holes(union)
+            assert curves["cavities"][k] == shape.cavity_count == complement_holes(union)
             assert curves["edges"][k] == len(shape.edges)
             assert curves["area"][k] == pytest.approx(shape.area, rel=1e-13)
             assert curves["perimeter"][k] == pytest.approx(shape.perimeter, rel=1e-13, abs=1e-13)
@@ -170,7 +170,7 @@ def test_collinear_points_are_a_chain(n):
     np.testing.assert_allclose(np.sort(family.r_min), lengths / 2)
     shape = alpha_shape(family, r=1e9)
     assert set(shape.classes.tolist()) == {"singular"}
-    assert (shape.region_count, shape.area, shape.hole_count) == (0, 0.0, 0)
+    assert (shape.region_count, shape.area, shape.cavity_count, shape.hole_count) == (0, 0.0, 0, 0)
     with pytest.raises(InputError, match="span no triangle, so no r gives a region that holds them: give r itself"):
         alpha_shape(family)
 
@@ -183,20 +183,20 @@ def test_thresholds():
     far = np.array([[30.0, 0], [31, 0], [30, 1]])
     family = alpha_complex(np.concatenate([grid[~gaps], far]))
     plain = alpha_shape(family, r=0.8)
-    assert (plain.region_count, plain.hole_count) == (2, 2)
+    assert (plain.region_count, plain.cavity_count) == (2, 2)
     check_polygons(plain)
     small, large = 2.0, 14.0  # areas of the gaps, corners cut
     assert plain.area == 88 + 0.5 - small - large
     for threshold, holes in ((1.9, 2), (2, 1), (13.9, 1), (14, 0)):
         filled = alpha_shape(family, r=0.8, hole_threshold=threshold)
-        assert filled.hole_count == holes
+        assert filled.cavity_count == holes
         check_polygons(filled)
     for threshold, regions in ((0.4, 2), (Fraction(1, 2), 1), (80, 0)):
         dropped = alpha_shape(family, r=0.8, region_threshold=threshold)
         assert dropped.region_count == regions
         check_polygons(dropped)
     both = alpha_shape(family, r=0.8, hole_threshold=100, region_threshold=80)
-    assert (both.region_count, both.hole_count, both.area) == (1, 0, 88.0)
+    assert (both.region_count, both.cavity_count, both.area) == (1, 0, 88.0)
     np.testing.assert_array_equal(both.edge_classes() == 2, both.edge_classes() == 2)
     assert set(both.classes.tolist()) == {"boundary"}
 

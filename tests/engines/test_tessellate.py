@@ -254,7 +254,7 @@ def test_duplicates_warn_or_are_refused():
         (lambda: vorotool.tessellate([[0, 0]], shape=(4, 4), dtype=float), UsageError, "cannot have type float64"),
         (
             lambda: vorotool.tessellate([[i, 0] for i in range(300)], shape=(4, 4), dtype="u1"),
-            UsageError,
+            LimitError,
             "do not fit uint8",
         ),
         (lambda: vorotool.tessellate([[0, 0]], shape=(4, 4), max_distance=-1), UsageError, "0 or larger"),

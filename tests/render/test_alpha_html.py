@@ -69,7 +69,7 @@ def test_the_page_counts_what_the_library_does(page, r):
     assert shown(document, "points") == str(len(family.points))
     assert shown(document, "triangles") == str(int(shape.inside.sum()))
     assert shown(document, "regions") == str(shape.region_count)
-    assert shown(document, "holes") == str(shape.hole_count)
+    assert shown(document, "cavities") == str(shape.cavity_count)
     assert float(shown(document, "area")) == pytest.approx(shape.area, rel=1e-6)
     assert float(shown(document, "perimeter")) == pytest.approx(shape.perimeter, rel=1e-6)
     reached = family.reached(r or 1.25)

@@ -64,7 +64,7 @@ _WITHOUT_DIGITS = frozenset({"npz", "html", *PICTURES})
     show_default=True,
     help="printed: r_min and open intervals to the letter of the paper.",
 )
-@click.option("--hole-threshold", type=Decimal(), metavar="AREA", help="Fill holes of at most this area.")
+@click.option("--hole-threshold", type=Decimal(), metavar="AREA", help="Fill holes (cavities) of at most this area.")
 @click.option("--region-threshold", type=Decimal(), metavar="AREA", help="Then leave out regions of at most this area.")
 @click.option(
     "--method",

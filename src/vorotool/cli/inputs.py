@@ -56,6 +56,17 @@ def read_seed_input(run: Run, o: SimpleNamespace, source: str, *, properties: bo
     return value
 
 
+def settle_threshold(run: Run, o: SimpleNamespace, image: Raster) -> None:
+    """Find the threshold of Otsu's method if it is asked for: as a number it is said, and in the statistics."""
+    if o.threshold == "otsu":
+        from vorotool.engines.raster_objects import image_threshold
+
+        o.threshold = image_threshold(image, "otsu")
+        run.note(f"threshold {o.threshold:.17g}, by Otsu's method")
+    if o.threshold is not None:
+        run.stats["threshold"] = o.threshold
+
+
 def check_components(o: SimpleNamespace) -> None:
     """Refuse ``--connectivity`` where no components are made."""
     if o.connectivity is not None and o.seeds in ("pixels", "labels"):
@@ -80,6 +91,7 @@ def read_sites(run: Run, o: SimpleNamespace, source: str, *, properties: bool, i
         return value
     refuse(o, ("columns",), "is for lists of points, but the input is an image")
     refuse(o, ("size", "window"), "is for lists of points, but the input is an image, which brings its own frame")
+    settle_threshold(run, o, value)
     # The sites of objects are their centroids, but their regions are not those of the centroids.
     mode = None if o.seeds == "centroids" and not is_digital else o.seeds
     return seeds_from_raster(

@@ -115,7 +115,7 @@ class ShapeProducts:
 
     @cached_property
     def curves(self) -> Table:
-        """Area, perimeter, regions, holes and edges of all radii."""
+        """Area, perimeter, regions, cavities and edges of all radii."""
         return alpha_curves(self.family, progress=self.run.progress("sweeping over r"))
 
     @cached_property
@@ -306,6 +306,7 @@ class ShapeProducts:
             "isolated_points": len(shape.isolated),
             "regions": shape.region_count,
             "holes": shape.hole_count,
+            "cavities": shape.cavity_count,
             "area": shape.area,
             "perimeter": shape.perimeter,
         }

@@ -8,7 +8,15 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from vorotool.cli.commands import run_command
-from vorotool.cli.inputs import check_components, check_frame_options, frame_of, naming, read_seed_input, refuse
+from vorotool.cli.inputs import (
+    check_components,
+    check_frame_options,
+    frame_of,
+    naming,
+    read_seed_input,
+    refuse,
+    settle_threshold,
+)
 from vorotool.cli.option_groups import site_options
 from vorotool.cli.options import (
     Decimal,
@@ -119,6 +127,7 @@ def _read_seeds(run: Run, o: SimpleNamespace, source: str) -> SeedSet:
         return seeds_from_points(value, strict=o.strict)
     refuse(o, ("columns", "size", "window"), "is for lists of points, but the input is an image, which brings its own")
     o.resolution = value.resolution
+    settle_threshold(run, o, value)
     return seeds_from_raster(
         value,
         mode=o.seeds,

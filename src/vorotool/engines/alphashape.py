@@ -207,7 +207,7 @@ def alpha_shape(
     regions : int
         How many regions the automatic choice allows.
     hole_threshold, region_threshold : number, optional
-        First, holes of at most this area are filled; then regions of at most this area are left out.
+        First, cavities of at most this area are filled; then regions of at most this area are left out.
     rule, strict, threads, progress
         As for `alpha_complex`.
 
@@ -273,9 +273,9 @@ def _shape(
         component = _core.connected_triangles(inside.view(np.uint8), family.sides, progress)
         index, kind = _reclassified(family, inside, index[kind == 1])
     region = np.where(inside, component, np.int32(-1))
-    holes = int(component[~inside].max(initial=-1)) + 1
+    cavities = int(component[~inside].max(initial=-1)) + 1
     polygons = _polygons(family, region, progress)
-    return AlphaShape(family, r, index, kind, region, polygons, holes, thresholds != (None, None))
+    return AlphaShape(family, r, index, kind, region, polygons, cavities, thresholds != (None, None))
 
 
 def _reclassified(
@@ -350,7 +350,7 @@ def automatic_rank(family: AlphaComplex, *, regions: int = 1, progress: Progress
 
 
 def alpha_curves(family: AlphaComplex, *, progress: Progress = None) -> Table:
-    """Area, perimeter, regions, holes and edges of the shapes of all radii, by one sweep.
+    """Area, perimeter, regions, cavities and edges of the shapes of all radii, by one sweep.
 
     Row k holds from the radius k of the spectrum on until the next one; below the first there are isolated points only.
 
@@ -364,9 +364,9 @@ def alpha_curves(family: AlphaComplex, *, progress: Progress = None) -> Table:
     Returns
     -------
     Table
-        ``r, area, perimeter, regions, holes, edges``: the area of the triangles, the length of the boundary edges, the
-        regions (triangles joined through edges), the bounded components of what they leave, and the number of singular
-        and boundary edges.
+        ``r, area, perimeter, regions, cavities, edges``: the area of the triangles, the length of the boundary edges,
+        the regions (triangles joined through edges), the bounded components of what they leave, and the number of
+        singular and boundary edges.
 
     Raises
     ------

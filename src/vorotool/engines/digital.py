@@ -153,7 +153,7 @@ def label_dtype(largest: int, dtype: Any = None) -> np.dtype[Any]:
     if kind not in (np.uint8, np.uint16, np.uint32, np.int32):
         raise UsageError(f"labels cannot have type {kind}: use uint8, uint16, uint32 or int32")
     if largest > np.iinfo(kind).max:
-        raise UsageError(f"labels up to {largest} do not fit {kind}: use --dtype uint32")
+        raise LimitError(f"labels up to {largest} do not fit {kind}: use --dtype uint32")
     return kind
 
 

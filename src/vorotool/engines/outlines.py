@@ -17,9 +17,9 @@ from vorotool.engines.raster_objects import (
     default_objects,
     foreground_values,
     grey_values,
+    image_threshold,
     label_values,
     report_no_foreground,
-    threshold_value,
 )
 from vorotool.engines.simplification import simplified_polygons
 from vorotool.errors import LimitError, UsageError
@@ -147,9 +147,8 @@ def outlines(
         mode, origin, image = mode or "labels", (image.frame.x, image.frame.y), image.labels
     raster = image if isinstance(image, Raster) else Raster(image)
     if threshold is not None:
+        threshold = image_threshold(raster, threshold)
         raster = Raster(grey_values(raster), mask=raster.mask)
-        seen = raster.values if raster.mask is None else raster.values[~raster.mask]
-        threshold = threshold_value(seen, threshold)
     values = foreground_values(raster, threshold, invert=invert)
     by_label = (mode or default_objects(values, note=note)) == "labels"
     labels = label_values(values) if by_label or values.dtype == bool else values != 0

@@ -54,8 +54,7 @@ def foreground_values(raster: Raster, threshold: Threshold, *, invert: bool) -> 
     values = raster.values
     if threshold is not None:
         grey = grey_values(raster)
-        seen = grey if raster.mask is None else grey[~raster.mask]
-        values = grey > whole_threshold(grey, threshold_value(seen, threshold))
+        values = grey > whole_threshold(grey, image_threshold(raster, threshold))
     elif raster.is_colour:
         raise InputError("a colour image holds no objects by itself: use --threshold T or --threshold otsu")
     if values.dtype.kind == "f" and not np.isfinite(values).all():
@@ -74,6 +73,20 @@ def grey_values(raster: Raster) -> NDArray[Any]:
     red, green, blue = (weight * values[:, :, k] for k, weight in enumerate(_LUMINANCE))
     luminance: NDArray[np.float64] = red + green + blue
     return luminance
+
+
+def image_threshold(raster: Raster, threshold: float | Literal["otsu"]) -> float:
+    """Give the threshold of an image as a number; what is masked does not count. Errors as of `threshold_value`.
+
+    Examples
+    --------
+    >>> image_threshold(Raster(np.array([[0, 1, 10]])), "otsu")
+    1
+    """
+    if threshold != "otsu":
+        return threshold
+    grey = grey_values(raster)
+    return threshold_value(grey if raster.mask is None else grey[~raster.mask], threshold)
 
 
 def threshold_value(grey: NDArray[Any], threshold: float | Literal["otsu"]) -> float:

@@ -34,8 +34,8 @@ class AlphaShape:
     polygons : PolygonSet
         One polygon a region, in this order, with ids from 1: a counter-clockwise shell and clockwise holes, each ring
         without repeated vertices. Regions, and rings of one region, may touch at points.
-    hole_count : int
-        Bounded components of what the triangles leave: a gap that several regions enclose is one, but no polygon's.
+    cavity_count : int
+        Bounded components of what the triangles leave: one that several regions enclose is a hole of no polygon.
     has_thresholds : bool
         Whether small holes were filled or small regions left out.
 
@@ -55,7 +55,7 @@ class AlphaShape:
     kind: NDArray[np.uint8]
     region: NDArray[np.int32]
     polygons: PolygonSet
-    hole_count: int
+    cavity_count: int
     has_thresholds: bool = False
 
     @property
@@ -140,6 +140,11 @@ class AlphaShape:
         mesh = self.family.mesh
         is_first = mesh.first == np.arange(len(mesh.first))
         return np.flatnonzero((self.point_classes() == 0) & is_first).astype(np.int32)
+
+    @property
+    def hole_count(self) -> int:
+        """Holes of all polygons."""
+        return int((self.polygons.ring_kind == HOLE).sum())
 
     def holes_of_regions(self) -> NDArray[np.int64]:
         """(regions,) number of holes of each polygon."""

@@ -22,6 +22,7 @@ MOST_POINTS = 100_000
 """Some 30 MB of data: browsers draw so many in about a second."""
 
 PAGE = "alpha_page.html"
+_CURVES = ("area", "perimeter", "regions", "cavities", "edges")
 _PLACE = "/*DATA*/null"
 
 
@@ -113,7 +114,9 @@ def _data(family: AlphaComplex, curves: Table, r: float, y_up: bool) -> dict[str
         "rank_max": _packed(family.rank_max, "<i4"),
         "triangle_rank": _packed(family.triangle_rank, "<i4"),
         "spectrum": _packed(family.spectrum, "<f8"),
-        "curves": {name: _packed(curves[name], "<f8") for name in ("area", "perimeter", "regions", "holes", "edges")},
+        "curves": {
+            name: _packed(curves[name], "<f8") for name in ("area", "perimeter", "regions", "cavities", "edges")
+        },
     }
 
 

@@ -13,7 +13,7 @@ from vorotool.geometry.elementary import decimal_logarithm
 from vorotool.geometry.table import Table
 from vorotool.render.palettes import FAINT, INK, PALE, SEED, WHITE
 
-CURVES = ("area", "perimeter", "regions", "holes", "edges")
+CURVES = ("area", "perimeter", "regions", "cavities", "edges")
 _PANEL, _GAP, _LEFT, _RIGHT, _TOP, _BOTTOM = 110, 26, 90, 20, 20, 44
 
 
@@ -27,7 +27,7 @@ def write_curves_svg(out: BinaryIO, curves: Table, *, width: int = 1000) -> None
     out : binary file
         Receives UTF-8.
     curves : Table
-        ``r, area, perimeter, regions, holes, edges``, as `alpha_curves` gives it.
+        ``r, area, perimeter, regions, cavities, edges``, as `alpha_curves` gives it.
     width : int
         In px.
 
