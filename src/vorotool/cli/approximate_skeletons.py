@@ -14,7 +14,7 @@ from vorotool.cli.run import Run
 from vorotool.cli.skeletons import SkeletonProducts
 from vorotool.cli.targets import Target
 from vorotool.engines.placed_rings import placed_shapes
-from vorotool.engines.planar_graph import planar_graph
+from vorotool.engines.planar_graph import graph_for_skeletons
 from vorotool.engines.skeleton_approx import (
     MOST_SEEDS,
     ApproximateSkeleton,
@@ -52,7 +52,7 @@ class ApproximateProducts(SkeletonProducts):
         self._found: ApproximateSkeleton | None = None
         self._apart: dict[str, Any] | None = None
         with run.phase("place"):
-            self._graph = planar_graph(polygons, strict=options.strict, **self._common)
+            self._graph = graph_for_skeletons(polygons, strict=options.strict, **self._common)
             placed = placed_shapes(self._graph, threads=options.threads)
         with run.phase("diagram"):
             if options.tolerance is None:

@@ -336,9 +336,9 @@ def _outlines(run: Run, o: SimpleNamespace, image: Raster) -> PolygonSet:
 def _simplified(run: Run, o: SimpleNamespace, polygons: PolygonSet) -> PolygonSet:
     """Simplify polygons once they are cut where they meet."""
     from vorotool.engines.placed_rings import placed_shapes
-    from vorotool.engines.planar_graph import planar_graph
+    from vorotool.engines.planar_graph import graph_for_skeletons
     from vorotool.engines.simplification import simplified_polygons
 
     with run.phase("simplify"):
-        graph = planar_graph(polygons, strict=o.strict, threads=o.threads)
+        graph = graph_for_skeletons(polygons, strict=o.strict, threads=o.threads)
         return simplified_polygons(placed_shapes(graph, threads=o.threads).polygons, o.simplify)

@@ -54,7 +54,7 @@ def planar_graph(polygons: Any, *, strict: bool = False, threads: int = 0, progr
     Raises
     ------
     InputError
-        If a coordinate is not finite or beyond 1e70, or `strict` and something would be repaired: polygon, ring,
+        If a coordinate is not finite, or `strict` and something would be repaired: polygon, ring,
         vertex or edge and its coordinates are named.
     LimitError
         If there are more than 2^28 vertices or crossings, or 2^26 entries in `PlanarGraph.face_polygon`.
@@ -84,6 +84,27 @@ def planar_graph(polygons: Any, *, strict: bool = False, threads: int = 0, progr
     return graph_of_placement(given, placement, strict=strict, progress=progress)
 
 
+def graph_for_skeletons(
+    polygons: Any, *, strict: bool = False, threads: int = 0, progress: Progress = None
+) -> PlanarGraph:
+    """Make the planar graph that a skeleton is computed of; arguments, errors and warnings as of `planar_graph`.
+
+    Raises
+    ------
+    InputError
+        As well if a coordinate is beyond 1e70, or the extent below 1e-70 and not 0: radii need products of lengths.
+
+    Examples
+    --------
+    >>> graph_for_skeletons([[0, 0], [1e99, 0], [0, 1]])
+    Traceback (most recent call last):
+    vorotool.errors.InputError: a coordinate is 1e+99, too large to compute with: scale them to 1e+70 at most
+    """
+    given = as_polygons(polygons)
+    check_magnitude(given.xy)
+    return planar_graph(given, strict=strict, threads=threads, progress=progress)
+
+
 @dataclass(frozen=True, eq=False)
 class Placement:
     """Vertices of polygons on the lattice.
@@ -108,7 +129,6 @@ class Placement:
 
 def placed_vertices(polygons: PolygonSet, *, threads: int = 0, progress: Progress = None) -> Placement:
     """Place the vertices of polygons on the lattice; arguments as of `planar_graph`."""
-    check_magnitude(polygons.xy)
     return Placement(*_core.place_on_lattice(polygons.xy, checked_threads(threads), progress))
 
 

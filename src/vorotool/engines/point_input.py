@@ -47,7 +47,7 @@ def as_points(
         source = source.geoms
     elif hasattr(source, "geom_type"):
         source = [] if source.is_empty and source.geom_type == "Point" else [source]
-    if not isinstance(source, np.ndarray):
+    if not isinstance(source, np.ndarray) or source.dtype.kind == "O":
         try:
             source = [_position(p, f"{noun} {i}") for i, p in enumerate(source, 1)]
         except TypeError:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.label_arrays import Progress
 from vorotool.engines.placed_rings import PlacedShapes, placed_shapes
-from vorotool.engines.planar_graph import planar_graph
+from vorotool.engines.planar_graph import graph_for_skeletons
 from vorotool.engines.skeleton_exact import (
     Frame,
     check_skeleton_options,
@@ -134,7 +134,7 @@ def sampled_shapes(
     """
     options = SamplingOptions(step, None, sampling)
     threads = checked_threads(threads)
-    graph = planar_graph(polygons, strict=strict, threads=threads, progress=progress)
+    graph = graph_for_skeletons(polygons, strict=strict, threads=threads, progress=progress)
     placed = placed_shapes(graph, threads=threads)
     return sampled_graph(graph, placed, options, most=most, threads=threads, progress=progress)
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.label_arrays import Progress
 from vorotool.engines.placed_rings import PlacedShapes, placed_shapes
-from vorotool.engines.planar_graph import planar_graph
+from vorotool.engines.planar_graph import graph_for_skeletons, planar_graph
 from vorotool.engines.segment_voronoi import segment_voronoi
 from vorotool.engines.skeleton_exact import (
     Frame,
@@ -81,7 +81,7 @@ def element_diagram(
     (12, 4, 7)
     """
     threads = checked_threads(threads)
-    shapes = planar_graph(polygons, strict=strict, threads=threads, progress=progress)
+    shapes = graph_for_skeletons(polygons, strict=strict, threads=threads, progress=progress)
     placed = placed_shapes(shapes, threads=threads)
     refuse_short_edges(shapes, placed, gap)
     points = shapes.coordinates()

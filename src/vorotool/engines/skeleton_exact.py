@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.label_arrays import Progress
 from vorotool.engines.placed_rings import PlacedShapes, placed_shapes
-from vorotool.engines.planar_graph import planar_graph
+from vorotool.engines.planar_graph import graph_for_skeletons
 from vorotool.engines.segment_voronoi import idle_sides, segment_voronoi
 from vorotool.errors import InputError, UsageError, VorotoolWarning
 from vorotool.geometry.box import bounds
@@ -78,7 +78,7 @@ def shape_diagram(polygons: Any, *, strict: bool = False, threads: int = 0, prog
     5
     """
     threads = checked_threads(threads)
-    graph = planar_graph(polygons, strict=strict, threads=threads, progress=progress)
+    graph = graph_for_skeletons(polygons, strict=strict, threads=threads, progress=progress)
     return diagram_of_graph(graph, threads=threads, progress=progress)
 
 

@@ -8,12 +8,13 @@ from vorotool.engines.feature_sides import skeleton_of_sides
 from vorotool.engines.feature_skeletons import feature_skeleton
 from vorotool.engines.label_arrays import Progress
 from vorotool.engines.placed_rings import placed_shapes
-from vorotool.engines.planar_graph import planar_graph
+from vorotool.engines.planar_graph import graph_for_skeletons
 from vorotool.engines.skeleton_approx import SamplingOptions, approximate_skeleton, sampled_graph
 from vorotool.engines.skeleton_elements import skeleton_with_gap
 from vorotool.engines.skeleton_exact import Frame, check_features, check_skeleton_options, diagram_of_graph, skeleton_of
 from vorotool.engines.skeleton_tolerance import skeleton_within
 from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.magnitude import check_magnitude
 from vorotool.geometry.polygon_conversion import as_polygons
 from vorotool.geometry.skeleton import Skeleton
 
@@ -97,12 +98,13 @@ def skeleton_exact(
             polygons, gap, side=side, complete=complete, frame=frame, strict=strict, threads=threads, progress=progress
         )
     given = as_polygons(polygons)
+    check_magnitude(given.xy)
     common: dict[str, Any] = {"strict": strict, "threads": checked_threads(threads), "progress": progress}
     if features == "separate":
         if side == "interior":
             return feature_skeleton(given, **common).skeleton
         return skeleton_of_sides(given, side=side, frame=frame, **common)
-    graph = planar_graph(given, **common)
+    graph = graph_for_skeletons(given, **common)
     common.pop("strict")
     shapes = diagram_of_graph(graph, interior_only=side == "interior", **common)
     return skeleton_of(shapes, side=side, frame=frame, **common)
@@ -187,7 +189,7 @@ def skeleton_approx(
     check_skeleton_options(side, 0, frame)
     complete = (tolerance is not None) if complete is None else complete
     common: dict[str, Any] = {"threads": checked_threads(threads), "progress": progress}
-    graph = planar_graph(polygons, strict=strict, **common)
+    graph = graph_for_skeletons(polygons, strict=strict, **common)
     placed = placed_shapes(graph, threads=threads)
     if options.tolerance is not None:
         shapes = skeleton_within(graph, placed, options.tolerance, side=side, frame=frame, complete=complete, **common)
