@@ -18,7 +18,6 @@ from vorotool.errors import InputError, UsageError, VorotoolWarning
 from vorotool.geometry.box import bounds
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.elementary import hypotenuse
-from vorotool.geometry.magnitude import LARGEST
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.segment_voronoi import SegmentVoronoiDiagram
@@ -40,8 +39,6 @@ def check_skeleton_options(side: str, gap: float, frame: Frame | None) -> None:
         raise UsageError(f"the gap is {gap}: use a length of 0 or more")
     if frame is not None and not (np.isfinite(frame).all() and frame[2] > 0 and frame[3] > 0):
         raise UsageError(f"the frame is {frame}: use X, Y, W, H, the last two above 0")
-    if frame is not None and not max(map(abs, frame)) <= LARGEST:
-        raise UsageError(f"the frame goes too far to compute with: use numbers of at most {LARGEST:g}")
 
 
 def check_features(features: str) -> None:

@@ -14,7 +14,7 @@ from vorotool.engines.skeleton_elements import skeleton_with_gap
 from vorotool.engines.skeleton_exact import Frame, check_features, check_skeleton_options, diagram_of_graph, skeleton_of
 from vorotool.engines.skeleton_tolerance import skeleton_within
 from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.magnitude import check_magnitude
+from vorotool.geometry.magnitude import check_lengths, check_magnitude
 from vorotool.geometry.polygon_conversion import as_polygons
 from vorotool.geometry.skeleton import Skeleton
 
@@ -93,6 +93,7 @@ def skeleton_exact(
     """
     check_skeleton_options(side, gap, frame)
     check_features(features)
+    check_lengths(frame or (), "frame's coordinate")
     if gap:
         return skeleton_with_gap(
             polygons, gap, side=side, complete=complete, frame=frame, strict=strict, threads=threads, progress=progress
@@ -187,6 +188,7 @@ def skeleton_approx(
     """
     options = SamplingOptions(step, tolerance, sampling)
     check_skeleton_options(side, 0, frame)
+    check_lengths(frame or (), "frame's coordinate")
     complete = (tolerance is not None) if complete is None else complete
     common: dict[str, Any] = {"threads": checked_threads(threads), "progress": progress}
     graph = graph_for_skeletons(polygons, strict=strict, **common)
