@@ -89,7 +89,7 @@ def test_results_are_those_of_a_larger_input(run, tmp_path, command, options):
 
 KEPT = {
     *("label", "neighbours", "nearest_label", "touches_frame", "components", "label_a", "label_b", "label_c"),
-    *("kind", "difference", "cause", "regions", "holes", "edges", "on_hull", "duplicate_of_label"),
+    *("kind", "difference", "cause", "regions", "holes", "cavities", "edges", "on_hull", "duplicate_of_label"),
 }
 """Columns of tables that are scaled by the names of their columns, and are no lengths."""
 

@@ -71,7 +71,7 @@ def test_what_is_no_coordinate_is_refused(take, values, words):
 
 
 def test_an_integer_beyond_doubles_is_named():
-    with pytest.raises(InputError, match=r"^point 2 is \(9.0e\+15, 7\): integers beyond"):
+    with pytest.raises(InputError, match=r"^point 2 is \(9007199254740993, 7\): integers beyond"):
         PointSet(np.array([[1, 2], [2**53 + 1, 7]]))
     assert PointSet(np.array([[2**53, -(2**53)]])).xy.tolist() == [[2.0**53, -(2.0**53)]]
 
@@ -87,7 +87,7 @@ def test_points_are_copied():
 def test_the_command_line_and_the_library_refuse_the_same_integers(tmp_path):
     values = np.array([[1, 2], [2**53 + 1, 7]])
     np.save(tmp_path / "a.npy", values)
-    with pytest.raises(InputError, match=r"a.npy, row 2: \(9007199254740993, 7\): integers beyond 2\^53"):
+    with pytest.raises(InputError, match=r"a\.npy, row 2: \(9007199254740993, 7\): integers beyond 2\^53"):
         vorotool.read(tmp_path / "a.npy", geometry="points", columns=None)
 
 

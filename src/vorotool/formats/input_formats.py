@@ -10,6 +10,7 @@ POINT_NAMES = {
     "txt": "csv",
     "node": "node",
     "npy": "npy",
+    "npz": "npz",
     "geojson": "geojson",
     "wkt": "wkt",
     "json": "json",

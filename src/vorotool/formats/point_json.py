@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from vorotool.errors import InputError
+from vorotool.errors import InputError, UsageError
 from vorotool.formats.geojson import (
     feature_places,
     features_of,
@@ -14,29 +14,37 @@ from vorotool.formats.geojson import (
     list_of,
     parse_json,
     property_columns,
-    refuse_table,
 )
 from vorotool.formats.point_options import PointOptions, position_array, shortened
+from vorotool.formats.point_tables import is_table, points_of_rows
 from vorotool.formats.reference_systems import note_unnamed
 from vorotool.formats.sources import Source
 from vorotool.geometry.points import PointSet
 
 
 def read_json(source: Source, options: PointOptions) -> PointSet:
-    """Read ``[[x, y], ...]``, or GeoJSON where the document is an object."""
+    """Read ``[[x, y], ...]``, the rows of a table, or GeoJSON where the document is an object."""
     options.check_sites(source.name, 0 if b"{" in source.data else source.data.count(b"[") - 1)
     document = parse_json(source)
     if isinstance(document, dict):
+        _refuse_columns(source.name, options)
         return _read_document(source.name, document, options)
     if not isinstance(document, list):
         raise InputError(f"{source.name}: {shortened(document)} is no list of points; write [[x, y], …]")
-    refuse_table(source.name, document, "points: write it as CSV (-f csv), or as [[x, y], …]")
+    if is_table(document):
+        return points_of_rows(source.name, document, options)
+    _refuse_columns(source.name, options)
     for index, point in enumerate(document):
         if type(point) is list and len(point) > 2:
             raise InputError(
                 f"{source.name}, point {index + 1}: {shortened(point)} has {len(point)} numbers; write [x, y]"
             )
     return PointSet(position_array(document, lambda i: f"{source.name}, point {i + 1}"))
+
+
+def _refuse_columns(name: str, options: PointOptions) -> None:
+    if options.columns is not None:
+        raise UsageError(f"--columns is for delimited text and tables, but {name} is neither: leave it out")
 
 
 def read_geojson(source: Source, options: PointOptions) -> PointSet:

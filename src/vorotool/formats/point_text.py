@@ -113,14 +113,39 @@ def _choose_layout(
     options: PointOptions,
 ) -> _Layout:
     line, _, fields = first
-    if wanted is None:
-        header, chosen = _recognise(name, fields, options)
-    else:
-        header, chosen = _look_up(name, fields, wanted)
+    header, chosen = _choose(name, fields, wanted, options)
     x, y, label = (*chosen, None)[:3] if len(chosen) == 2 else chosen
     assert x is not None
     assert y is not None
     return _Layout(name, data, delimiter, line, fields, header, x, y, label)
+
+
+def _choose(
+    name: str, fields: list[str], wanted: list[str] | None, options: PointOptions
+) -> tuple[bool, Sequence[int | None]]:
+    """Whether the first record is a header, and which columns are x, y and, if one is, the label."""
+    header, chosen = _recognise(name, fields, options) if wanted is None else _look_up(name, fields, wanted)
+    x, y = (_lower(fields[column]) for column in chosen[:2] if column is not None)
+    if header and x in LONGITUDES and y in LATITUDES:
+        options.note_degrees(name)
+    return header, chosen
+
+
+def chosen_columns(name: str, fields: list[str], options: PointOptions) -> list[int]:
+    """Choose the columns of a table that are x, y and, if one is, the label: as in delimited text.
+
+    Raises
+    ------
+    InputError
+        If the names are not known as coordinates, or ``--columns`` names one that is not there.
+
+    Examples
+    --------
+    >>> chosen_columns("a.json", ["label", "x", "y"], PointOptions())
+    [1, 2, 0]
+    """
+    wanted = None if options.columns is None else _parse_columns(options.columns)
+    return [column for column in _choose(name, fields, wanted, options)[1] if column is not None]
 
 
 def _recognise(name: str, fields: list[str], options: PointOptions) -> tuple[bool, Sequence[int | None]]:

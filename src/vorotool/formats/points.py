@@ -13,6 +13,7 @@ from vorotool.formats.point_json import read_geojson, read_json
 from vorotool.formats.point_node import read_node
 from vorotool.formats.point_npy import read_npy
 from vorotool.formats.point_options import PointOptions, no_note
+from vorotool.formats.point_tables import NPZ_MAGIC, read_npz
 from vorotool.formats.point_text import read_text
 from vorotool.formats.point_wkt import read_wkt
 from vorotool.formats.reference_systems import with_crs
@@ -23,6 +24,7 @@ _READERS: dict[str, Callable[[Source, PointOptions], PointSet]] = {
     "csv": read_text,
     "node": read_node,
     "npy": read_npy,
+    "npz": read_npz,
     "geojson": read_geojson,
     "wkt": read_wkt,
     "json": read_json,
@@ -35,6 +37,7 @@ _BY_SUFFIX = {
     ".tsv": "csv",
     ".node": "node",
     ".npy": "npy",
+    ".npz": "npz",
     ".geojson": "geojson",
     ".wkt": "wkt",
 }
@@ -65,6 +68,8 @@ def detect_point_format(source: Source) -> str:
     head = source.data[:4096].removeprefix(_UTF8_MARK).lstrip()
     if head.startswith(b"\x93NUMPY"):
         return "npy"
+    if head.startswith(NPZ_MAGIC):
+        return "npz"
     if head.startswith(b"{"):
         return "geojson"
     if head.startswith(b"["):
@@ -99,7 +104,7 @@ def read_points(
     input_format : str, optional
         A name in `POINT_NAMES`; by default the extension decides, else the content.
     columns : str, optional
-        ``X,Y`` or ``X,Y,LABEL``, each by name or by number from 1; for delimited text.
+        ``X,Y`` or ``X,Y,LABEL``, each by name or by number from 1; for delimited text and tables.
     properties : bool
         Keep the other columns, and ``id`` and properties of GeoJSON. Fields of text stay text.
     max_sites : int, optional
@@ -131,9 +136,9 @@ def read_points(
     array([7, 9])
     """
     chosen = known_input_format(input_format, POINT_NAMES) or detect_point_format(source)
-    if columns is not None and chosen != "csv":
+    if columns is not None and chosen not in ("csv", "json", "npz"):
         raise UsageError(f"--columns is for delimited text, but {source.name} is read as {chosen}: leave it out")
-    if chosen != "npy":
+    if chosen not in ("npy", "npz"):
         source = text_source(source)
     options = PointOptions(columns, properties, max_sites, threads, note or no_note, crs)
     return with_crs(_READERS[chosen](source, options), source.name, crs, options.note)

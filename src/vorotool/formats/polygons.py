@@ -10,6 +10,7 @@ from vorotool.formats.convertible import refuse_geometry_column
 from vorotool.formats.geojson import JsonSource, holds_shapes, parse_json
 from vorotool.formats.input_formats import POLYGON_NAMES, known_input_format
 from vorotool.formats.point_options import no_note
+from vorotool.formats.point_tables import is_table
 from vorotool.formats.point_text import header_fields
 from vorotool.formats.points import detect_point_format, text_source
 from vorotool.formats.polygon_geojson import read_geojson, write_geojson
@@ -100,7 +101,7 @@ def recognise(source: Source, input_format: str | None = None) -> tuple[Source, 
     parsed = JsonSource(source.name, source.data, parse_json(source))
     document = parsed.document
     if isinstance(document, list):
-        return parsed, is_list_of_shells(document)
+        return parsed, not is_table(document) and is_list_of_shells(document)
     return parsed, isinstance(document, dict) and ("polygons" in document or holds_shapes(document))
 
 

@@ -107,9 +107,11 @@ def shown_number(value: Any) -> str:
     """
     if isinstance(value, float):
         return repr(float(value)).removesuffix(".0")
-    if isinstance(value, int | Fraction) and not isinstance(value, bool):
+    if isinstance(value, int) and abs(value) < 2**64:
+        return repr(value)
+    if isinstance(value, int | Fraction):
         number = nearest_double(value)
-        if number == value and isfinite(number):
+        if isfinite(number) and (number or not value):
             return repr(number).removesuffix(".0")
         return f"{Decimal(value.numerator) / Decimal(value.denominator):.1e}"
     text = repr(value)

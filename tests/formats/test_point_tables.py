@@ -1,0 +1,115 @@
+"""Tables that were written as JSON and NPZ are read back as points, as those in CSV are."""
+
+import io
+import json
+import zipfile
+
+import numpy as np
+import pytest
+
+import vorotool
+from vorotool.errors import InputError, LimitError, UsageError
+
+FORMATS = pytest.mark.parametrize("fmt", ["csv", "json", "npz"])
+POINTS = [[0.5, 0.25], [4, 0], [0, 3], [4, 0], [-1.5e-7, 1e9]]
+
+
+@pytest.fixture
+def write(tmp_path):
+    def put(fmt, table=None):
+        path = tmp_path / f"table.{fmt}"
+        if table is None:
+            mesh = vorotool.delaunay(vorotool.PointSet(POINTS, labels=[7, 3, 9, 4, 5]))
+            table = vorotool.point_table(mesh)
+        vorotool.write(table, path)
+        return path
+
+    return put
+
+
+@pytest.mark.filterwarnings("ignore::vorotool.errors.VorotoolWarning")
+@FORMATS
+def test_a_table_of_points_comes_back(write, fmt):
+    path = write(fmt)
+    assert vorotool.read(path).xy.tolist() == POINTS
+    found = vorotool.read(path, columns="x,y,label")
+    assert found.label_array.tolist() == [7, 3, 9, 4, 5]
+    csv = vorotool.read(write("csv"))
+    assert list(vorotool.read(path).properties) == list(csv.properties)
+    assert vorotool.read(path, properties=False).properties == {}
+
+
+@FORMATS
+def test_label_x_y_alone_are_labels(write, fmt):
+    path = write(fmt, vorotool.Table({"label": [4, 2], "x": [0.5, 1.5], "y": [1, 2]}))
+    found = vorotool.read(path, geometry="points")
+    assert (found.label_array.tolist(), found.xy.tolist()) == ([4, 2], [[0.5, 1.0], [1.5, 2.0]])
+
+
+def test_values_keep_their_types_and_what_is_missing_is_none(write):
+    table = vorotool.Table({"x": [1, 2], "y": [3, 4], "n": np.ma.array([5, 6], mask=[0, 1]), "t": ["a", "b"]})
+    for fmt in ("json", "npz"):
+        assert vorotool.read(write(fmt, table)).properties == {"n": [5, None], "t": ["a", "b"]}
+
+
+def saved(tmp_path, **arrays):
+    np.savez(tmp_path / "a.npz", **arrays)
+    return tmp_path / "a.npz"
+
+
+@pytest.mark.parametrize(
+    ("arrays", "words"),
+    [
+        ({"x": np.zeros(2), "y": np.zeros(3)}, "is no table: it holds arrays of 2 to 3 values"),
+        ({}, "is no table: it holds no arrays"),
+        ({"x": np.zeros((2, 2)), "y": np.zeros(2)}, r"x\.npy is of type float64 and shape \(2, 2\)"),
+        ({"x": np.array([None]), "y": np.zeros(1)}, r"x\.npy is of type object"),
+        ({"x": np.zeros(2), "y": np.array([1, np.nan])}, "row 2: y is nan, no finite number"),
+        ({"x": np.array(["a"]), "y": np.zeros(1)}, "row 1: x is 'a', no finite number"),
+        ({"x": np.array([2**60 + 1]), "y": np.zeros(1)}, r"row 1: x is 1152921504606846977: integers beyond 2\^53"),
+        ({"u": np.zeros(1), "v": np.zeros(1)}, "the header names no known pair of coordinates"),
+    ],
+)
+def test_what_is_no_table_of_points_is_refused(tmp_path, arrays, words):
+    with pytest.raises(InputError, match=words):
+        vorotool.read(saved(tmp_path, **arrays))
+
+
+def test_compressed_and_damaged_archives_are_refused(tmp_path):
+    np.savez_compressed(tmp_path / "a.npz", x=np.zeros(10**6), y=np.zeros(10**6))
+    with pytest.raises(InputError, match=r"x\.npy is compressed"):
+        vorotool.read(tmp_path / "a.npz")
+    whole = saved(tmp_path, x=np.arange(50.0), y=np.arange(50.0)).read_bytes()
+    for length in range(0, len(whole), 7):
+        (tmp_path / "b.npz").write_bytes(whole[:length])
+        with pytest.raises(InputError):
+            vorotool.read(tmp_path / "b.npz", geometry="points")
+
+
+def test_a_header_that_announces_more_than_there_is(tmp_path):
+    header = io.BytesIO()
+    np.lib.format.write_array_header_1_0(header, {"descr": "<f8", "fortran_order": False, "shape": (10**15,)})
+    with zipfile.ZipFile(tmp_path / "a.npz", "w") as archive:
+        archive.writestr("x.npy", header.getvalue())
+    with pytest.raises((InputError, LimitError)):
+        vorotool.read(tmp_path / "a.npz")
+
+
+def test_rows_of_json_are_alike(tmp_path):
+    path = tmp_path / "a.json"
+    for rows, words in (
+        ([{"x": 1, "y": 2}, {"x": 1}], "row 2: .* has other fields than the first"),
+        ([{"x": 1, "y": 2}, 5], "row 2: 5 has other fields"),
+        ([{"x": 1, "y": None}], "row 1: y is None, no finite number"),
+        ([{"x": 1, "y": True}], "row 1: y is True, no finite number"),
+        ([{"x": 1, "y": 2, "label": 0.5}], "the label 0.5 is not a whole number"),
+    ):
+        path.write_text(json.dumps(rows))
+        with pytest.raises(InputError, match=words):
+            vorotool.read(path, geometry="points")
+
+
+def test_columns_are_for_tables(tmp_path):
+    (tmp_path / "a.json").write_text("[[1, 2], [3, 4]]")
+    with pytest.raises(UsageError, match="--columns is for delimited text and tables"):
+        vorotool.read(tmp_path / "a.json", columns="x,y")
