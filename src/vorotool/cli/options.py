@@ -117,7 +117,7 @@ class Decimal(ParameterType[Fraction]):
             self.fail(f"{value!r} is no number: give a decimal such as 12.5", param, ctx)
 
 
-class CrsName(click.ParamType[str]):
+class CrsName(ParameterType[str]):
     """The name of a coordinate reference system."""
 
     name = "CRS"
