@@ -92,6 +92,17 @@ long: build ## frames and images far beyond memory: minutes, and a gigabyte of d
 	$(RUN) tests/long/big_tessellation.py --side 16384 --seeds 100000 --image --folder $(BUILD) --seed $(or $(SEED),1)
 	$(RUN) tests/long/big_tessellation.py --side $(or $(SIDE),131072) --folder $(BUILD) --seed $(or $(SEED),1)
 
+OLDEST := $(BUILD)/oldest
+.PHONY: test-oldest
+test-oldest: ## run every test on the oldest versions that pyproject.toml allows, in an environment of their own
+	rm -rf $(OLDEST)
+	@mkdir -p $(OLDEST)
+	$(PYTHON) -m venv $(OLDEST)/venv
+	$(OLDEST)/venv/bin/pip install --quiet --disable-pip-version-check $$($(PYTHON) tests/oldest.py)
+	$(OLDEST)/venv/bin/pip install --quiet --disable-pip-version-check --no-build-isolation --no-deps \
+	    -C build-dir=$(OLDEST)/core --editable .
+	PATH="$(CURDIR)/$(OLDEST)/venv/bin:$$PATH" $(OLDEST)/venv/bin/python -m pytest
+
 .PHONY: sanitize
 sanitize: build ## run the engine tests on a build with address and undefined-behaviour sanitizers
 	tests/sanitize.sh $(RUN)

@@ -52,6 +52,7 @@ IN_CORE = re.compile(
 EXACT = frozenset(
     {
         "step",
+        "total * sum_to(index) - n * everything",
         "vx - ux",
         "vy - uy",
         "ux * vy - uy * vx",

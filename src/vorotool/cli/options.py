@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from vorotool.cli.candidates import any_file, files, folders, formats_of, listed, outputs_of, words
+from vorotool.cli.parameter_types import ParameterType
 from vorotool.formats.input_formats import ALL_NAMES, IMAGE_NAMES
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ LARGEST_EXPONENT = 400
 """Of decimal numbers: an exact power of ten beyond any float's takes time and memory, and means nothing."""
 
 
-class Size(click.ParamType[tuple[int, int]]):
+class Size(ParameterType[tuple[int, int]]):
     """``WxH`` in pixels."""
 
     name = "WxH"
@@ -41,7 +42,7 @@ class Size(click.ParamType[tuple[int, int]]):
         return (int(parts[0]), int(parts[1]))
 
 
-class Window(click.ParamType[tuple[int, int, int, int]]):
+class Window(ParameterType[tuple[int, int, int, int]]):
     """``X,Y,W,H`` in pixels."""
 
     name = "X,Y,W,H"
@@ -61,7 +62,7 @@ class Window(click.ParamType[tuple[int, int, int, int]]):
         return (x, y, w, h)
 
 
-class Rectangle(click.ParamType[tuple[float, float, float, float]]):
+class Rectangle(ParameterType[tuple[float, float, float, float]]):
     """``X,Y,W,H`` in the units of the input."""
 
     name = "X,Y,W,H"
@@ -81,7 +82,7 @@ class Rectangle(click.ParamType[tuple[float, float, float, float]]):
         return (x, y, w, h)
 
 
-class Threshold(click.ParamType[float | str]):
+class Threshold(ParameterType[float | str]):
     """A number, or ``otsu``."""
 
     name = "T|otsu"
@@ -99,7 +100,7 @@ class Threshold(click.ParamType[float | str]):
         return number
 
 
-class Decimal(click.ParamType[Fraction]):
+class Decimal(ParameterType[Fraction]):
     """A decimal number, kept exactly."""
 
     name = "D"
@@ -116,7 +117,7 @@ class Decimal(click.ParamType[Fraction]):
             self.fail(f"{value!r} is no number: give a decimal such as 12.5", param, ctx)
 
 
-class CrsName(click.ParamType[str]):
+class CrsName(ParameterType[str]):
     """The name of a coordinate reference system."""
 
     name = "CRS"
@@ -140,7 +141,7 @@ class Radius(Decimal):
         return inf if value in ("inf", inf) else super().convert(value, param, ctx)
 
 
-class Shard(click.ParamType[tuple[int, int]]):
+class Shard(ParameterType[tuple[int, int]]):
     """``I/N``, the I-th of N parts."""
 
     name = "I/N"
@@ -155,7 +156,7 @@ class Shard(click.ParamType[tuple[int, int]]):
         return (int(match[1]), int(match[2]))
 
 
-class Names(click.ParamType[tuple[str, ...]]):
+class Names(ParameterType[tuple[str, ...]]):
     """Names from a list, separated by commas."""
 
     name = "A[,B…]"

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from vorotool.cli.candidates import words
+from vorotool.cli.parameter_types import ParameterType
 
 if TYPE_CHECKING:
     from click.shell_completion import CompletionItem
@@ -30,7 +31,7 @@ class Pruning(NamedTuple):
         return {"name": self.name} | ({} if self.criterion is None else {self.criterion: self.threshold})
 
 
-class PruningType(click.ParamType[Pruning]):
+class PruningType(ParameterType[Pruning]):
     """``CRITERION=THRESHOLD``, ``mask`` or ``none``."""
 
     name = "CRITERION=X"
@@ -64,7 +65,7 @@ class PruningType(click.ParamType[Pruning]):
         return words((*(f"{name}=" for name in CRITERIA), "mask", "none"))(ctx, param, incomplete)
 
 
-class Place(click.ParamType[tuple[float, float]]):
+class Place(ParameterType[tuple[float, float]]):
     """``X,Y`` in the units of the input."""
 
     name = "X,Y"

@@ -23,6 +23,7 @@ from vorotool.cli.options import (
     together,
     what_option,
 )
+from vorotool.cli.parameter_types import ParameterType
 from vorotool.cli.pruning import FORMS, Place, PruningType
 from vorotool.cli.recipes import Recipe
 from vorotool.cli.results import DERIVED, PICTURES, SKELETON_LAYERS, TABLES
@@ -67,7 +68,7 @@ ENDS = ("middle", "corner", "none")
 """As `vorotool.engines.centerline` has them, which ``--help`` does not import."""
 
 
-class Length(click.ParamType[float]):
+class Length(ParameterType[float]):
     """A finite length, 0 only where that is allowed."""
 
     name = "LENGTH"
@@ -86,7 +87,7 @@ class Length(click.ParamType[float]):
         return number
 
 
-class Distances(click.ParamType[tuple[float, ...]]):
+class Distances(ParameterType[tuple[float, ...]]):
     """Different finite numbers other than 0, separated by commas."""
 
     name = "D[,D...]"

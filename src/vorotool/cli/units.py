@@ -12,6 +12,7 @@ from typing import Any, NamedTuple, TypeVar
 import click
 
 from vorotool.cli.options import Decimal, Decorator
+from vorotool.cli.parameter_types import ParameterType
 from vorotool.cli.targets import Target
 
 Value = TypeVar("Value")
@@ -27,7 +28,7 @@ class PixelSize(NamedTuple):
     unit: str | None
 
 
-class PixelSizeType(click.ParamType[PixelSize]):
+class PixelSizeType(ParameterType[PixelSize]):
     """A decimal number above 0 and, if it has one, its unit: ``0.325um``."""
 
     name = "SIZE"

@@ -91,7 +91,7 @@ def _scale(shape: AlphaShape) -> int:
     r = nearest_double(shape.r)
     ends = shape.points[shape.edges]
     with np.errstate(over="ignore"):
-        shortest = float(np.hypot(*(ends[:, 1] - ends[:, 0]).T).min(initial=np.inf))
+        shortest = float(hypotenuse(*(ends[:, 1] - ends[:, 0]).T).min(initial=np.inf))
     largest = max(r, float(np.abs(shape.points).max()))
     if not (np.isfinite(largest) and largest <= shortest * _FLATTEST):
         raise InputError(

@@ -98,8 +98,8 @@ def best_split(values: NDArray[np.uint64], counts: NDArray[np.int64]) -> int:
                 for k, (limb, all_) in enumerate(zip(limbs, sums, strict=True))) / (total - below)  # fmt: skip
     weight = below * (total - below.astype(np.float64))
     error = MARGIN * upper
-    least = weight * np.maximum(upper - lower - error, 0) ** 2 * (1 - MARGIN)
-    most = weight * (upper - lower + error) ** 2 * (1 + MARGIN)
+    least = weight * np.square(np.maximum(upper - lower - error, 0)) * (1 - MARGIN)
+    most = weight * np.square(upper - lower + error) * (1 + MARGIN)
     return _largest(np.flatnonzero(most >= least.max()), below, limbs, total)
 
 

@@ -147,7 +147,7 @@ class Pipeline:
             shape = tuple(shape[axis] for axis in order)
         values = np.frombuffer(data, self.dtype).reshape(shape)
         for order in reversed(self.orders):
-            values = values.transpose(np.argsort(order))
+            values = values.transpose(np.argsort(order, kind="stable"))
         return values[region]
 
 
