@@ -64,7 +64,9 @@ def alpha_hull(shape: AlphaShape) -> AlphaHull:
     >>> len(hull), hull.points.tolist()
     (3, [0, 1, 2])
     """
-    if shape.r == np.inf and len(shape.points):
+    if not len(shape.points):  # of an image without foreground
+        return _no_hull(shape)
+    if shape.r == np.inf:
         raise UsageError("the hull of an infinite radius is the convex hull: use vorotool delaunay, or a finite r")
     exponent = _scale(shape)
     arcs = _Arcs(shape, exponent)
@@ -84,6 +86,11 @@ def alpha_hull(shape: AlphaShape) -> AlphaHull:
         ring_start,
         alone,
     )
+
+
+def _no_hull(shape: AlphaShape) -> AlphaHull:
+    place, nothing = np.empty((0, 2)), np.empty(0, np.int32)
+    return AlphaHull(shape, place, place, place, nothing, np.zeros(1, np.int64), nothing)
 
 
 def _scale(shape: AlphaShape) -> int:
