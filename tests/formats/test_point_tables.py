@@ -113,3 +113,12 @@ def test_columns_are_for_tables(tmp_path):
     (tmp_path / "a.json").write_text("[[1, 2], [3, 4]]")
     with pytest.raises(UsageError, match="--columns is for delimited text and tables"):
         vorotool.read(tmp_path / "a.json", columns="x,y")
+
+
+@pytest.mark.parametrize("form", ["csv", "json"])
+def test_columns_of_longitude_and_latitude_are_a_map_in_every_form(tmp_path, form):
+    text = "lon,lat\n1.5,2\n3,4\n" if form == "csv" else '[{"lon": 1.5, "lat": 2}, {"lon": 3, "lat": 4}]'
+    (tmp_path / f"a.{form}").write_text(text)
+    points = vorotool.read(tmp_path / f"a.{form}")
+    assert points.y_up
+    assert points.crs == {"type": "name", "properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}}

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.formats.limits import decoding
 from vorotool.formats.point_options import LARGEST_LABEL, PointOptions, shortened
-from vorotool.formats.point_text import chosen_columns
+from vorotool.formats.point_text import chosen_columns, placed_by
 from vorotool.formats.sources import Source
 from vorotool.geometry.coordinates import INEXACT, first_inexact
 from vorotool.geometry.numbers import shown_number
@@ -119,7 +119,7 @@ def _points_of(name: str, columns: Mapping[str, list[Any]], options: PointOption
     xy = np.stack([_numbers(name, each, columns[each]) for each in (x, y)], axis=1)
     labels = None if not label else _labels(name, columns[label[0]])
     others = [each for each in names if each not in (x, y, *label)] if options.properties else []
-    return PointSet(xy, labels, {each: columns[each] for each in others})
+    return PointSet(xy, labels, {each: columns[each] for each in others}, **placed_by(x, y, options))
 
 
 def _numbers(name: str, column: str, values: list[Any]) -> NDArray[np.float64]:

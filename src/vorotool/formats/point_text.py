@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -124,11 +125,7 @@ def _choose(
     name: str, fields: list[str], wanted: list[str] | None, options: PointOptions
 ) -> tuple[bool, Sequence[int | None]]:
     """Whether the first record is a header, and which columns are x, y and, if one is, the label."""
-    header, chosen = _recognise(name, fields, options) if wanted is None else _look_up(name, fields, wanted)
-    x, y = (_lower(fields[column]) for column in chosen[:2] if column is not None)
-    if header and x in LONGITUDES and y in LATITUDES:
-        options.note_degrees(name)
-    return header, chosen
+    return _recognise(name, fields, options) if wanted is None else _look_up(name, fields, wanted)
 
 
 def chosen_columns(name: str, fields: list[str], options: PointOptions) -> list[int]:
@@ -244,14 +241,20 @@ def _read_rows(layout: _Layout, options: PointOptions) -> PointSet:
     options.check_sites(layout.name, len(values))
     labels = None if layout.label is None else _labels(layout, values[:, 2])
     rest = [i for i in range(fields) if i not in columns] if options.properties else []
-    is_map = layout.header and _are_degrees(layout.first_record[layout.x], layout.first_record[layout.y])
-    crs = crs_member(LONGITUDE_LATITUDE) if is_map and options.crs is None else None
-    return PointSet(values[:, :2], labels, _properties(layout, rest, options.threads), y_up=is_map, crs=crs)
+    x, y = (layout.first_record[column] if layout.header else "" for column in (layout.x, layout.y))
+    return PointSet(values[:, :2], labels, _properties(layout, rest, options.threads), **placed_by(x, y, options))
 
 
-def _are_degrees(x: str, y: str) -> bool:
-    """Whether columns of these names are longitude and latitude."""
-    return _lower(x) in LONGITUDES and _lower(y) in LATITUDES
+def placed_by(x: str, y: str, options: PointOptions) -> dict[str, Any]:
+    """Give the direction of y and the coordinate reference system of points, which the names of the columns tell.
+
+    Examples
+    --------
+    >>> placed_by("x", "y", PointOptions())
+    {'y_up': False, 'crs': None}
+    """
+    is_map = _lower(x) in LONGITUDES and _lower(y) in LATITUDES
+    return {"y_up": is_map, "crs": crs_member(LONGITUDE_LATITUDE) if is_map and options.crs is None else None}
 
 
 def _counted_by(layout: _Layout) -> str:
