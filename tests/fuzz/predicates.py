@@ -42,12 +42,13 @@ def main() -> int:
     """Run until enough calls were compared; exit 1 if any sign was wrong."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--calls", type=int, default=10**6)
+    parser.add_argument("--seconds", type=float, default=np.inf, help="begin no batch after so many")
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
     decided: dict[str, Counter[str]] = {name: Counter() for name in NEAR_DEGENERATE}
     calls = wrong = batch = 0
     start = time.monotonic()
-    while calls < arguments.calls:
+    while calls < arguments.calls and time.monotonic() - start < arguments.seconds:
         name, n = NEAR_DEGENERATE[batch // 2 % len(NEAR_DEGENERATE)], 3 + batch % 2
         bad = check(np.random.default_rng([arguments.seed, batch]), name, n, decided[name])
         if bad:

@@ -43,12 +43,13 @@ def main() -> int:
     """Run until enough pixels were compared; exit 1 if any was wrong."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--pixels", type=int, default=10**8)
+    parser.add_argument("--seconds", type=float, default=np.inf, help="begin no configuration after so many")
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
     warnings.simplefilter("ignore")
     compared: Counter[str] = Counter()
     wrong, case, start = 0, 0, time.monotonic()
-    while compared.total() < arguments.pixels:
+    while compared.total() < arguments.pixels and time.monotonic() - start < arguments.seconds:
         rng = np.random.default_rng([arguments.seed, case])
         name, pixels, bad = check(rng, side=1000 if case % 8 == 0 else 40)
         compared[name] += pixels

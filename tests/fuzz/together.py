@@ -1,0 +1,118 @@
+"""All comparisons and all harnesses for a time in all: `make fuzz MINUTES=30 SEED=1`.
+
+Each script has its share of the time, two of them run side by side, and what each counted is printed as a table.
+"""
+
+from __future__ import annotations
+
+import argparse
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+HERE = Path(__file__).parent
+
+
+@dataclass(frozen=True)
+class Share:
+    """A script, its further arguments, and how many parts of the time it has."""
+
+    script: str
+    arguments: tuple[str, ...] = ()
+    parts: int = 1
+
+
+ENGINES = (
+    Share("tessellate.py", ("--pixels", str(10**12))),
+    Share("predicates.py", ("--calls", str(10**12))),
+    Share("delaunay.py"),
+    Share("cells.py"),
+    Share("alphashape.py"),
+    Share("digital.py"),
+    Share("planar_graph.py"),
+    Share("segment_voronoi.py"),
+    Share("segment_voronoi.py", ("--family", "clusters", "--largest", "100", "--symmetries", "1")),
+    Share("skeletons.py"),
+    Share("skeleton_approx.py"),
+    Share("pruning.py"),
+    Share("offsets.py"),
+    Share("rotation.py"),
+    Share("outlines.py"),
+    Share("features.py", parts=2),
+)
+"""Results compared with brute force, with other libraries, or with each other."""
+
+HARNESSES = (
+    Share("bytes.py", parts=6),
+    Share("faults.py", parts=6),
+    Share("streams.py", parts=4),
+    Share("machines.py", parts=2),
+)
+"""What is around the engines: damaged files, kills and full disks, pipes and descriptors, other processors."""
+
+SIDE_BY_SIDE = 2
+
+
+@dataclass(frozen=True)
+class Ended:
+    """What a script printed, its exit code and seconds."""
+
+    share: Share
+    output: str
+    code: int
+    seconds: float
+
+    @property
+    def summary(self) -> str:
+        """What it counted: its last line."""
+        lines = self.output.strip().splitlines()
+        return lines[-1].strip() if lines else "nothing was printed"
+
+
+def run(share: Share, seconds: float, seed: int) -> Ended:
+    """Run a script for its time; one that goes on for ten times as long hangs."""
+    start = time.monotonic()
+    command = [sys.executable, str(HERE / share.script), *share.arguments]
+    command += ["--seconds", f"{seconds:.1f}", "--seed", str(seed)]
+    try:
+        done = subprocess.run(
+            command,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            errors="replace",
+            timeout=10 * seconds + 120,
+            check=False,
+        )
+    except subprocess.TimeoutExpired as late:
+        printed = late.stdout.decode(errors="replace") if isinstance(late.stdout, bytes) else late.stdout or ""
+        return Ended(share, f"{printed}\nit does not end", 1, time.monotonic() - start)
+    return Ended(share, done.stdout, done.returncode, time.monotonic() - start)
+
+
+def main() -> int:
+    """Run all; exit 1 if any has found something."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--minutes", type=float, default=30)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", choices=sorted({share.script for share in ENGINES + HARNESSES}), nargs="+")
+    arguments = parser.parse_args()
+    shares = [share for share in HARNESSES + ENGINES if arguments.only is None or share.script in arguments.only]
+    part = 60 * arguments.minutes * SIDE_BY_SIDE / sum(share.parts for share in shares)
+    failed = 0
+    with ThreadPoolExecutor(SIDE_BY_SIDE) as pool:
+        for ended in pool.map(lambda share: run(share, part * share.parts, arguments.seed), shares):
+            if ended.code:
+                print(ended.output, flush=True)
+            word = "FAILED" if ended.code else "passed"
+            print(f"{ended.share.script:20} {word} {ended.seconds:6.0f} s  {ended.summary}", flush=True)
+            failed += bool(ended.code)
+    print(f"{len(shares)} scripts in {arguments.minutes:g} minutes, {failed} of them failed")
+    return int(failed > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
