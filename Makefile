@@ -61,7 +61,10 @@ bench: build ## measure beside the peers, in one run
 	$(RUN) tests/benchmarks/batch.py
 
 .PHONY: fuzz
-fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CASES=..., SETS=..., KILLS=..., FAULTS=..., MACHINES=..., MINUTES=..., SEED=...)
+fuzz: build ## all comparisons and harnesses: for MINUTES=... in all, or by counts (PIXELS=..., CASES=..., FAULTS=..., SEED=...)
+ifdef MINUTES
+	$(RUN) tests/fuzz/together.py --minutes $(MINUTES) --seed $(or $(SEED),1)
+else
 	$(RUN) tests/fuzz/tessellate.py --pixels $(or $(PIXELS),100000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/predicates.py --calls $(or $(CALLS),1000000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/delaunay.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
@@ -79,11 +82,13 @@ fuzz: build ## the long comparisons with brute force (PIXELS=..., CALLS=..., CAS
 	$(RUN) tests/fuzz/outlines.py --cases $(or $(CASES),20000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/segment_voronoi.py --cases $(or $(CASES),800000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/segment_voronoi.py --cases 10000 --seed $(or $(SEED),1) --family clusters --largest 100 --symmetries 1
-	$(RUN) tests/fuzz/bytes.py --minutes $(or $(MINUTES),5) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/bytes.py --minutes 5 --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/streams.py --runs $(or $(CASES),1000) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/features.py --cases $(or $(CASES),2000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/batch.py --kills $(or $(KILLS),20) --seed $(or $(SEED),1)
-	$(RUN) tests/fuzz/faults.py --kills $(or $(FAULTS),1000) --minutes $(or $(MINUTES),120) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/faults.py --kills $(or $(FAULTS),1000) --minutes 120 --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/machines.py --settings $(or $(MACHINES),40) --seed $(or $(SEED),1)
+endif
 
 .PHONY: long
 long: build ## frames and images far beyond memory: minutes, and a gigabyte of disk (SIDE=..., SEED=...)

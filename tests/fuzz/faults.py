@@ -166,8 +166,7 @@ def main():
             if time.monotonic() < end:
                 tell(faulty_batches.trial(Path(tempfile.mkdtemp(dir=scratch)), chance, counts))
         tell(faulty_batches.pairs(Path(scratch) / "pairs", arguments.pairs, end, counts))
-    print(", ".join(f"{name}: {count}" for name, count in counts.items()))
-    print(f"{len(wrong)} failures")
+    print(", ".join([*(f"{name}: {count}" for name, count in counts.items()), f"{len(wrong)} failures"]))
     return int(bool(wrong))
 
 

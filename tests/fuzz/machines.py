@@ -7,9 +7,11 @@ core; threads; the seed of hashes), then all parts at random. A setting runs a s
 from __future__ import annotations
 
 import argparse
+import itertools
 import random
 import sys
 import time
+from math import inf
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
@@ -23,6 +25,7 @@ def main() -> int:
     """Run all settings; exit 1 if any byte differed."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--settings", dest="count", type=int, default=40, help="random ones, after the systematic ones")
+    parser.add_argument("--seconds", type=float, default=inf, help="begin no setting after so many")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--first", type=int, default=0, help="of the random ones")
     arguments = parser.parse_args()
@@ -33,12 +36,13 @@ def main() -> int:
     for command in sorted(bad):
         print(f"failed: {command}")
     compared, different = 0, 0
-    for setting in others:
+    for setting in itertools.takewhile(lambda _: time.monotonic() - start < arguments.seconds, others):
         found = differences(usual, run(setting, "whole"))
         compared, different = compared + len(usual), different + len(found)
         _report(setting.name, found)
     commands = list(whole())
-    for number in range(arguments.first, arguments.first + arguments.count):
+    numbers = range(arguments.first, arguments.first + arguments.count)
+    for number in itertools.takewhile(lambda _: time.monotonic() - start < arguments.seconds, numbers):
         rng = random.Random(f"{arguments.seed} {number}")
         setting, begin = drawn_setting(rng), rng.randrange(len(commands) - SLICE)
         part = {command: usual[command] for command in commands[begin : begin + SLICE]}

@@ -18,11 +18,16 @@ HERE = Path(__file__).parent
 
 @dataclass(frozen=True)
 class Share:
-    """A script, its further arguments, and how many parts of the time it has."""
+    """A script, its further arguments, how many parts of the time it has, and the option that tells it so."""
 
     script: str
     arguments: tuple[str, ...] = ()
     parts: int = 1
+    option: str = "--seconds"
+
+    def limited(self, seconds: float) -> list[str]:
+        """Arguments of a run of so many seconds."""
+        return [*self.arguments, self.option, f"{seconds / 60 if self.option == '--minutes' else seconds:.3f}"]
 
 
 ENGINES = (
@@ -46,9 +51,10 @@ ENGINES = (
 """Results compared with brute force, with other libraries, or with each other."""
 
 HARNESSES = (
-    Share("bytes.py", parts=6),
-    Share("faults.py", parts=6),
-    Share("streams.py", parts=4),
+    Share("bytes.py", ("--workers", "1"), 8, "--minutes"),
+    Share("faults.py", ("--places", "0", "--batches", "0", "--pairs", "0"), 6, "--minutes"),
+    Share("faults.py", ("--kills", "0", "--pairs", "20"), 3, "--minutes"),
+    Share("streams.py", ("--runs", str(10**9)), parts=4),
     Share("machines.py", parts=2),
 )
 """What is around the engines: damaged files, kills and full disks, pipes and descriptors, other processors."""
@@ -75,8 +81,7 @@ class Ended:
 def run(share: Share, seconds: float, seed: int) -> Ended:
     """Run a script for its time; one that goes on for ten times as long hangs."""
     start = time.monotonic()
-    command = [sys.executable, str(HERE / share.script), *share.arguments]
-    command += ["--seconds", f"{seconds:.1f}", "--seed", str(seed)]
+    command = [sys.executable, str(HERE / share.script), *share.limited(seconds), "--seed", str(seed)]
     try:
         done = subprocess.run(
             command,

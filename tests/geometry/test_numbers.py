@@ -11,7 +11,7 @@ from vorotool.errors import UsageError
 from vorotool.geometry.numbers import finite_double, real_number, shown_number
 
 POINTS = [[0, 0], [2, 0], [2, 2], [0, 2], [9, 1]]
-NO_NUMBERS = ["10", b"10", None, float("nan"), Decimal("nan"), Decimal("sNaN"), 1j, [1], np.array([1.0]), object(),
+NO_NUMBERS = ["10", b"10", None, float("nan"), Decimal("nan"), Decimal("sNaN"), 1j, [1], np.array([1.0]), pytest.param(object(), id="object"),
               np.datetime64("2020"), np.float64("nan"), Decimal("1e999999999")]  # fmt: skip
 
 
