@@ -57,9 +57,9 @@ BAD_INPUTS = {
     "deep.wkt": (b"GEOMETRYCOLLECTION(" * 5000, 3, ["nested"]),
     "cut.json": (b"[[1, 2], [3", 3, ["cut.json"]),
     "table.json": (
-        b'[{"label":1,"x":4,"y":2,"area":50,"perimeter":9}]',
+        b'[{"label_a":1,"label_b":4,"length":2.5}]',
         3,
-        ["label, x, y, area, …, not points", "-f csv"],
+        ["the header names no known pair of coordinates", "label_a", "--columns"],
     ),
     "shapes.json": (b'{"polygons":[]}', 3, ["shapes.json holds polygons", "skeleton-exact reads it"]),
     "polygon.geojson": (b'{"type": "Polygon", "coordinates": [[[0,0],[1,0],[1,1],[0,0]]]}', 3, ["Polygon"]),
@@ -177,7 +177,7 @@ def test_a_photograph_is_not_taken_for_labels(run, folder):
         ),
         (
             ["tessellate", "dots.csv", "-o", "a.png", "--input-format", "xyz"],
-            ["'xyz' is no format of inputs: use one of csv, tsv, txt, node, npy, geojson, wkt, json, png, tiff"],
+            ["'xyz' is no format of inputs: use one of csv, tsv, txt, node, npy, npz, geojson, wkt, json, png, tiff"],
         ),
         (
             ["draw", "mask.pbm", "-o", "a.png", "--input-format", "xyz"],
