@@ -106,6 +106,8 @@ def joined_skeletons(whole: FeatureShapes, parts: Sequence[tuple[BatchShapes, Sk
     """Put the skeletons of all batches together: arcs polygon by polygon, sites in the order of the input."""
     order = InputOrder.of(whole, [shapes for shapes, _ in parts])
     skeletons = [skeleton for _, skeleton in parts]
+    if len(parts) == 1 and not any(whole.repairs.values()):  # in order already
+        return replace(skeletons[0], site_table=order.site_table, polygons=order.polygons)
     own = [numbers[skeleton.polygon] for numbers, skeleton in zip(order.polygon_numbers, skeletons, strict=True)]
     polygon = stacked(own).astype(np.int32)
     arcs, nodes = Places.by(polygon), Places.by(stacked(_node_polygons(skeletons, own)))
