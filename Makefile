@@ -72,6 +72,7 @@ else
 	$(RUN) tests/fuzz/alphashape.py --cases $(or $(CASES),20000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/digital.py --sets $(or $(SETS),500) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/planar_graph.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
+	$(RUN) tests/fuzz/features.py --cases $(or $(CASES),20000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/skeletons.py --data
 	$(RUN) tests/fuzz/skeletons.py --cases $(or $(CASES),100000) --seed $(or $(SEED),1)
 	$(RUN) tests/fuzz/skeleton_approx.py --cases $(or $(CASES),2000) --seed $(or $(SEED),1)

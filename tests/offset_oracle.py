@@ -7,6 +7,7 @@ import shapely
 
 from vorotool.geometry.polygon_conversion import to_shapely
 from vorotool.geometry.polygons import LINE
+from vorotool.geometry.ring_arrays import RingArrays
 
 QUADRANT = 64
 """Chords of a quarter of shapely's circles."""
@@ -101,7 +102,20 @@ GRID = 1e-13
 
 
 def check_rebuilt(again, polygons):
-    """Assert that polygons are those of a skeleton, up to a part of their extent, and that none overlaps another."""
+    """Assert that the features are those of a skeleton, up to a part of their extent, and that no parts overlap."""
+    assert np.isin(again.feature, polygons.feature).all()
+    for feature in np.unique(polygons.feature):
+        check_rebuilt_feature(of_feature(again, feature), of_feature(polygons, feature))
+
+
+def of_feature(polygons, feature):
+    """One feature of a set."""
+    chosen = np.flatnonzero(polygons.feature == feature)
+    return RingArrays.of(polygons).taken(chosen)[0].polygons(polygons, chosen)
+
+
+def check_rebuilt_feature(again, polygons):
+    """The same of one feature, or of all together."""
     found = to_shapely(again)
     closed = shapely.union_all(closed_shapes(polygons))
     assert shapely.is_valid(found).all(), [shapely.is_valid_reason(shape) for shape in found]

@@ -92,6 +92,7 @@ nb::dict make_planar_graph(const IndexRows& array, const Vector<const std::int64
   result["segment_faces"] = pairs(graph.segment_faces);
   result["face_start"] = to_numpy(std::move(graph.face_polygons.start));
   result["face_polygon"] = to_numpy(std::move(graph.face_polygons.polygon));
+  result["point_holes"] = to_numpy(std::move(graph.point_holes));
   nb::list repairs;
   for (const core::RepairCount& repair : graph.repairs) {
     repairs.append(nb::make_tuple(repair.count, repair.edge, repair.other));

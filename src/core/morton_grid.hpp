@@ -62,8 +62,7 @@ class MortonGrid {
   }
   // Exact, as the place less its whole part is.
   std::uint32_t part(double v, double half_least) const {
-    return static_cast<std::uint32_t>((place(v, half_least) - cell(v, half_least)) *
-                                      (1 << morton_cell_bits));
+    return static_cast<std::uint32_t>((place(v, half_least) - cell(v, half_least)) * (1 << morton_cell_bits));
   }
 
   // Puts the 16 bits of v at the even places.

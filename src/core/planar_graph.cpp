@@ -35,6 +35,7 @@ class Maker {
     const FacePolygons inside =
         find_face_polygons(set_, faces, rings_, ring_of_edge_, part_of(monitor_, 0.8, 1));
     keep_borders(faces, inside);
+    find_point_holes(faces, inside);
     number_points();
     number_segments();
     number_faces(faces, inside);
@@ -64,6 +65,7 @@ class Maker {
 
   void arrange() {
     SortedPoints sorted = sort_points(vertices_, monitor_);
+    find_flat_holes(sorted.rank);
     std::vector<Link> links = edges(sorted.rank);
     vertex_of_point_ = std::move(sorted.first);
     rank_ = std::move(sorted.rank);
@@ -80,6 +82,22 @@ class Maker {
       if (!swept.meetings.empty()) throw std::logic_error("snapped segments still meet: a defect");
     }
     below_ = std::move(swept.below);
+  }
+
+  // Holes whose vertices are at one or two places: points and segments that their polygons go around.
+  void find_flat_holes(const std::vector<std::int32_t>& rank) {
+    is_flat_hole_.assign(rings_.kind.size(), 0);
+    for (std::size_t ring = 0; ring < rings_.kind.size(); ++ring) {
+      if (rings_.kind_of(static_cast<std::int32_t>(ring)) != RingKind::hole) continue;
+      const std::span<const std::int32_t> places(
+          rank.begin() + static_cast<std::ptrdiff_t>(rings_.start[ring]),
+          rank.begin() + static_cast<std::ptrdiff_t>(rings_.start[ring + 1]));
+      const std::int32_t first = places.front();
+      const auto other = std::ranges::find_if(places, [&](std::int32_t place) { return place != first; });
+      const std::int32_t second = other == places.end() ? first : *other;
+      is_flat_hole_[ring] =
+          std::ranges::all_of(places, [&](std::int32_t place) { return place == first || place == second; });
+    }
   }
 
   // The edges of all rings but those without length, between sorted points.
@@ -182,15 +200,73 @@ class Maker {
     });
   }
 
+  // Whether a segment is of a hole without area, and lies in the polygon.
+  bool is_of_flat_hole(std::size_t segment, std::span<const std::int32_t> polygons) const {
+    const auto edges = set_.sources_of(segment);
+    return std::any_of(edges.begin(), edges.end(), [&](std::int32_t edge) {
+      const auto ring = static_cast<std::size_t>(ring_of_edge_[static_cast<std::size_t>(edge)]);
+      return is_flat_hole_[ring] != 0 &&
+             std::binary_search(polygons.begin(), polygons.end(), rings_.polygon[ring]);
+    });
+  }
+
   void keep_borders(const PlanarFaces& faces, const FacePolygons& inside) {
     borders_.reserve(set_.size());
     for (std::size_t s = 0; s < set_.size(); ++s) {
       const auto segment = static_cast<std::int32_t>(s);
       const auto left = inside.of(faces.left[s]), right = inside.of(faces.right[s]);
-      if (is_of_line(s) || !std::equal(left.begin(), left.end(), right.begin(), right.end())) {
+      if (is_of_line(s) || !std::equal(left.begin(), left.end(), right.begin(), right.end()) ||
+          is_of_flat_hole(s, left)) {
         borders_.push_back({segment, first_source(segment), false});
       } else {
         count_repair(Repair::idle_segment, first_source(segment), -1);
+      }
+    }
+  }
+
+  struct PointHole {
+    std::int32_t point, face, polygon;
+  };
+
+  // The face of a point: above the segment next below it, or beside a segment there.
+  std::vector<std::int32_t> faces_of_points(const PlanarFaces& faces) const {
+    std::vector<std::int32_t> face(set_.points.size());
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      face[i] = below_[i] < 0 ? 0 : faces.left[static_cast<std::size_t>(below_[i])];
+    }
+    for (std::size_t s = 0; s < set_.size(); ++s) {
+      face[static_cast<std::size_t>(set_.lower_end[s])] = faces.left[s];
+      face[static_cast<std::size_t>(set_.upper_end[s])] = faces.left[s];
+    }
+    return face;
+  }
+
+  // What is at the end of a border is a site already.
+  void find_point_holes(const PlanarFaces& faces, const FacePolygons& inside) {
+    if (std::ranges::find(is_flat_hole_, 1) == is_flat_hole_.end()) return;
+    std::vector<std::uint8_t> is_known(set_.points.size(), 0);
+    for (const Border& border : borders_) {
+      is_known[static_cast<std::size_t>(source_of(border))] = 1;
+      is_known[static_cast<std::size_t>(target_of(border))] = 1;
+    }
+    const std::vector<std::int32_t> face_of = faces_of_points(faces);
+    for (std::size_t ring = 0; ring < rings_.kind.size(); ++ring) {
+      if (is_flat_hole_[ring] == 0) continue;
+      const auto begin = static_cast<std::size_t>(rings_.start[ring]);
+      const auto end = static_cast<std::size_t>(rings_.start[ring + 1]);
+      const std::int32_t point = rank_[begin];
+      if (std::any_of(rank_.begin() + static_cast<std::ptrdiff_t>(begin),
+                      rank_.begin() + static_cast<std::ptrdiff_t>(end),
+                      [&](std::int32_t other) { return other != point; })) {
+        continue;
+      }
+      const std::int32_t face = face_of[static_cast<std::size_t>(point)];
+      const auto polygons = inside.of(face);
+      if (is_known[static_cast<std::size_t>(point)] != 0) continue;
+      if (std::binary_search(polygons.begin(), polygons.end(), rings_.polygon[ring])) {
+        point_holes_.push_back({point, face, rings_.polygon[ring]});
+      } else {
+        count_repair(Repair::idle_segment, static_cast<std::int32_t>(begin), -1);
       }
     }
   }
@@ -207,6 +283,7 @@ class Maker {
       if (rings_.kind_of(static_cast<std::int32_t>(ring)) != RingKind::line) continue;
       is_used[static_cast<std::size_t>(rank_[static_cast<std::size_t>(rings_.start[ring])])] = 1;
     }
+    for (const PointHole& hole : point_holes_) is_used[static_cast<std::size_t>(hole.point)] = 1;
     number_.assign(set_.points.size(), -1);
     graph_.points.reserve(set_.points.size());
     graph_.point_vertex.reserve(set_.points.size());
@@ -326,6 +403,11 @@ class Maker {
       graph_.segment_faces.push_back(numbered(border.is_back ? faces.right[i] : faces.left[i]));
       graph_.segment_faces.push_back(numbered(border.is_back ? faces.left[i] : faces.right[i]));
     }
+    for (const PointHole& hole : point_holes_) {
+      graph_.point_holes.push_back(number_[static_cast<std::size_t>(hole.point)]);
+      graph_.point_holes.push_back(numbered(hole.face));
+      graph_.point_holes.push_back(hole.polygon);
+    }
   }
 
   void report_empty_polygons() {
@@ -349,8 +431,10 @@ class Maker {
   std::vector<std::int32_t> rank_;             // the point of each vertex
   std::vector<std::int32_t> vertex_of_point_;  // the first vertex at each point, or -1
   std::vector<std::int32_t> below_;
+  std::vector<std::uint8_t> is_flat_hole_;  // [rings]
   std::vector<Border> borders_;
-  std::vector<std::int32_t> number_;  // of each point in the graph, or -1
+  std::vector<PointHole> point_holes_;  // in the order of the rings
+  std::vector<std::int32_t> number_;    // of each point in the graph, or -1
   PlanarGraph graph_;
 };
 

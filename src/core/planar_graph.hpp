@@ -19,7 +19,8 @@ enum class Repair {
   touching_vertex,  // a vertex inside an edge cuts it: once a vertex and straight stretch of edges
   crossing,         // edges that cross are cut there, at the nearest lattice point
   moved_edge,       // an edge is led through the centres of cells that it meets: by less than a lattice step
-  idle_segment,     // what is no border of any polygon, and of no line, is left out: spikes, overlaps
+  idle_segment,     // what is no border of any polygon, and of no line, is left out: spikes, overlaps, and
+                    // holes without area that lie in no polygon of theirs
   empty_polygon,    // nothing is inside
 };
 inline constexpr std::size_t repair_kinds = 6;
@@ -46,6 +47,9 @@ struct PlanarGraph {
   // the unbounded one and lies in none.
   std::vector<std::int32_t> segment_faces;  // [2 m] left and right of each segment
   FacePolygons face_polygons;
+
+  // Holes of one place that no segment ends at: [3 h] the point, its face, and the polygon.
+  std::vector<std::int32_t> point_holes;
 
   std::array<RepairCount, repair_kinds> repairs;  // by Repair
   std::vector<std::uint8_t> is_repaired;          // [polygons] whether an edge of it is named by a repair

@@ -250,3 +250,25 @@ def test_frames_cut(run):
     assert done.code == 0
     xs = [float(row["x1"]) for row in rows_of(done.out)]
     assert 0 <= min(xs) <= max(xs) <= 400
+
+
+def test_features_are_separate_unless_they_are_together(run, folder):
+    nested = {
+        "polygons": [{"shell": square} for square in ([[0, 0], [9, 0], [9, 9], [0, 9]], [[3, 3], [6, 3], [6, 6]])]
+    }
+    (folder / "nested.json").write_text(json.dumps(nested))
+    arguments = ("skeleton-exact", "nested.json", "--what", "table", "--strict", "--verify")
+    rows = [list(csv.DictReader(io.StringIO(run(*arguments, *more).out))) for more in ((), ("--features", "together"))]
+    assert [[row["ends"] for row in table] for table in rows] == [["4", "3"], ["7", "0"]]
+    drawn = run("skeleton-exact", "nested.json", "-f", "svg", "--layers", "polygons").out
+    assert drawn.count("<path") == 2
+    wrong = run("skeleton-exact", "nested.json", "--gap", "0.1", "--features", "separate")
+    assert wrong.code == 2
+    assert "--gap 0" in wrong.err
+
+
+def test_a_ring_in_the_first_one_of_a_list_is_noted(run, folder):
+    (folder / "rings.json").write_text("[[[0, 0], [9, 0], [9, 9], [0, 9]], [[3, 3], [6, 3], [6, 6]]]")
+    done = run("skeleton-exact", "rings.json", "--what", "table")
+    assert "ring 2 lies in ring 1" in done.err
+    assert '"holes"' in done.err

@@ -28,7 +28,11 @@ def differing(made, expected):
     wrong = [name for name in ARRAYS if getattr(made, name).tobytes() != getattr(expected, name).tobytes()]
     tables = made.site_table, expected.site_table
     columns = [field.name for field in fields(tables[0])]
-    return wrong + [name for name in columns if not np.array_equal(*(getattr(table, name) for table in tables))]
+    return wrong + [name for name in columns if not same(*(getattr(table, name) for table in tables))]
+
+
+def same(one, other):
+    return np.array_equal(one, other, equal_nan=one is not None and one.dtype.kind == "f")
 
 
 def masks():
@@ -188,3 +192,69 @@ def test_what_progress_raises_stops_the_work(monkeypatch):
 
     with pytest.raises(KeyboardInterrupt):
         feature_skeleton(polygons, threads=2, progress=stop)
+
+
+def test_an_image_of_labels_is_rebuilt():
+    outlines = vorotool.outlines(np.array([[0, 0, 2], [0, 1, 1], [2, 1, 1]]), mode="labels")
+    again = vorotool.rebuild(vorotool.skeleton_exact(outlines))
+    assert sum(shapely.Polygon(again.ring(k)).area for k in range(len(again))) == pytest.approx(6, rel=1e-12)
+
+
+HOLES = {
+    "a point": ([[[4, 5]]], 1, 1),
+    "a point three times": ([[[4, 5], [4, 5], [4, 5]]], 1, 1),
+    "a segment": ([[[4, 5], [6, 5]]], 1, 1),
+    "both": ([[[4, 5]], [[2, 3], [2, 7]]], 2, 2),
+}
+
+
+@pytest.mark.parametrize("name", HOLES)
+def test_the_skeleton_goes_around_points_and_segments(name):
+    holes, count, cycles = HOLES[name]
+    shape = {"shell": OUTER, "holes": holes}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for side in ("interior", "both"):
+            made = vorotool.skeleton_exact([shape], side=side, strict=True)
+            vorotool.verify_skeleton(made)
+        vorotool.verify_offsets(vorotool.offset([shape], [-0.5, 1]), distances=[-0.5, 1])
+    table = vorotool.polygon_table(vorotool.skeleton_exact([shape]))
+    assert (table["holes"].tolist(), table["cycles"].tolist()) == ([count], [cycles])
+
+
+def test_a_point_outside_its_polygon_is_left_out_with_a_word():
+    with pytest.warns(VorotoolWarning, match="1 segment that bounds nothing"):
+        made = vorotool.skeleton_exact([{"shell": OUTER, "holes": [[[20, 20]]]}], side="both")
+    assert made.polygons.xy.max() == 10
+
+
+def test_a_broken_polygon_keeps_its_points_and_segments():
+    bow = [[0, 0], [10, 10], [10, 0], [0, 10]]
+    with pytest.warns(VorotoolWarning):
+        made = vorotool.skeleton_exact([{"shell": bow, "holes": [[[9, 5]], [[8, 4.5], [8, 5.5]]]}])
+    vorotool.verify_skeleton(made)
+    assert sorted(vorotool.polygon_table(made)["holes"].tolist()) == [0, 2]
+
+
+@pytest.mark.parametrize("distances", [[-1.0, -0.3], [-1.0, 2.0], [3.0]])
+def test_offsets_inwards_are_of_each_feature(distances):
+    for seed in range(len(FAMILIES)):
+        shapes = as_set(FAMILIES[seed](np.random.default_rng(seed)))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            made = vorotool.offset(shapes, distances)
+        vorotool.verify_offsets(made, distances=distances)
+    nested = vorotool.offset([OUTER, INNER], [-1.0])
+    assert nested.area.tolist() == [64, 4]
+
+
+def test_both_sides_of_features_that_overlap_are_read_back(tmp_path):
+    shifted = [[x + 5, y + 3] for x, y in OUTER]
+    for features in ("separate", "together"):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            made = vorotool.skeleton_exact([OUTER, shifted], side="both", features=features)
+        vorotool.write(made, tmp_path / "both.json")
+        again = vorotool.read(tmp_path / "both.json")
+        assert (again.features, differing(again, made)) == (features, [])
+        vorotool.verify_skeleton(again)

@@ -88,11 +88,12 @@ def test_the_checker_finds_faults(name):
 def test_the_checker_finds_what_is_nearer():
     made = vorotool.offset(ROOMS, -0.25)
     # the same curve, beside shapes with one more wall across it
-    walled = vorotool.offset([{"shell": ROOMS}, {"line": [[2, 1], [2, 3]]}], -0.25)
+    walled = vorotool.offset([{"shell": ROOMS}, {"line": [[2, 1], [2, 3]]}], -0.25, features="together")
     site = np.array([_same_site(made, walled, row) for row in made.site.tolist()])
     table, polygons = walled.site_table, walled.polygons
+    mixed = replace(made, site=site, site_table=table, polygons=polygons, features="together")
     with pytest.raises(vorotool.VerificationError, match="is in"):
-        vorotool.verify_offsets(replace(made, site=site, site_table=table, polygons=polygons))
+        vorotool.verify_offsets(mixed)
 
 
 def _same_site(made, other, row):

@@ -97,6 +97,17 @@ def crowded(rng):
     return [*made, [[box(4_000_000, 7_000_000, 3, 3)]]]
 
 
+def pierced(rng):
+    """Holes that are points and segments: inside, on edges, across each other and outside."""
+    made = []
+    for _ in range(int(rng.integers(1, 5))):
+        x, y = rng.integers(-6, 7, 2)
+        shell = box(x, y, *rng.integers(4, 12, 2)) if rng.random() < 0.6 else ring(rng, (x, y), 10)
+        holes = [rng.integers(-9, 15, (int(rng.choice([1, 1, 2])), 2)) * 1.0 for _ in range(int(rng.integers(1, 4)))]
+        made.append([[shell, *holes]])
+    return made
+
+
 def scattered(rng):
     """More than a batch, in several sheets."""
     return [
@@ -105,7 +116,7 @@ def scattered(rng):
     ]
 
 
-FAMILIES = (tiles, nested, crossing, broken, parts, fractions, crowded, scattered)
+FAMILIES = (tiles, nested, crossing, broken, parts, fractions, crowded, pierced, scattered)
 
 
 def as_set(features) -> PolygonSet:

@@ -40,6 +40,7 @@ def failure(shape: object, random: np.random.Generator) -> str | None:
         made = offset(shapes, distances, threads=1)
         verify_offsets(made, distances=distances, threads=1)
         check_offsets(made, distances)
+        verify_offsets(offset(shape, distances, threads=1), distances=distances, threads=1)
         skeleton = skeleton_exact(shape, threads=1)
         check_rebuilt(rebuild(skeleton), skeleton.polygons)
     except (VorotoolError, AssertionError, shapely.GEOSException) as error:

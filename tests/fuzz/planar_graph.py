@@ -29,6 +29,7 @@ def graph_of(vertices: np.ndarray, rings: list[tuple[int, int, int, int]]) -> Pl
     made = _core.make_planar_graph(vertices, shapes.ring_start, shapes.ring_kind, shapes.ring_polygon, None)
     counts = [count for count, _, _ in made.pop("repairs")]
     made.pop("is_repaired")
+    made["point_holes"] = made["point_holes"].reshape(-1, 3)
     return PlanarGraph(**made, repairs=dict(zip(REPAIRS, counts, strict=True)))
 
 

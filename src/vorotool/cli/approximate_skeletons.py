@@ -45,7 +45,7 @@ class ApproximateProducts(SkeletonProducts):
     """
 
     def __init__(self, polygons: PolygonSet, options: SimpleNamespace, run: Run) -> None:
-        super().__init__(options, run)
+        super().__init__(polygons, options, run)
         self._common: dict[str, Any] = {"threads": options.threads, "progress": run.progress("skeleton")}
         sampling = SamplingOptions(options.step, options.tolerance, options.sampling)
         self._most = min(options.max_sites, MOST_SEEDS)

@@ -31,8 +31,8 @@ class Derived:
         Options of the command line.
     run : Run
         Takes seconds.
-    skeleton, diagram : callable
-        Give the skeleton, and the exact diagram of the shapes.
+    skeleton, shapes : callable
+        Give the skeleton, and the shapes or their exact diagram.
     """
 
     def __init__(
@@ -40,20 +40,22 @@ class Derived:
         options: SimpleNamespace,
         run: Run,
         skeleton: Callable[[], Skeleton],
-        diagram: Callable[[], ShapeDiagram],
+        shapes: Callable[[], ShapeDiagram | PolygonSet],
     ) -> None:
         self.options, self.run = options, run
-        self._skeleton, self._diagram = skeleton, diagram
+        self._skeleton, self._shapes = skeleton, shapes
 
     @cached_property
     def offset(self) -> Offsets:
         """Curves at all distances."""
         from vorotool.engines.offsets import offset
 
-        diagram = self._diagram()
+        shapes, o = self._shapes(), self.options
         with self.run.phase("offset"):
             progress = self.run.progress("offset")
-            made = offset(diagram, self.options.distance, threads=self.options.threads, progress=progress)
+            made = offset(
+                shapes, o.distance, features=o.features, strict=o.strict, threads=o.threads, progress=progress
+            )
         empty = [f"{distance:g}" for distance in self.options.distance if distance not in made.distance]
         if empty:
             warnings.warn(f"nothing is left at the distance {', '.join(empty)}", VorotoolWarning, stacklevel=2)

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
-from collections.abc import Iterator
-from contextlib import contextmanager
 from functools import cached_property
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
@@ -21,7 +18,6 @@ from vorotool.engines.skeleton_exact import (
     skeleton_of,
     whole_diagram,
 )
-from vorotool.errors import VorotoolWarning
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.skeleton import Skeleton
@@ -44,16 +40,19 @@ class ExactProducts(SkeletonProducts):
     """
 
     def __init__(self, polygons: PolygonSet, options: SimpleNamespace, run: Run) -> None:
-        super().__init__(options, run)
-        self._polygons = polygons
-        self._is_told = False  # what was repaired, once
+        super().__init__(polygons, options, run)
         # what is refused is refused here, where the input has its name
-        _ = self.whole if self._is_inside_only else self.graph
+        if not self._is_inside_only:
+            _ = self.graph
+        elif self.wants_skeleton:
+            _ = self.whole
+        else:
+            _ = self.derived.offset
 
     @cached_property
     def shapes(self) -> ShapeDiagram:
         """The diagram of all."""
-        with self.run.phase("diagram"), self._telling_once():
+        with self.run.phase("diagram"), self.telling_once():
             strict = self.options.strict
             if self.options.features == "together":
                 return shape_diagram(self._polygons, strict=strict, **self._common)
@@ -64,7 +63,7 @@ class ExactProducts(SkeletonProducts):
         """What is inside each feature by itself, and the vertices and edges of each diagram that is looked at."""
         o = self.options
         look = self._look if o.verify or o.stats is not None else None
-        with self._telling_once():
+        with self.telling_once():
             return feature_skeleton(self._polygons, look=look, strict=o.strict, **self._common)
 
     def _look(self, shapes: ShapeDiagram) -> tuple[int, int]:
@@ -73,15 +72,6 @@ class ExactProducts(SkeletonProducts):
 
             verify_segment_voronoi(shapes.diagram, threads=1)
         return len(shapes.diagram), len(shapes.diagram.edges)
-
-    @contextmanager
-    def _telling_once(self) -> Iterator[None]:
-        """Let repairs be told where polygons are placed first."""
-        with warnings.catch_warnings():
-            if self._is_told:
-                warnings.simplefilter("ignore", VorotoolWarning)
-            yield
-        self._is_told = True
 
     @cached_property
     def elements(self) -> ElementDiagram:
@@ -101,7 +91,7 @@ class ExactProducts(SkeletonProducts):
         o = self.options
         if o.gap or o.side != "interior":
             return False
-        return o.features == "separate" and {"diagram", "offset"}.isdisjoint(o.what)
+        return o.features == "separate" and "diagram" not in o.what
 
     def _make_skeleton(self) -> Skeleton:
         o = self.options

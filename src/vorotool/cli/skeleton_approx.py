@@ -48,7 +48,7 @@ def command(**options: Any) -> None:
     left out, and those that the shapes cross. No point of an arc is farther from the exact skeleton than its
     error_bound.
     """
-    o = SimpleNamespace(**options)
+    o = SimpleNamespace(**options, features="together")
     if (o.step is None) == (o.tolerance is None):
         raise click.UsageError("use either --step H or --tolerance E")
     if o.tolerance is not None and o.sampling == "paper":

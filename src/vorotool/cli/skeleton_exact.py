@@ -18,6 +18,12 @@ if TYPE_CHECKING:
 @click.command("skeleton-exact")
 @skeleton_options(
     click.option(
+        "--features",
+        type=click.Choice(["separate", "together"]),
+        help="Take each feature as if there were no others, whatever lies in it or over it (default), or all as one "
+        "drawing, as --gap does.",
+    ),
+    click.option(
         "--gap",
         type=Length(zero=True),
         metavar="STEP",
@@ -39,11 +45,14 @@ def command(**options: Any) -> None:
 
     INPUT holds polygons or open lines (JSON, GeoJSON, WKT, Triangle .poly), or is a mask or a label image (PNG, TIFF,
     PGM, PBM, NPY), whose objects have outlines; - is standard input. Polygons are placed on a lattice of 31 bits over
-    their extent; where they cross, touch or overlap they are cut, with a warning. Of the
+    their extent; where one crosses, touches or overlaps itself it is cut, with a warning. Of the
     Voronoi diagram of vertices and open edges, the edges between an edge and its own end are left out. What is drawn
     inside polygons comes first, polygon by polygon; arcs of a branch follow each other.
     """
     o = SimpleNamespace(**options)
+    if o.gap and o.features == "separate":
+        raise click.UsageError("a gap is for all features as one drawing: leave --features out, or use --gap 0")
+    o.features = o.features or ("together" if o.gap else "separate")
     if o.complete is not None and not o.gap:
         raise click.UsageError("nothing is missing without a gap: use --gap STEP, or leave --complete out")
     run_skeletons("skeleton-exact", o, _products)

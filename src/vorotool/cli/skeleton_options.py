@@ -122,13 +122,6 @@ _BEFORE: tuple[Decorator, ...] = (
         help="Inside polygons, outside all of them, or both.",
     ),
     click.option(
-        "--features",
-        type=click.Choice(["separate", "together"]),
-        default="separate",
-        show_default=True,
-        help="Take each feature as if there were no others, whatever lies in it or over it, or all as one drawing.",
-    ),
-    click.option(
         "--frame", type=Rectangle(), help="Cuts what is outside; by default the bounds and a tenth around them."
     ),
     click.option(

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import warnings
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from functools import cached_property
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, BinaryIO
@@ -26,6 +27,7 @@ from vorotool.pictures import write_layers
 if TYPE_CHECKING:
     from vorotool.engines.skeleton_exact import ShapeDiagram
     from vorotool.geometry.centerline import Centerlines
+    from vorotool.geometry.polygons import PolygonSet
     from vorotool.render.layers import Page
 
 Place = tuple[float, float]
@@ -44,15 +46,28 @@ class SkeletonProducts(ABC):
 
     Parameters
     ----------
+    polygons : PolygonSet
+        Of what.
     options : namespace
         Options of the command line.
     run : Run
         Takes notes and seconds.
     """
 
-    def __init__(self, options: SimpleNamespace, run: Run) -> None:
+    def __init__(self, polygons: PolygonSet, options: SimpleNamespace, run: Run) -> None:
+        self._polygons = polygons
+        self._is_told = False  # what was repaired, once
         self.options, self.run = options, run
-        self.derived = Derived(options, run, lambda: self.skeleton, self._shape_diagram)
+        self.derived = Derived(options, run, lambda: self.skeleton, self._shapes)
+
+    @contextmanager
+    def telling_once(self) -> Iterator[None]:
+        """Let repairs be told where polygons are placed first."""
+        with warnings.catch_warnings():
+            if self._is_told:
+                warnings.filterwarnings("ignore", "the polygons were repaired", VorotoolWarning)
+            yield
+        self._is_told = True
 
     @property
     def wants_skeleton(self) -> bool:
@@ -120,6 +135,10 @@ class SkeletonProducts(ABC):
     @abstractmethod
     def graph(self) -> PlanarGraph:
         """The shapes as they were placed."""
+
+    def _shapes(self) -> ShapeDiagram | PolygonSet:
+        """What offset curves are of: each feature by itself, or the diagram of all."""
+        return self._shape_diagram() if self.options.features == "together" else self._polygons
 
     def _shape_diagram(self) -> ShapeDiagram:
         """The exact diagram of the shapes."""

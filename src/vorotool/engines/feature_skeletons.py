@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from vorotool.engines.feature_batches import BatchShapes, FeatureShapes, in_batches
 from vorotool.engines.feature_order import InputOrder, Places, stacked
 from vorotool.engines.label_arrays import Progress
-from vorotool.engines.segment_voronoi import NEITHER, idle_sides, segment_voronoi
-from vorotool.engines.skeleton_exact import ShapeDiagram, interior_skeleton, warn_empty
+from vorotool.engines.segment_voronoi import NEITHER, segment_voronoi
+from vorotool.engines.skeleton_exact import ShapeDiagram, interior_idle_sides, interior_skeleton, warn_empty
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.skeleton import Skeleton
 
@@ -86,11 +86,8 @@ def batch_diagram(
     graph, beyond = shapes.graph, shapes.batch.beyond
     count = len(graph.points)
     points = np.concatenate([graph.points, beyond])
-    idle = None
-    # a point without segments may be inside
-    is_joined = bool((np.bincount(graph.segments.ravel(), minlength=count) > 0).all())
-    if is_joined and not is_whole:
-        idle = idle_sides(graph, graph.is_inside)
+    idle = None if is_whole else interior_idle_sides(graph)
+    if idle is not None:
         idle = np.insert(idle, count, np.full(len(beyond), NEITHER, dtype=np.uint8))
     diagram = segment_voronoi(points, graph.segments, idle=idle, threads=threads, progress=progress)
     return ShapeDiagram(graph, diagram, shapes.placed)
@@ -106,6 +103,8 @@ def joined_skeletons(whole: FeatureShapes, parts: Sequence[tuple[BatchShapes, Sk
     """Put the skeletons of all batches together: arcs polygon by polygon, sites in the order of the input."""
     order = InputOrder.of(whole, [shapes for shapes, _ in parts])
     skeletons = [skeleton for _, skeleton in parts]
+    if len(parts) == 1 and not any(whole.repairs.values()):  # in order already
+        return replace(skeletons[0], site_table=order.site_table, polygons=order.polygons)
     own = [numbers[skeleton.polygon] for numbers, skeleton in zip(order.polygon_numbers, skeletons, strict=True)]
     polygon = stacked(own).astype(np.int32)
     arcs, nodes = Places.by(polygon), Places.by(stacked(_node_polygons(skeletons, own)))

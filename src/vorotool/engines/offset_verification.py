@@ -2,23 +2,28 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.engines.feature_batches import BatchShapes, in_batches
 from vorotool.engines.label_arrays import Progress
 from vorotool.engines.planar_graph import planar_graph
 from vorotool.engines.segment_verification import verify_segment_voronoi
 from vorotool.engines.segment_voronoi import segment_voronoi
 from vorotool.engines.skeleton_distances import ULPS, fail, first_wrong
+from vorotool.errors import VorotoolWarning
 from vorotool.geometry.circular_arcs import middles_of
 from vorotool.geometry.offsets import Offsets
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.polygon_conversion import to_shapely
 from vorotool.geometry.polygons import SHELL
+from vorotool.geometry.ring_arrays import ranges, starts_before
 from vorotool.geometry.skeleton import EDGE, ends_of_sites
 
 Floats = NDArray[np.float64]
@@ -59,13 +64,70 @@ def verify_offsets(
     >>> from vorotool import offset
     >>> verify_offsets(offset([[0, 0], [4, 0], [4, 2], [0, 2]], [-0.5, 1]))
     """
-    graph = planar_graph(offsets.polygons, threads=threads, progress=progress)
     tolerance = _tolerance(offsets)
     _check_chains(offsets)
     _check_sites(offsets, tolerance)
-    _check_nothing_nearer(offsets, tolerance, graph, threads, progress)
     _check_orientation(offsets, tolerance)
-    _check_regions(offsets, {*distances, *offsets.distance.tolist()}, tolerance, graph, threads, progress)
+    wanted = {*distances, *offsets.distance.tolist()}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", VorotoolWarning)  # features may lie over each other
+        if offsets.features == "together":
+            graph = planar_graph(offsets.polygons, threads=threads, progress=progress)
+            _check_in_graph(offsets, wanted, tolerance, graph, threads, progress)
+        else:
+            _check_features(offsets, wanted, tolerance, threads, progress)
+
+
+def _check_features(offsets: Offsets, wanted: set[float], tolerance: float, threads: int, progress: Progress) -> None:
+    """Check what is outside of all features, and what is inside of each by itself."""
+    outwards, inwards = {d for d in wanted if d > 0}, {d for d in wanted if d < 0}
+    if outwards:
+        graph = planar_graph(offsets.polygons, threads=threads, progress=progress)
+        outside = with_shapes(offsets, np.flatnonzero(offsets.distance > 0))
+        _check_in_graph(outside, outwards, tolerance, graph, threads, progress)
+
+    def check(shapes: BatchShapes, threads: int, poll: Progress) -> None:
+        number = np.full(len(offsets.polygons), -1, dtype=np.int32)
+        number[shapes.batch.polygons] = np.arange(len(shapes.batch.polygons))
+        is_own = (offsets.distance < 0) & (offsets.polygon >= 0) & (number[offsets.polygon] >= 0)
+        own = with_shapes(offsets, np.flatnonzero(is_own))
+        sites = np.unique(own.site).astype(np.intp)
+        table = offsets.site_table.taken(sites)
+        own = replace(
+            own,
+            site=np.searchsorted(sites, own.site).astype(np.int32),
+            polygon=number[own.polygon],
+            site_table=replace(table, polygon=number[table.polygon]),
+            polygons=shapes.batch.part,
+        )
+        if (own.site_table.polygon < 0).any():
+            fail("a piece inside a feature is about a site of another one")
+        _check_in_graph(own, inwards, tolerance, shapes.graph, threads, poll)
+
+    if inwards:
+        in_batches(offsets.polygons, check, threads=threads, progress=progress)
+
+
+def _check_in_graph(
+    offsets: Offsets, distances: set[float], tolerance: float, graph: PlanarGraph, threads: int, progress: Progress
+) -> None:
+    _check_nothing_nearer(offsets, tolerance, graph, threads, progress)
+    _check_regions(offsets, distances, tolerance, graph, threads, progress)
+
+
+def with_shapes(offsets: Offsets, chosen: NDArray[np.intp]) -> Offsets:
+    """Give some of the shapes."""
+    counts, sizes = np.diff(offsets.shape_start), np.diff(offsets.ring_start)
+    rings = ranges(offsets.shape_start[chosen], counts[chosen])
+    pieces = ranges(offsets.ring_start[rings], sizes[rings])
+    return replace(
+        offsets,
+        **{name: getattr(offsets, name)[pieces] for name in ("start", "end", "centre", "site")},
+        ring_start=starts_before(sizes[rings]),
+        shape_start=starts_before(counts[chosen]),
+        distance=offsets.distance[chosen],
+        polygon=offsets.polygon[chosen],
+    )
 
 
 def _tolerance(offsets: Offsets) -> float:

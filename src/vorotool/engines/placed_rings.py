@@ -7,12 +7,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.used_polygons import used_polygons
+from vorotool.engines.polygon_regions import PolygonRegions
+from vorotool.engines.used_polygons import inner_faces, parts_of_edges, used_polygons
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.ring_arrays import RingArrays
 from vorotool.geometry.skeleton import EDGE, VERTEX, SiteTable
-from vorotool.geometry.skeleton_tables import connected_roots
 from vorotool.geometry.used_polygons import UsedPolygons
 
 
@@ -126,41 +126,12 @@ def _first_polygons(graph: PlanarGraph) -> NDArray[np.int32]:
 
 def _first_parts(graph: PlanarGraph, used: UsedPolygons) -> NDArray[np.int32]:
     """The part of its first polygon that each face is in: faces are connected over segments that do not bound it."""
-    polygon = graph.face_polygon.astype(np.int64)
-    face = np.repeat(np.arange(graph.faces), np.diff(graph.face_start))
-    keys = face * (int(polygon.max(initial=0)) + 1) + polygon  # ascending: polygons of a face are
-    left, right = graph.segment_faces.astype(np.int64).T
-    beside = np.flatnonzero((graph.is_inside[left]) & (graph.is_inside[right]))
-    counts = np.diff(graph.face_start)[left[beside]]
-    entry = np.repeat(graph.face_start[left[beside]], counts) + _steps(counts)
-    wanted = np.repeat(right[beside], counts) * (int(polygon.max(initial=0)) + 1) + polygon[entry]
-    rank = np.minimum(np.searchsorted(keys, wanted), max(len(keys) - 1, 0))
-    same = keys[rank] == wanted if len(keys) else np.zeros(0, dtype=bool)
-    root = connected_roots(np.stack([entry[same], rank[same]], axis=1), len(keys))
-    # the inside of a polygon is left of its rings
-    edges = np.flatnonzero((used.segment >= 0) & ~_on_lines(used))
-    segment = used.segment[edges]
-    is_forward = graph.segments[segment, 0] == used.point[edges]
-    inner = np.where(is_forward, left[segment], right[segment])
-    part = np.repeat(used.polygons.ring_polygon, np.diff(used.polygons.ring_start))[edges]
-    own = np.searchsorted(keys, inner * (int(polygon.max(initial=0)) + 1) + used.source[part])
-    of_root = np.full(len(keys), -1, dtype=np.int32)
-    of_root[root[own]] = part
+    regions = PolygonRegions(graph)
+    of_region = np.full(len(regions), -1, dtype=np.int32)
+    of_region[regions.of(*inner_faces(graph, used))] = parts_of_edges(used)
     first = np.full(graph.faces, -1, dtype=np.int32)
-    first[graph.is_inside] = of_root[root[graph.face_start[:-1][graph.is_inside]]]
+    first[graph.is_inside] = of_region[regions.of_first]
     return first
-
-
-def _on_lines(used: UsedPolygons) -> NDArray[np.bool_]:
-    polygons = used.polygons
-    on_line: NDArray[np.bool_] = np.repeat(polygons.is_line[polygons.ring_polygon], np.diff(polygons.ring_start))
-    return on_line
-
-
-def _steps(counts: NDArray[np.integer]) -> NDArray[np.int64]:
-    """0, 1, … within each run of so many."""
-    steps: NDArray[np.int64] = np.arange(int(counts.sum())) - np.repeat(np.cumsum(counts) - counts, counts)
-    return steps
 
 
 def _table(

@@ -17,7 +17,7 @@ from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.magnitude import check_magnitude
 from vorotool.geometry.planar_graph import REPAIRS, PlanarGraph
 from vorotool.geometry.polygon_conversion import as_polygons
-from vorotool.geometry.polygons import LINE, PolygonSet
+from vorotool.geometry.polygons import HOLE, LINE, PolygonSet
 
 MOST_VERTICES = 2**28
 """Segments are numbered in 31 bits, and crossings make more of them."""
@@ -161,7 +161,7 @@ def arranged(given: PolygonSet, placement: Placement, *, progress: Progress = No
     except _core.TooManyOverlapsError:
         raise LimitError(f"the polygons overlap or nest more than {MOST_OVERLAPS} times: split them") from None
     found = dict(zip(REPAIRS, made.pop("repairs"), strict=True))
-    is_repaired = made.pop("is_repaired") != 0
+    is_repaired, point_holes = made.pop("is_repaired") != 0, made.pop("point_holes").reshape(-1, 3)
     repairs = {name: count for name, (count, _, _) in found.items()}
     scale, move = math.ldexp(1.0, placement.exponent), placement.largest_move
     if repairs["moved_edges"]:  # within a cell, towards its centre: at most half its diagonal
@@ -174,6 +174,7 @@ def arranged(given: PolygonSet, placement: Placement, *, progress: Progress = No
         repairs=repairs,
         polygons=given,
         vertices=placement.vertices,
+        point_holes=point_holes,
     )
     return Arrangement(graph, found, is_repaired)
 
@@ -345,6 +346,25 @@ def _next_vertices(polygons: PolygonSet) -> Any:
     return following
 
 
+def flat_holes(polygons: PolygonSet) -> NDArray[np.bool_]:
+    """(r,) whether a ring is a hole with vertices at one or two places.
+
+    Examples
+    --------
+    >>> flat_holes(as_polygons([{"shell": [[0, 0], [9, 0], [0, 9]], "holes": [[[1, 1], [2, 1]]]}])).tolist()
+    [False, True]
+    """
+    start, size = polygons.ring_start, np.diff(polygons.ring_start)
+    ring = np.repeat(np.arange(len(size)), size)
+    is_other = (polygons.xy != polygons.xy[start[:-1]][ring]).any(axis=1)
+    vertex = np.where(is_other, np.arange(len(ring)), len(ring))
+    second = np.minimum.reduceat(vertex, start[:-1]) if len(size) else vertex
+    second = np.where(second < len(ring), second, start[:-1])  # of one place it is the first
+    is_third = is_other & (polygons.xy != polygons.xy[second][ring]).any(axis=1)
+    has_three = np.bincount(ring[is_third], minlength=len(size)) > 0
+    return np.equal(polygons.ring_kind, HOLE) & ~has_three
+
+
 def _side_fault(graph: PlanarGraph, given: PolygonSet, segment: Any, edge: Any) -> str | None:
     """Check that the polygons of the two sides of a segment differ by polygons whose edges it is part of."""
     count = max(len(given), 1)
@@ -364,7 +384,8 @@ def _side_fault(graph: PlanarGraph, given: PolygonSet, segment: Any, edge: Any) 
             f"segment {np.repeat(np.arange(len(graph)), length)[strange][0]} divides a polygon of which it is no edge"
         )
     is_border = length > 0
-    is_border[segment[given.ring_kind[ring_of_edge] == LINE]] = True
+    is_thin = (given.ring_kind == LINE) | flat_holes(given)
+    is_border[segment[is_thin[ring_of_edge]]] = True
     if not is_border.all():
         return f"segment {is_border.argmin()} bounds nothing"
     return None

@@ -18,6 +18,7 @@ from vorotool.engines.skeleton_exact import (
     default_frame,
     face_groups,
     joined_groups,
+    of_one_arrangement,
     on_lattice,
     skeleton_of_arrays,
     warn_empty,
@@ -211,7 +212,9 @@ def approximate_skeleton(
     largest = np.abs(graph.origin).max() + graph.scale * 2.0**30
     bound = made["error_bound"] + ROUNDING_ULPS * np.spacing(largest)
     made["error_bound"] = np.where(np.isinf(bound), np.nan, bound)
-    return ApproximateSkeleton(skeleton_of_arrays(made, placed, clip), seeds, shapes, open_corners, parts)
+    skeleton = skeleton_of_arrays(made, placed, clip)
+    skeleton = skeleton if side == "exterior" else of_one_arrangement(skeleton)
+    return ApproximateSkeleton(skeleton, seeds, shapes, open_corners, parts)
 
 
 def whole_sampled_diagram(

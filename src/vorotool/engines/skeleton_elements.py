@@ -19,6 +19,7 @@ from vorotool.engines.skeleton_exact import (
     ShapeDiagram,
     assembled,
     face_groups,
+    of_one_arrangement,
     refuse_short_edges,
     skeleton_of,
     whole_diagram,
@@ -164,7 +165,7 @@ def whole_element_diagram(elements: ElementDiagram, *, frame: Frame | None = Non
 
 def _of_elements(made: Skeleton, elements: ElementDiagram) -> Skeleton:
     return replace(
-        made,
+        of_one_arrangement(made),
         sites=elements.element[made.sites].astype(np.int32),
         error_bound=np.full(len(made), np.nan),
         gap=elements.gap,

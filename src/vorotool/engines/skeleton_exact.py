@@ -87,11 +87,20 @@ def diagram_of_graph(
     If only the interior is asked for, vertices outside are left out, but for corners.
     """
     threads = checked_threads(threads)
-    # a line of one place is a point without segments, which may be inside
-    all_joined = bool((np.bincount(graph.segments.ravel(), minlength=len(graph.points)) > 0).all())
-    idle = idle_sides(graph, graph.is_inside) if interior_only and all_joined else None
+    idle = interior_idle_sides(graph) if interior_only else None
     diagram = segment_voronoi(graph.points, graph.segments, idle=idle, threads=threads, progress=progress)
     return ShapeDiagram(graph, diagram, placed_shapes(graph, threads=threads))
+
+
+def interior_idle_sides(graph: PlanarGraph) -> NDArray[np.uint8] | None:
+    """Tell where there is nothing inside; None if that is not known of a point: a line of one place."""
+    is_known = np.bincount(graph.segments.ravel(), minlength=len(graph.points)) > 0
+    is_known[graph.point_holes[:, 0]] = True
+    if not is_known.all():
+        return None
+    idle = idle_sides(graph, graph.is_inside)
+    idle[graph.point_holes[:, 0]] = 0
+    return idle
 
 
 def skeleton_of(
@@ -121,10 +130,15 @@ def skeleton_of(
         threads=threads,
         progress=progress,
     )
-    feature = shapes.placed.polygons.feature
+    return made if side == "exterior" else of_one_arrangement(made)
+
+
+def of_one_arrangement(skeleton: Skeleton) -> Skeleton:
+    """Say that features were taken together, where there are several."""
+    feature = skeleton.polygons.feature
     assert feature is not None
-    has_several = side != "exterior" and len(feature) > 0 and feature[0] != feature[-1]
-    return replace(made, features="together") if has_several else made
+    has_several = len(feature) > 0 and feature[0] != feature[-1]
+    return replace(skeleton, features="together") if has_several else skeleton
 
 
 def interior_skeleton(shapes: ShapeDiagram, *, threads: int = 1, progress: Progress = None) -> Skeleton:

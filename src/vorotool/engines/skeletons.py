@@ -46,7 +46,8 @@ def skeleton_exact(
     side : {"interior", "exterior", "both"}
         Inside polygons, outside all of them, or both.
     features : {"separate", "together"}
-        Take each feature by itself, or all of them, and open lines among them, as boundaries of one diagram.
+        Take each feature by itself, or all of them, and open lines among them, as boundaries of one diagram. With a
+        gap they are taken together.
     gap : float
         Shorten each edge by so much at both ends, as the paper does (Figure 10): then nothing leads to the corners,
         and the result is no longer exact. The new ends go to the nearest points of the lattice.

@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.engines.planar_graph import flat_holes
+from vorotool.engines.polygon_regions import PolygonRegions
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.polygons import HOLE, LINE, SHELL, PolygonSet
 from vorotool.geometry.used_polygons import UsedPolygons
@@ -48,7 +50,11 @@ def used_polygons(graph: PlanarGraph) -> UsedPolygons:
     """
     assert graph.polygons is not None
     given = graph.polygons
-    rings = _merged(_borders(graph), _lines(graph, given))
+    borders, lines = _borders(graph), _lines(graph, given)
+    rings = _merged(borders, lines, borders.source, lines.source)
+    holes = flat_holes(given)
+    if holes.any():
+        rings = _with_flat_holes(graph, given, rings, holes)
     starts_polygon = rings.kind != HOLE
     source = rings.source[starts_polygon]
     polygons = PolygonSet(
@@ -115,11 +121,11 @@ def _first_points(graph: PlanarGraph, places: NDArray[np.int64]) -> NDArray[Any]
     return order[np.searchsorted(keys, places[:, 0] * 2**31 + places[:, 1], sorter=order)]
 
 
-def _merged(a: _Rings, b: _Rings) -> _Rings:
-    """Put the rings in the order of the input polygons."""
+def _merged(a: _Rings, b: _Rings, keys_a: NDArray[Any], keys_b: NDArray[Any]) -> _Rings:
+    """Put the rings in the order of keys, those of equal ones as they are."""
     sizes = np.concatenate([a.sizes, b.sizes])
     source = np.concatenate([a.source, b.source])
-    order = np.argsort(source, kind="stable")
+    order = np.argsort(np.concatenate([keys_a, keys_b]), kind="stable")
     starts = np.cumsum(sizes) - sizes
     sorted_sizes = sizes[order]
     within = np.arange(sizes.sum()) - np.repeat(np.cumsum(sorted_sizes) - sorted_sizes, sorted_sizes)
@@ -131,3 +137,65 @@ def _merged(a: _Rings, b: _Rings) -> _Rings:
         np.concatenate([a.point, b.point])[index].astype(np.int32),
         np.concatenate([a.segment, b.segment])[index].astype(np.int32),
     )
+
+
+def _with_flat_holes(graph: PlanarGraph, given: PolygonSet, rings: _Rings, is_flat: NDArray[np.bool_]) -> _Rings:
+    """Add the holes that are points or segments to the part of their polygon in which they lie."""
+    flat, face = _flat_rings(graph, given, is_flat)
+    part = np.cumsum(rings.kind != HOLE) - 1
+    edge_part = np.repeat(part, rings.sizes)
+    on_border = np.repeat(rings.kind != LINE, rings.sizes)
+    inner = _inner_faces(graph, rings.point[on_border], rings.segment[on_border])
+    regions = PolygonRegions(graph)
+    of_region = np.full(len(regions), -1, dtype=np.int64)
+    of_region[regions.of(inner, np.repeat(rings.source, rings.sizes)[on_border])] = edge_part[on_border]
+    return _merged(rings, flat, part, of_region[regions.of(face, flat.source)])
+
+
+def _flat_rings(graph: PlanarGraph, given: PolygonSet, is_flat: NDArray[np.bool_]) -> tuple[_Rings, NDArray[Any]]:
+    """Holes of two points for each segment of one that lies in its polygon, and of one point; and their faces."""
+    segment = np.repeat(np.arange(len(graph)), graph.source_count)
+    ring = np.searchsorted(given.ring_start, graph.source_edge, side="right") - 1
+    pairs = np.unique(np.stack([segment, given.ring_polygon[ring]], axis=1)[is_flat[ring]], axis=0)
+    width = max(len(given), 1)
+    keys = np.repeat(np.arange(graph.faces), np.diff(graph.face_start)) * width + graph.face_polygon
+    sides = graph.segment_faces[pairs[:, 0]].astype(np.int64)
+    own = pairs[np.isin(sides * width + pairs[:, 1:], keys).all(axis=1)]
+    points, faces, polygons = np.unique(graph.point_holes, axis=0).T
+    sizes = np.repeat([2, 1], [len(own), len(points)])
+    flat = _Rings(
+        sizes,
+        np.full(len(sizes), HOLE),
+        np.concatenate([own[:, 1], polygons]),
+        np.concatenate([graph.segments[own[:, 0]].ravel(), points]),
+        np.concatenate([np.repeat(own[:, 0], 2), np.full(len(points), -1)]),
+    )
+    return flat, np.concatenate([graph.segment_faces[own[:, 0], 0], faces])
+
+
+def inner_faces(graph: PlanarGraph, used: UsedPolygons) -> tuple[NDArray[Any], NDArray[Any]]:
+    """The face left of each edge of the rings of used polygons, and the polygon of the input that it is of."""
+    edges = _border_edges(used)
+    faces = _inner_faces(graph, used.point[edges], used.segment[edges])
+    return faces, used.source[_polygons_of_edges(used)[edges]]
+
+
+def parts_of_edges(used: UsedPolygons) -> NDArray[Any]:
+    """The used polygon of each of these edges."""
+    parts: NDArray[np.int32] = _polygons_of_edges(used)[_border_edges(used)]
+    return parts
+
+
+def _border_edges(used: UsedPolygons) -> NDArray[Any]:
+    return np.flatnonzero((used.segment >= 0) & ~used.polygons.is_line[_polygons_of_edges(used)])
+
+
+def _polygons_of_edges(used: UsedPolygons) -> NDArray[np.int32]:
+    return np.repeat(used.polygons.ring_polygon, np.diff(used.polygons.ring_start))
+
+
+def _inner_faces(graph: PlanarGraph, point: NDArray[Any], segment: NDArray[Any]) -> NDArray[Any]:
+    """The face on the left of each segment, as seen from a point at its end."""
+    is_forward = graph.segments[segment, 0] == point
+    faces: NDArray[np.int32] = graph.segment_faces[segment, np.where(is_forward, 0, 1)]
+    return faces

@@ -76,12 +76,19 @@ def optional_pair(exists: NDArray[np.bool_], pair: Sequence[Any]) -> list[Column
 
 
 def write_sites(out: BinaryIO, table: SiteTable, *, threads: int = 0) -> None:
-    """Write a comma and ``"sites": […]``."""
+    """Write a comma and ``"sites": […]``; outside of features that overlap they tell ``from`` where ``to`` where."""
     source = [integers(values).values for values in (table.source_ring, table.source_index)]
     columns = [
         choice(SITE_KINDS, table.kind),
         *(integers(values) for values in (table.polygon, table.ring, table.index)),
         *optional_pair(table.source_ring >= 0, source),
     ]
-    around = ('{"kind":"', '","polygon":', ',"ring":', ',"index":', ',"source":', "", "", "", "", "}")
-    write_list(out, "sites", columns, around, threads=threads)
+    around = ['{"kind":"', '","polygon":', ',"ring":', ',"index":', ',"source":', "", "", "", "", "}"]
+    if table.ends is not None:
+        exists = ~np.isnan(table.ends[:, 0, 0])
+        around.pop()
+        for end, name in enumerate(("from", "to")):
+            columns += optional_pair(exists, list(np.ascontiguousarray(table.ends[:, end].T)))
+            around += [f',"{name}":', "", "", "", ""]
+        around.append("}")
+    write_list(out, "sites", columns, tuple(around), threads=threads)

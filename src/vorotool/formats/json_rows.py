@@ -160,4 +160,16 @@ def read_sites(rows: JsonRows, polygons: PolygonSet) -> SiteTable:
         raise InputError(f"{rows.name}, sites {bad[0]}: the ring has no vertex {index[bad[0]]}")
     source = rows.pairs("sites", items, "source", optional=True)
     source_ring, source_index = np.where(np.isnan(source), -1, source).astype(np.int32).T
-    return SiteTable(kind, polygon, ring, index, source_ring, source_index)
+    ends = [rows.pairs("sites", items, name, optional=True) for name in ("from", "to")]
+    has_ends = not all(np.isnan(places).all() for places in ends)
+    return SiteTable(
+        kind, polygon, ring, index, source_ring, source_index, np.stack(ends, axis=1) if has_ends else None
+    )
+
+
+def read_features(rows: JsonRows) -> str:
+    """Read whether features are separate, as they are if nothing is said, or together."""
+    value = rows.document.get("features", "separate")
+    if value not in ("separate", "together"):
+        raise InputError(f"{rows.name}: features are {shortened(value)}; write separate or together")
+    return str(value)

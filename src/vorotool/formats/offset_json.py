@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.formats.json_lists import choice, integers, number_or_null, optional_pair, write_list, write_sites
-from vorotool.formats.json_rows import JsonRows, opened_rows, read_polygons_of, read_sites, says
+from vorotool.formats.json_rows import JsonRows, opened_rows, read_features, read_polygons_of, read_sites, says
 from vorotool.formats.point_options import no_note
 from vorotool.formats.polygon_json import write_items
 from vorotool.formats.polygon_options import PolygonOptions
@@ -35,6 +35,8 @@ def write_json(out: BinaryIO, offsets: Offsets, *, precision: int | None = None,
         head["y_up"] = True
     if polygons.crs is not None:
         head["crs"] = polygons.crs
+    if offsets.features != "separate":
+        head["features"] = offsets.features
     out.write(json_text(head).removesuffix("}").encode() + b",\n")
     write_items(out, polygons, precision)
     write_sites(out, offsets.site_table, threads=threads)
@@ -119,6 +121,7 @@ def read_offsets(
         rows.indices("shapes", shapes, "polygon", len(polygons), default=-1),
         sites,
         polygons,
+        read_features(rows),
     )
 
 

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import Any, BinaryIO
 
+import numpy as np
+from numpy.typing import NDArray
+
 from vorotool.errors import InputError
 from vorotool.formats.geojson import parse_json, property_columns, refuse_table
 from vorotool.formats.point_options import shortened
@@ -39,7 +42,34 @@ def read_json(source: Source, options: PolygonOptions) -> PolygonSet:
         properties=property_columns(source.name, described, owners, "polygons") if options.properties else {},
     )
     options.note_left_out(source.name, len(items) - len(owners))
+    if isinstance(document, list) and len(polygons) > 1 and all(isinstance(item, list) for item in items):
+        _note_holes(source.name, polygons, options)
     return polygons
+
+
+def _note_holes(name: str, polygons: PolygonSet, options: PolygonOptions) -> None:
+    """Say that a ring inside the first one is a shell of its own here: where GeoJSON has it, it would be a hole."""
+    low, high = (bound.reduceat(polygons.xy, polygons.ring_start[:-1]) for bound in (np.minimum, np.maximum))
+    within = np.flatnonzero((low >= low[0]).all(axis=1) & (high <= high[0]).all(axis=1))[1:]
+    if not within.size:
+        return
+    import shapely
+
+    first = shapely.polygons(_closed(polygons.ring(0)))
+    if not shapely.is_valid(first):
+        return
+    shapely.prepare(first)
+    for ring in within.tolist():
+        if shapely.covers(first, shapely.linestrings(_closed(polygons.ring(ring)))):
+            options.note(
+                f"{name}: ring {ring + 1} lies in ring 1, but each ring of a list is a polygon of its own: if it is a "
+                f"hole, write {_FORM}"
+            )
+            return
+
+
+def _closed(ring: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.concatenate([ring, np.repeat(ring[:1], max(1, 4 - len(ring)), axis=0)])
 
 
 def _check_type(name: str, document: Any, options: PolygonOptions) -> None:

@@ -17,7 +17,7 @@ from vorotool.formats.json_lists import (
     write_list,
     write_sites,
 )
-from vorotool.formats.json_rows import JsonRows, opened_rows, read_polygons_of, read_sites, says
+from vorotool.formats.json_rows import JsonRows, opened_rows, read_features, read_polygons_of, read_sites, says
 from vorotool.formats.point_options import no_note, shortened
 from vorotool.formats.polygon_json import write_items
 from vorotool.formats.polygon_options import PolygonOptions
@@ -36,7 +36,8 @@ def write_json(out: BinaryIO, skeleton: Skeleton, *, precision: int | None = Non
     """Write polygons, sites, vertices and arcs, one object a line of text; all indices are 0-based.
 
     Beside what the format must have, arcs tell ``polygon`` (null outside), ``branch`` and ``length``, and the object
-    ``frame``, ``gap``, ``y_up``, ``crs`` and ``connectivity`` where there are such.
+    ``frame``, ``gap``, ``y_up``, ``crs`` and ``connectivity`` where there are such, and ``features`` where they are
+    together.
     """
     polygons = skeleton.polygons
     head: dict[str, Any] = {"type": TYPE, "version": VERSION}
@@ -44,6 +45,8 @@ def write_json(out: BinaryIO, skeleton: Skeleton, *, precision: int | None = Non
         head["frame"] = list(skeleton.frame)
     if skeleton.gap:
         head["gap"] = skeleton.gap
+    if skeleton.features != "separate":
+        head["features"] = skeleton.features
     if polygons.y_up:
         head["y_up"] = True
     if polygons.crs is not None:
@@ -168,6 +171,7 @@ def _read_arcs(
         polygons,
         _frame(rows),
         _gap(rows),
+        read_features(rows),
     )
 
 

@@ -49,7 +49,9 @@ class Offsets:
     site_table : SiteTable
         Vertices and edges of `polygons`.
     polygons : PolygonSet
-        As they were used: placed, and cut where they meet.
+        As they were used: placed, and cut where they meet, each feature by itself or all together.
+    features : {"separate", "together"}
+        Whether what is inside a feature is what it would be if there were no others; see `vorotool.Skeleton`.
 
     Raises
     ------
@@ -74,6 +76,7 @@ class Offsets:
     polygon: NDArray[np.int32]
     site_table: SiteTable
     polygons: PolygonSet
+    features: str = "separate"
 
     def __post_init__(self) -> None:
         pieces, rings, shapes = len(self.site), len(self.ring_start) - 1, len(self.shape_start) - 1

@@ -30,7 +30,8 @@ class PlanarGraph:
 
     A face is a connected region between the segments. It lies in a polygon if it is inside the shell and in none of the
     holes, each ring by the even-odd rule: twice covered by one ring is outside, a hole reaches nowhere beyond its
-    shell, and where holes overlap is a hole. Polygons may overlap: a face then lies in several of them.
+    shell, and where holes overlap is a hole. Polygons may overlap: a face then lies in several of them. A hole whose
+    vertices are at one or two places is a point or a segment that its polygon lies around.
 
     Parameters
     ----------
@@ -67,6 +68,8 @@ class PlanarGraph:
         The input.
     vertices : (v, 2) int32 array, optional
         Where the vertices of the input are on the lattice.
+    point_holes : (h, 3) int32 array, optional
+        Holes of one place where no segment ends: the point, the face that it is in, and the polygon.
 
     Raises
     ------
@@ -97,6 +100,7 @@ class PlanarGraph:
     repairs: dict[str, int] = field(default_factory=lambda: dict.fromkeys(REPAIRS, 0))
     polygons: PolygonSet | None = None
     vertices: NDArray[np.int32] | None = None
+    point_holes: NDArray[np.int32] = field(default_factory=lambda: np.empty((0, 3), dtype=np.int32))
 
     def __post_init__(self) -> None:
         pairs = {"points", "segments", "segment_faces"}

@@ -20,7 +20,7 @@ from vorotool.geometry.centerline import Centerlines
 from vorotool.geometry.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.offsets import Offsets
 from vorotool.geometry.polygons import PolygonSet
-from vorotool.geometry.skeleton import Skeleton
+from vorotool.geometry.skeleton import SiteTable, Skeleton
 from vorotool.geometry.skeleton_points import SkeletonPoints
 from vorotool.geometry.table import Table
 from vorotool.geometry.triangulation import Triangulation
@@ -111,6 +111,7 @@ def _(value: Skeleton, factor: Fraction) -> Skeleton:
     return replace(
         value,
         polygons=scaled(value.polygons, factor),
+        site_table=_scaled_sites(value.site_table, by),
         frame=value.frame and (x * by, y * by, w * by, h * by),
         **{name: getattr(value, name) * by for name in names},
     )
@@ -130,7 +131,12 @@ def _(value: SkeletonPoints, factor: Fraction) -> SkeletonPoints:
 @scaled.register
 def _(value: Offsets, factor: Fraction) -> Offsets:
     lengths = {name: getattr(value, name) * float(factor) for name in ("start", "end", "centre", "distance")}
-    return replace(value, polygons=scaled(value.polygons, factor), **lengths)
+    sites = _scaled_sites(value.site_table, float(factor))
+    return replace(value, polygons=scaled(value.polygons, factor), site_table=sites, **lengths)
+
+
+def _scaled_sites(table: SiteTable, by: float) -> SiteTable:
+    return table if table.ends is None else replace(table, ends=table.ends * by)
 
 
 def scaled_table(table: Table, factor: Fraction, *, properties: Collection[str] = ()) -> Table:

@@ -135,6 +135,8 @@ class Polygons:
         Colour of the outlines.
     width : float
         Of the outlines, in px.
+    is_alone : (p,) bool array, optional
+        Polygons that are paths of their own in SVG in any case, since others lie over them.
     """
 
     name: str
@@ -147,6 +149,7 @@ class Polygons:
     ids: Sequence[str] | None = None
     edge: str | None = None
     width: float = 1.5
+    is_alone: NDArray[np.bool_] | None = None
 
     @property
     def ring_limits(self) -> NDArray[np.int64]:

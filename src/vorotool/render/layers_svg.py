@@ -172,6 +172,9 @@ def _openings(layer: Polygons) -> tuple[list[str], NDArray[np.int32]]:
         order = np.cumsum(is_first) - 1
         fills = colour[polygon]
         opens &= (order % PATH_ROWS == 0) | np.append(True, fills[1:] != fills[:-1])
+        if layer.is_alone is not None:
+            is_alone = layer.is_alone[polygon]
+            opens |= is_first & (is_alone | np.append(True, is_alone[:-1]))
     for number, of in enumerate(polygon[opens].tolist()):
         name = "" if ids is None else f' id="{_escaped(ids[of])}"'
         fill = layer.colours[int(colour[of])]

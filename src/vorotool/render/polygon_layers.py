@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
+from numpy.typing import NDArray
 
+from vorotool import _core
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.render.label_png import checked_layers
 from vorotool.render.layers import Layer, Lines, Page, Points, Polygons, bounds_of
@@ -48,6 +50,7 @@ def polygon_layers(
         np.concatenate([[0], np.cumsum(sizes)]),
         first_rings=np.concatenate([[0], np.cumsum(per_polygon)]),
         colours=[fill],
+        is_alone=covered(polygons),
         edge=edge,
         width=width,
     )
@@ -56,6 +59,32 @@ def polygon_layers(
     pairs = np.stack([first[~last], first[~last] + 1], axis=1).astype(np.int32)
     lines = Lines("lines", polygons.xy, pairs, edge or FAINT, width)
     return [filled, lines] if len(pairs) else [filled]
+
+
+def covered(polygons: PolygonSet) -> NDArray[np.bool_] | None:
+    """(p,) polygons of which a part lies in another one, too; None if there are none.
+
+    Examples
+    --------
+    >>> box = [[0, 0], [4, 0], [4, 4], [0, 4]]
+    >>> covered(PolygonSet([*box, [1, 1], [2, 1], [1, 2]], [0, 4, 7], [0, 0], [0, 1])).tolist()
+    [True, True]
+    """
+    if len(polygons) < 2 or polygons.connectivity is not None or polygons.is_line.all():
+        return None
+    placed, *_ = _core.place_on_lattice(polygons.xy, 0, None)
+    rings = polygons.ring_start, polygons.ring_kind, polygons.ring_polygon
+    try:
+        graph = _core.make_planar_graph(placed, *rings, None)
+    except (_core.TooManyCrossingsError, _core.TooManyOverlapsError):
+        return np.ones(len(polygons), dtype=bool)
+    counts = np.diff(graph["face_start"])
+    several = graph["face_polygon"][np.repeat(counts > 1, counts)]
+    if not several.size:
+        return None
+    found = np.zeros(len(polygons), dtype=bool)
+    found[several] = True
+    return found
 
 
 def shape_layers(polygons: PolygonSet, page: Page, layers: Iterable[str]) -> list[Layer]:
