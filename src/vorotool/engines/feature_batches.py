@@ -27,6 +27,7 @@ from vorotool.engines.planar_graph import (
 from vorotool.errors import LimitError
 from vorotool.geometry.box import bounds
 from vorotool.geometry.checks import available_threads
+from vorotool.geometry.magnitude import check_magnitude
 from vorotool.geometry.planar_graph import REPAIRS, PlanarGraph
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.ring_arrays import RingArrays
@@ -181,7 +182,8 @@ def in_batches(
     Raises
     ------
     InputError
-        If `strict` and something would be repaired: the first place along the input is named.
+        If coordinates are too large or too small to compute with, or `strict` and something would be repaired: the
+        first place along the input is named.
     LimitError
         If there are too many vertices.
 
@@ -190,6 +192,7 @@ def in_batches(
     VorotoolWarning
         If something was repaired: what, and how often.
     """
+    check_magnitude(polygons.xy)
     if len(polygons.xy) > MOST_VERTICES:
         raise LimitError(f"there are {len(polygons.xy)} vertices, more than {MOST_VERTICES}: split the polygons")
     threads = threads or available_threads()
