@@ -10,7 +10,7 @@ from pathlib import Path
 
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.descriptors import stream_kind
-from vorotool.formats.stores import is_store
+from vorotool.formats.stores import is_folder, is_store
 
 STANDARD_INPUT = "-"
 
@@ -149,7 +149,7 @@ def _is_pattern(name: str) -> bool:
 
 
 def _is_folder(path: Path) -> bool:
-    return path.is_dir() and not is_store(path) and path.suffix.lower() != ".zarr"
+    return is_folder(path) and not is_store(path) and path.suffix.lower() != ".zarr"
 
 
 def _matching(pattern: str, note: Callable[[str], None] | None) -> list[Input]:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import hashlib
 import os
+import stat
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path, PurePath
 
 from vorotool.batch.inputs import Input
+from vorotool.batch.manifest import RECORD_ENDING
 from vorotool.batch.tasks import Task
 from vorotool.errors import OutputError, UsageError
 from vorotool.formats.descriptors import STANDARD, descriptor_of
@@ -39,7 +41,11 @@ def output_paths(name: str, endings: Sequence[str], folder: str | os.PathLike[st
 
 
 def check_outputs(
-    tasks: Sequence[Task], folder: str | os.PathLike[str], *, others: Mapping[str, str | None] | None = None
+    tasks: Sequence[Task],
+    folder: str | os.PathLike[str],
+    *,
+    others: Mapping[str, str | None] | None = None,
+    read: Mapping[str, str] | None = None,
 ) -> None:
     """Refuse outputs that would replace an input or one another, or lie outside their folder.
 
@@ -51,6 +57,8 @@ def check_outputs(
         That outputs must not leave, whatever links are in it.
     others : mapping of str to str or None
         Further files that are written, by the option that names them.
+    read : mapping of str to str
+        Further files that are read, likewise.
 
     Raises
     ------
@@ -69,7 +77,8 @@ above both, whose folders are mirrored
     """
     written = {option: path for option, path in (others or {}).items() if path is not None and not _is_open(path)}
     _check_collisions(tasks, folder, written)
-    _check_inputs(tasks, written)
+    _check_inputs(tasks, written, read or {})
+    _check_records(folder, written)
     check_inside((path for task in tasks for path in task.outputs), folder)
 
 
@@ -102,27 +111,35 @@ def _comparable(path: str) -> str:
     return path.casefold() if sys.platform == "darwin" else path
 
 
-def _check_inputs(tasks: Sequence[Task], others: Mapping[str, str]) -> None:
-    """An output that is there already may be an input, by a link or by the same name."""
-    sources = {_identity(task.source): task.source for task in tasks}
+def _check_inputs(tasks: Sequence[Task], others: Mapping[str, str], read: Mapping[str, str]) -> None:
+    """An output that is there already may be what is read, by a link or by the same name."""
+    sources = {_identity(path): f"file of {option}, {path}" for option, path in read.items()}
+    sources |= {_identity(task.source): f"input {task.source}" for task in tasks}
     sources.pop(_NOWHERE, None)
     for path in (path for task in tasks for path in task.outputs):
         if (source := sources.get(_identity(path))) is not None:
-            raise UsageError(f"{path} is also the input {source}, which is never replaced: choose another --out-dir")
+            raise UsageError(f"{path} is also the {source}, which is never replaced: choose another --out-dir")
     for option, path in others.items():
         if (source := sources.get(_identity(path))) is not None:
-            raise UsageError(
-                f"{option} {path} is also the input {source}, which is never replaced: choose another name"
-            )
+            raise UsageError(f"{option} {path} is also the {source}, which is never replaced: choose another name")
+
+
+def _check_records(folder: str | os.PathLike[str], others: Mapping[str, str]) -> None:
+    """The records of batches in the folder are not written over: `--resume` reads them."""
+    for option, path in others.items():
+        place = Path(os.path.realpath(path))
+        if place.name.endswith(RECORD_ENDING) and folder and place.parent == Path(os.path.realpath(folder)):
+            raise UsageError(f"{option} {path} is the name of a record that --resume reads: choose another name")
 
 
 def _identity(path: str) -> tuple[int, int]:
-    """What the file system knows a file by; nothing for one that is not there."""
+    """What the file system knows a file by; nothing for one that is not there, or that is a stream."""
     try:
         found = Path(path).stat()
     except (OSError, ValueError):
         return _NOWHERE
-    return found.st_dev, found.st_ino
+    is_held = stat.S_ISREG(found.st_mode) or stat.S_ISDIR(found.st_mode)
+    return (found.st_dev, found.st_ino) if is_held else _NOWHERE
 
 
 def check_inside(paths: Iterable[str | os.PathLike[str]], folder: str | os.PathLike[str]) -> None:

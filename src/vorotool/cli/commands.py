@@ -11,7 +11,7 @@ from vorotool.batch.inputs import is_several
 from vorotool.cli.options import BATCH_OPTIONS
 from vorotool.cli.recipes import Recipe, process_input
 from vorotool.cli.run import Run
-from vorotool.cli.targets import check_stats, plan_targets
+from vorotool.cli.targets import check_stats, files_read, plan_targets
 from vorotool.cli.units import check_units
 from vorotool.formats.descriptors import input_identity
 
@@ -44,7 +44,7 @@ def run_command(recipe: Recipe, o: SimpleNamespace) -> None:
         raise click.UsageError("0 inputs are given: name files, a folder, or - for standard input")
     (source,) = o.inputs
     targets = plan_targets(recipe.formats, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=source)
-    check_stats(o.stats, targets, source)
+    check_stats(o.stats, targets, source, files_read(o))
     if o.cluster is not None and any(target.fmt != "zarr" for target in targets):
         raise click.UsageError("--cluster with -o writes a Zarr store: name it .zarr, or a folder with --out-dir")
     recipe.check_options(o, targets)

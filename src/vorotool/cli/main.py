@@ -175,7 +175,10 @@ def _run(arguments: list[str] | None) -> int:
 
 
 def _of_streams(error: OSError) -> str:
-    """Files have their own messages: this is about the help, or a warning."""
+    """Outputs have their own messages: this is about the help, a warning, or a path that is looked at."""
+    if error.filename is not None:
+        name = os.fsdecode(error.filename) if isinstance(error.filename, bytes) else error.filename
+        return f"{name} cannot be used: {error.strerror or error}; check who may do so"
     return f"standard output or standard error cannot be written: {error.strerror or error}; redirect it elsewhere"
 
 

@@ -11,13 +11,13 @@ import click
 from click.core import ParameterSource
 
 from vorotool.batch.inputs import Input, expand_inputs, read_names
-from vorotool.batch.manifest import History, Manifest, digest_of_values, read_history
+from vorotool.batch.manifest import RECORD_ENDING, History, Manifest, digest_of_values, read_history
 from vorotool.batch.plan import check_outputs, output_paths, share
 from vorotool.batch.tables import TABLE_FORMATS
 from vorotool.batch.tasks import Task, digest_of
 from vorotool.cli.options import BATCH_OPTIONS
 from vorotool.cli.recipes import Recipe
-from vorotool.cli.targets import EXTENSIONS, Target, plan_targets
+from vorotool.cli.targets import EXTENSIONS, Target, files_read, plan_targets
 from vorotool.cli.units import check_units
 from vorotool.formats.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
 from vorotool.formats.outputs import spoken
@@ -151,8 +151,8 @@ def _record(recipe: Recipe, o: SimpleNamespace, targets: list[Target]) -> tuple[
     )
     shard = "" if o.shard is None else f".{o.shard[0]}-of-{o.shard[1]}"
     folder = Path(o.out_dir)
-    manifest = Manifest(folder / f"{recipe.name}{shard}.manifest.jsonl", digest, folder)
-    history = read_history(sorted(folder.glob(f"{recipe.name}*.manifest.jsonl"))) if o.resume else History()
+    manifest = Manifest(folder / f"{recipe.name}{shard}{RECORD_ENDING}", digest, folder)
+    history = read_history(sorted(folder.glob(f"{recipe.name}*{RECORD_ENDING}"))) if o.resume else History()
     return manifest, history
 
 
@@ -160,7 +160,8 @@ def _tasks(recipe: Recipe, o: SimpleNamespace, targets: list[Target], note: Call
     inputs = _inputs(recipe, o, note)
     endings = [target.path.removeprefix(str(Path(o.out_dir) / "input")) for target in targets]
     tasks = [Task(each.source, output_paths(each.name, endings, o.out_dir or "")) for each in inputs]
-    check_outputs(tasks, o.out_dir or "", others={"--stats": o.stats, "--table": getattr(o, "table", None)})
+    written = {"--stats": o.stats, "--table": getattr(o, "table", None)}
+    check_outputs(tasks, o.out_dir or "", others=written, read=files_read(o))
     if o.shard is None:
         return tasks
     chosen = {each.source for each in share(inputs, *o.shard)}

@@ -111,8 +111,36 @@ def plan_targets(
     return [target]
 
 
-def check_stats(stats: str | None, targets: Sequence[Target], source: str) -> None:
-    """Refuse statistics that would go where the input or a result is.
+FILES_READ = ("clip", "overlay", "files_from")
+"""Options that name files which are read, and so are never replaced."""
+
+
+def files_read(options: Any) -> dict[str, str]:
+    """Give the files that options name to be read, by the option.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> files_read(SimpleNamespace(clip="land.geojson", overlay=None))
+    {'--clip': 'land.geojson'}
+    """
+    given = {f"--{name.replace('_', '-')}": getattr(options, name, None) for name in FILES_READ}
+    return {option: path for option, path in given.items() if path is not None}
+
+
+def check_stats(stats: str | None, targets: Sequence[Target], source: str, further: Mapping[str, str]) -> None:
+    """Refuse statistics that would go where the input, another file that is read, or a result is.
+
+    Parameters
+    ----------
+    stats : str, optional
+        As given.
+    targets : sequence of Target
+        The results.
+    source : str
+        The input.
+    further : mapping of str to str
+        As of `files_read`.
 
     Raises
     ------
@@ -122,8 +150,9 @@ def check_stats(stats: str | None, targets: Sequence[Target], source: str) -> No
     if stats is None:
         return
     is_open = stats == STANDARD or descriptor_of(stats) is not None
-    if not is_open and is_same_file(Path(stats), source):
-        raise click.UsageError(f"--stats {stats} is also the input, which is never replaced: choose another name")
+    for role, path in () if is_open else (("the input", source), *further.items()):
+        if is_same_file(Path(stats), path):
+            raise click.UsageError(f"--stats {stats} is also {role}, which is never replaced: choose another name")
     for target in targets:
         if not is_same_output(stats, target.path):
             continue
@@ -202,10 +231,9 @@ def check_targets(options: Any, targets: Sequence[Target], source: str) -> None:
     from vorotool.formats.outputs import check_output
     from vorotool.formats.stores import check_store
 
-    further = [path for name in ("overlay", "clip") if (path := getattr(options, name, None)) is not None]
     rules = {
         "no_clobber": options.no_clobber,
-        "inputs": (source, *further),
+        "inputs": (source, *files_read(options).values()),
         "makes_folder": options.out_dir is not None,
     }
     for target in targets:

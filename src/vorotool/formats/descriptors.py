@@ -165,6 +165,17 @@ def open_output_descriptor(descriptor: int) -> BinaryIO:
     return io.BufferedWriter(_OnwardOnly(os.dup(descriptor), "wb"))
 
 
+def open_onward(path: str | os.PathLike[str]) -> BinaryIO:
+    """Open a pipe or a device, which is written in order: some devices say that they can be sought, and cannot.
+
+    Raises
+    ------
+    OSError
+        If it cannot be opened.
+    """
+    return io.BufferedWriter(_OnwardOnly(path, "wb"))
+
+
 def check_writable(descriptor: int) -> None:
     """Refuse a descriptor that is closed, or open for reading only (OSError)."""
     _check_mode(descriptor, os.O_RDONLY, "reading")

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.formats.descriptors import stream_kind
 from vorotool.formats.limits import check_pixels, decoding
-from vorotool.formats.stores import is_array, is_group, is_store
+from vorotool.formats.stores import is_array, is_folder, is_group, is_store
 from vorotool.formats.tiff_layout import TiffLayout
 from vorotool.formats.tiff_reader import Resolution, opened_tiff, page_layout, page_of, resolution_of
 from vorotool.formats.tiff_segments import decode_rows, is_decoded_here
@@ -195,7 +195,7 @@ def open_rows(
 
 def is_zarr(name: str, input_format: str | None = None) -> bool:
     """Whether an input is, or should be, a Zarr array: a folder that holds one, or is named or said to."""
-    if input_format not in (None, "zarr") or not Path(name).is_dir():
+    if input_format not in (None, "zarr") or not is_folder(name):
         return False
     return input_format == "zarr" or is_store(name) or name.rstrip(os.sep).lower().endswith(".zarr")
 

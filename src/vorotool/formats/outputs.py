@@ -18,6 +18,7 @@ from vorotool.formats.descriptors import (
     check_writable,
     descriptor_of,
     is_of_another_process,
+    open_onward,
     open_output_descriptor,
 )
 from vorotool.formats.temporaries import new_file, temporary_beside
@@ -266,7 +267,7 @@ def is_same_file(target: Path, source: str) -> bool:
 @contextmanager
 def _direct(name: str, target: Path, binary: bool) -> Iterator[BinaryIO]:
     """Write to a pipe or a device."""
-    with explained(name), target.open("wb") as out:
+    with explained(name), open_onward(target) as out:
         if binary and out.isatty():
             raise terminal_error()
         yield out

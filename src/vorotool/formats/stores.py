@@ -24,17 +24,38 @@ def is_store(path: str | os.PathLike[str]) -> bool:
     >>> is_store("data")
     False
     """
-    return any((Path(path) / name).is_file() for name in _METADATA)
+    return any(_is_file(Path(path) / name) for name in _METADATA)
+
+
+def is_folder(path: str | os.PathLike[str]) -> bool:
+    """Whether a path is a folder; what must not be looked at is none, and who opens it says why.
+
+    Examples
+    --------
+    >>> is_folder("data"), is_folder("data/dots.csv")
+    (True, False)
+    """
+    try:
+        return Path(path).is_dir()
+    except (OSError, ValueError):
+        return False
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
 
 
 def is_array(path: str | os.PathLike[str]) -> bool:
     """Whether a path is a folder that holds a Zarr array, and not a group of them."""
-    return (Path(path) / ".zarray").is_file() or _node_type(path) == "array"
+    return _is_file(Path(path) / ".zarray") or _node_type(path) == "array"
 
 
 def is_group(path: str | os.PathLike[str]) -> bool:
     """Whether a path is a folder that holds a group of Zarr arrays."""
-    return (Path(path) / ".zgroup").is_file() or _node_type(path) == "group"
+    return _is_file(Path(path) / ".zgroup") or _node_type(path) == "group"
 
 
 def _node_type(path: str | os.PathLike[str]) -> object:
