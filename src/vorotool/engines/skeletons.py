@@ -15,7 +15,7 @@ from vorotool.engines.skeleton_elements import skeleton_with_gap
 from vorotool.engines.skeleton_exact import Frame, check_features, check_skeleton_options, diagram_of_graph, skeleton_of
 from vorotool.engines.skeleton_tolerance import skeleton_within
 from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.magnitude import check_lengths, check_magnitude
+from vorotool.geometry.magnitude import check_lengths
 from vorotool.geometry.polygon_conversion import as_polygons
 from vorotool.geometry.skeleton import Skeleton
 
@@ -101,7 +101,6 @@ def skeleton_exact(
             polygons, gap, side=side, complete=complete, frame=frame, strict=strict, threads=threads, progress=progress
         )
     given = as_polygons(polygons)
-    check_magnitude(given.xy)
     common: dict[str, Any] = {"strict": strict, "threads": checked_threads(threads), "progress": progress}
     if features == "separate":
         if side == "interior":
@@ -200,7 +199,6 @@ def skeleton_approx(
     common: dict[str, Any] = {"threads": checked_threads(threads), "progress": progress}
     if features == "separate":
         given = as_polygons(polygons)
-        check_magnitude(given.xy)
         if side == "interior":
             return feature_approximation(given, options, complete=complete, strict=strict, **common).skeleton
         made = approximation_of_sides(
