@@ -168,14 +168,6 @@ def test_a_photograph_is_not_taken_for_labels(run, folder):
             ["--layers diagram: a picture in SVG has cells, labels, seeds"],
         ),
         (
-            ["tessellate", "missing.csv", "-o", "a.png", "--what", "colour", "--layers", "cells,labels"],
-            ["--layers labels: a picture in PNG has cells, diagram, seeds"],
-        ),
-        (
-            ["draw", "mask.pbm", "-o", "a.png", "--layers", "labels"],
-            ["--layers labels: a picture in PNG has cells, diagram"],
-        ),
-        (
             ["tessellate", "dots.csv", "-o", "a.png", "--input-format", "xyz"],
             ["'xyz' is no format of inputs: use one of csv, tsv, txt, node, npy, npz, geojson, wkt, json, png, tiff"],
         ),

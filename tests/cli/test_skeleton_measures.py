@@ -187,7 +187,6 @@ def test_pictures(run, folder):
             ["-f", "svg", "--layers", "offset"],
             "skeleton in SVG has polygons, elements, points, skeleton, nodes, labels;",
         ),
-        (["-f", "png", "--layers", "labels"], "skeleton in PNG has polygons, elements, points, skeleton, nodes;"),
         (["--what", "offset", "-d", "-1e71"], "use at most 1e+70"),
         (["--side", "both", "--frame", "0,0,1e71,1"], "use numbers of at most 1e+70"),
         (["--what", "offset", "-d", "1", "--flatten", "1", "-f", "csv"], "--flatten is for what has no curves"),

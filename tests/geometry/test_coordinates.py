@@ -93,8 +93,14 @@ def test_the_command_line_and_the_library_refuse_the_same_integers(tmp_path):
 
 def test_the_command_line_and_the_library_refuse_the_same_polygons():
     for points, words in (([[0, 0], [1e300, 0], [0, 1]], "too large"), ([[0, 0], [1e-80, 0], [0, 1e-90]], "too small")):
-        for make in (vorotool.skeleton_exact, lambda p: vorotool.skeleton_approx(p, step=1),
-                     lambda p: vorotool.offset(p, 1)):  # fmt: skip
+        for make in (
+            vorotool.skeleton_exact,
+            lambda p: vorotool.skeleton_exact(p, side="both"),
+            lambda p: vorotool.skeleton_exact(p, features="together"),
+            lambda p: vorotool.skeleton_approx(p, step=1),
+            lambda p: vorotool.offset(p, 1),
+            lambda p: vorotool.offset(p, -1),
+        ):
             with pytest.raises(InputError, match=f"{words} to compute with: scale"):
                 make(points)
 

@@ -20,9 +20,10 @@ from vorotool.formats.input_formats import DRAWN_NAMES, POLYGON_NAMES, known_inp
 from vorotool.formats.label_images import label_image_of, read_label_image
 from vorotool.formats.offset_json import read_offsets, says_offsets
 from vorotool.formats.outputs import open_output
+from vorotool.formats.point_tables import is_table
 from vorotool.formats.polygons import read_polygons, recognise
 from vorotool.formats.skeleton_json import read_skeleton, says_skeleton
-from vorotool.formats.sources import Source, read_source, reading
+from vorotool.formats.sources import read_source, reading
 from vorotool.geometry.label_image import LabelImage
 from vorotool.geometry.offsets import Offsets
 from vorotool.geometry.polygons import PolygonSet
@@ -97,7 +98,8 @@ def _read(run: Run, o: SimpleNamespace, path: str) -> LabelImage | Lined:
     if not source.data.strip():
         raise InputError(f"{source.name} is empty: there is nothing to draw; check what was to write it")
     source, has_shapes = recognise(source, fmt)
-    if not (has_shapes or _is_empty_collection(source)):
+    document = source.document if isinstance(source, JsonSource) else None
+    if not (has_shapes or _is_empty_collection(document) or is_table(document)):  # of which the reader says more
         raise InputError(
             f"{source.name} is not drawn: give a label image, the JSON of a skeleton or of offset curves, or polygons "
             "and lines (GeoJSON, WKT, JSON, .poly); other results are drawn by the command that makes them, with -f svg"
@@ -105,9 +107,8 @@ def _read(run: Run, o: SimpleNamespace, path: str) -> LabelImage | Lined:
     return read_polygons(source, input_format=fmt, properties=False, note=partial(_note, run))
 
 
-def _is_empty_collection(source: Source) -> bool:
+def _is_empty_collection(document: object) -> bool:
     """Whether it is GeoJSON that does not tell what it is of, since there is nothing in it."""
-    document = source.document if isinstance(source, JsonSource) else None
     return isinstance(document, dict) and document.get("features") == []
 
 

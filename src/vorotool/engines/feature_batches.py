@@ -182,7 +182,8 @@ def in_batches(
     Raises
     ------
     InputError
-        If `strict` and something would be repaired: the first place along the input is named.
+        If coordinates are too large or too small to compute with, or `strict` and something would be repaired: the
+        first place along the input is named.
     LimitError
         If there are too many vertices.
 

@@ -96,8 +96,8 @@ def _middle(lines: Centerlines, arcs: Numbers, cut: int, end: int, vertex: int) 
     path, polygons = lines.path, lines.path.polygons
     node, last = path.arcs[arcs[cut - 1], 1 - end], path.arcs[arcs[0], end]
     a, b = polygons.xy[vertex], polygons.xy[polygons.following[vertex]]
-    way = b - a
-    is_short = way @ way <= (WIDTH * path.radius[node]) ** 2
+    (x, y), most = b - a, WIDTH * path.radius[node]
+    is_short = x * x + y * y <= most * most
     if not is_short or path.radius[last] > path.radius[node] / 2:
         return None
     middle: Floats = a / 2 + b / 2

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
@@ -63,9 +62,6 @@ def verify_label_image(
     vorotool.errors.VerificationError: 1 of 3 pixels is wrong: the first, (x, y) = (1, 0), has label 2, not 1
     """
     image = LabelImage(labels, frame)
-    if not len(seeds):
-        _verify_nothing(image)
-        return
     high, low = _split_limit(max_distance2)
     try:
         count, column, row, _, right = _core.verify_labels(
@@ -87,15 +83,6 @@ def verify_label_image(
         raise VerificationError(
             f"{count} of {frame.pixels} pixels {'is' if count == 1 else 'are'} wrong: the first, (x, y) = "
             f"({frame.x + column}, {frame.y + row}), has label {image.labels[row, column]}, not {right}"
-        )
-
-
-def _verify_nothing(image: LabelImage) -> None:
-    """Without seeds every label is 0."""
-    count = int(np.count_nonzero(image.labels))
-    if count:
-        raise VerificationError(
-            f"{count} of {image.labels.size} pixels {'has' if count == 1 else 'have'} a label, but there are no seeds"
         )
 
 
