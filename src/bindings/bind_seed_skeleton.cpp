@@ -3,6 +3,7 @@
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/tuple.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -103,17 +104,21 @@ nb::tuple refined_steps(const IndexRows& points, const IndexRows& segments, cons
   return to_tuple(core::refined_steps(graph, steps_of(steps, graph), view(start), view(parts), most));
 }
 
+using Box = std::tuple<double, double, double, double>;  // least and most x, then y
+
 // A diagram and what it looks at.
 class SampledDiagram {
  public:
   SampledDiagram(const GraphArrays& arrays, const Matrix<const double>& seeds, const Indices& segment,
-                 const Indices& start, unsigned threads, nb::handle progress)
-      : arrays_(arrays), seeds_(seeds), segment_(segment), start_(start) {
+                 const Indices& start, const Indices& group, const std::optional<Box>& within,
+                 unsigned threads, nb::handle progress)
+      : arrays_(arrays), seeds_(seeds), segment_(segment), start_(start), group_(group) {
     const core::ShapeGraph graph = arrays_.graph();
     check(graph);
+    const core::SeedGroups groups = groups_of(graph, within);
     made_ = run_interruptible(progress, [&](const Monitor& monitor) {
       return std::make_unique<core::SeedDiagram>(graph, as_points(seeds_), view(segment_), view(start_),
-                                                 core::resolve_threads(threads), monitor);
+                                                 groups, core::resolve_threads(threads), monitor);
     });
   }
 
@@ -132,9 +137,30 @@ class SampledDiagram {
     if (!fits) throw std::invalid_argument("the seeds do not go with the segments");
   }
 
+  core::SeedGroups groups_of(const core::ShapeGraph& graph, const std::optional<Box>& within) const {
+    core::SeedGroups groups{view(group_), 1, {}};
+    if (within) {
+      const auto [least_x, most_x, least_y, most_y] = *within;
+      groups.within = core::Bounds({least_x, least_y});
+      groups.within->add({most_x, most_y});
+    }
+    if (groups.of_point.empty()) return groups;
+    bool fits = groups.of_point.size() == graph.points.size();
+    for (const std::int32_t own : groups.of_point) {
+      fits &= own >= 0 && static_cast<std::size_t>(own) < groups.of_point.size();
+      groups.count = std::max(groups.count, own + 1);
+    }
+    for (std::size_t j = 0; fits && j < graph.segments.size(); ++j) {
+      const auto [a, b] = graph.segments[j];
+      fits = groups.of_point[static_cast<std::size_t>(a)] == groups.of_point[static_cast<std::size_t>(b)];
+    }
+    if (!fits) throw std::invalid_argument("the groups do not go with the points and segments");
+    return groups;
+  }
+
   GraphArrays arrays_;
   Matrix<const double> seeds_;
-  Indices segment_, start_;
+  Indices segment_, start_, group_;
   std::unique_ptr<core::SeedDiagram> made_;
 };
 
@@ -152,8 +178,6 @@ nb::object walked_pieces(const SampledDiagram& diagram) {
   const auto pieces = (*diagram).walked_pieces();
   return to_numpy(std::vector<std::int32_t>(pieces.begin(), pieces.end()));
 }
-
-using Box = std::tuple<double, double, double, double>;
 
 nb::dict skeleton_of(const SampledDiagram& diagram, const Indices& face_group,
                      const std::optional<std::pair<std::int32_t, Box>>& clipped, bool whole, bool complete,
@@ -215,11 +239,13 @@ void bind_seed_skeleton(nb::module_& module) {
           "__init__",
           [](SampledDiagram* self, const IndexRows& points, const IndexRows& segments, const IndexRows& faces,
              const Matrix<const double>& seeds, const Indices& segment, const Indices& start,
-             unsigned threads, nb::handle progress) {
-            new (self) SampledDiagram({points, segments, faces}, seeds, segment, start, threads, progress);
+             const Indices& group, const std::optional<Box>& within, unsigned threads, nb::handle progress) {
+            new (self) SampledDiagram({points, segments, faces}, seeds, segment, start, group, within,
+                                      threads, progress);
           },
           "points"_a.noconvert(), "segments"_a.noconvert(), "faces"_a.noconvert(), "seeds"_a.noconvert(),
-          "segment"_a.noconvert(), "start"_a.noconvert(), "threads"_a, "progress"_a.none())
+          "segment"_a.noconvert(), "start"_a.noconvert(), "group"_a.noconvert(), "within"_a.none(),
+          "threads"_a, "progress"_a.none())
       .def_prop_ro("counts", &counts_of)
       .def_prop_ro("walked_pieces", &walked_pieces)
       .def("skeleton", &skeleton_of, "face_group"_a.noconvert(), "clipped"_a.none(), "whole"_a, "complete"_a,

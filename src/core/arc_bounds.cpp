@@ -320,17 +320,26 @@ std::vector<LatticeSite> sites_of(std::span<const NearEdge> items) {
 void bound_arcs(const SeedDiagram& diagram, const ArcsToBound& arcs, double tolerance,
                 std::span<std::int32_t> parts, unsigned threads, const Monitor& monitor) {
   constexpr std::size_t grain = 1 << 11;
-  const std::vector<NearEdge> items = NearEdges::items(diagram.labels().graph());
-  const SiteHierarchy hierarchy(sites_of(items), threads, monitor);
+  const std::vector<std::vector<NearEdge>> items =
+      NearEdges::items(diagram.labels().graph(), diagram.groups());
+  std::vector<SiteHierarchy> hierarchies;
+  for (const auto& own : items) {
+    hierarchies.emplace_back(sites_of(own), own.size() < grain ? 1 : threads, monitor);
+  }
   parallel_for(
       piece_count(arcs.count, grain), threads,
       [&](std::size_t piece) {
-        Bounder bounder(diagram, items, hierarchy);
+        std::optional<Bounder> bounder;
+        std::size_t group = items.size();  // of the bounder
         for (std::size_t i = piece * grain; i < std::min(arcs.count, (piece + 1) * grain); ++i) {
           const BoundedArc arc = arcs.arc(i);
-          const ArcBound& bound = bounder(arc);
+          if (const auto own = static_cast<std::size_t>(diagram.group_of(arc.seed)); own != group) {
+            bounder.emplace(diagram, items[own], hierarchies[own]);
+            group = own;
+          }
+          const ArcBound& bound = (*bounder)(arc);
           arcs.take(i, bound);
-          if (!parts.empty() && !(bound.error <= tolerance)) bounder.demand(tolerance, parts);
+          if (!parts.empty() && !(bound.error <= tolerance)) bounder->demand(tolerance, parts);
         }
       },
       monitor);

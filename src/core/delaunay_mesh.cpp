@@ -30,16 +30,17 @@ void for_all(std::size_t count, unsigned threads, const Monitor& monitor, Body b
 
 }  // namespace
 
-DelaunayMesh::DelaunayMesh(std::span<const Point> points, unsigned threads, const Monitor& monitor)
+DelaunayMesh::DelaunayMesh(std::span<const Point> points, unsigned threads, const Monitor& monitor,
+                           const std::optional<Bounds>& within)
     : DelaunayMesh(
           points, [&](const OrderedPoints& ordered) { return divide_and_conquer(ordered, threads, monitor); },
-          threads, monitor) {}
+          threads, monitor, within) {}
 
 DelaunayMesh::DelaunayMesh(std::span<const Point> points, const Triangulate& triangulate, unsigned threads,
-                           const Monitor& monitor)
+                           const Monitor& monitor, const std::optional<Bounds>& within)
     : first_(points.size()) {
   if (points.size() > most_points) throw std::length_error("more than 268435456 points");
-  MortonOrder order = morton_order(points, first_, FineOrder::of_crowds, threads, monitor);
+  MortonOrder order = morton_order(points, first_, FineOrder::of_crowds, threads, monitor, within);
   index_ = std::move(order.index);
   const std::span<RingVertex> vertices{order.vertices.data(), index_.size()};
   const Subdivision mesh = triangulate({vertices, index_, order.code, order.fine});

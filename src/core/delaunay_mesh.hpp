@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,13 +30,15 @@ struct MeshArrays {
 
 class DelaunayMesh {
  public:
-  // Finite points. Throws std::length_error for more than 2^28 of them.
-  DelaunayMesh(std::span<const Point> points, unsigned threads, const Monitor& monitor);
+  // Finite points. Throws std::length_error for more than 2^28 of them. Triangles and edges are in an order
+  // along the curve through `within`, if it is there: it holds all points.
+  DelaunayMesh(std::span<const Point> points, unsigned threads, const Monitor& monitor,
+               const std::optional<Bounds>& within = {});
 
   // The same from the rings of divide_and_conquer that are made in another way, after permute_equal_codes.
   using Triangulate = std::function<Subdivision(const OrderedPoints&)>;
   DelaunayMesh(std::span<const Point> points, const Triangulate& triangulate, unsigned threads,
-               const Monitor& monitor);
+               const Monitor& monitor, const std::optional<Bounds>& within = {});
   DelaunayMesh(DelaunayMesh&&) = default;  // and no copy
 
   // [n] for each point the first one at the same place: itself if it is the only one.

@@ -15,15 +15,20 @@ constexpr double wider = 0x1p-5;            // part of its radius by which a dis
 
 }  // namespace
 
-std::vector<NearEdge> NearEdges::items(const ShapeGraph& graph) {
-  std::vector<NearEdge> all;
+std::vector<std::vector<NearEdge>> NearEdges::items(const ShapeGraph& graph, const SeedGroups& groups) {
+  std::vector<std::vector<NearEdge>> all(static_cast<std::size_t>(groups.count));
+  const auto of_point = [&](std::size_t i) {
+    return groups.of_point.empty() ? 0 : static_cast<std::size_t>(groups.of_point[i]);
+  };
   std::vector<bool> is_end(graph.points.size());
   for (std::size_t j = 0; j < graph.segments.size(); ++j) {
-    all.push_back({static_cast<std::int32_t>(j), graph.site(static_cast<std::int32_t>(j))});
+    const auto segment = static_cast<std::int32_t>(j);
+    all[static_cast<std::size_t>(groups.of_segment(graph, segment))].push_back(
+        {segment, graph.site(segment)});
     for (const std::int32_t end : graph.segments[j]) is_end[static_cast<std::size_t>(end)] = true;
   }
   for (std::size_t i = 0; i < graph.points.size(); ++i) {
-    if (!is_end[i]) all.push_back({-1, {graph.points[i], graph.points[i]}});
+    if (!is_end[i]) all[of_point(i)].push_back({-1, {graph.points[i], graph.points[i]}});
   }
   return all;
 }

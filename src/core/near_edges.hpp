@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/axis_bound.hpp"
+#include "core/seed_diagram.hpp"
 #include "core/shape_graph.hpp"
 #include "core/site_hierarchy.hpp"
 
@@ -26,8 +27,8 @@ struct DiscPair {
 // Finds edges one time after the other: memory is used again.
 class NearEdges {
  public:
-  // Segments of a graph, then all of its points that no segment ends at.
-  static std::vector<NearEdge> items(const ShapeGraph& graph);
+  // Of each group the segments of a graph, then all of its points that no segment ends at.
+  static std::vector<std::vector<NearEdge>> items(const ShapeGraph& graph, const SeedGroups& groups);
 
   // `hierarchy` holds the items by their numbers.
   NearEdges(std::span<const NearEdge> items, const SiteHierarchy& hierarchy, std::size_t most)

@@ -25,15 +25,15 @@ bool same_place(const Point& a, const Point& b) { return a.x == b.x && a.y == b.
 class Orderer {
  public:
   Orderer(std::span<const Point> points, std::span<std::int32_t> first, FineOrder fine, unsigned threads,
-          const Monitor& monitor)
-      : points_(points), first_(first), fine_(fine), threads_(threads), monitor_(monitor) {}
+          const Monitor& monitor, const std::optional<Bounds>& within)
+      : points_(points), first_(first), fine_(fine), threads_(threads), monitor_(monitor), within_(within) {}
 
   MortonOrder run() {
     const std::size_t count = points_.size();
     std::vector<std::uint64_t> words(count);
     for (std::size_t i = 0; i < count; ++i) words[i] = i;
     if (count > 0) {
-      const MortonGrid grid = grid_of(words);
+      const MortonGrid grid = within_ ? MortonGrid(*within_) : grid_of(words);
       sort_by(words, [&grid](const Point& p) { return grid.code(p); });
       if (fine_ == FineOrder::of_places) whole_ = grid;
     }
@@ -170,6 +170,7 @@ class Orderer {
   FineOrder fine_;
   unsigned threads_;
   const Monitor& monitor_;
+  const std::optional<Bounds>& within_;
   std::optional<MortonGrid> whole_;  // over all points, where cells have a finer one in themselves
   MortonOrder order_;
   std::vector<std::uint8_t> repeated_;      // [points in order] whether the one before is at the same place
@@ -180,8 +181,8 @@ class Orderer {
 }  // namespace
 
 MortonOrder morton_order(std::span<const Point> points, std::span<std::int32_t> first, FineOrder fine,
-                         unsigned threads, const Monitor& monitor) {
-  return Orderer(points, first, fine, threads, monitor).run();
+                         unsigned threads, const Monitor& monitor, const std::optional<Bounds>& within) {
+  return Orderer(points, first, fine, threads, monitor, within).run();
 }
 
 }  // namespace vorotool::core

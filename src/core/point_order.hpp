@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/large_array.hpp"
 #include "core/monitor.hpp"
+#include "core/morton_grid.hpp"
 #include "core/rings.hpp"
 
 namespace vorotool::core {
@@ -27,8 +29,9 @@ enum class FineOrder {
 };
 
 // `first` receives for each point given the smallest index at the same place. With the order of places, which
-// of two points comes first depends on where they are in the bounds of all, and on no other point.
+// of two points comes first depends on where they are in the bounds of all, and on no other point. The grid
+// is over `within`, which holds all points, if there is one, or else over their bounds.
 MortonOrder morton_order(std::span<const Point> points, std::span<std::int32_t> first, FineOrder fine,
-                         unsigned threads, const Monitor& monitor);
+                         unsigned threads, const Monitor& monitor, const std::optional<Bounds>& within = {});
 
 }  // namespace vorotool::core

@@ -32,11 +32,62 @@ void for_each_side(const SeedMesh& mesh, unsigned threads, const Monitor& monito
       monitor);
 }
 
+// The seeds of each group, ascending.
+std::vector<std::vector<std::int32_t>> members_of(const ShapeGraph& graph,
+                                                  std::span<const std::int32_t> segment,
+                                                  const SeedGroups& groups) {
+  std::vector<std::vector<std::int32_t>> members(at(groups.count));
+  for (std::size_t s = 0; s < segment.size(); ++s) {
+    const std::int32_t group = segment[s] < 0 ? groups.of_point[s] : groups.of_segment(graph, segment[s]);
+    members[at(group)].push_back(static_cast<std::int32_t>(s));
+  }
+  return members;
+}
+
+// Triangulations of several sets of seeds, one after the other.
+struct GroupMeshes {
+  explicit GroupMeshes(std::size_t seeds) : first(seeds) {}
+
+  void add(std::span<const Point> seeds, const std::vector<std::int32_t>& members,
+           const std::optional<Bounds>& within, unsigned threads, const Monitor& monitor) {
+    std::vector<Point> places;
+    for (const std::int32_t seed : members) places.push_back(seeds[at(seed)]);
+    const DelaunayMesh mesh(places, places.size() < grain ? 1 : threads, monitor, within);
+    for (std::size_t i = 0; i < members.size(); ++i) first[at(members[i])] = members[at(mesh.first()[i])];
+    const std::size_t begin = triangles.size(), size = 3 * mesh.triangle_count();
+    if (size == 0) return;
+    triangles.resize(begin + size);
+    neighbours.resize(begin + size);
+    mesh.write({triangles.data() + begin, neighbours.data() + begin, nullptr}, threads, monitor);
+    for (std::size_t i = begin; i < begin + size; ++i) {
+      triangles[i] = members[at(triangles[i])];
+      if (neighbours[i] >= 0) neighbours[i] += static_cast<std::int32_t>(begin / 3);
+    }
+  }
+
+  std::vector<std::int32_t> triangles, neighbours, first;
+};
+
+LargeArray<std::int32_t> copied(const std::vector<std::int32_t>& values) {
+  LargeArray<std::int32_t> made(values.size());
+  std::copy(values.begin(), values.end(), made.data());
+  return made;
+}
+
 }  // namespace
 
-SeedDiagram::Triangulation SeedDiagram::triangulate(std::span<const Point> seeds, unsigned threads,
+SeedDiagram::Triangulation SeedDiagram::triangulate(const ShapeGraph& graph, std::span<const Point> seeds,
+                                                    std::span<const std::int32_t> segment,
+                                                    const SeedGroups& groups, unsigned threads,
                                                     const Monitor& monitor) {
-  const DelaunayMesh mesh(seeds, threads, monitor);
+  if (!groups.of_point.empty()) {
+    GroupMeshes all(seeds.size());
+    for (const auto& members : members_of(graph, segment, groups)) {
+      all.add(seeds, members, groups.within, threads, monitor);
+    }
+    return {copied(all.triangles), copied(all.neighbours), std::move(all.first), {}};
+  }
+  const DelaunayMesh mesh(seeds, threads, monitor, groups.within);
   const std::size_t size = 3 * mesh.triangle_count();
   Triangulation made{LargeArray<std::int32_t>(size), LargeArray<std::int32_t>(size), {}, {}};
   if (size > 0) mesh.write({made.triangles.data(), made.neighbours.data(), nullptr}, threads, monitor);
@@ -47,13 +98,15 @@ SeedDiagram::Triangulation SeedDiagram::triangulate(std::span<const Point> seeds
 
 SeedDiagram::SeedDiagram(const ShapeGraph& graph, std::span<const Point> seeds,
                          std::span<const std::int32_t> segment, std::span<const std::int32_t> start,
-                         unsigned threads, const Monitor& monitor)
-    : SeedDiagram(triangulate(seeds, threads, monitor), graph, seeds, segment, start, threads, monitor) {}
+                         const SeedGroups& groups, unsigned threads, const Monitor& monitor)
+    : SeedDiagram(triangulate(graph, seeds, segment, groups, threads, monitor), graph, seeds, segment, start,
+                  groups, threads, monitor) {}
 
 SeedDiagram::SeedDiagram(Triangulation&& made, const ShapeGraph& graph, std::span<const Point> seeds,
                          std::span<const std::int32_t> segment, std::span<const std::int32_t> start,
-                         unsigned threads, const Monitor& monitor)
-    : triangles_(std::move(made.triangles)),
+                         const SeedGroups& groups, unsigned threads, const Monitor& monitor)
+    : groups_(groups),
+      triangles_(std::move(made.triangles)),
       neighbours_(std::move(made.neighbours)),
       first_(std::move(made.first)),
       chain_(std::move(made.chain)),
@@ -62,12 +115,26 @@ SeedDiagram::SeedDiagram(Triangulation&& made, const ShapeGraph& graph, std::spa
       state_(mesh_.sides()) {
   std::vector<std::uint8_t> has_side(labels_.piece_count());
   classify_sides(has_side, threads, monitor);
-  for (std::size_t k = 0; k < has_side.size() && mesh_.size() > 0; ++k) {
-    if (!has_side[k]) walked_.push_back(static_cast<std::int32_t>(k));
-  }
+  find_walked(has_side);
   join_centres(threads, monitor);
   cross_out(threads, monitor);
   count_deleted();
+}
+
+std::int32_t SeedDiagram::group_of(std::int32_t seed) const {
+  if (groups_.of_point.empty()) return 0;
+  return labels_.is_point(seed) ? groups_.of_point[at(seed)]
+                                : groups_.of_segment(labels_.graph(), labels_.segment_of(seed));
+}
+
+// Where the seeds of a group are on one line there are no cells to walk through.
+void SeedDiagram::find_walked(const std::vector<std::uint8_t>& has_side) {
+  std::vector<bool> is_corner(mesh_.seeds.size());
+  for (const std::int32_t seed : mesh_.triangles) is_corner[at(seed)] = true;
+  for (std::size_t k = 0; k < has_side.size(); ++k) {
+    const auto piece = static_cast<std::int32_t>(k);
+    if (!has_side[k] && is_corner[at(labels_.piece(piece).first)]) walked_.push_back(piece);
+  }
 }
 
 void SeedDiagram::classify_sides(std::vector<std::uint8_t>& has_side, unsigned threads,

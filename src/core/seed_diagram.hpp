@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/large_array.hpp"
 #include "core/monitor.hpp"
+#include "core/morton_grid.hpp"
 #include "core/seed_labels.hpp"
 #include "core/seed_mesh.hpp"
 
@@ -19,22 +21,38 @@ struct SeedDiagramCounts {
   std::size_t walked = 0;   // pieces of edges that meet other cells than those of their ends, or may do so
 };
 
+// Shapes that have diagrams of their own: no seed of one has a cell in that of another, wherever it is.
+struct SeedGroups {
+  std::span<const std::int32_t> of_point;  // [points of the graph] from 0; empty: all are one group
+  std::int32_t count = 1;
+  std::optional<Bounds> within;  // holds all seeds: triangles are in an order along the curve through it
+
+  std::int32_t of_segment(const ShapeGraph& graph, std::int32_t segment) const {
+    return of_point.empty() ? 0 : of_point[static_cast<std::size_t>(graph.ends(segment)[0])];
+  }
+};
+
 // All decisions are exact for the seeds as they are rounded, with edges as polylines through them: by the
 // predicates of the triangulation, signs of dot products, and the walks of core/seed_crossings.hpp.
 class SeedDiagram {
  public:
   // What is given, as of core/edge_samples.hpp, must outlive the diagram. Throws std::length_error for more
-  // than 2^28 seeds.
+  // than 2^28 seeds. The mesh holds the triangles of one group after the other; a segment and its ends are in
+  // one group.
   SeedDiagram(const ShapeGraph& graph, std::span<const Point> seeds, std::span<const std::int32_t> segment,
-              std::span<const std::int32_t> start, unsigned threads, const Monitor& monitor);
+              std::span<const std::int32_t> start, const SeedGroups& groups, unsigned threads,
+              const Monitor& monitor);
   SeedDiagram(const SeedDiagram&) = delete;
   SeedDiagram& operator=(const SeedDiagram&) = delete;
 
   const SeedMesh& mesh() const { return mesh_; }
   const SeedLabels& labels() const { return labels_; }
   const SeedDiagramCounts& counts() const { return counts_; }
+  const SeedGroups& groups() const { return groups_; }
+  std::int32_t group_of(std::int32_t seed) const;
 
-  // Seeds from end to end where all are on one line, and there are no triangles; else none.
+  // Seeds from end to end where all are on one line, and there are no triangles; else none, and of several
+  // groups.
   std::span<const std::int32_t> chain() const { return chain_; }
   // The Voronoi edge of a side is none of those that are deleted: neither between seeds with a label in
   // common, nor met by the shapes.
@@ -56,11 +74,14 @@ class SeedDiagram {
     LargeArray<std::int32_t> triangles, neighbours;
     std::vector<std::int32_t> first, chain;
   };
-  static Triangulation triangulate(std::span<const Point> seeds, unsigned threads, const Monitor& monitor);
+  static Triangulation triangulate(const ShapeGraph& graph, std::span<const Point> seeds,
+                                   std::span<const std::int32_t> segment, const SeedGroups& groups,
+                                   unsigned threads, const Monitor& monitor);
   SeedDiagram(Triangulation&& made, const ShapeGraph& graph, std::span<const Point> seeds,
-              std::span<const std::int32_t> segment, std::span<const std::int32_t> start, unsigned threads,
-              const Monitor& monitor);
+              std::span<const std::int32_t> segment, std::span<const std::int32_t> start,
+              const SeedGroups& groups, unsigned threads, const Monitor& monitor);
 
+  void find_walked(const std::vector<std::uint8_t>& has_side);
   void classify_sides(std::vector<std::uint8_t>& has_side, unsigned threads, const Monitor& monitor);
   std::uint8_t state_of(Side s, std::vector<std::uint8_t>& has_side) const;
   bool is_alone_on(Side s) const;
@@ -69,6 +90,7 @@ class SeedDiagram {
   void mark_crossed(Side s);
   void count_deleted();
 
+  SeedGroups groups_;
   LargeArray<std::int32_t> triangles_, neighbours_;
   std::vector<std::int32_t> first_, chain_;
   SeedMesh mesh_;

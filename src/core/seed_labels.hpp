@@ -35,6 +35,8 @@ class SeedLabels {
   bool is_point(std::int32_t seed) const { return static_cast<std::size_t>(seed) < graph_.points.size(); }
   // A point of the graph without segments.
   bool is_lone(std::int32_t seed) const { return is_point(seed) && incident_.at(seed).empty(); }
+  // The segment that a seed is inside of: it is no point.
+  std::int32_t segment_of(std::int32_t seed) const { return inside(seed); }
   // Row of the table of sites: points, then segments.
   std::int32_t site_of(std::int32_t seed) const {
     return is_point(seed) ? seed : static_cast<std::int32_t>(graph_.points.size()) + inside(seed);

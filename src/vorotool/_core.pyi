@@ -613,9 +613,15 @@ class SampledDiagram:
         seeds: NDArray[np.float64],
         segment: NDArray[np.int32],
         start: NDArray[np.int32],
+        group: NDArray[np.int32],
+        within: tuple[float, float, float, float] | None,
         threads: int,
         progress: _Progress,
-    ) -> None: ...
+    ) -> None:
+        """Of each point a group that has a diagram of its own, or none of any; triangles are ordered within bounds.
+
+        These are least and most x, then y, on the lattice.
+        """
     @property
     def counts(self) -> dict[str, int]: ...
     @property

@@ -13,6 +13,13 @@ from numpy.typing import NDArray
 from vorotool.cli.run import Run
 from vorotool.cli.skeletons import SkeletonProducts
 from vorotool.cli.targets import Target
+from vorotool.engines.feature_batches import together
+from vorotool.engines.feature_samples import (
+    FeatureApproximation,
+    approximation_of_sides,
+    feature_approximation,
+    of_one_part,
+)
 from vorotool.engines.placed_rings import placed_shapes
 from vorotool.engines.planar_graph import graph_for_skeletons
 from vorotool.engines.skeleton_approx import (
@@ -29,6 +36,9 @@ from vorotool.geometry.edge_samples import sample_table
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.skeleton import Skeleton
+
+ALL_TOGETHER = {"diagram", "elements"}
+"""What is of all features together, however they are taken."""
 
 
 class ApproximateProducts(SkeletonProducts):
@@ -47,25 +57,41 @@ class ApproximateProducts(SkeletonProducts):
     def __init__(self, polygons: PolygonSet, options: SimpleNamespace, run: Run) -> None:
         super().__init__(polygons, options, run)
         self._common: dict[str, Any] = {"threads": options.threads, "progress": run.progress("skeleton")}
-        sampling = SamplingOptions(options.step, options.tolerance, options.sampling)
+        self._sampling = SamplingOptions(options.step, options.tolerance, options.sampling)
         self._most = min(options.max_sites, MOST_SEEDS)
         self._found: ApproximateSkeleton | None = None
         self._apart: dict[str, Any] | None = None
-        with run.phase("place"):
-            self._graph = graph_for_skeletons(polygons, strict=options.strict, **self._common)
-            placed = placed_shapes(self._graph, threads=options.threads)
-        with run.phase("diagram"):
-            if options.tolerance is None:
-                self.shapes: SampledShapes = sampled_graph(
-                    self._graph, placed, sampling, most=self._most, **self._common
-                )
-            else:
-                from vorotool.engines.skeleton_tolerance import skeleton_within
+        # what is refused is refused here, where the input has its name
+        if options.features == "together" or set(options.what) & ALL_TOGETHER:
+            _ = self.shapes
+        if self.wants_skeleton and options.features == "separate":
+            _ = self.found
+        elif not self.wants_skeleton:
+            _ = self.derived.offset
 
-                self._found = skeleton_within(
-                    self._graph, placed, options.tolerance, **self._wanted, most=self._most, **self._common
-                )
-                self.shapes = self._found.shapes
+    @cached_property
+    def graph(self) -> PlanarGraph:
+        """The shapes as they were placed, all of them together."""
+        o = self.options
+        with self.run.phase("place"), self.telling_once():
+            if o.features == "together":
+                return graph_for_skeletons(self._polygons, strict=o.strict, **self._common)
+            return together(self._polygons, strict=o.strict, **self._common)
+
+    @cached_property
+    def shapes(self) -> SampledShapes:
+        """Samples of all features and their one diagram."""
+        o = self.options
+        placed = placed_shapes(self.graph, threads=o.threads)
+        with self.run.phase("diagram"):
+            if o.tolerance is None:
+                return sampled_graph(self.graph, placed, self._sampling, most=self._most, **self._common)
+            from vorotool.engines.skeleton_tolerance import skeleton_within
+
+            self._found = skeleton_within(
+                self.graph, placed, o.tolerance, **self._wanted, most=self._most, **self._common
+            )
+            return self._found.shapes
 
     @property
     def _wanted(self) -> dict[str, Any]:
@@ -74,11 +100,17 @@ class ApproximateProducts(SkeletonProducts):
         return {"side": o.side, "frame": o.frame, "complete": complete}
 
     @cached_property
-    def found(self) -> ApproximateSkeleton:
+    def found(self) -> FeatureApproximation:
         """The skeleton, and what it was made of."""
-        if self._found is not None:
-            return self._found
-        return approximate_skeleton(self.shapes, **self._wanted, **self._common)
+        wanted = self._wanted
+        if self.options.features == "together":
+            shapes = self.shapes
+            return of_one_part(self._found or approximate_skeleton(shapes, **wanted, **self._common))
+        common: dict[str, Any] = {"strict": self.options.strict, "most": self._most, **self._common}
+        with self.run.phase("diagram"), self.telling_once():
+            if wanted["side"] != "interior":
+                return approximation_of_sides(self._polygons, self._sampling, **wanted, **common)
+            return feature_approximation(self._polygons, self._sampling, complete=wanted["complete"], **common)
 
     def _make_skeleton(self) -> Skeleton:
         return self.found.skeleton
@@ -86,23 +118,19 @@ class ApproximateProducts(SkeletonProducts):
     def _make_diagram(self) -> Skeleton:
         return whole_sampled_diagram(self.shapes, frame=self.options.frame, threads=self.options.threads)
 
-    @property
-    def graph(self) -> PlanarGraph:
-        """The shapes as they were placed."""
-        return self._graph
-
-    @property
-    def _points(self) -> NDArray[np.float64]:
-        return self.shapes.samples.xy
+    def _points(self, what: str) -> NDArray[np.float64]:
+        return self.shapes.samples.xy if what in ALL_TOGETHER else self.found.places
 
     @cached_property
     def exact(self) -> Skeleton:
         """The exact skeleton of the same shapes."""
-        from vorotool.engines.skeleton_comparison import exact_skeleton
+        from vorotool.engines.skeletons import skeleton_exact
 
         o = self.options
-        with self.run.phase("exact"):
-            return exact_skeleton(self.found, side=o.side, frame=self.found.skeleton.frame, threads=o.threads)
+        with self.run.phase("exact"), warnings.catch_warnings():
+            warnings.simplefilter("ignore", VorotoolWarning)  # all that was told before
+            frame = self.found.skeleton.frame
+            return skeleton_exact(self._polygons, side=o.side, features=o.features, frame=frame, threads=o.threads)
 
     def _write_data(self, out: BinaryIO, target: Target) -> None:
         if target.what != "elements":
@@ -118,10 +146,15 @@ class ApproximateProducts(SkeletonProducts):
         from vorotool.engines.approximate_verification import verify_approximate
 
         progress = self.run.progress("verifying")
-        verify_approximate(self.found, step=self.options.step, threads=self.options.threads, progress=progress)
+        for part in self.found.parts:
+            verify_approximate(part, step=self.options.step, threads=self.options.threads, progress=progress)
+
+    def _shape_stats(self) -> dict[str, Any]:
+        inside = self.found.inside if self.options.side == "interior" and self.wants_skeleton else None
+        return super()._shape_stats() if inside is None else inside.counts()
 
     def _diagram_stats(self) -> dict[str, Any]:
-        return {"samples": len(self.shapes.samples), **self.shapes.diagram.counts}
+        return self.found.counts()
 
     def _more_stats(self) -> dict[str, Any]:
         o = self.options
@@ -149,10 +182,10 @@ class ApproximateProducts(SkeletonProducts):
 
     def _comparison(self) -> dict[str, Any]:
         """How far the exact skeleton is."""
-        from vorotool.engines.skeleton_comparison import compare_with_exact
+        from vorotool.engines.skeleton_comparison import compare_parts
 
         with self.run.phase("compare"):
-            found = compare_with_exact(self.found, side=self.options.side, threads=self.options.threads)
+            found = compare_parts(self.found, side=self.options.side, threads=self.options.threads)
         tolerance = self.options.tolerance
         for name, value in found.items():
             if value is None:

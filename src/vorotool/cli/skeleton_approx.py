@@ -17,6 +17,13 @@ if TYPE_CHECKING:
 
 @click.command("skeleton-approx")
 @skeleton_options(
+    click.option(
+        "--features",
+        type=click.Choice(["separate", "together"]),
+        default="separate",
+        help="Take each feature as if there were no others, whatever lies in it or over it (default), or all as one "
+        "drawing.",
+    ),
     click.option("--step", type=Length(zero=False), metavar="H", help="Sample the edges at this distance."),
     click.option(
         "--tolerance",
@@ -48,7 +55,7 @@ def command(**options: Any) -> None:
     left out, and those that the shapes cross. No point of an arc is farther from the exact skeleton than its
     error_bound.
     """
-    o = SimpleNamespace(**options, features="together")
+    o = SimpleNamespace(**options)
     if (o.step is None) == (o.tolerance is None):
         raise click.UsageError("use either --step H or --tolerance E")
     if o.tolerance is not None and o.sampling == "paper":

@@ -147,9 +147,8 @@ class SkeletonProducts(ABC):
         with self.run.phase("diagram"):
             return diagram_of_graph(self.graph, threads=self.options.threads, progress=self.run.progress("diagram"))
 
-    @property
-    def _points(self) -> NDArray[np.float64] | None:
-        """What pictures show as points, if not the ends of edges."""
+    def _points(self, what: str) -> NDArray[np.float64] | None:
+        """What pictures of a result show as points, if not the ends of edges."""
         return None
 
     @property
@@ -269,7 +268,8 @@ class SkeletonProducts(ABC):
             layers = centerline_layers(self.centerlines, page, wanted)
         else:
             exact = self.exact if "exact" in wanted else None
-            layers = picture_layers(value, page, wanted, what=target.what, points=self._points, exact=exact)
+            points = self._points(target.what) if "points" in wanted else None
+            layers = picture_layers(value, page, wanted, what=target.what, points=points, exact=exact)
         write_layers(out, layers, page, fmt=target.fmt, threads=self.options.threads)
 
     def _layers(self, what: str) -> Sequence[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -143,10 +144,28 @@ def _check_seeds(found: ApproximateSkeleton) -> None:
         if at is not None:
             one, other = found.seeds[sampled[at]].tolist()
             fail(f"arc {sampled[at]} is {left[at]} from seed {one} and {right[at]} from seed {other}")
-        _, nearest = tree.query_nearest(shapely.points(place), return_distance=True, all_matches=False)
+        nearest = _nearest_of_group(found, tree, place, found.seeds[sampled, 0], left - error)
         at = first_wrong(nearest < left - error)
         if at is not None:
             fail(f"a seed is {nearest[at]} from arc {sampled[at]}, nearer than its own, {left[at]}")
+
+
+def _nearest_of_group(
+    found: ApproximateSkeleton, tree: Any, places: Floats, seeds: NDArray[np.int32], reach: Floats
+) -> Floats:
+    """How far the nearest seed is that has a diagram with a given one; only what is within a reach is looked for."""
+    import shapely
+
+    points, group = shapely.points(places), found.shapes.groups.of_seeds(found.shapes.samples)
+    if group is None:
+        distance: Floats = tree.query_nearest(points, return_distance=True, all_matches=False)[1]
+        return distance
+    place, seed = tree.query(points, predicate="dwithin", distance=np.maximum(reach, 0))
+    own = group[seed] == group[seeds[place]]
+    place, seed = place[own], seed[own]
+    nearest = np.full(len(places), np.inf)
+    np.minimum.at(nearest, place, hypotenuse(*(places[place] - found.shapes.samples.xy[seed]).T))
+    return nearest
 
 
 def _check_labels(found: ApproximateSkeleton) -> None:

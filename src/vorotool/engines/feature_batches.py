@@ -192,9 +192,7 @@ def in_batches(
     VorotoolWarning
         If something was repaired: what, and how often.
     """
-    check_magnitude(polygons.xy)
-    if len(polygons.xy) > MOST_VERTICES:
-        raise LimitError(f"there are {len(polygons.xy)} vertices, more than {MOST_VERTICES}: split the polygons")
+    _check_size(polygons)
     threads = threads or available_threads()
     is_cracks = polygons.connectivity is not None and reach is None and not polygons.is_line.any()
     corners = own_corners(polygons) if is_cracks else None
@@ -220,8 +218,7 @@ def together(polygons: PolygonSet, *, strict: bool = False, threads: int = 0, pr
 
     Arguments, errors and warnings are as of `in_batches`.
     """
-    if len(polygons.xy) > MOST_VERTICES:
-        raise LimitError(f"there are {len(polygons.xy)} vertices, more than {MOST_VERTICES}: split the polygons")
+    _check_size(polygons)
     placement = placed_vertices(polygons, threads=threads, progress=progress)
     graph = arranged(polygons, placement, progress=progress).graph
     if any(graph.repairs.values()):
@@ -242,6 +239,13 @@ def are_apart(graph: PlanarGraph) -> bool:
     if ((face[1:] == face[:-1]) & (feature[1:] != feature[:-1])).any():
         return False
     return len(graph.points) == len(given.xy) or not len(touching_features(Features.of(given), graph.vertices))
+
+
+def _check_size(polygons: PolygonSet) -> None:
+    """Raise for coordinates that cannot be computed with, and for too many of them."""
+    check_magnitude(polygons.xy)
+    if len(polygons.xy) > MOST_VERTICES:
+        raise LimitError(f"there are {len(polygons.xy)} vertices, more than {MOST_VERTICES}: split the polygons")
 
 
 def _as_a_whole(

@@ -101,10 +101,15 @@ def _without_beyond(made: Skeleton, shapes: BatchShapes) -> Skeleton:
 
 def joined_skeletons(whole: FeatureShapes, parts: Sequence[tuple[BatchShapes, Skeleton]]) -> Skeleton:
     """Put the skeletons of all batches together: arcs polygon by polygon, sites in the order of the input."""
+    return joined_with_places(whole, parts)[0]
+
+
+def joined_with_places(whole: FeatureShapes, parts: Sequence[tuple[BatchShapes, Skeleton]]) -> tuple[Skeleton, Places]:
+    """Put the skeletons of all batches together, and tell where the arcs come."""
     order = InputOrder.of(whole, [shapes for shapes, _ in parts])
     skeletons = [skeleton for _, skeleton in parts]
     if len(parts) == 1 and not any(whole.repairs.values()):  # in order already
-        return replace(skeletons[0], site_table=order.site_table, polygons=order.polygons)
+        return replace(skeletons[0], site_table=order.site_table, polygons=order.polygons), Places(None)
     own = [numbers[skeleton.polygon] for numbers, skeleton in zip(order.polygon_numbers, skeletons, strict=True)]
     polygon = stacked(own).astype(np.int32)
     arcs, nodes = Places.by(polygon), Places.by(stacked(_node_polygons(skeletons, own)))
@@ -117,7 +122,7 @@ def joined_skeletons(whole: FeatureShapes, parts: Sequence[tuple[BatchShapes, Sk
     pairs = np.empty((0, 2), dtype=np.int32)
     ends = [pairs, *(skeleton.arcs + np.int32(node) for skeleton, node in zip(skeletons, first, strict=False))]
     sites = [numbers[skeleton.sites] for numbers, skeleton in zip(order.site_numbers, skeletons, strict=True)]
-    return Skeleton(
+    made = Skeleton(
         **columns,
         arcs=nodes.numbers(arcs.arranged(ends)),
         sites=arcs.arranged([pairs, *sites]),
@@ -126,6 +131,7 @@ def joined_skeletons(whole: FeatureShapes, parts: Sequence[tuple[BatchShapes, Sk
         branch=_branches(arcs, skeletons),
         polygons=order.polygons,
     )
+    return made, arcs
 
 
 def _empty_like(name: str) -> NDArray[Any]:

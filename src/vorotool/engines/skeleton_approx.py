@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -70,6 +70,29 @@ class SamplingOptions:
 
 
 @dataclass(frozen=True, eq=False)
+class SeedGroups:
+    """Which seeds have a diagram together, and in which bounds its parts are put into order.
+
+    Parameters
+    ----------
+    of_point : (n,) int32 array
+        The group of each point of a graph, from 0; none if all have one diagram. Segments and their ends are in one.
+    within : (least x, most x, least y, most y), optional
+        On the lattice: hold all seeds. By default their bounds.
+    """
+
+    of_point: NDArray[np.int32] = field(default_factory=lambda: np.empty(0, dtype=np.int32))
+    within: tuple[float, float, float, float] | None = None
+
+    def of_seeds(self, samples: EdgeSamples) -> NDArray[np.int32] | None:
+        """(s,) groups; None if all are one."""
+        if not len(self.of_point):
+            return None
+        points = len(self.of_point)
+        return np.concatenate([self.of_point, self.of_point[samples.graph.segments[samples.segment[points:], 0]]])
+
+
+@dataclass(frozen=True, eq=False)
 class SampledShapes:
     """Polygons made a planar graph, seeds on it, and their Voronoi diagram.
 
@@ -83,12 +106,15 @@ class SampledShapes:
         The seeds.
     diagram : compiled object
         Their Voronoi diagram, with what is to be deleted.
+    groups : SeedGroups
+        Which of them have a diagram together.
     """
 
     graph: PlanarGraph
     placed: PlacedShapes
     samples: EdgeSamples
     diagram: Any
+    groups: SeedGroups
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,17 +176,31 @@ def sampled_graph(
     progress: Progress = None,
 ) -> SampledShapes:
     """Sample a graph by a step, and compute the Voronoi diagram of the seeds."""
-    assert options.step is not None
-    step = options.step / graph.scale
     try:
-        if options.is_symmetric:
-            steps = _core.corner_steps(*graph_arrays(graph), step, True, most)
-            made = _core.sample_from_corners(*graph_arrays(graph), steps, most, threads, progress)
-        else:
-            made = _core.sample_by_step(*graph_arrays(graph), step, most, threads, progress)
+        return diagram_by_step(graph, placed, options, SeedGroups(), most=most, threads=threads, progress=progress)
     except _core.TooManySeedsError as error:
         raise LimitError(f"a step of {options.step:g} gives {error}, more than {most}: use a larger one") from None
-    return diagram_of_samples(graph, placed, made, threads=threads, progress=progress)
+
+
+def diagram_by_step(
+    graph: PlanarGraph,
+    placed: PlacedShapes,
+    options: SamplingOptions,
+    groups: SeedGroups,
+    *,
+    most: int,
+    threads: int,
+    progress: Progress,
+) -> SampledShapes:
+    """Sample a graph by a step, and compute the Voronoi diagrams; TooManySeedsError is the core's."""
+    assert options.step is not None
+    step = options.step / graph.scale
+    if options.is_symmetric:
+        steps = _core.corner_steps(*graph_arrays(graph), step, True, most)
+        made = _core.sample_from_corners(*graph_arrays(graph), steps, most, threads, progress)
+    else:
+        made = _core.sample_by_step(*graph_arrays(graph), step, most, threads, progress)
+    return diagram_of_samples(graph, placed, made, groups, threads=threads, progress=progress)
 
 
 def graph_arrays(graph: PlanarGraph) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]]:
@@ -169,12 +209,18 @@ def graph_arrays(graph: PlanarGraph) -> tuple[NDArray[np.int32], NDArray[np.int3
 
 
 def diagram_of_samples(
-    graph: PlanarGraph, placed: PlacedShapes, made: tuple[Any, Any, Any], *, threads: int, progress: Progress
+    graph: PlanarGraph,
+    placed: PlacedShapes,
+    made: tuple[Any, Any, Any],
+    groups: SeedGroups,
+    *,
+    threads: int,
+    progress: Progress,
 ) -> SampledShapes:
-    """Compute the Voronoi diagram of seeds."""
+    """Compute the Voronoi diagram of seeds, or of each group of them."""
     samples = EdgeSamples(*made, graph, placed.sites, placed.polygons)
-    diagram = _core.SampledDiagram(*graph_arrays(graph), *made, threads, progress)
-    return SampledShapes(graph, placed, samples, diagram)
+    diagram = _core.SampledDiagram(*graph_arrays(graph), *made, groups.of_point, groups.within, threads, progress)
+    return SampledShapes(graph, placed, samples, diagram, groups)
 
 
 def approximate_skeleton(
@@ -192,9 +238,31 @@ def approximate_skeleton(
     Arguments are as of `skeleton_approx`; with a tolerance, what should be sampled more finely is in the result.
     """
     check_skeleton_options(side, 0, frame)
+    if side != "exterior" and not shapes.graph.is_inside.any():
+        warn_empty(shapes.placed.polygons, side)
+    common: dict[str, Any] = {"threads": checked_threads(threads), "progress": progress}
+    return told_together(
+        skeleton_of_samples(shapes, side=side, frame=frame, complete=complete, tolerance=tolerance, **common), side
+    )
+
+
+def told_together(found: ApproximateSkeleton, side: str) -> ApproximateSkeleton:
+    """Say that features were taken together, where there are several, and their inside is of interest."""
+    return found if side == "exterior" else replace(found, skeleton=of_one_arrangement(found.skeleton))
+
+
+def skeleton_of_samples(
+    shapes: SampledShapes,
+    *,
+    side: str,
+    frame: Frame | None,
+    complete: bool,
+    tolerance: float,
+    threads: int,
+    progress: Progress,
+) -> ApproximateSkeleton:
+    """Do what `approximate_skeleton` does, without a word about anything."""
     graph, placed = shapes.graph, shapes.placed
-    if side != "exterior" and not graph.is_inside.any():
-        warn_empty(placed.polygons, side)
     clip = None if side == "interior" else (frame or default_frame(placed.polygons))
     made: dict[str, Any] = shapes.diagram.skeleton(
         face_groups(placed, side),
@@ -205,7 +273,7 @@ def approximate_skeleton(
         joined_groups(placed),
         *graph.origin,
         graph.scale,
-        checked_threads(threads),
+        threads,
         progress,
     )
     seeds, parts, open_corners = made.pop("seeds"), made.pop("parts"), made.pop("open_corners")
@@ -213,7 +281,6 @@ def approximate_skeleton(
     bound = made["error_bound"] + ROUNDING_ULPS * np.spacing(largest)
     made["error_bound"] = np.where(np.isinf(bound), np.nan, bound)
     skeleton = skeleton_of_arrays(made, placed, clip)
-    skeleton = skeleton if side == "exterior" else of_one_arrangement(skeleton)
     return ApproximateSkeleton(skeleton, seeds, shapes, open_corners, parts)
 
 

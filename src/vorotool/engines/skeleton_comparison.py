@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import asdict, dataclass
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.engines.feature_samples import FeatureApproximation
 from vorotool.engines.segment_voronoi import segment_voronoi
 from vorotool.engines.skeleton_approx import ApproximateSkeleton, approximate_skeleton
 from vorotool.engines.skeleton_exact import Frame, ShapeDiagram, skeleton_of
@@ -22,6 +24,9 @@ FLATTEN = 2.0**-12
 STARTS = 8
 """Parts of a parabola from the ends of which Newton's method starts: on each the distance has one minimum at most."""
 NEWTON_STEPS = 40
+
+TO_EXACT, TO_APPROXIMATE = "from_approximate_to_exact", "from_exact_to_approximate"
+"""The two ways of a comparison."""
 
 
 @dataclass(frozen=True)
@@ -102,6 +107,38 @@ def compare_with_exact(found: ApproximateSkeleton, *, side: str = "interior", th
     >>> [bool(way["largest"] < 1e-12) for way in compare_with_exact(found).values()]
     [True, True]
     """
+    return {name: _as_dict(way) for name, (way, _) in _both_ways(found, side=side, threads=threads).items()}
+
+
+def compare_parts(found: FeatureApproximation, *, side: str = "interior", threads: int = 0) -> dict[str, Any]:
+    """Measure how far an approximate skeleton of features is from the exact one, part by part.
+
+    Arguments and results are as of `compare_with_exact`; the arcs of exact skeletons are numbered part after part.
+    """
+    sides = [side] * len(found.parts)
+    if side == "both" and found.inside is not None:
+        sides = [*["interior"] * (len(found.parts) - 1), "exterior"]
+    ways = [_both_ways(part, side=own, threads=threads) for part, own in zip(found.parts, sides, strict=True)]
+    exact = np.cumsum([0, *(way[TO_APPROXIMATE][1] for way in ways)])
+    numbers = {
+        TO_EXACT: found.arcs,
+        TO_APPROXIMATE: [first + np.arange(way[TO_APPROXIMATE][1]) for first, way in zip(exact, ways, strict=False)],
+    }
+    return {name: _as_dict(_farthest([way[name] for way in ways], numbers[name])) for name in numbers}
+
+
+def _farthest(ways: Sequence[tuple[Deviation | None, int]], numbers: Sequence[NDArray[np.int64]]) -> Deviation | None:
+    """The largest deviation of some parts, with the number of its arc among all; and the mean of all."""
+    known = [(way, count, own) for (way, count), own in zip(ways, numbers, strict=True) if way is not None]
+    if not known:
+        return None
+    way, _, own = max(known, key=lambda row: row[0].largest)
+    mean = float(np.average([row[0].mean for row in known], weights=[row[1] for row in known]))
+    return replace(way, arc=int(own[way.arc]), mean=way.mean if len(known) == 1 else mean)
+
+
+def _both_ways(found: ApproximateSkeleton, *, side: str, threads: int) -> dict[str, tuple[Deviation | None, int]]:
+    """Deviations, and how many arcs each is of."""
     approximate, wide = found.skeleton, found.skeleton
     frame = approximate.frame
     exact = exact_skeleton(found, side=side, frame=frame, threads=threads)
@@ -112,8 +149,8 @@ def compare_with_exact(found: ApproximateSkeleton, *, side: str = "interior", th
         wide = approximate_skeleton(found.shapes, side=side, frame=larger, complete=complete, threads=threads).skeleton
         wide_exact = exact_skeleton(found, side=side, frame=larger, threads=threads)
     return {
-        "from_approximate_to_exact": _as_dict(deviation(approximate, wide_exact)),
-        "from_exact_to_approximate": _as_dict(deviation(exact, wide)),
+        TO_EXACT: (deviation(approximate, wide_exact), len(approximate)),
+        TO_APPROXIMATE: (deviation(exact, wide), len(exact)),
     }
 
 

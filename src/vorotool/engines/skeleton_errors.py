@@ -7,17 +7,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.engines.feature_samples import FeatureApproximation
 from vorotool.engines.skeleton_approx import ApproximateSkeleton
 from vorotool.geometry.elementary import hypotenuse
 from vorotool.geometry.skeleton import EDGE
 
 
-def error_summary(found: ApproximateSkeleton, *, step: float | None = None) -> dict[str, Any]:
+def error_summary(found: ApproximateSkeleton | FeatureApproximation, *, step: float | None = None) -> dict[str, Any]:
     """Sum up the certified bounds of errors.
 
     Parameters
     ----------
-    found : ApproximateSkeleton
+    found : ApproximateSkeleton or FeatureApproximation
         Whatever its side.
     step : float, optional
         Between samples: for the estimates of the paper.
@@ -48,7 +49,7 @@ def error_summary(found: ApproximateSkeleton, *, step: float | None = None) -> d
     return summary if step is None else summary | _beside_the_paper(found, step)
 
 
-def _beside_the_paper(found: ApproximateSkeleton, step: float) -> dict[str, Any]:
+def _beside_the_paper(found: ApproximateSkeleton | FeatureApproximation, step: float) -> dict[str, Any]:
     skeleton = found.skeleton
     is_edge = (skeleton.site_table.kind == EDGE)[skeleton.sites]
     sampled = (found.seeds >= 0).all(axis=1)
@@ -72,7 +73,7 @@ def _beside_the_paper(found: ApproximateSkeleton, step: float) -> dict[str, Any]
 
 
 def _focal_heights(
-    found: ApproximateSkeleton, arcs: NDArray[np.intp], is_edge: NDArray[np.bool_]
+    found: ApproximateSkeleton | FeatureApproximation, arcs: NDArray[np.intp], is_edge: NDArray[np.bool_]
 ) -> NDArray[np.float64]:
     """How far the vertex of each arc is from the line of its edge."""
     sites = found.skeleton.sites[arcs]

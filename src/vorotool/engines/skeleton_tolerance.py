@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,13 +14,17 @@ from vorotool.engines.skeleton_approx import (
     MOST_SEEDS,
     ApproximateSkeleton,
     SampledShapes,
-    approximate_skeleton,
+    SeedGroups,
     diagram_of_samples,
     graph_arrays,
+    skeleton_of_samples,
+    told_together,
 )
-from vorotool.engines.skeleton_exact import Frame
+from vorotool.engines.skeleton_exact import Frame, warn_empty
 from vorotool.errors import LimitError
+from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.planar_graph import PlanarGraph
+from vorotool.geometry.skeleton import Skeleton
 
 COARSEST = 2.0**-4
 """Of the extent: the longest gaps that sampling begins with."""
@@ -73,43 +79,84 @@ def skeleton_within(
     >>> bool(skeleton.error_bound.max() <= 0.001)
     True
     """
-    if tolerance < LEAST_STEPS * graph.scale:
-        raise LimitError(
-            f"a tolerance of {tolerance:g} is finer than the lattice that polygons are placed on: use at least "
-            f"{LEAST_STEPS * graph.scale:.2g}"
-        )
-    extent = float(np.ptp(graph.points, axis=0).max()) if len(graph.points) else 1.0
+    if side != "exterior" and not graph.is_inside.any():
+        warn_empty(placed.polygons, side)
     try:
-        steps = _core.corner_steps(*graph_arrays(graph), COARSEST * extent, False, most)
-        for _ in range(MOST_ROUNDS):
-            made = _core.sample_from_corners(*graph_arrays(graph), steps, most, threads, progress)
-            shapes = diagram_of_samples(graph, placed, made, threads=threads, progress=progress)
-            found = approximate_skeleton(
-                shapes,
-                side=side,
-                frame=frame,
-                complete=complete,
-                tolerance=tolerance,
-                threads=threads,
-                progress=progress,
-            )
-            parts = _parts(shapes, found, tolerance)
-            if (parts == 1).all():
-                break
-            steps = _core.refined_steps(*graph_arrays(graph), steps, made[2], parts, most)
+        found = refined_skeleton(
+            graph,
+            placed,
+            tolerance,
+            SeedGroups(),
+            side=side,
+            frame=frame,
+            complete=complete,
+            most=most,
+            threads=checked_threads(threads),
+            progress=progress,
+        )
     except _core.TooManySeedsError as error:
         raise LimitError(
             f"errors of at most {tolerance:g} take more than {most} seeds ({error}): use a larger tolerance, or allow "
             "more seeds"
         ) from None
-    wrong = ~(found.skeleton.error_bound <= tolerance)
-    if wrong.any():
-        x, y = found.skeleton.vertices[found.skeleton.arcs[wrong.argmax(), 0]].tolist()
+    refuse_unproved(found.skeleton, tolerance)
+    return told_together(found, side)
+
+
+def refined_skeleton(
+    graph: PlanarGraph,
+    placed: PlacedShapes,
+    tolerance: float,
+    groups: SeedGroups,
+    *,
+    side: str,
+    frame: Frame | None,
+    complete: bool,
+    most: int,
+    threads: int,
+    progress: Progress,
+) -> ApproximateSkeleton:
+    """Sample until there is nothing more to be divided, or it does not help; TooManySeedsError is the core's.
+
+    What one group asks for is of this one alone: where it asks for nothing more its seeds stay.
+    """
+    if tolerance < LEAST_STEPS * graph.scale:
         raise LimitError(
-            f"errors of at most {tolerance:g} could not be proved for {np.count_nonzero(wrong)} arcs, the first near "
-            f"({x:g}, {y:g}): use a larger tolerance"
+            f"a tolerance of {tolerance:g} is finer than the lattice that polygons are placed on: use at least "
+            f"{LEAST_STEPS * graph.scale:.2g}"
         )
+    arrays = graph_arrays(graph)
+    common: dict[str, Any] = {"threads": threads, "progress": progress}
+    steps = _core.corner_steps(*arrays, COARSEST * _extent(graph, groups), False, most)
+    for _ in range(MOST_ROUNDS):
+        made = _core.sample_from_corners(*arrays, steps, most, threads, progress)
+        shapes = diagram_of_samples(graph, placed, made, groups, **common)
+        found = skeleton_of_samples(shapes, side=side, frame=frame, complete=complete, tolerance=tolerance, **common)
+        parts = _parts(shapes, found, tolerance)
+        if (parts == 1).all():
+            break
+        steps = _core.refined_steps(*arrays, steps, made[2], parts, most)
     return found
+
+
+def refuse_unproved(skeleton: Skeleton, tolerance: float) -> None:
+    """Raise LimitError for arcs without a bound, or with one above a tolerance."""
+    wrong = ~(skeleton.error_bound <= tolerance)
+    if not wrong.any():
+        return
+    x, y = skeleton.vertices[skeleton.arcs[wrong.argmax(), 0]].tolist()
+    raise LimitError(
+        f"errors of at most {tolerance:g} could not be proved for {np.count_nonzero(wrong)} arcs, the first near "
+        f"({x:g}, {y:g}): use a larger tolerance"
+    )
+
+
+def _extent(graph: PlanarGraph, groups: SeedGroups) -> float:
+    """The larger side of the bounds, of all if what is sampled is a part."""
+    if groups.within is not None:
+        least_x, most_x, least_y, most_y = groups.within
+        return max(most_x - least_x, most_y - least_y)
+    return float(np.ptp(graph.points, axis=0).max()) if len(graph.points) else 1.0
 
 
 def _parts(shapes: SampledShapes, found: ApproximateSkeleton, tolerance: float) -> NDArray[np.int32]:

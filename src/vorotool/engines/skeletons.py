@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from vorotool.engines.feature_samples import approximation_of_sides, feature_approximation
 from vorotool.engines.feature_sides import skeleton_of_sides
 from vorotool.engines.feature_skeletons import feature_skeleton
 from vorotool.engines.label_arrays import Progress
@@ -118,6 +119,7 @@ def skeleton_approx(
     tolerance: float | None = None,
     sampling: str | None = None,
     side: str = "interior",
+    features: str = "separate",
     complete: bool | None = None,
     frame: Frame | None = None,
     strict: bool = False,
@@ -128,7 +130,8 @@ def skeleton_approx(
 
     The edges are sampled, and each seed has the labels of the edges that it is on. Of the Voronoi diagram of the seeds,
     the edges between seeds with a label in common are deleted, and those that the polygons cross. All that is decided
-    exactly. No point of an arc is farther from the exact skeleton than its `error_bound`.
+    exactly. No point of an arc is farther from the exact skeleton than its `error_bound`. What is inside a feature is
+    what it would be if there were no others, as of :func:`skeleton_exact`; what is outside is of all features.
 
     Parameters
     ----------
@@ -145,6 +148,8 @@ def skeleton_approx(
         a step); or the same distances from each corner on all of its edges (always with a tolerance).
     side : {"interior", "exterior", "both"}
         Inside polygons, outside all of them, or both.
+    features : {"separate", "together"}
+        Take each feature by itself, or all of them, and open lines among them, as boundaries of one diagram.
     complete : bool, optional
         Join corners under 180 degrees by a line along the bisector to the first arc; by default with a tolerance.
     frame : (x, y, w, h), optional
@@ -188,9 +193,18 @@ def skeleton_approx(
     """
     options = SamplingOptions(step, tolerance, sampling)
     check_skeleton_options(side, 0, frame)
+    check_features(features)
     check_lengths(frame or (), "frame's coordinate")
     complete = (tolerance is not None) if complete is None else complete
     common: dict[str, Any] = {"threads": checked_threads(threads), "progress": progress}
+    if features == "separate":
+        given = as_polygons(polygons)
+        if side == "interior":
+            return feature_approximation(given, options, complete=complete, strict=strict, **common).skeleton
+        made = approximation_of_sides(
+            given, options, side=side, frame=frame, complete=complete, strict=strict, **common
+        )
+        return made.skeleton
     graph = graph_for_skeletons(polygons, strict=strict, **common)
     placed = placed_shapes(graph, threads=threads)
     if options.tolerance is not None:
