@@ -37,7 +37,8 @@ def failure(shape: object) -> str | None:
         whole = {side: skeleton_of(shapes, side=side, threads=1) for side in ("interior", "exterior", "both")}
         for skeleton in whole.values():
             verify_skeleton(skeleton, threads=1)
-        if name := differing(skeleton_exact(shape, threads=2), whole["interior"]):
+        verify_skeleton(skeleton_exact(shape, threads=2), threads=1)  # of each feature by itself
+        if name := differing(skeleton_exact(shape, features="together", threads=2), whole["interior"]):
             return f"{name} inside are others when nothing else is made"
     except VorotoolError as error:
         return str(error)
