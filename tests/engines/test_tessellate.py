@@ -344,7 +344,8 @@ def test_a_frame_that_nobody_gave_has_at_most_2_to_28_pixels():
 
 def test_a_frame_that_is_too_large_is_refused_before_seeds_are_told_of():
     points = [[500000.123, 4649776.371], [500321.517, 4650012.29]]
-    with warnings.catch_warnings(record=True) as told, pytest.raises(LimitError, match="no frame is given"):
+    with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
-        tessellate(points)
+        with pytest.raises(LimitError, match="no frame is given"):
+            vorotool.tessellate(points)
     assert not told

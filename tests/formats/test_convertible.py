@@ -96,7 +96,8 @@ def test_arrays_that_are_lists(tmp_path, shape):
         ("a.zip", b"PK\3\4", r"unpack it, and give a file that is in it: unzip a\.zip$"),
     ],
 )
-def test_files_that_others_open(tmp_path, name, data, advice, geometry):
+def test_files_that_others_open(tmp_path, monkeypatch, name, data, advice, geometry):
+    monkeypatch.chdir(tmp_path)
     (tmp_path / name).write_bytes(data)
     with pytest.raises(InputError, match=advice):
-        vorotool.read(tmp_path / name, geometry=geometry)
+        vorotool.read(name, geometry=geometry)

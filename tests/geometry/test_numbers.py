@@ -123,14 +123,14 @@ TAKERS = {
         for name in ("angle", "chord", "scale", "length", "ratio")
     },
 }
-TAKES_HUGE = {"regions"}
+TAKES_HUGE = {"regions", "max_distance"}
 
 
 @pytest.mark.parametrize("value", [10**400, -(10**5000), "a", 1j, [10**400, "a"], object], ids=shown_number)
 @pytest.mark.parametrize("taker", TAKERS)
 def test_options_that_are_wrong_or_huge_are_refused_in_short(taker, value):
     if taker in TAKES_HUGE and value == 10**400:
-        assert TAKERS[taker](value)
+        assert TAKERS[taker](value) is not None
         return
     with pytest.raises((UsageError, InputError, LimitError)) as refused:
         TAKERS[taker](value)

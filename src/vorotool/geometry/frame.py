@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from vorotool.errors import InputError
-from vorotool.geometry.numbers import shown_number, whole_number
 
 FARTHEST = 2**44
 """No seed lies farther from the origin (in pixels); in steps of 1/256 pixel this is far from the end of 64 bits."""
@@ -41,6 +40,8 @@ class Frame:
     height: int
 
     def __post_init__(self) -> None:
+        from vorotool.geometry.numbers import shown_number, whole_number  # imports NumPy, which options need not
+
         for name in ("x", "y", "width", "height"):  # NumPy's integers would wrap around in what follows
             object.__setattr__(self, name, whole_number(getattr(self, name), f"{name} of the frame"))
         if max(abs(self.x), abs(self.y)) > FARTHEST:
