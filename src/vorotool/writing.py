@@ -8,6 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import UsageError
+from vorotool.geometry.frame import MAX_SIDE
+from vorotool.geometry.numbers import shown_number, whole_number
 
 if TYPE_CHECKING:
     from vorotool.geometry.label_image import LabelImage
@@ -92,6 +94,8 @@ def write(
     for option, number in (("flatten", flatten), ("precision", precision)):
         if number is not None:
             raise UsageError(f"{option} is for numbers in text: leave it out of pictures")
+    if width is not None and not 0 <= whole_number(width, "width") <= MAX_SIDE:
+        raise UsageError(f"width is {shown_number(width)}: give a number of pixels up to {MAX_SIDE}")
     _draw(value, _Picture(fspath(path), name, what, layers, width, y_up, checked_threads(threads)))
 
 

@@ -340,3 +340,12 @@ def test_a_frame_that_nobody_gave_has_at_most_2_to_28_pixels():
             vorotool.tessellate([far], max_pixels=10**15)
     assert default_frame(as_seeds([[side - 1, side - 1]])).pixels == 2**28
     assert vorotool.tessellate([[side, side]], shape=(2, 2)).labels.tolist() == [[1, 1], [1, 1]]
+
+
+def test_a_frame_that_is_too_large_is_refused_before_seeds_are_told_of():
+    points = [[500000.123, 4649776.371], [500321.517, 4650012.29]]
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        with pytest.raises(LimitError, match="no frame is given"):
+            vorotool.tessellate(points)
+    assert not told

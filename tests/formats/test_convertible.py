@@ -81,3 +81,23 @@ def test_arrays_that_are_lists(tmp_path, shape):
     image = vorotool.read(tmp_path / "a.npy")
     with pytest.raises(InputError, match=r"a list of points\? save x and y as one of shape \(n, 2\)"):
         vorotool.outlines(image)
+
+
+@pytest.mark.parametrize("geometry", [None, "points", "polygons"])
+@pytest.mark.parametrize(
+    ("name", "data", "advice"),
+    [
+        ("a.eps", b"%!PS-Adobe-3.0 EPSF-3.0\n", r"otsu, for example: gs -o a\.png .* a\.eps$"),
+        ("a.ai", b"%PDF-1.4\n", r"gs -o a\.png .* a\.ai$"),
+        ("page", b"%!PS\n", r"\.ps files are not read; .*gs -o FILE\.png .* FILE\.ps$"),
+        ("a.dwg", b"AC1032\0", r"save it as DXF .*ogr2ogr -f GeoJSON a\.geojson a\.dxf$"),
+        ("plan", b"AC1015\0", r"\.dwg files are not read"),
+        ("a.svgz", b"\x1f\x8b", r"gzip -dc a\.svgz > a\.svg; then .*inkscape a\.svg "),
+        ("a.zip", b"PK\3\4", r"unpack it, and give a file that is in it: unzip a\.zip$"),
+    ],
+)
+def test_files_that_others_open(tmp_path, monkeypatch, name, data, advice, geometry):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / name).write_bytes(data)
+    with pytest.raises(InputError, match=advice):
+        vorotool.read(name, geometry=geometry)

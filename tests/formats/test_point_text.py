@@ -162,7 +162,7 @@ def test_bad_lines(text, message):
         (
             "id,east,north\n1,2,3\n",
             "the header names no known pair of coordinates; say which are x and y, for example "
-            "--columns id,east "
+            "--columns east,north "
             "(its columns are 1 = id, 2 = east, 3 = north)",
         ),
         (

@@ -124,3 +124,15 @@ class TestMaskedImages:
     def test_integers_of_values_are_not_masked(self):
         with pytest.raises(InputError, match="some are masked"):
             PointSet(PAIRS[:2], np.ma.array([1, 2], mask=[0, 1]))
+
+    @pytest.mark.parametrize("masked", [True, False])
+    def test_one_that_is_given_for_points_is_recognised(self, masked):
+        image = np.zeros((20, 26), dtype=np.uint8)
+        given = np.ma.masked_array(image, mask=np.eye(20, 26)) if masked else image
+        for take in (vorotool.tessellate, vorotool.delaunay):
+            with pytest.raises(InputError, match=r"shape \(20, 26\); an image\? give vorotool\.Raster\(array\) "):
+                take(given)
+
+    def test_points_in_space_are_no_image(self):
+        with pytest.raises(InputError, match=r"shape \(9, 3\)$"):
+            vorotool.delaunay(np.zeros((9, 3)))

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import vorotool
-from vorotool.errors import UsageError
+from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.geometry.numbers import finite_double, real_number, shown_number
 
 POINTS = [[0, 0], [2, 0], [2, 2], [0, 2], [9, 1]]
@@ -90,3 +90,62 @@ def test_thresholds_beyond_doubles_are_compared_exactly(name):
     for wrong in (-1, float("inf"), float("nan"), "2"):
         with pytest.raises(UsageError, match=name):
             vorotool.alpha_shape(POINTS, r=10, **{name: wrong})
+
+
+SQUARE = [[0, 0], [4, 0], [4, 4], [0, 4]]
+IMAGE = np.pad(np.full((3, 3), 200, dtype=np.uint8), 2)
+TAKERS = {
+    "offset": lambda x: vorotool.offset(SQUARE, [x]),
+    "one offset": lambda x: vorotool.offset(SQUARE, x),
+    "verify_offsets": lambda x: vorotool.verify_offsets(vorotool.offset(SQUARE, 1), distances=[x]),
+    "frame": lambda x: vorotool.voronoi_cells(SQUARE, frame=(0, 0, x, 1)),
+    "Box": lambda x: vorotool.Box(0, 0, x, 1),
+    "Frame": lambda x: vorotool.Frame(x, 0, 1, 1),
+    "step": lambda x: vorotool.skeleton_approx(SQUARE, step=x),
+    "tolerance": lambda x: vorotool.skeleton_approx(SQUARE, tolerance=x),
+    "gap": lambda x: vorotool.skeleton_exact(SQUARE, gap=x),
+    "threshold": lambda x: vorotool.outlines(IMAGE, threshold=x),
+    "seeds": lambda x: vorotool.seeds_from_raster(IMAGE, threshold=x),
+    "simplify": lambda x: vorotool.outlines(IMAGE, threshold=1, simplify=x),
+    "flatten": lambda x: vorotool.to_geojson(vorotool.skeleton_exact(SQUARE), flatten=x),
+    "flatten offsets": lambda x: vorotool.to_geojson(vorotool.offset(SQUARE, 1), flatten=x),
+    "every": lambda x: vorotool.points_along(vorotool.skeleton_exact(SQUARE), every=x),
+    "start": lambda x: vorotool.centerline(vorotool.skeleton_exact(SQUARE), start=(x, 0)),
+    "end": lambda x: vorotool.centerline(vorotool.skeleton_exact(SQUARE), end=x),
+    "passes": lambda x: vorotool.tessellate(SQUARE, passes=x),
+    "shape": lambda x: vorotool.tessellate(SQUARE, shape=(5, x)),
+    "window": lambda x: vorotool.tessellate(SQUARE, window=(x, 0, 5, 5)),
+    "max_distance": lambda x: vorotool.tessellate(SQUARE, max_distance=x),
+    "regions": lambda x: vorotool.alpha_shape(SQUARE, regions=x),
+    "connectivity": lambda x: vorotool.outlines(IMAGE, threshold=1, connectivity=x),
+    **{
+        name: lambda x, name=name: vorotool.prune(vorotool.skeleton_exact(SQUARE), **{name: x})
+        for name in ("angle", "chord", "scale", "length", "ratio")
+    },
+}
+TAKES_HUGE = {"regions", "max_distance"}
+
+
+@pytest.mark.parametrize("value", [10**400, -(10**5000), "a", 1j, [10**400, "a"], object], ids=shown_number)
+@pytest.mark.parametrize("taker", TAKERS)
+def test_options_that_are_wrong_or_huge_are_refused_in_short(taker, value):
+    if taker in TAKES_HUGE and value == 10**400:
+        assert TAKERS[taker](value) is not None
+        return
+    with pytest.raises((UsageError, InputError, LimitError)) as refused:
+        TAKERS[taker](value)
+    assert len(str(refused.value)) < 200
+
+
+@pytest.mark.parametrize("value", [10**400, 10**5000, "a", 1.5, -1], ids=shown_number)
+@pytest.mark.parametrize("name", ["width", "precision"])
+def test_numbers_of_files_are_refused_in_short(tmp_path, name, value):
+    path = tmp_path / ("a.svg" if name == "width" else "a.geojson")
+    with pytest.raises(UsageError) as refused:
+        vorotool.write(vorotool.skeleton_exact(SQUARE), path, **{name: value})
+    assert len(str(refused.value)) < 200
+
+
+def test_fractions_are_lengths():
+    assert vorotool.offset(SQUARE, Fraction(1, 2)).distance.tolist() == [0.5]
+    assert len(vorotool.outlines(IMAGE, threshold=Decimal("3.5"), simplify=Fraction(1, 2)).xy) == 4

@@ -25,7 +25,10 @@ class DigitalProducts(MeshProducts):
     """Results of the paper's rule (``--method digital``), and of its comparison with the exact triangulation."""
 
     def __init__(self, points: PointSet | SeedSet, options: SimpleNamespace, run: Run) -> None:
-        self.seeds = points if isinstance(points, SeedSet) else seeds_from_points(points, strict=options.strict)
+        if isinstance(points, SeedSet):
+            self.seeds = points
+        else:
+            self.seeds = seeds_from_points(points, strict=options.strict, check=lambda seeds: window_of(options, seeds))
         super().__init__(points, options, run)
         if "compare" in options.what:
             with run.phase("compare"):

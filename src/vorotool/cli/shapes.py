@@ -80,7 +80,10 @@ class ShapeProducts:
         o, progress = self.options, self.run.progress("triangulating")
         if o.method == "exact":
             return delaunay(points, strict=o.strict, threads=o.threads, progress=progress)
-        seeds = points if isinstance(points, SeedSet) else seeds_from_points(points, strict=o.strict)
+        if isinstance(points, SeedSet):
+            seeds = points
+        else:
+            seeds = seeds_from_points(points, strict=o.strict, check=lambda made: window_of(o, made))
         frame: Any = {"window": window_of(o, seeds), "strict": o.strict, "threads": o.threads}
         mesh: AnyTriangulation
         if o.method == "digital":

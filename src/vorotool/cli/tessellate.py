@@ -124,7 +124,7 @@ def _read_seeds(run: Run, o: SimpleNamespace, source: str) -> SeedSet:
     value = read_seed_input(run, o, source, properties="table" in o.what)
     if isinstance(value, PointSet):
         o.y_up = value.y_up if o.y_up is None else o.y_up
-        return seeds_from_points(value, strict=o.strict)
+        return seeds_from_points(value, strict=o.strict, check=lambda seeds: frame_of(o, seeds))
     refuse(o, ("columns", "size", "window"), "is for lists of points, but the input is an image, which brings its own")
     o.resolution = value.resolution
     settle_threshold(run, o, value)

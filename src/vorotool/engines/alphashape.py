@@ -19,7 +19,7 @@ from vorotool.geometry.alpha_complex import AlphaComplex, Radius, checked_radius
 from vorotool.geometry.alpha_shape import AlphaShape
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.digital_triangulation import DigitalTriangulation
-from vorotool.geometry.numbers import real_number, shown_number
+from vorotool.geometry.numbers import real_number, shown_number, whole_number
 from vorotool.geometry.polygons import HOLE, SHELL, PolygonSet
 from vorotool.geometry.seeds import SeedSet
 from vorotool.geometry.table import Table
@@ -332,8 +332,8 @@ def automatic_rank(family: AlphaComplex, *, regions: int = 1, progress: Progress
     >>> automatic_rank(family)
     2
     """
-    if regions < 1:
-        raise UsageError(f"regions is {regions}: at least 1")
+    if whole_number(regions, "regions") < 1:
+        raise UsageError(f"regions is {shown_number(regions)}: at least 1")
     mesh = family.mesh
     never = len(family.spectrum)
     least = np.full(len(mesh.points), never, dtype=np.int32)

@@ -12,10 +12,11 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.delaunay import delaunay
 from vorotool.engines.label_arrays import Progress
-from vorotool.errors import InputError, VerificationError, VorotoolWarning
+from vorotool.errors import InputError, UsageError, VerificationError, VorotoolWarning
 from vorotool.geometry.box import Box
 from vorotool.geometry.cells import CellSet
 from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.numbers import finite_double, shown_number
 from vorotool.geometry.triangulation import Triangulation
 
 
@@ -107,9 +108,11 @@ def _box(frame: Box | Sequence[float] | None, mesh: Triangulation, area: Any) ->
         return frame
     if frame is not None:
         try:
-            x, y, width, height = map(float, frame)
-        except (TypeError, ValueError):
-            raise InputError(f"frame is {frame!r}: give a Box or (x, y, width, height)") from None
+            x, y, width, height = (finite_double(side, "frame") for side in frame)
+        except (TypeError, ValueError, UsageError):
+            raise InputError(
+                f"frame is {shown_number(frame)}: give a Box or (x, y, width, height), all finite numbers"
+            ) from None
         return Box.of_size(x, y, width, height)
     if area is None:
         return Box.around(mesh.points)

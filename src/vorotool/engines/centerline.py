@@ -18,6 +18,7 @@ from vorotool.engines.skeleton_ends import Unforked, forked, middles_ahead, unfo
 from vorotool.errors import InputError, UsageError, VorotoolWarning
 from vorotool.geometry.centerline import Centerlines, without_centerline
 from vorotool.geometry.magnitude import check_lengths
+from vorotool.geometry.numbers import pair_of_doubles
 from vorotool.geometry.skeleton import Skeleton
 
 Floats = NDArray[np.float64]
@@ -113,6 +114,9 @@ def _path_between(
     network: Network, skeleton: Skeleton, start: Place | None, end: Place | None, ends: Ends, progress: Progress
 ) -> Centerlines:
     """The one path with a place that is given at one end or both."""
+    start, end = (
+        None if place is None else pair_of_doubles(place, name) for name, place in (("start", start), ("end", end))
+    )
     for place in (start, end):
         if place is not None and not np.isfinite(place).all():
             raise UsageError(f"({place[0]}, {place[1]}) is no place: its coordinates must be finite")

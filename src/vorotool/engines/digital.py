@@ -15,9 +15,10 @@ import numpy as np
 from vorotool import _core
 from vorotool.engines.label_arrays import described
 from vorotool.engines.point_input import as_points
-from vorotool.engines.seeding import seeds_from_points, seeds_from_raster
+from vorotool.engines.seeding import Check, seeds_from_points, seeds_from_raster
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
 from vorotool.geometry.frame import Frame
+from vorotool.geometry.numbers import real_number, shown_number
 from vorotool.geometry.raster import Raster
 from vorotool.geometry.seeds import SeedSet
 
@@ -29,14 +30,15 @@ MOST_UNASKED = 2**28
 """Pixels that a frame may have which follows from the points alone: more are likely points in map units."""
 
 
-def as_seeds(source: Any) -> SeedSet:
-    """Seeds from whatever `tessellate` accepts."""
-    if isinstance(source, SeedSet):
-        return source
-    if isinstance(source, Raster):
-        return seeds_from_raster(source)
-    expected = "seeds must be an (n, 2) array of numbers, shapely points, or an image"
-    return seeds_from_points(as_points(source, expected=expected, noun="seed"))
+def as_seeds(source: Any, *, check: Check = None) -> SeedSet:
+    """Seeds from whatever `tessellate` accepts; `check` may refuse them before anyone is told that they moved."""
+    if not isinstance(source, SeedSet | Raster):
+        expected = "seeds must be an (n, 2) array of numbers, shapely points, or an image"
+        return seeds_from_points(as_points(source, expected=expected, noun="seed"), check=check)
+    seeds = source if isinstance(source, SeedSet) else seeds_from_raster(source)
+    if check is not None:
+        check(seeds)
+    return seeds
 
 
 def require_seeds(seeds: SeedSet) -> None:
@@ -123,16 +125,15 @@ def asked_frame(shape: Any, window: Any) -> Frame | None:
         numbers = []
     if len(numbers) != size:
         form = "window must be four integers (x, y, w, h)" if size == 4 else "shape must be two integers (H, W)"
-        raise UsageError(f"{form}, but is {given!r}")
+        raise UsageError(f"{form}, but is {shown_number(given)}")
     return Frame(*numbers) if size == 4 else Frame(0, 0, numbers[1], numbers[0])
 
 
 def require_memory(frame: Frame, max_pixels: int) -> None:
     """Refuse a frame that is too large to be held in memory."""
-    if frame.pixels > max_pixels:
-        raise LimitError(
-            f"the frame has {frame.width} x {frame.height} = {frame.pixels} pixels, more than --max-pixels {max_pixels}"
-        )
+    if frame.pixels > real_number(max_pixels, "max_pixels"):
+        width, height, pixels, most = map(shown_number, (frame.width, frame.height, frame.pixels, max_pixels))
+        raise LimitError(f"the frame has {width} x {height} = {pixels} pixels, more than --max-pixels {most}")
 
 
 def band_limits(frame: Frame) -> Iterator[tuple[int, int]]:
@@ -162,7 +163,7 @@ def squared_limit(max_distance: float | Fraction | None, scale: int) -> int | No
     if max_distance is None:
         return None
     if not isinstance(max_distance, Real) or not 0 <= max_distance < float("inf"):
-        raise UsageError(f"max_distance is {max_distance!s}: it must be a number, 0 or larger, and finite")
+        raise UsageError(f"max_distance is {shown_number(max_distance)}: it must be a number, 0 or larger, and finite")
     exact = Fraction(max_distance) if isinstance(max_distance, Rational) else Fraction(float(max_distance))
     steps = exact * scale
     return int(min(steps * steps, Fraction(2**127)))

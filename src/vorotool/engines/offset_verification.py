@@ -19,6 +19,7 @@ from vorotool.engines.segment_voronoi import segment_voronoi
 from vorotool.engines.skeleton_distances import ULPS, fail, first_wrong
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.circular_arcs import middles_of
+from vorotool.geometry.numbers import finite_double
 from vorotool.geometry.offsets import Offsets
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.polygon_conversion import to_shapely
@@ -68,7 +69,7 @@ def verify_offsets(
     _check_chains(offsets)
     _check_sites(offsets, tolerance)
     _check_orientation(offsets, tolerance)
-    wanted = {*distances, *offsets.distance.tolist()}
+    wanted = {*(finite_double(one, "a distance") for one in distances), *offsets.distance.tolist()}
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", VorotoolWarning)  # features may lie over each other
         if offsets.features == "together":

@@ -28,6 +28,7 @@ from vorotool.engines.skeleton_exact import (
 from vorotool.errors import UsageError, VorotoolWarning
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.magnitude import check_lengths
+from vorotool.geometry.numbers import finite_double
 from vorotool.geometry.offsets import Offsets
 from vorotool.geometry.polygon_conversion import as_polygons
 from vorotool.geometry.polygons import PolygonSet
@@ -116,18 +117,25 @@ def offset(
 
 def checked_distances(distances: float | Sequence[float]) -> list[float]:
     """Distances as a list, after a check."""
-    wanted = np.atleast_1d(np.asarray(distances, dtype=np.float64))
-    if wanted.ndim != 1 or not len(wanted):
+    wanted = np.array([finite_double(distance, "a distance") for distance in _listed(distances)])
+    if not len(wanted):
         raise UsageError("there is no distance: give one or more, above 0 outwards, below 0 inwards")
-    wrong = wanted[~np.isfinite(wanted) | (wanted == 0)]
-    if wrong.size:
-        raise UsageError(f"a distance is {wrong[0]:g}: use finite ones, above 0 outwards, below 0 inwards")
+    if not wanted.all():
+        raise UsageError("a distance is 0: use finite ones, above 0 outwards, below 0 inwards")
     found: list[float] = wanted.tolist()
     check_lengths(found, "distance")
     repeated = next((one for one in found if found.count(one) > 1), None)
     if repeated is not None:
         raise UsageError(f"the distance {repeated:g} is there {found.count(repeated)} times: give each one once")
     return found
+
+
+def _listed(distances: Any) -> list[Any]:
+    """One distance, or several, as a list; text is one that is wrong."""
+    try:
+        return [distances] if isinstance(distances, str | bytes) else list(distances)
+    except TypeError:
+        return [distances]
 
 
 def _offsets_of_features(

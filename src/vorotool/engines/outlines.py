@@ -24,6 +24,7 @@ from vorotool.engines.raster_objects import (
 from vorotool.engines.simplification import simplified_polygons
 from vorotool.errors import LimitError, UsageError
 from vorotool.geometry.label_image import LabelImage
+from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.raster import Raster
 
@@ -140,7 +141,7 @@ def outlines(
     if mode not in (None, *get_args(Objects)):
         raise UsageError(f"mode is {mode!r}: it must be one of {', '.join(get_args(Objects))}")
     if connectivity not in (4, 8):
-        raise UsageError(f"connectivity is {connectivity}: it must be 4 or 8")
+        raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 4 or 8")
     origin = (0, 0)
     if isinstance(image, LabelImage):
         assert image.frame is not None  # LabelImage has filled it in

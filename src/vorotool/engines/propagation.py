@@ -23,6 +23,7 @@ from vorotool.engines.sweep import Tessellator
 from vorotool.errors import InputError, UsageError
 from vorotool.geometry.frame import MAX_PIXELS, Frame
 from vorotool.geometry.label_image import LabelImage
+from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.seeds import SeedSet
 
 
@@ -60,7 +61,7 @@ def propagate(
     np.uint16(1)
     """
     if passes not in (1, 2):
-        raise UsageError(f"passes is {passes}: it must be 1 or 2")
+        raise UsageError(f"passes is {shown_number(passes)}: it must be 1 or 2")
     require_seeds(seeds)
     frame = frame or default_frame(seeds)
     if seeds.scale != 1:

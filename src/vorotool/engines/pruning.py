@@ -18,6 +18,7 @@ from vorotool.errors import UsageError
 from vorotool.geometry.checks import available_threads, checked_threads
 from vorotool.geometry.critical_values import CRITERIA, ArcProfiles, CriticalValues
 from vorotool.geometry.elementary import inverse_sine
+from vorotool.geometry.numbers import finite_double, shown_number
 from vorotool.geometry.skeleton import Skeleton
 
 Floats = NDArray[np.float64]
@@ -108,6 +109,7 @@ def prune(
     if len(thresholds) != 1:
         raise UsageError(f"{len(thresholds)} thresholds are given: give one of {', '.join(CRITERIA)}")
     ((criterion, threshold),) = thresholds.items()
+    threshold = finite_double(threshold, criterion)
     check_threshold(criterion, threshold)
     compared = half_tangent(threshold) if criterion == "angle" else float(threshold)
     group = np.where(skeleton.polygon < 0, len(skeleton.polygons), skeleton.polygon).astype(np.int32)
@@ -253,7 +255,7 @@ def check_threshold(criterion: str, threshold: float) -> None:
     least, most = {"angle": (0.0, 180.0), "scale": (1.0, np.inf)}.get(criterion, (0.0, np.inf))
     if not (least <= threshold <= most and np.isfinite(threshold)):
         limits = f"from {least:g} to {most:g}" if np.isfinite(most) else f"from {least:g}"
-        raise UsageError(f"{criterion} is {threshold}: use a number {limits}")
+        raise UsageError(f"{criterion} is {shown_number(threshold)}: use a number {limits}")
 
 
 def skeleton_arrays(skeleton: Skeleton, *, threads: int = 1, has_sites: bool = True) -> tuple[Any, ...]:

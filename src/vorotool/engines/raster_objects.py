@@ -5,13 +5,14 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable
 from math import floor
-from typing import Any, Literal
+from typing import Any, Literal, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.errors import InputError, VorotoolWarning
+from vorotool.geometry.numbers import finite_double
 from vorotool.geometry.raster import Raster
 
 Objects = Literal["components", "labels"]
@@ -83,8 +84,8 @@ def image_threshold(raster: Raster, threshold: float | Literal["otsu"]) -> float
     >>> image_threshold(Raster(np.array([[0, 1, 10]])), "otsu")
     1
     """
-    if threshold != "otsu":
-        return threshold
+    if not _is_otsu(threshold):
+        return threshold_value(np.empty(0), threshold)
     grey = grey_values(raster)
     return threshold_value(grey if raster.mask is None else grey[~raster.mask], threshold)
 
@@ -96,14 +97,17 @@ def threshold_value(grey: NDArray[Any], threshold: float | Literal["otsu"]) -> f
     ------
     InputError
         If there is none, as all values are the same or some are not finite.
+    UsageError
+        If it is no finite number.
 
     Examples
     --------
     >>> threshold_value(np.array([[0, 10]]), 4.5)
     4.5
     """
-    if threshold != "otsu":
-        return threshold
+    if not _is_otsu(threshold):
+        finite_double(threshold, "threshold")
+        return cast(float, threshold)  # as it is: a double would round integers beyond 2^53
     from vorotool.engines.otsu import otsu_threshold
 
     if grey.dtype.kind == "f" and not np.isfinite(grey).all():
@@ -111,6 +115,10 @@ def threshold_value(grey: NDArray[Any], threshold: float | Literal["otsu"]) -> f
     if grey.min() == grey.max():
         raise InputError(f"all pixels have the value {grey.flat[0]}: --threshold otsu needs two values")
     return otsu_threshold(grey)
+
+
+def _is_otsu(threshold: Any) -> bool:
+    return isinstance(threshold, str) and threshold == "otsu"
 
 
 def whole_threshold(grey: NDArray[Any], threshold: float) -> float:

@@ -13,6 +13,7 @@ from vorotool.engines.label_arrays import Progress, as_label_image, described, l
 from vorotool.errors import InputError, LimitError
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.label_image import LabelImage
+from vorotool.geometry.numbers import finite_double
 from vorotool.geometry.seeds import SeedSet
 from vorotool.geometry.table import Table
 
@@ -155,6 +156,8 @@ def region_table(
         "nearest_distance": nearest_distance,
     }
     box = _box_columns(image, measures)
+    if distance_scale is not None:
+        finite_double(distance_scale, "distance_scale")
     largest = _max_distance(image, distance2, distance_scale, labels, threads, progress)
     columns["touches_frame"] = np.ma.array(_spread(box.pop("touches_frame"), rows, len(labels)), mask=absent)
     columns["max_distance"] = np.ma.array(largest, mask=absent | (distance2 is None))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any, Literal, get_args
 
@@ -22,11 +22,15 @@ from vorotool.engines.raster_objects import (
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
 from vorotool.geometry.elementary import hypotenuse
 from vorotool.geometry.frame import Frame
+from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.points import PointSet
 from vorotool.geometry.raster import Raster
 from vorotool.geometry.seeds import FINEST_SCALE, SeedSet
 
 SeedMode = Literal["pixels", "components", "labels", "centroids"]
+
+Check = Callable[[SeedSet], object] | None
+"""Raises an error for seeds that cannot be used: called before anyone is told what became of them."""
 
 LARGEST_COORDINATE = float(2**44)
 """Coordinates up to here, times 256, are exact in a double."""
@@ -35,7 +39,7 @@ CHUNK = 1 << 22
 """Pixels that are counted at a time."""
 
 
-def seeds_from_points(points: PointSet, *, strict: bool = False) -> SeedSet:
+def seeds_from_points(points: PointSet, *, strict: bool = False, check: Check = None) -> SeedSet:
     """Put points on the lattice of seeds.
 
     Parameters
@@ -44,6 +48,8 @@ def seeds_from_points(points: PointSet, *, strict: bool = False) -> SeedSet:
         Coordinates in pixels. Multiples of 1/256 are kept exactly; finer ones move to the nearest multiple.
     strict : bool
         Refuse points that would have to move.
+    check : callable, optional
+        Called with the seeds before that they moved is told of: raises an error where they need no telling.
 
     Returns
     -------
@@ -79,12 +85,11 @@ def seeds_from_points(points: PointSet, *, strict: bool = False) -> SeedSet:
     largest_move = 0.0
     if snapped:
         largest_move = float(hypotenuse(*(fine - steps).T).max()) / FINEST_SCALE
-        _report_snapped(points, moved, largest_move, strict=strict)
     lattice = steps.astype(np.int64)
     scale = _coarsest_scale(lattice)
     lattice //= FINEST_SCALE // scale
     labels = points.label_array.astype(np.uint32)
-    return SeedSet(
+    seeds = SeedSet(
         lattice[:, 0],
         lattice[:, 1],
         labels,
@@ -93,6 +98,11 @@ def seeds_from_points(points: PointSet, *, strict: bool = False) -> SeedSet:
         largest_move=largest_move,
         **_sites_of_points(lattice / scale, labels, points),
     )
+    if check is not None:
+        check(seeds)
+    if snapped:
+        _report_snapped(points, moved, largest_move, strict=strict)
+    return seeds
 
 
 def _sites_of_points(xy: NDArray[np.float64], labels: NDArray[np.uint32], points: PointSet) -> dict[str, Any]:
@@ -189,7 +199,7 @@ def seeds_from_raster(
     [1, 2, 2]
     """
     if connectivity not in (4, 8):
-        raise UsageError(f"connectivity is {connectivity}: it must be 4 or 8")
+        raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 4 or 8")
     raster = raster if isinstance(raster, Raster) else Raster(raster)
     values = foreground_values(raster, threshold, invert=invert)
     if mode not in (None, *get_args(SeedMode)):

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
+from vorotool.geometry.numbers import finite_double, shown_number
 from vorotool.geometry.polygons import LINE, PolygonSet
 
 Indices = NDArray[np.int64]
@@ -52,8 +53,11 @@ def simplified_polygons(polygons: PolygonSet, tolerance: float) -> PolygonSet:
     >>> len(stairs.xy), len(simplified_polygons(stairs, 0.75).xy)
     (18, 4)
     """
-    if not 0 <= tolerance < np.inf:
-        raise UsageError(f"the tolerance of a simplification is {tolerance}: it must be a length of 0 or more")
+    tolerance = finite_double(tolerance, "the tolerance of a simplification")
+    if tolerance < 0:
+        raise UsageError(
+            f"the tolerance of a simplification is {shown_number(tolerance)}: it must be a length of 0 or more"
+        )
     if not len(polygons.xy) or not tolerance:
         return polygons
     chains = _chains(polygons)

@@ -26,6 +26,7 @@ from vorotool.engines.skeleton_exact import (
 from vorotool.errors import LimitError, UsageError
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.edge_samples import EdgeSamples
+from vorotool.geometry.numbers import finite_double, shown_number
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.skeleton import Skeleton
 
@@ -56,8 +57,11 @@ class SamplingOptions:
             raise UsageError("give a step or a tolerance, and not both")
         for name in ("step", "tolerance"):
             value = getattr(self, name)
-            if value is not None and not 0 < value < np.inf:
-                raise UsageError(f"the {name} is {value}: use a length above 0")
+            if value is None:
+                continue
+            object.__setattr__(self, name, finite_double(value, f"the {name}"))
+            if not getattr(self, name) > 0:
+                raise UsageError(f"the {name} is {shown_number(value)}: use a length above 0")
         if self.sampling is not None and self.sampling not in SAMPLINGS:
             raise UsageError(f"the sampling is {self.sampling!r}: use {' or '.join(SAMPLINGS)}")
         if self.tolerance is not None and self.sampling == "paper":

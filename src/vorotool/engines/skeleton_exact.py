@@ -18,6 +18,7 @@ from vorotool.errors import InputError, UsageError, VorotoolWarning
 from vorotool.geometry.box import bounds
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.elementary import hypotenuse
+from vorotool.geometry.numbers import finite_double, shown_number
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.segment_voronoi import SegmentVoronoiDiagram
@@ -35,8 +36,8 @@ def check_skeleton_options(side: str, gap: float, frame: Frame | None) -> None:
     """Raise UsageError for what is no side, gap or frame."""
     if side not in SIDE_NAMES:
         raise UsageError(f"the side is {side!r}: use {', '.join(SIDE_NAMES)}")
-    if not (0 <= gap < np.inf):
-        raise UsageError(f"the gap is {gap}: use a length of 0 or more")
+    if finite_double(gap, "the gap") < 0:
+        raise UsageError(f"the gap is {shown_number(gap)}: use a length of 0 or more")
     if frame is not None and not (np.isfinite(frame).all() and frame[2] > 0 and frame[3] > 0):
         raise UsageError(f"the frame is {frame}: use X, Y, W, H, the last two above 0")
 

@@ -25,6 +25,7 @@ from vorotool.engines.surrounded_seeds import needed_seeds, paint_seeds
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.frame import MAX_SIDE, Frame
+from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.seeds import SeedSet
 
 
@@ -101,7 +102,8 @@ class Tessellator:
         self.seeds = seeds
         self.frame = frame or default_frame(seeds)
         if max(self.frame.shape) > MAX_SIDE:
-            raise LimitError(f"the frame is {self.frame.width} x {self.frame.height}: a side has at most 2^30 pixels")
+            width, height = shown_number(self.frame.width), shown_number(self.frame.height)
+            raise LimitError(f"the frame is {width} x {height}: a side has at most 2^30 pixels")
         self.simd = simd_level()
         self.most_squared = squared_limit(max_distance, seeds.scale)
         self._threads = checked_threads(threads)

@@ -22,6 +22,8 @@ from vorotool.engines.verification import verify_label_image
 from vorotool.errors import UsageError
 from vorotool.geometry.frame import MAX_PIXELS, Frame
 from vorotool.geometry.label_image import LabelImage
+from vorotool.geometry.numbers import shown_number, whole_number
+from vorotool.geometry.seeds import SeedSet
 
 Method = Literal["exact", "propagation"]
 
@@ -85,18 +87,21 @@ def tessellate(
     >>> tessellate([[0, 0], [2, 1]], shape=(2, 3)).labels.tolist()
     [[1, 1, 2], [1, 2, 2]]
     """
-    seed_set = as_seeds(seeds)
     frame = asked_frame(shape, window)
-    if len(seed_set) or seed_set.is_empty_image:
-        require_memory(frame or default_frame(seed_set), max_pixels)
+
+    def require_frame(made: SeedSet) -> None:
+        if len(made) or made.is_empty_image:
+            require_memory(frame or default_frame(made), max_pixels)
+
+    seed_set = as_seeds(seeds, check=require_frame)
     if method == "propagation":
         if max_distance is not None:
             raise UsageError("max_distance needs method='exact': the paper's propagation has no distance limit")
         return propagate(seed_set, frame, passes=passes, dtype=dtype, out=out, progress=progress)
     if method != "exact":
         raise UsageError(f"method is {method!r}: it must be 'exact' or 'propagation'")
-    if passes != 2:
-        raise UsageError(f"passes is {passes}, which needs method='propagation'")
+    if whole_number(passes, "passes") != 2:
+        raise UsageError(f"passes is {shown_number(passes)}, which needs method='propagation'")
     sweep = Tessellator(seed_set, frame, max_distance=max_distance, threads=threads, progress=progress)
     return LabelImage(sweep.labels(dtype=dtype, out=out), sweep.frame, seed_set)
 

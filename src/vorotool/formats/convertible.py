@@ -10,8 +10,13 @@ from vorotool.errors import InputError
 from vorotool.formats.sources import Source
 
 _MAPS = (".shp", ".gpkg", ".dxf", ".kml", ".gml", ".fgb")
-_DRAWINGS = (".svg", ".pdf")
-_HEADS = ((b"SQLite format 3\0", ".gpkg"), (b"\0\0\x27\x0a", ".shp"), (b"fgb", ".fgb"), (b"%PDF-", ".pdf"))
+_DRAWINGS = (".svg", ".svgz", ".pdf", ".eps", ".ps", ".ai")
+_OTHERS = (".dwg", ".zip")
+_HEADS = (
+    *((b"SQLite format 3\0", ".gpkg"), (b"\0\0\x27\x0a", ".shp"), (b"fgb", ".fgb"), (b"%PDF-", ".pdf")),
+    *((b"%!PS", ".ps"), (b"\xc5\xd0\xd3\xc6", ".eps")),
+)
+_DWG = re.compile(rb"AC10\d\d\0")
 _SVG = re.compile(
     rb"(\xef\xbb\xbf)?\s*(<\?xml[^>]*>|<!--.*?-->|<!DOCTYPE[^>\[]*(\[.*?\]\s*)?>|\s)*<svg[\s>]", re.DOTALL
 )
@@ -29,6 +34,11 @@ def refuse_convertible(source: Source) -> None:
     Examples
     --------
     >>> refuse_convertible(Source("seeds.csv", b"1,2"))
+    >>> refuse_convertible(Source("towns.zip", b""))
+    Traceback (most recent call last):
+        ...
+    vorotool.errors.InputError: towns.zip: .zip files are not read; unpack it, and give a file that is in it: \
+unzip towns.zip
     >>> refuse_convertible(Source("logo.svg", b"<svg></svg>"))
     Traceback (most recent call last):
         ...
@@ -36,7 +46,9 @@ def refuse_convertible(source: Source) -> None:
 example: inkscape logo.svg --export-filename=logo.png --export-background=white
     """
     heads = (suffix for head, suffix in _HEADS if source.data.startswith(head))
-    found = source.suffix if source.suffix in _MAPS + _DRAWINGS else next(heads, None)
+    found = source.suffix if source.suffix in _MAPS + _DRAWINGS + _OTHERS else next(heads, None)
+    if found is None and _DWG.match(source.data):
+        found = ".dwg"
     if found is None and _SVG.match(source.data[:4096]):
         found = ".svg"
     if found is not None:
@@ -56,7 +68,28 @@ def _as_image(command: str) -> Callable[[str], str]:
     return advice
 
 
-_CONVERSIONS = {
+def _as_dxf(file: str) -> str:
+    made = Path(file).with_suffix(".dxf")
+    return f"save it as DXF in the program that made it, and convert that: {_as_map(str(made)).partition(': ')[2]}"
+
+
+def _unpacked(file: str) -> str:
+    return f"unpack it, and give a file that is in it: unzip {file}"
+
+
+def _unpacked_drawing(file: str) -> str:
+    made = Path(file).with_suffix(".svg")
+    return f"unpack it: gzip -dc {file} > {made}; then {_CONVERSIONS['.svg'](str(made))}"
+
+
+_POSTSCRIPT = _as_image("gs -o {stem}.png -sDEVICE=pnggray -r300 -dEPSCrop {file}")
+_CONVERSIONS: dict[str, Callable[[str], str]] = {
+    ".eps": _POSTSCRIPT,
+    ".ps": _POSTSCRIPT,
+    ".ai": _POSTSCRIPT,
+    ".dwg": _as_dxf,
+    ".zip": _unpacked,
+    ".svgz": _unpacked_drawing,
     ".svg": _as_image("inkscape {file} --export-filename={stem}.png --export-background=white"),
     ".pdf": _as_image("pdftoppm -r 300 -gray -singlefile {file} {stem}"),
 }

@@ -25,6 +25,9 @@ COORDINATE_NAMES = (
     ("centroid-1", "centroid-0"),  # scikit-image: row first
     ("axis-1", "axis-0"),  # napari: row first
 )
+_BEGINNINGS = (("x", "y"), ("longitude", "latitude"), ("lon", "lat"), ("lng", "lat"), ("east", "north"))
+"""Of names that may be a pair of coordinates, such as x0 and y0."""
+
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?|[+-]?(nan|inf|infinity)", re.IGNORECASE)
 _DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+(e[+-]?\d+)?", re.IGNORECASE)
 _QUOTED = re.compile(r'"[^"]*"')
@@ -205,8 +208,30 @@ def _unknown_columns(name: str, fields: list[str], header: bool) -> InputError:
     if header:
         refuse_geometry_column(name, fields)
     what = "the header names no known pair of coordinates" if header else f"{len(fields)} columns without a header"
-    example = ",".join(fields[:2]) if header and all(fields[:2]) else "1,2"
+    example = _example(fields) if header else _numeric_example(fields)
+    if example is None:
+        return InputError(
+            f"{name}: {what}, and no two columns look like one; give the points that the table was made from, or say "
+            f"which are x and y with --columns X,Y ({_listing(fields)})"
+        )
     return InputError(f"{name}: {what}; say which are x and y, for example --columns {example} ({_listing(fields)})")
+
+
+def _example(fields: list[str]) -> str | None:
+    """Two columns that may be x and y, as their names begin alike and go on the same; None where no two do."""
+    names = {_lower(field): field for field in fields}
+    for first, second in _BEGINNINGS:
+        for key, field in names.items():
+            other = names.get(second + key.removeprefix(first))
+            if key.startswith(first) and other is not None and "," not in field + other:
+                return f"{field},{other}"
+    return None
+
+
+def _numeric_example(fields: list[str]) -> str | None:
+    """The numbers of the first two columns that hold numbers; None where no two do."""
+    numeric = [str(i) for i, field in enumerate(fields, 1) if _looks_numeric(field)]
+    return ",".join(numeric[:2]) if len(numeric) > 1 else None
 
 
 def _listing(fields: list[str]) -> str:

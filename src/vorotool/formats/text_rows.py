@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.errors import UsageError
 from vorotool.formats.bands import in_order
+from vorotool.geometry.numbers import shown_number, whole_number
 from vorotool.geometry.table import Computed, Lookup
 
 SLICE_ROWS = 1 << 14
@@ -97,8 +98,10 @@ def check_precision(precision: int | None) -> int:
     UsageError
         If it is not from 1 to 17.
     """
-    if precision is not None and not 1 <= precision <= MOST_DIGITS:
-        raise UsageError(f"--precision is {precision}: use 1 to {MOST_DIGITS} significant digits, or leave it out")
+    if precision is not None and not 1 <= whole_number(precision, "--precision") <= MOST_DIGITS:
+        raise UsageError(
+            f"--precision is {shown_number(precision)}: use 1 to {MOST_DIGITS} significant digits, or leave it out"
+        )
     return precision or 0
 
 

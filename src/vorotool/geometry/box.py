@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.geometry.numbers import finite_double, nearest_double, real_number
 
 LARGEST = float(np.finfo(np.float64).max)
 
@@ -49,6 +50,8 @@ class Box:
     ------
     InputError
         If it has no area or a side is not finite.
+    UsageError
+        If a side is no number.
 
     Examples
     --------
@@ -63,7 +66,8 @@ class Box:
 
     def __post_init__(self) -> None:
         for name in ("left", "bottom", "right", "top"):
-            object.__setattr__(self, name, float(getattr(self, name)))
+            side = nearest_double(real_number(getattr(self, name), f"{name} of the frame"))
+            object.__setattr__(self, name, side)
         if not all(map(math.isfinite, self.sides)):
             raise InputError(f"the frame is {self.sides}: its sides must be finite")
         if not (self.left < self.right and self.bottom < self.top):
@@ -91,7 +95,8 @@ class Box:
         InputError
             If it has no area or a side is not finite.
         """
-        return Box(x, y, float(x) + float(width), float(y) + float(height))
+        left, bottom, wide, high = (nearest_double(real_number(value, "frame")) for value in (x, y, width, height))
+        return Box(left, bottom, left + wide, bottom + high)
 
     @staticmethod
     def around(points: NDArray[np.float64], margin: float = 0.1) -> Box:
@@ -105,6 +110,7 @@ class Box:
         >>> Box.around(np.array([[0.0, 0.0], [20.0, 10.0]])).sides
         (-2.0, -2.0, 22.0, 12.0)
         """
+        margin = finite_double(margin, "margin")
         low, high = bounds(points) if len(points) else (np.zeros(2), np.zeros(2))
         if (low == high).all():
             wide: Any = np.maximum(0.5, np.spacing(np.abs(low) / 2) * 2)

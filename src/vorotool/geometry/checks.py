@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import InputError, UsageError
+from vorotool.geometry.numbers import shown_number
 
 MOST_THREADS = 1024
 """More help nothing."""
@@ -33,7 +34,7 @@ def checked_threads(threads: int) -> int:
     except TypeError:
         count = -1
     if count < 0:
-        raise UsageError(f"threads is {threads!r}: it must be an integer of at least 1, or 0 for all")
+        raise UsageError(f"threads is {shown_number(threads)}: it must be an integer of at least 1, or 0 for all")
     return min(count, MOST_THREADS)
 
 

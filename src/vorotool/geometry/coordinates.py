@@ -48,7 +48,7 @@ def coordinate_rows(values: Any, noun: str, expected: str | None = None) -> NDAr
     if array.size == 0:
         array = array.reshape(0, 2)
     if array.ndim != 2 or array.shape[1] != 2:
-        raise InputError(f"{plural(noun)} must have shape (n, 2), but have shape {array.shape}")
+        raise InputError(_wrong_shape(noun, array.shape))
     row = first_inexact(array)
     if row is not None:
         x, y = map(shown_number, array[row].tolist())
@@ -57,6 +57,16 @@ def coordinate_rows(values: Any, noun: str, expected: str | None = None) -> NDAr
         array = np.array([[nearest_double(value) for value in row] for row in array.tolist()])
     return np.array(array, dtype=np.float64, order="C")
 
+
+def _wrong_shape(noun: str, shape: tuple[int, ...]) -> str:
+    said = f"{plural(noun)} must have shape (n, 2), but have shape {shape}"
+    if noun == "vertex" or len(shape) != 2 or min(shape) <= MOST_AXES:
+        return said
+    return f"{said}; an image? give vorotool.Raster(array) to tessellate, else vorotool.seeds_from_raster(array)"
+
+
+MOST_AXES = 4
+"""Of points in some space: an array of points has a side that is no longer."""
 
 INEXACT = "integers beyond 2^53 would be rounded; subtract an offset from all of them, or give floating-point numbers"
 """What a message says of coordinates that `first_inexact` finds."""
@@ -79,6 +89,8 @@ def number_array(values: Any, noun: str, expected: str | None = None) -> NDArray
     said = expected or f"{plural(noun)} must be an (n, 2) array of numbers"
     if isinstance(values, np.ma.MaskedArray):
         if np.ma.is_masked(values):
+            if values.ndim != 2 or values.shape[1] != 2:
+                raise InputError(_wrong_shape(noun, values.shape))
             raise InputError(
                 f"{plural(noun)} are masked in part: leave them out, as in points[~points.mask.any(axis=1)]"
             )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vorotool.errors import UsageError
+from vorotool.geometry.numbers import finite_double, shown_number
 from vorotool.geometry.polygons import PolygonSet
 
 FLATTEN = 2.0**-12
@@ -29,10 +30,11 @@ def checked_flatten(tolerance: float | None, polygons: PolygonSet) -> float:
     Raises
     ------
     UsageError
-        If it is not positive.
+        If it is no finite number, or not positive.
     """
     if tolerance is None:
         return default_flatten(polygons)
-    if not tolerance > 0:
-        raise UsageError(f"the tolerance is {tolerance}: it must be positive")
-    return tolerance
+    length = finite_double(tolerance, "the tolerance")
+    if not length > 0:
+        raise UsageError(f"the tolerance is {shown_number(tolerance)}: it must be positive")
+    return length

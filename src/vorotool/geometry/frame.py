@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from operator import index
 
 from vorotool.errors import InputError
 
@@ -26,6 +25,8 @@ class Frame:
     ------
     InputError
         If the frame is empty, or begins farther than 2^44 pixels from the origin.
+    UsageError
+        If a number is no integer.
 
     Examples
     --------
@@ -39,15 +40,19 @@ class Frame:
     height: int
 
     def __post_init__(self) -> None:
+        from vorotool.geometry.numbers import shown_number, whole_number  # imports NumPy, which options need not
+
         for name in ("x", "y", "width", "height"):  # NumPy's integers would wrap around in what follows
-            object.__setattr__(self, name, index(getattr(self, name)))
+            object.__setattr__(self, name, whole_number(getattr(self, name), f"{name} of the frame"))
         if max(abs(self.x), abs(self.y)) > FARTHEST:
             raise InputError(
-                f"the frame begins at ({self.x}, {self.y}): its coordinates must be at most 2^44; use a nearer --window"
+                f"the frame begins at {shown_number((self.x, self.y))}: its coordinates must be at most 2^44; "
+                "use a nearer --window"
             )
         if self.width < 1 or self.height < 1:
             raise InputError(
-                f"the frame is {self.width} x {self.height} pixels: it needs at least 1 x 1, use --size WxH"
+                f"the frame is {shown_number(self.width)} x {shown_number(self.height)} pixels: "
+                "it needs at least 1 x 1, use --size WxH"
             )
 
     @property

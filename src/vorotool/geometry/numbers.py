@@ -6,6 +6,7 @@ from decimal import Decimal
 from fractions import Fraction
 from math import inf, isfinite, isnan
 from numbers import Rational
+from operator import index
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,9 @@ from vorotool.errors import UsageError
 
 LARGEST_EXPONENT = 400
 """Of decimal numbers: an exact power of ten beyond any double's takes time and memory, and means nothing."""
+
+MOST_IN_A_ROW = 4
+"""Numbers of a place or a frame, which are shown one by one."""
 
 MOST_SHOWN = 40
 """Characters of what stands in the place of a number."""
@@ -97,11 +101,52 @@ def finite_double(value: Any, name: str) -> float:
     return number
 
 
+def whole_number(value: Any, name: str) -> int:
+    """Return an integer of Python or NumPy as one of Python.
+
+    Raises
+    ------
+    UsageError
+        If it is none: a floating-point number is none, even a whole one.
+
+    Examples
+    --------
+    >>> whole_number(np.uint8(7), "width")
+    7
+    """
+    try:
+        return index(value)
+    except TypeError:
+        raise UsageError(f"{name} is {shown_number(value)}: give an integer") from None
+
+
+def pair_of_doubles(values: Any, name: str) -> tuple[float, float]:
+    """Return two numbers as doubles; infinity for what is beyond all.
+
+    Raises
+    ------
+    UsageError
+        If they are not two, or one is no number.
+
+    Examples
+    --------
+    >>> pair_of_doubles([Fraction(1, 2), 10**400], "start")
+    (0.5, inf)
+    """
+    try:
+        x, y = values
+    except (TypeError, ValueError):
+        raise UsageError(f"{name} is {shown_number(values)}: give (x, y)") from None
+    return nearest_double(real_number(x, f"x of {name}")), nearest_double(real_number(y, f"y of {name}"))
+
+
 def shown_number(value: Any) -> str:
     """Give what was given as a number, or in the place of one, as a message shows it: short, however long it is.
 
     Examples
     --------
+    >>> shown_number((0, 10**400))
+    '(0, 1.0e+400)'
     >>> shown_number(2.5), shown_number(10**5000), shown_number("9" * 50)
     ('2.5', '1.0e+5000', "'99999999999999999999999999999999999999…")
     """
@@ -114,5 +159,11 @@ def shown_number(value: Any) -> str:
         if isfinite(number) and (number or not value):
             return repr(number).removesuffix(".0")
         return f"{Decimal(value.numerator) / Decimal(value.denominator):.1e}"
-    text = repr(value)
+    if isinstance(value, tuple | list) and 0 < len(value) <= MOST_IN_A_ROW:
+        shown = ", ".join("…" if isinstance(one, tuple | list) else shown_number(one) for one in value)
+        return f"({shown})" if isinstance(value, tuple) else f"[{shown}]"
+    try:
+        text = repr(value)
+    except ValueError:  # Python writes no integers of more than some thousand digits
+        text = f"of type {type(value).__name__}"
     return text if len(text) <= MOST_SHOWN else f"{text[: MOST_SHOWN - 1]}…"

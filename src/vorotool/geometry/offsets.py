@@ -13,6 +13,7 @@ from vorotool.errors import InputError
 from vorotool.geometry.checks import set_array
 from vorotool.geometry.circular_arcs import chords_of
 from vorotool.geometry.elementary import inverse_sine
+from vorotool.geometry.numbers import nearest_double, real_number, shown_number
 from vorotool.geometry.polygons import HOLE, SHELL, PolygonSet
 from vorotool.geometry.skeleton import SiteTable
 from vorotool.geometry.table import Lookup, Table
@@ -180,9 +181,12 @@ class Offsets:
         ------
         InputError
             If the tolerance is not positive.
+        UsageError
+            If it is no number.
         """
+        tolerance = nearest_double(real_number(tolerance, "the tolerance"))
         if not tolerance > 0:
-            raise InputError(f"the tolerance is {tolerance}: it must be positive")
+            raise InputError(f"the tolerance is {shown_number(tolerance)}: it must be positive")
         is_left = self.piece_distance > 0
         xy, first = chords_of(self.start, self.end, self.centre, is_left, tolerance)
         return PolygonSet(

@@ -15,6 +15,7 @@ from vorotool.geometry.arc_radii import arc_radii
 from vorotool.geometry.checks import set_array
 from vorotool.geometry.chunks import in_chunks
 from vorotool.geometry.elementary import hypotenuse
+from vorotool.geometry.numbers import nearest_double, real_number, shown_number
 from vorotool.geometry.polygons import PolygonSet
 
 INTERIOR, EXTERIOR = 0, 1
@@ -290,9 +291,12 @@ class Skeleton:
         ------
         InputError
             If the tolerance is not positive.
+        UsageError
+            If it is no number.
         """
+        tolerance = nearest_double(real_number(tolerance, "the tolerance"))
         if not tolerance > 0:
-            raise InputError(f"the tolerance is {tolerance}: it must be positive")
+            raise InputError(f"the tolerance is {shown_number(tolerance)}: it must be positive")
         source, target = self.vertices[self.arcs[:, 0]], self.vertices[self.arcs[:, 1]]
         control = np.where(self.is_parabola[:, None], self.control, (source + target) / 2)
         bend = source - 2 * control + target
