@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from vorotool.engines.boundary_rays import first_hits
 from vorotool.engines.corner_twigs import Branches, Pairs, Twigs, branches_inside, corner_twigs, pairs_of
 from vorotool.engines.edge_comparisons import is_blunt, shortest
+from vorotool.engines.pruned_twigs import with_pruned_twigs
 from vorotool.engines.round_ends import grown_runs
 from vorotool.geometry.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
 
@@ -84,6 +85,8 @@ def unforked(skeleton: Skeleton) -> Unforked:
     >>> made.skeleton.vertices[made.skeleton.arcs[made.arcs]].tolist()
     [[[2.0, 2.0], [8.0, 2.0]], [[8.0, 2.0], [10.0, 2.0]], [[2.0, 2.0], [0.0, 2.0]]]
     """
+    known = len(skeleton)
+    skeleton = with_pruned_twigs(skeleton)
     branches = branches_inside(skeleton)
     twigs = corner_twigs(skeleton, branches)
     pairs = pairs_of(skeleton, twigs)
@@ -97,7 +100,9 @@ def unforked(skeleton: Skeleton) -> Unforked:
     longest = _longest_of_runs(twigs, ends.run, in_round)
     removed = np.concatenate([forks.one, forks.other, np.setdiff1d(in_round, longest)])
     of_round = np.concatenate([twigs.branch[longest], ends.inner])
-    return _with_leads(skeleton, twigs, forks, branches.arcs(twigs.branch[removed]), branches.arcs(of_round))
+    of_round = branches.arcs(of_round)
+    pruned = np.setdiff1d(np.arange(known, len(skeleton)), of_round)
+    return _with_leads(skeleton, twigs, forks, np.append(branches.arcs(twigs.branch[removed]), pruned), of_round)
 
 
 # ---- polygons around a circle ---------------------------------------------------------------------
