@@ -10,6 +10,7 @@ from scipy.ndimage import gaussian_filter
 
 import vorotool
 from fuzz.features import FAMILIES, as_set, one_case
+from fuzz.outlines import failure as outlines_failure
 from outline_oracle import random_labels
 from vorotool import _core
 from vorotool.engines import feature_sheets
@@ -258,3 +259,9 @@ def test_both_sides_of_features_that_overlap_are_read_back(tmp_path):
         again = vorotool.read(tmp_path / "both.json")
         assert (again.features, differing(again, made)) == (features, [])
         vorotool.verify_skeleton(again)
+
+
+@pytest.mark.parametrize("case", [43, 83, 141, 357, 410])
+def test_outlines_of_pixels_that_were_simplified(case):
+    """Objects that hang together at corners, both sides: these failed their check (`make fuzz`, seed 3)."""
+    assert outlines_failure(np.random.default_rng([3, case])) is None

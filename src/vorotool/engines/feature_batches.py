@@ -151,6 +151,7 @@ def in_batches(
     work: Callable[[BatchShapes, int, Progress], Result],
     *,
     reach: Callable[[PolygonSet, float], NDArray[np.int64]] | None = None,
+    drops: bool = True,
     strict: bool = False,
     threads: int = 0,
     progress: Progress = None,
@@ -165,6 +166,8 @@ def in_batches(
         Called with the shapes of a batch, a number of threads, and a progress.
     reach : callable, optional
         Gives for polygons and the step of their lattice by how many steps features of a batch must be farther apart.
+    drops : bool
+        Leave out vertices in which outlines of pixels go straight on. A checker takes them as it finds them.
     strict : bool
         Refuse features that would be repaired.
     threads : int
@@ -195,7 +198,7 @@ def in_batches(
     _check_size(polygons)
     threads = threads or available_threads()
     is_cracks = polygons.connectivity is not None and reach is None and not polygons.is_line.any()
-    corners = own_corners(polygons) if is_cracks else None
+    corners = own_corners(polygons) if is_cracks and drops else None
     used = polygons if corners is None else corners.polygons
     placement = placed_vertices(used, threads=threads, progress=progress)
     features = Features.of(used)

@@ -100,7 +100,7 @@ def _check_sides(skeleton: Skeleton, threads: int, progress: Progress) -> None:
             if len(of_batch):
                 _check_in_graph(of_batch, shapes.graph, threads, poll, largest=largest)
 
-        in_batches(skeleton.polygons, check, threads=threads, progress=progress)
+        in_batches(skeleton.polygons, check, drops=False, threads=threads, progress=progress)
 
 
 def _check_own(skeleton: Skeleton) -> None:
