@@ -22,7 +22,7 @@ def test_out(method, out):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"max_distance": "3"}, "max_distance is 3"),
+        ({"max_distance": "3"}, "max_distance is '3'"),
         ({"max_distance": float("nan")}, "max_distance is nan"),
         ({"threads": None}, "threads is None"),
         ({"threads": 1.5}, "threads is 1.5"),

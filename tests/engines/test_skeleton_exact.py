@@ -324,7 +324,7 @@ def test_the_exact_one_of_elements():
 
 @pytest.mark.parametrize(
     ("options", "words"),
-    [({"side": "inner"}, "interior"), ({"gap": -1}, "0 or more"), ({"gap": np.nan}, "0 or more"),
+    [({"side": "inner"}, "interior"), ({"gap": -1}, "0 or more"), ({"gap": np.nan}, "the gap is nan: give a number"),
      ({"frame": (0, 0, 0, 1)}, "above 0")],
 )  # fmt: skip
 def test_options_that_are_none(options, words):

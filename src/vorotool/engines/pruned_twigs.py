@@ -66,6 +66,8 @@ def with_pruned_twigs(skeleton: Skeleton) -> Skeleton:
     >>> len(skeleton), sorted(made.vertices[made.arcs[len(skeleton) :, 1]].tolist())
     (3, [[1.0, 4.0], [20.0, 0.0]])
     """
+    if not len(skeleton):
+        return skeleton
     found = _found(skeleton, *_sides(skeleton))
     return _with_twigs(skeleton, found) if len(found.node) else skeleton
 
@@ -94,7 +96,7 @@ def _found(skeleton: Skeleton, begins: _Sides, ends: _Sides) -> _Found:
     following = skeleton.polygons.following.astype(np.intp)
     before = np.empty_like(following)
     before[following] = np.arange(len(following))
-    ends = ends[np.argsort(ends.node * len(following) + ends.vertex)]
+    ends = ends[np.argsort(ends.node * len(following) + ends.vertex, kind="stable")]
     both = [_walked(skeleton, begins, ends, step, back) for step, back in ((following, before), (before, following))]
     return _Found(
         *(np.concatenate(columns) for columns in zip(*(found.__dict__.values() for found in both), strict=True))
