@@ -2,9 +2,11 @@
 
 import json
 import signal
+import socket
 import subprocess
 import sys
 import time
+from contextlib import suppress
 
 import numpy as np
 import pytest
@@ -84,6 +86,17 @@ def test_a_lost_worker_loses_nothing(run, process, many, cluster):
     assert list((many / "there").rglob(".vorotool-*")) == []
 
 
+@pytest.fixture
+def usual_port():
+    """The port that a scheduler usually shows itself on is taken, by us or by somebody else."""
+    with socket.socket() as taken:
+        with suppress(OSError):
+            taken.bind(("127.0.0.1", 8787))
+            taken.listen()
+        yield
+
+
+@pytest.mark.usefixtures("usual_port")
 def test_a_cluster_that_is_started_here(run, many):
     options = ("tessellate", "many", "--keep-going", "-q", "-f", "npy", "--out-dir")
     assert run(*options, "there", "--cluster", "local", "-j", "1").code == 6

@@ -159,7 +159,7 @@ def _started(distributed: Any, jobs: int | None) -> Iterator[Any]:
         n_workers=jobs or os.cpu_count(),
         threads_per_worker=1,
         memory_limit=0,
-        dashboard_address=None,
+        scheduler_kwargs={"dashboard": False, "dashboard_address": ":0"},  # the usual port may be another cluster's
         silence_logs=logging.CRITICAL,
     )
     try:
