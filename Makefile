@@ -110,8 +110,8 @@ test-oldest: ## run every test on the oldest versions that pyproject.toml allows
 	PATH="$(CURDIR)/$(OLDEST)/venv/bin:$$PATH" $(OLDEST)/venv/bin/python -m pytest
 
 .PHONY: sanitize
-sanitize: build ## run the engine tests on a build with address and undefined-behaviour sanitizers
-	tests/sanitize.sh $(RUN)
+sanitize: build ## the suite on a build with address and undefined-behaviour sanitizers; then damaged files for MINUTES=...
+	MINUTES=$(MINUTES) SEED=$(SEED) tests/sanitize.sh $(RUN)
 
 .PHONY: clean
 clean: ## remove what was built (.venv and build/)

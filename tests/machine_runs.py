@@ -102,14 +102,14 @@ def _named(value: dict[str, str]) -> str:
     return "; ".join(f"{variable}={text}" for variable, text in value.items())
 
 
-def run(setting: Setting, scope: str, first: int = 0, count: int | None = None) -> dict[str, str]:
+def run(setting: Setting, commands: Iterable[str]) -> dict[str, str]:
     """Give the exit code and the digest of each command under a setting."""
     parts = {variable for values in factors().values() for value in values for variable in value}
     usual = {name: text for name, text in os.environ.items() if name not in parts}
-    end = "" if count is None else str(first + count)
     done = subprocess.run(
-        [sys.executable, "-W", "ignore", __file__, scope, f"{first}:{end}", f"--threads={setting.threads}"],
+        [sys.executable, "-W", "ignore", __file__, f"--threads={setting.threads}"],
         env={**usual, **setting.variables},
+        input="\n".join(commands),
         stdout=subprocess.PIPE,
         text=True,
         check=True,
@@ -250,21 +250,15 @@ def _remove(folder: Path) -> None:
     folder.rmdir()
 
 
-def _chosen(commands: Iterable[str], part: str) -> list[str]:
-    first, _, end = part.partition(":")
-    return list(commands)[int(first) : int(end) if end else None]
-
-
 def _main() -> None:
     parser = argparse.ArgumentParser()
-    parser.add_argument("scope", choices=("smoke", "whole"))
-    parser.add_argument("part", nargs="?", default="0:", help="first and end of the commands, such as 3:7")
     parser.add_argument("--threads", type=int, default=1)
     arguments = parser.parse_args()
+    commands = sys.stdin.read().splitlines()
     with tempfile.TemporaryDirectory() as name, chdir(name):
         folder = Path(name)
         make_inputs(folder)
-        for command in _chosen({"smoke": smoke, "whole": whole}[arguments.scope](), arguments.part):
+        for command in commands:
             sys.stdout.write(f"{digest(command, folder, arguments.threads)} {command}\n")
 
 

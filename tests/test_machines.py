@@ -2,12 +2,12 @@
 
 import pytest
 
-from machine_runs import Setting, differences, narrowest, numpy_levels, run
+from machine_runs import Setting, differences, narrowest, numpy_levels, run, smoke
 
 
 @pytest.fixture(scope="module")
 def usual():
-    return run(Setting("usual"), "smoke")
+    return run(Setting("usual"), smoke())
 
 
 def test_the_commands_do_what_they_are_asked(usual):
@@ -24,4 +24,4 @@ def test_the_commands_do_what_they_are_asked(usual):
     ids=lambda setting: setting.name.replace(" ", "-"),
 )
 def test_a_narrower_machine_writes_the_same_bytes(usual, setting):
-    assert differences(usual, run(setting, "smoke")) == []
+    assert differences(usual, run(setting, usual)) == []

@@ -6,10 +6,12 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <initializer_list>
 #include <memory>
 #include <span>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -17,11 +19,26 @@
 
 namespace vorotool::bindings {
 
-// C-contiguous arrays of exactly this type: bind them with noconvert(), so that nothing is copied unseen.
+// An array whose values lie where values of their type may lie. One that came in a file or a message may
+// begin at any byte: such an array is copied where it is only read, and refused where it is written.
+template <class... Arguments>
+class Aligned : public nanobind::ndarray<Arguments...> {
+ public:
+  using Base = nanobind::ndarray<Arguments...>;
+  using Base::Base;
+  Aligned(const Base& array) : Base(array) {}
+
+  bool is_aligned() const {
+    if (!this->is_valid()) return true;
+    return reinterpret_cast<std::uintptr_t>(this->data()) % this->itemsize() == 0;
+  }
+};
+
+// C-contiguous arrays of exactly this type: bind them with noconvert(), so that nothing is converted unseen.
 template <class T>
-using Vector = nanobind::ndarray<T, nanobind::ndim<1>, nanobind::c_contig, nanobind::device::cpu>;
+using Vector = Aligned<T, nanobind::ndim<1>, nanobind::c_contig, nanobind::device::cpu>;
 template <class T>
-using Matrix = nanobind::ndarray<T, nanobind::ndim<2>, nanobind::c_contig, nanobind::device::cpu>;
+using Matrix = Aligned<T, nanobind::ndim<2>, nanobind::c_contig, nanobind::device::cpu>;
 
 template <class Array>
 auto view(const Array& array) {
@@ -77,3 +94,36 @@ nanobind::object column(const Items& items, Field field) {
 }
 
 }  // namespace vorotool::bindings
+
+namespace nanobind::detail {
+
+template <class... Arguments>
+struct type_caster<vorotool::bindings::Aligned<Arguments...>> {
+  using Array = vorotool::bindings::Aligned<Arguments...>;
+  using Caster = make_caster<typename Array::Base>;
+  NB_TYPE_CASTER(Array, Caster::Name)
+
+  template <class Flags>
+  bool from_python(handle source, Flags flags, cleanup_list* cleanup) noexcept {
+    if (!take(source, flags, cleanup)) return false;
+    if (value.is_aligned()) return true;
+    if constexpr (std::is_const_v<typename Array::Scalar>) {
+      try {
+        return take(module_::import_("numpy").attr("array")(source), flags, cleanup);
+      } catch (python_error&) {
+      }
+    }
+    return false;
+  }
+
+ private:
+  template <class Flags>
+  bool take(handle source, Flags flags, cleanup_list* cleanup) noexcept {
+    Caster caster;
+    if (!caster.from_python(source, flags, cleanup)) return false;
+    value = Array(caster.value);
+    return true;
+  }
+};
+
+}  // namespace nanobind::detail

@@ -20,7 +20,7 @@ using namespace nb::literals;
 using core::Point;
 
 template <std::size_t n>
-using PointTuples = nb::ndarray<const double, nb::shape<-1, n, 2>, nb::c_contig, nb::device::cpu>;
+using PointTuples = Aligned<const double, nb::shape<-1, n, 2>, nb::c_contig, nb::device::cpu>;
 
 template <class Predicate>
 struct Level {

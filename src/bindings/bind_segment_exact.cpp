@@ -25,7 +25,7 @@ constexpr std::int8_t no_disc = 2;
 
 // Rows of sites, each of four columns: the ends' coordinates, equal for a point.
 template <std::size_t n>
-using SiteRows = nb::ndarray<const std::int32_t, nb::shape<-1, n, 4>, nb::c_contig, nb::device::cpu>;
+using SiteRows = Aligned<const std::int32_t, nb::shape<-1, n, 4>, nb::c_contig, nb::device::cpu>;
 
 LatticePoint lattice_point(const std::int32_t* values) {
   for (int i = 0; i < 2; ++i) {

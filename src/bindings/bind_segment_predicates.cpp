@@ -23,7 +23,7 @@ using core::SiteIndex;
 using core::VoronoiRecord;
 
 template <std::size_t n>
-using SiteRows = nb::ndarray<const std::int32_t, nb::shape<-1, n, 4>, nb::c_contig, nb::device::cpu>;
+using SiteRows = Aligned<const std::int32_t, nb::shape<-1, n, 4>, nb::c_contig, nb::device::cpu>;
 
 // Sites of a row, numbered as the engine does; those that occur twice have one number.
 class FewSites {

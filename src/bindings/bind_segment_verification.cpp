@@ -19,7 +19,7 @@ namespace {
 namespace nb = nanobind;
 using namespace nb::literals;
 using core::Monitor;
-using IndexPairs = nb::ndarray<const std::int32_t, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
+using IndexPairs = Aligned<const std::int32_t, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
 using Pair = std::array<std::int32_t, 2>;
 
 std::span<const Pair> pairs(const IndexPairs& array) {
@@ -34,7 +34,7 @@ std::span<const core::LatticePoint> lattice_points(const IndexPairs& array) {
 
 std::optional<std::string> segment_voronoi_fault(
     const IndexPairs& points, const IndexPairs& segments,
-    const nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>& vertices,
+    const Aligned<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>& vertices,
     const Vector<const double>& radius, const Vector<const std::int32_t>& vertex_start,
     const Vector<const std::int32_t>& vertex_sites, const IndexPairs& edges, const IndexPairs& edge_sites,
     unsigned threads, nb::handle progress) {

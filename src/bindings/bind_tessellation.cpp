@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "arrays.hpp"
 #include "bindings.hpp"
 #include "core/propagation.hpp"
 #include "core/stream_fill.hpp"
@@ -25,16 +26,11 @@ using core::FrameOnLattice;
 using core::Monitor;
 using core::Simd;
 using core::Tessellation;
-using Integers = nb::ndarray<const std::int64_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-using Labels = nb::ndarray<const std::uint32_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-using Image = nb::ndarray<nb::ndim<2>, nb::c_contig, nb::device::cpu>;
-using Label32Image = nb::ndarray<std::uint32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using Integers = Aligned<const std::int64_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Labels = Aligned<const std::uint32_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Image = Aligned<nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using Label32Image = Aligned<std::uint32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using Halves = std::pair<std::uint64_t, std::uint64_t>;  // upper and lower 64 bits
-
-template <class T, class Array>
-std::span<const T> view(const Array& array) {
-  return {array.data(), array.size()};
-}
 
 Simd simd_level(std::string_view name) {
   for (const Simd level : {Simd::portable, Simd::avx2, Simd::avx512}) {
@@ -52,7 +48,7 @@ Tessellation make_tessellation(const Integers& x, const Integers& y, const Label
   const FrameOnLattice frame{frame_x, frame_y, width, height, steps};
   const Simd level = simd_level(simd);
   const nb::gil_scoped_release no_gil;
-  return {view<std::int64_t>(x), view<std::int64_t>(y), view<std::uint32_t>(labels), frame, level};
+  return {view(x), view(y), view(labels), frame, level};
 }
 
 // Rows of an output image, checked against the frame.
@@ -113,9 +109,8 @@ void write_distances(const Tessellation& tessellation, const Image& out, std::in
 void propagate(const Integers& x, const Integers& y, const Labels& labels, int passes,
                const Label32Image& out, nb::handle progress) {
   run_interruptible(progress, [&](const Monitor& monitor) {
-    core::propagate(view<std::int64_t>(x), view<std::int64_t>(y), view<std::uint32_t>(labels),
-                    static_cast<std::int32_t>(out.shape(1)), static_cast<std::int32_t>(out.shape(0)), passes,
-                    out.data(), monitor);
+    core::propagate(view(x), view(y), view(labels), static_cast<std::int32_t>(out.shape(1)),
+                    static_cast<std::int32_t>(out.shape(0)), passes, out.data(), monitor);
   });
 }
 

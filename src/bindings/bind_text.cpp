@@ -6,6 +6,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
+#include <any>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,7 +26,7 @@ namespace {
 namespace nb = nanobind;
 
 template <class T>
-using InputArray = nb::ndarray<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using InputArray = Aligned<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
 std::string_view view_of(const nb::bytes& text) { return {text.c_str(), text.size()}; }
 
@@ -144,7 +145,7 @@ nb::object find_too_deep(const nb::bytes& text, std::size_t limit) {
   return nb::int_(found);
 }
 
-using IndexArray = nb::ndarray<const std::int32_t, nb::ndim<1>, nb::device::cpu>;
+using IndexArray = Aligned<const std::int32_t, nb::ndim<1>, nb::device::cpu>;
 
 // Polygons of rows, and the arrays that hold them.
 class PolygonRows {
@@ -188,7 +189,7 @@ class PolygonRows {
 struct ColumnStore {
   std::vector<core::TextColumn> columns;
   std::vector<std::vector<std::string_view>> texts;
-  std::vector<nb::object> owners;
+  std::vector<std::any> owners;  // objects of Python, and arrays that may be copies of what came
 
   std::string_view utf8(nb::handle value) {
     Py_ssize_t size = 0;
@@ -198,7 +199,7 @@ struct ColumnStore {
     PyErr_Clear();  // surrogates of undecodable bytes go out as the bytes they came from
     PyObject* const encoded = PyUnicode_AsEncodedString(value.ptr(), "utf-8", "surrogateescape");
     if (encoded == nullptr) throw nb::python_error();
-    owners.push_back(nb::steal(encoded));
+    owners.emplace_back(nb::object(nb::steal(encoded)));
     return {PyBytes_AS_STRING(encoded), static_cast<std::size_t>(PyBytes_GET_SIZE(encoded))};
   }
 
@@ -207,7 +208,7 @@ struct ColumnStore {
     InputArray<T> array;
     if (!nb::try_cast(values, array, false)) return false;
     columns.push_back({std::span<const T>(array.data(), array.size()), {}});
-    owners.push_back(nb::borrow(values));
+    owners.emplace_back(array);
     return true;
   }
 
@@ -215,7 +216,7 @@ struct ColumnStore {
     const core::NumberTexts* numbers = nullptr;
     if (!nb::try_cast(values, numbers, false) || numbers == nullptr) return false;
     columns.push_back({numbers, {}});
-    owners.push_back(nb::borrow(values));
+    owners.emplace_back(nb::object(nb::borrow(values)));
     return true;
   }
 
@@ -223,7 +224,7 @@ struct ColumnStore {
     const PolygonRows* polygons = nullptr;
     if (!nb::try_cast(values, polygons, false) || polygons == nullptr) return false;
     columns.push_back({&polygons->texts(), {}});
-    owners.push_back(nb::borrow(values));
+    owners.emplace_back(nb::object(nb::borrow(values)));
     return true;
   }
 
@@ -233,7 +234,7 @@ struct ColumnStore {
     for (const nb::handle value : values) views.push_back(utf8(value));
     columns.push_back({std::span<const std::string_view>(views), {}});
     texts.push_back(std::move(views));  // moving a vector leaves its elements where they are
-    owners.push_back(values);
+    owners.emplace_back(nb::object(values));
   }
 
   void add_values(nb::handle values) {
@@ -255,7 +256,7 @@ struct ColumnStore {
       if (index[row] >= limit) throw nb::index_error("an index of a column is out of range");
     }
     columns.back().index = index;
-    owners.push_back(nb::borrow(values));
+    owners.emplace_back(array);
   }
 
   // A column is an array or a list, or a pair of values and the indices of those to show.

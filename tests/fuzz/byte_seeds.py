@@ -59,16 +59,10 @@ def _pngs() -> list[tuple[str, str, bytes]]:
 
 def _tiffs() -> list[tuple[str, str, bytes]]:
     files = []
-    for dtype, options in itertools.product(
-        ("u1", ">u2", "i4", "f4", "?"),
-        (
-            {},
-            {"compression": "zlib"},
-            {"compression": "lzma", "rowsperstrip": 4},
-            {"tile": (16, 16)},
-            {"bigtiff": True},
-        ),
-    ):
+    plain: tuple[dict[str, object], ...] = ({}, {"tile": (16, 16)}, {"bigtiff": True})
+    compressed: tuple[dict[str, object], ...] = ({"compression": "zlib"}, {"compression": "lzma", "rowsperstrip": 4})
+    numbers = itertools.product(("u1", ">u2", "i4", "f4"), (*plain, *compressed))
+    for dtype, options in (*numbers, *itertools.product("?", plain)):
         out = io.BytesIO()
         byteorder = ">" if dtype[0] == ">" else "<"
         tifffile.imwrite(out, GREY.astype(dtype), byteorder=byteorder, metadata=None, **options)
@@ -76,6 +70,10 @@ def _tiffs() -> list[tuple[str, str, bytes]]:
     for options in ({"compression": "zlib", "predictor": 2, "tile": (16, 16)}, {"imagej": True, "resolution": (4, 5)}):
         out = io.BytesIO()
         tifffile.imwrite(out, GREY.astype("u2"), **options)
+        files.append(out.getvalue())
+    for compression in ("tiff_adobe_deflate", "tiff_lzw", "packbits"):
+        out = io.BytesIO()
+        Image.fromarray(GREY.astype(bool)).save(out, "TIFF", compression=compression)
         files.append(out.getvalue())
     colour = np.dstack([GREY, GREY + 1, GREY + 2])
     for options in ({"planarconfig": "separate"}, {"planarconfig": "contig", "compression": "zlib"}):

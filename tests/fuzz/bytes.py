@@ -86,7 +86,7 @@ class Fuzzer:
         progress.case = _IDLE
 
     def run(self) -> int:
-        """Share the cases out, watch, and say what came of them."""
+        """Share the cases out, watch, and say what came of them; exit 1 if anything was wrong or nothing was read."""
         given = self.arguments
         begin, end = time.monotonic(), time.monotonic() + 60 * given.minutes
         root = Path(tempfile.mkdtemp(dir="/dev/shm" if Path("/dev/shm").is_dir() else None))
@@ -100,11 +100,11 @@ class Fuzzer:
             for worker in watched:
                 worker.stop()
         failures = [failure for worker in watched for failure in worker.found()]
-        self._tell(watched, failures, time.monotonic() - begin)
+        total = self._tell(watched, failures, time.monotonic() - begin)
         shutil.rmtree(root)
-        return int(bool(failures))
+        return int(bool(failures) or total == 0)
 
-    def _tell(self, watched: list[Worker], failures: list[dict[str, object]], seconds: float) -> None:
+    def _tell(self, watched: list[Worker], failures: list[dict[str, object]], seconds: float) -> int:
         counts = [sum(worker.progress.counts[i] for worker in watched) for i in range(4 * len(self.kinds))]
         print(f"{'':10}" + "".join(f"{name:>10}" for name in OUTCOMES))
         for place, kind in enumerate(self.kinds):
@@ -116,6 +116,7 @@ class Fuzzer:
         print(
             f"{total:,} inputs, {len(failures)} failures, {seconds:.0f} s, {total / max(seconds, 0.01):,.0f} a second"
         )
+        return total
 
 
 class Worker:

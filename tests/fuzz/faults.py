@@ -1,9 +1,10 @@
-"""Processes are killed inside their writes, and disks fail: `--kills 1000 --places 300 --pairs 50 --seed 1`.
+"""Processes are killed inside their writes, and disks fail: `--kills 1000 --places 300 --batches 20 --seed 1`.
 
 Every writer is ended by SIGKILL, SIGTERM and SIGINT at random steps of its writes (and a random moment after one). Then
 an older output is untouched or the new one is whole; after SIGTERM and SIGINT no temporary is left; what a SIGKILL has
 left is removed by the next run. Disks that are full or read-only, folders that vanish, and targets that become folders
-give exit code 4, and leave the older output and nothing else. Batches lose nothing, whichever process dies.
+give exit code 4, and leave the older output and nothing else. Batches lose nothing, whichever process dies. In a time
+that is too short for all (`--minutes 1`) each of the four has an equal part of it; one that was reached by none fails.
 """
 
 import argparse
@@ -31,6 +32,7 @@ class Known:
     """What each writer writes of two inputs, and in how many steps."""
 
     def __init__(self, scratch, names):
+        scratch.mkdir()
         import_modules(scratch / "imports", names)
         self.contents, self.steps, self.scratch = {}, {}, scratch
         for name in names:
@@ -135,8 +137,63 @@ class Pipe:
         return os.read(self._descriptor, 4096).decode().splitlines()[0] if ready else ""
 
 
+class Stage:
+    """One kind of cases, each made of the seed and its number; how many there were, and the seconds they took.
+
+    Parameters
+    ----------
+    name : str
+        Of the kind.
+    goal : int
+        How many there should be.
+    trial : callable
+        ``trial(chance)`` runs a case and says what is wrong.
+    counted : callable, optional
+        How many of the goal there are, if not every case counts.
+    """
+
+    def __init__(self, name, goal, trial, counted=None):
+        self.name, self.goal, self.trial = name, goal, trial
+        self.cases, self.seconds = 0, 0.0
+        self.counted = counted or (lambda: self.cases)
+
+    def is_done(self):
+        """Whether there are as many as there should be."""
+        return self.counted() >= self.goal
+
+    def run(self, seed, first):
+        """Run the next case; what is wrong, with what makes the case again."""
+        begin, number = time.monotonic(), first + self.cases
+        found = self.trial(random.Random(f"{seed} {self.name} {number}"))
+        self.cases, self.seconds = self.cases + 1, self.seconds + time.monotonic() - begin
+        return [f"seed {seed}, {self.name} {number}: {each}" for each in found]
+
+
+def stages(arguments, scratch, counts):
+    """The four kinds."""
+    names = arguments.writers.split(",") if arguments.writers else list(WRITERS)
+    known = Known(scratch / "known", names) if arguments.kills or arguments.places else None
+    pairs = faulty_batches.Pairs(scratch / "pairs") if arguments.pairs else None
+
+    def killed(chance):
+        return kill(known, chance.choice(names), chance, counts)
+
+    def placed(chance):
+        return faulty_places.trial(known, chance.choice(names), chance, counts)
+
+    def batched(chance):
+        return faulty_batches.trial(Path(tempfile.mkdtemp(dir=scratch)), chance, counts)
+
+    return [
+        Stage("kills", arguments.kills, killed, lambda: counts["kills that left a temporary"]),
+        Stage("places", arguments.places, placed),
+        Stage("batches", arguments.batches, batched),
+        Stage("pairs", arguments.pairs, lambda _: pairs.trial(counts)),
+    ]
+
+
 def main():
-    """Run all; exit 1 if anything is wrong."""
+    """Run all; exit 1 if anything is wrong, or not begun."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--kills", type=int, default=1000, help="that left a temporary")
     parser.add_argument("--places", type=int, default=300)
@@ -144,29 +201,23 @@ def main():
     parser.add_argument("--pairs", type=int, default=50, help="of shards that are started together")
     parser.add_argument("--minutes", type=float, default=1e9)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--first", type=int, default=0, help="number of the first case of each kind")
     parser.add_argument("--writers", help="separated by commas")
     arguments = parser.parse_args()
-    chance, end = random.Random(arguments.seed), time.monotonic() + 60 * arguments.minutes
-    names = arguments.writers.split(",") if arguments.writers else list(WRITERS)
-    counts, wrong = Counter(), []
+    end, counts, wrong = time.monotonic() + 60 * arguments.minutes, Counter(), []
 
     def tell(found):
         wrong.extend(found)
         for each in found:
-            print(f"wrong: seed {arguments.seed}: {each}", flush=True)
+            print(f"wrong: {each}", flush=True)
 
     with tempfile.TemporaryDirectory() as scratch:
-        known = Known(Path(scratch), names)
-        while counts["kills that left a temporary"] < arguments.kills and time.monotonic() < end:
-            tell(kill(known, chance.choice(names), chance, counts))
-        for case in range(arguments.places):
-            if time.monotonic() < end:
-                tell(faulty_places.trial(known, names[case % len(names)], chance, counts))
-        for _ in range(arguments.batches):
-            if time.monotonic() < end:
-                tell(faulty_batches.trial(Path(tempfile.mkdtemp(dir=scratch)), chance, counts))
-        tell(faulty_batches.pairs(Path(scratch) / "pairs", arguments.pairs, end, counts))
-    print(", ".join([*(f"{name}: {count}" for name, count in counts.items()), f"{len(wrong)} failures"]))
+        wanted = [stage for stage in stages(arguments, Path(scratch), counts) if stage.goal]
+        while (left := [stage for stage in wanted if not stage.is_done()]) and time.monotonic() < end:
+            tell(min(left, key=lambda stage: stage.seconds).run(arguments.seed, arguments.first))
+    tell([f"{stage.name}: none was run" for stage in wanted if not stage.cases])
+    counted = [f"{name}: {count}" for name, count in counts.items()]
+    print(", ".join([*counted, f"{len(wrong)} failures"]))
     return int(bool(wrong))
 
 

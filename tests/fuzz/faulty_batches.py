@@ -150,31 +150,34 @@ def is_worker(path, folder):
         return False
 
 
-def pairs(folder, count, end, counts):
-    """Two shards that are started together, and resume what the other has done; what is wrong."""
-    folder.mkdir()
-    many_inputs(folder)
-    whole = start(folder, "csv", "whole")
-    whole.communicate()
-    wrong = []
-    for case in range(count):
-        if time.monotonic() >= end:
-            break
-        out = f"out-{case}"
+class Pairs:
+    """Two shards that are started together, and resume what the other has done."""
+
+    def __init__(self, folder):
+        folder.mkdir()
+        many_inputs(folder)
+        start(folder, "csv", "whole").communicate()
+        self.folder, self.number = folder, 0
+        self.expected = self._written("whole")
+
+    def _written(self, out):
+        return {path.name: path.read_bytes() for path in (self.folder / out).glob("*.csv")}
+
+    def trial(self, counts):
+        """Start one pair; what is wrong."""
+        out = f"out-{self.number}"
+        self.number += 1
         children = [
-            start(folder, "csv", out, "--resume", "--shard", f"{part}/2", "--table", f"{out}-{part}.csv")
+            start(self.folder, "csv", out, "--resume", "--shard", f"{part}/2", "--table", f"{out}-{part}.csv")
             for part in (1, 2)
         ]
         said = [child.communicate()[1].decode() for child in children]
-        wrong += [
-            f"pair {case}: exit code {child.returncode}: {text}"
+        wrong = [
+            f"exit code {child.returncode}: {text}"
             for child, text in zip(children, said, strict=True)
             if child.returncode
         ]
-        found = {path.name: path.read_bytes() for path in (folder / out).glob("*.csv")}
-        expected = {path.name: path.read_bytes() for path in (folder / "whole").glob("*.csv")}
-        wrong += [f"pair {case}: other outputs"] * (found != expected) + [f"pair {case}: left"] * bool(
-            leftovers(folder)
-        )
+        wrong += ["other outputs"] * (self._written(out) != self.expected)
+        wrong += [f"{leftovers(self.folder)} left"] * bool(leftovers(self.folder))
         counts["pairs of shards"] += 1
-    return wrong
+        return wrong

@@ -39,7 +39,7 @@ def check(rng: np.random.Generator, name: str, n: int, decided: Counter[str]) ->
 
 
 def main() -> int:
-    """Run until enough calls were compared; exit 1 if any sign was wrong."""
+    """Run until enough calls were compared; exit 1 if any sign was wrong or none was compared."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--calls", type=int, default=10**6)
     parser.add_argument("--seconds", type=float, default=np.inf, help="begin no batch after so many")
@@ -59,7 +59,7 @@ def main() -> int:
         shares = (f"{100 * count[key] / max(count['calls'], 1):12.1f}" for key in (*LEVELS[1:], "zero"))
         print(f"{name:16}" + "".join(shares) + f"{count['calls']:12,}")
     print(f"{calls:,} calls, {wrong} wrong signs, {time.monotonic() - start:.0f} s")
-    return int(wrong > 0)
+    return int(wrong > 0 or calls == 0)
 
 
 if __name__ == "__main__":

@@ -58,8 +58,8 @@ class Cases:
             print(f"{name:18} {count:10,} {self.unit}s")
 
     def end(self, what: str) -> int:
-        """Print how many of what were run and failed; the exit code."""
+        """Print how many of what were run and failed; the exit code, which is 1 too where none was run."""
         first, seconds = self.arguments.first, time.monotonic() - self.start
         numbers = f"{self.unit}s {first} to {first + self.count - 1}"
         print(f"{numbers}: {self.count:,} {what}, {self.failed} failures, {seconds:.0f} s")
-        return int(self.failed > 0)
+        return int(self.failed > 0 or self.count == 0)

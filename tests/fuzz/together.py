@@ -1,6 +1,7 @@
 """All comparisons and all harnesses for a time in all: `make fuzz MINUTES=30 SEED=1`.
 
-Each script has its share of the time, two of them run side by side, and what each counted is printed as a table.
+Each script has its share of the time, two of them run side by side, and what each counted is printed as a table. A
+script that has compared nothing in its share fails.
 """
 
 from __future__ import annotations
@@ -14,6 +15,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 HERE = Path(__file__).parent
+
+MORE = str(10**12)
+"""Cases than there is time for."""
 
 
 @dataclass(frozen=True)
@@ -31,8 +35,8 @@ class Share:
 
 
 ENGINES = (
-    Share("tessellate.py", ("--pixels", str(10**12))),
-    Share("predicates.py", ("--calls", str(10**12))),
+    Share("tessellate.py", ("--pixels", MORE)),
+    Share("predicates.py", ("--calls", MORE)),
     Share("delaunay.py"),
     Share("cells.py"),
     Share("alphashape.py"),
@@ -52,10 +56,15 @@ ENGINES = (
 
 HARNESSES = (
     Share("bytes.py", ("--workers", "1"), 8, "--minutes"),
-    Share("faults.py", ("--places", "0", "--batches", "0", "--pairs", "0"), 6, "--minutes"),
-    Share("faults.py", ("--kills", "0", "--pairs", "20"), 3, "--minutes"),
-    Share("streams.py", ("--runs", str(10**9)), parts=4),
-    Share("machines.py", parts=2),
+    Share("faults.py", ("--kills", MORE, "--places", "0", "--batches", "0", "--pairs", "0"), 6, "--minutes"),
+    Share(
+        "faults.py",
+        ("--kills", "0", "--places", MORE, "--batches", MORE, "--pairs", MORE),
+        4,
+        "--minutes",
+    ),
+    Share("streams.py", ("--runs", MORE), parts=4),
+    Share("machines.py", parts=3),
 )
 """What is around the engines: damaged files, kills and full disks, pipes and descriptors, other processors."""
 

@@ -1,0 +1,51 @@
+"""The scripts of `make fuzz`: in the shortest time each compares something, or says that it has not."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from fuzz.runner import Cases, options
+
+FUZZ = Path(__file__).parent / "fuzz"
+
+
+def ended(script, *arguments):
+    command = [sys.executable, FUZZ / script, *arguments]
+    return subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
+
+
+def test_cases_that_were_not_run_have_not_passed(capsys):
+    cases = Cases(options(10).parse_args(["--seconds", "0"]))
+    assert list(cases) == []
+    assert cases.end("cases") == 1
+    assert capsys.readouterr().out.startswith("cases 0 to -1: 0 cases, 0 failures")
+
+
+@pytest.mark.parametrize("script", ["predicates.py", "tessellate.py"])
+def test_a_script_that_compares_nothing_fails(script):
+    done = ended(script, "--seconds", "0")
+    assert (done.returncode, done.stderr) == (1, "")
+    assert " 0 wrong" in done.stdout
+
+
+def test_no_kind_of_faults_is_left_out():
+    done = ended("faults.py", "--kills", "0", "--places", "0", "--pairs", "0", "--batches", "1", "--minutes", "0")
+    assert (done.returncode, done.stderr) == (1, "")
+    assert done.stdout == "wrong: batches: none was run\n1 failures\n"
+
+
+def test_other_machines_are_compared_at_once():
+    done = ended("machines.py", "--seconds", "0", "--seed", "2")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.startswith("8 commands, 1 settings, 8 outputs compared, 0 different, 0 failed")
+
+
+def test_all_that_failed_is_told():
+    passed = ended("together.py", "--minutes", "0.02", "--only", "planar_graph.py", "rotation.py")
+    assert (passed.returncode, passed.stderr) == (0, "")
+    assert passed.stdout.splitlines()[-1] == "2 scripts in 0.02 minutes, 0 of them failed"
+    failed = ended("together.py", "--minutes", "0", "--only", "planar_graph.py")
+    assert (failed.returncode, failed.stderr) == (1, "")
+    assert "planar_graph.py      FAILED" in failed.stdout
