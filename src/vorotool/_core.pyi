@@ -528,7 +528,12 @@ def idle_sides(
 
 class SegmentVoronoi:
     def __init__(
-        self, points: NDArray[np.int32], segments: NDArray[np.int32], threads: int, progress: _Progress
+        self,
+        points: NDArray[np.int32],
+        segments: NDArray[np.int32],
+        threads: int,
+        progress: _Progress,
+        within: tuple[int, int, int, int] | None = None,
     ) -> None: ...
     @property
     def counts(self) -> dict[str, int]: ...

@@ -151,6 +151,7 @@ def in_batches(
     work: Callable[[BatchShapes, int, Progress], Result],
     *,
     reach: Callable[[PolygonSet, float], NDArray[np.int64]] | None = None,
+    alone: bool = False,
     drops: bool = True,
     strict: bool = False,
     threads: int = 0,
@@ -166,6 +167,8 @@ def in_batches(
         Called with the shapes of a batch, a number of threads, and a progress.
     reach : callable, optional
         Gives for polygons and the step of their lattice by how many steps features of a batch must be farther apart.
+    alone : bool
+        One feature a batch: what is done depends on others however far they are.
     drops : bool
         Leave out vertices in which outlines of pixels go straight on. A checker takes them as it finds them.
     strict : bool
@@ -203,13 +206,15 @@ def in_batches(
     placement = placed_vertices(used, threads=threads, progress=progress)
     features = Features.of(used)
     made: list[tuple[BatchShapes, Result]] | None = None
-    if is_cracks:
+    if alone:
+        made = _done(used, placement, features, np.arange(len(features), dtype=np.int32), work, threads, progress)
+    elif is_cracks:
         sheets = sheets_of_cracks(features, placement.vertices, progress=progress)
         made = _done(used, placement, features, sheets, work, threads, progress, checks=True)
     if made is None:
         steps = None if reach is None else reach(used, ldexp(1.0, placement.exponent))
         sheets = sheets_of_boxes(features, placement.vertices, reach=steps, progress=progress)
-        made = _done(used, placement, features, sheets, work, threads, progress, checks=False)
+        made = _done(used, placement, features, sheets, work, threads, progress)
     assert made is not None  # what is apart by its bounds is independent
     found = _all_repairs([shapes for shapes, _ in made], corners)
     report_repairs(polygons, found, ldexp(1.0, placement.exponent), strict=strict, stacklevel=4)
@@ -281,7 +286,7 @@ def _done(
     threads: int,
     progress: Progress,
     *,
-    checks: bool,
+    checks: bool = False,
 ) -> list[tuple[BatchShapes, Result]] | None:
     """Batches and their results; None if features of a batch have something in common."""
     batches = _batches(used, placement, features, sheets)
