@@ -378,6 +378,7 @@ def offset_curves(
     segment_faces: NDArray[np.int32],
     face_polygon: NDArray[np.int32],
     site_polygon: NDArray[np.int32],
+    site_feature: NDArray[np.int32],
     distances: list[float],
     origin_x: float,
     origin_y: float,
