@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.disc_cover import Ring, covered_rings
-from vorotool.engines.planar_graph import flat_holes
+from vorotool.engines.flat_rings import flat_holes
 from vorotool.engines.skeleton_contours import Contours, contours_of
 from vorotool.errors import UsageError
 from vorotool.geometry.circular_arcs import chords_of, middles_of
