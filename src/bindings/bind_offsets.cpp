@@ -68,19 +68,22 @@ nb::list offset_curves(const IndexRows& points, const IndexRows& segments, const
                        const Vector<const double>& radius, const IndexRows& edges,
                        const IndexRows& edge_sites, const Indices& vertex_start, const Indices& vertex_sites,
                        const Indices& edge_face, const IndexRows& segment_faces, const Indices& face_polygon,
-                       const Indices& site_polygon, const std::vector<double>& distances, double origin_x,
-                       double origin_y, double scale, nb::handle progress) {
+                       const Indices& site_polygon, const Indices& site_feature,
+                       const std::vector<double>& distances, double origin_x, double origin_y, double scale,
+                       nb::handle progress) {
   const DiagramArrays arrays{points, segments, vertices, radius, edges, edge_sites};
   const core::SegmentDiagram diagram = arrays.diagram();
   const std::span<const Pair> faces = rows<Pair>(segment_faces);
   check(diagram, vertex_start, edge_face, faces, face_polygon, site_polygon);
+  if (site_feature.size() != site_polygon.size())
+    throw std::invalid_argument("each site must have a feature");
   check_rings(vertex_start, vertex_sites);
   std::vector<OffsetCurves> made = run_interruptible(progress, [&](const Monitor& monitor) {
     const core::CellBorders borders(diagram, view(vertex_start), view(vertex_sites));
     std::vector<OffsetCurves> all;
     for (const double distance : distances) {
-      const core::OffsetDomain domain{view(edge_face), faces, view(face_polygon), view(site_polygon),
-                                      distance > 0};
+      const core::OffsetDomain domain{view(edge_face),    faces,       view(face_polygon), view(site_polygon),
+                                      view(site_feature), distance > 0};
       all.push_back(
           core::offset_curves(borders, domain, std::abs(distance), {origin_x, origin_y, scale}, monitor));
     }
@@ -98,8 +101,8 @@ void bind_offsets(nb::module_& module) {
              "vertices"_a.noconvert(), "radius"_a.noconvert(), "edges"_a.noconvert(),
              "edge_sites"_a.noconvert(), "vertex_start"_a.noconvert(), "vertex_sites"_a.noconvert(),
              "edge_face"_a.noconvert(), "segment_faces"_a.noconvert(), "face_polygon"_a.noconvert(),
-             "site_polygon"_a.noconvert(), "distances"_a, "origin_x"_a, "origin_y"_a, "scale"_a,
-             "progress"_a.none());
+             "site_polygon"_a.noconvert(), "site_feature"_a.noconvert(), "distances"_a, "origin_x"_a,
+             "origin_y"_a, "scale"_a, "progress"_a.none());
 }
 
 }  // namespace vorotool::bindings

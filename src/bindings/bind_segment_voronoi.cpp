@@ -1,6 +1,8 @@
 // The segment Voronoi diagram.
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -52,9 +54,22 @@ void check_range(std::span<const std::array<std::int32_t, 2>> pairs, std::size_t
   }
 }
 
+// Least and most x, then least and most y.
+core::Bounds bounds_of(const std::array<std::int32_t, 4>& within, std::span<const LatticePoint> points) {
+  const auto [least_x, most_x, least_y, most_y] = within;
+  core::Bounds bounds({static_cast<double>(least_x), static_cast<double>(least_y)});
+  bounds.add({static_cast<double>(most_x), static_cast<double>(most_y)});
+  for (const LatticePoint& p : points) {
+    if (bounds.holds({static_cast<double>(p.x), static_cast<double>(p.y)})) continue;
+    throw std::invalid_argument("a point is beyond the bounds");
+  }
+  return bounds;
+}
+
 void make_diagram(SegmentVoronoi* self, const Rows& points, const Rows& segments, unsigned threads,
-                  nb::handle progress) {
-  const core::SegmentGraph graph{as_points(points), as_segments(segments)};
+                  nb::handle progress, const std::optional<std::array<std::int32_t, 4>>& within) {
+  core::SegmentGraph graph{as_points(points), as_segments(segments), {}};
+  if (within) graph.within = bounds_of(*within, graph.points);
   run_interruptible(progress,
                     [&](const Monitor& monitor) { new (self) SegmentVoronoi(graph, threads, monitor); });
 }
@@ -101,7 +116,7 @@ void bind_segment_voronoi(nb::module_& module) {
              "segment_faces"_a.noconvert(), "is_wanted"_a.noconvert());
   nb::class_<SegmentVoronoi>(module, "SegmentVoronoi")
       .def("__init__", &make_diagram, "points"_a.noconvert(), "segments"_a.noconvert(), "threads"_a,
-           "progress"_a.none())
+           "progress"_a.none(), "within"_a = nb::none())
       .def_prop_ro("counts", &counts_of)
       .def("take_arrays", &take_arrays, "idle"_a.none(), "threads"_a, "progress"_a.none());
 }

@@ -153,13 +153,22 @@ class CurveMaker {
     return borders_.left(h);
   }
 
-  // [n + m] at the number of each region, its polygon; -1 if it has several.
+  // [n + m] at the number of each region, its first polygon; -1 if it is of several features.
   std::vector<std::int32_t> region_polygons() {
     constexpr std::int32_t unknown = -2;
-    std::vector<std::int32_t> polygon(domain_.site_polygon.size(), unknown);
-    for (std::size_t s = 0; s < polygon.size(); ++s) {
-      std::int32_t& found = polygon[static_cast<std::size_t>(near_.of(static_cast<std::int32_t>(s)))];
-      found = found == unknown || found == domain_.site_polygon[s] ? domain_.site_polygon[s] : -1;
+    const std::size_t sites = domain_.site_polygon.size();
+    std::vector<std::int32_t> polygon(sites, unknown), feature(sites, unknown);
+    for (std::size_t s = 0; s < sites; ++s) {
+      const auto region = static_cast<std::size_t>(near_.of(static_cast<std::int32_t>(s)));
+      const std::int32_t own = domain_.site_polygon[s];
+      if (feature[region] == unknown) {
+        polygon[region] = own;
+        feature[region] = domain_.site_feature[s];
+      } else if (feature[region] == domain_.site_feature[s]) {
+        polygon[region] = std::min(polygon[region], own);
+      } else {
+        polygon[region] = feature[region] = -1;
+      }
     }
     return polygon;
   }

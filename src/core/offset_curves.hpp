@@ -20,7 +20,7 @@ struct OffsetCurves {
   std::vector<std::int32_t> site;           // [k] what it is at that distance from
   std::vector<std::int64_t> ring_start;     // [q + 1]
   std::vector<std::int64_t> shape_start;    // [s + 1] among the rings
-  std::vector<std::int32_t> shape_polygon;  // [s] -1 of several
+  std::vector<std::int32_t> shape_polygon;  // [s] the first one, -1 of several features
 };
 
 // Outwards: the border of what is no farther than the distance from the shapes. Inwards: of what is inside

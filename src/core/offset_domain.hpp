@@ -14,6 +14,7 @@ struct OffsetDomain {
   std::span<const std::array<std::int32_t, 2>> segment_faces;  // [m] left and right
   std::span<const std::int32_t> face_polygon;                  // [f] the first one, -1 outside
   std::span<const std::int32_t> site_polygon;                  // [n + m] the first one
+  std::span<const std::int32_t> site_feature;                  // [n + m] of which that is a part
   bool is_outward;                                             // of the polygons: towards faces outside
 
   bool is_own_end(HalfEdge h) const { return edge_face[static_cast<std::size_t>(h >> 1)] < 0; }

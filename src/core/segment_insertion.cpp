@@ -1,5 +1,7 @@
 #include "core/segment_insertion.hpp"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <stdexcept>
@@ -39,6 +41,13 @@ void put_disc(const RoundedDisc& disc, VoronoiRecord& record) {
 // digits are taken at once. Nothing depends on the choice but speed.
 constexpr double coarse = 0x1p-20;
 
+// Sites from the one of the least number on: the exact level rounds what it finds from the first one, and
+// which is first in a record depends on what was inserted before.
+std::array<SiteIndex, 3> from_least(std::array<SiteIndex, 3> sites) {
+  std::ranges::rotate(sites, std::ranges::min_element(sites));
+  return sites;
+}
+
 }  // namespace
 
 void compute_disc(const SegmentSites& sites, VoronoiRecord& record) {
@@ -51,7 +60,7 @@ void compute_disc(const SegmentSites& sites, VoronoiRecord& record) {
   if (disc.radius == 0 || disc.known_within(coarse)) return put_disc(disc, record);
   const auto finer = tangent_disc<DoubleDouble>(sites, record.sites, record.left);
   if (finer.known_within(coarse)) return put_disc(finer, record);
-  put_disc(exact_disc_rounded(sites.triple(record.sites)), record);
+  put_disc(exact_disc_rounded(sites.triple(from_least(record.sites))), record);
 }
 
 // Whether this thread may look at a record. What others did to it before is visible then.

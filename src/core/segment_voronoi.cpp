@@ -36,12 +36,13 @@ void check(const SegmentGraph& graph) {
   }
 }
 
-MortonOrder ordered(std::span<const LatticePoint> points, unsigned threads, const Monitor& monitor) {
+MortonOrder ordered(const SegmentGraph& graph, unsigned threads, const Monitor& monitor) {
+  const std::span<const LatticePoint> points = graph.points;
   std::vector<Point> places;
   places.reserve(points.size());
   for (const LatticePoint& p : points) places.push_back({static_cast<double>(p.x), static_cast<double>(p.y)});
   std::vector<std::int32_t> first(points.size());
-  MortonOrder order = morton_order(places, first, FineOrder::of_places, threads, monitor);
+  MortonOrder order = morton_order(places, first, FineOrder::of_places, threads, monitor, graph.within);
   for (std::size_t i = 0; i < first.size(); ++i) {
     if (static_cast<std::size_t>(first[i]) == i) continue;
     throw std::invalid_argument("points " + std::to_string(first[i]) + " and " + std::to_string(i) +
@@ -98,7 +99,7 @@ DiagramArrays SegmentVoronoi::take_arrays(std::span<const std::uint8_t> idle, un
 
 // The triangulation is gone when segments are inserted.
 void SegmentVoronoi::make_point_diagram(const SegmentGraph& graph, unsigned threads, const Monitor& monitor) {
-  MortonOrder order = ordered(graph.points, threads, monitor);
+  MortonOrder order = ordered(graph, threads, monitor);
   const std::span<RingVertex> vertices{order.vertices.data(), order.index.size()};
   Subdivision mesh = divide_and_conquer({vertices, order.index, order.code, order.fine}, threads, monitor);
   order.code = std::vector<std::uint32_t>();

@@ -10,6 +10,7 @@
 #include "core/insertion_rounds.hpp"
 #include "core/lattice.hpp"
 #include "core/monitor.hpp"
+#include "core/morton_grid.hpp"
 #include "core/segment_insertion.hpp"
 #include "core/segment_sites.hpp"
 #include "core/voronoi_extraction.hpp"
@@ -21,6 +22,7 @@ namespace vorotool::core {
 struct SegmentGraph {
   std::span<const LatticePoint> points;
   std::span<const std::array<std::int32_t, 2>> segments;
+  std::optional<Bounds> within;  // what sites are put into an order in, if not the bounds of the points
 };
 
 class SegmentVoronoi {

@@ -378,6 +378,7 @@ def offset_curves(
     segment_faces: NDArray[np.int32],
     face_polygon: NDArray[np.int32],
     site_polygon: NDArray[np.int32],
+    site_feature: NDArray[np.int32],
     distances: list[float],
     origin_x: float,
     origin_y: float,
@@ -528,7 +529,12 @@ def idle_sides(
 
 class SegmentVoronoi:
     def __init__(
-        self, points: NDArray[np.int32], segments: NDArray[np.int32], threads: int, progress: _Progress
+        self,
+        points: NDArray[np.int32],
+        segments: NDArray[np.int32],
+        threads: int,
+        progress: _Progress,
+        within: tuple[int, int, int, int] | None = None,
     ) -> None: ...
     @property
     def counts(self) -> dict[str, int]: ...

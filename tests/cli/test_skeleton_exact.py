@@ -262,9 +262,24 @@ def test_features_are_separate_unless_they_are_together(run, folder):
     assert [[row["ends"] for row in table] for table in rows] == [["4", "3"], ["7", "0"]]
     drawn = run("skeleton-exact", "nested.json", "-f", "svg", "--layers", "polygons").out
     assert drawn.count("<path") == 2
-    wrong = run("skeleton-exact", "nested.json", "--gap", "0.1", "--features", "separate")
-    assert wrong.code == 2
-    assert "--gap 0" in wrong.err
+    drawings = {
+        run("skeleton-exact", "nested.json", "--gap", "0.1", *more, "-f", "csv", "--verify").out
+        for more in ((), ("--features", "separate"), ("--features", "together"))
+    }
+    assert sorted({row["polygon"] for row in rows_of(drawing)} for drawing in drawings) == [{"0"}, {"0", "1"}]
+
+
+def test_the_deviation_of_a_gap_is_the_largest_of_the_features(run, folder):
+    shape = [[0, 0], [8, 0], [8, 3], [4, 1], [0, 3]]
+    shapes = [shape, [[2 * x + 1, 2 * y + 1] for x, y in shape]]
+    deviations = []
+    for chosen in (shapes[:1], shapes[1:], shapes):
+        (folder / "a.json").write_text(json.dumps({"polygons": [{"shell": shell} for shell in chosen]}))
+        for side in ("interior", "both"):
+            done = run("skeleton-exact", "a.json", "--gap", "0.2", "--side", side, "-o", "a.csv", "--stats", "-")
+            deviations.append(json.loads(done.out)["gap_deviation"])
+    assert deviations[4] == pytest.approx(max(deviations[0], deviations[2]))
+    assert deviations[5] >= deviations[4] > min(deviations[0], deviations[2]) > 0
 
 
 def test_a_ring_in_the_first_one_of_a_list_is_noted(run, folder):

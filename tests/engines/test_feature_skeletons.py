@@ -265,3 +265,44 @@ def test_both_sides_of_features_that_overlap_are_read_back(tmp_path):
 def test_outlines_of_pixels_that_were_simplified(case):
     """Objects that hang together at corners, both sides: these failed their check (`make fuzz`, seed 3)."""
     assert outlines_failure(np.random.default_rng([3, case])) is None
+
+
+SITES = {
+    "a line": {"line": [[3, 5], [7, 6]]},
+    "a line of one place": {"line": [[4, 5]]},
+    "a shell of one vertex": {"shell": [[4, 5]]},
+    "a shell of two vertices": {"shell": [[3, 5], [7, 6]]},
+    "a shell of one place": {"shell": [[4, 5], [4, 5], [4, 5]]},
+}
+
+
+@pytest.mark.parametrize("site", SITES.values(), ids=SITES)
+@pytest.mark.parametrize("side", ["interior", "both"])
+@pytest.mark.filterwarnings("ignore:1 polygon has vertices at one or two places")
+def test_points_and_lines_inside_another_feature_change_nothing_there(site, side):
+    made = vorotool.skeleton_exact([OUTER, site], side=side, strict=True)
+    vorotool.verify_skeleton(made)
+    assert made.length[made.polygon == 0].sum() == pytest.approx(20 * 2**0.5)
+    distances = [-1.0] if side == "interior" else [-1.0, 1.0]
+    curves = vorotool.offset([OUTER, site], distances)
+    vorotool.verify_offsets(curves, distances=distances)
+    assert curves.area[curves.distance < 0].tolist() == [64]
+
+
+@pytest.mark.parametrize("name", [name for name in SITES if name.startswith("a shell")])
+def test_shells_of_one_or_two_places_are_sites(name):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        other = {"line": [[x + 20, y] for x, y in dict.fromkeys(map(tuple, SITES[name]["shell"]))]}
+        shell = {"shell": [[x + 20, y] for x, y in SITES[name]["shell"]]}
+        made, expected = (vorotool.skeleton_exact([OUTER, shape], side="exterior") for shape in (shell, other))
+    vorotool.verify_skeleton(made)
+    assert differing(made, expected) == []
+    for separate in ("separate", "together"):
+        assert vorotool.offset([OUTER, shell], 1, features=separate).polygon.tolist() == [0, 1]
+
+
+def test_shells_without_an_inside_are_told_where_that_is_asked_for():
+    with pytest.warns(VorotoolWarning, match="2 polygons have vertices at one or two places only"):
+        made = vorotool.skeleton_exact([OUTER, {"shell": [[4, 5]]}, {"shell": [[40, 5], [45, 5]]}])
+    assert set(made.polygon.tolist()) == {0}

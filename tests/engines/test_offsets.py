@@ -114,3 +114,31 @@ def test_the_checker_finds_holes_that_are_filled():
     )
     with pytest.raises(vorotool.VerificationError, match="not in none"):
         vorotool.verify_offsets(filled)
+
+
+@pytest.mark.parametrize("distances", [[1.5], [-1.0, 1.5]])
+@pytest.mark.parametrize("features", ["separate", "together"])
+@pytest.mark.parametrize("last", ["a square", "a bow"])
+@pytest.mark.filterwarnings("ignore:the polygons were repaired")
+def test_parts_of_one_feature_that_merge_keep_its_properties(distances, features, last):
+    """Two parts of a feature 2 apart, two features 2 apart, and one alone."""
+    square = np.array([[0, 0], [4, 0], [4, 4], [0, 4]])
+    shells = [square + np.array(corner) for corner in ((0, 0), (6, 0), (0, 20), (6, 20), (14, 0))]
+    if last == "a bow":  # what needs a repair lets all rings be others in one drawing
+        shells[-1] = shells[-1][[0, 2, 1, 3]]
+    polygons = vorotool.PolygonSet(
+        np.concatenate(shells),
+        np.arange(0, 24, 4),
+        np.zeros(5, dtype=np.int8),
+        np.arange(5),
+        ids=["a", "a", "b", "c", "d"],
+        feature=np.array([0, 0, 1, 2, 3]),
+        properties={"name": ["first", "first", "second", "third", "fourth"]},
+    )
+    made = vorotool.offset(polygons, distances, features=features)
+    vorotool.verify_offsets(made, distances=distances)
+    shapes = made.flattened(0.01)
+    outer = np.flatnonzero(made.distance > 0).tolist()
+    assert [shapes.properties["name"][k] for k in outer] == ["first", "fourth", None]
+    assert [shapes.ids[k] for k in outer] == ["a", "d", None]
+    assert made.polygon[outer].tolist()[::2] == [0, -1]

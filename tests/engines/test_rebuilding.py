@@ -73,3 +73,24 @@ def test_approximate_skeletons_give_approximate_shapes():
         assert len(again.interiors) == 1
         assert shapely.symmetric_difference(again, shape).area < 0.01 * shape.area
         assert shapely.hausdorff_distance(again, shape) < 3
+
+
+FLAT = {
+    "a point": [[[5, 5]]],
+    "a segment": [[[3, 5], [6, 5]]],
+    "both": [[[2, 3]], [[3, 5], [6, 6]]],
+    "a segment given twice": [[[3, 5], [6, 5], [3, 5]]],
+}
+
+
+@pytest.mark.parametrize("holes", FLAT.values(), ids=FLAT)
+@pytest.mark.parametrize("side", ["interior", "both"])
+@pytest.mark.parametrize("chord", [None, 100])
+def test_points_and_segments_are_holes_again(holes, side, chord):
+    square = [[0, 0], [10, 0], [10, 10], [0, 10]]
+    skeleton = vorotool.skeleton_exact([{"shell": square, "holes": holes}, [[20, 0], [24, 0], [24, 4]]], side=side)
+    again = vorotool.rebuild(skeleton if chord is None else vorotool.prune(skeleton, chord=chord))
+    first = slice(1, int(again.polygon_start[1]))
+    assert again.ring_kind[first].tolist() == [1] * len(holes)
+    places = [{tuple(place) for place in ring} for ring in holes]
+    assert [{tuple(place) for place in again.ring(k + 1).tolist()} for k in range(len(holes))] == places

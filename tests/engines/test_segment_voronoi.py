@@ -146,6 +146,21 @@ def test_a_closed_form_with_five_roundings_too_many_is_polished():
     assert error <= np.spacing(expected)
 
 
+def test_what_is_far_away_changes_no_digit():
+    """Of three lines two are parallel: their disc is rounded from exact numbers, whichever line was inserted last."""
+    shape = [(148589473, -268454), (215698337, -268454), (215698337, -268119), (182143905, -268052)]
+    bounds = [(-618351521, -201595080), (618351521, 201595080)]
+    found = set()
+    for count in range(8):
+        far = [(1000 * k - 618351521, 100 * k * k - 201595080) for k in range(1, 2 * count + 1)]
+        points = np.array([*shape, (148589473, -268052), *bounds, *far], dtype=np.int32)
+        segments = np.array([*((k, (k + 1) % 5) for k in range(5)), *((k, k + 1) for k in range(7, len(points), 2))])
+        diagram = segment_voronoi(points, segments)
+        inside = (np.abs(diagram.radius - 201) < 1) & (diagram.vertices[:, 0] > shape[0][0])
+        found.add((diagram.vertices[inside].tobytes(), diagram.radius[inside].tobytes()))
+    assert len(found) == 1
+
+
 @pytest.mark.parametrize("name", ["star_smooth", "star_rough", "comb", "hilbert", "wheel"])
 def test_threads_change_nothing(name):
     """Rounds long enough to be shared."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from functools import cached_property
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
@@ -24,6 +25,23 @@ from vorotool.geometry.skeleton import Skeleton
 
 if TYPE_CHECKING:
     from vorotool.engines.skeleton_elements import ElementDiagram
+
+
+@dataclass(frozen=True)
+class Seen:
+    """Counts of the diagram of some features.
+
+    Parameters
+    ----------
+    vertices, edges : int
+        Of the diagram.
+    deviation : float
+        With a gap, how far the skeleton is from the exact one, if that is asked for.
+    """
+
+    vertices: int
+    edges: int
+    deviation: float = 0.0
 
 
 class ExactProducts(SkeletonProducts):
@@ -59,27 +77,50 @@ class ExactProducts(SkeletonProducts):
             return diagram_of_graph(together(self._polygons, strict=strict, **self._common), **self._common)
 
     @cached_property
-    def inside(self) -> FeatureSkeleton[tuple[int, int]]:
-        """What is inside each feature by itself, and the vertices and edges of each diagram that is looked at."""
+    def inside(self) -> FeatureSkeleton[Seen]:
+        """What is inside each feature by itself, and what was seen of each diagram that is looked at."""
         o = self.options
-        look = self._look if o.verify or o.stats is not None else None
+        looks = o.verify or o.stats is not None
         with self.telling_once():
-            return feature_skeleton(self._polygons, look=look, strict=o.strict, **self._common)
+            if not o.gap:
+                look = self._look if looks else None
+                return feature_skeleton(self._polygons, look=look, strict=o.strict, **self._common)
+            from vorotool.engines.feature_elements import feature_elements
 
-    def _look(self, shapes: ShapeDiagram) -> tuple[int, int]:
+            return feature_elements(
+                self._polygons,
+                o.gap,
+                complete=o.complete is not False,
+                look=self._look_at_elements if looks else None,
+                strict=o.strict,
+                **self._common,
+            )
+
+    def _look(self, shapes: ShapeDiagram | ElementDiagram) -> Seen:
         if self.options.verify:
             from vorotool.engines.segment_verification import verify_segment_voronoi
 
             verify_segment_voronoi(shapes.diagram, threads=1)
-        return len(shapes.diagram), len(shapes.diagram.edges)
+        return Seen(len(shapes.diagram), len(shapes.diagram.edges))
+
+    def _look_at_elements(self, elements: ElementDiagram, made: Skeleton) -> Seen:
+        seen = self._look(elements)
+        if self.options.stats is None:
+            return seen
+        from vorotool.engines.skeleton_elements import exact_inside, gap_deviation
+
+        return replace(seen, deviation=gap_deviation(made, exact_inside(elements)))
 
     @cached_property
     def elements(self) -> ElementDiagram:
         """That of shortened edges."""
-        from vorotool.engines.skeleton_elements import element_diagram
+        from vorotool.engines.skeleton_elements import element_diagram, elements_of_graph
 
-        with self.run.phase("diagram"):
-            return element_diagram(self._polygons, self.options.gap, strict=self.options.strict, **self._common)
+        o = self.options
+        with self.run.phase("diagram"), self.telling_once():
+            if o.features == "together":
+                return element_diagram(self._polygons, o.gap, strict=o.strict, **self._common)
+            return elements_of_graph(together(self._polygons, strict=o.strict, **self._common), o.gap, **self._common)
 
     @property
     def _common(self) -> dict[str, Any]:
@@ -89,20 +130,20 @@ class ExactProducts(SkeletonProducts):
     def _is_inside_only(self) -> bool:
         """Whether no diagram of all features together is needed."""
         o = self.options
-        if o.gap or o.side != "interior":
-            return False
-        return o.features == "separate" and "diagram" not in o.what
+        return o.side == "interior" and o.features == "separate" and "diagram" not in o.what
 
     def _make_skeleton(self) -> Skeleton:
         o = self.options
         wanted: dict[str, Any] = {"side": o.side, "frame": o.frame, "threads": o.threads}
-        if o.gap:
-            from vorotool.engines.skeleton_elements import skeleton_of_elements
+        if o.features == "separate" and o.side == "interior":
+            return self.inside.skeleton
+        if not o.gap:
+            return (skeleton_of if o.features == "together" else sides_of)(self.shapes, **wanted)
+        from vorotool.engines.feature_elements import sides_of_elements
+        from vorotool.engines.skeleton_elements import skeleton_of_elements
 
-            return skeleton_of_elements(self.elements, complete=o.complete is not False, **wanted)
-        if o.features == "together":
-            return skeleton_of(self.shapes, **wanted)
-        return self.inside.skeleton if o.side == "interior" else sides_of(self.shapes, **wanted)
+        made = skeleton_of_elements if o.features == "together" else sides_of_elements
+        return made(self.elements, complete=o.complete is not False, **wanted)
 
     def _make_diagram(self) -> Skeleton:
         o = self.options
@@ -141,8 +182,11 @@ class ExactProducts(SkeletonProducts):
 
     def _diagram_stats(self) -> dict[str, Any]:
         if self._is_inside_only:
-            vertices, edges = zip(*self.inside.seen, strict=True) if self.inside.seen else ((), ())
-            return {"diagram_vertices": sum(vertices), "diagram_edges": sum(edges)}
+            seen = self.inside.seen
+            return {
+                "diagram_vertices": sum(each.vertices for each in seen),
+                "diagram_edges": sum(each.edges for each in seen),
+            }
         diagram = self._part.diagram
         return {"diagram_vertices": len(diagram), "diagram_edges": len(diagram.edges)}
 
@@ -150,11 +194,21 @@ class ExactProducts(SkeletonProducts):
         """How far a skeleton with a gap is from the exact one: a second diagram, so only for whom it is written."""
         if not self.options.gap:
             return {}
-        elements = self.elements
-        found: dict[str, Any] = {"gap": elements.gap, "complete": self.options.complete is not False}
-        if self.options.stats is not None:
-            from vorotool.engines.skeleton_elements import exact_for, gap_deviation
-
-            exact = exact_for(elements, self.options.side, frame=self.skeleton.frame, threads=self.options.threads)
-            found["gap_deviation"] = gap_deviation(self.whole, exact)
+        o = self.options
+        found: dict[str, Any] = {"gap": o.gap, "complete": o.complete is not False}
+        if o.stats is not None:
+            found["gap_deviation"] = self._gap_deviation()
         return found
+
+    def _gap_deviation(self) -> float:
+        o = self.options
+        from vorotool.engines.skeleton_elements import exact_for, gap_deviation
+        from vorotool.engines.skeleton_parts import outside_of
+
+        made, side, inside = self.whole, o.side, 0.0
+        if o.features == "separate" and side != "exterior":
+            inside = max((seen.deviation for seen in self.inside.seen), default=0.0)
+            if side == "interior":
+                return inside
+            made, side = outside_of(made), "exterior"
+        return max(inside, gap_deviation(made, exact_for(self.elements, side, frame=made.frame, threads=o.threads)))

@@ -20,8 +20,9 @@ if TYPE_CHECKING:
     click.option(
         "--features",
         type=click.Choice(["separate", "together"]),
+        default="separate",
         help="Take each feature as if there were no others, whatever lies in it or over it (default), or all as one "
-        "drawing, as --gap does.",
+        "drawing.",
     ),
     click.option(
         "--gap",
@@ -50,9 +51,6 @@ def command(**options: Any) -> None:
     inside polygons comes first, polygon by polygon; arcs of a branch follow each other.
     """
     o = SimpleNamespace(**options)
-    if o.gap and o.features == "separate":
-        raise click.UsageError("a gap is for all features as one drawing: leave --features out, or use --gap 0")
-    o.features = o.features or ("together" if o.gap else "separate")
     if o.complete is not None and not o.gap:
         raise click.UsageError("nothing is missing without a gap: use --gap STEP, or leave --complete out")
     run_skeletons("skeleton-exact", o, _products)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.crack_corners import OwnCorners, own_corners
 from vorotool.engines.feature_sheets import Features, batches_of, sheets_of_boxes, sheets_of_cracks, touching_features
+from vorotool.engines.flat_rings import with_flat_shells_as_lines
 from vorotool.engines.label_arrays import Progress
 from vorotool.engines.parts import in_threads
 from vorotool.engines.placed_rings import PlacedShapes, placed_shapes
@@ -24,7 +26,7 @@ from vorotool.engines.planar_graph import (
     placed_vertices,
     report_repairs,
 )
-from vorotool.errors import LimitError
+from vorotool.errors import LimitError, VorotoolWarning
 from vorotool.geometry.box import bounds
 from vorotool.geometry.checks import available_threads
 from vorotool.geometry.magnitude import check_magnitude
@@ -151,6 +153,7 @@ def in_batches(
     work: Callable[[BatchShapes, int, Progress], Result],
     *,
     reach: Callable[[PolygonSet, float], NDArray[np.int64]] | None = None,
+    alone: bool = False,
     drops: bool = True,
     strict: bool = False,
     threads: int = 0,
@@ -166,6 +169,8 @@ def in_batches(
         Called with the shapes of a batch, a number of threads, and a progress.
     reach : callable, optional
         Gives for polygons and the step of their lattice by how many steps features of a batch must be farther apart.
+    alone : bool
+        One feature a batch: what is done depends on others however far they are.
     drops : bool
         Leave out vertices in which outlines of pixels go straight on. A checker takes them as it finds them.
     strict : bool
@@ -196,6 +201,9 @@ def in_batches(
         If something was repaired: what, and how often.
     """
     _check_size(polygons)
+    given, polygons = polygons, with_flat_shells_as_lines(polygons)
+    if polygons is not given:
+        _report_flat(int(np.count_nonzero(polygons.is_line != given.is_line)))
     threads = threads or available_threads()
     is_cracks = polygons.connectivity is not None and reach is None and not polygons.is_line.any()
     corners = own_corners(polygons) if is_cracks and drops else None
@@ -203,13 +211,15 @@ def in_batches(
     placement = placed_vertices(used, threads=threads, progress=progress)
     features = Features.of(used)
     made: list[tuple[BatchShapes, Result]] | None = None
-    if is_cracks:
+    if alone:
+        made = _done(used, placement, features, np.arange(len(features), dtype=np.int32), work, threads, progress)
+    elif is_cracks:
         sheets = sheets_of_cracks(features, placement.vertices, progress=progress)
         made = _done(used, placement, features, sheets, work, threads, progress, checks=True)
     if made is None:
         steps = None if reach is None else reach(used, ldexp(1.0, placement.exponent))
         sheets = sheets_of_boxes(features, placement.vertices, reach=steps, progress=progress)
-        made = _done(used, placement, features, sheets, work, threads, progress, checks=False)
+        made = _done(used, placement, features, sheets, work, threads, progress)
     assert made is not None  # what is apart by its bounds is independent
     found = _all_repairs([shapes for shapes, _ in made], corners)
     report_repairs(polygons, found, ldexp(1.0, placement.exponent), strict=strict, stacklevel=4)
@@ -222,6 +232,7 @@ def together(polygons: PolygonSet, *, strict: bool = False, threads: int = 0, pr
     Arguments, errors and warnings are as of `in_batches`.
     """
     _check_size(polygons)
+    polygons = with_flat_shells_as_lines(polygons)
     placement = placed_vertices(polygons, threads=threads, progress=progress)
     graph = arranged(polygons, placement, progress=progress).graph
     if any(graph.repairs.values()):
@@ -241,7 +252,33 @@ def are_apart(graph: PlanarGraph) -> bool:
     feature = given.feature[graph.face_polygon]
     if ((face[1:] == face[:-1]) & (feature[1:] != feature[:-1])).any():
         return False
+    if given.is_line.any() and _has_lines_inside(graph, given):
+        return False
     return len(graph.points) == len(given.xy) or not len(touching_features(Features.of(given), graph.vertices))
+
+
+def _has_lines_inside(graph: PlanarGraph, given: PolygonSet) -> bool:
+    """Whether an open line is inside another feature; of one that is a point it is taken to be so."""
+    assert given.feature is not None
+    is_free = np.bincount(graph.segments.ravel(), minlength=len(graph.points)) == 0
+    is_free[graph.point_holes[:, 0]] = False
+    if is_free.any():
+        return True
+    edge = graph.source_edge[graph.source_start[:-1]]
+    ring = np.searchsorted(given.ring_start, edge, side="right") - 1
+    own = given.feature[given.ring_polygon[ring]]
+    of_face = np.full(graph.faces, -1, dtype=np.int64)
+    inside = graph.is_inside
+    of_face[inside] = given.feature[graph.face_polygon[graph.face_start[:-1][inside]]]
+    beside = of_face[graph.segment_faces]
+    return bool(((beside >= 0) & (beside != own[:, None])).any())
+
+
+def _report_flat(count: int) -> None:
+    """Warn of polygons that are taken for lines where what is inside is asked for."""
+    polygons = "1 polygon has" if count == 1 else f"{count} polygons have"
+    message = f"{polygons} vertices at one or two places only, and so no inside: points and segments"
+    warnings.warn(message, VorotoolWarning, stacklevel=4)
 
 
 def _check_size(polygons: PolygonSet) -> None:
@@ -281,7 +318,7 @@ def _done(
     threads: int,
     progress: Progress,
     *,
-    checks: bool,
+    checks: bool = False,
 ) -> list[tuple[BatchShapes, Result]] | None:
     """Batches and their results; None if features of a batch have something in common."""
     batches = _batches(used, placement, features, sheets)

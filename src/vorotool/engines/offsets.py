@@ -230,6 +230,9 @@ def curves_of(shapes: ShapeDiagram, distances: list[float], threads: int, progre
     face[edges] = faces
     count = len(graph.points)
     more = np.full(len(diagram.points) - count, -1, dtype=np.int32)  # points that are of no polygon
+    polygon = np.insert(placed.sites.polygon, count, more)
+    assert placed.polygons.feature is not None
+    feature = np.append(placed.polygons.feature, -1).astype(np.int32)
     found: list[Curves] = _core.offset_curves(
         *diagram_arrays(diagram),
         diagram.vertex_start,
@@ -237,7 +240,8 @@ def curves_of(shapes: ShapeDiagram, distances: list[float], threads: int, progre
         face,
         graph.segment_faces,
         placed.face_polygon,
-        np.insert(placed.sites.polygon, count, more),
+        polygon,
+        feature[polygon],
         distances,
         *graph.origin,
         graph.scale,

@@ -11,13 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.engines.flat_rings import flat_holes, with_flat_shells_as_lines
 from vorotool.engines.label_arrays import Progress
 from vorotool.errors import InputError, LimitError, VerificationError, VorotoolWarning
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.magnitude import check_magnitude
 from vorotool.geometry.planar_graph import REPAIRS, PlanarGraph
 from vorotool.geometry.polygon_conversion import as_polygons
-from vorotool.geometry.polygons import HOLE, LINE, PolygonSet
+from vorotool.geometry.polygons import LINE, PolygonSet
 
 MOST_VERTICES = 2**28
 """Segments are numbered in 31 bits, and crossings make more of them."""
@@ -100,7 +101,7 @@ def graph_for_skeletons(
     Traceback (most recent call last):
     vorotool.errors.InputError: a coordinate is 1e+99, too large to compute with: scale them to 1e+70 at most
     """
-    given = as_polygons(polygons)
+    given = with_flat_shells_as_lines(as_polygons(polygons))
     check_magnitude(given.xy)
     return planar_graph(given, strict=strict, threads=threads, progress=progress)
 
@@ -344,25 +345,6 @@ def _next_vertices(polygons: PolygonSet) -> Any:
     last = polygons.ring_start[1:] - 1
     following[last] = np.where(polygons.ring_kind == LINE, last, polygons.ring_start[:-1])
     return following
-
-
-def flat_holes(polygons: PolygonSet) -> NDArray[np.bool_]:
-    """(r,) whether a ring is a hole with vertices at one or two places.
-
-    Examples
-    --------
-    >>> flat_holes(as_polygons([{"shell": [[0, 0], [9, 0], [0, 9]], "holes": [[[1, 1], [2, 1]]]}])).tolist()
-    [False, True]
-    """
-    start, size = polygons.ring_start, np.diff(polygons.ring_start)
-    ring = np.repeat(np.arange(len(size)), size)
-    is_other = (polygons.xy != polygons.xy[start[:-1]][ring]).any(axis=1)
-    vertex = np.where(is_other, np.arange(len(ring)), len(ring))
-    second = np.minimum.reduceat(vertex, start[:-1]) if len(size) else vertex
-    second = np.where(second < len(ring), second, start[:-1])  # of one place it is the first
-    is_third = is_other & (polygons.xy != polygons.xy[second][ring]).any(axis=1)
-    has_three = np.bincount(ring[is_third], minlength=len(size)) > 0
-    return np.equal(polygons.ring_kind, HOLE) & ~has_three
 
 
 def _side_fault(graph: PlanarGraph, given: PolygonSet, segment: Any, edge: Any) -> str | None:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.disc_cover import Ring, covered_rings
+from vorotool.engines.flat_rings import flat_holes
 from vorotool.engines.skeleton_contours import Contours, contours_of
 from vorotool.errors import UsageError
 from vorotool.geometry.circular_arcs import chords_of, middles_of
@@ -32,7 +33,8 @@ def rebuild(skeleton: Skeleton, *, flatten: float | None = None) -> PolygonSet:
     come back as they were used, to some ulp of their extent times radius over edge length where an edge is short beside
     the discs that touch it. An approximate skeleton tells no borders, but discs: the shape is what these cover.
 
-    An open line in a polygon is a wall: where pruning leaves it on one side only, the ring goes along it twice.
+    A point or a segment that is a hole comes back if nothing else touches it. An open line in a polygon, or such a hole
+    from the border on, is a wall: where pruning leaves it on one side only, the ring goes along it twice.
 
     Parameters
     ----------
@@ -64,7 +66,7 @@ def rebuild(skeleton: Skeleton, *, flatten: float | None = None) -> PolygonSet:
     is_inside = skeleton.side == INTERIOR
     is_drawn = np.ones(len(skeleton), dtype=bool) if skeleton.error_bound.any() else _is_disc(skeleton)
     contours = contours_of(skeleton, np.flatnonzero(is_inside & ~is_drawn))
-    rings = _simple_rings(contours, *_outline(skeleton, contours, tolerance))
+    rings = [*_simple_rings(contours, *_outline(skeleton, contours, tolerance)), *_flat_holes(skeleton, contours)]
     is_seen = skeleton.radius[skeleton.arcs].max(axis=1, initial=0) > _noise(skeleton)
     return _assembled(
         skeleton, [*rings, *covered_rings(skeleton, np.flatnonzero(is_inside & is_drawn & is_seen), tolerance)]
@@ -253,6 +255,23 @@ def _simple_rings(contours: Contours, xy: Floats, point: Indices, start: Indices
     return [ring for ring in rings if len(ring.xy) > 2]
 
 
+def _flat_holes(skeleton: Skeleton, contours: Contours) -> list[Ring]:
+    """Points and segments that contours go around: they are there as they were, since pruning cuts no cycle."""
+    polygons, table = skeleton.polygons, skeleton.site_table
+    own = polygons.polygon_start[table.polygon[contours.site]] + table.ring[contours.site]
+    first = contours.start[:-1]
+    is_around = np.minimum.reduceat(own, first) == np.maximum.reduceat(own, first) if len(first) else first > 0
+    around = np.flatnonzero(is_around)
+    around = around[flat_holes(polygons)[own[first[around]]]]
+    around = around[np.argsort(own[first[around]])]
+    return [
+        Ring(polygons.ring(ring), polygon, part)
+        for ring, polygon, part in zip(
+            own[first[around]].tolist(), contours.polygon[around].tolist(), contours.part[around].tolist(), strict=True
+        )
+    ]
+
+
 def _repeats(point: Indices, start: Indices) -> NDArray[np.bool_]:
     """(c,) whether each contour visits a point twice."""
     contour = np.repeat(np.arange(len(start) - 1), np.diff(start))
@@ -296,6 +315,7 @@ def _assembled(skeleton: Skeleton, rings: list[Ring]) -> PolygonSet:
     """Polygons of rings: in each connected part of the skeleton one goes counter-clockwise, around the others."""
     start = np.concatenate([[0], np.cumsum([len(ring.xy) for ring in rings], dtype=np.int64)])
     is_hole = _twice_areas(np.concatenate([np.empty((0, 2)), *(ring.xy for ring in rings)]), start) < 0
+    is_hole |= np.diff(start) < 3
     part, polygon = (np.array([getattr(ring, name) for ring in rings], dtype=np.int64) for name in ("part", "polygon"))
     order = np.lexsort((is_hole, part, polygon))
     rings, is_hole = [rings[k] for k in order.tolist()], is_hole[order]

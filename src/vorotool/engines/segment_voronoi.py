@@ -21,7 +21,13 @@ NEITHER = 3
 
 
 def segment_voronoi(
-    points: Any, segments: Any, *, idle: NDArray[np.uint8] | None = None, threads: int = 0, progress: Progress = None
+    points: Any,
+    segments: Any,
+    *,
+    idle: NDArray[np.uint8] | None = None,
+    within: tuple[int, int, int, int] | None = None,
+    threads: int = 0,
+    progress: Progress = None,
 ) -> SegmentVoronoiDiagram:
     """Compute the Voronoi diagram of the points and open segments of a planar straight-line graph.
 
@@ -38,6 +44,9 @@ def segment_voronoi(
     idle : (n + m,) uint8 array, optional
         Sides of points, then of segments, where the diagram is not asked for, as `idle_sides` gives them: vertices
         there are left out, but for corners, and so are the edges to them. All else is as in the whole diagram.
+    within : (least x, most x, least y, most y), optional
+        Bounds that hold all points, by default theirs: sites, and what is numbered or rounded along them, are put into
+        an order in these.
     threads : int
         0 uses all.
     progress : callable, optional
@@ -78,7 +87,7 @@ def segment_voronoi(
     places, ends = _on_lattice(rows[0], "points"), _on_lattice(rows[1], "segments")
     threads = checked_threads(threads)
     try:
-        core = _core.SegmentVoronoi(places, ends, threads, progress)
+        core = _core.SegmentVoronoi(places, ends, threads, progress, within)
     except ValueError as error:
         raise InputError(f"{error}: place the input on the lattice first") from None
     except RuntimeError as error:

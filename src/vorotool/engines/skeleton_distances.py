@@ -32,17 +32,19 @@ def first_wrong(wrong: NDArray[np.bool_]) -> int | None:
 
 
 class SitePlaces:
-    """The places of sites, and distances from them; `largest` is a coordinate of what the skeleton is a part of."""
+    """The places of sites, and distances from them, as exact as those of the `whole` that the skeleton is a part of."""
 
-    def __init__(self, skeleton: Skeleton, largest: float = 0.0) -> None:
+    def __init__(self, skeleton: Skeleton, whole: SitePlaces | None = None) -> None:
         self.is_edge = skeleton.site_table.kind == EDGE
         self.ends = skeleton.site_ends
         shown = [skeleton.polygons.xy, skeleton.vertices]
-        self.largest = max([largest, *(float(np.abs(xy).max()) for xy in shown if len(xy))]) or 1.0
+        self.largest = max([0.0, *(float(np.abs(xy).max()) for xy in shown if len(xy))]) or 1.0
         self.tolerance = ULPS * float(np.spacing(self.largest))
         if skeleton.gap:  # ends of shortened edges are on the lattice, within 0.71 steps of where they should be
             extent = float(np.ptp(skeleton.polygons.xy, axis=0).max())
             self.tolerance += extent * 2.0**-28
+        if whole is not None:
+            self.largest, self.tolerance = max(self.largest, whole.largest), max(self.tolerance, whole.tolerance)
 
     def feet(self, site: NDArray[np.int32], place: Floats) -> Floats:
         """The nearest place on each closed site."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
@@ -12,20 +11,21 @@ from numpy.typing import NDArray
 
 from vorotool.engines.label_arrays import Progress
 from vorotool.engines.placed_rings import PlacedShapes, placed_shapes
-from vorotool.engines.planar_graph import graph_for_skeletons, planar_graph
+from vorotool.engines.planar_graph import Placement, arranged, graph_for_skeletons, placed_vertices
 from vorotool.engines.segment_voronoi import segment_voronoi
+from vorotool.engines.short_edges import ShortEdges
 from vorotool.engines.skeleton_exact import (
     Frame,
     ShapeDiagram,
     assembled,
     face_groups,
+    interior_skeleton,
     of_one_arrangement,
-    refuse_short_edges,
     skeleton_of,
     whole_diagram,
 )
 from vorotool.engines.skeleton_regions import corner_sectors
-from vorotool.errors import VorotoolWarning
+from vorotool.geometry.box import bounds
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.elementary import angle_of, hypotenuse
 from vorotool.geometry.planar_graph import PlanarGraph
@@ -81,10 +81,45 @@ def element_diagram(
     >>> len(square.graph.points), len(square.graph), int(square.element.max())
     (12, 4, 7)
     """
-    threads = checked_threads(threads)
     shapes = graph_for_skeletons(polygons, strict=strict, threads=threads, progress=progress)
-    placed = placed_shapes(shapes, threads=threads)
-    refuse_short_edges(shapes, placed, gap)
+    return elements_of_graph(shapes, gap, threads=threads, progress=progress)
+
+
+def elements_of_graph(
+    shapes: PlanarGraph, gap: float, *, threads: int = 0, progress: Progress = None
+) -> ElementDiagram:
+    """Decompose polygons that are placed; errors as of `element_diagram`."""
+    placed = placed_shapes(shapes, threads=checked_threads(threads))
+    ShortEdges.of(shapes, gap).refuse(placed.polygons, placed.sites, gap)
+    return elements_of_shapes(shapes, placed, gap, threads=threads, progress=progress)
+
+
+def elements_of_shapes(
+    shapes: PlanarGraph,
+    placed: PlacedShapes,
+    gap: float,
+    *,
+    within: NDArray[np.int32] | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> ElementDiagram:
+    """Decompose polygons whose edges are all longer than twice the gap.
+
+    Parameters
+    ----------
+    shapes, placed : PlanarGraph, PlacedShapes
+        The polygons.
+    gap : float
+        By how much edges are shortened at both ends.
+    within : (k, 2) int32 array, optional
+        Corners of bounds on the lattice of `shapes`: elements are placed, and put into an order, as if there were
+        points.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done.
+    """
+    threads = checked_threads(threads)
     points = shapes.coordinates()
     a, b = points[shapes.segments].swapaxes(0, 1)
     way = (b - a) * (gap / np.sqrt(np.square(b - a).sum(axis=1, keepdims=True)))
@@ -94,34 +129,27 @@ def element_diagram(
     elements = PolygonSet(
         np.concatenate([points, ends]), starts, np.full(count, LINE, np.int8), np.arange(count, dtype=np.int32)
     )
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", VorotoolWarning)  # rounded ends may touch: nobody asked about these edges
-        graph = planar_graph(elements, threads=threads, progress=progress)
+    placement, box = _placed_within(elements, shapes, within, threads=threads, progress=progress)
+    graph = arranged(elements, placement, progress=progress).graph  # rounded ends may touch: nobody asked about these
     owner = np.repeat(np.arange(count), np.diff(starts))
     vertex = np.concatenate([graph.point_vertex, graph.source_edge[graph.source_start[:-1]]])
-    diagram = segment_voronoi(graph.points, graph.segments, threads=threads, progress=progress)
+    diagram = segment_voronoi(graph.points, graph.segments, within=box, threads=threads, progress=progress)
     return ElementDiagram(shapes, graph, diagram, owner[vertex], placed, gap)
 
 
-def skeleton_with_gap(
-    polygons: Any,
-    gap: float,
-    *,
-    side: str = "interior",
-    complete: bool = True,
-    frame: Frame | None = None,
-    strict: bool = False,
-    threads: int = 0,
-    progress: Progress = None,
-) -> Skeleton:
-    """Compute a skeleton by the paper's decomposition; arguments and errors as of `vorotool.skeleton_exact`.
-
-    Error bounds are NaN: how far the arcs are from the skeleton is not known without that (`gap_deviation`).
-    """
-    elements = element_diagram(polygons, gap, strict=strict, threads=threads, progress=progress)
-    return skeleton_of_elements(
-        elements, side=side, complete=complete, frame=frame, threads=checked_threads(threads), progress=progress
-    )
+def _placed_within(
+    elements: PolygonSet, shapes: PlanarGraph, within: NDArray[np.int32] | None, **common: Any
+) -> tuple[Placement, tuple[int, int, int, int] | None]:
+    """Elements on a lattice over further places too, and the bounds of all there."""
+    if within is None:
+        return placed_vertices(elements, **common), None
+    places = np.concatenate([elements.xy, shapes.coordinates(within)])
+    count = len(places)
+    alone = PolygonSet(places, np.arange(count + 1), np.full(count, LINE, np.int8), np.arange(count, dtype=np.int32))
+    placement = placed_vertices(alone, **common)
+    (least_x, least_y), (most_x, most_y) = (bound.tolist() for bound in bounds(placement.vertices))
+    own = replace(placement, vertices=placement.vertices[: len(elements.xy)])
+    return own, (least_x, most_x, least_y, most_y)
 
 
 def skeleton_of_elements(
@@ -133,7 +161,11 @@ def skeleton_of_elements(
     threads: int = 0,
     progress: Progress = None,
 ) -> Skeleton:
-    """Delete the bisectors of elements with a label in common, and add the missing portions if wanted."""
+    """Delete the bisectors of elements with a label in common, and add the missing portions if wanted.
+
+    Arguments are as of `vorotool.skeleton_exact`. Error bounds are NaN: how far the arcs are from the skeleton is not
+    known without that (`gap_deviation`).
+    """
     kept = np.flatnonzero(~_share_label(elements)).astype(np.int32)
     group = face_groups(elements.placed, side)[_faces_of(elements, kept)]
     diagram = elements.diagram
@@ -368,3 +400,10 @@ def exact_for(elements: ElementDiagram, side: str, *, frame: Frame | None = None
     diagram = segment_voronoi(shapes.points, shapes.segments, threads=threads)
     whole = ShapeDiagram(shapes, diagram, elements.placed)
     return skeleton_of(whole, side=side, frame=frame, threads=threads)
+
+
+def exact_inside(elements: ElementDiagram) -> Skeleton:
+    """Compute what is inside the shapes that were decomposed exactly, and say no word if there is nothing."""
+    shapes = elements.shapes
+    diagram = segment_voronoi(shapes.points, shapes.segments, threads=1)
+    return interior_skeleton(ShapeDiagram(shapes, diagram, elements.placed))

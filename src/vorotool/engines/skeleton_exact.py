@@ -14,10 +14,9 @@ from vorotool.engines.label_arrays import Progress
 from vorotool.engines.placed_rings import PlacedShapes, placed_shapes
 from vorotool.engines.planar_graph import graph_for_skeletons
 from vorotool.engines.segment_voronoi import idle_sides, segment_voronoi
-from vorotool.errors import InputError, UsageError, VorotoolWarning
+from vorotool.errors import UsageError, VorotoolWarning
 from vorotool.geometry.box import bounds
 from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.elementary import hypotenuse
 from vorotool.geometry.numbers import finite_double, shown_number
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.polygons import PolygonSet
@@ -324,21 +323,3 @@ def warn_empty(polygons: PolygonSet, side: str) -> None:
     else:
         reason = "no polygon has an inside"
     warnings.warn(f"the interior skeleton is empty: {reason}", VorotoolWarning, stacklevel=4)
-
-
-def refuse_short_edges(graph: PlanarGraph, placed: PlacedShapes, gap: float) -> None:
-    """Raise InputError for a segment that nothing would be left of, naming the first."""
-    ends = graph.coordinates()[graph.segments]
-    length = hypotenuse(*(ends[:, 1] - ends[:, 0]).T)
-    short = np.flatnonzero(~(length > 2 * gap))
-    if not short.size:
-        return
-    site = len(graph.points) + int(short[0])
-    polygons, sites = placed.polygons, placed.sites
-    ring = int(polygons.polygon_start[sites.polygon[site]] + sites.ring[site])
-    (ax, ay), (bx, by) = ends[short[0]].tolist()
-    raise InputError(
-        f"{polygons.ring_place(ring)}, edge {int(sites.index[site]) + 1} from ({ax!r}, {ay!r}) to ({bx!r}, {by!r}) is "
-        f"{length[short[0]]:.6g} long, and a gap of {gap:g} at both ends leaves nothing of it "
-        f"({short.size} such edges): use a gap below {length.min() / 2:.6g}"
-    )

@@ -78,7 +78,7 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
     check_equal_distances(skeleton, SitePlaces(skeleton))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", VorotoolWarning)  # what bounds nothing is still in the rings
-        if skeleton.features == "together" or skeleton.gap or not len(skeleton.polygons):
+        if skeleton.features == "together" or not len(skeleton.polygons):
             graph = planar_graph(skeleton.polygons, threads=threads, progress=progress)
             _check_in_graph(skeleton, graph, threads, progress)
         else:
@@ -93,14 +93,15 @@ def _check_sides(skeleton: Skeleton, threads: int, progress: Progress) -> None:
         _check_in_graph(outside_of(skeleton), graph, threads, progress)
     if inside.any():
         _check_own(skeleton)
-        own, largest = with_arcs(skeleton, inside), SitePlaces(skeleton).largest
+        own, whole = with_arcs(skeleton, inside), SitePlaces(skeleton)
 
         def check(shapes: BatchShapes, threads: int, poll: Progress) -> None:
             of_batch = with_polygons(own, shapes.batch.polygons)
             if len(of_batch):
-                _check_in_graph(of_batch, shapes.graph, threads, poll, largest=largest)
+                _check_in_graph(of_batch, shapes.graph, threads, poll, whole=whole)
 
-        in_batches(skeleton.polygons, check, drops=False, threads=threads, progress=progress)
+        alone = bool(skeleton.gap)
+        in_batches(skeleton.polygons, check, alone=alone, drops=False, threads=threads, progress=progress)
 
 
 def _check_own(skeleton: Skeleton) -> None:
@@ -124,9 +125,9 @@ def _check_own(skeleton: Skeleton) -> None:
 
 
 def _check_in_graph(
-    skeleton: Skeleton, graph: PlanarGraph, threads: int, progress: Progress, *, largest: float = 0.0
+    skeleton: Skeleton, graph: PlanarGraph, threads: int, progress: Progress, *, whole: SitePlaces | None = None
 ) -> None:
-    sites = SitePlaces(skeleton, largest)
+    sites = SitePlaces(skeleton, whole)
     check_nothing_nearer(skeleton, sites, _elements(skeleton, graph, threads), threads, progress)
     if not skeleton.gap:
         check_regions(SkeletonRegions(_with_corners_apart(skeleton), graph, sites))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from vorotool.engines.feature_elements import skeleton_with_gap
 from vorotool.engines.feature_samples import approximation_of_sides, feature_approximation
 from vorotool.engines.feature_sides import skeleton_of_sides
 from vorotool.engines.feature_skeletons import feature_skeleton
@@ -11,7 +12,7 @@ from vorotool.engines.label_arrays import Progress
 from vorotool.engines.placed_rings import placed_shapes
 from vorotool.engines.planar_graph import graph_for_skeletons
 from vorotool.engines.skeleton_approx import SamplingOptions, approximate_skeleton, sampled_graph
-from vorotool.engines.skeleton_elements import skeleton_with_gap
+from vorotool.engines.skeleton_elements import element_diagram, skeleton_of_elements
 from vorotool.engines.skeleton_exact import Frame, check_features, check_skeleton_options, diagram_of_graph, skeleton_of
 from vorotool.engines.skeleton_tolerance import skeleton_within
 from vorotool.geometry.checks import checked_threads
@@ -47,8 +48,7 @@ def skeleton_exact(
     side : {"interior", "exterior", "both"}
         Inside polygons, outside all of them, or both.
     features : {"separate", "together"}
-        Take each feature by itself, or all of them, and open lines among them, as boundaries of one diagram. With a
-        gap they are taken together.
+        Take each feature by itself, or all of them, and open lines among them, as boundaries of one diagram.
     gap : float
         Shorten each edge by so much at both ends, as the paper does (Figure 10): then nothing leads to the corners,
         and the result is no longer exact. The new ends go to the nearest points of the lattice.
@@ -96,12 +96,14 @@ def skeleton_exact(
     check_skeleton_options(side, gap, frame)
     check_features(features)
     check_lengths(frame or (), "frame's coordinate")
-    if gap:
-        return skeleton_with_gap(
-            polygons, gap, side=side, complete=complete, frame=frame, strict=strict, threads=threads, progress=progress
-        )
     given = as_polygons(polygons)
     common: dict[str, Any] = {"strict": strict, "threads": checked_threads(threads), "progress": progress}
+    if gap and features == "together":
+        elements = element_diagram(given, gap, **common)
+        common.pop("strict")
+        return skeleton_of_elements(elements, side=side, complete=complete, frame=frame, **common)
+    if gap:
+        return skeleton_with_gap(given, gap, side=side, complete=complete, frame=frame, **common)
     if features == "separate":
         if side == "interior":
             return feature_skeleton(given, **common).skeleton

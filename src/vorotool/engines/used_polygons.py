@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.planar_graph import flat_holes
+from vorotool.engines.flat_rings import flat_holes
 from vorotool.engines.polygon_regions import PolygonRegions
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.polygons import HOLE, LINE, SHELL, PolygonSet

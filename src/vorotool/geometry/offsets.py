@@ -46,7 +46,8 @@ class Offsets:
     distance : (s,) float64 array
         Of each shape.
     polygon : (s,) int32 array
-        The polygon that each is around or in, the first one of several that share it; -1 around several.
+        The polygon that each is around or in, the first one of several that share it, or of several parts of a feature
+        that it is around; -1 around several features.
     site_table : SiteTable
         Vertices and edges of `polygons`.
     polygons : PolygonSet
@@ -200,7 +201,7 @@ class Offsets:
         )
 
     def _described(self) -> dict[str, Any]:
-        """Ids and properties of the shapes: what is around several polygons has none."""
+        """Ids and properties of the shapes: what is around several features has none."""
         polygons, of = self.polygons, self.polygon.tolist()
         name = "voro_distance" if "distance" in polygons.properties else "distance"
         properties = {key: [values[p] if p >= 0 else None for p in of] for key, values in polygons.properties.items()}
