@@ -59,9 +59,13 @@ def read_seed_input(run: Run, o: SimpleNamespace, source: str, *, properties: bo
 def settle_threshold(run: Run, o: SimpleNamespace, image: Raster) -> None:
     """Find the threshold of Otsu's method if it is asked for: as a number it is said, and in the statistics."""
     if o.threshold == "otsu":
-        from vorotool.engines.raster_objects import image_threshold
+        from vorotool.engines.raster_objects import counted_values, is_flat, settled_threshold
 
-        o.threshold = image_threshold(image, "otsu")
+        o.threshold, o.invert = settled_threshold(image, "otsu", invert=o.invert)
+        if is_flat(counted_values(image)):
+            run.note(f"all pixels have the value {o.threshold:.17g}: Otsu's method finds no foreground")
+            run.stats["threshold"] = None
+            return
         run.note(f"threshold {o.threshold:.17g}, by Otsu's method")
     if o.threshold is not None:
         run.stats["threshold"] = o.threshold
