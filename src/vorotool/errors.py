@@ -115,3 +115,7 @@ class VorotoolWarning(UserWarning):
     def message(self) -> Message:
         """The line."""
         return Message.of(*self.args[:1])
+
+
+class RepairWarning(VorotoolWarning):
+    """Polygons were repaired where they were placed."""

@@ -155,3 +155,15 @@ def test_a_forgotten_image(run):
     done = run("draw", "a.json", "--overlay", "-o", "a.png")
     assert done.code == 2
     assert "'-o' is no image" in done.err
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_an_image_of_another_size_is_noted(run, folder, photo, name):
+    Image.new("L", (50, 40)).save(folder / "small.png")
+    said = run(name.split()[0], *COMMANDS[name], "--overlay", "photo.png", "-o", "a.png").err
+    done = run(name.split()[0], *COMMANDS[name], "--overlay", "small.png", "-o", "a.png")
+    with Image.open(COMMANDS[name][0]) as image:
+        size = " x ".join(map(str, image.size))
+    words = f"note: small.png has 50 x 40 pixels, the input {size}: both begin in one corner"
+    assert (done.code, words in done.err or "-q" in COMMANDS[name]) == (0, True)
+    assert ("both begin" in said) == (size != "300 x 200")

@@ -7,7 +7,7 @@ from functools import partial
 from types import SimpleNamespace
 from typing import Any, BinaryIO
 
-from vorotool.cli.inputs import refuse
+from vorotool.cli.inputs import note_other_size, refuse
 from vorotool.cli.results import DERIVED, SKELETON_LAYERS
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options
@@ -122,6 +122,7 @@ def _of_labels(run: Run, o: SimpleNamespace, image: LabelImage, fmt: str) -> Dra
     from vorotool.engines.object_colours import object_colours
 
     check_picture_options(o, [fmt], LABEL_LAYERS)
+    note_other_size(run, o, image.shape)
     image = _objects(run, image)
     with run.phase("colour"):
         colours = object_colours(image, threads=o.threads)

@@ -53,6 +53,7 @@ def read_seed_input(run: Run, o: SimpleNamespace, source: str, *, properties: bo
         refuse(o, IMAGE_OPTIONS, "is for images, but the input is a list of points")
         return value
     assert isinstance(value, Raster)  # what is asked for is points, or an image
+    note_other_size(run, o, value.values.shape)
     return value
 
 
@@ -232,6 +233,17 @@ def read_backdrop(o: SimpleNamespace) -> Backdrop | None:
         return out.getvalue()
 
     return Backdrop(pixels, encode)
+
+
+def note_other_size(run: Run, o: SimpleNamespace, shape: Sequence[int]) -> None:
+    """Say that the image of ``--overlay`` is not of the size of the input, whose pixels are those of the picture."""
+    if o.overlay is None or o.backdrop.pixels.shape[:2] == tuple(shape[:2]):
+        return
+    height, width = o.backdrop.pixels.shape[:2]
+    run.note(
+        f"{o.overlay} has {width} x {height} pixels, the input {shape[1]} x {shape[0]}: both begin in one corner, and "
+        "what lies beside the overlay is not drawn"
+    )
 
 
 def refuse(o: SimpleNamespace, names: tuple[str, ...], reason: str) -> None:

@@ -201,5 +201,8 @@ def _inputs(recipe: Recipe, o: SimpleNamespace, note: Callable[[str], None]) -> 
     known = DRAWN_NAMES if recipe.geometry is None else NAMES_WITH[recipe.geometry]
     names = [*o.inputs, *(read_names(o.files_from, null=o.null) if o.files_from is not None else ())]
     if not names:
-        raise click.UsageError("0 inputs are given: name files, folders, or a list of them with --files-from")
+        advice = "name files, folders, or a list of them with --files-from"
+        if o.files_from is not None:
+            advice = f"--files-from {o.files_from} holds no names; write one on each line"
+        raise click.UsageError(f"0 inputs are given: {advice}")
     return expand_inputs(names, extensions=known, without=o.out_dir, note=note)

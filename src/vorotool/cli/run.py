@@ -136,5 +136,5 @@ class Run:
 
         self.stats["seconds"] = {name: round(value, 6) for name, value in self.seconds.items()}
         self.stats["warnings"] = self.warnings
-        with open_output(target, no_clobber=self._no_clobber) as out:
+        with open_output(target, no_clobber=self._no_clobber, option="--stats") as out:
             out.write(orjson.dumps(self.stats, option=orjson.OPT_INDENT_2 | orjson.OPT_APPEND_NEWLINE))
