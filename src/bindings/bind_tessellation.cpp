@@ -119,10 +119,25 @@ void stream_fill(const Image& out, unsigned threads) {
   core::stream_fill(static_cast<char*>(out.data()), out.nbytes(), threads);
 }
 
+// core::SeedTooFar as _core.SeedTooFarError(index).
+void bind_seed_too_far(nb::module_& module) {
+  PyObject* const type = PyErr_NewException("vorotool._core.SeedTooFarError", PyExc_ValueError, nullptr);
+  module.attr("SeedTooFarError") = nb::borrow(type);
+  nb::register_exception_translator(
+      [](const std::exception_ptr& failure, void* payload) {
+        try {
+          std::rethrow_exception(failure);
+        } catch (const core::SeedTooFar& e) {
+          PyErr_SetObject(static_cast<PyObject*>(payload), nb::make_tuple(e.index).ptr());
+        }
+      },
+      type);
+}
+
 }  // namespace
 
 void bind_tessellation(nb::module_& module) {
-  nb::exception<core::SeedTooFar>(module, "SeedTooFarError", PyExc_ValueError);
+  bind_seed_too_far(module);
   nb::class_<Tessellation>(module, "Tessellation")
       .def("__init__",
            [](Tessellation* self, const Integers& x, const Integers& y, const Labels& labels,

@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-class SeedTooFarError(ValueError): ...
+class SeedTooFarError(ValueError):
+    args: tuple[int]
 
 class Tessellation:
     def __init__(

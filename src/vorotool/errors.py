@@ -13,6 +13,10 @@ class Kind(Enum):
     """Longitude and latitude are treated as planar."""
     UNNAMED_CRS = auto()
     """Coordinates that may be longitude and latitude are taken for planar ones."""
+    NO_FOREGROUND = auto()
+    """An image holds nothing."""
+    EMPTY_RESULT = auto()
+    """A result holds nothing: of an image without foreground that goes without saying."""
 
 
 class Message(str):
@@ -111,3 +115,7 @@ class VorotoolWarning(UserWarning):
     def message(self) -> Message:
         """The line."""
         return Message.of(*self.args[:1])
+
+
+class RepairWarning(VorotoolWarning):
+    """Polygons were repaired where they were placed."""

@@ -80,13 +80,13 @@ def default_layers(image: LabelImage, layers: Sequence[str]) -> tuple[str, ...]:
 
 
 def _names(image: LabelImage, layers: Sequence[str], threads: int) -> Names | None:
-    """Labels, deep inside their regions."""
+    """Labels, deep inside their objects or regions."""
     if "labels" not in layers:
         return None
-    from vorotool.engines.label_places import label_places
+    from vorotool.engines.label_places import name_places
     from vorotool.render.label_png import Names
 
-    labels, places, _ = label_places(image, threads=threads)
+    labels, places = name_places(image, threads=threads)
     return Names([str(label) for label in labels.tolist()], places)
 
 
@@ -100,13 +100,14 @@ def _write_png(
 ) -> None:
     from vorotool.engines.regions import voronoi_diagram
     from vorotool.formats.png import write_png
-    from vorotool.render.label_png import over_image, picture_bands
+    from vorotool.render.label_png import around, over_image, picture_bands
     from vorotool.render.palettes import picture_palette
 
     names = _names(image, layers, threads)
-    palette = picture_palette(int(colours[1].max(initial=0)), has_letters=names is not None)
     starts = range(0, image.shape[0], BAND_ROWS)
     diagram = voronoi_diagram(image, threads=threads).view(bool) if "diagram" in layers else None
+    halo = None if diagram is None or backdrop is None else around(diagram)
+    palette = picture_palette(int(colours[1].max(initial=0)), has_halo=names is not None or halo is not None)
     number, colour_of_number = _numbering(*colours)
     bands = picture_bands(
         (number(image.labels[row : row + BAND_ROWS]) for row in starts),
@@ -114,6 +115,7 @@ def _write_png(
         palette=palette,
         colour_of_label=colour_of_number,
         diagram=None if diagram is None else (diagram[row : row + BAND_ROWS] for row in starts),
+        halo=None if halo is None else (halo[row : row + BAND_ROWS] for row in starts),
         seeds=image.seeds,
         frame=image.frame,
         names=names,
@@ -148,7 +150,7 @@ def write_layers(out: BinaryIO, layers: Sequence[Layer], page: Page, *, fmt: str
     out : binary file
         Where to write.
     layers : sequence of Layer
-        What to draw, from below.
+        What to draw, from below; over an image lines have a light edge, so that they show on dark ground, too.
     page : Page
         Where it lies.
     fmt : {"svg", "png"}
@@ -156,6 +158,10 @@ def write_layers(out: BinaryIO, layers: Sequence[Layer], page: Page, *, fmt: str
     threads : int
         0 uses all.
     """
+    if page.backdrop is not None:
+        from vorotool.render.layers import with_halos
+
+        layers = with_halos(layers)
     if fmt == "svg":
         from vorotool.render.layers_svg import write_layers_svg
 

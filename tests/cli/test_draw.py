@@ -121,3 +121,25 @@ def test_what_is_said_of_shapes(run, folder, content, options, code, words):
     assert done.code == code
     assert words in done.err
     assert (folder / "a.svg").exists() == (code == 0)
+
+
+@pytest.mark.parametrize("dtype", [bool, np.uint8, np.uint16])
+@pytest.mark.parametrize("value", [1, 255])
+def test_objects_of_a_mask_have_their_own_colours(run, folder, dtype, value):
+    mask = np.zeros((50, 60), np.uint16)
+    mask[5:20, 5:20] = mask[5:20, 35:50] = mask[30:45, 5:50] = value
+    np.save(folder / "mask.npy", mask.astype(dtype))
+    done = run("draw", "mask.npy", "--layers", "cells,labels", "-o", "a.svg")
+    note = f"note: {value} is the only value besides 0, and taken for a mask: each of its objects is drawn by itself\n"
+    assert (done.code, done.err) == (0, note if dtype == np.uint16 else "")
+    cells = re.findall(r'<path id="(cell-\d+)" fill="(#\w+)"', (folder / "a.svg").read_text())
+    assert [name for name, _ in cells] == ["cell-1", "cell-2", "cell-3"]
+    assert len({colour for _, colour in cells}) == 3
+    np.save(folder / "labels.npy", np.where(mask, 7, 0).astype(np.uint8))
+    done = run("draw", "labels.npy", "-f", "svg")
+    assert (re.findall("cell-[0-9]+", done.out), done.err) == (["cell-7"], "")
+
+
+def test_a_mask_is_drawn_as_tessellate_takes_it(run, folder):
+    assert run("draw", "mask.pbm", "-o", "a.svg").code == 0
+    assert re.findall("cell-[0-9]+", (folder / "a.svg").read_text()) == ["cell-1", "cell-2"]

@@ -197,6 +197,26 @@ def test_shards_make_the_whole(run, inputs):
     assert {line.split(": ")[1] for line in done.err.splitlines()} == {"kept"}
 
 
+def test_shards_have_tables_and_statistics_of_their_own(run, inputs):
+    shared = ("delaunay", "points", "--table", "all.csv", "--stats", "stats.json")
+    for part in (1, 2):
+        done = run(*shared, "--out-dir", "parts", "--shard", f"{part}/2")
+        assert done.code == 0
+        assert f"note: --table of part {part} of 2 is all.{part}-of-2.csv\n" in done.err
+        assert f"note: --stats of part {part} of 2 is stats.{part}-of-2.json\n" in done.err
+    assert not (inputs / "all.csv").exists()
+    tables = [(inputs / f"all.{part}-of-2.csv").read_text().splitlines() for part in (1, 2)]
+    counts = [json.loads((inputs / f"stats.{part}-of-2.json").read_text())["inputs"] for part in (1, 2)]
+    assert sum(counts) == len({row.split(",")[0] for table in tables for row in table[1:]})
+    assert run(*shared, "--out-dir", "parts", "--resume", "-q").code == 0  # the whole, of the tables that are kept
+    whole = (inputs / "all.csv").read_text().splitlines()
+    assert sorted(whole) == sorted([*tables[0], *tables[1][1:]])
+    done = run("delaunay", "points", "--table", "-", "--shard", "1/2", "-q")
+    assert (done.code, done.out.splitlines()) == (0, tables[0])
+    assert run("delaunay", "points", "--table", "part.1-of-2.csv", "--shard", "1/2", "-q").code == 0
+    assert (inputs / "part.1-of-2.csv").read_text().splitlines() == tables[0]
+
+
 @pytest.mark.parametrize(
     ("arguments", "code", "words"),
     [

@@ -100,10 +100,7 @@ def test_nothing_in_the_foreground(run, folder):
     Image.new("1", (5, 4)).save(folder / "a.png")
     done = run("skeleton-exact", "a.png", *WHOLE, "-f", "csv")
     assert (done.code, len(rows_of(done.out))) == (0, 0)
-    assert done.err.splitlines() == [
-        "warning: the image has no foreground: use --invert or --threshold",
-        "warning: the interior skeleton is empty: there are no polygons",
-    ]
+    assert done.err == "warning: the image has no foreground: use --invert or --threshold\n"
     assert len(rows_of(run("skeleton-exact", "a.png", *WHOLE, "--invert", "-f", "csv").out)) == 5
 
 

@@ -53,3 +53,36 @@ def test_a_message_keeps_what_it_is_about_on_its_way_from_another_process():
 
     said = pickle.loads(pickle.dumps(Message("a: b", Kind.DEGREES, source="a")))
     assert (said, said.kind, said.source) == ("a: b", Kind.DEGREES, "a")
+
+
+def test_advice_names_the_option_of_the_output(run, folder):
+    """``-o`` is no help where the statistics or the table could not be written."""
+    (folder / "have.json").write_text("{}")
+    (folder / "have.csv").write_text("a")
+    done = run("delaunay", "dots.csv", "-o", "a.csv", "--stats", "have.json", "--no-clobber")
+    assert (done.code, done.err.endswith("choose another name with --stats\n")) == (4, True)
+    done = run("delaunay", "dots.csv", "dots.csv", "--table", "have.csv", "--no-clobber")
+    assert (done.code, done.err.endswith("choose another name with --table\n")) == (4, True)
+    done = run("delaunay", "dots.csv", "-o", "a.csv", "--stats", "/proc/s.json")
+    words = "error: /proc/s.json cannot be written: no file can be made in /proc; write elsewhere with --stats\n"
+    assert (done.code, done.err) == (4, words)
+
+
+@pytest.mark.parametrize("name", ["/dev/fd/foo", "/proc/x.csv"])
+def test_a_folder_of_the_system_that_holds_no_files(run, folder, name):
+    done = run("delaunay", "dots.csv", "-f", "csv", "-o", name)
+    place = name.rpartition("/")[0]
+    words = f"error: {name} cannot be written: no file can be made in {place}; write elsewhere with -o\n"
+    assert (done.code, done.err) == (4, words)
+
+
+def test_a_list_without_names_says_so(run, folder):
+    done = run("delaunay", "--files-from", "/dev/null", "--out-dir", "out")
+    assert (done.code, "0 inputs are given: --files-from /dev/null holds no names" in done.err) == (2, True)
+
+
+def test_arrays_of_a_skeleton_are_no_points_or_polygons(run, folder):
+    assert run("skeleton-exact", "mask.pbm", "-o", "a.npz").code == 0
+    for command in ("delaunay", "alphashape", "skeleton-exact"):
+        done = run(command, "a.npz")
+        assert (done.code, "JSON" in done.err, "--input-format" in done.err) == (3, True, False)

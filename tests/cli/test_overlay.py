@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
+from scipy import ndimage
 
 DATA = Path(__file__).parents[2] / "data"
 BLOBS = DATA / "blobs.png"
@@ -73,8 +74,37 @@ def test_the_diagram_is_drawn_over_the_image(run, folder, photo):
     assert run("tessellate", BLOBS, "--what", "diagram", "--overlay", "photo.png", "-o", "a.png").code == 0
     made, image = (np.asarray(Image.open(folder / path)) for path in ("a.png", "photo.png"))
     changed = (made != image).any(axis=2)
-    assert (made[changed] == 0).all()
-    assert 0.01 < changed.mean() < 0.1
+    is_line, is_edge = (made == 0).all(axis=2), (made == 255).all(axis=2)
+    assert not (changed & ~is_line & ~is_edge).any()
+    assert 0.01 < is_line.mean() < 0.1
+    assert (is_edge == ndimage.binary_dilation(is_line, np.ones((3, 3))) & ~is_line).all()
+
+
+LINES = {
+    "delaunay": (BLOBS,),
+    "delaunay cells": (BLOBS, "--what", "cells", "--layers", "diagram"),
+    "alphashape": (BLOBS, "-q"),
+    "alphashape hull": (BLOBS, "-q", "--what", "hull", "--layers", "hull"),
+    "skeleton-exact": (BLOBS,),
+    "skeleton-exact offset": (BLOBS, "--what", "offset", "-d", "-3"),
+    "tessellate": (BLOBS, "--what", "diagram"),
+}
+
+
+@pytest.mark.parametrize("ground", [0, 40, 255])
+@pytest.mark.parametrize("name", LINES)
+def test_lines_show_on_dark_and_on_light_ground(run, folder, name, ground):
+    Image.fromarray(np.full((200, 300), ground, np.uint8)).save(folder / "even.png")
+    assert run(name.split()[0], *LINES[name], "--overlay", "even.png", "-o", "a.png").code == 0
+    grey = np.asarray(Image.open(folder / "a.png").convert("L")).astype(int)
+    assert (np.abs(grey - ground) > 100).mean() > 0.002
+
+
+def test_lines_have_no_edge_where_there_is_no_image(run, folder):
+    run("delaunay", BLOBS, "-o", "a.svg")
+    run("delaunay", BLOBS, "--overlay", BLOBS, "-o", "b.svg")
+    assert "halo" not in (folder / "a.svg").read_text()
+    assert (folder / "b.svg").read_text().index('id="edges-halo"') < (folder / "b.svg").read_text().index('id="edges"')
 
 
 def test_geojson_over_an_image_has_y_downwards(run, folder, photo):
@@ -84,7 +114,7 @@ def test_geojson_over_an_image_has_y_downwards(run, folder, photo):
     assert done.code == 0
     made, image = (np.asarray(Image.open(folder / path)) for path in ("a.png", "photo.png"))
     y, x = np.nonzero((made != image).any(axis=2))
-    assert (x.max() <= 21, y.max() <= 11) == (True, True)
+    assert (x.max() <= 22, y.max() <= 12) == (True, True)  # with the edge of the lines
 
 
 def test_a_skeleton_from_a_file_is_drawn_over_an_image(run, folder, photo):
@@ -125,3 +155,15 @@ def test_a_forgotten_image(run):
     done = run("draw", "a.json", "--overlay", "-o", "a.png")
     assert done.code == 2
     assert "'-o' is no image" in done.err
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_an_image_of_another_size_is_noted(run, folder, photo, name):
+    Image.new("L", (50, 40)).save(folder / "small.png")
+    said = run(name.split()[0], *COMMANDS[name], "--overlay", "photo.png", "-o", "a.png").err
+    done = run(name.split()[0], *COMMANDS[name], "--overlay", "small.png", "-o", "a.png")
+    with Image.open(COMMANDS[name][0]) as image:
+        size = " x ".join(map(str, image.size))
+    words = f"note: small.png has 50 x 40 pixels, the input {size}: both begin in one corner"
+    assert (done.code, words in done.err or "-q" in COMMANDS[name]) == (0, True)
+    assert ("both begin" in said) == (size != "300 x 200")

@@ -22,6 +22,7 @@ from vorotool import (
     alpha_shape,
     verify_alpha_shape,
 )
+from vorotool.engines.seeding import seeds_from_raster
 from vorotool.geometry.alpha_complex import classes_of
 
 
@@ -297,3 +298,24 @@ def test_every_family_passes_the_checker(name):
     for k in (0, len(family.spectrum) // 2, len(family.spectrum) - 1):
         verify_alpha_shape(alpha_shape(family, r=family.radius_from(k)))
     verify_alpha_shape(alpha_shape(family, r=np.inf))
+
+
+def test_too_few_objects_of_an_image():
+    """Are told and empty; points are refused, unless the caller allows it."""
+    image = np.zeros((9, 9), bool)
+    image[2, 2] = True
+    with pytest.warns(VorotoolWarning, match=r"^there is 1 point: .*; the shape is empty$"):
+        shape = alpha_shape(seeds_from_raster(image))
+    assert (len(shape.family), len(shape.polygons), shape.isolated.tolist()) == (0, 0, [0])
+    image[6, 7] = True
+    with pytest.warns(VorotoolWarning, match=r"^two points span no triangle.*; the shape is empty$"):
+        shape = alpha_shape(seeds_from_raster(image))
+    verify_alpha_shape(shape)
+    assert (len(shape.edges), shape.isolated.tolist()) == (0, [0, 1])
+    assert shape.r < shape.family.spectrum[0]
+    with pytest.raises(InputError, match="leave out --strict"):
+        alpha_shape(seeds_from_raster(image), strict=True)
+    with pytest.raises(InputError, match="span no triangle"):
+        alpha_shape([[0, 0], [4, 0]])
+    with pytest.warns(VorotoolWarning, match="span no triangle"):
+        assert not len(alpha_shape([[0, 0], [4, 0]], allow_empty=True).edges)

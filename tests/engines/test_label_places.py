@@ -4,8 +4,12 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
-from vorotool.engines.label_places import label_places
+from vorotool import tessellate
+from vorotool.engines.label_places import label_places, name_places
+from vorotool.engines.seeding import seeds_from_raster
+from vorotool.geometry.frame import Frame
 from vorotool.geometry.label_image import LabelImage
+from vorotool.geometry.seeds import SeedSet
 
 
 def random_labels(seed):
@@ -38,3 +42,19 @@ def test_the_middle_of_a_bar_and_the_larger_of_two_pieces():
 def test_thin_regions_and_none():
     assert label_places(LabelImage(np.array([[4, 4, 4, 0]])))[1].tolist() == [[1, 0]]
     assert len(label_places(LabelImage(np.zeros((3, 3), np.uint8)))[0]) == 0
+
+
+def test_objects_are_named_where_they_are():
+    """Pixels of objects, centroids that share a pixel, and an object that has no pixel of its own."""
+    mask = np.zeros((30, 40), np.uint8)
+    mask[2:7, 3:8] = 255
+    mask[20:29, 30:33] = 255
+    made = tessellate(seeds_from_raster(mask))
+    assert name_places(made)[1].tolist() == [[5, 4], [31, 24]]
+    assert label_places(made)[1].tolist() != [[5, 4], [31, 24]]
+    near = SeedSet(np.array([9, 11, 60]), np.array([8, 8, 60]), np.array([4, 2, 9]), scale=2, frame=Frame(0, 0, 40, 40))
+    labels, places = name_places(tessellate(near))
+    assert labels.tolist() == [2, 4, 9]
+    assert places[[0, 2]].tolist() == [[6, 4], [30, 30]]
+    points = tessellate([[5, 5], [30, 20]], shape=(30, 40))
+    assert name_places(points)[1].tolist() == label_places(points)[1].tolist()

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from oracles import nearest_labels, nearest_squares
+from vorotool import _core
 from vorotool.engines.seeding import seeds_from_raster
 from vorotool.engines.surrounded_seeds import needed_seeds
-from vorotool.engines.sweep import Tessellator
+from vorotool.engines.sweep import Tessellator, simd_level
 from vorotool.engines.tessellate import verify_rows
 from vorotool.errors import InputError
 from vorotool.geometry.frame import Frame
@@ -64,3 +65,10 @@ def test_the_seed_that_is_too_far_is_counted_from_1():
     assert needed_seeds(seeds) is not None
     with pytest.raises(InputError, match=r"seed 1 at \(0, 4398046511104\)"):
         Tessellator(seeds, Frame(0, 0, 4, 4))
+
+
+def test_the_core_says_by_number_which_seed_is_too_far():
+    x, y = np.array([0, 2**60]), np.zeros(2, np.int64)
+    with pytest.raises(_core.SeedTooFarError) as error:
+        _core.Tessellation(x, y, np.array([1, 2], np.uint32), 0, 0, 4, 4, 1, simd_level())
+    assert error.value.args == (1,)

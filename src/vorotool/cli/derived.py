@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 from functools import cached_property
 from types import SimpleNamespace
@@ -11,7 +10,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
 from vorotool.cli.units import in_units, length_in_units
-from vorotool.errors import VorotoolWarning
+from vorotool.errors import Kind, Message
 from vorotool.geometry.offsets import Offsets
 from vorotool.geometry.polygons import PolygonSet
 from vorotool.geometry.skeleton import Skeleton
@@ -58,7 +57,7 @@ class Derived:
             )
         empty = [f"{distance:g}" for distance in self.options.distance if distance not in made.distance]
         if empty:
-            warnings.warn(f"nothing is left at the distance {', '.join(empty)}", VorotoolWarning, stacklevel=2)
+            self.run.warn(Message(f"nothing is left at the distance {', '.join(empty)}", Kind.EMPTY_RESULT))
         return made
 
     @cached_property

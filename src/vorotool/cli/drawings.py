@@ -7,7 +7,7 @@ from functools import partial
 from types import SimpleNamespace
 from typing import Any, BinaryIO
 
-from vorotool.cli.inputs import refuse
+from vorotool.cli.inputs import note_other_size, refuse
 from vorotool.cli.results import DERIVED, SKELETON_LAYERS
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target, check_picture_options
@@ -122,6 +122,8 @@ def _of_labels(run: Run, o: SimpleNamespace, image: LabelImage, fmt: str) -> Dra
     from vorotool.engines.object_colours import object_colours
 
     check_picture_options(o, [fmt], LABEL_LAYERS)
+    note_other_size(run, o, image.shape)
+    image = _objects(run, image)
     with run.phase("colour"):
         colours = object_colours(image, threads=o.threads)
     draw = partial(
@@ -136,6 +138,19 @@ def _of_labels(run: Run, o: SimpleNamespace, image: LabelImage, fmt: str) -> Dra
         threads=o.threads,
     )
     return draw, {"shape": image.shape, "colours": int(colours[1].max(initial=0))}
+
+
+def _objects(run: Run, image: LabelImage) -> LabelImage:
+    """The objects of a mask, numbered as other commands number them; label images stay."""
+    from vorotool.engines.raster_objects import objects_of_mask
+
+    objects = objects_of_mask(image.labels)
+    if objects is None:
+        return image
+    if image.labels.dtype.itemsize > 1:  # in which labels are written, too
+        value = int(image.labels.max())
+        run.note(f"{value} is the only value besides 0, and taken for a mask: each of its objects is drawn by itself")
+    return LabelImage(objects, image.frame)
 
 
 def _of_layers(run: Run, o: SimpleNamespace, value: Lined, fmt: str) -> Drawing:

@@ -53,15 +53,20 @@ def read_seed_input(run: Run, o: SimpleNamespace, source: str, *, properties: bo
         refuse(o, IMAGE_OPTIONS, "is for images, but the input is a list of points")
         return value
     assert isinstance(value, Raster)  # what is asked for is points, or an image
+    note_other_size(run, o, value.values.shape)
     return value
 
 
 def settle_threshold(run: Run, o: SimpleNamespace, image: Raster) -> None:
     """Find the threshold of Otsu's method if it is asked for: as a number it is said, and in the statistics."""
     if o.threshold == "otsu":
-        from vorotool.engines.raster_objects import image_threshold
+        from vorotool.engines.raster_objects import counted_values, is_flat, settled_threshold
 
-        o.threshold = image_threshold(image, "otsu")
+        o.threshold, o.invert = settled_threshold(image, "otsu", invert=o.invert)
+        if is_flat(counted_values(image)):
+            run.note(f"all pixels have the value {o.threshold:.17g}: Otsu's method finds no foreground")
+            run.stats["threshold"] = None
+            return
         run.note(f"threshold {o.threshold:.17g}, by Otsu's method")
     if o.threshold is not None:
         run.stats["threshold"] = o.threshold
@@ -228,6 +233,17 @@ def read_backdrop(o: SimpleNamespace) -> Backdrop | None:
         return out.getvalue()
 
     return Backdrop(pixels, encode)
+
+
+def note_other_size(run: Run, o: SimpleNamespace, shape: Sequence[int]) -> None:
+    """Say that the image of ``--overlay`` is not of the size of the input, whose pixels are those of the picture."""
+    if o.overlay is None or o.backdrop.pixels.shape[:2] == tuple(shape[:2]):
+        return
+    height, width = o.backdrop.pixels.shape[:2]
+    run.note(
+        f"{o.overlay} has {width} x {height} pixels, the input {shape[1]} x {shape[0]}: both begin in one corner, and "
+        "what lies beside the overlay is not drawn"
+    )
 
 
 def refuse(o: SimpleNamespace, names: tuple[str, ...], reason: str) -> None:

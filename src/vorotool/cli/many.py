@@ -119,10 +119,12 @@ def _print_plan(plan: Plan) -> None:
 
 def _check_files(o: SimpleNamespace) -> None:
     """Find out before any work whether the files of all inputs can be written."""
-    for path in (o.stats, getattr(o, "table", None)):
+    for option in ("stats", "table"):
+        path = getattr(o, option, None)
         if path is not None:
             is_inside = o.out_dir is not None and Path(path).parent == Path(o.out_dir)
-            check_output(path, no_clobber=o.no_clobber and not o.resume, makes_folder=is_inside)
+            may_replace = not o.no_clobber or o.resume
+            check_output(path, no_clobber=not may_replace, makes_folder=is_inside, option=f"--{option}")
 
 
 def _folder_of_parts(recipe: Recipe, o: SimpleNamespace, stack: ExitStack) -> str:
@@ -175,5 +177,5 @@ def _write_table(o: SimpleNamespace, fmt: str, tasks: Sequence[Task], outcomes: 
         for task, outcome in zip(tasks, outcomes, strict=True)
         if outcome is not None and not outcome.code
     ]
-    with open_output(o.table, no_clobber=o.no_clobber) as out:
+    with open_output(o.table, no_clobber=o.no_clobber, option="--table") as out:
         join_tables(out, parts, fmt, is_safe=o.safe_csv)

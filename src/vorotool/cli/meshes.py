@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from functools import cached_property
 from types import SimpleNamespace
@@ -15,7 +14,7 @@ from vorotool.cli.units import in_units, table_in_units
 from vorotool.engines.cells import cell_colours, verify_cells, voronoi_cells
 from vorotool.engines.delaunay import delaunay, verify_triangulation
 from vorotool.engines.site_table import site_table
-from vorotool.errors import VorotoolWarning
+from vorotool.errors import Kind, Message
 from vorotool.formats.tables import TABLE_FORMATS, write_table
 from vorotool.geometry.digital_triangulation import AnyTriangulation
 from vorotool.geometry.points import PointSet
@@ -69,7 +68,7 @@ class MeshProducts:
 
             check_picture_size(self._page(target.what), self.options.max_pixels)
         if target.what in ("edges", "triangles") and not len(getattr(self.mesh, target.what)):
-            warnings.warn(f"there are no {target.what}: {self._shape()}", VorotoolWarning, stacklevel=2)
+            self.run.warn(Message(f"there are no {target.what}: {self._shape()}", Kind.EMPTY_RESULT))
 
     def _shape(self) -> str:
         count = len(self.mesh.points) - self.mesh.duplicates

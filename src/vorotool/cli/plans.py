@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -74,6 +75,7 @@ def plan_batch(recipe: Recipe, o: SimpleNamespace) -> Plan:
         If there are no inputs, or outputs would replace something that they must not.
     """
     _check_options(o)
+    notes = _name_files_of_shard(o)
     table = _table_format(o)
     if o.out_dir is None:
         _check_table_only(o)
@@ -82,7 +84,6 @@ def plan_batch(recipe: Recipe, o: SimpleNamespace) -> Plan:
         recipe.formats, o.what, output=None, fmt=o.format, out_dir=o.out_dir, source="input"
     )  # fmt: skip
     manifest, history = _record(recipe, o, targets)
-    notes: list[str] = []
     tasks = _tasks(recipe, o, targets, notes.append)
     if manifest is not None:
         tasks = [replace(task, done=manifest.done_before(task.source, history)) for task in tasks]
@@ -116,6 +117,32 @@ def _check_options(o: SimpleNamespace) -> None:
         raise click.UsageError(f"--stats {o.stats} needs --table FILE: {spoken(table)} holds the table")
     if o.cluster not in (None, "local") and o.jobs is not None:
         raise click.UsageError("-j is for this machine: a cluster has the workers that it has")
+
+
+def _name_files_of_shard(o: SimpleNamespace) -> list[str]:
+    """Give the table and the statistics of a part names of their own: parts would replace those of each other."""
+    notes = []
+    for option in ("table", "stats"):
+        path = getattr(o, option, None)
+        own = path if path is None or o.shard is None else name_of_part(path, *o.shard)
+        if own != path:
+            setattr(o, option, own)
+            notes.append(f"--{option} of part {o.shard[0]} of {o.shard[1]} is {own}")
+    return notes
+
+
+def name_of_part(path: str, part: int, parts: int) -> str:
+    """Name the file of one of several parts, as its manifest is named; streams and names that tell the part stay.
+
+    Examples
+    --------
+    >>> name_of_part("out/all.csv", 2, 8), name_of_part("all.2-of-8.csv", 2, 8), name_of_part("-", 2, 8)
+    ('out/all.2-of-8.csv', 'all.2-of-8.csv', '-')
+    """
+    name, mark = Path(path), f"{part}-of-{parts}"
+    if parts == 1 or not name.name or stream_kind(path) is not None or mark in re.split("[._]", name.name):
+        return path
+    return str(name.with_name(f"{name.stem}.{mark}{name.suffix}"))
 
 
 def _check_table_only(o: SimpleNamespace) -> None:
@@ -174,5 +201,8 @@ def _inputs(recipe: Recipe, o: SimpleNamespace, note: Callable[[str], None]) -> 
     known = DRAWN_NAMES if recipe.geometry is None else NAMES_WITH[recipe.geometry]
     names = [*o.inputs, *(read_names(o.files_from, null=o.null) if o.files_from is not None else ())]
     if not names:
-        raise click.UsageError("0 inputs are given: name files, folders, or a list of them with --files-from")
+        advice = "name files, folders, or a list of them with --files-from"
+        if o.files_from is not None:
+            advice = f"--files-from {o.files_from} holds no names; write one on each line"
+        raise click.UsageError(f"0 inputs are given: {advice}")
     return expand_inputs(names, extensions=known, without=o.out_dir, note=note)

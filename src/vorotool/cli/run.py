@@ -84,8 +84,12 @@ class Run:
             click.echo(f"note: {message}", err=True)
 
     def warn(self, message: str) -> None:
-        """Say what was repaired, snapped or guessed: on standard error and in the statistics, each once."""
-        if message in self.warnings:
+        """Say what was repaired, snapped or guessed: on standard error and in the statistics, each once.
+
+        That results are empty is left out where the image has been told to be.
+        """
+        is_empty = Message.of(message).kind is Kind.EMPTY_RESULT
+        if message in self.warnings or (is_empty and any(said.kind is Kind.NO_FOREGROUND for said in self.warnings)):
             return
         self.warnings.append(Message.of(message))
         if not self._quiet:
@@ -132,5 +136,5 @@ class Run:
 
         self.stats["seconds"] = {name: round(value, 6) for name, value in self.seconds.items()}
         self.stats["warnings"] = self.warnings
-        with open_output(target, no_clobber=self._no_clobber) as out:
+        with open_output(target, no_clobber=self._no_clobber, option="--stats") as out:
             out.write(orjson.dumps(self.stats, option=orjson.OPT_INDENT_2 | orjson.OPT_APPEND_NEWLINE))

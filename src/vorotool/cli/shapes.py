@@ -17,6 +17,7 @@ from vorotool.cli.results import OF_ONE_SHAPE
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
 from vorotool.cli.units import in_units, length_in_units, table_in_units
+from vorotool.engines.alpha_few_points import unjoined
 from vorotool.engines.alphashape import alpha_complex, alpha_curves, alpha_edges, alpha_shape
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.alpha_complex import AlphaComplex, Radius
@@ -58,15 +59,18 @@ class ShapeProducts:
 
     def __init__(self, points: PointSet | SeedSet, options: SimpleNamespace, run: Run) -> None:
         self.options, self.run = options, run
+        self._empty: dict[str, Any] = {"strict": options.strict, "allow_empty": isinstance(points, SeedSet)}
         with run.phase("triangulate"):
             mesh = self._triangulation(points)
         with run.phase("alpha complex"):
             progress = run.progress("computing radii")
-            self.family = alpha_complex(mesh, rule=options.rule, threads=options.threads, progress=progress)
+            self.family = alpha_complex(
+                mesh, rule=options.rule, **self._empty, threads=options.threads, progress=progress
+            )
         if set(options.what) & OF_ONE_SHAPE:
             with run.phase("shape"):
                 self.shape = self._shape()
-            if options.radius is None and len(self.family.points):
+            if options.radius is None and not self.is_unjoined:
                 regions = "one region" if options.regions in (None, 1) else f"at most {options.regions} regions"
                 run.note(f"r = {radius_text(self.shape.r)}, the smallest whose shape is {regions} with every point")
 
@@ -102,9 +106,15 @@ class ShapeProducts:
             regions=o.regions or 1,
             hole_threshold=o.hole_threshold,
             region_threshold=o.region_threshold,
+            **self._empty,
             threads=o.threads,
             progress=self.run.progress("computing the shape"),
         )
+
+    @cached_property
+    def is_unjoined(self) -> bool:
+        """Whether the radius was to be found, but none gives a region that holds every point."""
+        return self.options.radius is None and unjoined(self.family) is not None
 
     def _edges_only(self, r: Radius) -> AlphaShape:
         """The shape of triangles that need not fit together: each is a region of its own, and nothing is traced."""
@@ -160,7 +170,7 @@ class ShapeProducts:
             "table": lambda: not len(self.shape.polygons),
             "hull": lambda: not len(self.hull),
         }.get(target.what)
-        if empty is not None and len(self.family.spectrum) and empty():
+        if empty is not None and len(self.family.spectrum) and not self.is_unjoined and empty():
             words = {"table": "regions", "hull": "arcs in the hull"}.get(target.what, target.what)
             smallest = radius_text(float(self.family.spectrum[0]))
             warnings.warn(
@@ -295,8 +305,8 @@ class ShapeProducts:
             return counts
         shape = self.shape
         chosen: dict[str, Any] = {
-            "r": _json_number(shape.r) if len(mesh.points) or self.options.radius is not None else None,
-            "alpha": shape.alpha,
+            "r": None if self.is_unjoined else _json_number(shape.r),
+            "alpha": None if self.is_unjoined else shape.alpha,
             "automatic": self.options.radius is None,
         }
         kinds = {"singular_edges": int((shape.kind == 1).sum()), "boundary_edges": int((shape.kind == 2).sum())}

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from vorotool.cli.commands import run_command
-from vorotool.cli.inputs import IMAGE_OPTIONS, naming, refuse, settle_threshold
+from vorotool.cli.inputs import IMAGE_OPTIONS, naming, note_other_size, refuse, settle_threshold
 from vorotool.cli.option_groups import result_options
 from vorotool.cli.options import (
     Decorator,
@@ -309,6 +309,7 @@ def _read_polygons(run: Run, o: SimpleNamespace, source: str) -> PolygonSet:
 def _outlines(run: Run, o: SimpleNamespace, image: Raster) -> PolygonSet:
     from vorotool.engines.outlines import outlines
 
+    note_other_size(run, o, image.values.shape)
     settle_threshold(run, o, image)
     with run.phase("outline"):
         return outlines(

@@ -19,7 +19,7 @@ from vorotool.cli.results import DERIVED
 from vorotool.cli.run import Run
 from vorotool.cli.targets import Target
 from vorotool.cli.units import in_units, length_in_units
-from vorotool.errors import VorotoolWarning
+from vorotool.errors import Kind, Message, RepairWarning, VorotoolWarning
 from vorotool.geometry.planar_graph import PlanarGraph
 from vorotool.geometry.skeleton import EXTERIOR, Skeleton
 from vorotool.pictures import write_layers
@@ -65,7 +65,7 @@ class SkeletonProducts(ABC):
         """Let repairs be told where polygons are placed first."""
         with warnings.catch_warnings():
             if self._is_told:
-                warnings.filterwarnings("ignore", "the polygons were repaired", VorotoolWarning)
+                warnings.simplefilter("ignore", RepairWarning)
             yield
         self._is_told = True
 
@@ -190,7 +190,7 @@ class SkeletonProducts(ABC):
 
             check_html_size(self.whole)
         if not len(value) and target.what in ("skeleton", "branches") and self.options.side == "exterior":
-            warnings.warn("the exterior skeleton is empty", VorotoolWarning, stacklevel=2)
+            self.run.warn(Message("the exterior skeleton is empty", Kind.EMPTY_RESULT))
 
     def write(self, target: Target, *, inputs: Sequence[str]) -> None:
         """Write one result."""

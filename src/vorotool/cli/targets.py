@@ -243,7 +243,7 @@ def check_targets(options: Any, targets: Sequence[Target], source: str) -> None:
             check_output(target.path, binary=target.is_binary, **rules)
     if options.stats is not None:
         in_out_dir = options.out_dir is not None and Path(options.stats).parent == Path(options.out_dir)
-        check_output(options.stats, no_clobber=options.no_clobber, makes_folder=in_out_dir)
+        check_output(options.stats, no_clobber=options.no_clobber, makes_folder=in_out_dir, option="--stats")
 
 
 def _known_format(fmt: str | None, formats: Mapping[str, Sequence[str]]) -> str | None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import inf
 from typing import Any
 
 import numpy as np
@@ -12,6 +11,15 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.alpha_components import fill_and_drop
 from vorotool.engines.alpha_digital import linked_digital
+from vorotool.engines.alpha_few_points import (
+    GIVE_R,
+    allows_empty,
+    least_ranks,
+    radius_below_all,
+    refuse_or_warn,
+    report_too_few,
+    unjoined,
+)
 from vorotool.engines.delaunay import delaunay
 from vorotool.engines.label_arrays import Progress
 from vorotool.errors import InputError, UsageError
@@ -21,7 +29,6 @@ from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.numbers import real_number, shown_number, whole_number
 from vorotool.geometry.polygons import HOLE, SHELL, PolygonSet
-from vorotool.geometry.seeds import SeedSet
 from vorotool.geometry.table import Table
 from vorotool.geometry.triangulation import Triangulation
 
@@ -29,7 +36,13 @@ RULES = ("corrected", "printed")
 
 
 def alpha_complex(
-    points: Any, *, rule: str = "corrected", strict: bool = False, threads: int = 0, progress: Progress = None
+    points: Any,
+    *,
+    rule: str = "corrected",
+    strict: bool = False,
+    allow_empty: bool | None = None,
+    threads: int = 0,
+    progress: Progress = None,
 ) -> AlphaComplex:
     """Compute the radii at which each Delaunay edge enters and leaves the alpha shape: all shapes at once.
 
@@ -39,11 +52,15 @@ def alpha_complex(
     Parameters
     ----------
     points : PointSet, SeedSet, Triangulation, DigitalTriangulation, or (n, 2) array-like or shapely points
-        At least two distinct ones. A triangulation is taken as it is; of a digital one only edges are right.
+        At least two distinct ones, unless fewer are allowed. A triangulation is taken as it is; of a digital one only
+        edges are right.
     rule : {"corrected", "printed"}
         ``printed`` follows the paper's text, which is wrong where an edge is no Gabriel edge; intervals are open.
     strict : bool
-        Refuse points that lie on another one.
+        Refuse points that lie on another one, and fewer than two distinct points in any case.
+    allow_empty : bool, optional
+        Give an empty family where there are fewer than two distinct points; by default of the seeds of an image, so
+        that one of many images that has no more does not stop the others.
     threads : int
         0 uses all.
     progress : callable, optional
@@ -52,9 +69,14 @@ def alpha_complex(
     Raises
     ------
     InputError
-        If there are fewer than two distinct points, or a coordinate is not finite.
+        If there are fewer than two distinct points where these are refused, or a coordinate is not finite.
     UsageError
         If the rule is unknown.
+
+    Warns
+    -----
+    VorotoolWarning
+        If the family is empty because there is one distinct point; that there is none was told with the image.
 
     References
     ----------
@@ -81,11 +103,8 @@ def alpha_complex(
         given = isinstance(points, Triangulation)
         mesh = points if given else delaunay(points, strict=strict, threads=threads, progress=progress)
         edges, sides = _edges_and_sides(mesh, threads, progress)
-    count = len(mesh.points) - mesh.duplicates
-    if count < 2 and not (isinstance(points, SeedSet) and points.is_empty_image):
-        held = "is 1 point" if len(mesh.points) == 1 else f"are {len(mesh.points)} points"
-        where = ", all at one place" if len(mesh.points) > 1 else ""
-        raise InputError(f"there {held}{where}: an alpha shape needs at least two distinct points")
+    if len(mesh.points) - mesh.duplicates < 2:
+        report_too_few(len(mesh.points), allow_empty=allows_empty(points, allow_empty), strict=strict)
     arrays = _core.alpha_complex(mesh.points, mesh.triangles, edges, sides, rule == "printed", threads, progress)
     return AlphaComplex(mesh, edges, sides, rule=rule, **arrays)
 
@@ -189,6 +208,7 @@ def alpha_shape(
     region_threshold: Any = None,
     rule: str = "corrected",
     strict: bool = False,
+    allow_empty: bool | None = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> AlphaShape:
@@ -210,11 +230,14 @@ def alpha_shape(
         First, cavities of at most this area are filled; then regions of at most this area are left out.
     rule, strict, threads, progress
         As for `alpha_complex`.
+    allow_empty : bool, optional
+        As for `alpha_complex`; and give the shape of radii that join no points, where the automatic choice finds no
+        triangle.
 
     Raises
     ------
     InputError
-        If there are fewer than two distinct points, or the automatic choice finds no triangle.
+        If there are fewer than two distinct points, or the automatic choice finds no triangle, where that is refused.
     UsageError
         If r is not positive, alpha not negative, both are given, or ``regions`` with one of them.
 
@@ -232,9 +255,13 @@ def alpha_shape(
     if isinstance(points, AlphaComplex):
         family = points
     else:
-        family = alpha_complex(points, rule=rule, strict=strict, threads=threads, progress=progress)
-    if radius is None and not len(family.points):
-        radius, reached, entered = inf, 0, 0  # of an image without foreground: there is nothing to join
+        wanted: dict[str, Any] = {"rule": rule, "strict": strict, "allow_empty": allow_empty}
+        family = alpha_complex(points, **wanted, threads=threads, progress=progress)
+    reason = unjoined(family) if radius is None else None
+    if reason is not None:
+        if len(family):  # else it has been told that there are too few points
+            refuse_or_warn(reason, GIVE_R, allow_empty=allows_empty(points, allow_empty), strict=strict)
+        radius, reached, entered = radius_below_all(family), 0, 0
     elif radius is None:
         reached = automatic_rank(family, regions=regions, progress=progress) + 1
         radius = family.radius_from(reached - 1)
@@ -334,17 +361,9 @@ def automatic_rank(family: AlphaComplex, *, regions: int = 1, progress: Progress
     """
     if whole_number(regions, "regions") < 1:
         raise UsageError(f"regions is {shown_number(regions)}: at least 1")
-    mesh = family.mesh
-    never = len(family.spectrum)
-    least = np.full(len(mesh.points), never, dtype=np.int32)
-    np.minimum.at(least, mesh.triangles, family.triangle_rank[:, None])
-    covered = int(least[mesh.first].max(initial=0))
-    if covered == never:
-        count = len(mesh.points) - mesh.duplicates
-        reason = "two points span" if count == 2 else f"{count} points on a line span"
-        if len(mesh.triangles):
-            reason = "a point is on"
-        raise InputError(f"{reason} no triangle, so no r gives a region that holds them: give r itself (-r)")
+    if (reason := unjoined(family)) is not None:
+        raise InputError(f"{reason}{GIVE_R}")
+    covered = int(least_ranks(family).max(initial=0))
     found = np.flatnonzero(alpha_curves(family, progress=progress)["regions"][covered:] <= regions)
     return covered + int(found[0])
 

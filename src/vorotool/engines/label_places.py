@@ -62,6 +62,54 @@ def label_places(
     return known, np.stack([column[chosen], row[chosen]], axis=1), np.sqrt(largest.astype(np.float64))
 
 
+def name_places(image: LabelImage, *, threads: int = 0) -> tuple[NDArray[np.uint32], NDArray[np.int64]]:
+    """Find where each region is named: deep inside its object where there are some, else inside itself.
+
+    Parameters
+    ----------
+    image : LabelImage
+        Its seeds are objects if they come from an image.
+    threads : int
+        0 uses all.
+
+    Returns
+    -------
+    labels : (k,) uint32 array
+        Those that occur, increasing.
+    places : (k, 2) int64 array
+        Column and row of the pixel of each.
+
+    Examples
+    --------
+    >>> pixels = SeedSet(np.array([0, 4]), np.array([0, 0]), np.array([1, 2]), frame=Frame(0, 0, 5, 1))
+    >>> name_places(LabelImage(np.array([[1, 1, 1, 2, 2]]), seeds=pixels))[1].tolist()
+    [[0, 0], [4, 0]]
+    """
+    labels, places, _ = label_places(image, threads=threads)
+    if image.seeds is None or image.seeds.frame is None or not len(labels):
+        return labels, places
+    named, own, _ = label_places(_objects(image, image.seeds), threads=threads)
+    index = np.searchsorted(labels, named)
+    index[index == len(labels)] = 0
+    has_region = labels[index] == named
+    places[index[has_region]] = own[has_region]
+    return labels, places
+
+
+def _objects(image: LabelImage, seeds: SeedSet) -> LabelImage:
+    """The pixels of the seeds; where several lie in one the smallest label has it."""
+    assert image.frame is not None  # LabelImage has filled it in
+    order = np.argsort(seeds.labels, kind="stable")[::-1]
+    column, row = (
+        np.floor(k[order] / seeds.scale + 0.5).astype(np.int64) - first
+        for k, first in ((seeds.x, image.frame.x), (seeds.y, image.frame.y))
+    )
+    inside = (column >= 0) & (column < image.shape[1]) & (row >= 0) & (row < image.shape[0])
+    objects = np.zeros(image.shape, np.uint32)
+    objects[row[inside], column[inside]] = seeds.labels[order][inside]
+    return LabelImage(objects, image.frame)
+
+
 def _squares_to_outermost(labels: NDArray[np.unsignedinteger], threads: int) -> NDArray[np.unsignedinteger]:
     """Squared distance of each pixel from the nearest one that lies beside another label, or on a side of the image."""
     y, x = np.nonzero(~surrounded_pixels(labels))

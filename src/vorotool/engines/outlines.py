@@ -17,9 +17,9 @@ from vorotool.engines.raster_objects import (
     default_objects,
     foreground_values,
     grey_values,
-    image_threshold,
     label_values,
     report_no_foreground,
+    settled_threshold,
 )
 from vorotool.engines.simplification import simplified_polygons
 from vorotool.errors import LimitError, UsageError
@@ -148,7 +148,7 @@ def outlines(
         mode, origin, image = mode or "labels", (image.frame.x, image.frame.y), image.labels
     raster = image if isinstance(image, Raster) else Raster(image)
     if threshold is not None:
-        threshold = image_threshold(raster, threshold)
+        threshold, invert = settled_threshold(raster, threshold, invert=invert)
         raster = Raster(grey_values(raster), mask=raster.mask)
     values = foreground_values(raster, threshold, invert=invert)
     by_label = (mode or default_objects(values, note=note)) == "labels"

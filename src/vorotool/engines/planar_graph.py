@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.flat_rings import flat_holes, with_flat_shells_as_lines
 from vorotool.engines.label_arrays import Progress
-from vorotool.errors import InputError, LimitError, VerificationError, VorotoolWarning
+from vorotool.errors import InputError, LimitError, RepairWarning, VerificationError
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.magnitude import check_magnitude
 from vorotool.geometry.planar_graph import REPAIRS, PlanarGraph
@@ -62,7 +62,7 @@ def planar_graph(polygons: Any, *, strict: bool = False, threads: int = 0, progr
 
     Warns
     -----
-    VorotoolWarning
+    RepairWarning
         If something was repaired: what, and how often.
 
     References
@@ -198,7 +198,7 @@ def report_repairs(
         return
     if strict:
         raise InputError(_first_repair(given, found))
-    warnings.warn(_summary(repairs, step), VorotoolWarning, stacklevel=stacklevel)
+    warnings.warn(_summary(repairs, step), RepairWarning, stacklevel=stacklevel)
 
 
 _WORDS = {

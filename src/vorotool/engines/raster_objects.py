@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.errors import InputError, VorotoolWarning
+from vorotool.errors import InputError, Kind, Message, VorotoolWarning
 from vorotool.geometry.numbers import finite_double
 from vorotool.geometry.raster import Raster
 
@@ -44,8 +44,7 @@ def foreground_values(raster: Raster, threshold: Threshold, *, invert: bool) -> 
     Raises
     ------
     InputError
-        If there is no threshold, and the image has colours or values that are not finite; or if Otsu's method finds
-        none.
+        If there is no threshold, and the image has colours; or values are not finite.
 
     Examples
     --------
@@ -54,8 +53,9 @@ def foreground_values(raster: Raster, threshold: Threshold, *, invert: bool) -> 
     """
     values = raster.values
     if threshold is not None:
+        number, invert = settled_threshold(raster, threshold, invert=invert)
         grey = grey_values(raster)
-        values = grey > whole_threshold(grey, image_threshold(raster, threshold))
+        values = grey > whole_threshold(grey, number)
     elif raster.is_colour:
         raise InputError("a colour image holds no objects by itself: use --threshold T or --threshold otsu")
     if values.dtype.kind == "f" and not np.isfinite(values).all():
@@ -76,45 +76,54 @@ def grey_values(raster: Raster) -> NDArray[Any]:
     return luminance
 
 
-def image_threshold(raster: Raster, threshold: float | Literal["otsu"]) -> float:
-    """Give the threshold of an image as a number; what is masked does not count. Errors as of `threshold_value`.
+def settled_threshold(raster: Raster, threshold: float | Literal["otsu"], *, invert: bool) -> tuple[float, bool]:
+    """Give the threshold of an image as a number, and whether foreground is what is not larger.
 
-    Examples
-    --------
-    >>> image_threshold(Raster(np.array([[0, 1, 10]])), "otsu")
-    1
-    """
-    if not _is_otsu(threshold):
-        return threshold_value(np.empty(0), threshold)
-    grey = grey_values(raster)
-    return threshold_value(grey if raster.mask is None else grey[~raster.mask], threshold)
-
-
-def threshold_value(grey: NDArray[Any], threshold: float | Literal["otsu"]) -> float:
-    """Give the threshold as a number: for ``otsu`` the one of Otsu's method.
+    What is masked does not count. Otsu's method parts nothing of an image whose pixels all have one value: no pixel is
+    larger, and so there is no foreground, with `invert` as without.
 
     Raises
     ------
     InputError
-        If there is none, as all values are the same or some are not finite.
+        If values are not finite, for ``otsu``.
     UsageError
-        If it is no finite number.
+        If the threshold is no finite number.
 
     Examples
     --------
-    >>> threshold_value(np.array([[0, 10]]), 4.5)
-    4.5
+    >>> settled_threshold(Raster(np.array([[0, 1, 10]])), "otsu", invert=True)
+    (1, True)
+    >>> settled_threshold(Raster(np.array([[7, 7, 7]])), "otsu", invert=True)
+    (7, False)
     """
     if not _is_otsu(threshold):
         finite_double(threshold, "threshold")
-        return cast(float, threshold)  # as it is: a double would round integers beyond 2^53
+        return cast(float, threshold), invert  # as it is: a double would round integers beyond 2^53
     from vorotool.engines.otsu import otsu_threshold
 
+    grey = counted_values(raster)
     if grey.dtype.kind == "f" and not np.isfinite(grey).all():
         raise InputError("the image holds NaN or infinite values: use --threshold T, a number, or repair them")
-    if grey.min() == grey.max():
-        raise InputError(f"all pixels have the value {grey.flat[0]}: --threshold otsu needs two values")
-    return otsu_threshold(grey)
+    if is_flat(grey):
+        return (grey.flat[0].item() if grey.size else 0), False
+    return otsu_threshold(grey), invert
+
+
+def counted_values(raster: Raster) -> NDArray[Any]:
+    """Grey values of the pixels that are not masked."""
+    grey = grey_values(raster)
+    return grey if raster.mask is None else grey[~raster.mask]
+
+
+def is_flat(grey: NDArray[Any]) -> bool:
+    """Whether there are no two different values.
+
+    Examples
+    --------
+    >>> is_flat(np.array([[7, 7]])), is_flat(np.array([[7, 8]]))
+    (True, False)
+    """
+    return not grey.size or bool(grey.min() == grey.max())
 
 
 def _is_otsu(threshold: Any) -> bool:
@@ -192,6 +201,32 @@ def objects_of_value(value: Any, *, note: Note = None) -> Objects:
     return "components" if is_mask else "labels"
 
 
+def numbered_components(values: NDArray[Any], connectivity: int = 8) -> NDArray[np.uint32]:
+    """Number the components of what is not 0: libraries that do it take longer to load than most images to process.
+
+    Examples
+    --------
+    >>> numbered_components(np.array([[5, 0, 5], [5, 0, 5]])).tolist()
+    [[1, 0, 2], [1, 0, 2]]
+    """
+    components = np.empty(values.shape, np.uint32)
+    _core.label_components((values != 0).view(np.uint8), connectivity == 8, components, None)
+    return components
+
+
+def objects_of_mask(labels: NDArray[Any]) -> NDArray[Any] | None:
+    """Number the objects of what is a mask by the rule of `objects_of_value`; None of labels, and where nothing is.
+
+    Examples
+    --------
+    >>> objects_of_mask(np.array([[1, 0, 1]])).tolist(), objects_of_mask(np.array([[7, 0, 7]]))
+    ([[1, 0, 2]], None)
+    """
+    value = labels.max(initial=0)
+    is_mask = value > 0 and objects_of_value(value) == "components"
+    return numbered_components(labels) if is_mask and ((labels == 0) | (labels == value)).all() else None
+
+
 def report_no_foreground(*, strict: bool) -> None:
     """Warn of an image in which there is nothing, or refuse it.
 
@@ -202,7 +237,8 @@ def report_no_foreground(*, strict: bool) -> None:
     """
     if strict:
         raise InputError("the image has no foreground: use --invert or --threshold, or leave out --strict")
-    warnings.warn("the image has no foreground: use --invert or --threshold", VorotoolWarning, stacklevel=3)
+    message = Message("the image has no foreground: use --invert or --threshold", Kind.NO_FOREGROUND)
+    warnings.warn(VorotoolWarning(message), stacklevel=3)
 
 
 def refuse_distances() -> None:

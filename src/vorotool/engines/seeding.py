@@ -10,13 +10,13 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool import _core
 from vorotool.engines.raster_objects import (
     LARGEST_LABEL,
     Note,
     default_objects,
     foreground_values,
     label_values,
+    numbered_components,
     report_no_foreground,
 )
 from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
@@ -214,7 +214,7 @@ def seeds_from_raster(
         labels = np.arange(1, len(x) + 1, dtype=np.uint32)
         sites = np.stack([x, y], axis=1).astype(np.float64)
         return SeedSet(x, y, labels, frame=frame, sites=sites, site_labels=labels)
-    objects = label_values(values) if kind == "labels" else _components(values, connectivity)
+    objects = label_values(values) if kind == "labels" else numbered_components(values, connectivity)
     return _seeds_of_objects(objects, frame, centroids_only=mode == "centroids", max_sites=max_sites, strict=strict)
 
 
@@ -224,13 +224,6 @@ def _no_seeds(frame: Frame, *, has_objects: bool) -> SeedSet:
     labels = np.empty(0, np.uint32)
     area = nothing if has_objects else None
     return SeedSet(nothing, nothing, labels, frame=frame, sites=np.empty((0, 2)), site_labels=labels, object_area=area)
-
-
-def _components(values: NDArray[Any], connectivity: int) -> NDArray[Any]:
-    """Number the components: the library that does it takes longer to load than most images to process."""
-    components = np.empty(values.shape, np.uint32)
-    _core.label_components((values != 0).view(np.uint8), connectivity == 8, components, None)
-    return components
 
 
 def _foreground(objects: NDArray[Any], most: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:

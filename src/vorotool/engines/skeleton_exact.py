@@ -14,7 +14,7 @@ from vorotool.engines.label_arrays import Progress
 from vorotool.engines.placed_rings import PlacedShapes, placed_shapes
 from vorotool.engines.planar_graph import graph_for_skeletons
 from vorotool.engines.segment_voronoi import idle_sides, segment_voronoi
-from vorotool.errors import UsageError, VorotoolWarning
+from vorotool.errors import Kind, Message, UsageError, VorotoolWarning
 from vorotool.geometry.box import bounds
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.numbers import finite_double, shown_number
@@ -322,4 +322,5 @@ def warn_empty(polygons: PolygonSet, side: str) -> None:
         reason = "open lines have no inside: use --side exterior"
     else:
         reason = "no polygon has an inside"
-    warnings.warn(f"the interior skeleton is empty: {reason}", VorotoolWarning, stacklevel=4)
+    message = Message(f"the interior skeleton is empty: {reason}", Kind.EMPTY_RESULT)
+    warnings.warn(VorotoolWarning(message), stacklevel=4)

@@ -133,7 +133,7 @@ class Tessellator:
                 self.simd,
             )
         except _core.SeedTooFarError as error:
-            index = int(str(error).split()[1])  # the core counts from 0 the seeds that it was given
+            (index,) = error.args  # from 0, of the seeds that the core was given
             raise self._too_far(index if needed is None else int(needed[index])) from None
 
     def _too_far(self, index: int) -> InputError:

@@ -166,9 +166,9 @@ def label_image_of(image: Raster, name: str) -> LabelImage:
     values = image.values
     if values.ndim != 2:
         raise InputError(f"{name} has {values.shape[2]} channels: labels need a single one")
-    if values.dtype.kind not in "ui":
+    if values.dtype.kind not in "bui":
         raise InputError(f"{name} holds {values.dtype} values: labels need integers")
-    return LabelImage(_as_labels(values, name))
+    return LabelImage(values.view(np.uint8) if values.dtype == np.bool_ else _as_labels(values, name))
 
 
 def _as_labels(values: NDArray[Any], name: str) -> NDArray[Any]:

@@ -33,6 +33,7 @@ def open_output(
     binary: bool = False,
     no_clobber: bool = False,
     inputs: Iterable[str | os.PathLike[str]] = (),
+    option: str = "-o",
 ) -> Iterator[BinaryIO]:
     """Open an output that replaces an older file only when all of it has been written.
 
@@ -51,6 +52,8 @@ def open_output(
         Refuse to replace an existing file.
     inputs : iterable of paths
         Files that must not be replaced because they are being read.
+    option : str
+        The option that names the output, for messages.
 
     Yields
     ------
@@ -73,15 +76,17 @@ def open_output(
     9
     """
     name = os.fspath(path)
-    descriptor = _checked_descriptor(name, binary)
+    descriptor = _checked_descriptor(name, binary, option)
     if descriptor is not None:
-        writer = _continuing(name, descriptor)
+        writer = _continuing(name, descriptor, option)
     elif name == STANDARD:
         writer = _embedded_output()
     else:
-        target = _checked_target(name, no_clobber, inputs)
-        is_regular = _is_regular(target)
-        writer = _replacing(name, target, no_clobber) if is_regular else _direct(name, target, binary)
+        target = _checked_target(name, no_clobber, inputs, option)
+        if _is_regular(target):
+            writer = _replacing(name, target, no_clobber, option)
+        else:
+            writer = _direct(name, target, binary, option)
     with writer as out:
         yield out
 
@@ -93,12 +98,13 @@ def check_output(
     no_clobber: bool = False,
     inputs: Iterable[str | os.PathLike[str]] = (),
     makes_folder: bool = False,
+    option: str = "-o",
 ) -> None:
     """Find out before any work whether `open_output` would refuse an output.
 
     Parameters
     ----------
-    path, binary, no_clobber, inputs
+    path, binary, no_clobber, inputs, option
         As for `open_output`.
     makes_folder : bool
         The folder of the file is yet to be made.
@@ -115,22 +121,22 @@ def check_output(
     >>> check_output("/dev/null")
     """
     name = os.fspath(path)
-    if _checked_descriptor(name, binary) is not None or name == STANDARD:
+    if _checked_descriptor(name, binary, option) is not None or name == STANDARD:
         return
-    target = _checked_target(name, no_clobber, inputs)
+    target = _checked_target(name, no_clobber, inputs, option)
     if not _is_regular(target):
         return
-    check_folder(name, target.parent, makes_folder=makes_folder)
+    check_folder(name, target.parent, makes_folder=makes_folder, option=option)
 
 
-def check_folder(name: str, folder: Path, *, makes_folder: bool = False) -> None:
+def check_folder(name: str, folder: Path, *, makes_folder: bool = False, option: str = "-o") -> None:
     """Refuse an output whose folder is not there, unless it is made, or cannot be written in."""
     while makes_folder and not folder.exists():
         folder = folder.parent
     if not folder.is_dir():
-        raise failure(name, OSError(errno.ENOTDIR if folder.exists() else errno.ENOENT, "not a directory"))
+        raise failure(name, OSError(errno.ENOTDIR if folder.exists() else errno.ENOENT, "not a directory"), option)
     if not os.access(folder, os.W_OK | os.X_OK):
-        raise failure(name, OSError(errno.EACCES, f"no permission to write in {folder}"))
+        raise failure(name, OSError(errno.EACCES, f"no permission to write in {folder}"), option)
 
 
 def make_folder(path: str | os.PathLike[str]) -> None:
@@ -152,7 +158,7 @@ def make_folder(path: str | os.PathLike[str]) -> None:
         raise OutputError(f"the folder {os.fspath(path)!r} cannot be made: {reason}; name another") from error
 
 
-def _checked_descriptor(name: str, binary: bool) -> int | None:
+def _checked_descriptor(name: str, binary: bool, option: str) -> int | None:
     """Give the number of the descriptor that an output is, if it is one that can be written.
 
     Standard output has none where Python is embedded in what has replaced it.
@@ -165,7 +171,7 @@ def _checked_descriptor(name: str, binary: bool) -> int | None:
     if binary and is_terminal:
         raise terminal_error()
     if number is not None:
-        with explained(spoken(name)):
+        with explained(spoken(name), option):
             check_writable(number)
     return number
 
@@ -188,9 +194,9 @@ def spoken(name: str) -> str:
 
 
 @contextmanager
-def _continuing(name: str, descriptor: int) -> Iterator[BinaryIO]:
+def _continuing(name: str, descriptor: int, option: str) -> Iterator[BinaryIO]:
     """Write what is open already, in order, after what it holds."""
-    with explained(spoken(name)), open_output_descriptor(descriptor) as out:
+    with explained(spoken(name), option), open_output_descriptor(descriptor) as out:
         yield out
 
 
@@ -203,8 +209,8 @@ def _embedded_output() -> Iterator[BinaryIO]:
         sys.stdout.buffer.flush()
 
 
-def _checked_target(name: str, no_clobber: bool, inputs: Iterable[str | os.PathLike[str]]) -> Path:
-    target = followed(name)
+def _checked_target(name: str, no_clobber: bool, inputs: Iterable[str | os.PathLike[str]], option: str) -> Path:
+    target = followed(name, option)
     exists = target.exists()
     if not name or target.is_dir() or name.endswith(os.sep):
         raise OutputError(f"{name!r} is {'a directory' if name else 'no name'}: name a file{' in it' * bool(name)}")
@@ -212,15 +218,15 @@ def _checked_target(name: str, no_clobber: bool, inputs: Iterable[str | os.PathL
         return target
     for each in inputs:
         if is_same_file(target, os.fspath(each)):
-            raise UsageError(f"{name} is also an input, which is never replaced: choose another name with -o")
+            raise UsageError(f"{name} is also an input, which is never replaced: choose another name with {option}")
     if no_clobber:
-        raise clobber_error(name)
+        raise clobber_error(name, option)
     if not os.access(target, os.W_OK):
-        raise OutputError(f"{name} cannot be written: it is write-protected; choose another name with -o")
+        raise OutputError(f"{name} cannot be written: it is write-protected; choose another name with {option}")
     return target
 
 
-def followed(name: str) -> Path:
+def followed(name: str, option: str = "-o") -> Path:
     """Follow links, so that a file is replaced and not the link to it.
 
     Raises
@@ -230,7 +236,9 @@ def followed(name: str) -> Path:
     """
     try:
         if is_of_another_process(name):
-            raise OutputError(f"{name} is open in another process, which alone can go on with it: name a file with -o")
+            raise OutputError(
+                f"{name} is open in another process, which alone can go on with it: name a file with {option}"
+            )
         target = Path(os.path.realpath(name))
         if not target.exists() and target.is_symlink():
             raise OutputError(f"{name} cannot be written: its links lead back to themselves; choose another name")
@@ -241,9 +249,9 @@ def followed(name: str) -> Path:
     return target
 
 
-def clobber_error(name: str) -> OutputError:
+def clobber_error(name: str, option: str = "-o") -> OutputError:
     """Say that an output is there already, with ``--no-clobber``."""
-    return OutputError(f"{name} exists already and --no-clobber is given: choose another name with -o")
+    return OutputError(f"{name} exists already and --no-clobber is given: choose another name with {option}")
 
 
 def _is_regular(target: Path) -> bool:
@@ -265,21 +273,21 @@ def is_same_file(target: Path, source: str) -> bool:
 
 
 @contextmanager
-def _direct(name: str, target: Path, binary: bool) -> Iterator[BinaryIO]:
+def _direct(name: str, target: Path, binary: bool, option: str) -> Iterator[BinaryIO]:
     """Write to a pipe or a device."""
-    with explained(name), open_onward(target) as out:
+    with explained(name, option), open_onward(target) as out:
         if binary and out.isatty():
             raise terminal_error()
         yield out
 
 
 @contextmanager
-def _replacing(name: str, target: Path, no_clobber: bool) -> Iterator[BinaryIO]:
-    with explained(name), temporary_beside(target, partial(_create, target=target)) as temporary:
+def _replacing(name: str, target: Path, no_clobber: bool, option: str) -> Iterator[BinaryIO]:
+    with explained(name, option), temporary_beside(target, partial(_create, target=target)) as temporary:
         with temporary.opened() as out:
             yield out
         if no_clobber and target.exists():
-            raise clobber_error(name)
+            raise clobber_error(name, option)
         temporary.move_to(target)
 
 
@@ -292,27 +300,31 @@ def _create(temporary: Path, target: Path) -> int:
 
 
 @contextmanager
-def explained(name: str) -> Iterator[None]:
+def explained(name: str, option: str = "-o") -> Iterator[None]:
     """Turn what the system says of an output into an `OutputError` that names it."""
     try:
         yield
     except (BrokenPipeError, VorotoolError):
         raise
     except OSError as error:
-        raise failure(name, error) from error
+        raise failure(name, error, option) from error
 
 
-def failure(name: str, error: OSError) -> OutputError:
+def failure(name: str, error: OSError, option: str = "-o") -> OutputError:
     """Say why an output cannot be written, and what to do."""
+    elsewhere = f"write elsewhere with {option}"
     advice = {
         "ENOENT": "create the directory first",
         "ENOTDIR": "a part of the path is a file, choose another folder",
-        "ENOSPC": "free some space, or write elsewhere with -o",
-        "EDQUOT": "free some space, or write elsewhere with -o",
+        "ENOSPC": f"free some space, or {elsewhere}",
+        "EDQUOT": f"free some space, or {elsewhere}",
     }
-    code = _error_name(error)
-    reason = "the directory does not exist" if code == "ENOENT" else error.strerror or error
-    return OutputError(f"{name} cannot be written: {reason}; {advice.get(code, 'write elsewhere with -o')}")
+    code, reason = _error_name(error), error.strerror or error
+    if code == "ENOENT":
+        reason = "the directory does not exist"
+        if (folder := Path(name).parent).is_dir():  # as in /proc and /dev/fd, which are made by the system
+            code, reason = "", f"no file can be made in {folder}"
+    return OutputError(f"{name} cannot be written: {reason}; {advice.get(code, elsewhere)}")
 
 
 def _error_name(error: OSError) -> str:

@@ -78,7 +78,10 @@ def read_npz(source: Source, options: PointOptions) -> PointSet:
     lengths = {len(values) for values in columns.values()}
     if len(lengths) != 1:
         held = "no arrays" if not lengths else f"arrays of {min(lengths)} to {max(lengths)} values"
-        raise InputError(f"{source.name} is no table: it holds {held}; give one whose columns are of one length")
+        raise InputError(
+            f"{source.name} is no table: it holds {held}; give one whose columns are of one length, and of a "
+            "skeleton or offset curves the table (--what points -f npz) or the JSON"
+        )
     kept = {name: values for name, values in columns.items() if not name.endswith(_MISSING)}
     values = {name: _present(values, columns.get(f"{name}{_MISSING}")) for name, values in kept.items()}
     return _points_of(source.name, values, options)

@@ -148,6 +148,11 @@ def text_source(source: Source) -> Source:
     """Take the byte order mark off, and refuse what is no text in an encoding that is read."""
     if source.data.startswith(_UTF16_MARKS):
         raise InputError(f"{source.name} is UTF-16 text; save it as UTF-8 (iconv -f UTF-16 -t UTF-8)")
+    if source.data.startswith(NPZ_MAGIC):
+        raise InputError(
+            f"{source.name} is an NPZ or ZIP archive, which is read as a table of points only: of polygons, skeletons "
+            "and offset curves give the JSON (-f json), unpack others"
+        )
     if b"\0" in source.data[:4096]:
         raise InputError(
             f"{source.name} is binary, not points or polygons; use CSV, .node, NPY, .poly, GeoJSON, WKT or JSON, or "

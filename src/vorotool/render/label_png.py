@@ -26,6 +26,7 @@ def picture_bands(
     palette: PicturePalette,
     colour_of_label: NDArray[Any],
     diagram: Iterable[NDArray[np.bool_]] | None = None,
+    halo: Iterable[NDArray[np.bool_]] | None = None,
     seeds: SeedSet | None = None,
     frame: Frame | None = None,
     names: Names | None = None,
@@ -45,6 +46,8 @@ def picture_bands(
         Colour class by label; entry 0, for no label, is 0.
     diagram : iterable of (rows, W) bool arrays, optional
         The pixels to draw black, in the same bands as the labels.
+    halo : iterable of (rows, W) bool arrays, optional
+        The pixels around the diagram to draw white, likewise.
     seeds : SeedSet, optional
         Drawn as discs.
     frame : Frame, optional
@@ -76,11 +79,14 @@ def picture_bands(
     wanted = checked_layers(layers, LAYERS)
     classes = np.asarray(colour_of_label).astype(np.uint8)
     masks = iter(diagram) if diagram is not None and "diagram" in wanted else None
+    edges = iter(halo) if halo is not None and masks is not None else None
     discs = _Discs(seeds, frame or Frame(0, 0, shape[1], shape[0])) if seeds and "seeds" in wanted else None
     letters = _Letters(names, palette) if names is not None and "labels" in wanted else None
     top = 0
     for labels in bands:
         picture = classes[labels] if "cells" in wanted else np.zeros(labels.shape, np.uint8)
+        if edges is not None:
+            picture[next(edges)] = palette.halo
         if masks is not None:
             picture[next(masks)] = palette.line
         if discs is not None:
@@ -133,6 +139,24 @@ def over_image(
         beneath[...] = np.where(is_line[..., None], colour, np.where(index[..., None] > 0, mixed, beneath))
         row += len(band)
     return made.reshape(height, -1)
+
+
+def around(lines: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Give the pixels beside those of lines, corner to corner, too: an edge that shows them on any ground.
+
+    Examples
+    --------
+    >>> around(np.array([[False, False, False, True]])).tolist()
+    [[False, False, True, False]]
+    """
+    made = lines.copy()
+    for step in (np.s_[1:, :], np.s_[:, 1:]):
+        back = tuple(slice(None, -1) if part.start else part for part in step)
+        grown = made.copy()
+        grown[step] |= made[back]
+        grown[back] |= made[step]
+        made = grown
+    return made & ~lines
 
 
 def checked_layers(layers: Iterable[str], known: tuple[str, ...]) -> frozenset[str]:

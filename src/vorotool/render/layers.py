@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.box import bounds
 from vorotool.geometry.circular_arcs import chords_of
-from vorotool.render.palettes import INK, SEED
+from vorotool.render.palettes import INK, SEED, WHITE
 
 MARGIN = 0.02
 """Of the larger side of the data, on each side of the page."""
@@ -296,6 +296,27 @@ def name_size(page: Page, count: int) -> float:
 
 
 Layer = Lines | Curves | Polygons | Points | Texts | Arcs
+
+
+def with_halos(layers: Sequence[Layer]) -> list[Layer]:
+    """Put a white edge of up to 1 px beneath each layer of lines, so that they show on dark and on light ground.
+
+    Examples
+    --------
+    >>> line = Lines("edges", np.zeros((2, 2)), np.array([[0, 1]], dtype=np.int32))
+    >>> [(layer.name, layer.colour, layer.width) for layer in with_halos([line])]
+    [('edges-halo', '#ffffff', 3.5), ('edges', '#222222', 1.5)]
+    """
+    made: list[Layer] = []
+    for layer in layers:
+        if isinstance(layer, Lines | Curves | Arcs):
+            width = layer.width + min(2.0, 2 * layer.width)  # lines that are fine, as there are many, leave room
+            wider = replace(layer, name=f"{layer.name}-halo", width=width)
+            made.append(
+                replace(wider, edge=WHITE, fill=None) if isinstance(wider, Arcs) else replace(wider, colour=WHITE)
+            )
+        made.append(layer)
+    return made
 
 
 def bounds_of(layers: Iterable[Layer]) -> tuple[float, float, float, float]:

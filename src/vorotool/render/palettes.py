@@ -62,7 +62,7 @@ LINE_ON_PAPER = _triples([WHITE, LINE])
 class PicturePalette(NamedTuple):
     """Colours of a palette picture: 0 is white for no label, c is colour class c, then line and seed.
 
-    The halo of letters, last, is white as well; -1 if there are none.
+    The halo of letters and lines, last, is white as well; -1 if there are none.
     """
 
     colours: NDArray[np.uint8]
@@ -90,7 +90,7 @@ def cell_colour(colour_class: int) -> str:
     return "#" + "".join(f"{round(255 * channel):02x}" for channel in rgb)
 
 
-def picture_palette(classes: int, *, has_letters: bool = False) -> PicturePalette:
+def picture_palette(classes: int, *, has_halo: bool = False) -> PicturePalette:
     """Palette for pictures with colour classes 1 to ``classes``; the same for all that need at most 12.
 
     Raises
@@ -104,9 +104,9 @@ def picture_palette(classes: int, *, has_letters: bool = False) -> PicturePalett
     >>> palette.colours.shape, palette.line, palette.seed, palette.bit_depth
     ((15, 3), 13, 14, 4)
     """
-    if classes > MOST_CLASSES - has_letters:
+    if classes > MOST_CLASSES - has_halo:
         raise LimitError(f"{classes} colour classes: a palette picture has at most {MOST_CLASSES}, use -f svg")
     count = max(classes, len(CELLS))
-    names = [*(cell_colour(c) for c in range(count + 1)), LINE, SEED, *([WHITE] if has_letters else [])]
-    halo = count + 3 if has_letters else -1
+    names = [*(cell_colour(c) for c in range(count + 1)), LINE, SEED, *([WHITE] if has_halo else [])]
+    halo = count + 3 if has_halo else -1
     return PicturePalette(_triples(names), count + 1, count + 2, 4 if len(names) <= 16 else 8, halo)

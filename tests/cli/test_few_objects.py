@@ -1,0 +1,134 @@
+"""Fields with nothing or too little in them: what is written is empty, with a warning, and a batch goes on."""
+
+import csv
+import io
+import json
+
+import numpy as np
+import pytest
+
+ONE = "there is 1 point: an alpha shape needs at least two distinct points"
+TWO = "two points span no triangle, so no r gives a region that holds them: give r itself (-r)"
+LINE = "3 points on a line span no triangle, so no r gives a region that holds them: give r itself (-r)"
+COLLECTION = {"type": "FeatureCollection", "features": []}
+
+
+@pytest.fixture
+def fields(folder):
+    """Masks of one object, of two, of three in a row, and of three that span a triangle; flat images."""
+    mask = np.zeros((24, 30), np.uint8)
+    for name, x, y in (("one", 4, 3), ("two", 12, 3), ("line", 20, 3)):
+        mask[y : y + 3, x : x + 2] = 255
+        np.save(folder / f"{name}.npy", mask)
+    mask[15:18, 4:6] = 255
+    np.save(folder / "many.npy", mask)
+    for value in (0, 93, 255):
+        np.save(folder / f"flat{value}.npy", np.full((8, 9), value, np.uint8))
+    return folder
+
+
+def test_a_batch_of_fields_with_few_objects_goes_on(run, fields):
+    names = ["one.npy", "two.npy", "line.npy", "many.npy"]
+    done = run("alphashape", *names, "--out-dir", "out", "-f", "geojson", "--table", "all.csv", "--verify")
+    assert done.code == 0
+    lines = done.err.splitlines()
+    for name, reason in zip(names, (ONE, TWO, LINE), strict=False):
+        assert f"warning: {name}: {reason}; the shape is empty" in lines
+        assert json.loads((fields / "out" / name).with_suffix(".geojson").read_text()) == COLLECTION
+    assert len(json.loads((fields / "out/many.geojson").read_text())["features"]) == 1
+    assert [row["input"] for row in csv.DictReader(io.StringIO((fields / "all.csv").read_text()))] == ["many.npy"]
+    done = run("alphashape", *names, "--out-dir", "strict", "--strict", "--keep-going")
+    assert done.code == 6
+    for name, reason in (("one.npy", f"{ONE}:"), ("two.npy", f"{TWO}, or"), ("line.npy", f"{LINE}, or")):
+        assert f"error: {name}: {reason} leave out --strict for an empty shape" in done.err.splitlines()
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        (),
+        ("-f", "json"),
+        ("-f", "npz"),
+        ("-f", "svg"),
+        ("-f", "png"),
+        ("-f", "html"),
+        ("--what", "hull"),
+        ("--what", "complex"),
+        ("--what", "table"),
+        ("--what", "polygons", "-f", "wkt"),
+        ("--method", "digital-valid", "--seeds", "centroids"),
+    ],
+    ids=" ".join,
+)
+@pytest.mark.parametrize(("name", "reason"), [("one.npy", ONE), ("two.npy", TWO), ("line.npy", LINE)])
+def test_every_output_of_an_empty_shape_is_written(run, fields, name, reason, options):
+    done = run("alphashape", name, *options, "-o", "shape", "--verify", "--stats", "stats.json",
+               *(() if "-f" in options else ("-f", "geojson" if "hull" in options else "csv")))  # fmt: skip
+    assert (done.code, done.err) == (0, f"warning: {reason}; the shape is empty\n")
+    stats = json.loads((fields / "stats.json").read_text())
+    assert (stats["r"], stats["alpha"], stats["boundary_edges"], stats["singular_edges"]) == (None, None, 0, 0)
+    assert (fields / "shape").stat().st_size > 0 or "wkt" in options  # which has nothing to say
+
+
+def test_points_of_an_empty_shape_are_isolated(run, fields):
+    done = run("alphashape", "two.npy", "--what", "points")
+    assert [row["class"] for row in csv.DictReader(io.StringIO(done.out))] == ["isolated", "isolated"]
+    done = run("alphashape", "one.npy", "-r", 5, "--what", "general", "-f", "wkt", "--verify")
+    assert (done.code, done.out) == (0, "POINT (4.5 4)\n")
+    done = run("alphashape", "two.npy", "-r", "inf")  # an r that is given is heard
+    assert (done.code, done.err, len(done.out.splitlines())) == (0, "", 2)
+
+
+def test_an_empty_shape_is_drawn(run, fields):
+    run("alphashape", "two.npy", "-f", "geojson", "-o", "shape.geojson")
+    for name in ("shape.svg", "shape.png"):
+        done = run("draw", "shape.geojson", "-o", name)
+        assert (done.code, done.err.count("warning: the picture is empty")) == (0, 1)
+
+
+@pytest.mark.parametrize("invert", [(), ("--invert",)], ids=["", "--invert"])
+@pytest.mark.parametrize("value", [0, 93, 255])
+@pytest.mark.parametrize(
+    "command",
+    [
+        ("tessellate", "--what", "table"),
+        ("tessellate", "-f", "text"),
+        ("delaunay",),
+        ("alphashape",),
+        ("skeleton-exact", "--outline", "contour", "--what", "table"),
+        ("skeleton-approx", "--step", "1", "-f", "geojson"),
+    ],
+    ids=" ".join,
+)
+def test_a_flat_image_has_no_foreground_by_otsu(run, fields, command, value, invert):
+    options = (f"flat{value}.npy", "--threshold", "otsu", *invert)
+    done = run(*command, *options, "--verify", "--stats", "stats.json")
+    assert (done.code, done.err.splitlines()) == (
+        0,
+        [
+            f"note: all pixels have the value {value}: Otsu's method finds no foreground",
+            "warning: the image has no foreground: use --invert or --threshold",
+        ],
+    )
+    assert json.loads((fields / "stats.json").read_text())["threshold"] is None
+    assert set(done.out.split()) == {"0"} or len(done.out.splitlines()) < 7
+    done = run(*command, *options, "--strict")
+    assert (done.code, "the image has no foreground" in done.err) == (3, True)
+
+
+def test_a_flat_image_does_not_stop_a_batch(run, fields):
+    done = run("tessellate", "flat93.npy", "many.npy", "--threshold", "otsu", "--out-dir", "out", "-f", "npy")
+    assert done.code == 0
+    assert not np.load(fields / "out/flat93.npy").any()
+    assert np.load(fields / "out/many.npy").all()
+
+
+@pytest.mark.parametrize(
+    "command",
+    [("delaunay",), ("delaunay", "--method", "digital"), ("skeleton-exact",), ("skeleton-exact", "--side", "exterior"),
+     ("skeleton-exact", "--what", "offset", "-d", "-2"), ("skeleton-approx", "--step", "1")],
+    ids=" ".join,
+)  # fmt: skip
+def test_an_empty_image_is_warned_of_once(run, fields, command):
+    done = run(*command, "flat0.npy")
+    assert (done.code, done.err) == (0, "warning: the image has no foreground: use --invert or --threshold\n")
