@@ -172,7 +172,7 @@ def _made(network: Network, paths: Paths, ends: Ends, *, wanted: tuple[bool, boo
     lines = Centerlines(_joined(network.skeleton, left), middles)
     is_open = ((paths.end_nodes < network.leaves) | rounds) & ~leads & np.array(wanted)
     if ends == "middle":
-        lines = led_to_oblique_ends(lines, is_open & ~rounds)
+        lines = led_to_oblique_ends(lines, (is_open | leads) & ~rounds & np.array(wanted))
     return _led_on(lines, is_open & np.isnan(lines.ends[:, :, 0]), to_middles=ends == "middle")
 
 

@@ -28,7 +28,7 @@ def led_to_oblique_ends(lines: Centerlines, wanted: Booleans) -> Centerlines:
     Parameters
     ----------
     lines : Centerlines
-        In which no end that is wanted is led on.
+        In which ends that are wanted are led on to the middle of an edge, such as a step, or not at all.
     wanted : (k, 2) bool array
         Ends that may be.
 

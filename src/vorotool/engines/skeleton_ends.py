@@ -20,6 +20,7 @@ from vorotool.engines.edge_comparisons import is_blunt, shortest
 from vorotool.engines.pruned_twigs import with_pruned_twigs
 from vorotool.engines.round_ends import grown_runs
 from vorotool.geometry.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
+from vorotool.geometry.skeleton_tables import connected_roots
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]
@@ -85,7 +86,7 @@ def unforked(skeleton: Skeleton) -> Unforked:
     >>> made.skeleton.vertices[made.skeleton.arcs[made.arcs]].tolist()
     [[[2.0, 2.0], [8.0, 2.0]], [[8.0, 2.0], [10.0, 2.0]], [[2.0, 2.0], [0.0, 2.0]]]
     """
-    known = len(skeleton)
+    known, nodes = len(skeleton), len(skeleton.vertices)
     skeleton = with_pruned_twigs(skeleton)
     branches = branches_inside(skeleton)
     twigs = corner_twigs(skeleton, branches)
@@ -96,11 +97,12 @@ def unforked(skeleton: Skeleton) -> Unforked:
     size = np.bincount(ends.run, minlength=len(twigs))[ends.run]
     at_one = twigs.node[plain.one] == twigs.node[plain.other]
     forks = plain[at_one & plain.is_blunt & (size[plain.one] == 2)].and_these(star_forks)
+    forks = forks[twigs.node[forks.one] < nodes]  # others hang on what was pruned
     in_round = np.flatnonzero((size > 2) & (size < branches.degree[twigs.node]) | np.isin(ends.run, ends.grown))
     longest = _longest_of_runs(twigs, ends.run, in_round)
     removed = np.concatenate([forks.one, forks.other, np.setdiff1d(in_round, longest)])
     of_round = np.concatenate([twigs.branch[longest], ends.inner])
-    of_round = branches.arcs(of_round)
+    of_round = _hanging_on(skeleton, branches.arcs(of_round), nodes)
     pruned = np.setdiff1d(np.arange(known, len(skeleton)), of_round)
     return _with_leads(skeleton, twigs, forks, np.append(branches.arcs(twigs.branch[removed]), pruned), of_round)
 
@@ -169,6 +171,13 @@ def _with_leads(skeleton: Skeleton, twigs: Twigs, forks: Pairs, removed: Numbers
         np.concatenate([skeleton.length, reach]),
         np.concatenate([np.arange(nodes), leaf]),
     )
+
+
+def _hanging_on(skeleton: Skeleton, arcs: Numbers, nodes: int) -> Numbers:
+    """Those of some arcs that are connected, by these, with one of the first nodes."""
+    root = connected_roots(skeleton.arcs[arcs], len(skeleton.vertices))
+    hanging: Numbers = arcs[root[skeleton.arcs[arcs, 0]] < nodes]
+    return hanging
 
 
 def _longest_of_runs(twigs: Twigs, runs: Numbers, chosen: Numbers) -> Numbers:
