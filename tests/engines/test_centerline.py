@@ -188,6 +188,58 @@ def test_a_ring_is_gone_round_as_before():
     assert middle.path.vertices.tolist() == corner.path.vertices.tolist()
 
 
+def regular(count, turn):
+    """A polygon around the origin, whose coordinates are rounded."""
+    turns = turn + np.arange(count) * (2 * np.pi / count)
+    return np.stack([10 * np.cos(turns), 10 * np.sin(turns)], axis=1)
+
+
+@pytest.mark.parametrize("count", [5, 6, 8, 9, 24])
+def test_a_regular_polygon_is_gone_through_straight_however_it_is_turned(count):
+    found = []
+    for turn in np.arange(12) * 0.15:
+        line = np.array(places(regular(count, turn).tolist()))
+        corner, middle = sorted(line[[0, -1]], key=lambda place: -np.hypot(*place))
+        assert np.hypot(*corner) == pytest.approx(10)
+        assert np.hypot(*middle) == pytest.approx(10 * np.cos(np.pi / count) if count % 2 else 10)
+        assert np.abs(line[:, 0] * corner[1] - line[:, 1] * corner[0]).max() < 1e-5
+        found.append((np.degrees(np.arctan2(*corner[::-1]) - turn) + 1) % (360 if count % 2 else 180))
+    assert np.ptp(found) < 1e-5  # the same corner
+
+
+def test_a_round_polygon_is_gone_through_where_it_is_longest():
+    for stretch in (1.02, 1.1, 1.2, 1.3):
+        for turn in (0.1, 0.4, 2.0):
+            c, s = np.cos(turn), np.sin(turn)
+            ellipse = (regular(24, 0) * [stretch, 1]) @ [[c, s], [-s, c]]
+            line = ends(ellipse.tolist())
+            assert np.abs(np.subtract(*line)) == pytest.approx(20 * stretch * np.abs([c, s]), abs=1e-4)
+
+
+PLATES = [
+    ([[0, 0], [10, 0], [10, 10], [0, 10]], [(3, 3, 4, 4)]),
+    ([[0, 0], [20, 0], [20, 10], [0, 10]], [(3, 3, 4, 4), (13, 3, 4, 4)]),
+    ([[0, 0], [20, 0], [20, 10], [0, 10]], [(1, 1, 18, 8)]),
+    ([[0, 0], [20, 0], [20, 10], [0, 10]], [(9, 4, 2, 2)]),
+]
+
+
+@pytest.mark.parametrize(("shell", "holes"), PLATES)
+def test_a_plate_with_holes_has_no_end_in_its_corners(shell, holes):
+    rings = [[[x, y], [x, y + h], [x + w, y + h], [x + w, y]] for x, y, w, h in holes]
+    skeleton = vorotool.skeleton_exact([{"shell": shell, "holes": rings}])
+    whole, pruned = vorotool.centerline(skeleton), vorotool.centerline(vorotool.prune(skeleton, scale=1.5))
+    assert np.isnan(whole.ends).all()
+    assert whole.length == pytest.approx(pruned.length)
+    assert (whole.path.radius > 0).all()
+
+
+def test_a_plate_with_holes_is_led_into_its_tips():
+    hole = [[9, 4], [9, 6], [11, 6], [11, 4]]
+    tip = {"shell": [[0, 0], [16, 0], [40, 5], [16, 10], [0, 10]], "holes": [hole]}
+    assert [40, 5] in ends([tip])
+
+
 def random_polygon(random):
     """Around the origin, with spikes or without."""
     count = int(random.integers(4, 14))

@@ -53,6 +53,9 @@ def centerline(
 
     A triangle without tips has its end at the shortest edge, and a centerline from there to the corner opposite; a
     quadrilateral around a circle, such as a square, has two at opposite edges without tips; of equal ones the first.
+    Other polygons that are all one round end have none: the centerline goes from the corner farthest from the middle of
+    the largest disc straight through that middle. Neither have plates with holes in corners that are beside a cycle and
+    much like both corners beside them.
 
     Trees take linear time. Let a skeleton have F branches on cycles, and trees at K places of these (all nodes, if
     there is no tree): that takes at most K searches in F branches, most of which bounds on distances save.
