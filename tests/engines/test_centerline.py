@@ -8,6 +8,7 @@ import shapely
 
 import vorotool
 from centerline_oracle import expected
+from vorotool.engines.boundary_rays import first_hits
 from vorotool.errors import InputError, UsageError, VorotoolWarning
 
 RECTANGLE = [[0, 0], [10, 0], [10, 4], [0, 4]]
@@ -306,6 +307,25 @@ def test_no_feature_changes_the_line_of_another():
     for k, shape in enumerate(apart):
         alone = vorotool.centerline(vorotool.skeleton_exact([shape])).flattened(1)[0]
         assert points[start[k] : start[k + 1]] == pytest.approx(alone, abs=1e-6)
+
+
+@pytest.mark.parametrize("count", [8, 32])
+def test_no_coordinate_is_rounding_alone(count):
+    turns = np.linspace(-np.pi / 2, np.pi / 2, count + 1)
+    half = np.round(np.stack([2 * np.cos(turns), 2 * np.sin(turns)], axis=1), 3)
+    slot = [*np.add(half, [10, 0]).tolist(), *(-half).tolist()]
+    assert sorted(places(slot)) == [[-2, 0], [12, 0]]
+    round_polygon = np.round(regular(count, 0) * [1.3, 1], 3)
+    values = np.abs(places(round_polygon.tolist()))
+    assert ((values == 0) | (values > 1e-6)).all()
+
+
+def test_lines_that_are_led_on_end_on_edges_exactly():
+    random = np.random.default_rng(3)
+    square = vorotool.skeleton_exact(RECTANGLE).polygons
+    ways = random.standard_normal((1000, 2))
+    found, _ = first_hits(square, np.zeros(1000, dtype=int), np.full((1000, 2), [3.1, 1.7]), ways)
+    assert (np.isin(found[:, 0], [0, 10]) | np.isin(found[:, 1], [0, 4])).all()
 
 
 def test_what_is_refused():
