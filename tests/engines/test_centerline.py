@@ -8,6 +8,7 @@ import shapely
 
 import vorotool
 from centerline_oracle import expected
+from vorotool.engines.boundary_rays import first_hits
 from vorotool.errors import InputError, UsageError, VorotoolWarning
 
 RECTANGLE = [[0, 0], [10, 0], [10, 4], [0, 4]]
@@ -188,6 +189,58 @@ def test_a_ring_is_gone_round_as_before():
     assert middle.path.vertices.tolist() == corner.path.vertices.tolist()
 
 
+def regular(count, turn):
+    """A polygon around the origin, whose coordinates are rounded."""
+    turns = turn + np.arange(count) * (2 * np.pi / count)
+    return np.stack([10 * np.cos(turns), 10 * np.sin(turns)], axis=1)
+
+
+@pytest.mark.parametrize("count", [5, 6, 8, 9, 24])
+def test_a_regular_polygon_is_gone_through_straight_however_it_is_turned(count):
+    found = []
+    for turn in np.arange(12) * 0.15:
+        line = np.array(places(regular(count, turn).tolist()))
+        corner, middle = sorted(line[[0, -1]], key=lambda place: -np.hypot(*place))
+        assert np.hypot(*corner) == pytest.approx(10)
+        assert np.hypot(*middle) == pytest.approx(10 * np.cos(np.pi / count) if count % 2 else 10)
+        assert np.abs(line[:, 0] * corner[1] - line[:, 1] * corner[0]).max() < 1e-5
+        found.append((np.degrees(np.arctan2(*corner[::-1]) - turn) + 1) % (360 if count % 2 else 180))
+    assert np.ptp(found) < 1e-5  # the same corner
+
+
+def test_a_round_polygon_is_gone_through_where_it_is_longest():
+    for stretch in (1.02, 1.1, 1.2, 1.3):
+        for turn in (0.1, 0.4, 2.0):
+            c, s = np.cos(turn), np.sin(turn)
+            ellipse = (regular(24, 0) * [stretch, 1]) @ [[c, s], [-s, c]]
+            line = ends(ellipse.tolist())
+            assert np.abs(np.subtract(*line)) == pytest.approx(20 * stretch * np.abs([c, s]), abs=1e-4)
+
+
+PLATES = [
+    ([[0, 0], [10, 0], [10, 10], [0, 10]], [(3, 3, 4, 4)]),
+    ([[0, 0], [20, 0], [20, 10], [0, 10]], [(3, 3, 4, 4), (13, 3, 4, 4)]),
+    ([[0, 0], [20, 0], [20, 10], [0, 10]], [(1, 1, 18, 8)]),
+    ([[0, 0], [20, 0], [20, 10], [0, 10]], [(9, 4, 2, 2)]),
+]
+
+
+@pytest.mark.parametrize(("shell", "holes"), PLATES)
+def test_a_plate_with_holes_has_no_end_in_its_corners(shell, holes):
+    rings = [[[x, y], [x, y + h], [x + w, y + h], [x + w, y]] for x, y, w, h in holes]
+    skeleton = vorotool.skeleton_exact([{"shell": shell, "holes": rings}])
+    whole, pruned = vorotool.centerline(skeleton), vorotool.centerline(vorotool.prune(skeleton, scale=1.5))
+    assert np.isnan(whole.ends).all()
+    assert whole.length == pytest.approx(pruned.length)
+    assert (whole.path.radius > 0).all()
+
+
+def test_a_plate_with_holes_is_led_into_its_tips():
+    hole = [[9, 4], [9, 6], [11, 6], [11, 4]]
+    tip = {"shell": [[0, 0], [16, 0], [40, 5], [16, 10], [0, 10]], "holes": [hole]}
+    assert [40, 5] in ends([tip])
+
+
 def random_polygon(random):
     """Around the origin, with spikes or without."""
     count = int(random.integers(4, 14))
@@ -254,6 +307,25 @@ def test_no_feature_changes_the_line_of_another():
     for k, shape in enumerate(apart):
         alone = vorotool.centerline(vorotool.skeleton_exact([shape])).flattened(1)[0]
         assert points[start[k] : start[k + 1]] == pytest.approx(alone, abs=1e-6)
+
+
+@pytest.mark.parametrize("count", [8, 32])
+def test_no_coordinate_is_rounding_alone(count):
+    turns = np.linspace(-np.pi / 2, np.pi / 2, count + 1)
+    half = np.round(np.stack([2 * np.cos(turns), 2 * np.sin(turns)], axis=1), 3)
+    slot = [*np.add(half, [10, 0]).tolist(), *(-half).tolist()]
+    assert sorted(places(slot)) == [[-2, 0], [12, 0]]
+    round_polygon = np.round(regular(count, 0) * [1.3, 1], 3)
+    values = np.abs(places(round_polygon.tolist()))
+    assert ((values == 0) | (values > 1e-6)).all()
+
+
+def test_lines_that_are_led_on_end_on_edges_exactly():
+    random = np.random.default_rng(3)
+    square = vorotool.skeleton_exact(RECTANGLE).polygons
+    ways = random.standard_normal((1000, 2))
+    found, _ = first_hits(square, np.zeros(1000, dtype=int), np.full((1000, 2), [3.1, 1.7]), ways)
+    assert (np.isin(found[:, 0], [0, 10]) | np.isin(found[:, 1], [0, 4])).all()
 
 
 def test_what_is_refused():

@@ -19,7 +19,7 @@ def line_of(mask, **options):
     return vorotool.centerline(vorotool.prune(vorotool.skeleton_exact(vorotool.outlines(mask)), scale=1.5), **options)
 
 
-@pytest.mark.parametrize("step", [0, 0.25, 0.5, 1, -0.25, -0.5, -1])
+@pytest.mark.parametrize("step", [0, 0.1, 0.15, 0.2, 0.25, 0.5, 1, -0.1, -0.15, -0.2, -0.25, -0.5, -1])
 def test_a_stroke_ends_in_the_middle_of_its_cut(step):
     mask = stroke(step)
     places = line_of(mask).flattened(0.01)[0]

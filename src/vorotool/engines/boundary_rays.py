@@ -80,6 +80,8 @@ def _hits(
     order = order[np.isfinite(distance[order])]
     places, vertices = np.full((len(size), 2), np.nan), np.full(len(size), -1, dtype=np.intp)
     found = ray[met][order]
-    places[found] = origin[found] + distance[order][:, None] * way[found]
     vertices[found] = vertex[met][order]
+    a, b = polygons.xy[vertices[found]], polygons.xy[polygons.following[vertices[found]]]
+    place = origin[found] + distance[order][:, None] * way[found]
+    places[found] = np.where(a == b, a, place)  # exactly on edges along an axis
     return places, vertices

@@ -53,6 +53,9 @@ def centerline(
 
     A triangle without tips has its end at the shortest edge, and a centerline from there to the corner opposite; a
     quadrilateral around a circle, such as a square, has two at opposite edges without tips; of equal ones the first.
+    Other polygons that are all one round end have none: the centerline goes from the corner farthest from the middle of
+    the largest disc straight through that middle. Neither have plates with holes in corners that are beside a cycle and
+    much like both corners beside them.
 
     Trees take linear time. Let a skeleton have F branches on cycles, and trees at K places of these (all nodes, if
     there is no tree): that takes at most K searches in F branches, most of which bounds on distances save.
@@ -168,12 +171,12 @@ def _made(network: Network, paths: Paths, ends: Ends, *, wanted: tuple[bool, boo
     left = _without(pieces, is_lead, is_lead | is_round)
     if ends == "none":
         path = _joined(network.skeleton, _with_length(left))
-        return Centerlines(path, np.full((int(path.branch.max(initial=-1)) + 1, 2, 2), np.nan))
+        return _rounded(Centerlines(path, np.full((int(path.branch.max(initial=-1)) + 1, 2, 2), np.nan)))
     lines = Centerlines(_joined(network.skeleton, left), middles)
     is_open = ((paths.end_nodes < network.leaves) | rounds) & ~leads & np.array(wanted)
     if ends == "middle":
-        lines = led_to_oblique_ends(lines, is_open & ~rounds)
-    return _led_on(lines, is_open & np.isnan(lines.ends[:, :, 0]), to_middles=ends == "middle")
+        lines = led_to_oblique_ends(lines, (is_open | leads) & ~rounds & np.array(wanted))
+    return _rounded(_led_on(lines, is_open & np.isnan(lines.ends[:, :, 0]), to_middles=ends == "middle"))
 
 
 def _marked(axis: Unforked, pieces: _Pieces, start: NDArray[np.int64]) -> tuple[Booleans, Booleans]:
@@ -248,6 +251,26 @@ def _joined(skeleton: Skeleton, pieces: _Pieces) -> Skeleton:
         error_bound=skeleton.error_bound[arc],
         frame=None,
     )
+
+
+def _rounded(lines: Centerlines) -> Centerlines:
+    """Places to as many binary places as doubles have at the largest coordinate of their polygon.
+
+    A place is a difference of such numbers: what it has beyond is rounding, such as 1e-32 for what is 0.
+    """
+    polygons, path = lines.path.polygons, lines.path
+    if not len(lines):
+        return lines
+    largest = np.maximum.reduceat(np.abs(polygons.xy), polygons.ring_start[polygons.polygon_start[:-1]], axis=0)
+    shift = 53 - np.frexp(largest.max(axis=1))[1]  # 53 binary places: the largest coordinates are what they were
+    of_nodes = np.zeros(len(path.vertices), dtype=np.int64)
+    of_nodes[path.arcs] = shift[path.polygon][:, None]
+
+    def rounded(places: Floats, by: NDArray[np.integer]) -> Floats:
+        return np.asarray(np.ldexp(np.rint(np.ldexp(places, by)), -by) + 0.0)
+
+    ends = rounded(lines.ends, shift[lines.polygon][:, None, None])
+    return Centerlines(replace(path, vertices=rounded(path.vertices, of_nodes[:, None])), ends)
 
 
 # ---- to the boundary ------------------------------------------------------------------------------

@@ -12,6 +12,8 @@ from vorotool.geometry.exact_products import difference, product
 
 Floats = NDArray[np.float64]
 
+TIE = 2.0**-20
+"""A millionth: far more than equal lengths differ by once vertices are placed on a lattice of 2^-30 of the extent."""
 UNCERTAIN = 2.0**-48
 """Of the sum of magnitudes: products of four differences and their sums have errors of at most 12 roundings each."""
 

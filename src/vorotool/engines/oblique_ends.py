@@ -18,17 +18,21 @@ Booleans = NDArray[np.bool_]
 WIDTH = 4.0
 """In radii of the place where the path comes to an edge: an end is no longer. A stroke cut at 30 degrees has 4."""
 
+STEEP = (1 - 0.5**0.5) / 2
+"""Square of the sine of half of 45 degrees: by so much radii fall along the way into such a corner, which is no tip."""
+
 
 def led_to_oblique_ends(lines: Centerlines, wanted: Booleans) -> Centerlines:
     """Cut off what leads along one edge into its corner, and lead on to the middle of that edge.
 
     In outlines of pixels this is for an edge between two corners, no longer than `WIDTH` radii, beside all arcs from
-    some place of the path to its end, where the radius is half as large at most; of two such edges the longer one.
+    some place of the path to its end, where the radius is half as large at most, or falls on the way as into a corner
+    of 45 degrees or more; of two such edges the longer one.
 
     Parameters
     ----------
     lines : Centerlines
-        In which no end that is wanted is led on.
+        In which ends that are wanted are led on to the middle of an edge, such as a step, or not at all.
     wanted : (k, 2) bool array
         Ends that may be.
 
@@ -98,7 +102,9 @@ def _middle(lines: Centerlines, arcs: Numbers, cut: int, end: int, vertex: int) 
     a, b = polygons.xy[vertex], polygons.xy[polygons.following[vertex]]
     (x, y), most = b - a, WIDTH * path.radius[node]
     is_short = x * x + y * y <= most * most
-    if not is_short or path.radius[last] > path.radius[node] / 2:
+    (u, v), fall = path.vertices[last] - path.vertices[node], path.radius[node] - path.radius[last]
+    is_steep = fall > 0 and fall * fall >= STEEP * (u * u + v * v)
+    if not is_short or not (is_steep or path.radius[last] <= path.radius[node] / 2):
         return None
     middle: Floats = a / 2 + b / 2
     origin = path.vertices[node]

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.engines.edge_comparisons import TIE
 from vorotool.engines.label_arrays import Progress
 from vorotool.engines.pruning import skeleton_arrays
 from vorotool.engines.skeleton_ends import Unforked
@@ -18,9 +19,6 @@ Floats = NDArray[np.float64]
 Indices = NDArray[np.int32]
 Booleans = NDArray[np.bool_]
 Place = tuple[float, float]
-
-TIE = 2.0**-20
-"""A millionth: far more than equal lengths differ by once vertices are placed on a lattice of 2^-30 of the extent."""
 
 
 def geometry_of(skeleton: Skeleton, arc: Indices, first: Floats, last: Floats) -> dict[str, Floats]:

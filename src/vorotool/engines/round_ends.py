@@ -22,6 +22,9 @@ Numbers = NDArray[np.intp]
 NEAR = 0.5
 """In radii of the junction that an end grows to: how far other junctions of the end may be from it."""
 
+MOST_WITH_ENDS = 4
+"""Corners of polygons around a circle that have ends: triangles and quadrilaterals."""
+
 
 @dataclass(eq=False)
 class _End:
@@ -35,6 +38,8 @@ class _End:
     depth: float
     cosine: float
     """Of the corner that turns least: the largest."""
+    is_closed: bool = False
+    """Whether it goes all around its polygon."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,13 +52,17 @@ class RoundEnds:
         Twigs of one run have the same number.
     grown : (g,) integer array
         Those runs that are over several junctions.
-    inner : (k,) integer array
-        Branches between these.
+    closed : (c,) integer array
+        Those of these that go all around a polygon.
+    inner, around : (k,) integer array
+        Branches between the twigs of those that do not, and of those that do.
     """
 
     run: Numbers
     grown: Numbers
+    closed: Numbers
     inner: Numbers
+    around: Numbers
 
 
 def grown_runs(branches: Branches, radius: NDArray[np.float64], twigs: Twigs, pairs: Pairs) -> RoundEnds:
@@ -85,9 +94,13 @@ def grown_runs(branches: Branches, radius: NDArray[np.float64], twigs: Twigs, pa
     grown = [end for end in growth.grow(run) if end.inner]
     for end in sorted(grown, key=lambda end: len(end.twigs)):  # one that was joined by another before that
         run[end.twigs] = min(end.twigs)
-    inner = {k for end in grown for k in end.inner}
+    inner = {k for end in grown for k in end.inner if not end.is_closed}
+    around = {k for end in grown for k in end.inner if end.is_closed}
     numbers = {int(run[end.twigs[0]]) for end in grown}
-    return RoundEnds(run, *(np.array(sorted(values), dtype=np.intp) for values in (numbers, inner)))
+    closed = {int(run[end.twigs[0]]) for end in grown if end.is_closed}
+    return RoundEnds(
+        run, *(np.array(sorted(values), dtype=np.intp) for values in (numbers, closed, inner - around, around))
+    )
 
 
 @dataclass(eq=False)
@@ -177,7 +190,14 @@ class _Growth:
             return None
         if on >= 0:
             return None if parts else made
-        is_tip = len(parts) == 1 and parts[0].branch < 0 and not made.edges & parts[0].edges & self.blunt
+        if len(parts) != 1:
+            return None
+        (last,) = parts
+        is_round = len(made.twigs) + len(last.twigs) > MOST_WITH_ENDS
+        if is_round and made.edges == last.edges and made.edges <= self.blunt:
+            inner = [*made.inner, *last.inner, *([] if last.branch < 0 else [last.branch])]
+            return replace(made, twigs=[*made.twigs, *last.twigs], inner=inner, branch=-1, is_closed=True)
+        is_tip = last.branch < 0 and not made.edges & last.edges & self.blunt
         return replace(made, branch=-1) if is_tip else None
 
     def _depth(self, part: _End) -> float:

@@ -4,7 +4,9 @@ Two twigs of one junction are *beside each other* if they have an edge in common
 (`vorotool.engines.edge_comparisons.is_blunt`), which the skeleton leads into. Twigs beside each other make runs. A run
 of two is the *fork* of their edge; a run of more is a *round end*, also over several junctions near each other
 (`vorotool.engines.round_ends`). Where all arcs of a junction are twigs, the polygon is around a circle: see
-`_forks_of_stars`.
+`_forks_of_stars`. Where a run goes all around a polygon with more than four edges, all spokes are much the same and
+none is an end: the centerline is led from the farthest corner straight through the middle. A twig beside no other, at
+a junction between cycles, is no end if its corner is much like both beside it: one of a plate with holes.
 """
 
 from __future__ import annotations
@@ -16,10 +18,12 @@ from numpy.typing import NDArray
 
 from vorotool.engines.boundary_rays import first_hits
 from vorotool.engines.corner_twigs import Branches, Pairs, Twigs, branches_inside, corner_twigs, pairs_of
-from vorotool.engines.edge_comparisons import is_blunt, shortest
+from vorotool.engines.edge_comparisons import TIE, is_blunt, shortest
+from vorotool.engines.passed_corners import are_passed
 from vorotool.engines.pruned_twigs import with_pruned_twigs
-from vorotool.engines.round_ends import grown_runs
+from vorotool.engines.round_ends import MOST_WITH_ENDS, grown_runs
 from vorotool.geometry.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
+from vorotool.geometry.skeleton_tables import connected_roots
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]
@@ -85,7 +89,7 @@ def unforked(skeleton: Skeleton) -> Unforked:
     >>> made.skeleton.vertices[made.skeleton.arcs[made.arcs]].tolist()
     [[[2.0, 2.0], [8.0, 2.0]], [[8.0, 2.0], [10.0, 2.0]], [[2.0, 2.0], [0.0, 2.0]]]
     """
-    known = len(skeleton)
+    known, nodes = len(skeleton), len(skeleton.vertices)
     skeleton = with_pruned_twigs(skeleton)
     branches = branches_inside(skeleton)
     twigs = corner_twigs(skeleton, branches)
@@ -96,16 +100,44 @@ def unforked(skeleton: Skeleton) -> Unforked:
     size = np.bincount(ends.run, minlength=len(twigs))[ends.run]
     at_one = twigs.node[plain.one] == twigs.node[plain.other]
     forks = plain[at_one & plain.is_blunt & (size[plain.one] == 2)].and_these(star_forks)
-    in_round = np.flatnonzero((size > 2) & (size < branches.degree[twigs.node]) | np.isin(ends.run, ends.grown))
+    forks = forks[twigs.node[forks.one] < nodes]  # others hang on what was pruned
+    around = np.where(is_settled[twigs.node] & (branches.degree[twigs.node] > MOST_WITH_ENDS), twigs.node, -1)
+    around = np.where(np.isin(ends.run, ends.closed), len(branches.degree) + ends.run, around)
+    farthest = _farthest_around(skeleton, twigs, around)
+    is_round = (size > 2) & (size < branches.degree[twigs.node]) | np.isin(ends.run, ends.grown)
+    in_round = np.flatnonzero(is_round & (around < 0))
     longest = _longest_of_runs(twigs, ends.run, in_round)
-    removed = np.concatenate([forks.one, forks.other, np.setdiff1d(in_round, longest)])
-    of_round = np.concatenate([twigs.branch[longest], ends.inner])
-    of_round = branches.arcs(of_round)
-    pruned = np.setdiff1d(np.arange(known, len(skeleton)), of_round)
-    return _with_leads(skeleton, twigs, forks, np.append(branches.arcs(twigs.branch[removed]), pruned), of_round)
+    others = np.setdiff1d(np.append(in_round, np.flatnonzero(around >= 0)), np.append(longest, farthest))
+    is_end = is_round | (around >= 0)
+    is_end[forks.one] = is_end[forks.other] = True
+    others = np.append(others, np.flatnonzero(~is_end & are_passed(skeleton, branches, twigs)))
+    removed = branches.arcs(
+        np.concatenate([twigs.branch[forks.one], twigs.branch[forks.other], twigs.branch[others], ends.around])
+    )
+    of_round = _hanging_on(skeleton, branches.arcs(np.append(twigs.branch[longest], ends.inner)), nodes)
+    pruned = np.setdiff1d(np.arange(known, len(skeleton)), np.append(of_round, branches.arcs(twigs.branch[farthest])))
+    return _with_leads(skeleton, twigs, forks, np.append(removed, pruned), of_round)
 
 
 # ---- polygons around a circle ---------------------------------------------------------------------
+def _farthest_around(skeleton: Skeleton, twigs: Twigs, around: Numbers) -> Numbers:
+    """Of twigs with the same number that is not -1, that to the corner farthest from the middle.
+
+    The middle is the node with the largest disc. Of corners as far but for a part `TIE` that at the first edges counts.
+    """
+    chosen = np.flatnonzero(around >= 0)
+    chosen = chosen[np.lexsort((-skeleton.radius[twigs.node[chosen]], around[chosen]))]
+    starts = np.flatnonzero(np.diff(around[chosen], prepend=-1))
+    group = np.cumsum(np.isin(np.arange(len(chosen)), starts)) - 1
+    off = skeleton.vertices[twigs.leaf[chosen]] - skeleton.vertices[twigs.node[chosen[starts]]][group]
+    distance = np.sqrt((off * off).sum(axis=1))
+    most = np.maximum.reduceat(distance, starts) if len(starts) else distance
+    far = np.flatnonzero(distance >= most[group] * (1 - TIE))
+    far = far[np.lexsort((*twigs.edges[chosen[far]].T[::-1], group[far]))]
+    first: Numbers = chosen[far[np.diff(group[far], prepend=-1) > 0]]
+    return first
+
+
 def _forks_of_stars(
     skeleton: Skeleton, branches: Branches, twigs: Twigs, pairs: Pairs
 ) -> tuple[Pairs, NDArray[np.bool_]]:
@@ -113,7 +145,7 @@ def _forks_of_stars(
 
     A triangle without tips has one, at its shortest edge: from there the centerline leads to the corner opposite. A
     quadrilateral has two, at opposite edges without tips. Of equal ones those of the first edge count. Polygons with
-    more edges have none, if they have no tips.
+    more edges have none, if they have no tips: see `_farthest_around`.
     """
     degree = branches.degree
     is_star = (np.bincount(twigs.node, minlength=len(degree)) == degree) & (degree > 0)
@@ -169,6 +201,13 @@ def _with_leads(skeleton: Skeleton, twigs: Twigs, forks: Pairs, removed: Numbers
         np.concatenate([skeleton.length, reach]),
         np.concatenate([np.arange(nodes), leaf]),
     )
+
+
+def _hanging_on(skeleton: Skeleton, arcs: Numbers, nodes: int) -> Numbers:
+    """Those of some arcs that are connected, by these, with one of the first nodes."""
+    root = connected_roots(skeleton.arcs[arcs], len(skeleton.vertices))
+    hanging: Numbers = arcs[root[skeleton.arcs[arcs, 0]] < nodes]
+    return hanging
 
 
 def _longest_of_runs(twigs: Twigs, runs: Numbers, chosen: Numbers) -> Numbers:
