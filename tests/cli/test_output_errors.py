@@ -1,0 +1,193 @@
+"""Outputs that cannot be written, streams that are closed, and statistics: nothing is replaced or half written."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))
+from conftest import leftovers
+
+
+def test_outputs_that_cannot_be_written(run, folder):
+    assert "'' is no name: name a file" in run("tessellate", "dots.csv", "-f", "png", "-o", "").err
+    assert run("tessellate", "dots.csv", "-o", "no/such/a.png").code == 4
+    assert run("tessellate", "dots.csv", "-o", "/dev/full", "-f", "npy").code == 4
+    assert run("tessellate", "dots.csv", "-o", "a.png", "--stats", "no/such/s.json").code == 4
+    (folder / "old.png").write_text("old")
+    done = run("tessellate", "dots.csv", "-o", "old.png", "--no-clobber")
+    assert done.code == 4
+    assert (folder / "old.png").read_text() == "old"
+    assert leftovers(folder) == []
+
+
+def test_full_device_on_standard_output(process, folder):
+    with Path("/dev/full").open("wb") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "vorotool", "tessellate", "dots.csv", "-f", "text"],
+            cwd=folder, stdout=full, stderr=subprocess.PIPE, check=False,
+        )  # fmt: skip
+    assert done.returncode == 4
+    assert b"Traceback" not in done.stderr
+    assert b"error: standard output cannot be written" in done.stderr
+
+
+def test_failed_write_leaves_the_older_file(run, folder, monkeypatch):
+    (folder / "old.tif").write_text("old")
+
+    def fail(*_args, **_options):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("vorotool.formats.tiff.write_tiff", fail)
+    monkeypatch.setattr("vorotool.formats.label_images.write_tiff", fail)
+    done = run("tessellate", "dots.csv", "-o", "old.tif")
+    assert done.code == 4
+    assert "No space left" in done.err
+    assert (folder / "old.tif").read_text() == "old"
+    assert leftovers(folder) == []
+
+
+def test_binary_never_goes_to_a_terminal(folder):
+    import pty
+
+    master, slave = pty.openpty()
+    done = subprocess.run(
+        [sys.executable, "-m", "vorotool", "tessellate", "dots.csv", "-f", "png"],
+        cwd=folder, stdout=slave, stderr=subprocess.PIPE, check=False,
+    )  # fmt: skip
+    os.close(slave)
+    os.close(master)
+    assert done.returncode == 2
+    assert b"-o" in done.stderr
+
+
+def test_binary_goes_through_a_pipe(process, folder):
+    one = process("tessellate", "dots.csv", "-f", "png", "-o", "-")
+    png, _ = one.communicate()
+    assert png.startswith(b"\x89PNG")
+    two = process("draw", "-", "-f", "svg", stdin=subprocess.PIPE)
+    svg, _ = two.communicate(png)
+    assert b"</svg>" in svg
+
+
+def test_broken_pipe_is_quiet(folder):
+    np.savetxt(folder / "many.csv", np.random.default_rng(0).integers(0, 3000, (2000, 2)), fmt="%d", delimiter=",")
+    script = (
+        f"{sys.executable} -m vorotool tessellate many.csv --size 1000x1000 -f text | head -1; echo ${{PIPESTATUS[0]}}"
+    )
+    done = subprocess.run(["bash", "-c", script], cwd=folder, capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[-1] == "141"
+    assert "error" not in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_stats_are_one_json_object(run, folder):
+    run("tessellate", "dots.csv", "-o", "a.png", "--stats", "s.json")
+    assert json.loads((folder / "s.json").read_text())["command"] == "tessellate"
+
+
+@pytest.mark.parametrize("command", [["tessellate", "dots.csv", "-f", "npy"], ["draw", "mask.pbm", "-f", "png"]])
+def test_statistics_replace_neither_input_nor_output(run, folder, command):
+    source = folder / command[1]
+    before = source.read_bytes()
+    os.link(source, folder / "same")
+    for name in (source.name, "same", "out", "./out"):
+        done = run(*command, "-o", "out", "--stats", name)
+        assert done.code == 2
+        assert name in done.err
+        assert not (folder / "out").exists()
+    assert source.read_bytes() == before
+    (folder / "old.json").write_text("old")
+    done = run(*command, "-o", "out", "--stats", "old.json", "--no-clobber")
+    assert done.code == 4
+    assert (folder / "old.json").read_text() == "old"
+    assert run(*command, "-o", os.devnull, "--stats", os.devnull).code == 0
+
+
+def test_standard_input_is_not_replaced_either(process, folder):
+    before = (folder / "dots.csv").read_bytes()
+    with (folder / "dots.csv").open("rb") as stdin:
+        done = process("tessellate", "-", "-o", "dots.csv", "-f", "npy", stdin=stdin)
+        _, err = done.communicate(timeout=30)
+    assert done.returncode == 2
+    assert b"also an input" in err
+    assert (folder / "dots.csv").read_bytes() == before
+
+
+@pytest.mark.parametrize(
+    ("command", "code", "message"),
+    [
+        ("tessellate dots.csv -o out.png >&-", 0, ""),
+        ("tessellate dots.csv -o out.png 2>&-", 0, ""),
+        ("tessellate dots.csv -o out.png <&- >&- 2>&-", 0, ""),
+        ("tessellate missing.csv -o out.png >&- 2>&-", 3, ""),
+        ("tessellate missing.csv -o out.png 2>/dev/full", 3, ""),
+        ("paint 2>/dev/full", 2, ""),
+        ("tessellate dots.csv --what table >&-", 4, "error: standard output cannot be written: Bad file descriptor"),
+        ("tessellate - -o out.png <&-", 3, "error: standard input is closed"),
+        ("--help >&-", 4, "Bad file descriptor"),
+        ("--version >/dev/full", 4, "No space left on device"),
+        ("tessellate --help >/dev/full", 4, "No space left on device"),
+        ("--help | true; exit ${PIPESTATUS[0]}", 141, ""),
+        ("tessellate --help | true; exit ${PIPESTATUS[0]}", 141, ""),
+    ],
+)
+def test_closed_and_full_streams(folder, command, code, message):
+    script = f"{sys.executable} -m vorotool {command}"
+    done = subprocess.run(["bash", "-c", script], cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == code, done.stderr
+    assert done.stdout == ""
+    assert message in done.stderr
+    assert len(done.stderr.splitlines()) == bool(message)
+    if code == 0:
+        assert (folder / "out.png").read_bytes().startswith(b"\x89PNG")
+
+
+def write_labels(folder, largest):
+    image = np.ones((40, 50), np.uint32)
+    image[:, 25:] = largest
+    np.save(folder / "labels.npy", image)
+
+
+def test_failures_are_known_before_the_first_output(run, folder):
+    write_labels(folder, 70_000)
+    (folder / "b.labels.png").write_text("old")
+    (folder / "plain").write_text("a file")
+    for arguments, code, words in [
+        (["labels.npy", "--what", "table,labels", "-o", "a"], 5, "do not fit in a 16-bit PNG"),
+        (["dots.csv", "--size", "1001x1000", "--what", "table,labels", "-o", "a", "-f", "svg"], 2, "table"),
+        (["dots.csv", "--what", "table,labels", "-o", "b", "--no-clobber"], 4, "b.labels.png exists already"),
+        (["dots.csv", "--what", "table", "-o", "a.csv", "--stats", "no/such/s.json"], 4, "no/such/s.json"),
+        (["dots.csv", "--what", "table", "-o", "a.csv", "--stats", "plain/s.json"], 4, "plain/s.json"),
+        (["dots.csv", "--what", "table,labels", "--out-dir", "plain/in"], 4, "plain/in"),
+        (["missing.csv", "--what", "table,labels", "--out-dir", "new"], 3, "missing.csv"),
+    ]:
+        done = run("tessellate", *arguments)
+        assert done.code == code, done.err
+        assert words in done.err
+        assert {path.name for path in folder.iterdir()} == {
+            *("dots.csv", "mask.pbm", "labels.npy", "b.labels.png", "plain")
+        }
+    assert run("draw", "mask.pbm", "-o", "a.png", "--stats", "no/such/s.json").code == 4
+    assert not (folder / "a.png").exists()
+
+
+def test_the_folder_of_outputs_is_made(run, folder):
+    done = run("tessellate", "dots.csv", "--out-dir", "new/deep", "--what", "table", "--stats", "new/deep/s.json")
+    assert done.code == 0, done.err
+    assert {path.name for path in (folder / "new/deep").iterdir()} == {"dots.csv", "s.json"}
+    assert run("draw", "mask.pbm", "--out-dir", "other/deep").code == 0
+    assert (folder / "other/deep/mask.png").exists()
+
+
+def test_a_folder_without_permission(run, folder, monkeypatch):
+    (folder / "locked").mkdir()
+    monkeypatch.setattr("os.access", lambda path, mode, **_: "locked" not in str(path))  # root writes anywhere
+    for options in (["-o", "locked/a.png"], ["--out-dir", "locked/in"], ["-o", "a.png", "--stats", "locked/s.json"]):
+        done = run("tessellate", "dots.csv", *options)
+        assert done.code == 4
+        assert not (folder / "a.png").exists()

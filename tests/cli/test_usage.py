@@ -1,0 +1,133 @@
+"""Options that do not go together, mistyped commands, and what is said of options."""
+
+import numpy as np
+import pytest
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["tessellate"], ["0 inputs"]),
+        (["tessellate", "dots.csv", "mask.pbm", "-o", "a.png"], ["2 inputs"]),
+        (["tessellate", "dots.csv"], ["-o", "-f"]),
+        (["tessellate", "dots.csv", "--what", "lables"], ["'lables'", "labels"]),
+        (["tessellate", "dots.csv", "-o", "a.xyz"], [".xyz", "png"]),
+        (["tessellate", "dots.csv", "-o", "a.csv"], ["labels cannot be written as csv"]),
+        (["tessellate", "dots.csv", "-f", "bmp"], ["bmp"]),
+        (["tessellate", "dots.csv", "--what", "distance", "-o", "a.png"], ["distance cannot be written as png"]),
+        (["tessellate", "dots.csv", "--what", "labels,table"], ["-o STEM"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--out-dir", "."], ["not both"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--size", "0x5"], ["'0x5'", "640x480"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--size", "big"], ["'big'"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--window", "1,2,3"], ["'1,2,3'"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--window", "1,2,3,0"], ["at least 1"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--size", "5x5", "--window", "0,0,5,5"], ["not both"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--max-distance", "x"], ["'x'"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--max-distance", "-1"], ["max_distance is -1"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--threshold", "x"], ["'x'"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--passes", "1"], ["--method propagation"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--method", "propagation", "--max-distance", "3"], ["exact"]),
+        (["tessellate", "dots.csv", "--method", "propagation", "--what", "distance", "-o", "a.tif"], ["exact"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--seeds", "pixels"], ["--seeds is for images"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--page", "0"], ["--page is for images"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--threshold", "0"], ["--threshold is for images"]),
+        (["tessellate", "mask.pbm", "-o", "a.png", "--threshold", "nan"], ["'nan' is no threshold"]),
+        (["tessellate", "mask.pbm", "-o", "a.png", "--columns", "1,2"], ["--columns"]),
+        (["tessellate", "mask.pbm", "-o", "a.png", "--size", "4x4"], ["--size"]),
+        (["tessellate", "dots.csv", "-f", "text", "--stats", "-"], ["--stats -"]),
+        (["tessellate", "dots.csv", "-o", "dots.csv", "-f", "text"], ["dots.csv", "input"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--layers", "roads"], ["'roads'"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--layers", "cells"], ["--layers is for pictures"]),
+        (["tessellate", "dots.csv", "-o", "a.npy", "--what", "diagram", "--layers", "cells"], ["--layers is for"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--threads", "-1"], ["-1"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--threads", "1025"], ["1025"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--size", "9" * 5000 + "x1"], ["is no size"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--window", "9" * 5000 + ",1,1,1"], ["is no window"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--max-distance", "1e999999999"], ["is no number"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--connectivity", "8"], ["--connectivity is for images"]),
+        (["tessellate", "mask.pbm", "-o", "a.png", "--connectivity", "4", "--seeds", "pixels"], ["for components"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--passes", "2"], ["--method propagation"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--dtype", "uint32"], ["--dtype is for labels in TIFF, NPY"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--chunk", "64x64"], ["--chunk is for Zarr stores"]),
+        (["tessellate", "dots.csv", "-f", "zarr"], ["a Zarr store is a folder"]),
+        (["tessellate", "dots.csv", "-o", "a.tif", "--what", "diagram", "--dtype", "uint8"], ["--dtype is for labels"]),
+        (["tessellate", "dots.csv", "-o", "a.png", "--what", "colour", "--width", "99"], ["--width is for SVG"]),
+        (["tessellate", "dots.csv", "-o", "a.npy", "--width", "99"], ["--width is for SVG"]),
+        (["draw", "mask.pbm", "-o", "a.png", "--width", "99"], ["--width is for SVG"]),
+        (["tessellate", "dots.csv", "-o", "a.npy", "--precision", "3"], ["--precision is for tables"]),
+        (["tessellate", "dots.csv", "--what", "table", "-f", "npz", "-o", "a", "--precision", "3"], ["--precision"]),
+        (
+            ["tessellate", "missing.csv", "-o", "a.svg", "--layers", "diagram"],
+            ["--layers diagram: a picture in SVG has cells, labels, seeds"],
+        ),
+        (
+            ["tessellate", "dots.csv", "-o", "a.png", "--input-format", "xyz"],
+            ["'xyz' is no format of inputs: use one of csv, tsv, txt, node, npy, npz, geojson, wkt, json, png, tiff"],
+        ),
+        (
+            ["draw", "mask.pbm", "-o", "a.png", "--input-format", "xyz"],
+            ["'xyz' is no format of inputs: use one of png, tiff, tif, pnm, pbm, pgm, ppm, npy"],
+        ),
+        (["paint"], ["paint"]),
+        (["--colour"], ["--colour"]),
+    ],
+)
+def test_usage(run, folder, arguments, words):
+    done = run(*arguments)
+    assert done.code == 2, done.err
+    assert all(word in done.err for word in words), done.err
+    assert (folder / "dots.csv").read_text().startswith("x,y,name")
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("delauney", "there is no command 'delauney': did you mean delaunay?"),
+        ("skeleton_exact", "did you mean skeleton-exact"),
+        ("Tesselate", "did you mean tessellate?"),
+        ("voronoise", "use one of tessellate, delaunay,"),
+    ],
+)
+def test_a_mistyped_command(run, name, words):
+    done = run(name, "dots.csv")
+    assert (done.code, done.out) == (2, "")
+    assert words in done.err
+
+
+def test_quiet_wins(run, folder):
+    assert run("tessellate", "mask.pbm", "-o", "a.png", "-q", "-v").err == ""
+    assert run("tessellate", "mask.pbm", "-o", "a.png", "-v").err != ""
+
+
+@pytest.mark.parametrize("name", ["tif", "TIFF", "pgm", "ppm"])
+def test_names_of_formats(run, folder, name):
+    from PIL import Image
+
+    kind = "TIFF" if name[0] in "tT" else "PPM"
+    Image.fromarray(np.eye(4, dtype=np.uint8)).save(folder / "image", format=kind)
+    assert run("tessellate", "image", "--input-format", name, "-o", "a.png").code == 0
+    assert run("draw", "image", "--input-format", name, "-o", "a.svg").code == 0
+
+
+def test_layers_are_those_that_are_drawn():
+    from vorotool.cli.targets import PICTURE_LAYERS
+    from vorotool.render import label_png, label_svg
+
+    assert {"png": set(label_png.LAYERS), "svg": set(label_svg.LAYERS)} == {
+        fmt: set(layers) for fmt, layers in PICTURE_LAYERS.items()
+    }
+
+
+@pytest.mark.parametrize("command", ["tessellate", "delaunay", "alphashape", "skeleton-exact"])
+def test_a_direction_is_for_pictures(run, folder, command):
+    source = "mask.pbm" if command == "skeleton-exact" else "dots.csv"
+    done = run(command, source, "--y-up", "-o", "out.json", *(["--what", "table"] if command == "tessellate" else []))
+    assert done.code == 2
+    assert "--y-up and --y-down are for pictures" in done.err
+
+
+def test_a_plot_has_no_y_of_the_input(run, folder):
+    done = run("alphashape", "dots.csv", "--what", "curves", "--y-down", "-o", "a.svg")
+    assert (done.code, "curves are a plot: leave them out" in done.err) == (2, True)
+    assert run("alphashape", "dots.csv", "--what", "curves,edges", "--y-down", "-f", "svg", "-o", "a").code == 0
+    assert not (folder / "out.json").exists()
