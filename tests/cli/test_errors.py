@@ -1,4 +1,4 @@
-"""What goes wrong with inputs, and what is said: exit codes 3 to 5, limits, signals (a test a row of the contract)."""
+"""What goes wrong with inputs, and what is said: exit codes 3 to 5, limits and signals (a test each)."""
 
 import json
 import resource
