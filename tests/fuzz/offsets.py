@@ -22,7 +22,9 @@ DISTANCES = 5
 
 def distances_of(shapes: ShapeDiagram, random: np.random.Generator) -> list[float]:
     """Of any size, at and beside the radius of a vertex of the diagram, and in whole steps: where there are ties."""
-    extent = float(np.ptp(shapes.placed.polygons.xy, axis=0).max()) or 1.0
+    places = shapes.graph.coordinates()  # of a shape without polygons as well
+    extent = float(np.ptp(places, axis=0).max()) if len(places) else 0.0
+    extent = extent or 1.0
     radii = shapes.graph.scale * shapes.diagram.radius
     known = radii[(radii > extent * 1e-6) & (radii < extent)]
     tie = float(random.choice(known)) if len(known) else extent / 4
