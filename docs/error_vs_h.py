@@ -12,15 +12,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 import vorotool
-from vorotool.engines.placed_rings import placed_shapes
-from vorotool.engines.planar_graph import planar_graph
-from vorotool.engines.skeleton_approx import SamplingOptions, approximate_skeleton, sampled_graph
-from vorotool.engines.skeleton_comparison import distances_to, exact_skeleton, places_on_arcs, widened
-from vorotool.engines.skeleton_errors import error_summary
-from vorotool.geometry.skeleton import EDGE
-from vorotool.render.layers import Curves, Layer, Lines, Page, Points, Texts, bounds_of
-from vorotool.render.layers_svg import write_layers_svg
-from vorotool.render.palettes import FAINT, INK, PALE, RESULT, SEED
+from vorotool.engines.arrangement.lattice_rings import placed_shapes
+from vorotool.engines.arrangement.planar_graph import planar_graph
+from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, approximate_skeleton, sampled_graph
+from vorotool.engines.sampled_skeleton.error_summary import error_summary
+from vorotool.engines.sampled_skeleton.hausdorff import distances_to, exact_skeleton, places_on_arcs, widened
+from vorotool.geometry.skeleton.skeleton import EDGE
+from vorotool.render.canvas.layers import Curves, Layer, Lines, Page, Points, Texts, bounds_of
+from vorotool.render.canvas.palettes import FAINT, INK, PALE, RESULT, SEED
+from vorotool.render.canvas.svg import write_layers_svg
 
 DATA = Path(__file__).parents[1] / "data"
 SHAPES = {"shape.json": "interior", "two-shapes.json": "interior", "two-segments.wkt": "exterior"}

@@ -18,8 +18,8 @@ from itertools import combinations, permutations
 
 import numpy as np
 
-from delaunay_oracle import circle, cross
-from digital_oracle import edge_is_delaunay
+from support.oracles.delaunay_oracle import circle, cross
+from support.oracles.digital_oracle import edge_is_delaunay
 
 
 @dataclass(frozen=True)

@@ -10,11 +10,11 @@ work=build/sanitize
 # What cannot run so, and why.
 left_out=(
     # The sanitizer keeps memory that was freed, and more around what is not: peaks are its own.
-    --deselect tests/cli/test_zarr.py::test_memory_is_that_of_a_row_of_chunks
+    --deselect tests/cli/scenarios/test_zarr.py::test_memory_is_that_of_a_row_of_chunks
     # A browser does not start with the sanitizer's allocator, and shows pages without the core.
-    --deselect tests/render/test_alpha_html.py::test_the_page_counts_what_the_library_does
-    --deselect tests/render/test_alpha_html.py::test_the_page_is_drawn
-    --deselect tests/render/test_alpha_html.py::test_the_buttons_and_the_slider_move_r
+    --deselect tests/render/pages/test_alpha_html.py::test_the_page_counts_what_the_library_does
+    --deselect tests/render/pages/test_alpha_html.py::test_the_page_is_drawn
+    --deselect tests/render/pages/test_alpha_html.py::test_the_buttons_and_the_slider_move_r
 )
 
 # An environment of its own that sees the libraries of the first, but not its vorotool.

@@ -6,7 +6,7 @@ from pathlib import Path
 from vorotool.batch.manifest import Manifest
 from vorotool.batch.run import run_batch, run_tasks
 from vorotool.batch.tasks import Outcome, Task
-from vorotool.formats.temporaries import _host
+from vorotool.formats.io.temporaries import _host
 
 TASKS = [Task(name, (f"out/{name}",)) for name in "abcde"]
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from vorotool.batch.tables import join_tables
-from vorotool.formats.tables import write_table
+from vorotool.formats.text.tables import write_table
 from vorotool.geometry.table import Table
 
 PLAIN = Table({"label": [1, 2], "x": np.ma.array([0.1, 5], mask=[False, True])})

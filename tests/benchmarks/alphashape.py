@@ -17,9 +17,9 @@ import numpy as np
 
 sys.path.pop(0)  # this file is not the peer of its name
 sys.path.insert(0, str(Path(__file__).parents[1]))
-import point_families
 import vorotool
 from benchmarks.timing import best
+from support.families import point_families
 
 
 def gudhi_values(points: np.ndarray, _r: float) -> object:

@@ -11,7 +11,7 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from mask_folders import write_masks
+from support.families.mask_folders import write_masks
 
 TOOL = Path(sys.executable).parent / "vorotool"
 RUNS = 3

@@ -20,9 +20,9 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-import point_families
 import vorotool
 from benchmarks.timing import best
+from support.families import point_families
 from vorotool import _core
 
 

@@ -15,8 +15,8 @@ from skimage.morphology import medial_axis, skeletonize
 sys.path.insert(0, str(Path(__file__).parents[1]))
 import vorotool
 from benchmarks.timing import timed
-from vorotool.engines.outlines import outlines
-from vorotool.engines.pruning import default_pruning_for_masks
+from vorotool.engines.label_images.outlines import outlines
+from vorotool.engines.pruning.pruning import default_pruning_for_masks
 
 RUNS = 3
 seconds = partial(timed, runs=RUNS)

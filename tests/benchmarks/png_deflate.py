@@ -1,6 +1,6 @@
 """Purpose: choose the deflate of the PNG writer, on the images it is for: 8192 x 8192 labels of 16 bits.
 
-Filter (Up, as `formats/png.py` does it), checksum and deflate of fixed blocks of rows are timed together;
+Filter (Up, as `formats/images/png_writer.py` does it), checksum and deflate of fixed blocks of rows are timed together;
 then the writer itself, into a file. Run: python tests/benchmarks/png_deflate.py [--size 8192] [--threads 2].
 isal and zlib-ng are measured where they are installed (pip install isal zlib-ng). Every result is
 decompressed and compared. The `deflate` wheel (libdeflate) has no sync flush, so that blocks cannot be
@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt
 
-from vorotool.formats.png import write_png
+from vorotool.formats.images.png_writer import write_png
 
 BLOCK_BYTES = 1 << 20
 

@@ -30,7 +30,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-import segment_families
+from support.families import segment_families
 from vorotool import _core
 
 FAMILIES = ("star_smooth", "contour", "hilbert", "koch", "comb", "comb_tapered", "star_rough")

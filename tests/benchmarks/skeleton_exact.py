@@ -12,10 +12,10 @@ from pathlib import Path
 
 import numpy as np
 
-from vorotool.engines.placed_rings import placed_shapes
-from vorotool.engines.planar_graph import planar_graph
-from vorotool.engines.segment_voronoi import segment_voronoi
-from vorotool.engines.skeleton_exact import ShapeDiagram, skeleton_of
+from vorotool.engines.arrangement.lattice_rings import placed_shapes
+from vorotool.engines.arrangement.planar_graph import planar_graph
+from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
+from vorotool.engines.skeleton.exact import ShapeDiagram, skeleton_of
 
 ROOT = Path(__file__).parents[2]
 LAND = ROOT / "data" / "ne_50m_land.geojson"

@@ -21,8 +21,8 @@ from skimage.segmentation import expand_labels
 
 import vorotool
 from vorotool import _core
-from vorotool.engines.sweep import Tessellator
-from vorotool.geometry.frame import Frame
+from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.geometry.pixel_frame import Frame
 
 PEERS: dict[str, Callable[[np.ndarray], object]] = {
     "scipy": lambda image: image[

@@ -110,8 +110,9 @@ def test_names_of_formats(run, folder, name):
 
 
 def test_layers_are_those_that_are_drawn():
-    from vorotool.cli.targets import PICTURE_LAYERS
-    from vorotool.render import label_png, label_svg
+    from vorotool.jobs.targets import PICTURE_LAYERS
+    from vorotool.render.label_images import png as label_png
+    from vorotool.render.label_images import svg as label_svg
 
     assert {"png": set(label_png.LAYERS), "svg": set(label_svg.LAYERS)} == {
         fmt: set(layers) for fmt, layers in PICTURE_LAYERS.items()

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import vorotool
-from vorotool.formats.input_formats import ALL_NAMES
+from vorotool.formats.parsing.format_names import ALL_NAMES
 
 FUZZ = Path(__file__).parents[1] / "fuzz"
 FINDINGS = sorted((FUZZ / "findings").iterdir())

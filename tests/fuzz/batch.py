@@ -14,7 +14,7 @@ from collections import Counter
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from mask_folders import write_masks
+from support.families.mask_folders import write_masks
 
 COMMANDS = ("tessellate", "skeleton-exact")
 BROKEN = 7

@@ -17,7 +17,7 @@ import numpy as np
 import vorotool
 from fuzz.byte_seeds import Bundle
 from vorotool.cli.main import main
-from vorotool.formats.image_rows import open_rows
+from vorotool.formats.images.band_reader import open_rows
 
 LIMITS = {"max_pixels": 2**16, "max_sites": 2**14, "threads": 1}
 READ, REFUSED, LIMIT, WRONG = "read", "refused", "limit", "wrong"

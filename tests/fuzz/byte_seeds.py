@@ -14,7 +14,7 @@ import tifffile
 from PIL import Image
 
 import vorotool
-from tiff_files import LONG, SHORT, grey, tiff_file
+from support.families.tiff_files import LONG, SHORT, grey, tiff_file
 
 
 @dataclass(frozen=True)

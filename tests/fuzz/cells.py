@@ -15,9 +15,9 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from cells_oracle import exact_cells, nearest_double
 from fuzz.runner import Cases, options
-from point_families import FAMILIES, draw
+from support.families.point_families import FAMILIES, draw
+from support.oracles.cells_oracle import exact_cells, nearest_double
 from vorotool import Box, VorotoolError, _core, delaunay, verify_cells, voronoi_cells
 
 SMALL = 8

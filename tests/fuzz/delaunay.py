@@ -13,9 +13,9 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from delaunay_oracle import delaunay_triangles
 from fuzz.runner import Cases, options
-from point_families import FAMILIES, draw
+from support.families.point_families import FAMILIES, draw
+from support.oracles.delaunay_oracle import delaunay_triangles
 from vorotool import VorotoolError, delaunay, verify_triangulation
 
 SMALL = 7

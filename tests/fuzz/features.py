@@ -15,13 +15,13 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from fuzz.runner import Cases, options
-from polygon_families import FAMILIES as RINGS
-from skeleton_shapes import DATA
+from support.families.polygon_families import FAMILIES as RINGS
+from support.families.skeleton_shapes import DATA
 from vorotool import PolygonSet, VorotoolError, outlines, read, skeleton_exact
-from vorotool.engines import feature_sheets
-from vorotool.engines.skeleton_exact import interior_skeleton, shape_diagram
-from vorotool.geometry.polygons import SHELL
-from vorotool.geometry.ring_arrays import RingArrays
+from vorotool.engines.features import sheets as feature_sheets
+from vorotool.engines.skeleton.exact import interior_skeleton, shape_diagram
+from vorotool.geometry.polygons.polygon_set import SHELL
+from vorotool.geometry.polygons.ring_arrays import RingArrays
 
 PLACES = ("vertices", "radius", "control", "length", "error_bound")
 SITES = ("kind", "ring", "index")

@@ -17,7 +17,7 @@ from itertools import count, islice
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from machine_runs import Setting, differences, drawn_setting, run, settings, whole
+from support.processes.machine_runs import Setting, differences, drawn_setting, run, settings, whole
 
 SLICE = 100
 """Commands that a random setting runs."""

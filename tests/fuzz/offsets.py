@@ -11,10 +11,10 @@ import shapely
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from fuzz.runner import Cases, options
-from offset_oracle import check_offsets, check_rebuilt
-from skeleton_shapes import FAMILIES, TOUCHING
+from support.families.skeleton_shapes import FAMILIES, TOUCHING
+from support.oracles.offset_oracle import check_offsets, check_rebuilt
 from vorotool import VorotoolError, offset, rebuild, skeleton_exact, verify_offsets
-from vorotool.engines.skeleton_exact import ShapeDiagram, shape_diagram
+from vorotool.engines.skeleton.exact import ShapeDiagram, shape_diagram
 
 SHAPES = (*FAMILIES, *TOUCHING)
 DISTANCES = 5

@@ -10,7 +10,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from fuzz.runner import Cases, options
-from outline_oracle import numbered_objects, pixel_sides, random_labels, ring_areas, unit_sides
+from support.oracles.outline_oracle import numbered_objects, pixel_sides, random_labels, ring_areas, unit_sides
 from vorotool import VorotoolError, VorotoolWarning, outlines, planar_graph, skeleton_exact, verify_skeleton
 
 

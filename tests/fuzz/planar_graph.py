@@ -13,11 +13,11 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-import planar_graph_oracle as oracle
 from fuzz.runner import Cases, options
-from polygon_families import FAMILIES, LINE, draw
+from support.families.polygon_families import FAMILIES, LINE, draw
+from support.oracles import planar_graph_oracle as oracle
 from vorotool import PlanarGraph, PolygonSet, VorotoolError, _core, verify_planar_graph
-from vorotool.geometry.planar_graph import REPAIRS
+from vorotool.geometry.polygons.planar_graph import REPAIRS
 
 SMALL = 11
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from predicate_cases import FAMILIES, NEAR_DEGENERATE, exact_signs
+from support.families.predicate_cases import FAMILIES, NEAR_DEGENERATE, exact_signs
 from vorotool import _core
 
 UNDECIDED = 2

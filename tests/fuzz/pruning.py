@@ -10,10 +10,10 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from fuzz.runner import Cases, options
-from pruning_oracle import disagreement, thresholds
-from skeleton_shapes import FAMILIES
+from support.families.skeleton_shapes import FAMILIES
+from support.oracles.pruning_oracle import disagreement, thresholds
 from vorotool import VorotoolError, critical_values, prune, skeleton_exact, verify_pruning
-from vorotool.geometry.critical_values import CRITERIA
+from vorotool.geometry.skeleton.critical_values import CRITERIA
 
 MOST_ARCS = 150
 """Brute force is quadratic."""

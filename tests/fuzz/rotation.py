@@ -15,10 +15,10 @@ from scipy.ndimage import gaussian_filter
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from fuzz.runner import Cases, options
-from rotation_oracle import Pair, Rotation, fault
-from skeleton_shapes import holed, several, star, valid
+from support.families.skeleton_shapes import holed, several, star, valid
+from support.oracles.rotation_oracle import Pair, Rotation, fault
 from vorotool import InputError, outlines
-from vorotool.geometry.polygon_conversion import as_polygons
+from vorotool.geometry.polygons.conversion import as_polygons
 
 
 def mask(rng: np.random.Generator) -> Any:

@@ -11,15 +11,15 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from fuzz.runner import Cases, options
-from skeleton_shapes import FAMILIES
+from support.families.skeleton_shapes import FAMILIES
 from vorotool import VorotoolError
-from vorotool.engines.approximate_verification import verify_approximate
-from vorotool.engines.placed_rings import placed_shapes
-from vorotool.engines.planar_graph import planar_graph
-from vorotool.engines.skeleton_approx import SamplingOptions, approximate_skeleton, sampled_graph
-from vorotool.engines.skeleton_tolerance import skeleton_within
+from vorotool.engines.arrangement.lattice_rings import placed_shapes
+from vorotool.engines.arrangement.planar_graph import planar_graph
+from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, approximate_skeleton, sampled_graph
+from vorotool.engines.sampled_skeleton.refinement import skeleton_within
+from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
 from vorotool.errors import LimitError
-from vorotool.geometry.polygon_conversion import as_polygons
+from vorotool.geometry.polygons.conversion import as_polygons
 
 MOST_SEEDS = 10**5
 

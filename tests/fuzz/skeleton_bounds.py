@@ -19,18 +19,18 @@ import shapely
 from PIL import Image
 
 import vorotool
-from vorotool.engines.placed_rings import placed_shapes
-from vorotool.engines.planar_graph import planar_graph
-from vorotool.engines.skeleton_approx import (
+from vorotool.engines.arrangement.lattice_rings import placed_shapes
+from vorotool.engines.arrangement.planar_graph import planar_graph
+from vorotool.engines.sampled_skeleton.approximate import (
     ApproximateSkeleton,
     SamplingOptions,
     approximate_skeleton,
     sampled_graph,
 )
-from vorotool.engines.skeleton_comparison import deviation, distances_to, exact_skeleton, places_on_arcs
-from vorotool.engines.skeleton_regions import corner_sectors
-from vorotool.engines.skeleton_tolerance import skeleton_within
-from vorotool.geometry.polygon_conversion import to_shapely
+from vorotool.engines.sampled_skeleton.hausdorff import deviation, distances_to, exact_skeleton, places_on_arcs
+from vorotool.engines.sampled_skeleton.refinement import skeleton_within
+from vorotool.engines.skeleton.verify_regions import corner_sectors
+from vorotool.geometry.polygons.conversion import to_shapely
 
 DATA = Path(__file__).parents[2] / "data"
 STEPS = (25, 50, 100, 200, 400)

@@ -17,13 +17,13 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from families import random_case
-from oracles import nearest_labels
+from support.families.families import random_case
+from support.oracles.oracles import nearest_labels
 from vorotool import _core
-from vorotool.engines.digital import SIMD_LEVELS
-from vorotool.engines.sweep import Tessellator
-from vorotool.geometry.frame import Frame
-from vorotool.geometry.seeds import SeedSet
+from vorotool.engines.tessellation.frames import SIMD_LEVELS
+from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.geometry.pixel_frame import Frame
+from vorotool.geometry.points.seed_set import SeedSet
 
 
 def check(rng: np.random.Generator, side: int) -> tuple[str, int, int]:

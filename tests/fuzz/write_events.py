@@ -14,7 +14,8 @@ import threading
 import time
 from pathlib import Path
 
-from vorotool.formats import stores, temporaries
+from vorotool.formats.io import temporaries
+from vorotool.formats.zarr import store as stores
 
 WRITES = frozenset({"write", "half", "chunk"})
 """Steps in which bytes go out."""

@@ -8,7 +8,7 @@ import pytest
 
 import vorotool
 from vorotool.errors import InputError
-from vorotool.geometry.points import PointSet
+from vorotool.geometry.points.point_set import PointSet
 
 PAIRS = [[0, 0], [4, 0], [0, 3], [1, 1]]
 

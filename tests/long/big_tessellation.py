@@ -19,7 +19,7 @@ from scipy import ndimage
 from scipy.spatial import cKDTree
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from peak_memory import peak_memory
+from support.processes.peak_memory import peak_memory
 
 MEMORY = 1e9
 """Bytes that are allowed."""

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from vorotool.errors import InputError, UsageError
-from vorotool.formats.descriptors import stream_kind
-from vorotool.formats.stores import is_folder, is_store
+from vorotool.formats.io.descriptors import stream_kind
+from vorotool.formats.zarr.store import is_folder, is_store
 
 STANDARD_INPUT = "-"
 
@@ -127,7 +127,7 @@ def read_names(path: str, *, null: bool = False) -> list[str]:
     InputError
         If the list cannot be read.
     """
-    from vorotool.formats.sources import read_bytes
+    from vorotool.formats.io.sources import read_bytes
 
     try:
         data = read_bytes(path)

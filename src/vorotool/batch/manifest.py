@@ -15,7 +15,7 @@ from typing import Any, BinaryIO
 from vorotool import __version__
 from vorotool.batch.tasks import INPUT, Outcome, Task
 from vorotool.errors import InputError, OutputError
-from vorotool.formats.outputs import make_folder
+from vorotool.formats.io.atomic_output import make_folder
 
 LEVELS = 8
 """Of brackets in a line; ours have three."""
@@ -107,7 +107,7 @@ def _lines(file: BinaryIO) -> Iterator[bytes]:
 
 def _take(history: History, line: bytes) -> None:
     """Take what a line says of an input; the lines of runs are for people."""
-    from vorotool.formats.sources import check_nesting
+    from vorotool.formats.io.sources import check_nesting
 
     try:
         check_nesting(line, LEVELS)

@@ -13,7 +13,7 @@ from vorotool.batch.inputs import Input
 from vorotool.batch.manifest import RECORD_ENDING
 from vorotool.batch.tasks import Task
 from vorotool.errors import OutputError, UsageError
-from vorotool.formats.descriptors import STANDARD, descriptor_of
+from vorotool.formats.io.descriptors import STANDARD, descriptor_of
 
 _NOWHERE = (-1, -1)
 

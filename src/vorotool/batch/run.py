@@ -10,7 +10,7 @@ from pathlib import Path
 
 from vorotool.batch.manifest import Manifest
 from vorotool.batch.tasks import Outcome, Task
-from vorotool.formats.temporaries import remove_dead, remove_tagged
+from vorotool.formats.io.temporaries import remove_dead, remove_tagged
 
 Results = Callable[[Iterator[tuple[int, Task]]], Generator[tuple[int, Outcome], None, None]]
 """Does numbered tasks, which it takes when there is somebody to do them, and yields what became of each."""

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, BinaryIO
 
-from vorotool.formats.tables import safe_text
+from vorotool.formats.text.tables import safe_text
 
 TABLE_FORMATS = ("csv", "json")
 """Formats that are joined row by row."""

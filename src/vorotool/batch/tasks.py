@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from vorotool import __version__
-from vorotool.formats.descriptors import stream_kind
-from vorotool.formats.temporaries import tagged_temporaries
+from vorotool.formats.io.descriptors import stream_kind
+from vorotool.formats.io.temporaries import tagged_temporaries
 
 INPUT = ""
 """Stands for the input where digests are by the paths of outputs."""

@@ -154,7 +154,7 @@ def _replace_closed_streams() -> None:
 
 def _run(arguments: list[str] | None) -> int:
     if "_VOROTOOL_COMPLETE" in os.environ:  # a shell asks what an argument can be
-        from vorotool.cli.completion import register
+        from vorotool.cli.commands.completion import register
 
         register()
     try:

@@ -8,17 +8,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from vorotool.errors import InputError, UsageError
-from vorotool.geometry.frame import MAX_PIXELS
+from vorotool.geometry.pixel_frame import MAX_PIXELS
 
 NPY_MAGIC = b"\x93NUMPY"
 
 if TYPE_CHECKING:
-    from vorotool.geometry.label_image import LabelImage
-    from vorotool.geometry.offsets import Offsets
-    from vorotool.geometry.points import PointSet
-    from vorotool.geometry.polygons import PolygonSet
-    from vorotool.geometry.raster import Raster
-    from vorotool.geometry.skeleton import Skeleton
+    from vorotool.geometry.points.label_image import LabelImage
+    from vorotool.geometry.points.point_set import PointSet
+    from vorotool.geometry.points.raster import Raster
+    from vorotool.geometry.polygons.polygon_set import PolygonSet
+    from vorotool.geometry.skeleton.offsets import Offsets
+    from vorotool.geometry.skeleton.skeleton import Skeleton
 
 
 def read(
@@ -82,8 +82,8 @@ def read(
     >>> len(read("data/dots.csv"))
     53
     """
-    from vorotool.formats.input_formats import NAMES_WITH, known_input_format
-    from vorotool.formats.sources import reading
+    from vorotool.formats.io.sources import reading
+    from vorotool.formats.parsing.format_names import NAMES_WITH, known_input_format
     from vorotool.geometry.checks import checked_threads
 
     if geometry not in NAMES_WITH:
@@ -134,9 +134,9 @@ def _read(
     crs: Any,
 ) -> PointSet | PolygonSet | Raster | Skeleton | Offsets:
     """Read a file with options that have been checked."""
-    from vorotool.formats.image_rows import is_zarr, open_rows, read_rows
-    from vorotool.formats.images import is_image, read_image
-    from vorotool.formats.sources import read_source
+    from vorotool.formats.images.band_reader import is_zarr, open_rows, read_rows
+    from vorotool.formats.images.reader import is_image, read_image
+    from vorotool.formats.io.sources import read_source
 
     if is_zarr(name, input_format):
         _refuse_crs(crs)
@@ -145,8 +145,8 @@ def _read(
         return read_rows(rows, max_pixels=max_pixels)
     source = read_source(name)
     if geometry is None and input_format in (None, "json"):
-        from vorotool.formats.offset_json import read_offsets, says_offsets
-        from vorotool.formats.skeleton_json import read_skeleton, says_skeleton
+        from vorotool.formats.results.offset_json import read_offsets, says_offsets
+        from vorotool.formats.results.skeleton_json import read_skeleton, says_skeleton
 
         if says_skeleton(source.data):
             return read_skeleton(source, properties=properties, max_sites=max_sites, note=note)
@@ -158,8 +158,8 @@ def _read(
     ):
         _refuse_crs(crs)
         return read_image(source, input_format=input_format, page=page, max_pixels=max_pixels)
-    from vorotool.formats.points import read_points
-    from vorotool.formats.polygons import read_polygons, recognise
+    from vorotool.formats.points.reader import read_points
+    from vorotool.formats.polygons.reader import read_polygons, recognise
 
     has_shapes = geometry == "polygons"
     if geometry is None and columns is None:
@@ -211,9 +211,9 @@ def write(
     >>> import vorotool
     >>> write(vorotool.delaunay([[0, 0], [4, 0], [0, 3]]), "build/triangles.geojson", what="triangles")
     """
-    from vorotool.formats.outputs import open_output
+    from vorotool.formats.io.atomic_output import open_output
     from vorotool.geometry.checks import checked_threads
-    from vorotool.geometry.label_image import LabelImage
+    from vorotool.geometry.points.label_image import LabelImage
 
     name = (fmt or Path(path).suffix).lower().lstrip(".")
     chosen: Any = {"tif": "tiff", "txt": "text"}.get(name, name)
@@ -265,31 +265,31 @@ def _writer_of(
     value: Any, fmt: str, what: str | None, flatten: float | None, threads: int
 ) -> tuple[Callable[..., None], dict[str, Any]]:
     """Give the function that writes a value, and its further options."""
-    from vorotool.geometry.alpha_complex import AlphaComplex
-    from vorotool.geometry.alpha_shape import AlphaShape
-    from vorotool.geometry.centerline import Centerlines
-    from vorotool.geometry.digital_triangulation import DigitalTriangulation
-    from vorotool.geometry.offsets import Offsets
-    from vorotool.geometry.skeleton import Skeleton
-    from vorotool.geometry.skeleton_points import SkeletonPoints
-    from vorotool.geometry.triangulation import Triangulation
+    from vorotool.geometry.alpha.complex import AlphaComplex
+    from vorotool.geometry.alpha.shape import AlphaShape
+    from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
+    from vorotool.geometry.mesh.triangulation import Triangulation
+    from vorotool.geometry.skeleton.centerline import Centerlines
+    from vorotool.geometry.skeleton.offsets import Offsets
+    from vorotool.geometry.skeleton.points_along import SkeletonPoints
+    from vorotool.geometry.skeleton.skeleton import Skeleton
 
     if flatten is not None and not isinstance(value, Centerlines | Skeleton | Offsets):
         raise UsageError(f"flatten is for skeletons and offsets: leave it out with a {type(value).__name__}")
     if isinstance(value, Skeleton):
-        from vorotool.formats.skeleton_files import write_skeleton
+        from vorotool.formats.results.skeletons import write_skeleton
 
         return write_skeleton, {"what": what or "skeleton", "flatten": flatten, "threads": threads}
     if isinstance(value, SkeletonPoints):
-        from vorotool.formats.skeleton_point_files import write_skeleton_points
+        from vorotool.formats.results.points_along import write_skeleton_points
 
         return write_skeleton_points, {"what": what or "points", "threads": threads}
     if isinstance(value, AlphaComplex | AlphaShape):
-        from vorotool.formats.alpha_files import write_shape
+        from vorotool.formats.results.alpha import write_shape
 
         return write_shape, {"what": what, "threads": threads}
     if isinstance(value, Triangulation | DigitalTriangulation):
-        from vorotool.formats.mesh_files import write_mesh
+        from vorotool.formats.results.meshes import write_mesh
 
         return write_mesh, {"what": what or {"ele": "triangles", "node": "table"}.get(fmt, "edges"), "threads": threads}
     if what is not None:
@@ -302,15 +302,15 @@ def _writer_of(
 
 def _line_writer(value: Any, flatten: float | None, threads: int) -> tuple[Callable[..., None], dict[str, Any]] | None:
     """Give the function that writes curves, which some formats flatten."""
-    from vorotool.geometry.centerline import Centerlines
-    from vorotool.geometry.offsets import Offsets
+    from vorotool.geometry.skeleton.centerline import Centerlines
+    from vorotool.geometry.skeleton.offsets import Offsets
 
     if isinstance(value, Centerlines):
-        from vorotool.formats.centerline_files import write_centerlines
+        from vorotool.formats.results.centerlines import write_centerlines
 
         return write_centerlines, {"flatten": flatten, "threads": threads}
     if isinstance(value, Offsets):
-        from vorotool.formats.offset_files import write_offsets
+        from vorotool.formats.results.offsets import write_offsets
 
         return write_offsets, {"flatten": flatten, "threads": threads}
     return None
@@ -318,20 +318,20 @@ def _line_writer(value: Any, flatten: float | None, threads: int) -> tuple[Calla
 
 def _plain_writer(value: Any, threads: int) -> tuple[Callable[..., None], dict[str, Any]]:
     """Give the function that writes a value of which there is one thing to write."""
-    from vorotool.geometry.cells import CellSet
-    from vorotool.geometry.polygons import PolygonSet
+    from vorotool.geometry.mesh.cells import CellSet
+    from vorotool.geometry.polygons.polygon_set import PolygonSet
     from vorotool.geometry.table import Table
 
     if isinstance(value, Table):
-        from vorotool.formats.tables import write_table
+        from vorotool.formats.text.tables import write_table
 
         return write_table, {"threads": threads}
     if isinstance(value, PolygonSet):
-        from vorotool.formats.polygons import write_polygons
+        from vorotool.formats.polygons.reader import write_polygons
 
         return write_polygons, {}
     if isinstance(value, CellSet):
-        from vorotool.formats.cell_files import write_cells
+        from vorotool.formats.results.cells import write_cells
 
         return write_cells, {"threads": threads}
     raise UsageError(
@@ -341,11 +341,11 @@ def _plain_writer(value: Any, threads: int) -> tuple[Callable[..., None], dict[s
 
 
 def _write_image(image: LabelImage, path: str, fmt: Any, threads: int) -> None:
-    from vorotool.formats.label_images import write_label_image
-    from vorotool.formats.outputs import open_output
+    from vorotool.formats.images.label_images import write_label_image
+    from vorotool.formats.io.atomic_output import open_output
 
     if fmt == "zarr":
-        from vorotool.formats.zarr_arrays import write_zarr
+        from vorotool.formats.zarr.arrays import write_zarr
 
         write_zarr(path, image.labels, threads=threads)
         return

@@ -1,0 +1,1 @@
+"""Many inputs: dispatch, plan, run, report."""

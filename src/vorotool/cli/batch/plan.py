@@ -1,0 +1,208 @@
+"""What the options of a batch ask for: its inputs and their outputs, the record, the table of all."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from types import SimpleNamespace
+
+import click
+from click.core import ParameterSource
+
+from vorotool.batch.inputs import Input, expand_inputs, read_names
+from vorotool.batch.manifest import RECORD_ENDING, History, Manifest, digest_of_values, read_history
+from vorotool.batch.plan import check_outputs, output_paths, share
+from vorotool.batch.tables import TABLE_FORMATS
+from vorotool.batch.tasks import Task, digest_of
+from vorotool.cli.options.pixel_size import check_units
+from vorotool.cli.options.shared import BATCH_OPTIONS
+from vorotool.formats.io.atomic_output import spoken
+from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
+from vorotool.jobs.job import Recipe
+from vorotool.jobs.targets import EXTENSIONS, Target, files_read, plan_targets
+
+WITHOUT_EFFECT = frozenset(
+    {"inputs", "output", "out_dir", "threads", "quiet", "verbose", "stats", "no_clobber", *BATCH_OPTIONS}
+)
+"""Options that change no byte of an output."""
+
+INPUT_FILES = ("clip", "overlay")
+"""Options that name files which are read."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is to be done.
+
+    Parameters
+    ----------
+    tasks : list of Task
+        One an input.
+    targets : list of Target
+        What each gives, in which format; the paths are those of no input.
+    table : str, optional
+        Format of the table of all inputs.
+    manifest : Manifest, optional
+        Where it is recorded what was done.
+    notes : list of str
+        What is said before the work begins.
+    """
+
+    tasks: list[Task]
+    targets: list[Target]
+    table: str | None
+    manifest: Manifest | None
+    notes: list[str]
+
+
+def plan_batch(recipe: Recipe, o: SimpleNamespace) -> Plan:
+    """Lay out a batch; nothing is written.
+
+    Parameters
+    ----------
+    recipe : Recipe
+        Of the command.
+    o : namespace
+        Options of the command line; ``what`` is made to tell what is computed.
+
+    Raises
+    ------
+    click.UsageError
+        If options do not go together.
+    VorotoolError
+        If there are no inputs, or outputs would replace something that they must not.
+    """
+    _check_options(o)
+    notes = _name_files_of_shard(o)
+    table = _table_format(o)
+    if o.out_dir is None:
+        _check_table_only(o)
+        o.what = ()
+    targets = [] if o.out_dir is None else plan_targets(
+        recipe.formats, o.what, output=None, fmt=o.format, out_dir=o.out_dir, source="input"
+    )  # fmt: skip
+    manifest, history = _record(recipe, o, targets)
+    tasks = _tasks(recipe, o, targets, notes.append)
+    if manifest is not None:
+        tasks = [replace(task, done=manifest.done_before(task.source, history)) for task in tasks]
+    if table is not None:
+        o.what = tuple(dict.fromkeys((*o.what, "table")))
+        targets.append(Target("table", f"part.{table}", table))
+    recipe.check_options(o, targets)
+    check_units(o, targets)
+    return Plan(tasks, targets, table, manifest, notes)
+
+
+def _check_options(o: SimpleNamespace) -> None:
+    table = getattr(o, "table", None)
+    inputs = f"{len(o.inputs)} inputs are given" if len(o.inputs) > 1 else "many inputs are asked for"
+    if o.output is not None:
+        raise click.UsageError(f"{inputs}, but -o names one output: name a folder for all with --out-dir")
+    if o.out_dir is None and table is None:
+        raise click.UsageError(f"{inputs}: name a folder for their outputs with --out-dir")
+    if o.out_dir is None and o.resume:
+        raise click.UsageError("--resume needs --out-dir DIR, where it is recorded what was done")
+    for name in INPUT_FILES:
+        given = getattr(o, name, None)
+        if given is not None and (kind := stream_kind(given)) is not None:
+            what = "standard input" if given == STANDARD else kind
+            raise click.UsageError(f"--{name} {given} is {what}, which not every input can read: name a file")
+    if o.null and o.files_from is None:
+        raise click.UsageError("-0 is about the list of --files-from: leave it out")
+    if table is not None and o.stats is not None and is_same_output(table, o.stats):
+        if descriptor_of(table) is None and table != STANDARD:
+            raise click.UsageError(f"--stats {o.stats} is also --table: choose another name")
+        raise click.UsageError(f"--stats {o.stats} needs --table FILE: {spoken(table)} holds the table")
+    if o.cluster not in (None, "local") and o.jobs is not None:
+        raise click.UsageError("-j is for this machine: a cluster has the workers that it has")
+
+
+def _name_files_of_shard(o: SimpleNamespace) -> list[str]:
+    """Give the table and the statistics of a part names of their own: parts would replace those of each other."""
+    notes = []
+    for option in ("table", "stats"):
+        path = getattr(o, option, None)
+        own = path if path is None or o.shard is None else name_of_part(path, *o.shard)
+        if own != path:
+            setattr(o, option, own)
+            notes.append(f"--{option} of part {o.shard[0]} of {o.shard[1]} is {own}")
+    return notes
+
+
+def name_of_part(path: str, part: int, parts: int) -> str:
+    """Name the file of one of several parts, as its manifest is named; streams and names that tell the part stay.
+
+    Examples
+    --------
+    >>> name_of_part("out/all.csv", 2, 8), name_of_part("all.2-of-8.csv", 2, 8), name_of_part("-", 2, 8)
+    ('out/all.2-of-8.csv', 'all.2-of-8.csv', '-')
+    """
+    name, mark = Path(path), f"{part}-of-{parts}"
+    if parts == 1 or not name.name or stream_kind(path) is not None or mark in re.split("[._]", name.name):
+        return path
+    return str(name.with_name(f"{name.stem}.{mark}{name.suffix}"))
+
+
+def _check_table_only(o: SimpleNamespace) -> None:
+    source = click.get_current_context().get_parameter_source("what")
+    if source != ParameterSource.DEFAULT and o.what != ("table",):
+        raise click.UsageError(f"--what {','.join(o.what)} needs --out-dir DIR: --table is a file of tables alone")
+
+
+def _table_format(o: SimpleNamespace) -> str | None:
+    """Format of the table of all inputs: what its name says, unless there is no other output for -f."""
+    path = getattr(o, "table", None)
+    if path is None:
+        return None
+    if o.out_dir is None and o.format is not None:
+        fmt = o.format.lower()
+    else:
+        fmt = EXTENSIONS.get(Path(path).suffix.lower(), "" if stream_kind(path) is None else "csv")
+    if fmt not in TABLE_FORMATS:
+        raise click.UsageError(f"--table {path} is written as CSV or JSON: name it .csv or .json")
+    return str(fmt)
+
+
+def _record(recipe: Recipe, o: SimpleNamespace, targets: list[Target]) -> tuple[Manifest | None, History]:
+    """Give where it is recorded what is done, and what was done before by the same options."""
+    if o.out_dir is None:
+        return None, History()
+    digest = digest_of_values(
+        {
+            "options": {name: value for name, value in vars(o).items() if name not in WITHOUT_EFFECT},
+            "files": {name: digest_of(getattr(o, name)) for name in INPUT_FILES if getattr(o, name, None)},
+            "outputs": [(target.what, target.fmt) for target in targets],
+        }
+    )
+    shard = "" if o.shard is None else f".{o.shard[0]}-of-{o.shard[1]}"
+    folder = Path(o.out_dir)
+    manifest = Manifest(folder / f"{recipe.name}{shard}{RECORD_ENDING}", digest, folder)
+    history = read_history(sorted(folder.glob(f"{recipe.name}*{RECORD_ENDING}"))) if o.resume else History()
+    return manifest, history
+
+
+def _tasks(recipe: Recipe, o: SimpleNamespace, targets: list[Target], note: Callable[[str], None]) -> list[Task]:
+    inputs = _inputs(recipe, o, note)
+    endings = [target.path.removeprefix(str(Path(o.out_dir) / "input")) for target in targets]
+    tasks = [Task(each.source, output_paths(each.name, endings, o.out_dir or "")) for each in inputs]
+    written = {"--stats": o.stats, "--table": getattr(o, "table", None)}
+    check_outputs(tasks, o.out_dir or "", others=written, read=files_read(o))
+    if o.shard is None:
+        return tasks
+    chosen = {each.source for each in share(inputs, *o.shard)}
+    return [task for task in tasks if task.source in chosen]
+
+
+def _inputs(recipe: Recipe, o: SimpleNamespace, note: Callable[[str], None]) -> list[Input]:
+    from vorotool.formats.parsing.format_names import DRAWN_NAMES, NAMES_WITH
+
+    known = DRAWN_NAMES if recipe.geometry is None else NAMES_WITH[recipe.geometry]
+    names = [*o.inputs, *(read_names(o.files_from, null=o.null) if o.files_from is not None else ())]
+    if not names:
+        advice = "name files, folders, or a list of them with --files-from"
+        if o.files_from is not None:
+            advice = f"--files-from {o.files_from} holds no names; write one on each line"
+        raise click.UsageError(f"0 inputs are given: {advice}")
+    return expand_inputs(names, extensions=known, without=o.out_dir, note=note)

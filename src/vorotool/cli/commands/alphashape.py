@@ -1,0 +1,160 @@
+"""``vorotool alphashape``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from vorotool.cli.batch.dispatch import run_command
+from vorotool.cli.options.groups import site_options
+from vorotool.cli.options.shared import (
+    Decimal,
+    Names,
+    Radius,
+    inputs_argument,
+    output_options,
+)
+from vorotool.formats.parsing.format_names import NAMES_WITH
+from vorotool.jobs.inputs import check_components, check_frame_options, naming, read_sites
+from vorotool.jobs.job import Recipe
+from vorotool.jobs.names import METHODS, OF_ONE_SHAPE, PICTURES, TABLES
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.targets import Target, check_picture_options
+
+if TYPE_CHECKING:
+    from vorotool.jobs.alpha_shape import ShapeProducts
+
+FORMATS = {
+    "edges": ("csv", "json", "geojson", "npz", *PICTURES, "html"),
+    "polygons": ("geojson", "wkt", "json", *PICTURES, "html"),
+    "complex": ("csv", "json", "geojson", "npz", *PICTURES, "html"),
+    "general": ("geojson", "wkt", *PICTURES, "html"),
+    "family": (*TABLES, "html"),
+    "spectrum": TABLES,
+    "curves": (*TABLES, "svg", "html"),
+    "hull": ("geojson", *TABLES, *PICTURES),
+    "points": TABLES,
+    "table": TABLES,
+}
+OF_DIGITAL_RULE = frozenset({"edges", "complex", "family", "spectrum"})
+"""Results that need no more than edges and the triangles beside them."""
+LAYERS = ("polygons", "delaunay", "interior", "boundary", "singular", "hull", "points", "labels")
+"""Layers of pictures, from below."""
+PICTURE_LAYERS = {"svg": LAYERS, "png": LAYERS}
+_WITH_LAYERS = frozenset({"edges", "polygons", "complex", "general", "hull"})
+_WITHOUT_DIGITS = frozenset({"npz", "html", *PICTURES})
+
+
+@click.command("alphashape")
+@inputs_argument(NAMES_WITH["points"])
+@click.option("-r", "r", type=Radius(), help="Radius, in units of the input; inf gives the convex hull.")
+@click.option("--alpha", type=Decimal(), metavar="A", help="The paper's α = −1/r, negative.")
+@click.option("--auto", is_flag=True, help="The smallest r whose shape is one region with every point: the default.")
+@click.option("--regions", type=click.IntRange(min=1), metavar="K", help="Regions that --auto allows; by default 1.")
+@output_options(FORMATS)
+@click.option("--what", type=Names(tuple(FORMATS)), help=f"What to write: {', '.join(FORMATS)}; several separated by "
+              "commas. By default edges; polygons for GeoJSON and WKT.")  # fmt: skip
+@click.option(
+    "--rule",
+    type=click.Choice(["corrected", "printed"]),
+    default="corrected",
+    show_default=True,
+    help="printed: r_min and open intervals to the letter of the paper.",
+)
+@click.option("--hole-threshold", type=Decimal(), metavar="AREA", help="Fill holes (cavities) of at most this area.")
+@click.option("--region-threshold", type=Decimal(), metavar="AREA", help="Then leave out regions of at most this area.")
+@click.option(
+    "--method",
+    type=click.Choice(METHODS),
+    default="exact",
+    show_default=True,
+    help="How points are triangulated, as in delaunay.",
+)
+@site_options(LAYERS)
+def command(**options: Any) -> None:
+    """Find the alpha shape of points: edges that an empty disc of radius r touches at both ends, and what they bound.
+
+    \b
+    Example:
+      vorotool alphashape data/dots.csv -r 60 -o shape.csv
+
+    INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, PBM,
+    NPY), whose components or labels count as points at their centroids; - is standard input. Label i is the i-th
+    point; labels of the input are kept.
+
+    --what family, spectrum and curves are about the shapes of all radii. -f html makes a page with a slider over r.
+    """
+    o = SimpleNamespace(**options)
+    o.what = o.what or (_default_what(o),)
+    run_command(RECIPE, o)
+
+
+def _products(run: Run, o: SimpleNamespace, source: str) -> ShapeProducts:
+    from vorotool.engines.alpha.alpha_shape import chosen_radius
+    from vorotool.jobs.alpha_shape import ShapeProducts
+
+    o.radius = chosen_radius(o.r, o.alpha, o.auto)
+    with naming(source), run.phase("read"):
+        points = read_sites(run, o, source, properties="points" in o.what, is_digital=o.method != "exact")
+    with naming(source):
+        return ShapeProducts(points, o, run)
+
+
+def _default_what(o: SimpleNamespace) -> str:
+    name = o.format or Path(o.output or "").suffix
+    return "polygons" if name.lower().lstrip(".") in ("geojson", "wkt") else "edges"
+
+
+def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
+    check_components(o)
+    if o.regions is not None and (o.r is not None or o.alpha is not None):
+        raise click.UsageError("--regions is for the automatic choice of r: leave out -r and --alpha")
+    _check_method(o, {target.fmt for target in targets})
+    if "hull" in o.what and (o.hole_threshold is not None or o.region_threshold is not None):
+        raise click.UsageError("the hull has no thresholds: leave out --hole-threshold and --region-threshold")
+    formats = {target.fmt for target in targets}
+    if o.precision is not None and formats <= _WITHOUT_DIGITS:
+        raise click.UsageError("--precision is for numbers in text: use -f csv, json, geojson or wkt, or leave it out")
+    pictures = sorted({target.fmt for target in targets if target.what in _WITH_LAYERS} & set(PICTURES))
+    if o.layers is not None and not pictures:
+        raise click.UsageError("--layers is for pictures of a shape: use -f svg or -f png, or leave it out")
+    if o.overlay is not None and not pictures:
+        raise click.UsageError("--overlay is for pictures of a shape: use -f svg or -f png, or leave it out")
+    plots = ["svg"] if ("curves", "svg") in {(target.what, target.fmt) for target in targets} else []
+    if o.y_up is not None and plots and not pictures and "html" not in formats:
+        raise click.UsageError("--y-up and --y-down are for pictures of a shape, but curves are a plot: leave them out")
+    check_picture_options(o, pictures or plots, PICTURE_LAYERS, png_has_width=True, has_page="html" in formats)
+
+
+def _check_method(o: SimpleNamespace, formats: set[str]) -> None:
+    """Refuse what the way of triangulating or the rule cannot give, or would not look at."""
+    check_frame_options(o, is_digital=o.method != "exact")
+    is_automatic = o.r is None and o.alpha is None
+    needs_corrected = (is_automatic and set(o.what) & OF_ONE_SHAPE) or "curves" in o.what or "html" in formats
+    if o.rule == "printed" and needs_corrected:
+        raise click.UsageError("curves, pages and the automatic r need --rule corrected: give -r, or leave out --rule")
+    if o.rule == "printed" and o.verify:
+        raise click.UsageError("the printed rule fails the check, as it should: leave out --verify or --rule")
+    if o.method == "digital":
+        _check_digital_rule(o, formats)
+
+
+def _check_digital_rule(o: SimpleNamespace, formats: set[str]) -> None:
+    if "html" in formats:
+        raise click.UsageError("--method digital has no curves for a page: use --method exact or digital-valid")
+    for name in o.what:
+        if name not in OF_DIGITAL_RULE:
+            raise click.UsageError(
+                "--method digital finds edges and triangles that need be no triangulation: "
+                f"{name} needs --method exact or digital-valid"
+            )
+    if set(o.what) & OF_ONE_SHAPE and o.r is None and o.alpha is None:
+        raise click.UsageError("--method digital has no regions to choose r by: give -r or --alpha")
+    if o.hole_threshold is not None or o.region_threshold is not None or o.verify:
+        raise click.UsageError("--method digital has no regions: leave out thresholds and --verify")
+
+
+RECIPE = Recipe("alphashape", FORMATS, _check_options, _products, "points")

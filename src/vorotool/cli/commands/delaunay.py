@@ -1,0 +1,144 @@
+"""``vorotool delaunay``."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from vorotool.cli.batch.dispatch import run_command
+from vorotool.cli.options.groups import site_options
+from vorotool.cli.options.shared import (
+    Rectangle,
+    inputs_argument,
+    output_options,
+    what_option,
+)
+from vorotool.cli.options.suggestions import files
+from vorotool.formats.parsing.format_names import NAMES_WITH, POLYGON_NAMES
+from vorotool.jobs.inputs import check_components, check_frame_options, naming, read_clip, read_sites
+from vorotool.jobs.job import Recipe
+from vorotool.jobs.names import MESH_LAYERS, METHODS, PICTURES, TABLES
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.targets import Target, check_picture_options
+
+if TYPE_CHECKING:
+    from vorotool.jobs.triangulation import MeshProducts
+
+FORMATS = {
+    "edges": ("csv", "json", "geojson", "npz", "edge", "obj", *PICTURES),
+    "triangles": ("csv", "json", "geojson", "npz", "ele", "obj", *PICTURES),
+    "cells": ("geojson", "csv", "json", "npz", "wkt", *PICTURES),
+    "table": (*TABLES, "node"),
+    "compare": TABLES,
+}
+OF_TRIANGULATIONS = frozenset(
+    {("edges", "edge"), ("triangles", "ele")} | {(what, fmt) for what in ("cells", "table") for fmt in FORMATS[what]}
+)
+"""Results and formats that what the digital rule finds has no place in."""
+PICTURE_LAYERS = {"svg": MESH_LAYERS, "png": MESH_LAYERS}
+
+_WITHOUT_DIGITS = frozenset({"npz", "edge", "ele", *PICTURES})
+
+
+@click.command("delaunay")
+@inputs_argument(NAMES_WITH["points"])
+@output_options(FORMATS)
+@what_option(tuple(FORMATS))
+@click.option(
+    "--method",
+    type=click.Choice(METHODS),
+    default="exact",
+    show_default=True,
+    help="digital: the paper's rule, to the letter, on the digital tessellation of a frame; digital-valid: its "
+    "certified repair, which gives the exact triangulation.",
+)
+@click.option(
+    "--frame",
+    type=Rectangle(),
+    help="Rectangle that cells are clipped to; by default the bounds of the points and a tenth more.",
+)
+@click.option(
+    "--clip",
+    metavar="POLYGONS",
+    help="File of polygons that cells are clipped to as well.",
+    shell_complete=files(POLYGON_NAMES),
+)
+@site_options(MESH_LAYERS)
+def command(**options: Any) -> None:
+    """Triangulate points exactly: no circle through a triangle's vertices holds another point.
+
+    \b
+    Example:
+      vorotool delaunay data/dots.csv -o edges.csv
+
+    INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, PBM,
+    NPY), whose components or labels count as points at their centroids; - is standard input. Label i is the i-th
+    point; labels of the input are kept. OBJ and files for Triangle (.edge, .ele, .node) number the points instead.
+
+    --what compare lists where the digital rule differs from the exact triangulation, each with its cause.
+    """
+    run_command(RECIPE, SimpleNamespace(**options))
+
+
+def _products(run: Run, o: SimpleNamespace, source: str) -> MeshProducts:
+    with naming(source), run.phase("read"):
+        properties = bool({"table", "cells"} & set(o.what))
+        points = read_sites(run, o, source, properties=properties, is_digital=_is_digital(o))
+    if o.clip is not None:
+        with run.phase("read polygons"):
+            o.clip, points = read_clip(run, o, o.clip, points, source)
+    with naming(source):
+        return _kind(o)(points, o, run)
+
+
+def _kind(o: SimpleNamespace) -> type[MeshProducts]:
+    """Give the maker of the results that are wanted."""
+    if not _is_digital(o):
+        from vorotool.jobs.triangulation import MeshProducts
+
+        return MeshProducts
+    from vorotool.jobs.digital_triangulation import DigitalProducts, RepairedProducts
+
+    return RepairedProducts if o.method == "digital-valid" else DigitalProducts
+
+
+def _is_digital(o: SimpleNamespace) -> bool:
+    return o.method != "exact" or "compare" in o.what
+
+
+def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
+    _check_method(o, targets)
+    check_components(o)
+    formats = {target.fmt for target in targets}
+    with_cells = {"cells", "diagram"} & set(o.layers or ()) or {"cells", "table"} & set(o.what)
+    for name in ("frame", "clip"):
+        if getattr(o, name) is not None and not with_cells:
+            raise click.UsageError(f"--{name} is for cells: use --what cells or table, or leave it out")
+    if o.precision is not None and formats <= _WITHOUT_DIGITS:
+        raise click.UsageError("--precision is for numbers in text: use -f csv, json, geojson or obj, or leave it out")
+    pictures = sorted(formats & set(PICTURES))
+    if o.layers is not None and not pictures:
+        raise click.UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
+    check_picture_options(o, pictures, PICTURE_LAYERS, png_has_width=True)
+
+
+def _check_method(o: SimpleNamespace, targets: list[Target]) -> None:
+    """Refuse what the way of triangulating cannot give, or would not look at."""
+    check_frame_options(o, is_digital=_is_digital(o))
+    if "compare" in o.what:
+        if o.method == "digital-valid" or (o.method == "exact" and len(o.what) > 1):
+            raise click.UsageError("--what compare is about the digital rule: use --method digital")
+        o.method = "digital"
+    if o.method == "digital" and {"cells", "diagram"} & set(o.layers or ()):
+        raise click.UsageError("--layers cells and diagram are of the exact cells: use --method exact or digital-valid")
+    for target in targets:
+        if o.method == "digital" and (target.what, target.fmt) in OF_TRIANGULATIONS:
+            raise click.UsageError(
+                f"--method digital finds edges and triangles that need be no triangulation: {target.what} as "
+                f"{target.fmt} needs --method exact or digital-valid"
+            )
+
+
+RECIPE = Recipe("delaunay", FORMATS, _check_options, _products, "points")

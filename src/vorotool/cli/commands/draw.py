@@ -1,0 +1,58 @@
+"""``vorotool draw``."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from vorotool.cli.batch.dispatch import run_command
+from vorotool.cli.options.shared import batch_options, inputs_argument, layers_option, output_options, shared
+from vorotool.formats.parsing.format_names import DRAWN_NAMES
+from vorotool.jobs.job import Recipe
+from vorotool.jobs.names import DERIVED, SKELETON_LAYERS
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.targets import Target
+
+if TYPE_CHECKING:
+    from vorotool.jobs.drawing import Picture
+
+FORMATS = {"picture": ("png", "svg")}
+LAYERS = tuple(dict.fromkeys(["cells", "diagram", *SKELETON_LAYERS, *DERIVED["offset"], *DERIVED["shape"]]))
+"""Of pictures of all that is drawn."""
+
+
+@click.command("draw")
+@inputs_argument(DRAWN_NAMES)
+@output_options(FORMATS)
+@shared("input-format", "page")
+@layers_option(LAYERS)
+@shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "max-pixels")
+@batch_options(table=False)
+@shared("no-clobber", "quiet", "verbose")
+def command(**options: Any) -> None:
+    """Draw a label image, in which neighbouring regions never share a colour, a skeleton, offset curves, or shapes.
+
+    \b
+    Example:
+      vorotool draw data/cells.png -o cells.svg
+
+    INPUT is a label image (PNG, TIFF, PGM, NPY, Zarr), such as tessellate writes, the JSON of a skeleton or of offset
+    curves, or shapes: polygons and lines (GeoJSON, WKT, JSON, Triangle .poly), such as centerlines and alpha shapes;
+    - is standard input.
+    """
+    run_command(RECIPE, SimpleNamespace(**options, what=("picture",)))
+
+
+def _products(run: Run, o: SimpleNamespace, source: str) -> Picture:
+    from vorotool.jobs.drawing import Picture
+
+    return Picture(run, o, source)
+
+
+def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
+    """What there can be in a picture depends on the input."""
+
+
+RECIPE = Recipe("draw", FORMATS, _check_options, _products)

@@ -1,0 +1,69 @@
+"""``vorotool skeleton-approx``."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from vorotool.cli.options.skeleton import APPROXIMATE_LAYERS, Length, run_skeletons, skeleton_options
+
+if TYPE_CHECKING:
+    from vorotool.geometry.polygons.polygon_set import PolygonSet
+    from vorotool.jobs.approximate_skeleton import ApproximateProducts
+    from vorotool.jobs.run_log import Run
+
+
+@click.command("skeleton-approx")
+@skeleton_options(
+    click.option(
+        "--features",
+        type=click.Choice(["separate", "together"]),
+        default="separate",
+        help="Take each feature as if there were no others, whatever lies in it or over it (default), or all as one "
+        "drawing.",
+    ),
+    click.option("--step", type=Length(zero=False), metavar="H", help="Sample the edges at this distance."),
+    click.option(
+        "--tolerance",
+        type=Length(zero=False),
+        metavar="E",
+        help="Instead of a step: sample as finely as it takes for all errors to be at most E.",
+    ),
+    click.option(
+        "--sampling",
+        type=click.Choice(["paper", "symmetric"]),
+        help="From the first end of each edge (default with --step), or from both ends alike (with --tolerance).",
+    ),
+    click.option(
+        "--complete/--no-complete",
+        default=None,
+        help="Join corners by lines along their bisectors; by default with --tolerance.",
+    ),
+    click.option("--compare", is_flag=True, help="Say how far the exact skeleton is, both ways; in --stats, too."),
+    layers=APPROXIMATE_LAYERS,
+)
+def command(**options: Any) -> None:
+    """Approximate the skeleton of polygons by samples of their edges, with a certified error of each arc.
+
+    \b
+    Example:
+      vorotool skeleton-approx data/two-shapes.json --step 4 -o skeleton.svg
+
+    INPUT is as for skeleton-exact. Of the Voronoi diagram of the samples, the edges between samples of one edge are
+    left out, and those that the shapes cross. No point of an arc is farther from the exact skeleton than its
+    error_bound.
+    """
+    o = SimpleNamespace(**options)
+    if (o.step is None) == (o.tolerance is None):
+        raise click.UsageError("use either --step H or --tolerance E")
+    if o.tolerance is not None and o.sampling == "paper":
+        raise click.UsageError("--sampling paper has one step everywhere: use it with --step, or leave it out")
+    run_skeletons("skeleton-approx", o, _products)
+
+
+def _products(polygons: PolygonSet, o: SimpleNamespace, run: Run) -> ApproximateProducts:
+    from vorotool.jobs.approximate_skeleton import ApproximateProducts
+
+    return ApproximateProducts(polygons, o, run)

@@ -1,0 +1,179 @@
+"""``vorotool tessellate``."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from vorotool.cli.batch.dispatch import run_command
+from vorotool.cli.options.groups import site_options
+from vorotool.cli.options.shared import (
+    Decimal,
+    Size,
+    inputs_argument,
+    output_options,
+    what_option,
+)
+from vorotool.formats.parsing.format_names import NAMES_WITH
+from vorotool.jobs.inputs import (
+    check_components,
+    check_frame_options,
+    frame_of,
+    naming,
+    read_seed_input,
+    refuse,
+    settle_threshold,
+)
+from vorotool.jobs.job import Recipe
+from vorotool.jobs.names import TABLES
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.targets import Target, check_picture_options
+
+if TYPE_CHECKING:
+    from vorotool.geometry.points.seed_set import SeedSet
+    from vorotool.jobs.streamed_tessellation import StreamedProducts
+    from vorotool.jobs.tessellation import Products
+
+_IMAGES = ("png", "tiff", "npy", "text")
+_PICTURES = {("labels", "svg"), ("diagram", "png"), ("colour", "png"), ("colour", "svg")}
+FORMATS = {
+    "labels": (*_IMAGES, "zarr", "svg"),
+    "diagram": _IMAGES,
+    "colour": ("png", "svg"),
+    "distance": ("tiff", "npy", "zarr"),
+    "distance2": ("tiff", "npy", "zarr", "text"),
+    "table": TABLES,
+    "neighbours": TABLES,
+}
+
+
+@click.command("tessellate")
+@inputs_argument(NAMES_WITH["points"])
+@output_options(FORMATS)
+@what_option(tuple(FORMATS))
+@click.option(
+    "--method",
+    type=click.Choice(["exact", "propagation"]),
+    default="exact",
+    show_default=True,
+    help="propagation: the paper's two passes to the letter, nearly exact.",
+)
+@click.option("--passes", type=click.IntRange(1, 2), help="Passes of the propagation; by default 2.")
+@click.option(
+    "--max-distance",
+    type=Decimal(),
+    help="Label pixels up to this distance from a seed; beyond: 0. Distances stay whole.",
+)
+@click.option(
+    "--dtype", type=click.Choice(["uint8", "uint16", "uint32", "int32"]), help="Type of labels in TIFF, NPY, Zarr."
+)
+@click.option(
+    "--chunk",
+    type=Size(),
+    help="Columns x rows of the chunks of a Zarr store; by default 2048x512, fewer rows if wide.",
+)
+@site_options(("cells", "diagram", "seeds", "labels"))
+def command(**options: Any) -> None:
+    """Label every pixel with its nearest seed, exactly; ties go to the smallest label.
+
+    \b
+    Example:
+      vorotool tessellate data/dots.csv --size 512x512 -o labels.png
+
+    INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, PBM,
+    NPY, Zarr); - is standard input. Label i is the i-th point; an image's own labels are kept.
+    """
+    run_command(RECIPE, SimpleNamespace(**options))
+
+
+def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
+    check_frame_options(o, is_digital=True)
+    if o.method == "propagation" and o.max_distance is not None:
+        raise click.UsageError("--max-distance needs --method exact")
+    if o.method == "exact" and o.passes is not None:
+        raise click.UsageError("--passes needs --method propagation")
+    if o.method == "propagation" and {"distance", "distance2"} & {target.what for target in targets}:
+        raise click.UsageError("distances are those of the exact tessellation: leave out --method propagation")
+    check_components(o)
+    if o.method == "propagation" and o.cluster is not None and o.out_dir is None:
+        raise click.UsageError("a cluster computes bands of the exact tessellation: leave out --method propagation")
+    _check_output_options(o, {(target.what, target.fmt) for target in targets})
+
+
+def _check_output_options(o: SimpleNamespace, outputs: set[tuple[str, str]]) -> None:
+    """Refuse options that no output would show."""
+    if o.dtype is not None and not outputs & {("labels", fmt) for fmt in ("tiff", "npy", "zarr")}:
+        raise click.UsageError("--dtype is for labels in TIFF, NPY and Zarr: use -f tiff or -f npy, or leave it out")
+    if o.chunk is not None and "zarr" not in {fmt for _, fmt in outputs}:
+        raise click.UsageError("--chunk is for Zarr stores: use -f zarr, or leave it out")
+    tables = {(what, fmt) for what in ("table", "neighbours") for fmt in ("csv", "json")}
+    if o.precision is not None and not outputs & tables:
+        raise click.UsageError("--precision is for tables in CSV and JSON: use --what table, or leave it out")
+    if o.layers is not None and not outputs & _PICTURES:
+        raise click.UsageError("--layers is for pictures: --what colour, labels as SVG, or the diagram as PNG")
+    pictures = sorted(outputs & _PICTURES - ({("diagram", "png")} if o.layers is None and o.overlay is None else set()))
+    check_picture_options(o, [fmt for _, fmt in pictures])
+
+
+def _read_seeds(run: Run, o: SimpleNamespace, source: str) -> SeedSet:
+    from vorotool.engines.tessellation.seeding import seeds_from_points, seeds_from_raster
+    from vorotool.geometry.points.point_set import PointSet
+
+    value = read_seed_input(run, o, source, properties="table" in o.what)
+    if isinstance(value, PointSet):
+        o.y_up = value.y_up if o.y_up is None else o.y_up
+        return seeds_from_points(value, strict=o.strict, check=lambda seeds: frame_of(o, seeds))
+    refuse(o, ("columns", "size", "window"), "is for lists of points, but the input is an image, which brings its own")
+    o.resolution = value.resolution
+    settle_threshold(run, o, value)
+    return seeds_from_raster(
+        value,
+        mode=o.seeds,
+        connectivity=int(o.connectivity or 8),
+        threshold=o.threshold,
+        invert=o.invert,
+        strict=o.strict,
+        max_sites=o.max_sites,
+        note=run.note,
+    )
+
+
+def _products(run: Run, o: SimpleNamespace, source: str) -> Products | StreamedProducts:
+    from vorotool.jobs.streamed_tessellation import StreamedProducts, open_large
+
+    with naming(source), run.phase("read"):
+        large = open_large(o, source)
+        if large is not None:
+            return StreamedProducts(run, o, large)
+    with naming(source), run.phase("read"):
+        seeds = _read_seeds(run, o, source)
+    with naming(source), run.phase("prepare"):
+        return _prepare(run, o, seeds)
+
+
+def _prepare(run: Run, o: SimpleNamespace, seeds: SeedSet) -> Products:
+    from vorotool.engines.tessellation.propagation import PropagatedRows
+    from vorotool.engines.tessellation.tessellator import Tessellator
+    from vorotool.errors import LimitError
+    from vorotool.jobs.tessellation import Products
+
+    if len(seeds) > o.max_sites:
+        raise LimitError(f"there are {len(seeds)} seeds, more than --max-sites {o.max_sites}")
+    frame = frame_of(o, seeds)
+    progress = run.progress("tessellating")
+    rows: Tessellator | PropagatedRows
+    if o.method == "exact":
+        rows = Tessellator(
+            seeds, frame, max_distance=o.max_distance, threads=o.threads, strict=o.strict, progress=progress
+        )
+        if {"distance", "distance2"} & set(o.what):
+            rows.check_distances()
+    else:
+        with run.phase("tessellate"):
+            rows = PropagatedRows(seeds, frame, passes=o.passes or 2, max_pixels=o.max_pixels, progress=progress)
+    return Products(rows, o, run)
+
+
+RECIPE = Recipe("tessellate", FORMATS, _check_options, _products, "points")

@@ -1,0 +1,1 @@
+"""Parameter types and option groups."""

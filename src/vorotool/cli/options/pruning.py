@@ -1,0 +1,94 @@
+"""``--prune``, ``--from`` and ``--to`` of the commands that make skeletons."""
+
+from __future__ import annotations
+
+from math import isfinite
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import click
+
+from vorotool.cli.options.parameter_types import ParameterType
+from vorotool.cli.options.suggestions import words
+
+if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
+
+CRITERIA = ("angle", "chord", "scale", "length", "ratio")
+"""As `vorotool.geometry.skeleton.critical_values` has them, which ``--help`` does not import."""
+
+FORMS = "angle=DEG, chord=D, scale=S, length=D, ratio=Q, mask or none"
+
+
+class Pruning(NamedTuple):
+    """What is removed: a criterion and a threshold, or nothing; ``name`` is what was asked for."""
+
+    name: str
+    criterion: str | None = None
+    threshold: float = 0.0
+
+    def stats(self) -> dict[str, Any]:
+        """What statistics say of it."""
+        return {"name": self.name} | ({} if self.criterion is None else {self.criterion: self.threshold})
+
+
+class PruningType(ParameterType[Pruning]):
+    """``CRITERION=THRESHOLD``, ``mask`` or ``none``."""
+
+    name = "CRITERION=X"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Pruning:
+        """Parse it, and refuse a threshold that is none."""
+        if isinstance(value, Pruning):
+            return value
+        if value in ("mask", "none"):
+            return Pruning(value)
+        criterion, equals, text = value.partition("=")
+        if criterion not in CRITERIA or not equals:
+            self.fail(f"{value!r} is no pruning: give {FORMS}", param, ctx)
+        if ctx is not None and ctx.resilient_parsing:  # a shell completes what follows, and should not wait for numpy
+            return Pruning(criterion, criterion)
+        from vorotool.engines.pruning.pruning import check_threshold
+        from vorotool.errors import UsageError
+
+        try:
+            threshold = float(text)
+        except ValueError:
+            self.fail(f"{value!r}: {text!r} is no number; give {FORMS}", param, ctx)
+        try:
+            check_threshold(criterion, threshold)
+        except UsageError as error:
+            self.fail(str(error), param, ctx)
+        return Pruning(criterion, criterion, threshold)
+
+    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem[str]]:
+        """Offer criteria, to which a number is added."""
+        return words((*(f"{name}=" for name in CRITERIA), "mask", "none"))(ctx, param, incomplete)
+
+
+class Place(ParameterType[tuple[float, float]]):
+    """``X,Y`` in the units of the input."""
+
+    name = "X,Y"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, float]:
+        """Parse two finite numbers."""
+        if isinstance(value, tuple):
+            return value
+        try:
+            x, y = (float(part) for part in value.split(","))
+        except ValueError:
+            self.fail(f"{value!r} is no place: give two numbers X,Y, such as 12.5,8", param, ctx)
+        if not (isfinite(x) and isfinite(y)):
+            self.fail(f"{value!r} is no place: both numbers must be finite", param, ctx)
+        return (x, y)
+
+
+def chosen_pruning(asked: Pruning | None, *, is_mask: bool) -> Pruning:
+    """What to remove: masks are pruned by default, polygons are not."""
+    if asked is not None and asked.name != "mask":
+        return asked
+    if asked is None and not is_mask:
+        return Pruning("none")
+    from vorotool.engines.pruning.pruning import default_pruning_for_masks
+
+    return Pruning("mask", *default_pruning_for_masks())

@@ -1,0 +1,368 @@
+"""The one registry of options that commands share."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from fractions import Fraction
+from math import inf, isfinite, nan
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from vorotool.cli.options.parameter_types import ParameterType
+from vorotool.cli.options.suggestions import any_file, files, folders, formats_of, listed, outputs_of, words
+from vorotool.formats.parsing.format_names import ALL_NAMES, IMAGE_NAMES
+
+if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
+
+Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
+
+SPELLINGS = {"color": "colour", "neighbors": "neighbours", "centreline": "centerline"}
+"""American and British spellings are both accepted."""
+
+
+LARGEST_EXPONENT = 400
+"""Of decimal numbers: an exact power of ten beyond any float's takes time and memory, and means nothing."""
+
+
+class Size(ParameterType[tuple[int, int]]):
+    """``WxH`` in pixels."""
+
+    name = "WxH"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[int, int]:
+        """Parse width and height."""
+        if isinstance(value, tuple):
+            return value
+        parts = value.lower().replace("×", "x").split("x")
+        if len(parts) != 2 or not all(re.fullmatch("0*[1-9][0-9]{0,17}", part) for part in parts):
+            self.fail(f"{value!r} is no size: give width and height in pixels, such as 640x480", param, ctx)
+        return (int(parts[0]), int(parts[1]))
+
+
+class Window(ParameterType[tuple[int, int, int, int]]):
+    """``X,Y,W,H`` in pixels."""
+
+    name = "X,Y,W,H"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[int, int, int, int]:
+        """Parse four integers of which the last two are positive."""
+        if isinstance(value, tuple):
+            return value
+        try:
+            x, y, w, h = (int(part) for part in value.split(","))
+        except ValueError:
+            self.fail(f"{value!r} is no window: give four integers X,Y,W,H, such as -10,-10,640,480", param, ctx)
+        if w < 1 or h < 1:
+            self.fail(f"{value!r} is an empty window: W and H must be at least 1", param, ctx)
+        return (x, y, w, h)
+
+
+class Rectangle(ParameterType[tuple[float, float, float, float]]):
+    """``X,Y,W,H`` in the units of the input."""
+
+    name = "X,Y,W,H"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[float, float, float, float]:
+        """Parse four numbers of which the last two are positive."""
+        if isinstance(value, tuple):
+            return value
+        try:
+            x, y, w, h = (float(part) for part in value.split(","))
+        except ValueError:
+            self.fail(f"{value!r} is no frame: give four numbers X,Y,W,H, such as 0,0,12.5,8", param, ctx)
+        if not (all(map(isfinite, (x, y, w, h))) and w > 0 and h > 0):
+            self.fail(f"{value!r} is no frame: all must be finite, W and H more than 0", param, ctx)
+        return (x, y, w, h)
+
+
+class Threshold(ParameterType[float | str]):
+    """A number, or ``otsu``."""
+
+    name = "T|otsu"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float | str:
+        """Parse the number."""
+        if value == "otsu":
+            return "otsu"
+        try:
+            number = float(value)
+        except ValueError:
+            number = nan
+        if not isfinite(number):
+            self.fail(f"{value!r} is no threshold: give a number or otsu", param, ctx)
+        return number
+
+
+class Decimal(ParameterType[Fraction]):
+    """A decimal number, kept exactly."""
+
+    name = "D"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Fraction:
+        """Parse the number."""
+        if isinstance(value, Fraction):
+            return value
+        try:
+            if abs(int(value.lower().partition("e")[2] or 0)) > LARGEST_EXPONENT:
+                raise ValueError
+            return Fraction(value)
+        except (ValueError, ZeroDivisionError):
+            self.fail(f"{value!r} is no number: give a decimal such as 12.5", param, ctx)
+
+
+class CrsName(ParameterType[str]):
+    """The name of a coordinate reference system."""
+
+    name = "CRS"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """Check the name."""
+        from vorotool.geometry.crs import crs_member
+
+        if crs_member(value) is None:
+            self.fail(f"{value!r} is none: write authority and code, such as EPSG:3857 or OGC:CRS84", param, ctx)
+        return str(value)
+
+
+class Radius(Decimal):
+    """A decimal number, kept exactly, or infinity."""
+
+    name = "R"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Parse the number."""
+        return inf if value in ("inf", inf) else super().convert(value, param, ctx)
+
+
+class Shard(ParameterType[tuple[int, int]]):
+    """``I/N``, the I-th of N parts."""
+
+    name = "I/N"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[int, int]:
+        """Parse both numbers."""
+        if isinstance(value, tuple):
+            return value
+        match = re.fullmatch("([0-9]{1,9})/([0-9]{1,9})", value)
+        if match is None or not 1 <= int(match[1]) <= int(match[2]):
+            self.fail(f"{value!r} is no part: give I/N with I from 1 to N, such as 2/8", param, ctx)
+        return (int(match[1]), int(match[2]))
+
+
+class Names(ParameterType[tuple[str, ...]]):
+    """Names from a list, separated by commas."""
+
+    name = "A[,B…]"
+
+    def __init__(self, choices: tuple[str, ...]) -> None:
+        self.choices = choices
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[str, ...]:
+        """Split, accept both spellings, refuse what is not in the list."""
+        if isinstance(value, tuple):
+            return value
+        names = tuple(SPELLINGS.get(name.strip(), name.strip()) for name in value.split(","))
+        for name in names:
+            if name not in self.choices:
+                self.fail(f"{name!r} is not one of {', '.join(self.choices)}", param, ctx)
+        return tuple(dict.fromkeys(names))
+
+    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem[str]]:
+        """Offer what is not in the list yet."""
+        return listed(self.choices, incomplete)
+
+
+def _named_folder(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
+    """Refuse an empty name, such as a variable of a shell that is not set leaves: it would stand for this folder."""
+    if value == "":
+        raise click.BadParameter("'' is no name: name a folder, or . for this one", ctx, param)
+    return value
+
+
+def _named_image(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
+    """Refuse what is an option more likely: whoever forgot the image would be told of its value, which is left over."""
+    if value is not None and value.startswith("-") and value != "-":
+        raise click.BadParameter(f"{value!r} is no image: name one, or write ./{value}", ctx, param)
+    return value
+
+
+OPTIONS: dict[str, Decorator] = {
+    "input-format": click.option(
+        "--input-format",
+        metavar="FORMAT",
+        help="Format of the input, where it is unclear.",
+        shell_complete=words(ALL_NAMES),
+    ),
+    "input-crs": click.option(
+        "--input-crs",
+        type=CrsName(),
+        help="Coordinate reference system of an input that names none, such as EPSG:3857; nothing is reprojected.",
+    ),
+    "out-dir": click.option(
+        "--out-dir",
+        metavar="DIR",
+        callback=_named_folder,
+        help="Folder for outputs named after the inputs.",
+        shell_complete=folders,
+    ),
+    "jobs": click.option("-j", "--jobs", type=click.IntRange(0, 1024), help="Worker processes; 0 uses all cores."),
+    "table": click.option(
+        "--table",
+        metavar="FILE",
+        help="Write the tables of all inputs as one (CSV, JSON).",
+        shell_complete=files(("csv", "json")),
+    ),
+    "files-from": click.option(
+        "--files-from",
+        metavar="FILE|-",
+        help="Read the names of further inputs, one a line.",
+        shell_complete=any_file,
+    ),
+    "null": click.option("-0", "--null", is_flag=True, help="Names of --files-from end with NUL bytes."),
+    "keep-going": click.option("--keep-going", is_flag=True, help="Go on with the others when an input fails."),
+    "dry-run": click.option("--dry-run", is_flag=True, help="Print the plan as JSON lines, and write nothing."),
+    "resume": click.option("--resume", is_flag=True, help="Leave out inputs that were done before."),
+    "shard": click.option("--shard", type=Shard(), help="Take the I-th of N parts of the inputs."),
+    "cluster": click.option(
+        "--cluster", metavar="ADDRESS|local", help="Work on a Dask cluster.", shell_complete=words(("local",))
+    ),
+    "threads": click.option(
+        "--threads", type=click.IntRange(0, 1024), default=0, show_default=True, help="Threads; 0 uses all."
+    ),
+    "quiet": click.option("-q", "--quiet", is_flag=True, help="No notes, warnings or progress."),
+    "verbose": click.option("-v", "--verbose", is_flag=True, help="Say what takes how long."),
+    "stats": click.option(
+        "--stats",
+        metavar="FILE|-",
+        help="Write counts, sizes, seconds and warnings as JSON.",
+        shell_complete=files(("json",)),
+    ),
+    "verify": click.option("--verify", is_flag=True, help="Check the result independently; exit 1 if it is wrong."),
+    "strict": click.option("--strict", is_flag=True, help="Refuse what would be repaired or snapped."),
+    "precision": click.option(
+        "--precision", type=click.IntRange(1, 17), help="Significant digits; by default the shortest that round-trips."
+    ),
+    "max-pixels": click.option(
+        "--max-pixels", type=click.IntRange(min=1), default=2**31, show_default=True, help="Most pixels in memory."
+    ),
+    "max-sites": click.option(
+        "--max-sites",
+        type=click.IntRange(min=1),
+        default=2**31 - 1,
+        show_default=True,
+        help="Most seeds, samples or vertices.",
+    ),
+    "no-clobber": click.option("--no-clobber", is_flag=True, help="Refuse to replace an existing file."),
+    "safe-csv": click.option(
+        "--safe-csv",
+        is_flag=True,
+        help="Put ' before texts in CSV that a spreadsheet would take for formulas; numbers stay.",
+    ),
+    "no-properties": click.option(
+        "--no-properties",
+        is_flag=True,
+        help="Do not copy the input's further columns or properties, wherever they would be.",
+    ),
+    "columns": click.option(
+        "--columns", metavar="X,Y[,LABEL]", help="Columns of a point list, by name or number (from 1)."
+    ),
+    "page": click.option("--page", type=click.IntRange(min=0), metavar="N", help="Page of an image stack, from 0."),
+    "seeds": click.option(
+        "--seeds",
+        type=click.Choice(["pixels", "components", "labels", "centroids"]),
+        help="What an image's seeds are; by default components of a mask (0, and 1 or 255 or all bits), else labels.",
+    ),
+    "connectivity": click.option(
+        "--connectivity", type=click.Choice(["8", "4"]), help="Of the components of an image; by default 8."
+    ),
+    "threshold": click.option("--threshold", type=Threshold(), help="Foreground is what is brighter than this."),
+    "invert": click.option("--invert", is_flag=True, help="Exchange foreground and background."),
+    "size": click.option("--size", type=Size(), help="Frame of W x H pixels from pixel (0, 0)."),
+    "window": click.option("--window", type=Window(), help="Frame whose first pixel is (X, Y)."),
+    "width": click.option(
+        "--width",
+        type=click.IntRange(16, 2**31 - 1),
+        help="Pixels across a picture that is not the size of an image; by default 1000.",
+    ),
+    "overlay": click.option(
+        "--overlay",
+        metavar="IMAGE",
+        callback=_named_image,
+        help="Draw pictures over this image, at its size: coordinates are its pixels.",
+        shell_complete=files(IMAGE_NAMES),
+    ),
+    "y-up": click.option("--y-up/--y-down", default=None, help="Draw pictures with y upwards or downwards."),
+}
+
+
+BATCH_OPTIONS = ("files_from", "null", "jobs", "keep_going", "dry_run", "resume", "shard", "table", "cluster")
+"""Options that make a batch of one input, too."""
+
+
+def together(*options: Decorator) -> Decorator:
+    """Add options to a command, in this order."""
+
+    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
+        for option in reversed(options):
+            function = option(function)
+        return function
+
+    return decorate
+
+
+def shared(*names: str) -> Decorator:
+    """Add options of the registry to a command, in this order."""
+    return together(*(OPTIONS[name] for name in names))
+
+
+def inputs_argument(extensions: Iterable[str]) -> Decorator:
+    """Add the inputs, which usually have these extensions."""
+    return click.argument("inputs", metavar="INPUT...", nargs=-1, shell_complete=files(extensions))
+
+
+def output_options(formats: Mapping[str, Sequence[str]]) -> Decorator:
+    """Add ``--output`` and ``--format`` of a command that writes these formats."""
+    return together(
+        click.option(
+            "-o",
+            "--output",
+            metavar="FILE",
+            help="Where to write; - is standard output.",
+            shell_complete=outputs_of(formats),
+        ),
+        click.option(
+            "-f",
+            "--format",
+            metavar="FORMAT",
+            help="Format of the output; by default its extension.",
+            shell_complete=formats_of(formats),
+        ),
+    )
+
+
+def batch_options(*, table: bool = True) -> Decorator:
+    """Add the options of many inputs."""
+    return shared(*(name.replace("_", "-") for name in BATCH_OPTIONS if table or name != "table"))
+
+
+def what_option(choices: tuple[str, ...]) -> Decorator:
+    """Add ``--what``; the first choice is the default."""
+    return click.option(
+        "--what",
+        type=Names(choices),
+        default=choices[0],
+        show_default=True,
+        help=f"What to write: {', '.join(choices)}; several separated by commas.",
+    )
+
+
+def layers_option(choices: tuple[str, ...]) -> Decorator:
+    """Add ``--layers`` of pictures."""
+    return click.option("--layers", type=Names(choices), help=f"Layers of pictures: {', '.join(choices)}.")

@@ -1,0 +1,1 @@
+"""Triangulation -> alpha complex, shape, hull."""

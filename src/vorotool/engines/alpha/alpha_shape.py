@@ -1,0 +1,414 @@
+"""Alpha shapes: the whole family at once, one shape, and the choice of the radius (paper, section 2.3)."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.alpha.components import fill_and_drop
+from vorotool.engines.alpha.digital import linked_digital
+from vorotool.engines.alpha.few_points import (
+    GIVE_R,
+    allows_empty,
+    least_ranks,
+    radius_below_all,
+    refuse_or_warn,
+    report_too_few,
+    unjoined,
+)
+from vorotool.engines.common.label_arrays import Progress
+from vorotool.engines.delaunay.delaunay import delaunay
+from vorotool.errors import InputError, UsageError
+from vorotool.geometry.alpha.complex import AlphaComplex, Radius, checked_radius
+from vorotool.geometry.alpha.shape import AlphaShape
+from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
+from vorotool.geometry.mesh.triangulation import Triangulation
+from vorotool.geometry.numbers import real_number, shown_number, whole_number
+from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
+from vorotool.geometry.table import Table
+
+RULES = ("corrected", "printed")
+
+
+def alpha_complex(
+    points: Any,
+    *,
+    rule: str = "corrected",
+    strict: bool = False,
+    allow_empty: bool | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> AlphaComplex:
+    """Compute the radii at which each Delaunay edge enters and leaves the alpha shape: all shapes at once.
+
+    Every decision is exact: which edges are Gabriel edges, which radii are equal, the order of all of them. Radii are
+    correctly rounded. It does not matter which diagonals the triangulation has in cocircular polygons.
+
+    Parameters
+    ----------
+    points : PointSet, SeedSet, Triangulation, DigitalTriangulation, or (n, 2) array-like or shapely points
+        At least two distinct ones, unless fewer are allowed. A triangulation is taken as it is; of a digital one only
+        edges are right.
+    rule : {"corrected", "printed"}
+        ``printed`` follows the paper's text, which is wrong where an edge is no Gabriel edge; intervals are open.
+    strict : bool
+        Refuse points that lie on another one, and fewer than two distinct points in any case.
+    allow_empty : bool, optional
+        Give an empty family where there are fewer than two distinct points; by default of the seeds of an image, so
+        that one of many images that has no more does not stop the others.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Raises
+    ------
+    InputError
+        If there are fewer than two distinct points where these are refused, or a coordinate is not finite.
+    UsageError
+        If the rule is unknown.
+
+    Warns
+    -----
+    VorotoolWarning
+        If the family is empty because there is one distinct point; that there is none was told with the image.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 2.3; Edelsbrunner, Kirkpatrick and Seidel 1983.
+
+    Examples
+    --------
+    The paper's rule puts the edge from (0, 0) to (4, 0) in the shape from r = 2 on; no empty disc shows that:
+
+    >>> points = [[0, 0], [4, 0], [2, 1], [2, -5]]
+    >>> for rule in ("corrected", "printed"):
+    ...     family = alpha_complex(points, rule=rule)
+    ...     edge = family.edges.tolist().index([0, 1])
+    ...     print(rule, family.r_min[edge], family.r_max[edge])
+    corrected 2.5 2.9
+    printed 2.0 2.9
+    """
+    if rule not in RULES:
+        raise UsageError(f"rule is {rule!r}: use corrected, or printed for the text of the paper")
+    threads = checked_threads(threads)
+    if isinstance(points, DigitalTriangulation):
+        mesh, edges, sides = linked_digital(points)
+    else:
+        given = isinstance(points, Triangulation)
+        mesh = points if given else delaunay(points, strict=strict, threads=threads, progress=progress)
+        edges, sides = _edges_and_sides(mesh, threads, progress)
+    if len(mesh.points) - mesh.duplicates < 2:
+        report_too_few(len(mesh.points), allow_empty=allows_empty(points, allow_empty), strict=strict)
+    arrays = _core.alpha_complex(mesh.points, mesh.triangles, edges, sides, rule == "printed", threads, progress)
+    return AlphaComplex(mesh, edges, sides, rule=rule, **arrays)
+
+
+def _edges_and_sides(
+    mesh: Triangulation, threads: int, progress: Progress
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    if not len(mesh.triangles):
+        return mesh.edges, np.full(mesh.edges.shape, -1, dtype=np.int32)
+    return _core.edges_of_triangles(mesh.triangles, mesh.neighbours, threads, progress)
+
+
+def alpha_edges(
+    family: AlphaComplex, r: Radius, *, threads: int = 0, progress: Progress = None
+) -> tuple[NDArray[np.int32], NDArray[np.uint8]]:
+    """Scan for the edges of the shape of one radius: all that a further radius costs.
+
+    Parameters
+    ----------
+    family : AlphaComplex
+        The shapes of all radii.
+    r : float or Fraction
+        The radius; positive, infinity gives the hull.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Returns
+    -------
+    edge_index : (k,) int32 array
+        Edges of the family that are singular or boundary, increasing.
+    kind : (k,) uint8 array
+        1 of singular ones, 2 of boundary ones.
+
+    Examples
+    --------
+    >>> family = alpha_complex([[0, 0], [4, 0], [0, 3]])
+    >>> index, kind = alpha_edges(family, 2)
+    >>> family.edges[index].tolist(), kind.tolist()
+    ([[0, 2], [0, 1]], [1, 1])
+    """
+    r = checked_radius(r)
+    return _scan(family, family.reached(r), family.entered(r), checked_threads(threads), progress)
+
+
+def _scan(
+    family: AlphaComplex, reached: int, entered: int, threads: int, progress: Progress
+) -> tuple[NDArray[np.int32], NDArray[np.uint8]]:
+    ranks = family.rank_min, family.rank_mid, family.rank_max
+    return _core.shape_edges(*ranks, reached, entered, threads, progress)
+
+
+def chosen_radius(r: Any, alpha: Any, automatic: bool = False) -> Radius | None:
+    """Give the radius that was asked for; None for the automatic one.
+
+    Parameters
+    ----------
+    r : number, optional
+        The radius itself.
+    alpha : number, optional
+        The paper's α = -1/r, negative. For a float r is the double nearest to -1/α, for an exact number exact.
+    automatic : bool
+        Whether the smallest radius that holds all points was asked for by name.
+
+    Raises
+    ------
+    UsageError
+        If two of the three are given, r is not positive, or alpha is not negative.
+
+    Examples
+    --------
+    >>> chosen_radius(None, -0.1)
+    10.0
+    """
+    given = {"r": r is not None, "alpha": alpha is not None, "auto": automatic}
+    named = [name for name, is_given in given.items() if is_given]
+    if len(named) > 1:
+        raise UsageError(f"{' and '.join(named)} are given, but each sets the radius: give one of r, alpha and auto")
+    if alpha is not None:
+        value = real_number(alpha, "alpha")
+        if not value < 0:
+            known = (
+                f"for the alphashape package's {shown_number(value)} use -r {shown_number(1 / value)}"
+                if value > 0
+                else ""
+            )
+            hint = f": {known or 'for the convex hull use -r inf'}"
+            raise UsageError(f"alpha must be negative (α = −1/r){hint}")
+        return checked_radius(-1 / value)
+    return None if r is None else checked_radius(r)
+
+
+def alpha_shape(
+    points: Any,
+    *,
+    r: Any = None,
+    alpha: Any = None,
+    regions: int = 1,
+    hole_threshold: Any = None,
+    region_threshold: Any = None,
+    rule: str = "corrected",
+    strict: bool = False,
+    allow_empty: bool | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> AlphaShape:
+    """Compute the alpha shape of points for one radius: edges with their classes, regions and polygons.
+
+    Without ``r`` and ``alpha``: the smallest r whose shape is one region that contains every point.
+
+    Parameters
+    ----------
+    points : AlphaComplex, PointSet, SeedSet, Triangulation, or (n, 2) array-like or shapely points
+        From a complex, any number of shapes are made.
+    r : float or Fraction, optional
+        The radius, in input units.
+    alpha : float or Fraction, optional
+        The paper's α = -1/r, negative.
+    regions : int
+        How many regions the automatic choice allows.
+    hole_threshold, region_threshold : number, optional
+        First, cavities of at most this area are filled; then regions of at most this area are left out.
+    rule, strict, threads, progress
+        As for `alpha_complex`.
+    allow_empty : bool, optional
+        As for `alpha_complex`; and give the shape of radii that join no points, where the automatic choice finds no
+        triangle.
+
+    Raises
+    ------
+    InputError
+        If there are fewer than two distinct points, or the automatic choice finds no triangle, where that is refused.
+    UsageError
+        If r is not positive, alpha not negative, both are given, or ``regions`` with one of them.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 2.3.
+
+    Examples
+    --------
+    >>> shape = alpha_shape([[0, 0], [2, 0], [2, 2], [0, 2], [9, 1]])
+    >>> round(shape.r, 3), shape.region_count, shape.area
+    (3.571, 1, 11.0)
+    """
+    radius = chosen_radius(r, alpha)
+    if isinstance(points, AlphaComplex):
+        family = points
+    else:
+        wanted: dict[str, Any] = {"rule": rule, "strict": strict, "allow_empty": allow_empty}
+        family = alpha_complex(points, **wanted, threads=threads, progress=progress)
+    reason = unjoined(family) if radius is None else None
+    if reason is not None:
+        if len(family):  # else it has been told that there are too few points
+            refuse_or_warn(reason, GIVE_R, allow_empty=allows_empty(points, allow_empty), strict=strict)
+        radius, reached, entered = radius_below_all(family), 0, 0
+    elif radius is None:
+        reached = automatic_rank(family, regions=regions, progress=progress) + 1
+        radius = family.radius_from(reached - 1)
+        entered = reached
+    elif regions != 1:
+        raise UsageError("regions is for the automatic choice of the radius: leave out r and alpha")
+    else:
+        reached, entered = family.reached(radius), family.entered(radius)
+    thresholds = _threshold(hole_threshold, "hole_threshold"), _threshold(region_threshold, "region_threshold")
+    index, kind = _scan(family, reached, entered, checked_threads(threads), progress)
+    return _shape(family, radius, reached, (index, kind), thresholds, progress)
+
+
+def _threshold(value: Any, name: str) -> Fraction | None:
+    if value is None:
+        return None
+    number = real_number(value, name)
+    if not 0 <= number < float("inf"):
+        raise UsageError(f"{name} is {shown_number(value)}: give an area of at least 0")
+    return Fraction(number)
+
+
+def _shape(
+    family: AlphaComplex,
+    r: Radius,
+    reached: int,
+    scanned: tuple[NDArray[np.int32], NDArray[np.uint8]],
+    thresholds: tuple[Fraction | None, Fraction | None],
+    progress: Progress,
+) -> AlphaShape:
+    index, kind = scanned
+    inside = family.triangle_rank < reached
+    component = _core.connected_triangles(inside.view(np.uint8), family.sides, progress)
+    if thresholds != (None, None):
+        inside = fill_and_drop(family, inside, component, *thresholds, progress)
+        component = _core.connected_triangles(inside.view(np.uint8), family.sides, progress)
+        index, kind = _reclassified(family, inside, index[kind == 1])
+    region = np.where(inside, component, np.int32(-1))
+    cavities = int(component[~inside].max(initial=-1)) + 1
+    polygons = _polygons(family, region, progress)
+    return AlphaShape(family, r, index, kind, region, polygons, cavities, thresholds != (None, None))
+
+
+def _reclassified(
+    family: AlphaComplex, inside: NDArray[np.bool_], singular: NDArray[np.int32]
+) -> tuple[NDArray[np.int32], NDArray[np.uint8]]:
+    """Boundary edges of other triangles, and the singular ones that are still on none."""
+    count = np.append(inside, False)[family.sides].sum(axis=1)
+    kind = np.where(count == 1, np.uint8(2), np.uint8(0))
+    kind[singular[count[singular] == 0]] = 1
+    index = np.flatnonzero(kind).astype(np.int32)
+    return index, kind[index]
+
+
+def _polygons(family: AlphaComplex, region: NDArray[np.int32], progress: Progress) -> PolygonSet:
+    """One polygon a region, traced along directed sides of triangles that have the region on their left."""
+    mesh = family.mesh
+    across = np.append(region, np.int32(-1))[mesh.neighbours]
+    t, k = np.nonzero((region[:, None] >= 0) & (across < 0)) if len(region) else (np.empty(0, np.intp),) * 2
+    a = np.ascontiguousarray(mesh.triangles[t, (k + 1) % 3], dtype=np.int32)
+    b = np.ascontiguousarray(mesh.triangles[t, (k + 2) % 3], dtype=np.int32)
+    vertex, start, of, is_hole = _core.trace_rings(mesh.points, a, b, np.ascontiguousarray(region[t]), progress)
+    order = np.lexsort((is_hole, of))  # a shell, then its holes
+    sizes = np.diff(start)[order]
+    starts = np.append(0, np.cumsum(sizes))
+    gather = np.repeat(start[:-1][order] - starts[:-1], sizes) + np.arange(starts[-1])
+    kinds = np.where(is_hole[order], HOLE, SHELL).astype(np.int8)
+    count = int(region.max(initial=-1)) + 1
+    return PolygonSet(
+        mesh.points[vertex[gather]],
+        starts,
+        kinds,
+        of[order],
+        ids=list(range(1, count + 1)),
+        y_up=mesh.y_up,
+        crs=mesh.crs,
+    )
+
+
+def automatic_rank(family: AlphaComplex, *, regions: int = 1, progress: Progress = None) -> int:
+    """Give the first rank whose shape has at most so many regions, which contain every point.
+
+    The number of regions is not monotone: all ranks are looked at, by one sweep.
+
+    Raises
+    ------
+    InputError
+        If there is no triangle, or one point is on none.
+    UsageError
+        If ``regions`` is less than 1.
+
+    Examples
+    --------
+    >>> family = alpha_complex([[0, 0], [4, 0], [0, 3]])
+    >>> automatic_rank(family)
+    2
+    """
+    if whole_number(regions, "regions") < 1:
+        raise UsageError(f"regions is {shown_number(regions)}: at least 1")
+    if (reason := unjoined(family)) is not None:
+        raise InputError(f"{reason}{GIVE_R}")
+    covered = int(least_ranks(family).max(initial=0))
+    found = np.flatnonzero(alpha_curves(family, progress=progress)["regions"][covered:] <= regions)
+    return covered + int(found[0])
+
+
+def alpha_curves(family: AlphaComplex, *, progress: Progress = None) -> Table:
+    """Area, perimeter, regions, cavities and edges of the shapes of all radii, by one sweep.
+
+    Row k holds from the radius k of the spectrum on until the next one; below the first there are isolated points only.
+
+    Parameters
+    ----------
+    family : AlphaComplex
+        The shapes of all radii; with the corrected rule.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Returns
+    -------
+    Table
+        ``r, area, perimeter, regions, cavities, edges``: the area of the triangles, the length of the boundary edges,
+        the regions (triangles joined through edges), the bounded components of what they leave, and the number of
+        singular and boundary edges.
+
+    Raises
+    ------
+    UsageError
+        If the rule is the printed one, whose edges do not go with its triangles.
+
+    Examples
+    --------
+    >>> curves = alpha_curves(alpha_complex([[0, 0], [4, 0], [0, 3]]))
+    >>> curves["r"].tolist(), curves["area"].tolist(), curves["edges"].tolist()
+    ([1.5, 2.0, 2.5], [0.0, 0.0, 6.0], [1, 2, 3])
+    """
+    if family.rule != "corrected":
+        raise UsageError("curves and the automatic radius are those of the corrected rule: leave out rule=printed")
+    curves = _core.alpha_curves(
+        len(family.spectrum),
+        family.triangle_rank,
+        family.rank_min,
+        family.rank_mid,
+        family.rank_max,
+        family.sides,
+        family.mesh.areas(),
+        family.lengths(),
+        progress,
+    )
+    return Table({"r": family.spectrum, **curves})

@@ -1,0 +1,94 @@
+"""Alpha shapes of too few points: what is refused, and what is empty."""
+
+from __future__ import annotations
+
+import warnings
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError, VorotoolWarning
+from vorotool.geometry.alpha.complex import AlphaComplex
+from vorotool.geometry.points.seed_set import SeedSet
+
+GIVE_R = ": give r itself (-r)"
+"""Advice where no radius can be chosen."""
+
+
+def allows_empty(points: Any, allow_empty: bool | None) -> bool:
+    """Tell whether too few points are no error: as the caller says, else those of an image, one of many perhaps.
+
+    Examples
+    --------
+    >>> allows_empty([[0, 0]], None), allows_empty([[0, 0]], True)
+    (False, True)
+    """
+    is_image = isinstance(points, SeedSet) and points.frame is not None
+    return is_image if allow_empty is None else allow_empty
+
+
+def report_too_few(count: int, *, allow_empty: bool, strict: bool) -> None:
+    """Refuse points that no edge can join, or warn of them; of an image without any it has been told.
+
+    Raises
+    ------
+    InputError
+        If they are refused.
+    """
+    if not count and allow_empty:
+        return
+    held = "is 1 point" if count == 1 else f"are {count} points"
+    where = ", all at one place" if count > 1 else ""
+    reason = f"there {held}{where}: an alpha shape needs at least two distinct points"
+    refuse_or_warn(reason, "", allow_empty=allow_empty, strict=strict)
+
+
+def refuse_or_warn(reason: str, advice: str, *, allow_empty: bool, strict: bool) -> None:
+    """Raise or warn for a reason why there is no shape.
+
+    Raises
+    ------
+    InputError
+        If empty shapes are not allowed, or `strict`.
+    """
+    if not allow_empty:
+        raise InputError(f"{reason}{advice}")
+    if strict:
+        raise InputError(f"{reason}{f'{advice}, or' if advice else ':'} leave out --strict for an empty shape")
+    warnings.warn(f"{reason}{advice}; the shape is empty", VorotoolWarning, stacklevel=3)
+
+
+def radius_below_all(family: AlphaComplex) -> float:
+    """A radius whose shape has isolated points only; any has where no edge is."""
+    return float(np.nextafter(family.spectrum[0], 0)) if len(family.spectrum) else 1.0
+
+
+def unjoined(family: AlphaComplex) -> str | None:
+    """Say why no radius gives a region that holds every point; None where one does.
+
+    Examples
+    --------
+    >>> from vorotool import alpha_complex
+    >>> unjoined(alpha_complex([[0, 0], [4, 0]]))
+    'two points span no triangle, so no r gives a region that holds them'
+    """
+    mesh = family.mesh
+    if len(mesh.points) and least_ranks(family).max() < len(family.spectrum):
+        return None
+    count = len(mesh.points) - mesh.duplicates
+    if len(mesh.triangles):
+        reason = "a point is on"
+    elif count < 2:
+        reason = "one point spans" if count else "no points span"
+    else:
+        reason = "two points span" if count == 2 else f"{count} points on a line span"
+    return f"{reason} no triangle, so no r gives a region that holds them"
+
+
+def least_ranks(family: AlphaComplex) -> NDArray[np.int32]:
+    """(n,) the first rank at which each point is in a triangle; as many as there are ranks where it never is."""
+    mesh = family.mesh
+    least = np.full(len(mesh.points), len(family.spectrum), dtype=np.int32)
+    np.minimum.at(least, mesh.triangles, family.triangle_rank[:, None])
+    return least[mesh.first]

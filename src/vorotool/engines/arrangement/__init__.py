@@ -1,0 +1,1 @@
+"""Segments or polygons -> lattice placement, planar graph, repaired polygons."""

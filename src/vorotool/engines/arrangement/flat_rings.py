@@ -1,0 +1,54 @@
+"""Rings with vertices at one or two places: points and segments."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet
+
+
+def flat_holes(polygons: PolygonSet) -> NDArray[np.bool_]:
+    """(r,) whether a ring is a hole with vertices at one or two places.
+
+    Examples
+    --------
+    >>> from vorotool.geometry.polygons.conversion import as_polygons
+    >>> flat_holes(as_polygons([{"shell": [[0, 0], [9, 0], [0, 9]], "holes": [[[1, 1], [2, 1]]]}])).tolist()
+    [False, True]
+    """
+    return np.equal(polygons.ring_kind, HOLE) & _are_flat(polygons)
+
+
+def with_flat_shells_as_lines(polygons: PolygonSet) -> PolygonSet:
+    """Take polygons that are a point or a segment for lines: they are sites, and have no inside.
+
+    Examples
+    --------
+    >>> from vorotool.geometry.polygons.conversion import as_polygons
+    >>> with_flat_shells_as_lines(as_polygons([[[0, 0], [9, 0], [0, 9]], [[5, 5]]])).is_line.tolist()
+    [False, True]
+    """
+    shell = polygons.polygon_start[:-1]
+    is_alone = np.diff(polygons.polygon_start) == 1
+    flat = shell[is_alone & np.equal(polygons.ring_kind[shell], SHELL)]
+    flat = flat[_are_flat(polygons)[flat]]
+    if not flat.size:
+        return polygons
+    kind = polygons.ring_kind.copy()
+    kind[flat] = LINE
+    return replace(polygons, ring_kind=kind)
+
+
+def _are_flat(polygons: PolygonSet) -> NDArray[np.bool_]:
+    start, size = polygons.ring_start, np.diff(polygons.ring_start)
+    ring = np.repeat(np.arange(len(size)), size)
+    is_other = (polygons.xy != polygons.xy[start[:-1]][ring]).any(axis=1)
+    vertex = np.where(is_other, np.arange(len(ring)), len(ring))
+    second = np.minimum.reduceat(vertex, start[:-1]) if len(size) else vertex
+    second = np.where(second < len(ring), second, start[:-1])  # of one place it is the first
+    is_third = is_other & (polygons.xy != polygons.xy[second][ring]).any(axis=1)
+    has_three: NDArray[np.bool_] = np.bincount(ring[is_third], minlength=len(size)) > 0
+    return ~has_three

@@ -1,0 +1,379 @@
+"""Polygons and lines made a planar straight-line graph: the input of the skeleton engines."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.arrangement.flat_rings import flat_holes, with_flat_shells_as_lines
+from vorotool.engines.common.label_arrays import Progress
+from vorotool.errors import InputError, LimitError, RepairWarning, VerificationError
+from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.magnitude import check_magnitude
+from vorotool.geometry.polygons.conversion import as_polygons
+from vorotool.geometry.polygons.planar_graph import REPAIRS, PlanarGraph
+from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
+
+MOST_VERTICES = 2**28
+"""Segments are numbered in 31 bits, and crossings make more of them."""
+MOST_OVERLAPS = 2**26
+"""Polygons of all faces together, as the core has it."""
+
+
+def planar_graph(polygons: Any, *, strict: bool = False, threads: int = 0, progress: Progress = None) -> PlanarGraph:
+    """Place polygons and open lines on an integer lattice, and cut them where they meet.
+
+    The step of the lattice is the least power of two for which the extent fits into 31 signed bits, its origin a
+    multiple of the step. Whole numbers, and all coordinates that are multiples of the step, do not move; others go to
+    the nearest lattice point. From there on everything is exact. Edges are cut where a vertex lies on them and where
+    they cross. A crossing that is no lattice point is rounded to one; then edges near it may have to bend by less than
+    a step too (snap rounding), others never do. What bounds no polygon is left out. Input that needs no repair is only
+    placed.
+
+    Parameters
+    ----------
+    polygons : PolygonSet, shapely geometry, (n, 2) array-like, or a list of these
+        See :func:`vorotool.geometry.polygons.conversion.as_polygons`.
+    strict : bool
+        Refuse what would be repaired; a move by placement alone, at most 0.71 of a step, is none.
+    threads : int
+        Threads for placement; 0 uses all. The sweep runs on one.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Returns
+    -------
+    PlanarGraph
+        Without points if there are no polygons.
+
+    Raises
+    ------
+    InputError
+        If a coordinate is not finite, or `strict` and something would be repaired: polygon, ring,
+        vertex or edge and its coordinates are named.
+    LimitError
+        If there are more than 2^28 vertices or crossings, or 2^26 entries in `PlanarGraph.face_polygon`.
+
+    Warns
+    -----
+    RepairWarning
+        If something was repaired: what, and how often.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 3.2; Bentley and Ottmann 1979; Hobby, "Practical
+    segment intersection with finite precision output", 1999.
+
+    Examples
+    --------
+    >>> graph = planar_graph([[0, 0], [4, 0], [4, 4], [0, 4]])
+    >>> graph.segments.tolist(), graph.segment_faces.tolist()
+    ([[0, 1], [1, 2], [2, 3], [3, 0]], [[1, 0], [1, 0], [1, 0], [1, 0]])
+    >>> graph.coordinates().tolist(), graph.largest_move
+    ([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]], 0.0)
+    """
+    given = as_polygons(polygons)
+    if len(given.xy) > MOST_VERTICES:
+        raise LimitError(f"there are {len(given.xy)} vertices, more than {MOST_VERTICES}: split the polygons")
+    placement = placed_vertices(given, threads=threads, progress=progress)
+    return graph_of_placement(given, placement, strict=strict, progress=progress)
+
+
+def graph_for_skeletons(
+    polygons: Any, *, strict: bool = False, threads: int = 0, progress: Progress = None
+) -> PlanarGraph:
+    """Make the planar graph that a skeleton is computed of; arguments, errors and warnings as of `planar_graph`.
+
+    Raises
+    ------
+    InputError
+        As well if a coordinate is beyond 1e70, or the extent below 1e-70 and not 0: radii need products of lengths.
+
+    Examples
+    --------
+    >>> graph_for_skeletons([[0, 0], [1e99, 0], [0, 1]])
+    Traceback (most recent call last):
+    vorotool.errors.InputError: a coordinate is 1e+99, too large to compute with: scale them to 1e+70 at most
+    """
+    given = with_flat_shells_as_lines(as_polygons(polygons))
+    check_magnitude(given.xy)
+    return planar_graph(given, strict=strict, threads=threads, progress=progress)
+
+
+@dataclass(frozen=True, eq=False)
+class Placement:
+    """Vertices of polygons on the lattice.
+
+    Parameters
+    ----------
+    vertices : (n, 2) int32 array
+        Lattice place (x, y) stands for ``origin + scale * (x, y)``.
+    origin : (float, float)
+        In input units.
+    exponent : int
+        The scale is this power of two.
+    largest_move : float
+        Of a vertex, in input units.
+    """
+
+    vertices: NDArray[np.int32]
+    origin: tuple[float, float]
+    exponent: int
+    largest_move: float
+
+
+def placed_vertices(polygons: PolygonSet, *, threads: int = 0, progress: Progress = None) -> Placement:
+    """Place the vertices of polygons on the lattice; arguments as of `planar_graph`."""
+    return Placement(*_core.place_on_lattice(polygons.xy, checked_threads(threads), progress))
+
+
+@dataclass(frozen=True, eq=False)
+class Arrangement:
+    """The planar graph of polygons, and what was repaired for it, before anybody is told.
+
+    Parameters
+    ----------
+    graph : PlanarGraph
+        Of the polygons.
+    found : dict
+        Of each kind of repair how often, and where first: an edge, and the vertex or edge that meets it, or -1.
+    is_repaired : (p,) bool array
+        Whether an edge of a polygon is named by any repair.
+    """
+
+    graph: PlanarGraph
+    found: dict[str, tuple[int, int, int]]
+    is_repaired: NDArray[np.bool_]
+
+
+def arranged(given: PolygonSet, placement: Placement, *, progress: Progress = None) -> Arrangement:
+    """Make the planar graph of polygons whose vertices are placed, without a word about repairs."""
+    rings = given.ring_start, given.ring_kind, given.ring_polygon
+    try:
+        made = _core.make_planar_graph(placement.vertices, *rings, progress)
+    except _core.TooManyCrossingsError:
+        raise LimitError(f"the edges meet more than {MOST_VERTICES} times: simplify or split the polygons") from None
+    except _core.TooManyOverlapsError:
+        raise LimitError(f"the polygons overlap or nest more than {MOST_OVERLAPS} times: split them") from None
+    found = dict(zip(REPAIRS, made.pop("repairs"), strict=True))
+    is_repaired, point_holes = made.pop("is_repaired") != 0, made.pop("point_holes").reshape(-1, 3)
+    repairs = {name: count for name, (count, _, _) in found.items()}
+    scale, move = math.ldexp(1.0, placement.exponent), placement.largest_move
+    if repairs["moved_edges"]:  # within a cell, towards its centre: at most half its diagonal
+        move = math.nextafter(move + 0.7072 * scale, math.inf)
+    graph = PlanarGraph(
+        **made,
+        origin=placement.origin,
+        scale=scale,
+        largest_move=move,
+        repairs=repairs,
+        polygons=given,
+        vertices=placement.vertices,
+        point_holes=point_holes,
+    )
+    return Arrangement(graph, found, is_repaired)
+
+
+def graph_of_placement(
+    given: PolygonSet, placement: Placement, *, strict: bool = False, progress: Progress = None
+) -> PlanarGraph:
+    """Make the planar graph of polygons whose vertices are placed; errors and warnings as of `planar_graph`."""
+    made = arranged(given, placement, progress=progress)
+    report_repairs(given, made.found, made.graph.scale, strict=strict, stacklevel=4)
+    return made.graph
+
+
+def report_repairs(
+    given: PolygonSet, found: dict[str, tuple[int, int, int]], step: float, *, strict: bool, stacklevel: int = 3
+) -> None:
+    """Warn of repairs, if there are any; raise InputError instead if `strict`."""
+    repairs = {name: count for name, (count, _, _) in found.items()}
+    if not any(repairs.values()):
+        return
+    if strict:
+        raise InputError(_first_repair(given, found))
+    warnings.warn(_summary(repairs, step), RepairWarning, stacklevel=stacklevel)
+
+
+_WORDS = {
+    "repeated_vertices": ("repeated vertex left out", "repeated vertices left out"),
+    "touching_vertices": ("edge cut at a vertex on it", "edges cut at a vertex on them"),
+    "crossings": ("crossing of edges cut", "crossings of edges cut"),
+    "moved_edges": ("edge bent by less than {step:.2g}", "edges bent by less than {step:.2g}"),
+    "idle_segments": ("segment that bounds nothing left out", "segments that bound nothing left out"),
+    "empty_polygons": ("polygon has no inside", "polygons have no inside"),
+}
+
+
+def _summary(repairs: dict[str, int], step: float) -> str:
+    parts = [f"{count} {_WORDS[name][count != 1].format(step=step)}" for name, count in repairs.items() if count]
+    return f"the polygons were repaired: {', '.join(parts)}"
+
+
+def _first_repair(polygons: PolygonSet, found: dict[str, tuple[int, int, int]]) -> str:
+    """Name the place of the first repair along the input."""
+    names = [name for name in REPAIRS if found[name][0] and name != "moved_edges"]
+    name = min(names, key=lambda each: (found[each][1], REPAIRS.index(each)))
+    count, edge, other = found[name]
+    ends = " to ".join(_position(polygons, vertex) for vertex in (edge, _next_vertex(polygons, edge)))
+    where = f"{_edge(polygons, edge)} from {ends}"
+    what = {
+        "repeated_vertices": f"{polygons.place(edge)} at {_position(polygons, edge)} is repeated by the next one",
+        "touching_vertices": f"{where} passes through {polygons.place(other)} at {_position(polygons, other)}",
+        "crossings": f"{where} crosses {_edge(polygons, other)}",
+        "idle_segments": f"{where} bounds nothing, or a part of it does not: a spike or an overlap",
+        "empty_polygons": f"{polygons.place(edge).split(',')[0]} at {_position(polygons, edge)} has no inside",
+    }[name]
+    return f"{what} ({count} such places): repair it, or leave out --strict"
+
+
+def _edge(polygons: PolygonSet, edge: int) -> str:
+    return polygons.place(edge).replace("vertex", "edge")
+
+
+def _position(polygons: PolygonSet, vertex: int) -> str:
+    x, y = polygons.xy[vertex].tolist()
+    return f"({x!r}, {y!r})"
+
+
+def _next_vertex(polygons: PolygonSet, edge: int) -> int:
+    ring = int(np.searchsorted(polygons.ring_start, edge, side="right")) - 1
+    return edge + 1 if edge + 1 < polygons.ring_start[ring + 1] else int(polygons.ring_start[ring])
+
+
+def verify_planar_graph(graph: PlanarGraph, *, progress: Progress = None) -> None:
+    """Check a planar graph exactly, from its arrays alone.
+
+    Points different and on the lattice, segments between different points, no point inside a segment, no two segments
+    with both ends in common or crossing; one face at each corner, and the unbounded one outside everything. With the
+    input: the ends of each segment in cells that the edges meet of which it is said to be part; the polygons of its two
+    faces differ by polygons of these edges only, and do differ unless it is of a line.
+
+    Parameters
+    ----------
+    graph : PlanarGraph
+        However it was made.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Raises
+    ------
+    VerificationError
+        Naming the first fault.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> graph = planar_graph([[0, 0], [4, 0], [4, 4], [0, 4]])
+    >>> verify_planar_graph(graph)
+    >>> verify_planar_graph(replace(graph, segments=[[0, 2], [1, 3], [2, 3], [3, 0]]))
+    Traceback (most recent call last):
+        ...
+    vorotool.errors.VerificationError: segments 0 and 1 cross near (536870912, -536870912)
+    """
+    fault = _core.planar_graph_fault(graph.points, graph.segments, graph.segment_faces, progress)
+    fault = fault or _face_fault(graph) or (_source_fault(graph) if graph.polygons is not None else None)
+    if fault is not None:
+        raise VerificationError(fault)
+
+
+def _face_fault(graph: PlanarGraph) -> str | None:
+    start, polygon = graph.face_start, graph.face_polygon
+    if len(start) < 1 or start[0] != 0 or start[-1] != len(polygon) or (np.diff(start) < 0).any():
+        return "face_start does not divide face_polygon"
+    faces = graph.segment_faces
+    if faces.size and (faces.min() < 0 or faces.max() >= graph.faces):
+        return "a segment names a face that does not exist"
+    inner = np.ones(len(polygon), dtype=bool)
+    inner[start[:-1][start[:-1] < len(polygon)]] = False
+    if (np.diff(polygon, prepend=-1)[inner] <= 0).any():
+        return "the polygons of a face are not ascending"
+    if graph.faces and start[1] != 0:
+        return "face 0, which is unbounded, lies in a polygon"
+    if len(graph.segments) and _face_left_of_all(graph) != 0:
+        return "what lies left of all segments is not face 0"
+    return None
+
+
+def _face_left_of_all(graph: PlanarGraph) -> int:
+    """Face left of the lexicographically smallest end: that left of the highest of the segments from there."""
+    ends = graph.points[graph.segments.ravel()]
+    first = graph.segments.ravel()[np.lexsort((ends[:, 1], ends[:, 0]))[0]]
+    best: tuple[int, int] | None = None
+    face = -1
+    for segment, column in np.argwhere(graph.segments == first).tolist():
+        x, y = (graph.points[graph.segments[segment, 1 - column]].astype(int) - graph.points[first]).tolist()
+        if best is None or best[0] * y - best[1] * x > 0:
+            best, face = (x, y), int(graph.segment_faces[segment, column])
+    return face
+
+
+def _source_fault(graph: PlanarGraph) -> str | None:
+    """Check what the graph says of the input: each pair of a segment and an edge that it is said to be part of."""
+    given = graph.polygons
+    assert given is not None
+    vertices, origin, exponent, _ = _core.place_on_lattice(given.xy, 0, None)
+    if (origin, math.ldexp(1.0, exponent)) != (tuple(graph.origin), graph.scale):
+        return "this is not the lattice of the input"
+    known = graph.point_vertex >= 0
+    if (vertices[graph.point_vertex[known]] != graph.points[known]).any():
+        return "a point is not where its vertex is"
+    segment = np.repeat(np.arange(len(graph)), graph.source_count)
+    edge = graph.source_edge.astype(np.int64)
+    a, b = vertices[edge].astype(np.int64), vertices[_next_vertices(given)[edge]].astype(np.int64)
+    d = b - a
+    reach = np.abs(d).sum(axis=1) // 2 if graph.repairs["moved_edges"] else 0
+    for column in (0, 1):
+        c = graph.points[graph.segments[segment, column]].astype(np.int64) - a
+        is_off = np.abs(d[:, 0] * c[:, 1] - d[:, 1] * c[:, 0]) > reach
+        is_off |= ((c < np.minimum(d, 0)) | (c > np.maximum(d, 0))).any(axis=1)
+        if is_off.any():
+            at = int(is_off.argmax())
+            return f"segment {segment[at]} is not where edge {edge[at]} runs"
+    return _side_fault(graph, given, segment, edge)
+
+
+def _next_vertices(polygons: PolygonSet) -> Any:
+    """The vertex after each one around its ring; a line ends at its last one."""
+    following = np.arange(1, len(polygons.xy) + 1)
+    last = polygons.ring_start[1:] - 1
+    following[last] = np.where(polygons.ring_kind == LINE, last, polygons.ring_start[:-1])
+    return following
+
+
+def _side_fault(graph: PlanarGraph, given: PolygonSet, segment: Any, edge: Any) -> str | None:
+    """Check that the polygons of the two sides of a segment differ by polygons whose edges it is part of."""
+    count = max(len(given), 1)
+    ring_of_edge = np.searchsorted(given.ring_start, edge, side="right") - 1
+    own = segment * count + given.ring_polygon[ring_of_edge]
+    pairs, pair = np.unique(graph.segment_faces, axis=0, return_inverse=True)
+    sides = []
+    for face in pairs.T:
+        at, length = _expanded(graph.face_start[face], np.diff(graph.face_start)[face])
+        sides.append(np.repeat(np.arange(len(pairs)), length) * count + graph.face_polygon[at])
+    differing = np.setxor1d(*sides)  # pair of faces, and polygon
+    first = np.searchsorted(differing, np.arange(len(pairs) + 1) * count)
+    at, length = _expanded(first[pair.ravel()], np.diff(first)[pair.ravel()])
+    strange = ~np.isin(np.repeat(np.arange(len(graph)), length) * count + differing[at] % count, own)
+    if strange.any():
+        return (
+            f"segment {np.repeat(np.arange(len(graph)), length)[strange][0]} divides a polygon of which it is no edge"
+        )
+    is_border = length > 0
+    is_thin = (given.ring_kind == LINE) | flat_holes(given)
+    is_border[segment[is_thin[ring_of_edge]]] = True
+    if not is_border.all():
+        return f"segment {is_border.argmin()} bounds nothing"
+    return None
+
+
+def _expanded(start: Any, length: Any) -> tuple[Any, Any]:
+    """The indices start, start + 1, … of each row, one row after the other; and the lengths."""
+    within = np.arange(length.sum()) - np.repeat(np.cumsum(length) - length, length)
+    return np.repeat(start, length) + within, length

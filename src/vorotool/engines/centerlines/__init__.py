@@ -1,0 +1,1 @@
+"""Skeleton -> centerlines, and where they end."""

@@ -1,0 +1,87 @@
+"""Straight on from the inside of polygons to their boundary."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+
+Floats = NDArray[np.float64]
+
+PART = 1 << 18
+"""Edges that are looked at together, or those of one polygon."""
+
+
+def first_hits(
+    polygons: PolygonSet, polygon: NDArray[np.integer], origin: Floats, way: Floats
+) -> tuple[Floats, NDArray[np.intp]]:
+    """Find where each ray meets an edge of its own polygon first, in time linear in the edges of these.
+
+    An edge is met if its ends are on different sides of the ray, those on it counted as left: of two edges at a corner
+    a ray that passes through it meets one, and no ray gets through between them.
+
+    Parameters
+    ----------
+    polygons : PolygonSet
+        Edges of no other polygon are looked at.
+    polygon : (k,) integer array
+        Of each ray.
+    origin, way : (k, 2) float64 array
+        Where each ray begins, and where it goes.
+
+    Returns
+    -------
+    places : (k, 2) float64 array
+        NaN where a ray meets nothing.
+    vertices : (k,) integer array
+        Where the edges begin; -1 for none.
+
+    Examples
+    --------
+    >>> from vorotool.geometry.polygons.polygon_set import SHELL, set_of_rings
+    >>> square = set_of_rings([[0, 0], [4, 0], [4, 4], [0, 4]], [4], [SHELL], [0])
+    >>> places, vertices = first_hits(square, np.array([0]), np.array([[1.0, 1.0]]), np.array([[0.0, 2.0]]))
+    >>> places.tolist(), vertices.tolist()
+    ([[1.0, 4.0]], [2])
+    """
+    first = polygons.ring_start[polygons.polygon_start]
+    size = np.diff(first)[polygon]
+    places, vertices = np.full((len(polygon), 2), np.nan), np.full(len(polygon), -1, dtype=np.intp)
+    ends = np.cumsum(size)
+    begin = 0
+    while begin < len(polygon):
+        most = ends[begin] - size[begin] + PART
+        end = max(int(np.searchsorted(ends, most, side="right")), begin + 1)
+        rays = slice(begin, end)
+        places[rays], vertices[rays] = _hits(polygons, first[polygon[rays]], size[rays], origin[rays], way[rays])
+        begin = end
+    return places, vertices
+
+
+def _hits(
+    polygons: PolygonSet, first: NDArray[np.int64], size: NDArray[np.int64], origin: Floats, way: Floats
+) -> tuple[Floats, NDArray[np.intp]]:
+    """Of rays with the edges of vertices from `first` on, which are not none."""
+    way = way / np.sqrt((way * way).sum(axis=1))[:, None]
+    start = np.cumsum(size) - size
+    ray = np.repeat(np.arange(len(size)), size)
+    vertex = np.arange(len(ray)) - np.repeat(start - first, size)
+    (ax, ay), (bx, by) = ((polygons.xy[of] - origin[ray]).T for of in (vertex, polygons.following[vertex]))
+    dx, dy = way[ray].T
+    met = np.flatnonzero((dx * ay - dy * ax >= 0) != (dx * by - dy * bx >= 0))
+    ax, ay, dx, dy = (values[met] for values in (ax, ay, dx, dy))
+    ex, ey = (polygons.xy[polygons.following[vertex[met]]] - polygons.xy[vertex[met]]).T
+    across = dx * ey - dy * ex
+    distance = np.divide(ax * ey - ay * ex, across, out=np.full(len(met), np.inf), where=across != 0)
+    distance[~(distance > 0)] = np.inf
+    order = np.lexsort((vertex[met], distance, ray[met]))
+    order = order[np.diff(ray[met][order], prepend=-1) > 0]
+    order = order[np.isfinite(distance[order])]
+    places, vertices = np.full((len(size), 2), np.nan), np.full(len(size), -1, dtype=np.intp)
+    found = ray[met][order]
+    vertices[found] = vertex[met][order]
+    a, b = polygons.xy[vertices[found]], polygons.xy[polygons.following[vertices[found]]]
+    place = origin[found] + distance[order][:, None] * way[found]
+    places[found] = np.where(a == b, a, place)  # exactly on edges along an axis
+    return places, vertices

@@ -1,0 +1,331 @@
+"""Centerlines: the longest of the shortest paths along the skeleton of each polygon, to the middles of its ends."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Literal, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.centerlines.boundary_rays import first_hits
+from vorotool.engines.centerlines.ends import Unforked, forked, middles_ahead, unforked
+from vorotool.engines.centerlines.oblique_ends import led_to_oblique_ends
+from vorotool.engines.centerlines.path_network import Network, Paths, geometry_of
+from vorotool.engines.common.label_arrays import Progress
+from vorotool.errors import InputError, UsageError, VorotoolWarning
+from vorotool.geometry.magnitude import check_lengths
+from vorotool.geometry.numbers import pair_of_doubles
+from vorotool.geometry.skeleton.centerline import Centerlines, without_centerline
+from vorotool.geometry.skeleton.skeleton import Skeleton
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int32]
+Booleans = NDArray[np.bool_]
+Place = tuple[float, float]
+Ends = Literal["middle", "corner", "none"]
+
+MOST_NAMED = 10
+"""Polygons without a centerline that a warning names."""
+
+
+def centerline(
+    skeleton: Skeleton,
+    *,
+    start: Place | None = None,
+    end: Place | None = None,
+    ends: Ends = "middle",
+    progress: Progress = None,
+) -> Centerlines:
+    """Find the centerline of each polygon: the longest of the shortest paths between ends of its skeleton.
+
+    An *end* is a leaf, or a fork of two arcs to both corners of one edge, as far as its longer arc reaches. The longest
+    path is decided first; of those as long but for a millionth that at the first edges of the polygon (where it has
+    cycles, of exactly as long ones). Then a fork is replaced by the straight line to the middle of its edge. Round
+    ends, where it forks to more corners that follow each other within half a radius, and leaves inside are led straight
+    on to the boundary, from the place of the path one radius before; a leaf between the edges on both sides of an edge
+    ahead is led to the middle of that edge, as the fork there would be. A path leads into a tip: a corner of less than
+    45 degrees, or sharper than the next one by more than 90; and into all other corners, but in outlines of pixels: see
+    `vorotool.engines.centerlines.oblique_ends`. Where a connected skeleton has no end, paths between its nodes are compared; where
+    it has one, paths from it.
+
+    A triangle without tips has its end at the shortest edge, and a centerline from there to the corner opposite; a
+    quadrilateral around a circle, such as a square, has two at opposite edges without tips; of equal ones the first.
+    Other polygons that are all one round end have none: the centerline goes from the corner farthest from the middle of
+    the largest disc straight through that middle. Neither have plates with holes in corners that are beside a cycle and
+    much like both corners beside them.
+
+    Trees take linear time. Let a skeleton have F branches on cycles, and trees at K places of these (all nodes, if
+    there is no tree): that takes at most K searches in F branches, most of which bounds on distances save.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Its arcs inside polygons are used.
+    start, end : (x, y), optional
+        Give the one path between the places nearest to these on the skeleton whose forks are led to the middles of
+        their edges, and whose round ends are left out: it goes up no corner of these. With one of the two, the path
+        leads to the end that is farthest from there.
+    ends : {"middle", "corner", "none"}
+        As told above; or paths lead along the whole skeleton, and from leaves inside straight on; or they stop at
+        forks, round ends, and leaves inside.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Returns
+    -------
+    Centerlines
+        In the order of the polygons.
+
+    Raises
+    ------
+    InputError
+        If there is no path between the places that are given.
+    UsageError
+        If a place is not finite, or there is no such kind of ends.
+
+    Warns
+    -----
+    VorotoolWarning
+        If polygons have none, with their number and names: there is no skeleton inside, or a single place.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> skeleton = skeleton_exact([[0, 0], [6, 0], [6, 2], [0, 2]])
+    >>> centerline(skeleton).flattened(0.1)[0].tolist()
+    [[0.0, 1.0], [6.0, 1.0]]
+    >>> centerline(skeleton, ends="corner").flattened(0.1)[0].tolist()
+    [[0.0, 0.0], [1.0, 1.0], [5.0, 1.0], [6.0, 0.0]]
+    >>> centerline(skeleton, start=(2, 2), end=(3, 0)).flattened(0.1)[0].tolist()
+    [[2.0, 1.0], [3.0, 1.0]]
+    """
+    if ends not in get_args(Ends):
+        raise UsageError(f"ends is {ends!r}: use {', '.join(get_args(Ends))}")
+    is_whole = ends == "corner"
+    network = Network(forked(skeleton) if is_whole else unforked(skeleton), by_edge=not is_whole)
+    if start is None and end is None:
+        lines = _made(network, network.longest_paths(progress), ends, wanted=(True, True))
+        _warn_missing(lines)
+        return lines
+    return _path_between(network, skeleton, start, end, ends, progress)
+
+
+def _path_between(
+    network: Network, skeleton: Skeleton, start: Place | None, end: Place | None, ends: Ends, progress: Progress
+) -> Centerlines:
+    """The one path with a place that is given at one end or both."""
+    start, end = (
+        None if place is None else pair_of_doubles(place, name) for name, place in (("start", start), ("end", end))
+    )
+    for place in (start, end):
+        if place is not None and not np.isfinite(place).all():
+            raise UsageError(f"({place[0]}, {place[1]}) is no place: its coordinates must be finite")
+        check_lengths(place or (), "coordinate")
+    if not len(network.arc):
+        raise InputError("there is no skeleton inside polygons for a path to follow")
+    first, last = (-1 if place is None else network.node_near(place) for place in (start, end))
+    is_reversed = start is None
+    path = network.path(last if is_reversed else first, -1 if is_reversed else last, progress)
+    if path is None or not len(path.arcs):
+        raise InputError(_no_path(skeleton, start, end, is_apart=path is None))
+    line = _made(network, path.reversed() if is_reversed else path, ends, wanted=(start is None, end is None))
+    if not len(line):
+        raise InputError(_no_path(skeleton, start, end, is_apart=False))
+    return line
+
+
+# ---- paths as skeletons ---------------------------------------------------------------------------
+@dataclass(frozen=True, eq=False)
+class _Pieces:
+    """Parts of arcs along lines, each in the direction of its line."""
+
+    line: Indices
+    arc: Indices
+    first: Floats
+    last: Floats
+    is_turned: Booleans
+
+    def __getitem__(self, chosen: NDArray[np.generic]) -> _Pieces:
+        return _Pieces(*(values[chosen] for values in self.__dict__.values()))
+
+
+def _made(network: Network, paths: Paths, ends: Ends, *, wanted: tuple[bool, bool]) -> Centerlines:
+    """Put the arcs of paths together as skeletons, and lead them on."""
+    count = len(paths.start) - 1
+    pieces = _Pieces(
+        np.repeat(np.arange(count, dtype=np.int32), np.diff(paths.start)),
+        network.arc[paths.arcs],
+        network.first[paths.arcs],
+        network.last[paths.arcs],
+        network.ends[paths.arcs, 0] != paths.sources,
+    )
+    is_lead, is_round = _marked(network.axis, pieces, paths.start)
+    outer = paths.start[:-1], paths.start[1:] - 1
+    leads = np.stack([is_lead[places] for places in outer], axis=1)
+    rounds = np.stack([is_round[places] for places in outer], axis=1)
+    middles = _outer_places(network.skeleton, pieces, outer)
+    middles[~leads] = np.nan
+    left = _without(pieces, is_lead, is_lead | is_round)
+    if ends == "none":
+        path = _joined(network.skeleton, _with_length(left))
+        return _rounded(Centerlines(path, np.full((int(path.branch.max(initial=-1)) + 1, 2, 2), np.nan)))
+    lines = Centerlines(_joined(network.skeleton, left), middles)
+    is_open = ((paths.end_nodes < network.leaves) | rounds) & ~leads & np.array(wanted)
+    if ends == "middle":
+        lines = led_to_oblique_ends(lines, (is_open | leads) & ~rounds & np.array(wanted))
+    return _rounded(_led_on(lines, is_open & np.isnan(lines.ends[:, :, 0]), to_middles=ends == "middle"))
+
+
+def _marked(axis: Unforked, pieces: _Pieces, start: NDArray[np.int64]) -> tuple[Booleans, Booleans]:
+    """Which pieces are taken off the ends of lines: whole leads, and round ends where there is more.
+
+    A lead stays that is all of its line.
+    """
+    is_lead, is_round = axis.is_lead[pieces.arc], axis.is_round[pieces.arc]
+    is_lead &= (pieces.first == 0) & (pieces.last == 1)
+    count = len(start) - 1
+
+    def has_more(taken: Booleans) -> Booleans:
+        return np.bincount(pieces.line[~taken], minlength=count) > 0
+
+    is_round &= has_more(is_lead | is_round)[pieces.line]
+    is_lead &= (np.diff(start) > 1)[pieces.line]
+    return is_lead, is_round
+
+
+def _outer_places(skeleton: Skeleton, pieces: _Pieces, outer: Sequence[NDArray[np.int64]]) -> Floats:
+    """(k, 2, 2) where lines begin and end."""
+    places = np.empty((len(outer[0]), 2, 2))
+    for end, chosen in enumerate(outer):
+        made = pieces[chosen]
+        parts = geometry_of(skeleton, made.arc, made.first, made.last)
+        is_target = made.is_turned == (end == 0)
+        places[:, end] = np.where(is_target[:, None], parts["last"], parts["first"])
+    return places
+
+
+def _without(pieces: _Pieces, is_lead: Booleans, taken: Booleans) -> _Pieces:
+    """What is left of lines; a single place, the fork, of those of two leads."""
+    left = np.bincount(pieces.line[~taken], minlength=int(pieces.line.max(initial=-1)) + 1) > 0
+    single = ~left[pieces.line] & is_lead & (np.diff(pieces.line, prepend=-1) > 0)
+    made = pieces[np.flatnonzero(~taken | single)]
+    single = single[~taken | single]
+    return replace(made, last=np.where(single, made.first, made.last))
+
+
+def _with_length(pieces: _Pieces) -> _Pieces:
+    """Lines that are more than a single place, numbered again."""
+    long = np.flatnonzero(pieces.first != pieces.last)
+    _, line = np.unique(pieces.line[long], return_inverse=True)
+    return replace(pieces[long], line=line.reshape(-1).astype(np.int32))
+
+
+def _joined(skeleton: Skeleton, pieces: _Pieces) -> Skeleton:
+    """The pieces as a skeleton: one branch a line."""
+    arc, line, is_turned = pieces.arc, pieces.line, pieces.is_turned
+    parts = geometry_of(skeleton, arc, pieces.first, pieces.last)
+    turned = is_turned[:, None]
+    is_first = np.diff(line, prepend=-1) > 0
+    node = np.arange(len(arc)) + line  # at the source of each arc: one more than arcs on each line
+    count = len(arc) + int(is_first.sum())
+    vertices, radius = np.empty((count, 2)), np.empty(count)
+    vertices[node[is_first]] = np.where(turned, parts["last"], parts["first"])[is_first]
+    radius[node[is_first]] = np.where(is_turned, parts["last_radius"], parts["first_radius"])[is_first]
+    vertices[node + 1] = np.where(turned, parts["first"], parts["last"])
+    radius[node + 1] = np.where(is_turned, parts["first_radius"], parts["last_radius"])
+    sites = skeleton.sites[arc]
+    return replace(
+        skeleton,
+        vertices=vertices,
+        radius=radius,
+        arcs=np.stack([node, node + 1], axis=1),
+        control=parts["control"],
+        sites=np.where(turned, sites[:, ::-1], sites),
+        polygon=skeleton.polygon[arc],
+        side=skeleton.side[arc],
+        branch=line,
+        length=parts["length"],
+        error_bound=skeleton.error_bound[arc],
+        frame=None,
+    )
+
+
+def _rounded(lines: Centerlines) -> Centerlines:
+    """Places to as many binary places as doubles have at the largest coordinate of their polygon.
+
+    A place is a difference of such numbers: what it has beyond is rounding, such as 1e-32 for what is 0.
+    """
+    polygons, path = lines.path.polygons, lines.path
+    if not len(lines):
+        return lines
+    largest = np.maximum.reduceat(np.abs(polygons.xy), polygons.ring_start[polygons.polygon_start[:-1]], axis=0)
+    shift = 53 - np.frexp(largest.max(axis=1))[1]  # 53 binary places: the largest coordinates are what they were
+    of_nodes = np.zeros(len(path.vertices), dtype=np.int64)
+    of_nodes[path.arcs] = shift[path.polygon][:, None]
+
+    def rounded(places: Floats, by: NDArray[np.integer]) -> Floats:
+        return np.asarray(np.ldexp(np.rint(np.ldexp(places, by)), -by) + 0.0)
+
+    ends = rounded(lines.ends, shift[lines.polygon][:, None, None])
+    return Centerlines(replace(path, vertices=rounded(path.vertices, of_nodes[:, None])), ends)
+
+
+# ---- to the boundary ------------------------------------------------------------------------------
+def _led_on(lines: Centerlines, wanted: Booleans, *, to_middles: bool) -> Centerlines:
+    """Lead ends of paths that are inside to the middle of the edge ahead, or straight on."""
+    origin = lines.path.vertices[lines.end_nodes]
+    wanted = wanted & (lines.path.radius[lines.end_nodes] > 0)
+    if not wanted.any():
+        return lines
+    way, origin = (origin - _places_before(lines))[wanted], origin[wanted]
+    arcs = np.stack([lines.arc_start[:-1], lines.arc_start[1:] - 1], axis=1)[wanted]
+    places = np.full_like(origin, np.nan) if not to_middles else middles_ahead(lines.path, arcs, origin, way)
+    rest = np.isnan(places[:, 0])
+    places[rest], _ = first_hits(lines.path.polygons, lines.path.polygon[arcs][rest], origin[rest], way[rest])
+    ends = lines.ends.copy()
+    ends[wanted] = places
+    return replace(lines, ends=ends)
+
+
+def _places_before(lines: Centerlines) -> Floats:
+    """(k, 2, 2) places on each path, one radius after its start and before its end, or its other end."""
+    path, start = lines.path, lines.arc_start
+    along = np.concatenate([[0], np.cumsum(path.length)])
+    first, last = along[start[:-1]], along[start[1:]]
+    radius = path.radius[lines.end_nodes]
+    position = np.stack([np.minimum(first + radius[:, 0], last), np.maximum(last - radius[:, 1], first)], axis=1)
+    arc = np.clip(np.searchsorted(along, position, side="right") - 1, start[:-1, None], start[1:, None] - 1).reshape(-1)
+    measures = path.measures(arc)
+    places: Floats = measures.place(measures.parameter(position.reshape(-1) - along[arc]))
+    return places.reshape(-1, 2, 2)
+
+
+# ---- what is said ---------------------------------------------------------------------------------
+def _warn_missing(lines: Centerlines) -> None:
+    missing = without_centerline(lines)
+    if not len(missing):
+        return
+    polygons = lines.path.polygons
+    total = int(np.count_nonzero(~polygons.is_line))
+    ids = polygons.ids
+    has_ids = ids is not None and all(ids[k] is not None for k in missing.tolist())
+    named = [str(ids[k] if ids is not None and has_ids else k + 1) for k in missing[:MOST_NAMED].tolist()]
+    more = f" and {len(missing) - MOST_NAMED} more" if len(missing) > MOST_NAMED else ""
+    what = "ids" if has_ids else "numbers"
+    warnings.warn(
+        f"{len(missing)} of {total} polygons gave no centerline: {what} {', '.join(named)}{more}",
+        VorotoolWarning,
+        stacklevel=3,
+    )
+
+
+def _no_path(skeleton: Skeleton, start: Place | None, end: Place | None, *, is_apart: bool) -> str:
+    def told(place: Place | None) -> str:
+        return "a leaf" if place is None else f"({place[0]:g}, {place[1]:g})"
+
+    if is_apart:
+        return f"no path along the skeleton leads from {told(start)} to {told(end)}: they are in different parts of it"
+    return f"the path from {told(start)} to {told(end)} is a single place of the skeleton: give others"

@@ -1,0 +1,209 @@
+"""Twigs of a skeleton: branches into corners of polygons."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.centerlines.edge_comparisons import is_blunt
+from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
+
+Floats = NDArray[np.float64]
+Numbers = NDArray[np.intp]
+Booleans = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class Branches:
+    """Branches inside polygons.
+
+    Parameters
+    ----------
+    first, last : (b,) integer array
+        Of the arcs of each, which follow one another.
+    ends : (b, 2) integer array
+        Nodes.
+    length : (b,) float64 array
+        Of all its arcs.
+    degree : (v,) integer array
+        Number of arcs inside polygons at each node.
+    """
+
+    first: Numbers
+    last: Numbers
+    ends: Numbers
+    length: Floats
+    degree: Numbers
+
+    def arcs(self, chosen: Numbers) -> Numbers:
+        """All arcs of some branches."""
+        size = self.last[chosen] + 1 - self.first[chosen]
+        start = np.cumsum(size) - size
+        return np.repeat(self.first[chosen] - start, size) + np.arange(size.sum())
+
+
+def branches_inside(skeleton: Skeleton) -> Branches:
+    """Find the branches inside polygons.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> branches_inside(skeleton_exact([[0, 0], [10, 0], [10, 4], [0, 4]])).ends.tolist()
+    [[0, 1], [2, 1], [3, 4], [5, 4], [1, 4]]
+    """
+    inside = np.flatnonzero(skeleton.side == INTERIOR)
+    begins = np.flatnonzero(np.diff(skeleton.branch[inside], prepend=-1))
+    first, last = inside[begins], inside[np.append(begins, len(inside))[1:] - 1]
+    degree = np.bincount(skeleton.arcs[inside].reshape(-1), minlength=len(skeleton.vertices))
+    ends = np.stack([skeleton.arcs[first, 0], skeleton.arcs[last, 1]], axis=1).astype(np.intp)
+    length = np.add.reduceat(skeleton.length[inside], begins) if len(begins) else np.zeros(0)
+    return Branches(first, last, ends, length, degree)
+
+
+@dataclass(frozen=True, eq=False)
+class Twigs:
+    """Branches from a leaf between two edges with a corner in common to a junction, along one of these or both.
+
+    Parameters
+    ----------
+    branch, arc : (t,) integer array
+        Which, and its first arc.
+    leaf, node : (t,) integer array
+        The leaf, and the junction.
+    edges : (t, 2) integer array
+        The sites on both sides of the leaf, the one with the smaller number first.
+    is_beside : (t, 2) bool array
+        Whether each is a site of all arcs: where a wall has a corner that turns outwards, it is not.
+    length : (t,) float64 array
+        Of the branches.
+    cosine : (t,) float64 array
+        Of the angle that the boundary turns by at the corner: from -1 at a tip that is all but closed, to 1.
+    """
+
+    branch: Numbers
+    arc: Numbers
+    leaf: Numbers
+    node: Numbers
+    edges: Numbers
+    is_beside: Booleans
+    length: Floats
+    cosine: Floats
+
+    def __len__(self) -> int:
+        return len(self.leaf)
+
+
+def corner_twigs(skeleton: Skeleton, branches: Branches) -> Twigs:
+    """Find the twigs among some branches.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> skeleton = skeleton_exact([[0, 0], [10, 0], [10, 4], [0, 4]])
+    >>> twigs = corner_twigs(skeleton, branches_inside(skeleton))
+    >>> twigs.node.tolist(), twigs.cosine.tolist()
+    ([1, 1, 4, 4], [0.0, 0.0, 0.0, 0.0])
+    """
+    is_leaf = branches.degree[branches.ends] == 1
+    maybe = np.flatnonzero(is_leaf[:, 0] != is_leaf[:, 1])
+    outer = np.where(is_leaf[maybe, 0], branches.first[maybe], branches.last[maybe])
+    edges = np.sort(skeleton.sites[outer], axis=1).astype(np.intp)
+    is_beside = _are_beside(skeleton, branches, maybe, edges)
+    kept = np.flatnonzero(is_beside.any(axis=1) & (skeleton.site_table.kind[edges] == EDGE).all(axis=1))
+    ends = _ends(skeleton, edges[kept])
+    meets = (ends[:, 0, :, None] == ends[:, 1, None]).all(axis=-1)  # (k, 2, 2) ends of the one, and of the other
+    has_corner = meets.any(axis=(1, 2))
+    kept, ends, meets = kept[has_corner], ends[has_corner], meets[has_corner]
+    branch = maybe[kept]
+    leaf, node = np.where(is_leaf[branch, 0], branches.ends[branch].T, branches.ends[branch].T[::-1])
+    length, cosine = branches.length[branch], _cosine(ends, meets)
+    return Twigs(branch, branches.first[branch], leaf, node, edges[kept], is_beside[kept], length, cosine)
+
+
+def _are_beside(skeleton: Skeleton, branches: Branches, chosen: Numbers, edges: Numbers) -> Booleans:
+    """(k, 2) whether each of two sites is one of all arcs of a branch."""
+    arcs, size = branches.arcs(chosen), branches.last[chosen] + 1 - branches.first[chosen]
+    which = np.repeat(np.arange(len(chosen)), size)
+    sites = skeleton.sites[arcs]
+    missed = [(sites != edges[which, k, None]).all(axis=1) for k in range(2)]
+    return np.stack([np.bincount(which[miss], minlength=len(chosen)) == 0 for miss in missed], axis=1)
+
+
+def _ends(skeleton: Skeleton, edges: Numbers) -> Floats:
+    """(…, 2, 2) the ends of edges, without a gap."""
+    return ends_of_sites(skeleton.polygons, skeleton.site_table, edges)
+
+
+def _cosine(ends: Floats, meets: Booleans) -> Floats:
+    """Of the turn where both edges meet."""
+    every = np.arange(len(ends))
+    at = meets.any(axis=2).argmax(axis=1), meets.any(axis=1).argmax(axis=1)
+    (ux, uy), (vx, vy) = ((ends[every, k, at[k]] - ends[every, k, 1 - at[k]]).T for k in range(2))
+    size = np.sqrt((ux * ux + uy * uy) * (vx * vx + vy * vy))
+    cosine: Floats = 0.0 - np.divide(ux * vx + uy * vy, size, out=np.zeros(len(ends)), where=size > 0)
+    return cosine
+
+
+@dataclass(frozen=True, eq=False)
+class Pairs:
+    """Twigs at both corners of an edge.
+
+    Parameters
+    ----------
+    one, other : (p,) integer array
+        The twigs, the smaller number first.
+    edge : (p,) integer array
+        The site.
+    is_blunt : (p,) bool array
+        Whether the angles at both corners differ by no more than a right angle: neither is a tip.
+    """
+
+    one: Numbers
+    other: Numbers
+    edge: Numbers
+    is_blunt: Booleans
+
+    def __getitem__(self, chosen: NDArray[np.generic]) -> Pairs:
+        return Pairs(*(values[chosen] for values in self.__dict__.values()))
+
+    def and_these(self, more: Pairs) -> Pairs:
+        """All of both."""
+        both = zip(self.__dict__.values(), more.__dict__.values(), strict=True)
+        return Pairs(*(np.concatenate(columns) for columns in both))
+
+
+def pairs_of(skeleton: Skeleton, twigs: Twigs) -> Pairs:
+    """Find the pairs of twigs, by the numbers of their edges.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> skeleton = skeleton_exact([[0, 0], [10, 0], [10, 4], [0, 4]])
+    >>> pairs = pairs_of(skeleton, corner_twigs(skeleton, branches_inside(skeleton)))
+    >>> pairs.one.tolist(), pairs.other.tolist(), pairs.edge.tolist()
+    ([0, 2, 1, 0], [2, 3, 3, 1], [4, 5, 6, 7])
+    """
+    twig, edge = np.repeat(np.arange(len(twigs)), 2)[twigs.is_beside.reshape(-1)], twigs.edges[twigs.is_beside]
+    order = np.lexsort((twig, edge))
+    follows = np.flatnonzero(np.diff(edge[order]) == 0)
+    one, other, edge = twig[order[follows]], twig[order[follows + 1]], edge[order[follows]]
+    beside = np.stack([twigs.edges[of].sum(axis=1) - edge for of in (one, other)], axis=1)
+    return Pairs(one, other, edge, is_blunt(_along(skeleton, edge, beside)))
+
+
+def _along(skeleton: Skeleton, edge: Numbers, beside: Numbers) -> Floats:
+    """(p, 4, 2) the ends of edges, between those ends of the edges beside each that are not there."""
+    a, b = _ends(skeleton, edge).swapaxes(0, 1)
+    others = _ends(skeleton, beside)
+    is_at_b = (others[:, 0] == b[:, None]).all(axis=-1).any(axis=1)[:, None]  # the first edge beside
+    near, far = np.where(is_at_b, b, a), np.where(is_at_b, a, b)
+    return np.stack([_far_end(others[:, 0], a, b), near, far, _far_end(others[:, 1], a, b)], axis=1)
+
+
+def _far_end(edges: Floats, a: Floats, b: Floats) -> Floats:
+    """The end of each edge that is neither a nor b."""
+    is_near = (edges == a[:, None]).all(axis=-1) | (edges == b[:, None]).all(axis=-1)
+    far: Floats = np.where(is_near[:, :1], edges[:, 1], edges[:, 0])
+    return far

@@ -1,0 +1,265 @@
+"""Ends of a skeleton: where it forks to both corners of one edge, or fans out into a round end.
+
+Two twigs of one junction are *beside each other* if they have an edge in common, and neither of its corners is a tip
+(`vorotool.engines.centerlines.edge_comparisons.is_blunt`), which the skeleton leads into. Twigs beside each other make runs. A run
+of two is the *fork* of their edge; a run of more is a *round end*, also over several junctions near each other
+(`vorotool.engines.centerlines.round_ends`). Where all arcs of a junction are twigs, the polygon is around a circle: see
+`_forks_of_stars`. Where a run goes all around a polygon with more than four edges, all spokes are much the same and
+none is an end: the centerline is led from the farthest corner straight through the middle. A twig beside no other, at
+a junction between cycles, is no end if its corner is much like both beside it: one of a plate with holes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.centerlines.boundary_rays import first_hits
+from vorotool.engines.centerlines.corner_twigs import Branches, Pairs, Twigs, branches_inside, corner_twigs, pairs_of
+from vorotool.engines.centerlines.edge_comparisons import TIE, is_blunt, shortest
+from vorotool.engines.centerlines.passed_corners import are_passed
+from vorotool.engines.centerlines.pruned_twigs import with_pruned_twigs
+from vorotool.engines.centerlines.round_ends import MOST_WITH_ENDS, grown_runs
+from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
+from vorotool.geometry.skeleton.tables import connected_roots
+
+Floats = NDArray[np.float64]
+Numbers = NDArray[np.intp]
+
+
+@dataclass(frozen=True, eq=False)
+class Unforked:
+    """A skeleton whose forks are led to the middles of their edges.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        That which is given, and behind its arcs *leads*: straight lines from forks to the middles of their edges.
+    arcs : (k,) integer array
+        Its arcs inside polygons, without the twigs of forks and all but the longest twig of round ends, and the leads.
+    is_lead, is_round : (a,) bool array
+        Whether each arc of the skeleton is a lead, or the twig that is left of a round end.
+    reach : (a,) float64 array
+        Lengths; of leads those of the longer twig of the fork, by which paths are compared.
+    first_leaf : (v,) integer array
+        The nodes themselves; of the middle of an edge the smaller one of the leaves at its corners.
+    """
+
+    skeleton: Skeleton
+    arcs: Numbers
+    is_lead: NDArray[np.bool_]
+    is_round: NDArray[np.bool_]
+    reach: Floats
+    first_leaf: Numbers
+
+
+def forked(skeleton: Skeleton) -> Unforked:
+    """A skeleton as it is, without leads.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Its arcs inside polygons are used.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> forked(skeleton_exact([[0, 0], [10, 0], [10, 4], [0, 4]])).arcs.tolist()
+    [0, 1, 2, 3, 4]
+    """
+    nothing = np.zeros(len(skeleton), dtype=bool)
+    nodes = np.arange(len(skeleton.vertices))
+    return Unforked(skeleton, np.flatnonzero(skeleton.side == INTERIOR), nothing, nothing, skeleton.length, nodes)
+
+
+def unforked(skeleton: Skeleton) -> Unforked:
+    """Lead the forks of a skeleton to the middles of their edges.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Its arcs inside polygons are used.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> made = unforked(skeleton_exact([[0, 0], [10, 0], [10, 4], [0, 4]]))
+    >>> made.skeleton.vertices[made.skeleton.arcs[made.arcs]].tolist()
+    [[[2.0, 2.0], [8.0, 2.0]], [[8.0, 2.0], [10.0, 2.0]], [[2.0, 2.0], [0.0, 2.0]]]
+    """
+    known, nodes = len(skeleton), len(skeleton.vertices)
+    skeleton = with_pruned_twigs(skeleton)
+    branches = branches_inside(skeleton)
+    twigs = corner_twigs(skeleton, branches)
+    pairs = pairs_of(skeleton, twigs)
+    star_forks, is_settled = _forks_of_stars(skeleton, branches, twigs, pairs)
+    plain = pairs[~is_settled[twigs.node[pairs.one]] & ~is_settled[twigs.node[pairs.other]]]
+    ends = grown_runs(branches, skeleton.radius, twigs, plain)
+    size = np.bincount(ends.run, minlength=len(twigs))[ends.run]
+    at_one = twigs.node[plain.one] == twigs.node[plain.other]
+    forks = plain[at_one & plain.is_blunt & (size[plain.one] == 2)].and_these(star_forks)
+    forks = forks[twigs.node[forks.one] < nodes]  # others hang on what was pruned
+    around = np.where(is_settled[twigs.node] & (branches.degree[twigs.node] > MOST_WITH_ENDS), twigs.node, -1)
+    around = np.where(np.isin(ends.run, ends.closed), len(branches.degree) + ends.run, around)
+    farthest = _farthest_around(skeleton, twigs, around)
+    is_round = (size > 2) & (size < branches.degree[twigs.node]) | np.isin(ends.run, ends.grown)
+    in_round = np.flatnonzero(is_round & (around < 0))
+    longest = _longest_of_runs(twigs, ends.run, in_round)
+    others = np.setdiff1d(np.append(in_round, np.flatnonzero(around >= 0)), np.append(longest, farthest))
+    is_end = is_round | (around >= 0)
+    is_end[forks.one] = is_end[forks.other] = True
+    others = np.append(others, np.flatnonzero(~is_end & are_passed(skeleton, branches, twigs)))
+    removed = branches.arcs(
+        np.concatenate([twigs.branch[forks.one], twigs.branch[forks.other], twigs.branch[others], ends.around])
+    )
+    of_round = _hanging_on(skeleton, branches.arcs(np.append(twigs.branch[longest], ends.inner)), nodes)
+    pruned = np.setdiff1d(np.arange(known, len(skeleton)), np.append(of_round, branches.arcs(twigs.branch[farthest])))
+    return _with_leads(skeleton, twigs, forks, np.append(removed, pruned), of_round)
+
+
+# ---- polygons around a circle ---------------------------------------------------------------------
+def _farthest_around(skeleton: Skeleton, twigs: Twigs, around: Numbers) -> Numbers:
+    """Of twigs with the same number that is not -1, that to the corner farthest from the middle.
+
+    The middle is the node with the largest disc. Of corners as far but for a part `TIE` that at the first edges counts.
+    """
+    chosen = np.flatnonzero(around >= 0)
+    chosen = chosen[np.lexsort((-skeleton.radius[twigs.node[chosen]], around[chosen]))]
+    starts = np.flatnonzero(np.diff(around[chosen], prepend=-1))
+    group = np.cumsum(np.isin(np.arange(len(chosen)), starts)) - 1
+    off = skeleton.vertices[twigs.leaf[chosen]] - skeleton.vertices[twigs.node[chosen[starts]]][group]
+    distance = np.sqrt((off * off).sum(axis=1))
+    most = np.maximum.reduceat(distance, starts) if len(starts) else distance
+    far = np.flatnonzero(distance >= most[group] * (1 - TIE))
+    far = far[np.lexsort((*twigs.edges[chosen[far]].T[::-1], group[far]))]
+    first: Numbers = chosen[far[np.diff(group[far], prepend=-1) > 0]]
+    return first
+
+
+def _forks_of_stars(
+    skeleton: Skeleton, branches: Branches, twigs: Twigs, pairs: Pairs
+) -> tuple[Pairs, NDArray[np.bool_]]:
+    """Which pairs are forks where all arcs of a skeleton are twigs of one node; and the nodes that this settles.
+
+    A triangle without tips has one, at its shortest edge: from there the centerline leads to the corner opposite. A
+    quadrilateral has two, at opposite edges without tips. Of equal ones those of the first edge count. Polygons with
+    more edges have none, if they have no tips: see `_farthest_around`.
+    """
+    degree = branches.degree
+    is_star = (np.bincount(twigs.node, minlength=len(degree)) == degree) & (degree > 0)
+    node = twigs.node[pairs.one]
+    own = np.flatnonzero(is_star[node] & (node == twigs.node[pairs.other]))
+    whole = np.bincount(node[own], minlength=len(degree)) == degree
+    own = own[np.lexsort((pairs.edge[own], node[own]))]
+    own = own[whole[node[own]]]
+    is_round = np.bincount(node[own], pairs.is_blunt[own], len(degree)) == degree
+    corners = own[(degree[node[own]] == 3) & is_round[node[own]]].reshape(-1, 3)
+    least = corners[
+        np.arange(len(corners)), shortest(ends_of_sites(skeleton.polygons, skeleton.site_table, pairs.edge[corners]))
+    ]
+    sides = own[degree[node[own]] == 4].reshape(-1, 2, 2)  # the first and the third edge are opposite
+    is_first, is_second = (pairs.is_blunt[sides[:, :, k]].all(axis=1) for k in range(2))
+    opposite = np.where(is_first[:, None], sides[:, :, 0], sides[:, :, 1])[is_first | is_second].reshape(-1)
+    settled = is_round & is_star
+    settled[node[opposite]] = True
+    return pairs[np.concatenate([least, opposite])], settled
+
+
+# ---- what is left ---------------------------------------------------------------------------------
+def _with_leads(skeleton: Skeleton, twigs: Twigs, forks: Pairs, removed: Numbers, of_round: Numbers) -> Unforked:
+    """Without some arcs, with leads for forks; arcs of round ends are marked."""
+    known, count, nodes = len(skeleton), len(forks.edge), len(skeleton.vertices)
+    ends = ends_of_sites(skeleton.polygons, skeleton.site_table, forks.edge)
+    middle, node = ends[:, 0] / 2 + ends[:, 1] / 2, twigs.node[forks.one]
+    way, first = middle - skeleton.vertices[node], twigs.arc[forks.one]
+    is_gone, is_round = np.zeros((2, known + count), dtype=bool)
+    is_gone[removed] = is_round[of_round] = True
+    arc = np.append(np.flatnonzero(skeleton.side == INTERIOR), known + np.arange(count))
+    length = np.sqrt((way * way).sum(axis=1))
+    made = replace(
+        skeleton,
+        vertices=np.concatenate([skeleton.vertices, middle]),
+        radius=np.concatenate([skeleton.radius, np.zeros(count)]),
+        arcs=np.concatenate([skeleton.arcs, np.stack([node, nodes + np.arange(count)], axis=1)]),
+        control=np.concatenate([skeleton.control, np.full((count, 2), np.nan)]),
+        sites=np.concatenate([skeleton.sites, np.stack([forks.edge] * 2, axis=1)]),
+        polygon=np.concatenate([skeleton.polygon, skeleton.polygon[first]]),
+        side=np.concatenate([skeleton.side, np.full(count, INTERIOR, dtype=np.int8)]),
+        branch=np.concatenate([skeleton.branch, skeleton.branch.max(initial=-1) + 1 + np.arange(count)]),
+        length=np.concatenate([skeleton.length, length]),
+        error_bound=np.concatenate([skeleton.error_bound, skeleton.error_bound[first]]),
+    )
+    reach = np.maximum(twigs.length[forks.one], twigs.length[forks.other])
+    leaf = np.minimum(twigs.leaf[forks.one], twigs.leaf[forks.other])
+    return Unforked(
+        made,
+        arc[~is_gone[arc]],
+        np.arange(known + count) >= known,
+        is_round,
+        np.concatenate([skeleton.length, reach]),
+        np.concatenate([np.arange(nodes), leaf]),
+    )
+
+
+def _hanging_on(skeleton: Skeleton, arcs: Numbers, nodes: int) -> Numbers:
+    """Those of some arcs that are connected, by these, with one of the first nodes."""
+    root = connected_roots(skeleton.arcs[arcs], len(skeleton.vertices))
+    hanging: Numbers = arcs[root[skeleton.arcs[arcs, 0]] < nodes]
+    return hanging
+
+
+def _longest_of_runs(twigs: Twigs, runs: Numbers, chosen: Numbers) -> Numbers:
+    """Of some twigs the longest one of each run, the first of equal ones."""
+    order = chosen[np.lexsort((chosen, -twigs.length[chosen], runs[chosen]))]
+    longest: Numbers = order[np.diff(runs[order], prepend=-1) > 0]
+    return longest
+
+
+# ---- where twigs were ------------------------------------------------------------------------------
+def middles_ahead(skeleton: Skeleton, arcs: Numbers, origin: Floats, way: Floats) -> Floats:
+    """The middles of edges ahead of ends that are between both edges beside them: where forks were pruned.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Of what.
+    arcs : (k,) integer array
+        Arcs inside polygons that the ends are of.
+    origin, way : (k, 2) float64 array
+        The ends, and where they look.
+
+    Returns
+    -------
+    (k, 2) float64 array
+        NaN where there is no such edge, one of its ends is a tip, or another edge is before its middle.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> skeleton = skeleton_exact([[0, 0], [10, 0], [10, 4], [0, 4]])
+    >>> middles_ahead(skeleton, np.array([4]), np.array([[8.0, 2.0]]), np.array([[1.0, 0.0]])).tolist()
+    [[10.0, 2.0]]
+    """
+    polygons, table = skeleton.polygons, skeleton.site_table
+    sites, polygon = skeleton.sites[arcs], skeleton.polygon[arcs]
+    own = ((table.kind[sites] == EDGE) & (table.polygon[sites] == polygon[:, None])).all(axis=1)
+    ring = polygons.polygon_start[table.polygon[sites]] + table.ring[sites]
+    own &= ring[:, 0] == ring[:, 1]
+    vertex = polygons.ring_start[ring] + table.index[sites]
+    found = np.full((len(arcs), 2), np.nan)
+    for before, behind in ((0, 1), (1, 0)):
+        start = polygons.following[vertex[:, before]]
+        end = polygons.following[start]
+        chosen = np.flatnonzero(own & (end == vertex[:, behind]))
+        start, end = start[chosen], end[chosen]
+        around = (vertex[chosen, before], start, end, polygons.following[end])
+        middle = polygons.xy[start] / 2 + polygons.xy[end] / 2
+        to_middle = middle - origin[chosen]
+        is_ahead = (to_middle * way[chosen]).sum(axis=1) > 0
+        is_ahead &= is_blunt(polygons.xy[np.stack(around, axis=1)])
+        chosen, start, middle, to_middle = (values[is_ahead] for values in (chosen, start, middle, to_middle))
+        _, met = first_hits(polygons, polygon[chosen], origin[chosen], to_middle)
+        found[chosen[met == start]] = middle[met == start]
+    return found

@@ -1,0 +1,141 @@
+"""The arcs of a skeleton as a graph: longest and shortest paths in it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.centerlines.edge_comparisons import TIE
+from vorotool.engines.centerlines.ends import Unforked
+from vorotool.engines.common.label_arrays import Progress
+from vorotool.engines.from_skeleton.nearest_point import nearest_place
+from vorotool.engines.pruning.pruning import skeleton_arrays
+from vorotool.geometry.skeleton.skeleton import Skeleton
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int32]
+Booleans = NDArray[np.bool_]
+Place = tuple[float, float]
+
+
+def geometry_of(skeleton: Skeleton, arc: Indices, first: Floats, last: Floats) -> dict[str, Floats]:
+    """Places, radii, control points and lengths of parts of arcs, by the parameters of their ends."""
+    return _core.part_geometry(skeleton_arrays(skeleton), arc, first, last)
+
+
+@dataclass(frozen=True, eq=False)
+class Paths:
+    """Arcs of paths that follow one another, and the nodes that each leads from and to."""
+
+    start: NDArray[np.int64]
+    arcs: Indices
+    sources: Indices
+    targets: Indices
+
+    def reversed(self) -> Paths:
+        """One path, the other way round."""
+        return Paths(self.start, self.arcs[::-1], self.targets[::-1], self.sources[::-1])
+
+    def turned(self, is_turned: Booleans) -> Paths:
+        """Some paths the other way round."""
+        path = np.repeat(np.arange(len(is_turned)), np.diff(self.start))
+        place = np.arange(len(self.arcs))
+        turned = is_turned[path]
+        order = np.where(turned, (self.start[:-1] + self.start[1:] - 1)[path] - place, place)
+        sources, targets = self.sources[order], self.targets[order]
+        return Paths(
+            self.start, self.arcs[order], np.where(turned, targets, sources), np.where(turned, sources, targets)
+        )
+
+    @property
+    def end_nodes(self) -> Indices:
+        """(k, 2) the first and the last node of each path."""
+        return np.stack([self.sources[self.start[:-1]], self.targets[self.start[1:] - 1]], axis=1)
+
+
+class Network:
+    """Arcs of a skeleton, or parts of them, as a graph; places inside arcs can be made nodes.
+
+    Leaves have the first numbers: with `by_edge` in the order of the edges of polygons that they are at. Of equally
+    long paths the core takes that whose ends have the smallest ones; with `by_edge` those are equally long that are as
+    long as the longest but for a part `TIE`.
+    """
+
+    def __init__(self, axis: Unforked, *, by_edge: bool) -> None:
+        self.axis, self.skeleton, self.by_edge = axis, axis.skeleton, by_edge
+        self.arc = axis.arcs.astype(np.int32)
+        node, self.leaves = _numbered(self.skeleton, axis.arcs, by_edge=by_edge)
+        self.node = node
+        number = np.empty(len(node), dtype=np.int32)
+        number[node] = np.arange(len(node))
+        self.ends = number[self.skeleton.arcs[self.arc]]
+        self.first, self.last = np.zeros(len(self.arc)), np.ones(len(self.arc))
+        self.length = axis.reach[self.arc]
+        self.nodes = len(node)
+
+    def node_near(self, place: Place) -> int:
+        """The node at the place of the skeleton that is nearest to a given one, without round ends if there is more."""
+        arcs = self.axis.arcs
+        plain = arcs[~self.axis.is_round[arcs]]
+        return self._node_at(*nearest_place(self.skeleton, place, plain if len(plain) else arcs))
+
+    def _node_at(self, arc: int, place: float) -> int:
+        """The node at a place of an arc, which is parted there if need be."""
+        k = int(np.flatnonzero((self.arc == arc) & (self.first <= place) & (place <= self.last))[0])
+        for end, own in ((0, self.first[k]), (1, self.last[k])):
+            if place == own:
+                return int(self.ends[k, end])
+        node, self.nodes = self.nodes, self.nodes + 1
+        self.arc = np.append(self.arc, self.arc[k])
+        self.ends = np.concatenate([self.ends, [[node, self.ends[k, 1]]]]).astype(np.int32)
+        self.first, self.last = np.append(self.first, place), np.append(self.last, self.last[k])
+        self.ends[k, 1], self.last[k] = node, place
+        both = [k, len(self.arc) - 1]
+        self.length = np.append(self.length, 0.0)
+        self.length[both] = geometry_of(self.skeleton, self.arc[both], self.first[both], self.last[both])["length"]
+        return node
+
+    def longest_paths(self, progress: Progress) -> Paths:
+        """One path a polygon that has one of more than a place; each from the end with the first leaf."""
+        count = len(self.skeleton.polygons)
+        polygon = np.ascontiguousarray(self.skeleton.polygon[self.arc])
+        tie = TIE if self.by_edge else 0.0
+        start, arcs, targets = _core.longest_paths(self.ends, self.length, polygon, count, self.nodes, tie, progress)
+        path = np.repeat(np.arange(count), np.diff(start))
+        length = np.bincount(path, self.length[arcs], minlength=count)
+        kept = (length > 0)[path]
+        sizes = np.diff(start)[length > 0]
+        paths = self._with_sources(np.concatenate([[0], np.cumsum(sizes)]), arcs[kept], targets[kept])
+        one, other = self.axis.first_leaf[self.node[paths.end_nodes]].T
+        return paths.turned(one > other)
+
+    def path(self, first: int, last: int, progress: Progress) -> Paths | None:
+        """The shortest path between two nodes; with last -1 the longest of those to leaves."""
+        polygon = self.skeleton.polygon[self.arc]
+        at_ends = ((self.ends == first) | (self.ends == last)).any(axis=1)
+        own = np.flatnonzero(np.isin(polygon, polygon[at_ends]))  # no other is looked at
+        found = _core.path_from(self.ends[own], self.length[own], self.nodes, first, last, progress)
+        if found is None:
+            return None
+        return self._with_sources(np.array([0, len(found[0])]), own[found[0]].astype(np.int32), found[1])
+
+    def _with_sources(self, start: NDArray[np.int64], arcs: Indices, targets: Indices) -> Paths:
+        ends = self.ends[arcs]
+        return Paths(start, arcs, np.where(ends[:, 1] == targets, ends[:, 0], ends[:, 1]), targets)
+
+
+def _numbered(skeleton: Skeleton, arcs: NDArray[np.intp], *, by_edge: bool) -> tuple[NDArray[np.intp], int]:
+    """All nodes in the order of their numbers, and the number of those that are leaves of some arcs."""
+    ends = skeleton.arcs[arcs]
+    is_leaf = np.bincount(ends.reshape(-1), minlength=len(skeleton.vertices)) == 1
+    table, polygons = skeleton.site_table, skeleton.polygons
+    site = skeleton.sites[arcs]
+    vertex = polygons.ring_start[polygons.polygon_start[table.polygon[site]] + table.ring[site]] + table.index[site]
+    edge = np.zeros(len(is_leaf), dtype=np.int64)
+    for column in ends.T:
+        edge[column] = vertex.min(axis=1)
+    nodes = np.arange(len(is_leaf))
+    return np.lexsort((nodes, edge * (is_leaf & by_edge), ~is_leaf)), int(is_leaf.sum())

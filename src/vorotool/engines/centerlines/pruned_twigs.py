@@ -1,0 +1,273 @@
+"""Twigs that a skeleton had before it was pruned: ends of the skeleton are told with all twigs, or not at all.
+
+Around a node the site on the left of each arc is that on the right of the next one. Where these are different edges of
+one ring, and all corners from the one to the other are convex, what was pruned there is known exactly. It was a tree
+between the boundary from the one edge to the other and the disc of the node, as what is pruned leaves no cycle; and
+all sites that are nearest to a place there are edges of this chain, as it has no other. So it was a part of the medial
+axis of the intersection of the half-planes left of these edges, which `vorotool.engines.centerlines.convex_trees` makes again. No
+bound on distances is needed. If there is one corner the tree is the straight line to it.
+
+An arc whose end is inside hangs between the first and the last edge. It is led on along the same straight line to the
+root of its tree, or ends there already.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.centerlines.convex_trees import Chains, convex_trees
+from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton
+
+Floats = NDArray[np.float64]
+Numbers = NDArray[np.intp]
+Booleans = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class _Sides:
+    """Edges on one side of arcs around nodes that are on the other side of no arc there.
+
+    Parameters
+    ----------
+    node, arc, site, vertex : (k,) integer array
+        The node, the arc, the edge, and the vertex where that begins.
+    """
+
+    node: Numbers
+    arc: Numbers
+    site: Numbers
+    vertex: Numbers
+
+    def __getitem__(self, chosen: NDArray[np.generic]) -> _Sides:
+        return _Sides(*(values[chosen] for values in self.__dict__.values()))
+
+
+@dataclass(frozen=True, eq=False)
+class _Order:
+    """Edges around rings, by the vertices where they begin: one way round or the other.
+
+    Parameters
+    ----------
+    place : (n,) integer array
+        Of each edge in this order, ring by ring; and the edge at each place.
+    first, size : (n,) integer array
+        The first place of its ring, and the number of these.
+    bends : (n + 1,) integer array
+        How many corners before each place do not turn to the left; a corner has the place of the edge before it.
+    """
+
+    place: Numbers
+    first: Numbers
+    size: Numbers
+    bends: Numbers
+
+
+@dataclass(frozen=True, eq=False)
+class _Gaps:
+    """Where twigs were pruned.
+
+    Parameters
+    ----------
+    node, arc : (g,) integer array
+        Where from, and an arc there.
+    is_leaf : (g,) bool array
+        Whether no other arc is there.
+    start : (g + 1,) integer array
+        Gap k has the edges ``start[k]`` to ``start[k + 1] - 1``.
+    site : (n,) integer array
+        Edges in the order around the node.
+    ends : (n, 2) integer array
+        The vertices where they begin and end in this order.
+    """
+
+    node: Numbers
+    arc: Numbers
+    is_leaf: Booleans
+    start: Numbers
+    site: Numbers
+    ends: Numbers
+
+    def __add__(self, more: _Gaps) -> _Gaps:
+        start = np.concatenate([self.start, self.start[-1] + more.start[1:]])
+        names = ("node", "arc", "is_leaf", "site", "ends")
+        rest = {name: np.concatenate([getattr(self, name), getattr(more, name)]) for name in names}
+        return _Gaps(start=start, **rest)
+
+
+def with_pruned_twigs(skeleton: Skeleton) -> Skeleton:
+    """Add what was pruned between edges with convex corners, behind all arcs; branches end where it begins.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Its arcs inside polygons are looked at. One that was not pruned is given back as it is.
+
+    Examples
+    --------
+    >>> from vorotool import prune, skeleton_exact
+    >>> skeleton = prune(skeleton_exact([[0, 0], [20, 0], [21, 4], [1, 4]]), scale=1.3)
+    >>> made = with_pruned_twigs(skeleton)
+    >>> len(skeleton), sorted(made.vertices[made.arcs[len(skeleton) :, 1]].tolist())
+    (3, [[1.0, 4.0], [20.0, 0.0]])
+    """
+    if not len(skeleton):
+        return skeleton
+    gaps = _gaps(skeleton)
+    return _with_trees(skeleton, gaps) if len(gaps.node) else skeleton
+
+
+def _sides(skeleton: Skeleton) -> tuple[_Sides, _Sides]:
+    """Where gaps begin, counterclockwise around nodes inside: on the left of an arc; and where they end."""
+    table, polygons = skeleton.site_table, skeleton.polygons
+    inside = np.flatnonzero((skeleton.side == INTERIOR) & (skeleton.arcs[:, 0] != skeleton.arcs[:, 1]))
+    node = skeleton.arcs[inside].T.reshape(-1).astype(np.intp)
+    arc = np.concatenate([inside, inside])
+    left, right = (skeleton.sites[inside][:, order].T.reshape(-1).astype(np.intp) for order in ([0, 1], [1, 0]))
+    keys = [node * len(table) + site for site in (left, right)]
+    made = []
+    for site, own, others in ((left, *keys), (right, *keys[::-1])):
+        maybe = np.flatnonzero((skeleton.radius[node] > 0) & (table.kind[site] == EDGE))
+        chosen = maybe[~np.isin(own[maybe], others)]
+        ring = polygons.polygon_start[table.polygon[site[chosen]]] + table.ring[site[chosen]]
+        vertex = polygons.ring_start[ring] + table.index[site[chosen]]
+        made.append(_Sides(node[chosen], arc[chosen], site[chosen], vertex.astype(np.intp)))
+    return made[0], made[1]
+
+
+# ---- gaps -----------------------------------------------------------------------------------------
+def _gaps(skeleton: Skeleton) -> _Gaps:
+    """All gaps between edges with convex corners, whichever way their rings go."""
+    begins, ends = _sides(skeleton)
+    xy, following = skeleton.polygons.xy, skeleton.polygons.following
+    to_node, way = skeleton.vertices[begins.node] - xy[begins.vertex], (xy[following] - xy)[begins.vertex]
+    is_forward = way[:, 0] * to_node[:, 1] - way[:, 1] * to_node[:, 0] > 0  # what is inside is on the left
+    one, other = (_gaps_along(skeleton, begins[is_forward == along], ends, along) for along in (True, False))
+    return one + other
+
+
+def _order(skeleton: Skeleton, is_forward: bool) -> _Order:
+    polygons = skeleton.polygons
+    ring = np.repeat(np.arange(len(polygons.ring_start) - 1), np.diff(polygons.ring_start))
+    first, size = polygons.ring_start[ring], np.diff(polygons.ring_start)[ring]
+    place = np.arange(len(ring))
+    way = polygons.xy[polygons.following] - polygons.xy
+    if not is_forward:
+        place = 2 * first + size - 1 - place
+        way = -way[place]
+    (ux, uy), (vx, vy) = way.T, way[polygons.following].T  # rings are at the same places either way
+    return _Order(place, first, size, np.concatenate([[0], np.cumsum(~(ux * vy - uy * vx > 0))]))
+
+
+def _gaps_along(skeleton: Skeleton, begins: _Sides, ends: _Sides, is_forward: bool) -> _Gaps:
+    """Gaps whose edges follow one another in the order of their rings, or against it."""
+    order = _order(skeleton, is_forward)
+    end = _ends_of(order, begins, ends)
+    begins, end = begins[end >= 0], end[end >= 0]
+    own = begins.vertex
+    place, first, size = order.place[own], order.first[own], order.size[own]
+    steps = (order.place[ends.vertex[end]] - place) % size
+    last = place + steps
+    beyond = np.maximum(last - first - size, 0)  # corners on from the first place of the ring
+    bends = order.bends[last - beyond] - order.bends[place] + order.bends[first + beyond] - order.bends[first]
+    degree = np.bincount(skeleton.arcs[skeleton.side == INTERIOR].reshape(-1), minlength=len(skeleton.vertices))
+    is_leaf = degree[begins.node] == 1
+    kept = np.flatnonzero((bends == 0) & (steps > is_leaf))  # to a single corner a part of the twig is left
+    start = np.concatenate([[0], np.cumsum(steps[kept] + 1)])
+    gap = np.repeat(kept, np.diff(start))
+    along = np.arange(len(gap)) - np.repeat(start[:-1], np.diff(start))
+    edge = order.place[first[gap] + (place[gap] - first[gap] + along) % size[gap]]
+    site = _sites_of_edges(skeleton)[edge]
+    site[start[:-1]], site[start[1:] - 1] = begins.site[kept], ends.site[end[kept]]
+    vertices = np.stack([edge, skeleton.polygons.following[edge]][:: 1 if is_forward else -1], axis=1)
+    return _Gaps(begins.node[kept], begins.arc[kept], is_leaf[kept], start, site, vertices)
+
+
+def _ends_of(order: _Order, begins: _Sides, ends: _Sides) -> Numbers:
+    """Which gap ends next around the ring, of those at the same node; -1 for none."""
+    count = len(order.place)
+    ranks = ends.node * count + order.place[ends.vertex]
+    by_rank = np.argsort(ranks, kind="stable")
+    ranks = ranks[by_rank]
+    first, size = order.first[begins.vertex], order.size[begins.vertex]
+    base = begins.node * count
+    at = np.searchsorted(ranks, base + order.place[begins.vertex], side="right")
+    is_around = at == np.searchsorted(ranks, base + first + size)
+    at[is_around] = np.searchsorted(ranks, (base + first)[is_around])
+    found = np.full(len(at), -1, dtype=np.intp)
+    is_there = at < np.searchsorted(ranks, base + first + size)
+    found[is_there] = by_rank[at[is_there]]
+    return found
+
+
+def _sites_of_edges(skeleton: Skeleton) -> Numbers:
+    """(n,) the site of the edge that begins at each vertex."""
+    polygons, table = skeleton.polygons, skeleton.site_table
+    sites = np.flatnonzero(table.kind == EDGE)
+    ring = polygons.polygon_start[table.polygon[sites]] + table.ring[sites]
+    found = np.zeros(len(polygons.xy), dtype=np.intp)
+    found[polygons.ring_start[ring] + table.index[sites]] = sites
+    return found
+
+
+# ---- trees ----------------------------------------------------------------------------------------
+def _with_trees(skeleton: Skeleton, gaps: _Gaps) -> Skeleton:
+    """Trees in gaps, each arc a branch; branches that they hang on are parted there, and leaves led to their roots."""
+    chains = Chains(gaps.start, *skeleton.polygons.xy[gaps.ends].swapaxes(0, 1))
+    trees = convex_trees(chains, skeleton.vertices[gaps.node])
+    root = trees.root[gaps.is_leaf]
+    skeleton = _led_on(
+        skeleton, gaps.node[gaps.is_leaf], gaps.arc[gaps.is_leaf], trees.places[root], trees.radius[root]
+    )
+    is_corner, is_new = np.ones(len(gaps.site), dtype=bool), np.ones(len(trees.chain), dtype=bool)
+    is_corner[gaps.start[1:] - 1] = is_new[root] = False
+    inner = len(skeleton.vertices) - 1 + np.cumsum(is_new)
+    inner[root] = gaps.node[gaps.is_leaf]
+    corner = len(skeleton.vertices) + is_new.sum() - 1 + np.cumsum(is_corner)
+    numbers = np.concatenate([inner, corner[::-1]])  # corners from behind, as in trees
+    stems = np.flatnonzero(~gaps.is_leaf)
+    first, last = gaps.start[stems], gaps.start[stems + 1] - 1
+    to = numbers[np.where(trees.root[stems] < 0, -1 - first, trees.root[stems])]
+    ends = np.concatenate([np.stack([gaps.node[stems], to], axis=1), numbers[trees.arcs]])
+    edges = np.concatenate([np.stack([last, first], axis=1), trees.edges])
+    gap = np.searchsorted(gaps.start, edges[:, 1], side="right") - 1
+    places = np.concatenate([trees.places[is_new], skeleton.polygons.xy[gaps.ends[is_corner, 1]]])
+    radii = np.concatenate([trees.radius[is_new], np.zeros(is_corner.sum())])
+    return _with_arcs(skeleton, gaps.node, places, radii, ends, gaps.site[edges], gaps.arc[gap])
+
+
+def _led_on(skeleton: Skeleton, leaves: Numbers, arcs: Numbers, places: Floats, radius: Floats) -> Skeleton:
+    """Straight arcs that end at other places."""
+    vertices, radii, length = skeleton.vertices.copy(), skeleton.radius.copy(), skeleton.length.copy()
+    vertices[leaves], radii[leaves] = places, radius
+    way = vertices[skeleton.arcs[arcs, 1]] - vertices[skeleton.arcs[arcs, 0]]
+    length[arcs] = np.sqrt((way * way).sum(axis=1))
+    return replace(skeleton, vertices=vertices, radius=radii, length=length)
+
+
+def _with_arcs(
+    skeleton: Skeleton, parted: Numbers, places: Floats, radius: Floats, ends: Numbers, sites: Numbers, like: Numbers
+) -> Skeleton:
+    """Straight lines behind all arcs, each a branch in the polygon of another arc; nodes are parted."""
+    count = len(ends)
+    is_parted = np.zeros(len(skeleton.vertices), dtype=bool)
+    is_parted[parted] = True
+    begins = (np.diff(skeleton.branch, prepend=-1) != 0) | is_parted[skeleton.arcs[:, 0]]
+    branch = np.cumsum(begins) - 1
+    vertices = np.concatenate([skeleton.vertices, places])
+    way = vertices[ends[:, 1]] - vertices[ends[:, 0]]
+    return replace(
+        skeleton,
+        vertices=vertices,
+        radius=np.concatenate([skeleton.radius, radius]),
+        arcs=np.concatenate([skeleton.arcs, ends]),
+        control=np.concatenate([skeleton.control, np.full((count, 2), np.nan)]),
+        sites=np.concatenate([skeleton.sites, sites]),
+        polygon=np.concatenate([skeleton.polygon, skeleton.polygon[like]]),
+        side=np.concatenate([skeleton.side, np.full(count, INTERIOR, dtype=np.int8)]),
+        branch=np.concatenate([branch, branch.max(initial=-1) + 1 + np.arange(count)]),
+        length=np.concatenate([skeleton.length, np.sqrt((way * way).sum(axis=1))]),
+        error_bound=np.concatenate([skeleton.error_bound, skeleton.error_bound[like]]),
+    )

@@ -1,0 +1,1 @@
+"""Label arrays, point input, progress, parallel parts."""

@@ -1,0 +1,50 @@
+"""What engines on label images share: the arrays that the compiled core takes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.geometry.points.label_image import LabelImage
+
+Progress = Callable[[float], object] | None
+"""Called now and then with the fraction done; what it raises stops the work."""
+
+
+def label_array(labels: NDArray[Any]) -> NDArray[Any]:
+    """Labels as the core takes them, without a copy where possible; a negative int32 becomes one >= 2^31."""
+    labels = np.ascontiguousarray(labels)
+    native = labels.dtype.newbyteorder("=")
+    if native.itemsize == 8:
+        for bad in (labels.min(initial=0), labels.max(initial=0)):
+            if not 0 <= int(bad) <= 0xFFFFFFFF:
+                raise InputError(f"a pixel has label {bad}: labels must be from 0 to 4294967295")
+        return labels.astype(np.uint32)
+    return labels.astype(native, copy=False).view(f"u{native.itemsize}")
+
+
+def next_row(row: NDArray[Any] | None, name: str, labels: NDArray[Any]) -> NDArray[Any] | None:
+    """Return a row next to a band of labels, in the type of the band."""
+    if row is None:
+        return None
+    row = np.asarray(row)
+    if row.shape != labels.shape[1:]:
+        raise InputError(f"the row {name} has shape {row.shape}, but the labels {labels.shape}")
+    row = label_array(row)
+    if not np.can_cast(row.dtype, labels.dtype):
+        raise InputError(f"the row {name} has type {row.dtype}, but the labels {labels.dtype}: use one type")
+    return row.astype(labels.dtype, copy=False)
+
+
+def as_label_image(image: Any) -> LabelImage:
+    """Return a label image as it is; a 2-D integer array becomes one."""
+    return image if isinstance(image, LabelImage) else LabelImage(image)
+
+
+def described(array: Any) -> str:
+    """Name the type and shape of what was given as an array."""
+    return f"{array.dtype} of shape {array.shape}" if isinstance(array, np.ndarray) else f"a {type(array).__name__}"

@@ -1,0 +1,1 @@
+"""Points -> triangulation, cells, Voronoi edges."""

@@ -1,0 +1,275 @@
+"""Voronoi cells of points: exact, clipped to a frame or to polygons (paper, section 2.1)."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.common.label_arrays import Progress
+from vorotool.engines.delaunay.delaunay import delaunay
+from vorotool.errors import InputError, UsageError, VerificationError, VorotoolWarning
+from vorotool.geometry.box import Box
+from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.mesh.cells import CellSet
+from vorotool.geometry.mesh.triangulation import Triangulation
+from vorotool.geometry.numbers import finite_double, shown_number
+
+
+def voronoi_cells(
+    points: Any,
+    *,
+    frame: Box | Sequence[float] | None = None,
+    clip: Any = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> CellSet:
+    """Give each point the part of a frame that is nearer to it than to any other point.
+
+    Which vertices a cell has is decided exactly, and every vertex is the place nearest to the exact one that doubles
+    hold: neighbouring cells share vertices bit for bit, and the cells tile the frame. Points outside the frame are
+    allowed; their cells may be empty. So may be cells too small for doubles.
+
+    Parameters
+    ----------
+    points : Triangulation, PointSet, SeedSet, or (n, 2) array-like or shapely points
+        A triangulation is used as it is.
+    frame : Box or (x, y, width, height), optional
+        By default the bounds of the points, widened by a tenth of the longer side; with `clip`, its bounds.
+    clip : shapely polygon or multipolygon, or a list of them, optional
+        Cells are cut to these too, by shapely: they may fall in several parts and have holes.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Returns
+    -------
+    CellSet
+        One cell a point, in their order. A point that lies on an earlier one has an empty cell.
+
+    Raises
+    ------
+    InputError
+        If the frame has no area, a coordinate is not finite, the triangulation is none, or `clip` is no polygon.
+
+    Warns
+    -----
+    VorotoolWarning
+        If points lie on an earlier one, or a polygon of `clip` is not valid and was repaired: how many.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 2.1.
+
+    Examples
+    --------
+    >>> cells = voronoi_cells([[1, 1], [3, 1]], frame=(0, 0, 4, 2))
+    >>> [cell.wkt for cell in cells.to_shapely()]
+    ['POLYGON ((0 0, 2 0, 2 2, 0 2, 0 0))', 'POLYGON ((2 0, 4 0, 4 2, 2 2, 2 0))']
+    """
+    mesh = points if isinstance(points, Triangulation) else delaunay(points, threads=threads, progress=progress)
+    if not np.isfinite(mesh.points).all():
+        raise InputError("a coordinate of the triangulation is not finite")
+    area = None if clip is None else _clip_area(clip)
+    box = _box(frame, mesh, area)
+    try:
+        coordinates, starts = _core.voronoi_cells(
+            mesh.points,
+            mesh.triangles,
+            mesh.neighbours,
+            mesh.hull,
+            mesh.first,
+            box.sides,
+            checked_threads(threads),
+            progress,
+        )
+    except ValueError as error:
+        raise InputError(f"{error}: give a Delaunay triangulation, such as delaunay() makes") from None
+    cells = CellSet(
+        mesh.points,
+        coordinates,
+        starts,
+        box,
+        labels=mesh.labels,
+        properties=mesh.properties,
+        y_up=mesh.y_up,
+        crs=mesh.crs,
+    )
+    return cells if area is None else _clipped(cells, area)
+
+
+def _box(frame: Box | Sequence[float] | None, mesh: Triangulation, area: Any) -> Box:
+    if isinstance(frame, Box):
+        return frame
+    if frame is not None:
+        try:
+            x, y, width, height = (finite_double(side, "frame") for side in frame)
+        except (TypeError, ValueError, UsageError):
+            raise InputError(
+                f"frame is {shown_number(frame)}: give a Box or (x, y, width, height), all finite numbers"
+            ) from None
+        return Box.of_size(x, y, width, height)
+    if area is None:
+        return Box.around(mesh.points)
+    return Box(*area.bounds)
+
+
+def cell_colours(mesh: Triangulation, *, progress: Progress = None) -> NDArray[np.uint32]:
+    """Colour points so that neighbours in the triangulation, and with them neighbouring cells, never share a colour.
+
+    Parameters
+    ----------
+    mesh : Triangulation
+        Of the points.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Returns
+    -------
+    (n,) uint32 array
+        Colours 1, 2, … of about equal frequency, at most 6.
+
+    Examples
+    --------
+    >>> cell_colours(delaunay([[0, 0], [4, 0], [0, 3]])).tolist()
+    [3, 2, 1]
+    """
+    a, b = (np.ascontiguousarray(mesh.edges[:, side].astype(np.uint32)) for side in (0, 1))
+    return _core.colour_graph(len(mesh.points), a, b, progress)
+
+
+# ---- clipping to polygons ----------------------------------------------------------------------------------
+
+
+def _clip_area(clip: Any) -> Any:
+    """Union of the polygons, valid."""
+    import shapely
+
+    given = [clip] if hasattr(clip, "geom_type") else list(np.asarray(clip, dtype=object).ravel())
+    for number, polygon in enumerate(given, 1):
+        kind = getattr(polygon, "geom_type", type(polygon).__name__)
+        if kind not in ("Polygon", "MultiPolygon"):
+            raise InputError(f"polygon {number} of clip is a {kind}: give shapely polygons")
+    polygons = np.array(given, dtype=object)
+    bad = ~shapely.is_valid(polygons)
+    if bad.any():
+        reason = shapely.is_valid_reason(polygons[np.argmax(bad)])
+        warnings.warn(
+            f"{int(bad.sum())} of {len(polygons)} polygons to clip to are not valid and were repaired "
+            f"(the first: {reason})",
+            VorotoolWarning,
+            stacklevel=3,
+        )
+        polygons[bad] = shapely.make_valid(polygons[bad])
+    area = shapely.union_all(polygons)
+    if area.area == 0:
+        raise InputError("the polygons to clip to have no area: give some that do")
+    return area
+
+
+def _clipped(cells: CellSet, area: Any) -> CellSet:
+    """Cells cut to an area; those inside it stay as they are, bit for bit."""
+    import shapely
+
+    shapes = cells.to_shapely()
+    shapely.prepare(area)
+    inside, meets = shapely.contains_properly(area, shapes), shapely.intersects(area, shapes)
+    crossing = meets & ~inside
+    shapes[~meets] = shapely.Polygon()
+    parts = shapely.intersection(shapes[crossing], area)
+    shapes[crossing] = [_polygons_of(part) for part in parts]
+    return _from_shapely(cells, shapes)
+
+
+def _polygons_of(shape: Any) -> Any:
+    """What has area of a shape: of a boundary that is only touched, nothing."""
+    import shapely
+
+    if shape.geom_type in ("Polygon", "MultiPolygon"):
+        return shape
+    return shapely.MultiPolygon([p for p in shapely.get_parts([shape]) if p.geom_type == "Polygon"])
+
+
+def _from_shapely(cells: CellSet, shapes: NDArray[Any]) -> CellSet:
+    import shapely
+
+    parts, cell_of_part = shapely.get_parts(shapes, return_index=True)
+    kept = ~shapely.is_empty(parts)
+    parts, cell_of_part = parts[kept], cell_of_part[kept]
+    rings, polygon_of_ring = shapely.get_rings(parts, return_index=True)
+    first = np.ones(len(rings), dtype=bool)
+    first[1:] = polygon_of_ring[1:] != polygon_of_ring[:-1]
+    turned = shapely.is_ccw(rings) != first
+    rings[turned] = shapely.reverse(rings[turned])
+    coordinates, ring_of = shapely.get_coordinates(rings, return_index=True)
+    last = np.ones(len(coordinates), dtype=bool)
+    last[:-1] = ring_of[1:] != ring_of[:-1]  # it repeats the first
+    return CellSet(
+        cells.sites,
+        coordinates[~last] + 0.0,
+        _starts(ring_of[~last], len(rings)),
+        cells.frame,
+        _starts(polygon_of_ring, len(parts)),
+        _starts(cell_of_part, len(cells)),
+        labels=cells.labels,
+        properties=cells.properties,
+        y_up=cells.y_up,
+        crs=cells.crs,
+    )
+
+
+def _starts(owner: NDArray[Any], count: int) -> NDArray[np.int64]:
+    """Where the items of each owner begin, in a list ordered by owner."""
+    return np.searchsorted(owner, np.arange(count + 1)).astype(np.int64)
+
+
+# ---- the checker --------------------------------------------------------------------------------------------
+
+
+def verify_cells(cells: CellSet, *, threads: int = 0, progress: Progress = None) -> None:
+    """Check Voronoi cells that were clipped to a frame alone, from the sites and the coordinates.
+
+    Every ring is convex and in the frame; no site is nearer to a vertex than that of its cell; the areas add up to
+    that of the frame; duplicates have no cell. Signs are taken exactly, and what must be allowed for is the rounding
+    of vertices alone: each lies at most half a unit in the last place of each coordinate from its exact place.
+
+    Parameters
+    ----------
+    cells : CellSet
+        However it was made; its cells are rings.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Raises
+    ------
+    VerificationError
+        Naming the first fault.
+    InputError
+        If the cells were clipped to polygons.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> cells = voronoi_cells([[1, 1], [3, 1]], frame=(0, 0, 4, 2))
+    >>> verify_cells(cells)
+    >>> verify_cells(replace(cells, sites=cells.sites + [0.5, 0]))
+    Traceback (most recent call last):
+        ...
+    vorotool.errors.VerificationError: vertex (2, 2) of cell 1 is nearer to site 0 by more than rounding explains
+    """
+    if cells.polygon_starts is not None:
+        raise InputError("cells clipped to polygons cannot be checked: check them before they are clipped")
+    if not (np.isfinite(cells.sites).all() and np.isfinite(cells.coordinates).all()):
+        raise VerificationError("a coordinate is not finite")
+    fault = _core.cell_fault(
+        cells.sites, cells.coordinates, cells.starts, cells.frame.sides, checked_threads(threads), progress
+    )
+    if fault is not None:
+        raise VerificationError(fault)

@@ -1,0 +1,156 @@
+"""Delaunay triangulation: exact, whatever the coordinates (paper, section 2.1)."""
+
+from __future__ import annotations
+
+import warnings
+from typing import Any
+
+import numpy as np
+
+from vorotool import _core
+from vorotool.engines.common.label_arrays import Progress
+from vorotool.engines.common.point_input import as_points
+from vorotool.errors import InputError, LimitError, VerificationError, VorotoolWarning
+from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.mesh.triangulation import Triangulation
+from vorotool.geometry.points.point_set import PointSet
+from vorotool.geometry.points.seed_set import SeedSet
+
+MOST_POINTS = 2**28
+"""Half-edges, six a point, are counted in 32 bits."""
+
+
+def delaunay(points: Any, *, strict: bool = False, threads: int = 0, progress: Progress = None) -> Triangulation:
+    """Triangulate points so that no circle through the vertices of a triangle holds another point.
+
+    Every decision is exact for all finite coordinates. The result depends on the points alone: other numbers of
+    threads change nothing, and a permutation of the points changes their numbers only.
+
+    Parameters
+    ----------
+    points : PointSet, SeedSet, or (n, 2) array-like or shapely points
+        Of a `SeedSet`, its sites.
+    strict : bool
+        Refuse points that lie on another one.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Returns
+    -------
+    Triangulation
+        Collinear points, and fewer than three, give a chain of edges and no triangle.
+
+    Raises
+    ------
+    InputError
+        If a coordinate is not finite, or `strict` and a point lies on another.
+    LimitError
+        If there are more than 2^28 points.
+
+    Warns
+    -----
+    VorotoolWarning
+        If points lie on an earlier one: how many. `Triangulation.first` tells on which.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 2.1; Guibas and Stolfi 1985; Dwyer 1987.
+
+    Examples
+    --------
+    >>> mesh = delaunay([[0, 0], [4, 0], [0, 3], [1, 1]])
+    >>> mesh.triangles.tolist(), mesh.hull.tolist()
+    ([[0, 3, 2], [0, 1, 3], [3, 1, 2]], [0, 1, 2])
+    """
+    given = _point_set(points)
+    if len(given) > MOST_POINTS:
+        raise LimitError(f"there are {len(given)} points, more than {MOST_POINTS}: triangulate them in parts")
+    threads = checked_threads(threads)
+    core = _core.DelaunayMesh(given.xy, threads, progress)
+    triangles, neighbours, edges = core.arrays(threads, progress)
+    mesh = Triangulation(
+        given.xy,
+        triangles,
+        neighbours,
+        edges,
+        core.hull,
+        core.first,
+        labels=given.labels,
+        properties=given.properties,
+        y_up=given.y_up,
+        crs=given.crs,
+        first_number=given.first_number,
+    )
+    report_duplicates(mesh, strict=strict)
+    return mesh
+
+
+def _point_set(source: Any) -> PointSet:
+    if isinstance(source, SeedSet):
+        assert source.sites is not None  # SeedSet has filled them in
+        labels = None if source.site_labels is None else source.site_labels.astype(np.int64)
+        return PointSet(source.sites, labels, source.properties)
+    return as_points(source)
+
+
+def report_duplicates(mesh: Triangulation, *, strict: bool) -> None:
+    """Say how many points lie on an earlier one, or refuse them."""
+    count = mesh.duplicates
+    if not count:
+        return
+    what = f"{count} of {len(mesh.points)} points lie on an earlier point"
+    if strict:
+        raise InputError(f"{what}: remove the duplicates, or leave out --strict")
+    warnings.warn(f"{what}: the first one of each place is triangulated", VorotoolWarning, stacklevel=3)
+
+
+def verify_triangulation(mesh: Triangulation, *, threads: int = 0, progress: Progress = None) -> None:
+    """Check a triangulation exactly, from its arrays alone.
+
+    Indices, orientations, each directed edge once, neighbours, a convex hull gone round once, every point used, edges,
+    Euler's relation, every edge locally Delaunay, fans in cocircular polygons, duplicates, chains.
+
+    Parameters
+    ----------
+    mesh : Triangulation
+        However it was made; finite points.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Raises
+    ------
+    VerificationError
+        Naming the first fault.
+
+    Examples
+    --------
+    >>> mesh = delaunay([[0, 0], [2, 0], [2, 1], [0, 1]])
+    >>> verify_triangulation(mesh)
+    >>> from dataclasses import replace
+    >>> verify_triangulation(replace(mesh, triangles=mesh.triangles[:, ::-1]))
+    Traceback (most recent call last):
+        ...
+    vorotool.errors.VerificationError: triangle 0 is not counter-clockwise
+    """
+    if not np.isfinite(mesh.points).all():
+        raise VerificationError("a coordinate is not finite")
+    fault = triangulation_fault(mesh, checked_threads(threads), progress)
+    if fault is not None:
+        raise VerificationError(fault)
+
+
+def triangulation_fault(mesh: Triangulation, threads: int, progress: Progress) -> str | None:
+    """The first fault of a triangulation of finite points, if it has any.
+
+    Examples
+    --------
+    >>> triangulation_fault(delaunay([[0, 0], [4, 0], [0, 3]]), 1, None) is None
+    True
+    """
+    return _core.triangulation_fault(
+        mesh.points, mesh.triangles, mesh.neighbours, mesh.edges, mesh.hull, mesh.first, threads, progress
+    )

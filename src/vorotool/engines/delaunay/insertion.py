@@ -1,0 +1,152 @@
+"""Insertion of points into a triangulation that is there already (paper, section 2.1)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.common.label_arrays import Progress
+from vorotool.engines.common.point_input import as_points
+from vorotool.engines.delaunay.delaunay import MOST_POINTS, delaunay, report_duplicates
+from vorotool.errors import InputError, LimitError
+from vorotool.geometry.checks import checked_threads, whole_numbers
+from vorotool.geometry.mesh.triangulation import Triangulation
+from vorotool.geometry.points.point_set import PointSet
+
+MANY = 0.25
+"""Of the points there are: more further ones are triangulated sooner along with these, from the beginning."""
+
+
+def insert_points(
+    mesh: Triangulation,
+    points: Any,
+    *,
+    hint: Any = None,
+    strict: bool = False,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Triangulation:
+    """Insert points into a Delaunay triangulation where they lie: exactly, and without touching the rest.
+
+    The result is that of `delaunay` for all the points, array by array. Each point is searched for by a walk over the
+    triangles, and edges around it are flipped until all circles are empty (Lawson 1977): for m points that takes time
+    in proportion to m, as a rule, and the arrays of the result have to be copied besides. Points outside the hull are
+    inserted as well.
+
+    All is triangulated anew where the arrays would not stay as they are: if a point lies outside the bounds of those
+    that there are, on which the order of the triangles depends; if three points or more share a cell of the grid of
+    2^16 by 2^16 over these bounds, near a change; if there are no triangles yet. So it is if the points are more than a
+    quarter of those that there are, which is sooner done.
+
+    Parameters
+    ----------
+    mesh : Triangulation
+        Made by `delaunay` or by this function; it stays as it is.
+    points : PointSet, or (m, 2) array-like or shapely points
+        They get the numbers after those of `mesh`.
+    hint : int or (m,) array-like of int, optional
+        A point of `mesh`, by index, that is near to the further ones, or to each: the walk begins there. Without it the
+        order of the triangles tells where to begin, in time O(log n).
+    strict : bool
+        Refuse points that lie on another one.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Returns
+    -------
+    Triangulation
+        Labels go on after the largest one unless `points` brings its own; of further columns, what is not known is
+        None.
+
+    Raises
+    ------
+    InputError
+        If a coordinate is not finite, a hint is no point, `mesh` is found not to be a triangulation made by this
+        library, or `strict` and a point lies on another.
+    LimitError
+        If there are more than 2^28 points.
+
+    Warns
+    -----
+    VorotoolWarning
+        If points lie on an earlier one: how many of all.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 2.1; Ohya, Iri and Murota 1984; Lawson 1977.
+
+    Examples
+    --------
+    >>> mesh = delaunay([[0, 0], [4, 0], [0, 3]])
+    >>> insert_points(mesh, [[1, 1]]).triangles.tolist()
+    [[0, 3, 2], [0, 1, 3], [3, 1, 2]]
+    """
+    given = as_points(points)
+    total = len(mesh.points) + len(given)
+    if total > MOST_POINTS:
+        raise LimitError(f"there would be {total} points, more than {MOST_POINTS}: triangulate them in parts")
+    hints = _hints(hint, len(mesh.points), len(given))
+    together = _joined(mesh, given)
+    made = None
+    if len(given) <= MANY * len(mesh.points):
+        made = _inserted(mesh, together.xy, hints, checked_threads(threads), progress)
+    if made is None:
+        return delaunay(together, strict=strict, threads=threads, progress=progress)
+    result = Triangulation(
+        together.xy,
+        *made,
+        labels=together.labels,
+        properties=together.properties,
+        y_up=together.y_up,
+        crs=together.crs,
+        first_number=together.first_number,
+    )
+    report_duplicates(result, strict=strict)
+    return result
+
+
+def _inserted(
+    mesh: Triangulation, xy: NDArray[np.float64], hints: NDArray[np.int32], threads: int, progress: Progress
+) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]] | None:
+    try:
+        return _core.insert_points(
+            xy, mesh.triangles, mesh.neighbours, mesh.edges, mesh.hull, mesh.first, hints, threads, progress
+        )
+    except ValueError as error:
+        raise InputError(f"{error}: give a triangulation that delaunay() or insert_points() has made") from None
+
+
+def _hints(hint: Any, count: int, further: int) -> NDArray[np.int32]:
+    if hint is None:
+        return np.empty(0, dtype=np.int32)
+    hints = np.broadcast_to(whole_numbers(hint, "hint", np.int64), (further,) if np.ndim(hint) == 0 else np.shape(hint))
+    if hints.shape != (further,):
+        raise InputError(
+            f"hint must be one index, or one for each of the {further} points, but has shape {hints.shape}"
+        )
+    bad = np.flatnonzero((hints < 0) | (hints >= count))
+    if bad.size:
+        raise InputError(
+            f"hint {bad[0] + 1} is {hints[bad[0]]}: it must be a point of the triangulation, 0 to {count - 1}"
+        )
+    return np.ascontiguousarray(hints, dtype=np.int32)
+
+
+def _joined(mesh: Triangulation, given: PointSet) -> PointSet:
+    """All points, and what is known of each."""
+    labels = None
+    if mesh.labels is not None or given.labels is not None:
+        old = mesh.label_array
+        new = given.labels if given.labels is not None else given.label_array + old.max(initial=0)
+        labels = np.concatenate([old, new])
+    properties = {}
+    for name in dict.fromkeys([*mesh.properties, *given.properties]):
+        old_values = mesh.properties.get(name, [None] * len(mesh.points))
+        properties[name] = [*old_values, *given.properties.get(name, [None] * len(given))]
+    xy = np.concatenate([mesh.points, given.xy])
+    return PointSet(xy, labels, properties, mesh.y_up, mesh.crs, mesh.first_number)

@@ -1,0 +1,1 @@
+"""Label image -> digital triangulation; comparison with the exact one."""

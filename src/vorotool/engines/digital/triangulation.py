@@ -1,0 +1,357 @@
+"""Triangulations read off the digital tessellation (section 2.1): to the letter, and repaired."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.common.label_arrays import Progress, label_array
+from vorotool.engines.delaunay.delaunay import MOST_POINTS, delaunay, triangulation_fault
+from vorotool.engines.label_images.regions import measure_regions
+from vorotool.engines.tessellation.frames import (
+    as_seeds,
+    asked_frame,
+    band_limits,
+    default_frame,
+    require_memory,
+)
+from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.errors import InputError, LimitError, VorotoolWarning
+from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
+from vorotool.geometry.mesh.triangulation import Triangulation
+from vorotool.geometry.pixel_frame import MAX_PIXELS
+from vorotool.geometry.points.label_image import LabelImage
+from vorotool.geometry.points.seed_set import SeedSet
+
+
+def digital_triangulation(
+    source: Any,
+    *,
+    shape: tuple[int, int] | None = None,
+    window: tuple[int, int, int, int] | None = None,
+    strict: bool = False,
+    threads: int = 0,
+    progress: Progress = None,
+) -> DigitalTriangulation:
+    """Read edges and triangles off the digital tessellation by the paper's rule, to the letter.
+
+    Edges link neighbouring regions, those with 4-neighbouring pixels ("by linking the neighboring seeds we obtain
+    the correct Delaunay triangulation"). Triangles come from a pixel and two of its 4-neighbours that are
+    8-neighbours of each other, where the three labels differ. Neither is always right: see `compare_digital`, and
+    `digital_delaunay` for the repair.
+
+    Parameters
+    ----------
+    source : LabelImage, or what `tessellate` accepts
+        Seeds are tessellated exactly, band by band: memory does not grow with the height of the frame. Of a label
+        image without seeds, the centroids of the regions are the sites.
+    shape, window
+        As in `tessellate`; not for a label image.
+    strict : bool
+        Refuse several seeds at one place.
+    threads : int
+        0 uses all. The result does not depend on it.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Returns
+    -------
+    DigitalTriangulation
+        Empty if there are no seeds.
+
+    Raises
+    ------
+    InputError
+        If a seed is unusable, or the points have negative coordinates and no window.
+    UsageError
+        If options do not go together.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 2.1.
+
+    Examples
+    --------
+    >>> found = digital_triangulation([[1, 1], [6, 1], [2, 6]], shape=(8, 8))
+    >>> found.edges.tolist(), found.triangles.tolist()
+    ([[0, 1], [0, 2], [1, 2]], [[0, 1, 2]])
+    """
+    threads = checked_threads(threads)
+    if isinstance(source, LabelImage):
+        return _read(source, _sites_of_image(source, threads), [label_array(source.labels)], threads, progress)
+    seeds, frame = as_seeds(source), asked_frame(shape, window)
+    if not len(seeds):
+        return _read(seeds, _sites_of_seeds(seeds), [], threads, None)
+    sweep = Tessellator(seeds, frame, threads=threads, strict=strict, progress=progress)
+    return _read(seeds, _sites_of_seeds(seeds), _bands(sweep), threads, None)
+
+
+def _bands(sweep: Tessellator) -> Iterator[NDArray[Any]]:
+    """Rows of labels from the top; each band begins with the last row of the one before."""
+    for first, count in band_limits(sweep.frame):
+        lap = min(first, 1)
+        yield sweep.labels(first - lap, count + lap)
+
+
+def _sites_of_seeds(seeds: SeedSet) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
+    assert seeds.sites is not None  # SeedSet has filled them in
+    assert seeds.site_labels is not None
+    return seeds.sites, seeds.site_labels
+
+
+def _sites_of_image(image: LabelImage, threads: int) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
+    if image.seeds is not None:
+        return _sites_of_seeds(image.seeds)
+    assert image.frame is not None
+    measures = measure_regions(image, threads=threads)
+    area = measures.columns["area"]
+    x, y = (measures.columns[name] / area for name in ("sum_x", "sum_y"))
+    return np.stack([x + image.frame.x, y + image.frame.y], axis=1), measures.labels
+
+
+def _read(
+    source: SeedSet | LabelImage,
+    sites: tuple[NDArray[np.float64], NDArray[np.uint32]],
+    bands: Any,
+    threads: int,
+    progress: Progress,
+) -> DigitalTriangulation:
+    scan = _core.DigitalTriangulationScan()
+    for rows in bands:
+        scan.add_rows(rows, threads, progress)
+    found = scan.finish()
+    points, labels = sites
+    edges = _indices(labels, found["edge_a"], found["edge_b"])
+    triangles = _indices(labels, found["triangle_a"], found["triangle_b"], found["triangle_c"])
+    seeds = source.seeds if isinstance(source, LabelImage) else source
+    return DigitalTriangulation(
+        points,
+        edges,
+        _counter_clockwise(points, triangles),
+        (found["corners"] & 2) != 0,
+        labels.astype(np.int64),
+        three_label_corners=found["three_label_corners"],
+        four_label_corners=found["four_label_corners"],
+        properties={} if seeds is None else seeds.properties,
+    )
+
+
+def _indices(known: NDArray[np.uint32], *columns: NDArray[np.uint32]) -> NDArray[np.int32]:
+    """Rows of indices for columns of labels, whose order is that of the indices."""
+    labels = np.stack(columns, axis=1)
+    index = np.searchsorted(known, labels)
+    wrong = labels[np.append(known, 0)[np.minimum(index, len(known))] != labels]
+    if wrong.size:
+        raise InputError(
+            f"a pixel has label {wrong[0]}, none of the {len(known)} sites: pass the seeds that the image was made from"
+        )
+    return index.astype(np.int32)
+
+
+def _counter_clockwise(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.int32]:
+    clockwise = _core.orient2d(np.ascontiguousarray(points[triangles])) < 0
+    triangles[clockwise] = triangles[clockwise][:, [0, 2, 1]]
+    return triangles
+
+
+# ---- the repair -----------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class DigitalRepair:
+    """What `repair_digital` had to do, step by step.
+
+    Parameters
+    ----------
+    route : {"repaired", "rebuilt", "chain"}
+        "rebuilt" if all sites had to be inserted one by one; "chain" for fewer than three or collinear sites.
+    split_regions, moved_pixels : int
+        Regions that were not 4-connected; pixels that went to a neighbouring region.
+    three_label_corners, four_label_corners : int
+        Corners that gave one triangle, and two.
+    twins : int
+        Sites taken out because only two neighbours were left to them.
+    straightened : int
+        Triangles of collinear sites.
+    filled : int
+        Triangles that closed the hull beyond the frame.
+    flipped : int
+        Sides that were not locally Delaunay.
+    inserted : int
+        Sites inserted where they lie, those taken out among them.
+    fault : str, optional
+        What the certificate found wrong, if anything ever: then all sites were inserted.
+    """
+
+    route: str
+    split_regions: int = 0
+    moved_pixels: int = 0
+    three_label_corners: int = 0
+    four_label_corners: int = 0
+    twins: int = 0
+    straightened: int = 0
+    filled: int = 0
+    flipped: int = 0
+    inserted: int = 0
+    fault: str | None = None
+
+
+def digital_delaunay(source: Any, **options: Any) -> Triangulation:
+    """Give the Delaunay triangulation of seeds from their digital tessellation, repaired and certified.
+
+    The result is that of ``delaunay(seeds)``, array by array.
+
+    Parameters
+    ----------
+    source, **options
+        As in `repair_digital`.
+
+    Returns
+    -------
+    Triangulation
+
+    Examples
+    --------
+    >>> digital_delaunay([[1, 1], [6, 1], [2, 6]], shape=(8, 8)).triangles.tolist()
+    [[0, 1, 2]]
+    """
+    return repair_digital(source, **options)[0]
+
+
+def repair_digital(
+    source: Any,
+    *,
+    shape: tuple[int, int] | None = None,
+    window: tuple[int, int, int, int] | None = None,
+    strict: bool = False,
+    threads: int = 0,
+    max_pixels: int = MAX_PIXELS,
+    progress: Progress = None,
+) -> tuple[Triangulation, DigitalRepair]:
+    """Repair the triangulation that the digital tessellation shows, certify it, and tell what that took.
+
+    Regions are made 4-connected by flooding; each corner of three labels becomes a triangle, of four labels two;
+    sites with only two neighbours are taken out; the hull is closed along the frame by Graham's scan; sides are
+    flipped until all are Delaunay; sites without a triangle are inserted. Then `verify_triangulation` checks the
+    result. Where a step cannot be carried out, all sites are inserted one by one, with a warning.
+
+    Parameters
+    ----------
+    source : what `tessellate` accepts
+        Each label must have one seed. Seeds between pixels, or outside the frame, may have no region: they are
+        inserted.
+    shape, window
+        As in `tessellate`.
+    strict : bool
+        Refuse several seeds at one place.
+    threads : int
+        0 uses all. The result does not depend on it.
+    max_pixels : int
+        Larger frames are refused before memory is taken: the labels of all pixels are held, 4 bytes each.
+    progress : callable, optional
+        Called with the fraction done of each step.
+
+    Returns
+    -------
+    mesh : Triangulation
+        That of ``delaunay(seeds)``, array by array.
+    repair : DigitalRepair
+
+    Raises
+    ------
+    InputError
+        If several seeds share a label: regions of objects have no triangulation of points.
+    LimitError
+        If the frame has more than `max_pixels` pixels, or there are more than 2^28 seeds.
+
+    Warns
+    -----
+    VorotoolWarning
+        If all sites had to be inserted.
+
+    References
+    ----------
+    Cao, Edelsbrunner and Tan, "Proof of correctness of the digital Delaunay triangulation algorithm", 2015.
+
+    Examples
+    --------
+    >>> mesh, repair = repair_digital([[0, 0], [4, 0], [0, 3], [1, 1]])
+    >>> len(mesh), repair.route, repair.filled
+    (3, 'repaired', 1)
+    """
+    seeds, frame = as_seeds(source), asked_frame(shape, window)
+    order = one_seed_a_label(seeds)
+    if not len(seeds):
+        return delaunay(seeds), DigitalRepair("chain")
+    frame = frame or default_frame(seeds)
+    require_memory(frame, max_pixels)
+    threads = checked_threads(threads)
+    ranked = SeedSet(seeds.x[order], seeds.y[order], np.arange(1, len(order) + 1, dtype=np.uint32), scale=seeds.scale)
+    points, labels = _sites_of_seeds(seeds)
+    points = np.ascontiguousarray(points)
+    sweep = Tessellator(ranked, frame, threads=threads, strict=strict, progress=progress)
+    core, counts = _core.digital_mesh(
+        points, ranked.x, ranked.y, seeds.scale, sweep.labels(dtype=np.uint32), frame.x, frame.y, threads, progress
+    )
+
+    def mesh_of(core: _core.DelaunayMesh) -> Triangulation:
+        arrays = core.arrays(threads, progress)
+        return Triangulation(
+            points, *arrays, core.hull, core.first, labels=labels.astype(np.int64), properties=seeds.properties
+        )
+
+    mesh = mesh_of(core)
+    fault = triangulation_fault(mesh, threads, progress)
+    if fault is not None:
+        counts |= {"route": "rebuilt", "inserted": len(points)}
+        mesh = mesh_of(_core.inserted_mesh(points, threads, progress))
+    repair = DigitalRepair(**counts, fault=fault)
+    _report_rebuilt(repair)
+    return mesh, repair
+
+
+def one_seed_a_label(seeds: SeedSet) -> NDArray[np.intp]:
+    """Order of the seeds by label; labels with several seeds are refused.
+
+    Raises
+    ------
+    InputError
+        Naming the first such label.
+    LimitError
+        If there are more seeds than a triangulation takes.
+
+    Examples
+    --------
+    >>> one_seed_a_label(SeedSet(np.array([5, 0]), np.array([1, 0]), np.array([2, 1]))).tolist()
+    [1, 0]
+    """
+    if len(seeds) > MOST_POINTS:
+        raise LimitError(f"there are {len(seeds)} seeds, more than {MOST_POINTS}: triangulate them in parts")
+    order = np.argsort(seeds.labels, kind="stable")
+    ordered = seeds.labels[order]
+    same = np.flatnonzero(ordered[1:] == ordered[:-1])
+    if same.size:
+        label = ordered[same[0]]
+        raise InputError(
+            f"label {label} has {np.count_nonzero(ordered == label)} seeds: a triangulation of points needs one "
+            "pixel a label; use --seeds pixels or centroids, or --method digital, which links regions"
+        )
+    return order
+
+
+def _report_rebuilt(repair: DigitalRepair) -> None:
+    if repair.route != "rebuilt":
+        return
+    why = f"the certificate failed ({repair.fault})" if repair.fault else "the regions have no planar dual"
+    warnings.warn(
+        f"the digital triangulation could not be repaired, {why}: all {repair.inserted} sites were inserted exactly",
+        VorotoolWarning,
+        stacklevel=3,
+    )

@@ -1,0 +1,404 @@
+"""Polygons whose features are taken one by one: batches of them, each with a diagram of its own."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from math import ceil, ldexp
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.arrangement.flat_rings import with_flat_shells_as_lines
+from vorotool.engines.arrangement.lattice_rings import PlacedShapes, placed_shapes
+from vorotool.engines.arrangement.planar_graph import (
+    MOST_VERTICES,
+    Arrangement,
+    Placement,
+    arranged,
+    placed_vertices,
+    report_repairs,
+)
+from vorotool.engines.common.label_arrays import Progress
+from vorotool.engines.common.parallel_parts import in_threads
+from vorotool.engines.features.crack_corners import OwnCorners, own_corners
+from vorotool.engines.features.sheets import Features, batches_of, sheets_of_boxes, sheets_of_cracks, touching_features
+from vorotool.errors import LimitError, VorotoolWarning
+from vorotool.geometry.box import bounds
+from vorotool.geometry.checks import available_threads
+from vorotool.geometry.magnitude import check_magnitude
+from vorotool.geometry.polygons.planar_graph import REPAIRS, PlanarGraph
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.polygons.ring_arrays import RingArrays
+
+Indices = NDArray[np.int64]
+Result = TypeVar("Result")
+
+Found = dict[str, tuple[int, int, int]]
+
+
+@dataclass(frozen=True, eq=False)
+class FeatureBatch:
+    """Some features of a set that is placed, as if there were no others.
+
+    Parameters
+    ----------
+    polygons, rings, vertices : int64 arrays
+        Their numbers in the set.
+    part : PolygonSet
+        These polygons alone.
+    placement : Placement
+        Of their vertices, on the lattice of all.
+    beyond : (k, 2) int32 array
+        Corners of the bounds of all that are no vertices of these: as further sites they put the sites into the order
+        of all, and with them what is numbered or rounded along them. They are outside of everything.
+    share : float
+        Of all vertices.
+    """
+
+    polygons: Indices
+    rings: Indices
+    vertices: Indices
+    part: PolygonSet
+    placement: Placement
+    beyond: NDArray[np.int32]
+    share: float
+
+
+@dataclass(frozen=True, eq=False)
+class BatchShapes:
+    """A batch as a planar graph.
+
+    Parameters
+    ----------
+    batch : FeatureBatch
+        Of what.
+    arrangement : Arrangement
+        The graph, and what was repaired.
+    placed : PlacedShapes
+        The rings as the graph has them: of features that were repaired what bounds them.
+    """
+
+    batch: FeatureBatch
+    arrangement: Arrangement
+    placed: PlacedShapes
+
+    @property
+    def graph(self) -> PlanarGraph:
+        """The planar graph."""
+        return self.arrangement.graph
+
+
+@dataclass(frozen=True, eq=False)
+class FeatureShapes:
+    """What features are as a whole, each by itself, when all batches are done.
+
+    Parameters
+    ----------
+    given : PolygonSet
+        The input.
+    used : PolygonSet
+        What the batches are parts of: the input without vertices that objects of an image have from their neighbours.
+    corners : OwnCorners, optional
+        The vertices that are left of the input; None if all are.
+    placement : Placement
+        Of `used`.
+    largest_move : float
+        As of a planar graph, as are
+    repairs : dict
+        the repairs of all features together,
+    points, segments : int
+        and the sites.
+    polygon_count : int
+        How many polygons have any inside.
+    """
+
+    given: PolygonSet
+    used: PolygonSet
+    corners: OwnCorners | None
+    placement: Placement
+    largest_move: float
+    repairs: dict[str, int]
+    points: int
+    segments: int
+    polygon_count: int
+
+    @property
+    def scale(self) -> float:
+        """The step of the lattice."""
+        return ldexp(1.0, self.placement.exponent)
+
+    def counts(self) -> dict[str, Any]:
+        """Counts and sizes, as of one arrangement."""
+        return {
+            "polygons": len(self.given),
+            "vertices": len(self.given.xy),
+            "sites": self.points + self.segments,
+            "segments": self.segments,
+            "lattice_step": self.scale,
+            "largest_move": self.largest_move,
+            "repairs": self.repairs,
+        }
+
+
+class _DependentError(Exception):
+    """Features of a batch have something in common."""
+
+
+def in_batches(
+    polygons: PolygonSet,
+    work: Callable[[BatchShapes, int, Progress], Result],
+    *,
+    reach: Callable[[PolygonSet, float], NDArray[np.int64]] | None = None,
+    alone: bool = False,
+    drops: bool = True,
+    strict: bool = False,
+    threads: int = 0,
+    progress: Progress = None,
+) -> tuple[FeatureShapes, list[tuple[BatchShapes, Result]]]:
+    """Do some work for batches of features, each as if it were alone, on the lattice of all.
+
+    Parameters
+    ----------
+    polygons : PolygonSet
+        What `PolygonSet.feature` is the same of is one feature.
+    work : callable
+        Called with the shapes of a batch, a number of threads, and a progress.
+    reach : callable, optional
+        Gives for polygons and the step of their lattice by how many steps features of a batch must be farther apart.
+    alone : bool
+        One feature a batch: what is done depends on others however far they are.
+    drops : bool
+        Leave out vertices in which outlines of pixels go straight on. A checker takes them as it finds them.
+    strict : bool
+        Refuse features that would be repaired.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Returns
+    -------
+    FeatureShapes
+        Of all.
+    list
+        The shapes of each batch, and what became of them.
+
+    Raises
+    ------
+    InputError
+        If coordinates are too large or too small to compute with, or `strict` and something would be repaired: the
+        first place along the input is named.
+    LimitError
+        If there are too many vertices.
+
+    Warns
+    -----
+    VorotoolWarning
+        If something was repaired: what, and how often.
+    """
+    _check_size(polygons)
+    given, polygons = polygons, with_flat_shells_as_lines(polygons)
+    if polygons is not given:
+        _report_flat(int(np.count_nonzero(polygons.is_line != given.is_line)))
+    threads = threads or available_threads()
+    is_cracks = polygons.connectivity is not None and reach is None and not polygons.is_line.any()
+    corners = own_corners(polygons) if is_cracks and drops else None
+    used = polygons if corners is None else corners.polygons
+    placement = placed_vertices(used, threads=threads, progress=progress)
+    features = Features.of(used)
+    made: list[tuple[BatchShapes, Result]] | None = None
+    if alone:
+        made = _done(used, placement, features, np.arange(len(features), dtype=np.int32), work, threads, progress)
+    elif is_cracks:
+        sheets = sheets_of_cracks(features, placement.vertices, progress=progress)
+        made = _done(used, placement, features, sheets, work, threads, progress, checks=True)
+    if made is None:
+        steps = None if reach is None else reach(used, ldexp(1.0, placement.exponent))
+        sheets = sheets_of_boxes(features, placement.vertices, reach=steps, progress=progress)
+        made = _done(used, placement, features, sheets, work, threads, progress)
+    assert made is not None  # what is apart by its bounds is independent
+    found = _all_repairs([shapes for shapes, _ in made], corners)
+    report_repairs(polygons, found, ldexp(1.0, placement.exponent), strict=strict, stacklevel=4)
+    return _as_a_whole(polygons, used, corners, placement, found, [shapes for shapes, _ in made]), made
+
+
+def together(polygons: PolygonSet, *, strict: bool = False, threads: int = 0, progress: Progress = None) -> PlanarGraph:
+    """Make the planar graph of all features; what is told is repairs of single ones: others may lie over them.
+
+    Arguments, errors and warnings are as of `in_batches`.
+    """
+    _check_size(polygons)
+    polygons = with_flat_shells_as_lines(polygons)
+    placement = placed_vertices(polygons, threads=threads, progress=progress)
+    graph = arranged(polygons, placement, progress=progress).graph
+    if any(graph.repairs.values()):
+        in_batches(polygons, lambda *_: None, strict=strict, threads=threads, progress=progress)
+    return graph
+
+
+def are_apart(graph: PlanarGraph) -> bool:
+    """Whether nothing in the graph of all features was repaired, and none touches another one or lies over it."""
+    given = graph.polygons
+    assert given is not None
+    assert given.feature is not None
+    assert graph.vertices is not None
+    if any(graph.repairs.values()):
+        return False
+    face = np.repeat(np.arange(graph.faces), np.diff(graph.face_start))
+    feature = given.feature[graph.face_polygon]
+    if ((face[1:] == face[:-1]) & (feature[1:] != feature[:-1])).any():
+        return False
+    if given.is_line.any() and _has_lines_inside(graph, given):
+        return False
+    return len(graph.points) == len(given.xy) or not len(touching_features(Features.of(given), graph.vertices))
+
+
+def _has_lines_inside(graph: PlanarGraph, given: PolygonSet) -> bool:
+    """Whether an open line is inside another feature; of one that is a point it is taken to be so."""
+    assert given.feature is not None
+    is_free = np.bincount(graph.segments.ravel(), minlength=len(graph.points)) == 0
+    is_free[graph.point_holes[:, 0]] = False
+    if is_free.any():
+        return True
+    edge = graph.source_edge[graph.source_start[:-1]]
+    ring = np.searchsorted(given.ring_start, edge, side="right") - 1
+    own = given.feature[given.ring_polygon[ring]]
+    of_face = np.full(graph.faces, -1, dtype=np.int64)
+    inside = graph.is_inside
+    of_face[inside] = given.feature[graph.face_polygon[graph.face_start[:-1][inside]]]
+    beside = of_face[graph.segment_faces]
+    return bool(((beside >= 0) & (beside != own[:, None])).any())
+
+
+def _report_flat(count: int) -> None:
+    """Warn of polygons that are taken for lines where what is inside is asked for."""
+    polygons = "1 polygon has" if count == 1 else f"{count} polygons have"
+    message = f"{polygons} vertices at one or two places only, and so no inside: points and segments"
+    warnings.warn(message, VorotoolWarning, stacklevel=4)
+
+
+def _check_size(polygons: PolygonSet) -> None:
+    """Raise for coordinates that cannot be computed with, and for too many of them."""
+    check_magnitude(polygons.xy)
+    if len(polygons.xy) > MOST_VERTICES:
+        raise LimitError(f"there are {len(polygons.xy)} vertices, more than {MOST_VERTICES}: split the polygons")
+
+
+def _as_a_whole(
+    given: PolygonSet,
+    used: PolygonSet,
+    corners: OwnCorners | None,
+    placement: Placement,
+    found: Found,
+    parts: Sequence[BatchShapes],
+) -> FeatureShapes:
+    return FeatureShapes(
+        given,
+        used,
+        corners,
+        placement,
+        max((shapes.graph.largest_move for shapes in parts), default=placement.largest_move),
+        {name: count for name, (count, _, _) in found.items()},
+        sum(len(shapes.graph.points) for shapes in parts),
+        sum(len(shapes.graph) for shapes in parts),
+        sum(len(np.unique(shapes.graph.face_polygon)) for shapes in parts),
+    )
+
+
+def _done(
+    used: PolygonSet,
+    placement: Placement,
+    features: Features,
+    sheets: NDArray[np.int32],
+    work: Callable[[BatchShapes, int, Progress], Result],
+    threads: int,
+    progress: Progress,
+    *,
+    checks: bool = False,
+) -> list[tuple[BatchShapes, Result]] | None:
+    """Batches and their results; None if features of a batch have something in common."""
+    batches = _batches(used, placement, features, sheets)
+
+    def task(batch: FeatureBatch, poll: Progress) -> tuple[BatchShapes, Result]:
+        shapes = _shapes_of(batch, features, checks, poll)
+        return shapes, work(shapes, max(1, ceil(batch.share * threads)), poll)
+
+    order = sorted(range(len(batches)), key=lambda k: -batches[k].share)  # a large one that is late is waited for
+    try:
+        results = in_threads([partial(task, batches[k]) for k in order], threads, progress) if batches else []
+    except _DependentError:
+        return None
+    by_batch = dict(zip(order, results, strict=True))
+    return [by_batch[k] for k in range(len(batches))]
+
+
+def _batches(
+    used: PolygonSet, placement: Placement, features: Features, sheets: NDArray[np.int32]
+) -> list[FeatureBatch]:
+    chosen = batches_of(features, sheets)
+    if not chosen:
+        return []
+    arrays = RingArrays.of(used)
+    corners = np.stack(bounds(placement.vertices))
+    return [_batch(used, arrays, placement, corners, features.polygons_of(own)) for own in chosen]
+
+
+def _batch(
+    used: PolygonSet, arrays: RingArrays, placement: Placement, corners: NDArray[np.int32], polygons: Indices
+) -> FeatureBatch:
+    assert used.feature is not None
+    taken, rings, vertices = arrays.taken(polygons)
+    part = PolygonSet(
+        taken.xy,
+        np.concatenate([[0], np.cumsum(taken.sizes)]),
+        taken.kind,
+        np.repeat(np.arange(len(polygons)), taken.rings),
+        feature=used.feature[polygons],
+        connectivity=used.connectivity,
+    )
+    places = placement.vertices[vertices]
+    x, y = places.T
+    is_known = [bool(((x == corner_x) & (y == corner_y)).any()) for corner_x, corner_y in corners.tolist()]
+    whole = len(vertices) == len(used.xy)
+    beyond = corners[:0] if whole else np.unique(corners[np.logical_not(is_known)], axis=0)
+    own = replace(placement, vertices=places)
+    return FeatureBatch(polygons, rings, vertices, part, own, beyond, len(vertices) / len(used.xy))
+
+
+def _shapes_of(batch: FeatureBatch, features: Features, checks: bool, progress: Progress) -> BatchShapes:
+    made = arranged(batch.part, batch.placement, progress=progress)
+    if checks and not _are_apart(made):
+        raise _DependentError
+    feature = batch.part.feature
+    assert feature is not None
+    _, own = np.unique(feature, return_inverse=True)
+    repaired = np.bincount(own, made.is_repaired, minlength=1)[own] > 0
+    return BatchShapes(batch, made, placed_shapes(made.graph, is_repaired=repaired))
+
+
+def _are_apart(made: Arrangement) -> bool:
+    """Whether there is nothing to be repaired, and no face lies in two polygons."""
+    graph = made.graph
+    return not any(graph.repairs.values()) and bool((np.diff(graph.face_start) < 2).all())
+
+
+def _all_repairs(parts: Sequence[BatchShapes], corners: OwnCorners | None) -> Found:
+    """Repairs of all batches, with the places in the input where each is found first."""
+    total: Found = {}
+    for name in REPAIRS:
+        rows = [(shapes.arrangement.found[name], shapes.batch.vertices) for shapes in parts]
+        count = sum(row[0] for row, _ in rows)
+        places = [
+            (int(vertices[edge]), int(vertices[other]) if other >= 0 else -1)
+            for (own, edge, other), vertices in rows
+            if own
+        ]
+        edge, other = min(places, default=(-1, -1))
+        if corners is not None:
+            edge, other = (int(corners.vertex[k]) if k >= 0 else -1 for k in (edge, other))
+        total[name] = (count, edge, other)
+    return total

@@ -1,0 +1,81 @@
+"""Outlines of pixels without the vertices that objects have from their neighbours only."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
+from vorotool.geometry.polygons.ring_arrays import starts_before
+
+Indices = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class OwnCorners:
+    """Polygons without vertices in which they go straight on.
+
+    Parameters
+    ----------
+    polygons : PolygonSet
+        With the same rings.
+    vertex : (n,) int64 array
+        The number of each vertex among those that were given.
+    """
+
+    polygons: PolygonSet
+    vertex: Indices
+
+
+def own_corners(polygons: PolygonSet) -> OwnCorners | None:
+    """Leave out vertices in which rings go straight on; None if there are none.
+
+    Where three objects of a label image meet, each outline has a vertex, so that those of neighbours have all vertices
+    in common; the outline of one object alone goes on there. What lies inside does not change.
+
+    Examples
+    --------
+    >>> from vorotool import outlines
+    >>> pixels = outlines(np.array([[1, 1], [2, 3]]), mode="labels")
+    >>> len(pixels.ring(0)), len(own_corners(pixels).polygons.ring(0))
+    (5, 4)
+    """
+    if not len(polygons.xy):
+        return None
+    candidates = _between_likes(polygons)
+    before, after = (polygons.xy[k] for k in _neighbours(polygons, candidates))
+    here = polygons.xy[candidates]
+    (ux, uy), (vx, vy) = (here - before).T, (after - here).T
+    straight = candidates[(ux * vy == uy * vx) & (ux * vx + uy * vy > 0)]
+    if not straight.size:
+        return None
+    is_straight = np.zeros(len(polygons.xy), dtype=bool)
+    is_straight[straight] = True
+    start = polygons.ring_start
+    kept = np.flatnonzero(~is_straight)
+    sizes = np.add.reduceat(~is_straight, start[:-1])
+    return OwnCorners(replace(polygons, xy=polygons.xy[kept], ring_start=starts_before(sizes)), kept)
+
+
+def _between_likes(polygons: PolygonSet) -> Indices:
+    """Vertices between two edges that are both along the rows, or both not; those of lines have none on one side."""
+    xy, start = polygons.xy, polygons.ring_start
+    is_along = np.empty(len(xy), dtype=bool)
+    np.equal(xy[1:, 1], xy[:-1, 1], out=is_along[:-1])
+    is_along[start[1:] - 1] = xy[start[:-1], 1] == xy[start[1:] - 1, 1]
+    is_like = np.empty(len(xy), dtype=bool)
+    np.equal(is_along[1:], is_along[:-1], out=is_like[1:])
+    is_like[start[:-1]] = is_along[start[:-1]] == is_along[start[1:] - 1]
+    candidates = np.flatnonzero(is_like)
+    ring = np.searchsorted(start, candidates, side="right") - 1
+    return candidates[~np.equal(polygons.ring_kind, LINE)[ring]]
+
+
+def _neighbours(polygons: PolygonSet, vertices: Indices) -> tuple[Indices, Indices]:
+    """The vertices before and after some."""
+    start = polygons.ring_start
+    ring = np.searchsorted(start, vertices, side="right") - 1
+    first, last = start[ring], start[ring + 1] - 1
+    return np.where(vertices == first, last, vertices - 1), np.where(vertices == last, first, vertices + 1)

@@ -1,0 +1,198 @@
+"""Polygons, sites and arcs of batches of features, put into the order of the input."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.features.batches import BatchShapes, FeatureShapes
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.polygons.ring_arrays import RingArrays
+from vorotool.geometry.skeleton.skeleton import SiteTable
+
+Indices = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class Places:
+    """Where the items of all batches, one batch after the other, come in the end.
+
+    Parameters
+    ----------
+    place : (n,) int64 array, optional
+        Of each item; None where they stay.
+    """
+
+    place: Indices | None
+
+    @classmethod
+    def by(cls, keys: NDArray[Any]) -> Places:
+        """Sort by keys: equal ones follow each other already, and keep their order.
+
+        Examples
+        --------
+        >>> Places.by(np.array([0, 2, 2, 1])).place.tolist()
+        [0, 2, 3, 1]
+        """
+        if (keys[1:] >= keys[:-1]).all():
+            return cls(None)
+        counts = np.bincount(keys)
+        new = np.diff(keys, prepend=-1) != 0
+        item = np.arange(len(keys))
+        within = item - np.maximum.accumulate(np.where(new, item, 0))
+        return cls((np.cumsum(counts) - counts)[keys] + within)
+
+    def arranged(self, columns: Sequence[NDArray[Any]]) -> NDArray[Any]:
+        """Values of all batches in their order."""
+        stacked = np.concatenate(columns)
+        if self.place is None:
+            return stacked
+        made = np.empty_like(stacked)
+        made[self.place] = stacked
+        return made
+
+    def numbers(self, items: NDArray[Any]) -> NDArray[np.int32]:
+        """New numbers of items."""
+        if self.place is None:
+            return items.astype(np.int32, copy=False)
+        numbers: NDArray[np.int32] = self.place.astype(np.int32)[items]
+        return numbers
+
+
+@dataclass(frozen=True, eq=False)
+class InputOrder:
+    """How what batches have comes in the order of the input.
+
+    Parameters
+    ----------
+    polygons : PolygonSet
+        As they were used, of all batches.
+    site_table : SiteTable
+        Of all: points in the order of the vertices, then crossings; then segments in the order of the edges.
+    polygon_numbers, site_numbers : list of arrays
+        Of each batch: the number in `polygons` of each of its polygons, in `site_table` of each of its sites.
+    """
+
+    polygons: PolygonSet
+    site_table: SiteTable
+    polygon_numbers: list[NDArray[np.int32]]
+    site_numbers: list[NDArray[np.int32]]
+
+    @classmethod
+    def of(cls, whole: FeatureShapes, parts: Sequence[BatchShapes]) -> InputOrder:
+        """Find it."""
+        source = stacked([shapes.batch.polygons[shapes.placed.source] for shapes in parts])
+        order = np.argsort(source, kind="stable")
+        places = Places(_inverse(order)), Places.by(_point_keys(whole, parts)), Places.by(_segment_keys(parts))
+        counts = [(len(shapes.placed.polygons), len(shapes.graph.points), len(shapes.graph)) for shapes in parts]
+        polygons, points, segments = (
+            _numbers_of_batches(place, [row[k] for row in counts]) for k, place in enumerate(places)
+        )
+        first_segment = sum(row[1] for row in counts)
+        sites = [
+            np.concatenate([own, ends + np.int32(first_segment)]) for own, ends in zip(points, segments, strict=True)
+        ]
+        table = _all_sites(whole, parts, polygons, places[1:])
+        return cls(_all_polygons(whole, parts, source[order], order), table, polygons, sites)
+
+
+def stacked(columns: Sequence[NDArray[Any]]) -> NDArray[Any]:
+    """One after the other; there may be none."""
+    return np.concatenate(columns) if columns else np.empty(0, dtype=np.int64)
+
+
+def _inverse(order: Indices) -> Indices:
+    place = np.empty_like(order)
+    place[order] = np.arange(len(order))
+    return place
+
+
+def _numbers_of_batches(places: Places, counts: Sequence[int]) -> list[NDArray[np.int32]]:
+    numbers = places.numbers(np.arange(sum(counts), dtype=np.int32))
+    return np.split(numbers, np.cumsum(counts)[:-1]) if counts else []
+
+
+def _point_keys(whole: FeatureShapes, parts: Sequence[BatchShapes]) -> Indices:
+    """Of the points of all batches: their first vertices; for crossings numbers from there on, by their places."""
+    vertex = stacked([shapes.graph.point_vertex.astype(np.int64) for shapes in parts])
+    first = np.repeat(np.arange(len(parts)), [len(shapes.graph.points) for shapes in parts])
+    is_crossing = vertex < 0
+    begin = np.cumsum([0, *(len(shapes.batch.vertices) for shapes in parts)])
+    known = np.flatnonzero(~is_crossing)
+    vertex[known] = stacked([shapes.batch.vertices for shapes in parts])[vertex[known] + begin[first[known]]]
+    crossings = np.flatnonzero(is_crossing)
+    if crossings.size:
+        x, y = np.concatenate([shapes.graph.points for shapes in parts])[crossings].T
+        polygon = first[crossings]  # at one place the features' order is that of their batches
+        vertex[crossings[np.lexsort((polygon, y, x))]] = len(whole.used.xy) + np.arange(len(crossings))
+    return vertex
+
+
+def _segment_keys(parts: Sequence[BatchShapes]) -> Indices:
+    """Of the segments of all batches: the first edge that each is part of."""
+    return stacked(
+        [shapes.batch.vertices[shapes.graph.source_edge[shapes.graph.source_start[:-1]]] for shapes in parts]
+    )
+
+
+def _all_polygons(whole: FeatureShapes, parts: Sequence[BatchShapes], source: Indices, order: Indices) -> PolygonSet:
+    used, placement = whole.used, whole.placement
+    if not any(whole.repairs.values()):
+        if not placement.largest_move:
+            return used
+        return replace(used, xy=np.asarray(placement.origin) + whole.scale * placement.vertices.astype(np.float64))
+    arrays = RingArrays.joined([RingArrays.of(shapes.placed.polygons) for shapes in parts])
+    return arrays.taken(order)[0].polygons(used, source)
+
+
+def _all_sites(
+    whole: FeatureShapes,
+    parts: Sequence[BatchShapes],
+    polygons: Sequence[NDArray[np.int32]],
+    places: Sequence[Places],
+) -> SiteTable:
+    columns: dict[str, list[NDArray[Any]]] = {}
+    for shapes, numbers in zip(parts, polygons, strict=True):
+        own = shapes.placed.sites
+        rings = np.append(shapes.batch.rings, -1)  # -1 is the last one
+        rows: dict[str, NDArray[Any]] = {
+            "kind": own.kind,
+            "polygon": numbers[own.polygon],
+            "ring": own.ring,
+            "index": own.index,
+            "source_ring": rings[own.source_ring].astype(np.int32),
+            "source_index": own.source_index,
+        }
+        for name, values in rows.items():
+            columns.setdefault(name, []).append(values)
+    counts = [len(shapes.graph.points) for shapes in parts]
+    made: dict[str, Any] = {
+        name: np.concatenate(
+            [
+                places[0].arranged([column[:count] for column, count in zip(values, counts, strict=True)]),
+                places[1].arranged([column[count:] for column, count in zip(values, counts, strict=True)]),
+            ]
+        )
+        for name, values in columns.items()
+    }
+    if not made:
+        nothing = np.empty(0, dtype=np.int32)
+        return SiteTable(nothing.astype(np.int8), nothing, nothing, nothing, nothing, nothing)
+    if whole.corners is not None:
+        _tell_given_vertices(whole, made)
+    return SiteTable(**made)
+
+
+def _tell_given_vertices(whole: FeatureShapes, columns: dict[str, NDArray[Any]]) -> None:
+    """Tell the vertices of the input instead of those that are left of it."""
+    assert whole.corners is not None
+    ring, index = columns["source_ring"], columns["source_index"]
+    known = np.flatnonzero(ring >= 0)
+    vertex = whole.corners.vertex[whole.used.ring_start[ring[known]] + index[known]]
+    index = index.copy()
+    index[known] = vertex - whole.given.ring_start[ring[known]]
+    columns["source_index"] = index

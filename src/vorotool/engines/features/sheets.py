@@ -1,0 +1,171 @@
+"""Features divided into batches: those of one batch may share a diagram, and none changes what is inside another."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.common.label_arrays import Progress
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.polygons.ring_arrays import ranges
+
+Indices = NDArray[np.int64]
+
+BATCH = 1 << 13
+"""Vertices of a batch or more: some megabytes of its diagram, which stay in the cache, and soon done by any thread."""
+APART = 1
+"""Lattice steps around each feature: what snap rounding may move is nearer than one to it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Features:
+    """The features of polygons, numbered without gaps.
+
+    Parameters
+    ----------
+    polygon_start : (f + 1,) int64 array
+        The first polygon of each, and the number of polygons.
+    vertex_start : (f + 1,) int64 array
+        The first vertex of each, and the number of vertices.
+    """
+
+    polygon_start: Indices
+    vertex_start: Indices
+
+    @classmethod
+    def of(cls, polygons: PolygonSet) -> Features:
+        """Find them.
+
+        Examples
+        --------
+        >>> from vorotool.geometry.polygons.conversion import as_polygons
+        >>> Features.of(as_polygons([[[0, 0], [1, 0], [0, 1]], [[5, 5], [6, 5], [5, 6]]])).vertex_start.tolist()
+        [0, 3, 6]
+        """
+        assert polygons.feature is not None
+        first = np.flatnonzero(np.diff(polygons.feature, prepend=-1))
+        start = np.append(first, len(polygons))
+        return cls(start, polygons.ring_start[polygons.polygon_start[start]])
+
+    def __len__(self) -> int:
+        return len(self.polygon_start) - 1
+
+    @property
+    def of_polygon(self) -> Indices:
+        """(p,) the feature of each polygon."""
+        return np.repeat(np.arange(len(self)), np.diff(self.polygon_start))
+
+    @property
+    def of_vertex(self) -> Indices:
+        """(n,) the feature of each vertex."""
+        return np.repeat(np.arange(len(self)), np.diff(self.vertex_start))
+
+    def polygons_of(self, chosen: Indices) -> Indices:
+        """Polygons of some features."""
+        return ranges(self.polygon_start[chosen], np.diff(self.polygon_start)[chosen])
+
+
+def sheets_of_boxes(
+    features: Features,
+    vertices: NDArray[np.int32],
+    *,
+    reach: NDArray[np.int64] | None = None,
+    progress: Progress = None,
+) -> NDArray[np.int32]:
+    """(f,) sheets of features: on the lattice the bounds of those of one sheet have a gap between them.
+
+    Parameters
+    ----------
+    features : Features
+        Of polygons.
+    vertices : (n, 2) int32 array
+        Of the polygons, on the lattice.
+    reach : (f,) int64 array, optional
+        In lattice steps: the bounds of each are widened by so much more.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Examples
+    --------
+    >>> from vorotool.geometry.polygons.conversion import as_polygons
+    >>> nested = as_polygons([[[0, 0], [9, 0], [0, 9]], [[1, 1], [2, 1], [1, 2]], [[20, 0], [29, 0], [20, 9]]])
+    >>> sheets_of_boxes(Features.of(nested), nested.xy.astype(np.int32)).tolist()
+    [0, 1, 0]
+    """
+    if len(features) < 2:
+        return np.zeros(len(features), dtype=np.int32)
+    first = features.vertex_start[:-1]
+    low, high = (bound.reduceat(vertices, first, axis=0).astype(np.int64) for bound in (np.minimum, np.maximum))
+    wide = (APART if reach is None else reach + APART) * np.ones((len(features), 1), dtype=np.int64)
+    return _core.disjoint_sheets(np.hstack([low - wide, high + wide]), progress)
+
+
+def sheets_of_cracks(
+    features: Features, vertices: NDArray[np.int32], *, progress: Progress = None
+) -> NDArray[np.int32]:
+    """(f,) sheets of features that are outlines of pixels: those of one sheet have no vertex in common.
+
+    The outlines of different objects do not cross, and their insides are disjoint: what is nearest to a place inside
+    one is its own border, so that objects without a common vertex are independent.
+
+    Examples
+    --------
+    >>> from vorotool import outlines
+    >>> pixels = outlines(np.array([[1, 2, 0], [0, 0, 3]]), mode="labels")
+    >>> sheets = sheets_of_cracks(Features.of(pixels), (2 * pixels.xy).astype(np.int32))
+    >>> bool(sheets[0] != sheets[1] and sheets[1] != sheets[2])
+    True
+    """
+    sheet = np.zeros(len(features), dtype=np.int32)
+    pairs = touching_features(features, vertices, progress=progress)
+    if len(pairs):
+        touching, index = np.unique(pairs, return_inverse=True)
+        a, b = np.ascontiguousarray(index.reshape(-1, 2).T.astype(np.uint32))
+        sheet[touching] = _core.colour_graph(len(touching), a, b, progress).astype(np.int32) - 1
+    return sheet
+
+
+def touching_features(features: Features, vertices: NDArray[np.int32], *, progress: Progress = None) -> Indices:
+    """(k, 2) pairs of features that have a vertex in common, each once: the smaller number first.
+
+    Of several at one place each is in a pair with every other.
+    """
+    first = _core.first_at_place(vertices, progress)
+    again = np.flatnonzero(first != np.arange(len(first)))
+    if not again.size:
+        return np.empty((0, 2), dtype=np.int64)
+    owner = features.of_vertex
+    count = len(features)
+    at = np.unique(np.concatenate([first[again] * count + owner[again], first[again] * count + owner[first[again]]]))
+    place, own = at // count, at % count
+    pairs = []
+    for step in range(1, int(np.bincount(np.unique(place, return_inverse=True)[1]).max())):
+        same = place[step:] == place[:-step]
+        pairs.append(own[:-step][same] * count + own[step:][same])
+    if not pairs:
+        return np.empty((0, 2), dtype=np.int64)
+    keys = np.unique(np.concatenate(pairs))
+    return np.stack([keys // count, keys % count], axis=1)
+
+
+def batches_of(features: Features, sheet: NDArray[np.int32]) -> list[Indices]:
+    """Features of each batch: of one sheet, ascending, and about `BATCH` vertices or more.
+
+    Examples
+    --------
+    >>> features = Features(np.arange(4), np.array([0, 4, 8, 12]))
+    >>> [batch.tolist() for batch in batches_of(features, np.array([0, 1, 0]))]
+    [[0, 2], [1]]
+    """
+    if not len(features):
+        return []
+    order = np.argsort(sheet, kind="stable")
+    sizes = np.diff(features.vertex_start)[order]
+    begin = np.cumsum(sizes) - sizes
+    new_sheet = np.diff(sheet[order], prepend=-1) != 0
+    of_sheet = begin - np.maximum.accumulate(np.where(new_sheet, begin, 0))
+    cut = new_sheet | (np.diff(of_sheet // BATCH, prepend=0) > 0)
+    return np.split(order, np.flatnonzero(cut)[1:])

@@ -1,0 +1,1 @@
+"""Nearest points, points along branches, reconstruction, contours."""

@@ -1,0 +1,335 @@
+"""Polygons rebuilt from their skeletons: the envelopes of the discs along the arcs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations, pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.arrangement.flat_rings import flat_holes
+from vorotool.engines.from_skeleton.contour_walk import Contours, contours_of
+from vorotool.engines.from_skeleton.disc_union import Ring, covered_rings
+from vorotool.errors import UsageError
+from vorotool.geometry.curves.circular_arcs import chords_of, middles_of
+from vorotool.geometry.curves.flatten_tolerance import checked_flatten
+from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
+from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+_ULPS = 8
+"""Of the largest coordinate: what two feet of one disc may differ by, times how much each is magnified."""
+
+
+def rebuild(skeleton: Skeleton, *, flatten: float | None = None) -> PolygonSet:
+    """Rebuild polygons from the arcs inside them: what the discs of all points of the skeleton cover.
+
+    Edges are the common tangents of discs, vertices the common points of discs, both from places and radii of the
+    skeleton alone. Where it was pruned the border is the circle of the disc that is left. Without pruning the polygons
+    come back as they were used, to some ulp of their extent times radius over edge length where an edge is short beside
+    the discs that touch it. An approximate skeleton tells no borders, but discs: the shape is what these cover.
+
+    A point or a segment that is a hole comes back if nothing else touches it. An open line in a polygon, or such a hole
+    from the border on, is a wall: where pruning leaves it on one side only, the ring goes along it twice.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Without a gap; pruned or not. Arcs outside make no difference.
+    flatten : float, optional
+        How far chords may be from circles, in input units; by default 1/4096 of the larger side of the bounds.
+
+    Returns
+    -------
+    PolygonSet
+        Shells counter-clockwise (y upwards), holes clockwise; one polygon for each connected part, with the id and the
+        properties of its own.
+
+    Raises
+    ------
+    UsageError
+        If the skeleton has a gap, or the tolerance is not positive.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> rebuild(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])).xy.tolist()
+    [[4.0, 0.0], [4.0, 2.0], [0.0, 2.0], [0.0, 0.0]]
+    """
+    if skeleton.gap:
+        raise UsageError(f"a skeleton with a gap of {skeleton.gap:g} leaves the corners out: use one without a gap")
+    tolerance = checked_flatten(flatten, skeleton.polygons)
+    is_inside = skeleton.side == INTERIOR
+    is_drawn = np.ones(len(skeleton), dtype=bool) if skeleton.error_bound.any() else _is_disc(skeleton)
+    contours = contours_of(skeleton, np.flatnonzero(is_inside & ~is_drawn))
+    rings = [*_simple_rings(contours, *_outline(skeleton, contours, tolerance)), *_flat_holes(skeleton, contours)]
+    is_seen = skeleton.radius[skeleton.arcs].max(axis=1, initial=0) > _noise(skeleton)
+    return _assembled(
+        skeleton, [*rings, *covered_rings(skeleton, np.flatnonzero(is_inside & is_drawn & is_seen), tolerance)]
+    )
+
+
+# ---- feet ----------------------------------------------------------------------------------------
+def _turned(way: Floats) -> Floats:
+    """By 90 degrees, counter-clockwise."""
+    return np.stack([-way[:, 1], way[:, 0]], axis=1)
+
+
+def _norm(way: Floats) -> Floats:
+    length: Floats = np.sqrt((way * way).sum(axis=-1))
+    return length
+
+
+@dataclass(frozen=True)
+class _Feet:
+    """Where the discs at the ends of each run touch its site, and by how much that magnifies errors of the discs."""
+
+    first: Floats
+    last: Floats
+    first_factor: Floats
+    last_factor: Floats
+
+
+def _feet(skeleton: Skeleton, contours: Contours) -> _Feet:
+    """Feet on each run's site, on its right: of an edge by the common tangent, of a vertex by the best of several."""
+    discs = [_Discs(skeleton, node) for node in (contours.first_node, contours.middle_node, contours.last_node)]
+    first, last, factors = _edge_feet(discs[0], discs[2])
+    is_edge = skeleton.site_table.kind[contours.site] == EDGE
+    before, after = contours.before, contours.after
+    common = [_common_point(a, b) for a, b in combinations(discs, 2)]
+    follows = np.where(is_edge[before] & contours.is_joined[before], factors[1][before], np.inf)
+    leads = np.where(is_edge[after] & contours.is_joined, factors[0][after], np.inf)
+    choices = np.stack([*(place for place, _ in common), last[before], first[after]])
+    costs = np.stack([*(factor for _, factor in common), follows, leads])
+    runs = np.arange(len(is_edge))
+    best = np.argmin(costs, axis=0)
+    vertex, factor = choices[best, runs], costs[best, runs]
+    edge = is_edge[:, None]
+    return _Feet(
+        np.where(edge, first, vertex),
+        np.where(edge, last, vertex),
+        *(np.where(is_edge, own, factor) for own in factors),
+    )
+
+
+class _Discs:
+    """Of nodes."""
+
+    def __init__(self, skeleton: Skeleton, node: Indices) -> None:
+        self.centre, self.r = skeleton.vertices[node], skeleton.radius[node]
+
+
+def _edge_feet(a: _Discs, b: _Discs) -> tuple[Floats, Floats, list[Floats]]:
+    """Where the common tangent on the right of a -> b touches the discs, and by how much that magnifies errors."""
+    way, growth = b.centre - a.centre, b.r - a.r
+    square = np.maximum((way * way).sum(axis=1), np.finfo(float).tiny)
+    distance = np.sqrt(square)
+    along = np.sqrt(np.maximum(distance - np.abs(growth), 0) * (distance + np.abs(growth)))
+    inward = _turned((along[:, None] * way - growth[:, None] * _turned(way)) / square[:, None])
+    factors = [np.divide(disc.r, along, out=np.zeros_like(along), where=along > 0) for disc in (a, b)]
+    return a.centre - a.r[:, None] * inward, b.centre - b.r[:, None] * inward, factors
+
+
+def _common_point(a: _Discs, b: _Discs) -> tuple[Floats, Floats]:
+    """The point on the right of a -> b that is on both circles, and by how much that magnifies errors."""
+    way = b.centre - a.centre
+    square = np.maximum((way * way).sum(axis=1), np.finfo(float).tiny)
+    distance = np.sqrt(square)
+    part = (square + (a.r - b.r) * (a.r + b.r)) / (2 * square)
+    height = np.sqrt(np.maximum((a.r - part * distance) * (a.r + part * distance), 0))
+    place = a.centre + part[:, None] * way - (height / distance)[:, None] * _turned(way)
+    factor = np.full(len(height), np.finfo(float).max)
+    return place, np.divide(a.r * b.r, distance * height, out=factor, where=distance * height > 0)
+
+
+def _noise(skeleton: Skeleton) -> float:
+    """What places of feet may be wrong by."""
+    largest = max(np.abs(skeleton.vertices).max(initial=0), np.abs(skeleton.radius).max(initial=0))
+    return _ULPS * float(np.spacing(largest))
+
+
+# ---- outlines ------------------------------------------------------------------------------------
+def _outline(skeleton: Skeleton, contours: Contours, tolerance: float) -> tuple[Floats, Indices, Indices]:
+    """Vertices of each contour, the point of the polygons that each is, -1 for none, and where contours begin.
+
+    A point has one place, the best of all, in all contours that go through it: what touches does not overlap.
+    """
+    feet = _feet(skeleton, contours)
+    is_edge = skeleton.site_table.kind[contours.site] == EDGE
+    node, after = contours.last_node, contours.after
+    centre, r = skeleton.vertices[node], skeleton.radius[node]
+    start, end = feet.last, feet.first[after]
+    noise = _noise(skeleton) * (1 + feet.last_factor + feet.first_factor[after])
+    is_corner = r == 0
+    between_edges = is_edge & is_edge[after]
+    is_same = ~is_corner & (contours.is_joined | (between_edges & (_norm(end - start) <= noise)))
+    is_cap = ~is_corner & ~is_same
+    better = (feet.last_factor <= feet.first_factor[after])[:, None]
+    single = np.where(is_corner[:, None], centre, np.where(better, start, end))
+    factor = np.where(is_corner, 0, np.minimum(feet.last_factor, feet.first_factor[after]))
+    plain = between_edges & ~is_cap
+    pieces = [
+        # a vertex stands where its run begins; between two edges there is one at a corner, or where they go on
+        _Places(
+            np.flatnonzero(~is_edge), 0, feet.first[~is_edge], contours.point[~is_edge], feet.first_factor[~is_edge]
+        ),
+        _Places(np.flatnonzero(plain), 1, single[plain], contours.shared_point[plain], factor[plain]),
+        *_caps(is_cap, is_edge, after, start, end, centre, tolerance),
+    ]
+    return _in_order(pieces, contours)
+
+
+@dataclass(frozen=True)
+class _Places:
+    """Places at runs: at the beginning (rank 0) or after the end (1 and more) of each, and how errors are magnified."""
+
+    run: Indices
+    rank: Any
+    xy: Floats
+    point: Any = -1
+    factor: Any = np.inf
+
+
+def _caps(
+    is_cap: NDArray[np.bool_],
+    is_edge: NDArray[np.bool_],
+    after: Indices,
+    start: Floats,
+    end: Floats,
+    centre: Floats,
+    tolerance: float,
+) -> list[_Places]:
+    """Chords of circles between feet; a foot on a vertex is there already."""
+    run = np.flatnonzero(is_cap)
+    a, b, c = start[run], end[run], centre[run]
+    u, v = a - c, b - c
+    is_long = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0] < 0  # over half a circle
+    middle = middles_of(a, b, c, is_long)
+    starts = np.concatenate([a, middle[is_long]])
+    ends = np.concatenate([np.where(is_long[:, None], middle, b), b[is_long]])
+    centres, runs = np.concatenate([c, c[is_long]]), np.concatenate([run, run[is_long]])
+    rank = np.concatenate([np.ones(len(run)), np.full(int(is_long.sum()), 2)]).astype(np.int64)
+    xy, first = chords_of(starts, ends, centres, np.ones(len(runs), dtype=bool), tolerance)
+    piece = np.repeat(np.arange(len(runs)), np.diff(first))
+    kept = (np.arange(len(xy)) > first[piece]) | (rank[piece] == 2) | is_edge[runs[piece]]
+    to_edge = is_edge[after[run]]
+    return [_Places(runs[piece[kept]], rank[piece[kept]], xy[kept]), _Places(run[to_edge], 3, b[to_edge])]
+
+
+def _in_order(pieces: list[_Places], contours: Contours) -> tuple[Floats, Indices, Indices]:
+    run, xy = (np.concatenate([getattr(piece, name) for piece in pieces]) for name in ("run", "xy"))
+    rank, point, factor = (
+        np.concatenate([np.broadcast_to(getattr(piece, name), piece.run.shape) for piece in pieces])
+        for name in ("rank", "point", "factor")
+    )
+    known = np.flatnonzero(point >= 0)
+    known = known[np.lexsort((factor[known], point[known]))]
+    _, best, number = np.unique(point[known], return_index=True, return_inverse=True)
+    xy[known] = xy[known[best]][number]
+    order = np.lexsort((rank, run))
+    return xy[order], point[order], np.searchsorted(run[order], contours.start)
+
+
+# ---- rings ---------------------------------------------------------------------------------------
+def _is_disc(skeleton: Skeleton) -> NDArray[np.bool_]:
+    """(a,) whether each arc is a single place: all that pruning left of a connected part."""
+    source, target = skeleton.vertices[skeleton.arcs].swapaxes(0, 1)
+    found: NDArray[np.bool_] = (source == target).all(axis=1) & (skeleton.degree[skeleton.arcs] == 1).all(axis=1)
+    return found
+
+
+def _simple_rings(contours: Contours, xy: Floats, point: Indices, start: Indices) -> list[Ring]:
+    """Rings of contours: one that visits a point twice is cut in two there."""
+    repeats = _repeats(point, start)
+    rings = []
+    for contour, (first, last) in enumerate(pairwise(start.tolist())):
+        parts: list[Any] = [slice(first, last)]
+        if repeats[contour]:
+            parts = [np.array(part) + first for part in _cut_at_repetitions(point[first:last].tolist())]
+        polygon, component = int(contours.polygon[contour]), int(contours.part[contour])
+        rings += [Ring(xy[part], polygon, component) for part in parts]
+    return [ring for ring in rings if len(ring.xy) > 2]
+
+
+def _flat_holes(skeleton: Skeleton, contours: Contours) -> list[Ring]:
+    """Points and segments that contours go around: they are there as they were, since pruning cuts no cycle."""
+    polygons, table = skeleton.polygons, skeleton.site_table
+    own = polygons.polygon_start[table.polygon[contours.site]] + table.ring[contours.site]
+    first = contours.start[:-1]
+    is_around = np.minimum.reduceat(own, first) == np.maximum.reduceat(own, first) if len(first) else first > 0
+    around = np.flatnonzero(is_around)
+    around = around[flat_holes(polygons)[own[first[around]]]]
+    around = around[np.argsort(own[first[around]])]
+    return [
+        Ring(polygons.ring(ring), polygon, part)
+        for ring, polygon, part in zip(
+            own[first[around]].tolist(), contours.polygon[around].tolist(), contours.part[around].tolist(), strict=True
+        )
+    ]
+
+
+def _repeats(point: Indices, start: Indices) -> NDArray[np.bool_]:
+    """(c,) whether each contour visits a point twice."""
+    contour = np.repeat(np.arange(len(start) - 1), np.diff(start))
+    known = np.flatnonzero(point >= 0)
+    known = known[np.lexsort((point[known], contour[known]))]
+    twice = (np.diff(point[known]) == 0) & (np.diff(contour[known]) == 0)
+    found = np.zeros(len(start) - 1, dtype=bool)
+    found[contour[known[1:][twice]]] = True
+    return found
+
+
+def _cut_at_repetitions(names: list[int]) -> list[list[int]]:
+    """Indices of each part of a closed walk between two visits of one name; -1 is no name."""
+    parts: list[list[int]] = []
+    path: list[int] = []
+    at: dict[int, int] = {}
+    for index, name in enumerate(names):
+        if name in at:
+            cut = at[name]
+            parts.append(path[cut:])
+            for passed in path[cut:]:
+                at.pop(names[passed], None)
+            del path[cut:]
+        if name >= 0:
+            at[name] = len(path)
+        path.append(index)
+    return [*parts, path]
+
+
+def _twice_areas(xy: Floats, start: Indices) -> Floats:
+    """(r,) of rings, positive counter-clockwise."""
+    first = np.repeat(xy[start[:-1]], np.diff(start), axis=0)
+    following = np.arange(1, len(xy) + 1)
+    following[start[1:] - 1] = start[:-1]
+    (x, y), (u, v) = (xy - first).T, (xy[following] - first).T
+    areas: Floats = np.add.reduceat(x * v - y * u, start[:-1]) if len(xy) else np.zeros(0)
+    return areas
+
+
+def _assembled(skeleton: Skeleton, rings: list[Ring]) -> PolygonSet:
+    """Polygons of rings: in each connected part of the skeleton one goes counter-clockwise, around the others."""
+    start = np.concatenate([[0], np.cumsum([len(ring.xy) for ring in rings], dtype=np.int64)])
+    is_hole = _twice_areas(np.concatenate([np.empty((0, 2)), *(ring.xy for ring in rings)]), start) < 0
+    is_hole |= np.diff(start) < 3
+    part, polygon = (np.array([getattr(ring, name) for ring in rings], dtype=np.int64) for name in ("part", "polygon"))
+    order = np.lexsort((is_hole, part, polygon))
+    rings, is_hole = [rings[k] for k in order.tolist()], is_hole[order]
+    own = polygon[order[~is_hole]].tolist()
+    given = skeleton.polygons
+    assert given.feature is not None
+    return PolygonSet(
+        np.concatenate([np.empty((0, 2)), *(ring.xy for ring in rings)]),
+        np.concatenate([[0], np.cumsum([len(ring.xy) for ring in rings], dtype=np.int64)]),
+        np.where(is_hole, HOLE, SHELL),
+        np.cumsum(~is_hole) - 1,
+        None if given.ids is None else [given.ids[p] for p in own],
+        given.feature[own],
+        {name: [values[p] for p in own] for name, values in given.properties.items()},
+        y_up=given.y_up,
+        crs=given.crs,
+    )

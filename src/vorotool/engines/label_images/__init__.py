@@ -1,0 +1,1 @@
+"""Label image -> regions, outlines, simplified rings."""

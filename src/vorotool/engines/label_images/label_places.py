@@ -1,0 +1,118 @@
+"""Where the name of a region is written: deep inside it."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.common.label_arrays import label_array
+from vorotool.engines.tessellation.interior_seeds import surrounded_pixels
+from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.geometry.pixel_frame import Frame
+from vorotool.geometry.points.label_image import LabelImage
+from vorotool.geometry.points.seed_set import SeedSet
+
+
+def label_places(
+    image: LabelImage, *, threads: int = 0
+) -> tuple[NDArray[np.uint32], NDArray[np.int64], NDArray[np.float64]]:
+    """Find a pixel of each region that is as far as can be from its outermost pixels.
+
+    Of several such pixels the one nearest to their mean is taken, ties by raster order.
+
+    Parameters
+    ----------
+    image : LabelImage
+        Label 0 is no region.
+    threads : int
+        0 uses all.
+
+    Returns
+    -------
+    labels : (k,) uint32 array
+        Those that occur, increasing.
+    places : (k, 2) int64 array
+        Column and row of the pixel of each.
+    radius : (k,) float64 array
+        How far it is from them, in pixels.
+
+    Examples
+    --------
+    >>> labels, places, radius = label_places(LabelImage(np.array([[0, 5, 5, 5, 3], [0, 5, 5, 5, 3], [0, 5, 5, 5, 3]])))
+    >>> labels.tolist(), places.tolist(), radius.tolist()
+    ([3, 5], [[4, 1], [2, 1]], [0.0, 1.0])
+    """
+    array = label_array(image.labels)
+    known = np.unique(array)
+    known = known[known > 0].astype(np.uint32)
+    if not len(known):
+        return known, np.empty((0, 2), np.int64), np.empty(0)
+    squares = _squares_to_outermost(array, threads)
+    largest = _core.max_by_label(array, squares, known, threads, None)
+    row, column = np.nonzero(array)
+    region = np.searchsorted(known, array[row, column])
+    deepest = squares[row, column] == largest[region]
+    row, column, region = row[deepest], column[deepest], region[deepest]
+    count = np.bincount(region, minlength=len(known))
+    # Twice the count times the coordinates, so that distances from the mean are whole numbers.
+    dx, dy = (k - (np.bincount(region, k, len(known)) / count)[region] for k in (column, row))
+    order = np.lexsort((np.arange(len(region)), dx * dx + dy * dy, region))
+    chosen = order[np.searchsorted(region[order], np.arange(len(known)))]
+    return known, np.stack([column[chosen], row[chosen]], axis=1), np.sqrt(largest.astype(np.float64))
+
+
+def name_places(image: LabelImage, *, threads: int = 0) -> tuple[NDArray[np.uint32], NDArray[np.int64]]:
+    """Find where each region is named: deep inside its object where there are some, else inside itself.
+
+    Parameters
+    ----------
+    image : LabelImage
+        Its seeds are objects if they come from an image.
+    threads : int
+        0 uses all.
+
+    Returns
+    -------
+    labels : (k,) uint32 array
+        Those that occur, increasing.
+    places : (k, 2) int64 array
+        Column and row of the pixel of each.
+
+    Examples
+    --------
+    >>> pixels = SeedSet(np.array([0, 4]), np.array([0, 0]), np.array([1, 2]), frame=Frame(0, 0, 5, 1))
+    >>> name_places(LabelImage(np.array([[1, 1, 1, 2, 2]]), seeds=pixels))[1].tolist()
+    [[0, 0], [4, 0]]
+    """
+    labels, places, _ = label_places(image, threads=threads)
+    if image.seeds is None or image.seeds.frame is None or not len(labels):
+        return labels, places
+    named, own, _ = label_places(_objects(image, image.seeds), threads=threads)
+    index = np.searchsorted(labels, named)
+    index[index == len(labels)] = 0
+    has_region = labels[index] == named
+    places[index[has_region]] = own[has_region]
+    return labels, places
+
+
+def _objects(image: LabelImage, seeds: SeedSet) -> LabelImage:
+    """The pixels of the seeds; where several lie in one the smallest label has it."""
+    assert image.frame is not None  # LabelImage has filled it in
+    order = np.argsort(seeds.labels, kind="stable")[::-1]
+    column, row = (
+        np.floor(k[order] / seeds.scale + 0.5).astype(np.int64) - first
+        for k, first in ((seeds.x, image.frame.x), (seeds.y, image.frame.y))
+    )
+    inside = (column >= 0) & (column < image.shape[1]) & (row >= 0) & (row < image.shape[0])
+    objects = np.zeros(image.shape, np.uint32)
+    objects[row[inside], column[inside]] = seeds.labels[order][inside]
+    return LabelImage(objects, image.frame)
+
+
+def _squares_to_outermost(labels: NDArray[np.unsignedinteger], threads: int) -> NDArray[np.unsignedinteger]:
+    """Squared distance of each pixel from the nearest one that lies beside another label, or on a side of the image."""
+    y, x = np.nonzero(~surrounded_pixels(labels))
+    one = np.ones(len(x), np.uint32)
+    seeds = SeedSet(x, y, one, sites=np.empty((0, 2)), site_labels=one[:0])
+    return Tessellator(seeds, Frame(0, 0, labels.shape[1], labels.shape[0]), threads=threads).squared_distances()

@@ -1,0 +1,54 @@
+"""Colours of objects that lie apart: those of the regions that are nearest to them."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.common.label_arrays import Progress, label_array
+from vorotool.engines.label_images.regions import region_colours
+from vorotool.engines.tessellation.interior_seeds import surrounded_pixels
+from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.geometry.pixel_frame import Frame
+from vorotool.geometry.points.label_image import LabelImage
+from vorotool.geometry.points.seed_set import SeedSet
+
+
+def object_colours(
+    image: LabelImage, *, threads: int = 0, progress: Progress = None
+) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
+    """Colour the labels of an image so that neighbours differ, also those with background between them.
+
+    Neighbours are labels whose regions of influence share a pixel side; where there is no background these are the
+    labels themselves, and the colours those of `region_colours`.
+
+    Parameters
+    ----------
+    image : LabelImage
+        Label 0 is background.
+    threads : int
+        0 uses all; the result is the same for any number.
+    progress : callable, optional
+        Called with the fraction done of each step.
+
+    Returns
+    -------
+    labels, colours : (k,) uint32 arrays
+        The labels that occur, increasing, and the colour class of each, from 1.
+
+    Examples
+    --------
+    >>> object_colours(LabelImage(np.array([[1, 0, 0, 2]])))[1].tolist()
+    [2, 1]
+    """
+    labels = label_array(image.labels)
+    if labels.all() or not labels.any():
+        return region_colours(image, threads=threads, progress=progress)
+    # Of an object the pixels inside it are nearest to no other pixel: its outermost ones are enough.
+    y, x = np.nonzero((labels != 0) & ~surrounded_pixels(labels))
+    found = np.unique(labels)[1:].astype(np.uint32)
+    seeds = SeedSet(x, y, labels[y, x].astype(np.uint32), sites=np.empty((len(found), 2)), site_labels=found)
+    frame = Frame(0, 0, labels.shape[1], labels.shape[0])
+    nearest = Tessellator(seeds, frame, threads=threads, progress=progress).labels(dtype=np.uint32)
+    np.copyto(nearest, labels, where=labels != 0, casting="unsafe")
+    return region_colours(nearest, threads=threads, progress=progress)

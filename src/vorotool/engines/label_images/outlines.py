@@ -1,0 +1,194 @@
+"""Polygons from masks and label images: the outlines of their objects."""
+
+from __future__ import annotations
+
+from typing import Any, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.common.label_arrays import Progress
+from vorotool.engines.label_images.marching_squares import grey_contours, grey_level, half_way_contours
+from vorotool.engines.label_images.simplification import simplified_polygons
+from vorotool.engines.tessellation.raster_objects import (
+    Note,
+    Objects,
+    Threshold,
+    default_objects,
+    foreground_values,
+    grey_values,
+    label_values,
+    report_no_foreground,
+    settled_threshold,
+)
+from vorotool.errors import LimitError, UsageError
+from vorotool.geometry.numbers import shown_number
+from vorotool.geometry.points.label_image import LabelImage
+from vorotool.geometry.points.raster import Raster
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+
+KINDS = ("crack", "contour")
+MOST_VERTICES = 2**28
+"""As many as a planar graph may have."""
+
+LARGEST_SIDE = 2**31 - 2
+"""Corners of pixels are numbered in 31 bits."""
+
+_CORNER_RULES = {
+    ("crack", 4): "divided",
+    ("crack", 8): "joined",
+    ("contour", 4): "apart",
+    ("contour", 8): "yielding",
+}
+"""What the core does where two pixels of an object meet at a corner only."""
+
+
+def outlines(
+    image: Raster | LabelImage | NDArray[Any],
+    *,
+    outline: str = "crack",
+    mode: Objects | None = None,
+    connectivity: int = 8,
+    threshold: Threshold = None,
+    invert: bool = False,
+    simplify: float | None = None,
+    strict: bool = False,
+    max_sites: int = MOST_VERTICES,
+    threads: int = 0,
+    progress: Progress = None,
+    note: Note = None,
+) -> PolygonSet:
+    """Give the outlines of the objects of a mask or a label image, with holes, as polygons.
+
+    The crack outline goes around the pixels of an object, so that its corners are at half-integers and its area is the
+    number of pixels. The contour is that of marching squares, as scikit-image draws it around an image in a frame of
+    background: it goes half-way between the centres of pixels inside and outside, or with a threshold to where the grey
+    value, interpolated between them, reaches it.
+
+    An object is a component of a mask, or what has one label; each component of a label is a polygon. Touching labels
+    are never merged: their outlines have the stretch between them in common, vertex by vertex.
+
+    Where two pixels meet at a corner only, 8-connectivity takes them for connected, and the background there for apart.
+    The crack outline then touches itself in that corner, and a skeleton goes through it, with radius 0; the contour
+    leaves a passage, where two labels cross only to the smaller one. With 4-connectivity it is the other way round: the
+    object ends there, the background goes through, and no ring of a crack outline visits a corner twice.
+
+    Parameters
+    ----------
+    image : Raster, LabelImage or (H, W) array
+        Nonzero pixels are foreground. Pixel (x, y) is in column x and row y, and covers half a unit on each side.
+    outline : {"crack", "contour"}
+        Which line.
+    mode : {"components", "labels"}, optional
+        What an object is; by default a component of a mask, whose only value besides 0 is 1, 255, the largest of its
+        type, or True; else a label.
+    connectivity : {8, 4}
+        Of the pixels of an object.
+    threshold : float or "otsu", optional
+        Foreground is what is larger.
+    invert : bool
+        Exchange foreground and background.
+    simplify : float, optional
+        Leave out vertices where outlines move by no more than this; see
+        :func:`vorotool.engines.label_images.simplification.simplified_polygons`.
+    strict : bool
+        Refuse an image without foreground.
+    max_sites : int
+        More vertices are refused before memory is taken for them.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done.
+    note : callable, optional
+        Called with what was taken for a mask or a label, where that may surprise.
+
+    Returns
+    -------
+    PolygonSet
+        In the order of labels, and of first pixels, row by row. The id of a polygon is its label; components of a mask
+        have the labels 1, 2, …. Shells have a positive area, holes a negative one.
+
+    Raises
+    ------
+    InputError
+        If the image has colours or looks like a photograph and there is no threshold, or a value is not finite; or
+        there is no foreground, and `strict`.
+    LimitError
+        If there are more vertices than `max_sites`.
+    UsageError
+        If an option is none.
+
+    Warns
+    -----
+    VorotoolWarning
+        If there is no foreground, and so no polygon.
+
+    References
+    ----------
+    Lorensen and Cline, "Marching cubes", 1987.
+
+    Examples
+    --------
+    >>> ring = outlines(np.array([[1, 1, 1], [1, 0, 1], [1, 1, 1]], dtype=bool))
+    >>> ring.ring(0).tolist(), ring.ring(1).tolist()
+    ([[-0.5, -0.5], [2.5, -0.5], [2.5, 2.5], [-0.5, 2.5]], [[0.5, 0.5], [0.5, 1.5], [1.5, 1.5], [1.5, 0.5]])
+    >>> outlines(np.array([[7, 7, 2]])).ids
+    [2, 7]
+    """
+    if outline not in KINDS:
+        raise UsageError(f"the outline is {outline!r}: it must be one of {', '.join(KINDS)}")
+    if mode not in (None, *get_args(Objects)):
+        raise UsageError(f"mode is {mode!r}: it must be one of {', '.join(get_args(Objects))}")
+    if connectivity not in (4, 8):
+        raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 4 or 8")
+    origin = (0, 0)
+    if isinstance(image, LabelImage):
+        assert image.frame is not None  # LabelImage has filled it in
+        mode, origin, image = mode or "labels", (image.frame.x, image.frame.y), image.labels
+    raster = image if isinstance(image, Raster) else Raster(image)
+    if threshold is not None:
+        threshold, invert = settled_threshold(raster, threshold, invert=invert)
+        raster = Raster(grey_values(raster), mask=raster.mask)
+    values = foreground_values(raster, threshold, invert=invert)
+    by_label = (mode or default_objects(values, note=note)) == "labels"
+    labels = label_values(values) if by_label or values.dtype == bool else values != 0
+    made = _traced(labels, _CORNER_RULES[outline, connectivity], max_sites, threads, progress)
+    if not len(made["labels"]):
+        report_no_foreground(strict=strict)
+    if outline == "crack":
+        xy, start = made["corners"] - 0.5, made["start"]
+    elif threshold is None:
+        xy, start = half_way_contours(made["corners"], made["start"])
+    else:
+        xy, start = grey_contours(made["corners"], made["start"], grey_level(raster.values, threshold))
+    ids = made["labels"] if by_label else np.arange(1, len(made["labels"]) + 1)
+    polygons = PolygonSet(
+        xy if origin == (0, 0) else xy + origin,
+        start,
+        made["is_hole"],
+        made["ring_object"],
+        ids.tolist(),
+        np.cumsum(np.diff(ids, prepend=ids[:1]) > 0) if len(ids) else None,
+        connectivity=connectivity if outline == "crack" else None,
+    )
+    return polygons if simplify is None else simplified_polygons(polygons, simplify)
+
+
+def _traced(
+    labels: NDArray[Any], rule: str, max_sites: int, threads: int, progress: Progress
+) -> dict[str, NDArray[Any]]:
+    """Crack outlines as the core gives them: SHELL is 0 there and HOLE 1, too."""
+    if max(labels.shape) > LARGEST_SIDE:
+        raise LimitError(
+            f"the image is {labels.shape[1]} x {labels.shape[0]} pixels: a side has at most {LARGEST_SIDE}"
+        )
+    labels = np.array(labels, order="C")  # a copy: vertices are counted, then filled in, and links followed
+    labels = labels.view(np.uint8) if labels.dtype == bool else labels
+    most = min(max_sites, MOST_VERTICES)
+    count = _core.count_crack_vertices(labels, threads, progress)
+    if count > most:
+        raise LimitError(
+            f"the outlines have {count} vertices, more than --max-sites {most}: smooth the image, or use a larger limit"
+        )
+    return _core.trace_cracks(labels, rule, threads, progress)

@@ -1,0 +1,459 @@
+"""What follows from a label image: its regions, their neighbours, the diagram, a colouring (section 2.1)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.common.label_arrays import Progress, as_label_image, described, label_array, next_row
+from vorotool.errors import InputError, LimitError
+from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.numbers import finite_double
+from vorotool.geometry.points.label_image import LabelImage
+from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.table import Table
+
+LARGEST_COLOUR_TABLE = 1 << 28
+"""Entries that an array indexed by label may have."""
+
+
+@dataclass(frozen=True)
+class RegionMeasures:
+    """Measures of the regions of a label image; what `measure_regions` gives.
+
+    Parameters
+    ----------
+    labels : (k,) uint32 array
+        The labels that occur, increasing, without 0.
+    columns : dict of str to (k,) int64 array
+        ``area``, ``perimeter``, ``components``, ``sum_x``, ``sum_y``, and the pixels ``left``, ``right``,
+        ``top`` and ``bottom`` of the bounding box, both ends inside, counted from the corner of the image.
+    borders : (b, 2) uint32 array
+        Indices of two regions that share a pixel side, the smaller first, in lexicographic order.
+    border_length : (b,) int64 array
+        Pixel sides that the two share.
+    """
+
+    labels: NDArray[np.uint32]
+    columns: dict[str, NDArray[np.int64]]
+    borders: NDArray[np.uint32]
+    border_length: NDArray[np.int64]
+
+
+def measure_regions(image: LabelImage | NDArray[Any], *, threads: int = 0, progress: Progress = None) -> RegionMeasures:
+    """Measure all regions of a label image in one pass.
+
+    The tables and the colouring take the result as ``measures``, so that several of them cost one pass.
+
+    Parameters
+    ----------
+    image : LabelImage or (H, W) integer array
+        Label 0 is background and no region.
+    threads : int
+        0 for all; the result is the same for any number.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Returns
+    -------
+    RegionMeasures
+
+    Raises
+    ------
+    InputError
+        If a label is negative or above 4294967295.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> measures = measure_regions(LabelImage(np.array([[1, 1, 2], [1, 2, 2]], dtype=np.uint16)))
+    >>> measures.columns["area"].tolist(), measures.border_length.tolist()
+    ([3, 3], [3])
+    """
+    image = as_label_image(image)
+    found = _core.measure_regions(label_array(image.labels), checked_threads(threads), progress)
+    labels = found.pop("labels")
+    _refuse_negative(image, int(labels.max(initial=0)))
+    borders = np.stack([found.pop("border_a"), found.pop("border_b")], axis=1)
+    length = found.pop("border_length")
+    return RegionMeasures(labels, found, borders, length)
+
+
+def region_table(
+    image: LabelImage | NDArray[Any],
+    *,
+    distance2: NDArray[Any] | None = None,
+    distance_scale: int | None = None,
+    measures: RegionMeasures | None = None,
+    properties: bool = True,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Table:
+    """Tabulate the regions of a tessellation: one row a site, in increasing label order.
+
+    Parameters
+    ----------
+    image : LabelImage or (H, W) integer array
+        With ``seeds``, every site has a row, also one without pixels (a duplicate, or a seed far outside the
+        frame): its area is 0, and its bounding box, ``touches_frame`` and ``max_distance`` do not exist.
+        Without ``seeds`` every label that occurs has a row, and the centroid of its region is its site.
+    distance2 : (H, W) integer array, optional
+        Squared lattice distance of each pixel to its site; without it ``max_distance`` does not exist.
+    distance_scale : int, optional
+        Lattice steps a pixel of ``distance2``; by default the scale of the seeds, else 1.
+    measures : RegionMeasures, optional
+        The result of `measure_regions` for this image.
+    properties : bool
+        Whether to add the input's own columns.
+    threads : int
+        0 for all; the result is the same for any number.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Returns
+    -------
+    Table
+        ``label, x, y, area, perimeter, neighbours, nearest_label, nearest_distance, touches_frame,
+        max_distance, components, bbox_x, bbox_y, bbox_w, bbox_h`` (and ``object_area`` for objects of several
+        pixels). Areas in pixels; perimeters in pixel sides, those on the frame included; lengths in pixels.
+        ``neighbours`` counts the labels that share a side (section 2.1); ``components`` are 4-connected.
+        ``nearest_label`` is the site nearest to (x, y), ties to the smallest label; another site at the same
+        place is at distance 0. Fields that do not exist are masked.
+
+    Raises
+    ------
+    InputError
+        If a label of the image is none of the seeds, or ``distance2`` does not fit the image.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> table = region_table(LabelImage(np.array([[1, 1, 2], [1, 2, 2]], dtype=np.uint16)))
+    >>> table["perimeter"].tolist(), table["nearest_label"].tolist()
+    ([8, 8], [2, 1])
+    """
+    image = as_label_image(image)
+    threads = checked_threads(threads)
+    measures = measures or measure_regions(image, threads=threads, progress=progress)
+    labels, sites = _sites(image, measures)
+    rows = _rows_of(measures.labels, labels, image)
+    nearest_label, nearest_distance = _nearest(labels, sites, threads, progress)
+    degree = np.bincount(measures.borders.ravel(), minlength=len(measures.labels))
+    area = _spread(measures.columns["area"], rows, len(labels))
+    absent = area == 0
+    columns: dict[str, Any] = {
+        "label": labels.astype(np.int64),
+        "x": sites[:, 0].copy(),
+        "y": sites[:, 1].copy(),
+        "area": area,
+        "perimeter": _spread(measures.columns["perimeter"], rows, len(labels)),
+        "neighbours": _spread(degree.astype(np.int64), rows, len(labels)),
+        "nearest_label": nearest_label,
+        "nearest_distance": nearest_distance,
+    }
+    box = _box_columns(image, measures)
+    if distance_scale is not None:
+        finite_double(distance_scale, "distance_scale")
+    largest = _max_distance(image, distance2, distance_scale, labels, threads, progress)
+    columns["touches_frame"] = np.ma.array(_spread(box.pop("touches_frame"), rows, len(labels)), mask=absent)
+    columns["max_distance"] = np.ma.array(largest, mask=absent | (distance2 is None))
+    columns["components"] = _spread(measures.columns["components"], rows, len(labels))
+    for name, values in box.items():
+        columns[name] = np.ma.array(_spread(values, rows, len(labels)), mask=absent)
+    return _with_input_columns(columns, image.seeds, properties)
+
+
+def neighbour_table(
+    image: LabelImage | NDArray[Any],
+    *,
+    measures: RegionMeasures | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Table:
+    """Tabulate the neighbouring regions: one row a pair of labels that share a pixel side (section 2.1).
+
+    Parameters
+    ----------
+    image : LabelImage or (H, W) integer array
+        Label 0 is no region.
+    measures : RegionMeasures, optional
+        The result of `measure_regions` for this image.
+    threads : int
+        0 for all; the result is the same for any number.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Returns
+    -------
+    Table
+        ``label_a, label_b, border_length, centroid_distance``, ordered by the labels, ``label_a < label_b``:
+        the pixel sides that the two share, and the distance between their sites (region centroids, if the
+        image has no seeds).
+
+    Raises
+    ------
+    InputError
+        If a label of the image is none of the seeds.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> table = neighbour_table(LabelImage(np.array([[1, 1, 2], [3, 3, 2]], dtype=np.uint16)))
+    >>> list(zip(*(table[name].tolist() for name in ("label_a", "label_b", "border_length"))))
+    [(1, 2, 1), (1, 3, 2), (2, 3, 1)]
+    """
+    image = as_label_image(image)
+    measures = measures or measure_regions(image, threads=threads, progress=progress)
+    labels, sites = _sites(image, measures)
+    position = sites[_rows_of(measures.labels, labels, image)]
+    step = position[measures.borders[:, 0]] - position[measures.borders[:, 1]]
+    return Table(
+        {
+            "label_a": measures.labels[measures.borders[:, 0]].astype(np.int64),
+            "label_b": measures.labels[measures.borders[:, 1]].astype(np.int64),
+            "border_length": measures.border_length,
+            "centroid_distance": np.sqrt(step[:, 0] * step[:, 0] + step[:, 1] * step[:, 1]),
+        }
+    )
+
+
+def voronoi_diagram(
+    image: LabelImage | NDArray[Any],
+    *,
+    above: NDArray[Any] | None = None,
+    below: NDArray[Any] | None = None,
+    out: NDArray[np.uint8] | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> NDArray[np.uint8]:
+    """Mark the digital Voronoi diagram: pixels with a 4-neighbour of larger label (section 2.1).
+
+    Parameters
+    ----------
+    image : LabelImage or (H, W) integer array
+        Pixels of label 0 are never marked, and as neighbours never larger.
+    above, below : (W,) integer array, optional
+        The rows next to a band of a larger image, which then can be streamed in bands of any height.
+    out : (H, W) uint8 array, optional
+        C-contiguous array to write to; it must not overlap the labels.
+    threads : int
+        0 for all; the result is the same for any number.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Returns
+    -------
+    (H, W) uint8 array
+        1 on the diagram, else 0.
+
+    Raises
+    ------
+    InputError
+        If the shapes do not fit.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> voronoi_diagram(np.array([[1, 1, 2, 2], [3, 3, 3, 0]], dtype=np.uint16))
+    array([[1, 1, 1, 0],
+           [0, 0, 0, 0]], dtype=uint8)
+    """
+    labels = label_array(as_label_image(image).labels)
+    if out is None:
+        out = np.empty(labels.shape, dtype=np.uint8)
+    elif described(out) != f"uint8 of shape {labels.shape}" or not out.flags.c_contiguous:
+        raise InputError(f"out must be a C-contiguous uint8 array of shape {labels.shape}, but is {described(out)}")
+    rows = [next_row(row, name, labels) for row, name in ((above, "above"), (below, "below"))]
+    _core.mark_diagram(labels, rows[0], rows[1], out, checked_threads(threads), progress)
+    return out
+
+
+def region_colours(
+    image: LabelImage | NDArray[Any],
+    *,
+    measures: RegionMeasures | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
+    """Colour the regions so that neighbours never share a colour.
+
+    Parameters
+    ----------
+    image : LabelImage or (H, W) integer array
+        Label 0 is no region.
+    measures : RegionMeasures, optional
+        The result of `measure_regions` for this image.
+    threads : int
+        0 for all; the result is the same for any number.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Returns
+    -------
+    labels : (k,) uint32 array
+        The labels that occur, increasing.
+    colours : (k,) uint32 array
+        Colours 1, 2, … of about equal frequency: at most 6 where every region is connected (the graph is then
+        planar).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> region_colours(LabelImage(np.array([[1, 7, 9]], dtype=np.uint16)))
+    (array([1, 7, 9], dtype=uint32), array([2, 1, 2], dtype=uint32))
+    """
+    measures = measures or measure_regions(image, threads=threads, progress=progress)
+    a, b = (np.ascontiguousarray(measures.borders[:, side]) for side in (0, 1))
+    return measures.labels, _core.colour_graph(len(measures.labels), a, b, progress)
+
+
+def colour_regions(
+    image: LabelImage | NDArray[Any],
+    *,
+    measures: RegionMeasures | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> NDArray[Any]:
+    """Colour the regions, as an array to index by label: ``colours[image.labels]``.
+
+    Parameters
+    ----------
+    image : LabelImage or (H, W) integer array
+        Label 0 is no region.
+    measures : RegionMeasures, optional
+        The result of `measure_regions` for this image.
+    threads : int
+        0 for all; the result is the same for any number.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Returns
+    -------
+    (largest label + 1,) uint8 or uint32 array
+        The colours of `region_colours`; 0 for label 0 and for labels that do not occur.
+
+    Raises
+    ------
+    LimitError
+        If the largest label is above 2^28: use `region_colours`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> colour_regions(LabelImage(np.array([[0, 1, 4]], dtype=np.uint16)))
+    array([0, 2, 0, 0, 1], dtype=uint8)
+    """
+    labels, colours = region_colours(image, measures=measures, threads=threads, progress=progress)
+    largest = int(labels.max(initial=0))
+    if largest > LARGEST_COLOUR_TABLE:
+        raise LimitError(
+            f"the largest label is {largest}: colours by label are limited to {LARGEST_COLOUR_TABLE}; "
+            "renumber the labels, or use region_colours"
+        )
+    by_label = np.zeros(largest + 1, dtype=np.uint8 if colours.max(initial=0) <= 255 else np.uint32)
+    by_label[labels] = colours
+    return by_label
+
+
+# ---- columns of the table -------------------------------------------------------------------------------
+
+
+def _refuse_negative(image: LabelImage, largest: int) -> None:
+    """Refuse negative labels: the core takes them as unsigned, so they come back beyond the signed range."""
+    kind, bits = image.labels.dtype.kind, 8 * image.labels.dtype.itemsize
+    if kind == "i" and bits < 64 and largest >= 1 << (bits - 1):
+        raise InputError(f"a pixel has label {largest - (1 << bits)}: labels must not be negative")
+
+
+def _sites(image: LabelImage, measures: RegionMeasures) -> tuple[NDArray[np.uint32], NDArray[np.float64]]:
+    """Labels and positions of the sites: those of the seeds, else the regions' centroids."""
+    if image.seeds is not None:
+        assert image.seeds.site_labels is not None
+        assert image.seeds.sites is not None
+        return image.seeds.site_labels, image.seeds.sites
+    frame, columns = image.frame, measures.columns
+    assert frame is not None
+    x = columns["sum_x"] / columns["area"] + frame.x
+    y = columns["sum_y"] / columns["area"] + frame.y
+    return measures.labels, np.stack([x, y], axis=1)
+
+
+def _rows_of(found: NDArray[np.uint32], labels: NDArray[np.uint32], image: LabelImage) -> NDArray[np.intp]:
+    """Row of the table for each label that occurs in the image."""
+    rows = np.searchsorted(labels, found)
+    known = rows < len(labels)
+    known[known] = labels[rows[known]] == found[known]
+    if not known.all():
+        label = found[~known][0]
+        row, column = (int(k[0]) for k in np.nonzero(image.labels == label))
+        raise InputError(
+            f"pixel (row {row}, column {column}) has label {label}, none of the {len(labels)} sites: "
+            "pass the seeds that the image was made from"
+        )
+    return rows
+
+
+def _spread(values: NDArray[Any], rows: NDArray[np.intp], count: int) -> NDArray[Any]:
+    """Values of the regions at their rows, 0 in the others."""
+    spread = np.zeros(count, dtype=values.dtype)
+    spread[rows] = values
+    return spread
+
+
+def _nearest(
+    labels: NDArray[np.uint32], sites: NDArray[np.float64], threads: int, progress: Progress
+) -> tuple[Any, Any]:
+    x, y = (np.ascontiguousarray(sites[:, axis]) for axis in (0, 1))
+    index, distance = _core.nearest_other_sites(x, y, np.ascontiguousarray(labels), threads, progress)
+    alone = index < 0
+    label = labels.astype(np.int64)[index] if len(labels) else index
+    return np.ma.array(np.where(alone, 0, label), mask=alone), np.ma.array(np.where(alone, 0.0, distance), mask=alone)
+
+
+def _box_columns(image: LabelImage, measures: RegionMeasures) -> dict[str, NDArray[np.int64]]:
+    frame = image.frame
+    assert frame is not None
+    left, right, top, bottom = (measures.columns[side] for side in ("left", "right", "top", "bottom"))
+    touches = (left == 0) | (top == 0) | (right == frame.width - 1) | (bottom == frame.height - 1)
+    return {
+        "touches_frame": touches.astype(np.int64),
+        "bbox_x": left + frame.x,
+        "bbox_y": top + frame.y,
+        "bbox_w": right - left + 1,
+        "bbox_h": bottom - top + 1,
+    }
+
+
+def _max_distance(
+    image: LabelImage,
+    distance2: NDArray[Any] | None,
+    scale: int | None,
+    labels: NDArray[np.uint32],
+    threads: int,
+    progress: Progress,
+) -> NDArray[np.float64]:
+    if distance2 is None:
+        return np.zeros(len(labels))
+    values = np.ascontiguousarray(distance2)
+    if values.shape != image.shape or values.dtype.kind not in "ui":
+        raise InputError(
+            f"distance2 must be an integer array of shape {image.shape}, but is {values.dtype} of shape {values.shape}"
+        )
+    wide = np.uint64 if values.dtype.itemsize == 8 else np.uint32
+    if scale is None:
+        scale = image.seeds.scale if image.seeds is not None else 1
+    largest = _core.max_by_label(label_array(image.labels), values.astype(wide, copy=False), labels, threads, progress)
+    return np.sqrt(largest.astype(np.float64)) / scale
+
+
+def _with_input_columns(columns: dict[str, Any], seeds: SeedSet | None, properties: bool) -> Table:
+    if seeds is not None and seeds.object_area is not None:
+        columns["object_area"] = np.asarray(seeds.object_area, dtype=np.int64)
+    table = Table(columns)
+    if seeds is None or not properties or not seeds.properties:
+        return table
+    return table.with_properties(seeds.properties)

@@ -1,0 +1,193 @@
+"""Polygons and lines with fewer vertices, that meet where they met."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import UsageError
+from vorotool.geometry.numbers import finite_double, shown_number
+from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
+
+Indices = NDArray[np.int64]
+
+
+def simplified_polygons(polygons: PolygonSet, tolerance: float) -> PolygonSet:
+    """Leave out vertices of polygons and lines that touch each other in vertices and along whole edges only.
+
+    Their edges are divided into chains, at the vertices where more than two of them meet, and where lines end. Each
+    chain keeps its ends and is simplified once, however many rings it is a part of, so that polygons that share a
+    border still do: by the Douglas-Peucker rule, which moves it by no more than the tolerance, and only as far as no
+    two chains come to cross (shapely's `simplify` with ``preserve_topology``). Where four edges or more meet, these
+    stay.
+
+    Parameters
+    ----------
+    polygons : PolygonSet
+        Whose rings cross nowhere and pass through no vertex of another one: outlines, or what
+        :func:`vorotool.engines.arrangement.lattice_rings.placed_shapes` gives.
+    tolerance : float
+        In input units.
+
+    Returns
+    -------
+    PolygonSet
+        The same polygons with fewer vertices.
+
+    Raises
+    ------
+    UsageError
+        If the tolerance is negative or not finite.
+
+    References
+    ----------
+    Douglas and Peucker, "Algorithms for the reduction of the number of points required to represent a digitized line or
+    its caricature", 1973.
+
+    Examples
+    --------
+    >>> from vorotool import outlines
+    >>> stairs = outlines(np.tri(8, dtype=bool))
+    >>> len(stairs.xy), len(simplified_polygons(stairs, 0.75).xy)
+    (18, 4)
+    """
+    tolerance = finite_double(tolerance, "the tolerance of a simplification")
+    if tolerance < 0:
+        raise UsageError(
+            f"the tolerance of a simplification is {shown_number(tolerance)}: it must be a length of 0 or more"
+        )
+    if not len(polygons.xy) or not tolerance:
+        return polygons
+    chains = _chains(polygons)
+    points, start = _simplified_chains(chains, tolerance)
+    index, sizes = _along_rings(polygons, chains, start)
+    last = polygons.xy[polygons.ring_start[1:][np.equal(polygons.ring_kind, LINE)] - 1]
+    xy = np.concatenate([points, last])[index]
+    return _turned_as(replace(polygons, xy=xy, ring_start=np.concatenate([[0], np.cumsum(sizes)])), polygons)
+
+
+@dataclass(frozen=True)
+class _Chains:
+    """Chains of edges, and the stretches of rings along them."""
+
+    places: NDArray[np.float64]
+    point: Indices  # places along each chain, its ends included
+    start: Indices  # where each chain begins among these, and their number
+    used: Indices  # the chain of each stretch, ring after ring
+    is_back: NDArray[np.bool_]  # whether the ring runs along it the other way
+    ring: Indices  # of each stretch
+
+
+def _chains(polygons: PolygonSet) -> _Chains:
+    places, point = np.unique(polygons.xy, axis=0, return_inverse=True)
+    point = point.reshape(-1)
+    node = _nodes(polygons, point, len(places))
+    walk, ring = _closed_walks(polygons, node[point])
+    along = point[walk]
+    stops = np.flatnonzero(node[along])
+    is_begin = ring[stops[:-1]] == ring[stops[1:]]
+    begin, end = stops[:-1][is_begin], stops[1:][is_begin]
+    edge = _edge_keys(along[:-1], along[1:], len(places))
+    edge[ring[:-1] != ring[1:]] = np.iinfo(np.int64).max
+    key = np.minimum.reduceat(edge, begin) if len(begin) else edge[:0]
+    _, first, used = np.unique(key, return_index=True, return_inverse=True)
+    steps = end - begin
+    stretch = np.repeat(np.arange(len(begin)), steps)
+    position = np.repeat(begin, steps) + _within(steps)
+    at = position[edge[position] == key[stretch]]  # where each stretch has the edge that names its chain
+    is_up = along[at] < along[at + 1]
+    sizes = steps[first] + 1
+    return _Chains(
+        places,
+        along[np.repeat(begin[first], sizes) + _within(sizes)],
+        np.concatenate([[0], np.cumsum(sizes)]),
+        used,
+        is_up != is_up[first][used],
+        ring[begin],
+    )
+
+
+def _edge_keys(a: Indices, b: Indices, count: int) -> Indices:
+    return np.minimum(a, b) * count + np.maximum(a, b)
+
+
+def _nodes(polygons: PolygonSet, point: Indices, count: int) -> NDArray[np.bool_]:
+    """(p,) places where chains end."""
+    start = polygons.ring_start
+    is_line = np.equal(polygons.ring_kind, LINE)
+    following = np.arange(1, len(point) + 1)
+    following[start[1:] - 1] = np.where(is_line, start[1:] - 1, start[:-1])
+    edges = np.unique(_edge_keys(point, point[following], count))
+    a, b = edges // count, edges % count
+    a, b = a[a != b], b[a != b]
+    degree = np.bincount(a, minlength=count) + np.bincount(b, minlength=count)
+    node: NDArray[np.bool_] = degree != 2
+    node[b[degree[a] >= 4]] = node[a[degree[b] >= 4]] = True
+    node[point[start[:-1][is_line]]] = node[point[start[1:][is_line] - 1]] = True
+    is_free = ~np.logical_or.reduceat(node[point], start[:-1])
+    node[np.minimum.reduceat(point, start[:-1])[is_free]] = True
+    return node
+
+
+def _closed_walks(polygons: PolygonSet, is_node: NDArray[np.bool_]) -> tuple[Indices, Indices]:
+    """Vertices around each ring, from one node to the same one again, or along a line; and the ring of each."""
+    start, sizes = polygons.ring_start[:-1], np.diff(polygons.ring_start)
+    first = np.minimum.reduceat(np.where(is_node, np.arange(len(is_node)), len(is_node)), start)
+    lengths = sizes + ~np.equal(polygons.ring_kind, LINE)
+    ring = np.repeat(np.arange(len(sizes)), lengths)
+    return start[ring] + (first[ring] - start[ring] + _within(lengths)) % sizes[ring], ring
+
+
+def _within(lengths: Indices) -> Indices:
+    """0, 1, … within each run of so many."""
+    return np.arange(int(lengths.sum())) - np.repeat(np.cumsum(lengths) - lengths, lengths)
+
+
+def _simplified_chains(chains: _Chains, tolerance: float) -> tuple[NDArray[np.float64], Indices]:
+    """Places along each chain that are left, and where each begins."""
+    import shapely
+
+    owner = np.repeat(np.arange(len(chains.start) - 1), np.diff(chains.start))
+    lines = shapely.linestrings(chains.places[chains.point], indices=owner)
+    parts = shapely.get_parts(shapely.simplify(shapely.multilinestrings(lines), tolerance, preserve_topology=True))
+    assert len(parts) == len(lines)  # a chain keeps its ends
+    points, index = shapely.get_coordinates(parts, return_index=True)
+    return points, np.searchsorted(index, np.arange(len(parts) + 1))
+
+
+def _along_rings(polygons: PolygonSet, chains: _Chains, start: Indices) -> tuple[Indices, Indices]:
+    """The places along each ring, as numbers of the simplified ones, and how many each ring has.
+
+    The last vertices of lines follow the simplified places.
+    """
+    steps = np.diff(start)[chains.used] - 1
+    back = np.repeat(chains.is_back, steps)
+    along = _within(steps)
+    begin, end = np.repeat(start[chains.used], steps), np.repeat(start[chains.used + 1] - 1, steps)
+    lines = np.flatnonzero(np.equal(polygons.ring_kind, LINE))
+    ring = np.concatenate([np.repeat(chains.ring, steps), lines])
+    index = np.concatenate([np.where(back, end - along, begin + along), start[-1] + np.arange(len(lines))])
+    order = np.argsort(ring, kind="stable")
+    return index[order], np.bincount(ring, minlength=len(polygons.ring_kind))
+
+
+def _turned_as(made: PolygonSet, given: PolygonSet) -> PolygonSet:
+    """Turn rings round that have been folded over, so that shells and holes keep their directions."""
+    start, sizes = made.ring_start[:-1], np.diff(made.ring_start)
+    turned = (_area_signs(made) * _area_signs(given) < 0) & ~np.equal(made.ring_kind, LINE)
+    if not turned.any():
+        return made
+    ring = np.repeat(np.arange(len(sizes)), sizes)
+    within = _within(sizes)
+    index = start[ring] + np.where(turned[ring], -within % sizes[ring], within)
+    return replace(made, xy=made.xy[index])
+
+
+def _area_signs(polygons: PolygonSet) -> NDArray[np.float64]:
+    start = polygons.ring_start[:-1]
+    following = np.arange(1, len(polygons.xy) + 1)
+    following[polygons.ring_start[1:] - 1] = start
+    own = polygons.xy - np.repeat(polygons.xy[start], np.diff(polygons.ring_start), axis=0)
+    return np.sign(np.add.reduceat(own[:, 0] * own[following, 1] - own[:, 1] * own[following, 0], start))

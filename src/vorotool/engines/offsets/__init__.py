@@ -1,0 +1,1 @@
+"""Diagram + distance -> offset curves, and their check."""

@@ -1,0 +1,276 @@
+"""Checks offset curves from their arrays: their pieces by distances, their shapes by what they must hold."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.arrangement.planar_graph import planar_graph
+from vorotool.engines.common.label_arrays import Progress
+from vorotool.engines.features.batches import BatchShapes, in_batches
+from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
+from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
+from vorotool.engines.skeleton.site_distances import ULPS, fail, first_wrong
+from vorotool.errors import VorotoolWarning
+from vorotool.geometry.curves.circular_arcs import middles_of
+from vorotool.geometry.numbers import finite_double
+from vorotool.geometry.polygons.conversion import to_shapely
+from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.polygons.polygon_set import SHELL
+from vorotool.geometry.polygons.ring_arrays import ranges, starts_before
+from vorotool.geometry.skeleton.offsets import Offsets
+from vorotool.geometry.skeleton.skeleton import EDGE, ends_of_sites
+
+Floats = NDArray[np.float64]
+
+FLATTEN = 1e-4
+"""Of the distance: how far chords are from arcs where places are told to be in a shape or not; nearer ones are not
+asked."""
+
+
+def verify_offsets(
+    offsets: Offsets, *, distances: Sequence[float] = (), threads: int = 0, progress: Progress = None
+) -> None:
+    """Check offset curves from their arrays alone.
+
+    Each piece begins where the one before it ends; it is at its distance from its own site, and nothing is nearer, at
+    its ends and at three places between; shells turn left and holes right. Each region on either side of the curves has
+    a site or a vertex of the Voronoi diagram in it, which is made again and checked for it: these must lie in one shape
+    if their distance from the polygons says so, or that they are inside, and otherwise in none.
+
+    Parameters
+    ----------
+    offsets : Offsets
+        What to check.
+    distances : sequence of float
+        What was asked for: there may be nothing at some of them.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done of each step.
+
+    Raises
+    ------
+    VerificationError
+        If something is wrong; the message says what and where.
+
+    Examples
+    --------
+    >>> from vorotool import offset
+    >>> verify_offsets(offset([[0, 0], [4, 0], [4, 2], [0, 2]], [-0.5, 1]))
+    """
+    tolerance = _tolerance(offsets)
+    _check_chains(offsets)
+    _check_sites(offsets, tolerance)
+    _check_orientation(offsets, tolerance)
+    wanted = {*(finite_double(one, "a distance") for one in distances), *offsets.distance.tolist()}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", VorotoolWarning)  # features may lie over each other
+        if offsets.features == "together":
+            graph = planar_graph(offsets.polygons, threads=threads, progress=progress)
+            _check_in_graph(offsets, wanted, tolerance, graph, threads, progress)
+        else:
+            _check_features(offsets, wanted, tolerance, threads, progress)
+
+
+def _check_features(offsets: Offsets, wanted: set[float], tolerance: float, threads: int, progress: Progress) -> None:
+    """Check what is outside of all features, and what is inside of each by itself."""
+    outwards, inwards = {d for d in wanted if d > 0}, {d for d in wanted if d < 0}
+    if outwards:
+        graph = planar_graph(offsets.polygons, threads=threads, progress=progress)
+        outside = with_shapes(offsets, np.flatnonzero(offsets.distance > 0))
+        _check_in_graph(outside, outwards, tolerance, graph, threads, progress)
+
+    def check(shapes: BatchShapes, threads: int, poll: Progress) -> None:
+        number = np.full(len(offsets.polygons), -1, dtype=np.int32)
+        number[shapes.batch.polygons] = np.arange(len(shapes.batch.polygons))
+        is_own = (offsets.distance < 0) & (offsets.polygon >= 0) & (number[offsets.polygon] >= 0)
+        own = with_shapes(offsets, np.flatnonzero(is_own))
+        sites = np.unique(own.site).astype(np.intp)
+        table = offsets.site_table.taken(sites)
+        own = replace(
+            own,
+            site=np.searchsorted(sites, own.site).astype(np.int32),
+            polygon=number[own.polygon],
+            site_table=replace(table, polygon=number[table.polygon]),
+            polygons=shapes.batch.part,
+        )
+        if (own.site_table.polygon < 0).any():
+            fail("a piece inside a feature is about a site of another one")
+        _check_in_graph(own, inwards, tolerance, shapes.graph, threads, poll)
+
+    if inwards:
+        in_batches(offsets.polygons, check, threads=threads, progress=progress)
+
+
+def _check_in_graph(
+    offsets: Offsets, distances: set[float], tolerance: float, graph: PlanarGraph, threads: int, progress: Progress
+) -> None:
+    _check_nothing_nearer(offsets, tolerance, graph, threads, progress)
+    _check_regions(offsets, distances, tolerance, graph, threads, progress)
+
+
+def with_shapes(offsets: Offsets, chosen: NDArray[np.intp]) -> Offsets:
+    """Give some of the shapes."""
+    counts, sizes = np.diff(offsets.shape_start), np.diff(offsets.ring_start)
+    rings = ranges(offsets.shape_start[chosen], counts[chosen])
+    pieces = ranges(offsets.ring_start[rings], sizes[rings])
+    return replace(
+        offsets,
+        **{name: getattr(offsets, name)[pieces] for name in ("start", "end", "centre", "site")},
+        ring_start=starts_before(sizes[rings]),
+        shape_start=starts_before(counts[chosen]),
+        distance=offsets.distance[chosen],
+        polygon=offsets.polygon[chosen],
+    )
+
+
+def _tolerance(offsets: Offsets) -> float:
+    largest = max((float(np.abs(xy).max()) for xy in (offsets.polygons.xy, offsets.start) if len(xy)), default=1.0)
+    furthest = float(np.abs(offsets.distance).max(initial=0))
+    return ULPS * float(np.spacing(max(largest, furthest)))
+
+
+def _check_chains(offsets: Offsets) -> None:
+    following = np.arange(1, len(offsets.site) + 1)
+    following[offsets.ring_start[1:] - 1] = offsets.ring_start[:-1]
+    at = first_wrong((offsets.end != offsets.start[following]).any(axis=1))
+    if at is not None:
+        fail(f"piece {at} ends at {_place(offsets.end[at])}, but the next one of its ring does not begin there")
+
+
+def _place(xy: Floats) -> tuple[float, float]:
+    x, y = xy.tolist()
+    return (x, y)
+
+
+def _check_sites(offsets: Offsets, tolerance: float) -> None:
+    """Lines are along edges, arcs about vertices, each at its distance."""
+    ends = ends_of_sites(offsets.polygons, offsets.site_table)[offsets.site]
+    at = first_wrong((offsets.site_table.kind[offsets.site] == EDGE) == offsets.is_arc)
+    if at is not None:
+        fail(f"piece {at} is no line along an edge, and no arc about a vertex")
+    at = first_wrong(offsets.is_arc & (offsets.centre != ends[:, 0]).any(axis=1))
+    if at is not None:
+        fail(f"arc {at} is about {_place(offsets.centre[at])}, which is not its vertex")
+    distance = np.abs(offsets.piece_distance)
+    for place in (offsets.start, offsets.end):
+        apart = np.abs(_distances(ends, place) - distance)
+        at = first_wrong(~(apart <= tolerance))
+        if at is not None:
+            fail(f"piece {at} has an end that is {apart[at]:g} too near to its site, or too far from it")
+
+
+def _distances(ends: Floats, place: Floats) -> Floats:
+    """Of places from closed sites."""
+    way = ends[:, 1] - ends[:, 0]
+    square = (way * way).sum(axis=1)
+    share = np.divide(((place - ends[:, 0]) * way).sum(axis=1), square, out=np.zeros(len(way)), where=square > 0)
+    apart = place - ends[:, 0] - np.clip(share, 0, 1)[:, None] * way
+    return np.asarray(np.sqrt((apart * apart).sum(axis=1)))
+
+
+def _inner_places(offsets: Offsets) -> Floats:
+    """(3, k, 2) on each piece, evenly between its ends."""
+    middle = _middles(offsets, offsets.start, offsets.end)
+    return np.stack([_middles(offsets, offsets.start, middle), middle, _middles(offsets, middle, offsets.end)])
+
+
+def _middles(offsets: Offsets, start: Floats, end: Floats) -> Floats:
+    """Of the part of each piece between two places on it."""
+    arcs = np.flatnonzero(offsets.is_arc)
+    middles = (start + end) / 2
+    is_left = (offsets.piece_distance[arcs] > 0)[:, None]
+    first, last = np.where(is_left, start[arcs], end[arcs]), np.where(is_left, end[arcs], start[arcs])
+    middles[arcs] = middles_of(first, last, offsets.centre[arcs], np.zeros(len(arcs), dtype=bool))
+    return middles
+
+
+def _check_nothing_nearer(
+    offsets: Offsets, tolerance: float, graph: PlanarGraph, threads: int, progress: Progress
+) -> None:
+    places = np.concatenate([offsets.start, *_inner_places(offsets)])
+    distance = np.tile(np.abs(offsets.piece_distance), 4)
+    nearest = _clearances(places, distance, graph, threads, progress)
+    at = first_wrong(nearest < distance - tolerance)
+    if at is not None:
+        piece = at % len(offsets.site)
+        fail(f"piece {piece} at distance {distance[at]}: a site is {nearest[at]} from {_place(places[at])}")
+
+
+def _clearances(places: Floats, reach: Floats, graph: PlanarGraph, threads: int, progress: Progress) -> Floats:
+    """Distances from the nearest site where it is not beyond the reach, else infinity."""
+    if not len(graph):  # a lattice of single points may have no step
+        apart = np.sqrt(np.square(places[:, None] - graph.coordinates()[None]).sum(axis=2))
+        return np.asarray(apart.min(axis=1, initial=np.inf))
+    lattice = np.ascontiguousarray((places - graph.origin) / graph.scale)
+    found = _core.clearances(graph.points, graph.segments, lattice, reach / graph.scale, threads, progress)
+    return np.asarray(graph.scale * found)
+
+
+def _check_orientation(offsets: Offsets, tolerance: float) -> None:
+    single = Offsets(
+        offsets.start,
+        offsets.end,
+        offsets.centre,
+        offsets.site,
+        offsets.ring_start,
+        np.arange(len(offsets.ring_start)),
+        offsets.distance[offsets.shape_of_ring],
+        offsets.polygon[offsets.shape_of_ring],
+        offsets.site_table,
+        offsets.polygons,
+    )
+    length = np.add.reduceat(offsets.length, offsets.ring_start[:-1]) if len(single) else np.zeros(0)
+    area = np.where(offsets.ring_kind == SHELL, single.area, -single.area)
+    at = first_wrong(area < -tolerance * length)
+    if at is not None:
+        fail(f"ring {at} turns the wrong way: it has the area {single.area[at]}")
+
+
+def _check_regions(
+    offsets: Offsets,
+    distances: set[float],
+    tolerance: float,
+    graph: PlanarGraph,
+    threads: int,
+    progress: Progress,
+) -> None:
+    import shapely
+
+    diagram = segment_voronoi(graph.points, graph.segments, threads=threads, progress=progress)
+    verify_segment_voronoi(diagram, threads=threads, progress=progress)
+    sites = graph.coordinates()
+    witnesses = np.concatenate([sites, sites[graph.segments].mean(axis=1), graph.coordinates(diagram.vertices)])
+    points = shapely.points(witnesses)
+    closed = to_shapely(offsets.polygons)
+    is_inside = _holding(closed[~offsets.polygons.is_line], points) > 0
+    for distance in sorted(distances):
+        tested = abs(distance) * FLATTEN + tolerance
+        shapes = to_shapely(offsets.flattened(abs(distance) * FLATTEN))[offsets.distance == distance]
+        reach = np.full(len(witnesses), abs(distance) + 2 * tested)
+        clearance = _clearances(witnesses, reach, graph, threads, progress)
+        is_near = clearance <= abs(distance)
+        wanted = is_inside | is_near if distance > 0 else is_inside & ~is_near
+        clear = np.abs(clearance - abs(distance)) > 2 * tested
+        held = _holding(shapes, points)
+        at = first_wrong(clear & (held != wanted))
+        if at is not None:
+            how = f"is in {held[at]} shapes, not in {'one' if wanted[at] else 'none'},"
+            fail(f"{_place(witnesses[at])}, {clearance[at]} from the polygons, {how} at distance {distance}")
+
+
+def _holding(shapes: Any, points: Any) -> NDArray[np.int64]:
+    """In how many of some polygons each point lies."""
+    import shapely
+
+    if not len(shapes):
+        return np.zeros(len(points), dtype=np.int64)
+    found = shapely.STRtree(shapes).query(points, predicate="intersects")[0]
+    return np.bincount(found, minlength=len(points))

@@ -1,0 +1,1 @@
+"""Skeleton -> pruned skeleton, and its check."""

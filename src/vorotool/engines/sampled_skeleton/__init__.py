@@ -1,0 +1,1 @@
+"""Boundary samples -> approximate skeleton with certified error; comparison."""

@@ -1,0 +1,321 @@
+"""Approximate skeletons from the Voronoi diagram of boundary samples (paper, section 3.1)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.arrangement.lattice_rings import PlacedShapes, placed_shapes
+from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
+from vorotool.engines.common.label_arrays import Progress
+from vorotool.engines.skeleton.exact import (
+    Frame,
+    check_skeleton_options,
+    default_frame,
+    face_groups,
+    joined_groups,
+    of_one_arrangement,
+    on_lattice,
+    skeleton_of_arrays,
+    warn_empty,
+)
+from vorotool.errors import LimitError, UsageError
+from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.numbers import finite_double, shown_number
+from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.skeleton.boundary_samples import EdgeSamples
+from vorotool.geometry.skeleton.skeleton import Skeleton
+
+SAMPLINGS = ("paper", "symmetric")
+MOST_SEEDS = 2**28
+"""As many as the triangulation takes."""
+
+ROUNDING_ULPS = 2
+"""Of the largest coordinate: by how much nodes move when they are rounded to input units."""
+
+
+@dataclass(frozen=True)
+class SamplingOptions:
+    """A step or a tolerance, and how edges are sampled.
+
+    Raises
+    ------
+    UsageError
+        If these are none, or do not go together.
+    """
+
+    step: float | None = None
+    tolerance: float | None = None
+    sampling: str | None = None
+
+    def __post_init__(self) -> None:
+        if (self.step is None) == (self.tolerance is None):
+            raise UsageError("give a step or a tolerance, and not both")
+        for name in ("step", "tolerance"):
+            value = getattr(self, name)
+            if value is None:
+                continue
+            object.__setattr__(self, name, finite_double(value, f"the {name}"))
+            if not getattr(self, name) > 0:
+                raise UsageError(f"the {name} is {shown_number(value)}: use a length above 0")
+        if self.sampling is not None and self.sampling not in SAMPLINGS:
+            raise UsageError(f"the sampling is {self.sampling!r}: use {' or '.join(SAMPLINGS)}")
+        if self.tolerance is not None and self.sampling == "paper":
+            raise UsageError("a tolerance is met by symmetric sampling: leave the sampling out")
+
+    @property
+    def is_symmetric(self) -> bool:
+        """Whether samples are symmetric about corners."""
+        return self.tolerance is not None or self.sampling == "symmetric"
+
+
+@dataclass(frozen=True, eq=False)
+class SeedGroups:
+    """Which seeds have a diagram together, and in which bounds its parts are put into order.
+
+    Parameters
+    ----------
+    of_point : (n,) int32 array
+        The group of each point of a graph, from 0; none if all have one diagram. Segments and their ends are in one.
+    within : (least x, most x, least y, most y), optional
+        On the lattice: hold all seeds. By default their bounds.
+    """
+
+    of_point: NDArray[np.int32] = field(default_factory=lambda: np.empty(0, dtype=np.int32))
+    within: tuple[float, float, float, float] | None = None
+
+    def of_seeds(self, samples: EdgeSamples) -> NDArray[np.int32] | None:
+        """(s,) groups; None if all are one."""
+        if not len(self.of_point):
+            return None
+        points = len(self.of_point)
+        return np.concatenate([self.of_point, self.of_point[samples.graph.segments[samples.segment[points:], 0]]])
+
+
+@dataclass(frozen=True, eq=False)
+class SampledShapes:
+    """Polygons made a planar graph, seeds on it, and their Voronoi diagram.
+
+    Parameters
+    ----------
+    graph : PlanarGraph
+        Of the polygons.
+    placed : PlacedShapes
+        The rings as the graph has them, and what the sites are there.
+    samples : EdgeSamples
+        The seeds.
+    diagram : compiled object
+        Their Voronoi diagram, with what is to be deleted.
+    groups : SeedGroups
+        Which of them have a diagram together.
+    """
+
+    graph: PlanarGraph
+    placed: PlacedShapes
+    samples: EdgeSamples
+    diagram: Any
+    groups: SeedGroups
+
+
+@dataclass(frozen=True, eq=False)
+class ApproximateSkeleton:
+    """A skeleton and what it was made of.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Of straight arcs.
+    seeds : (a, 2) int32 array
+        The seeds left and right of each arc; -1 of lines that lead to corners.
+    shapes : SampledShapes
+        Of which it is.
+    open_corners : int
+        Corners under 180 degrees that could not be joined.
+    parts : (p,) int32 array
+        Into how many parts each piece of an edge should be divided for a tolerance.
+    """
+
+    skeleton: Skeleton
+    seeds: NDArray[np.int32]
+    shapes: SampledShapes
+    open_corners: int
+    parts: NDArray[np.int32]
+
+
+def sampled_shapes(
+    polygons: Any,
+    *,
+    step: float,
+    sampling: str | None = None,
+    strict: bool = False,
+    most: int = MOST_SEEDS,
+    threads: int = 0,
+    progress: Progress = None,
+) -> SampledShapes:
+    """Place polygons, sample them, and compute the Voronoi diagram; arguments and errors as of `skeleton_approx`.
+
+    Examples
+    --------
+    >>> len(sampled_shapes([[0, 0], [4, 0], [4, 4], [0, 4]], step=1).samples)
+    16
+    """
+    options = SamplingOptions(step, None, sampling)
+    threads = checked_threads(threads)
+    graph = graph_for_skeletons(polygons, strict=strict, threads=threads, progress=progress)
+    placed = placed_shapes(graph, threads=threads)
+    return sampled_graph(graph, placed, options, most=most, threads=threads, progress=progress)
+
+
+def sampled_graph(
+    graph: PlanarGraph,
+    placed: PlacedShapes,
+    options: SamplingOptions,
+    *,
+    most: int = MOST_SEEDS,
+    threads: int = 0,
+    progress: Progress = None,
+) -> SampledShapes:
+    """Sample a graph by a step, and compute the Voronoi diagram of the seeds."""
+    try:
+        return diagram_by_step(graph, placed, options, SeedGroups(), most=most, threads=threads, progress=progress)
+    except _core.TooManySeedsError as error:
+        raise LimitError(f"a step of {options.step:g} gives {error}, more than {most}: use a larger one") from None
+
+
+def diagram_by_step(
+    graph: PlanarGraph,
+    placed: PlacedShapes,
+    options: SamplingOptions,
+    groups: SeedGroups,
+    *,
+    most: int,
+    threads: int,
+    progress: Progress,
+) -> SampledShapes:
+    """Sample a graph by a step, and compute the Voronoi diagrams; TooManySeedsError is the core's."""
+    assert options.step is not None
+    step = options.step / graph.scale
+    if options.is_symmetric:
+        steps = _core.corner_steps(*graph_arrays(graph), step, True, most)
+        made = _core.sample_from_corners(*graph_arrays(graph), steps, most, threads, progress)
+    else:
+        made = _core.sample_by_step(*graph_arrays(graph), step, most, threads, progress)
+    return diagram_of_samples(graph, placed, made, groups, threads=threads, progress=progress)
+
+
+def graph_arrays(graph: PlanarGraph) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]]:
+    """Points, segments and faces as the core takes them."""
+    return graph.points, graph.segments, graph.segment_faces
+
+
+def diagram_of_samples(
+    graph: PlanarGraph,
+    placed: PlacedShapes,
+    made: tuple[Any, Any, Any],
+    groups: SeedGroups,
+    *,
+    threads: int,
+    progress: Progress,
+) -> SampledShapes:
+    """Compute the Voronoi diagram of seeds, or of each group of them."""
+    samples = EdgeSamples(*made, graph, placed.sites, placed.polygons)
+    diagram = _core.SampledDiagram(*graph_arrays(graph), *made, groups.of_point, groups.within, threads, progress)
+    return SampledShapes(graph, placed, samples, diagram, groups)
+
+
+def approximate_skeleton(
+    shapes: SampledShapes,
+    *,
+    side: str = "interior",
+    frame: Frame | None = None,
+    complete: bool = False,
+    tolerance: float = 0.0,
+    threads: int = 0,
+    progress: Progress = None,
+) -> ApproximateSkeleton:
+    """Delete what is not the skeleton's from the diagram of samples, and bound the errors of the arcs.
+
+    Arguments are as of `skeleton_approx`; with a tolerance, what should be sampled more finely is in the result.
+    """
+    check_skeleton_options(side, 0, frame)
+    if side != "exterior" and not shapes.graph.is_inside.any():
+        warn_empty(shapes.placed.polygons, side)
+    common: dict[str, Any] = {"threads": checked_threads(threads), "progress": progress}
+    return told_together(
+        skeleton_of_samples(shapes, side=side, frame=frame, complete=complete, tolerance=tolerance, **common), side
+    )
+
+
+def told_together(found: ApproximateSkeleton, side: str) -> ApproximateSkeleton:
+    """Say that features were taken together, where there are several, and their inside is of interest."""
+    return found if side == "exterior" else replace(found, skeleton=of_one_arrangement(found.skeleton))
+
+
+def skeleton_of_samples(
+    shapes: SampledShapes,
+    *,
+    side: str,
+    frame: Frame | None,
+    complete: bool,
+    tolerance: float,
+    threads: int,
+    progress: Progress,
+) -> ApproximateSkeleton:
+    """Do what `approximate_skeleton` does, without a word about anything."""
+    graph, placed = shapes.graph, shapes.placed
+    clip = None if side == "interior" else (frame or default_frame(placed.polygons))
+    made: dict[str, Any] = shapes.diagram.skeleton(
+        face_groups(placed, side),
+        None if clip is None else (len(placed.polygons), on_lattice(clip, graph)),
+        False,
+        complete,
+        tolerance / graph.scale,
+        joined_groups(placed),
+        *graph.origin,
+        graph.scale,
+        threads,
+        progress,
+    )
+    seeds, parts, open_corners = made.pop("seeds"), made.pop("parts"), made.pop("open_corners")
+    largest = np.abs(graph.origin).max() + graph.scale * 2.0**30
+    bound = made["error_bound"] + ROUNDING_ULPS * np.spacing(largest)
+    made["error_bound"] = np.where(np.isinf(bound), np.nan, bound)
+    skeleton = skeleton_of_arrays(made, placed, clip)
+    return ApproximateSkeleton(skeleton, seeds, shapes, open_corners, parts)
+
+
+def whole_sampled_diagram(
+    shapes: SampledShapes, *, frame: Frame | None = None, threads: int = 0, progress: Progress = None
+) -> Skeleton:
+    """Give all edges of the Voronoi diagram of samples as arcs, cut by a frame; they have no side and no bounds.
+
+    Examples
+    --------
+    >>> len(whole_sampled_diagram(sampled_shapes([[0, 0], [2, 0], [0, 2]], step=1)))
+    11
+    """
+    check_skeleton_options("both", 0, frame)
+    graph, placed = shapes.graph, shapes.placed
+    clip = frame or default_frame(placed.polygons)
+    made: dict[str, Any] = shapes.diagram.skeleton(
+        np.zeros(graph.faces, dtype=np.int32),
+        (0, on_lattice(clip, graph)),
+        True,
+        False,
+        0.0,
+        (0, 0),
+        *graph.origin,
+        graph.scale,
+        checked_threads(threads),
+        progress,
+    )
+    for name in ("seeds", "parts", "open_corners"):
+        made.pop(name)
+    made["group"][:] = len(placed.polygons)
+    whole = skeleton_of_arrays(made, placed, clip)
+    whole.side[:] = -1
+    return whole

@@ -1,0 +1,244 @@
+"""How far two skeletons are apart."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.sampled_skeleton.approximate import ApproximateSkeleton, approximate_skeleton
+from vorotool.engines.sampled_skeleton.per_feature import FeatureApproximation
+from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
+from vorotool.engines.skeleton.exact import Frame, ShapeDiagram, skeleton_of
+from vorotool.errors import VorotoolWarning
+from vorotool.geometry.skeleton.skeleton import Skeleton
+
+Places = NDArray[np.float64]
+
+FLATTEN = 2.0**-12
+"""Of the extent: how finely arcs are flattened to find those that may be nearest."""
+STARTS = 8
+"""Parts of a parabola from the ends of which Newton's method starts: on each the distance has one minimum at most."""
+NEWTON_STEPS = 40
+
+TO_EXACT, TO_APPROXIMATE = "from_approximate_to_exact", "from_exact_to_approximate"
+"""The two ways of a comparison."""
+
+
+@dataclass(frozen=True)
+class Deviation:
+    """The largest distance of places on one skeleton from another one, and where it is.
+
+    Parameters
+    ----------
+    largest, mean : float
+        In input units.
+    x, y : float
+        A place on the first skeleton.
+    arc : int
+        Of the first skeleton.
+    """
+
+    largest: float
+    mean: float
+    x: float
+    y: float
+    arc: int
+
+
+def deviation(skeleton: Skeleton, other: Skeleton, *, per_arc: int = 16) -> Deviation | None:
+    """Measure how far places on the arcs of a skeleton are from another one.
+
+    Parameters
+    ----------
+    skeleton, other : Skeleton
+        Of the same polygons and side.
+    per_arc : int
+        Places are the ends of each arc and so many more, evenly in its parameter.
+
+    Returns
+    -------
+    Deviation
+        Right to a few ulp of the coordinates. None where one has no arcs.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_approx, skeleton_exact
+    >>> shape = [[0, 0], [8, 0], [8, 3], [4, 1], [0, 3]]
+    >>> approximate, exact = skeleton_approx(shape, step=0.5), skeleton_exact(shape)
+    >>> bool(deviation(approximate, exact).largest <= approximate.error_bound.max())
+    True
+    """
+    if not len(skeleton) or not len(other):
+        return None
+    places = places_on_arcs(skeleton, np.linspace(0, 1, per_arc + 2))
+    distance = distances_to(other, places.reshape(-1, 2))
+    at = int(distance.argmax())
+    x, y = places.reshape(-1, 2)[at].tolist()
+    return Deviation(float(distance[at]), float(distance.mean()), x, y, at // places.shape[1])
+
+
+def compare_with_exact(found: ApproximateSkeleton, *, side: str = "interior", threads: int = 0) -> dict[str, Any]:
+    """Measure how far an approximate skeleton is from the exact one, both ways.
+
+    Parameters
+    ----------
+    found : ApproximateSkeleton
+        Of this side.
+    side : {"interior", "exterior", "both"}
+        See `vorotool.skeleton_approx`.
+    threads : int
+        0 uses all.
+
+    Returns
+    -------
+    dict
+        ``from_approximate_to_exact`` and ``from_exact_to_approximate``, each a `Deviation` as a dict, or None where one
+        has no arcs. Outside, what lies within the frame is measured from all that lies within a larger one.
+
+    Examples
+    --------
+    >>> from vorotool.engines.sampled_skeleton.approximate import sampled_shapes
+    >>> found = approximate_skeleton(sampled_shapes([[0, 0], [8, 0], [8, 3], [0, 3]], step=1), complete=True)
+    >>> [bool(way["largest"] < 1e-12) for way in compare_with_exact(found).values()]
+    [True, True]
+    """
+    return {name: _as_dict(way) for name, (way, _) in _both_ways(found, side=side, threads=threads).items()}
+
+
+def compare_parts(found: FeatureApproximation, *, side: str = "interior", threads: int = 0) -> dict[str, Any]:
+    """Measure how far an approximate skeleton of features is from the exact one, part by part.
+
+    Arguments and results are as of `compare_with_exact`; the arcs of exact skeletons are numbered part after part.
+    """
+    sides = [side] * len(found.parts)
+    if side == "both" and found.inside is not None:
+        sides = [*["interior"] * (len(found.parts) - 1), "exterior"]
+    ways = [_both_ways(part, side=own, threads=threads) for part, own in zip(found.parts, sides, strict=True)]
+    exact = np.cumsum([0, *(way[TO_APPROXIMATE][1] for way in ways)])
+    numbers = {
+        TO_EXACT: found.arcs,
+        TO_APPROXIMATE: [first + np.arange(way[TO_APPROXIMATE][1]) for first, way in zip(exact, ways, strict=False)],
+    }
+    return {name: _as_dict(_farthest([way[name] for way in ways], numbers[name])) for name in numbers}
+
+
+def _farthest(ways: Sequence[tuple[Deviation | None, int]], numbers: Sequence[NDArray[np.int64]]) -> Deviation | None:
+    """The largest deviation of some parts, with the number of its arc among all; and the mean of all."""
+    known = [(way, count, own) for (way, count), own in zip(ways, numbers, strict=True) if way is not None]
+    if not known:
+        return None
+    way, _, own = max(known, key=lambda row: row[0].largest)
+    mean = float(np.average([row[0].mean for row in known], weights=[row[1] for row in known]))
+    return replace(way, arc=int(own[way.arc]), mean=way.mean if len(known) == 1 else mean)
+
+
+def _both_ways(found: ApproximateSkeleton, *, side: str, threads: int) -> dict[str, tuple[Deviation | None, int]]:
+    """Deviations, and how many arcs each is of."""
+    approximate, wide = found.skeleton, found.skeleton
+    frame = approximate.frame
+    exact = exact_skeleton(found, side=side, frame=frame, threads=threads)
+    wide_exact = exact
+    if frame is not None:
+        larger = widened(frame)
+        complete = bool((found.seeds < 0).any())
+        wide = approximate_skeleton(found.shapes, side=side, frame=larger, complete=complete, threads=threads).skeleton
+        wide_exact = exact_skeleton(found, side=side, frame=larger, threads=threads)
+    return {
+        TO_EXACT: (deviation(approximate, wide_exact), len(approximate)),
+        TO_APPROXIMATE: (deviation(exact, wide), len(exact)),
+    }
+
+
+def exact_skeleton(
+    found: ApproximateSkeleton, *, side: str = "interior", frame: Frame | None = None, threads: int = 0
+) -> Skeleton:
+    """Compute the exact skeleton of the shapes that were sampled."""
+    graph, placed = found.shapes.graph, found.shapes.placed
+    diagram = segment_voronoi(graph.points, graph.segments, threads=threads)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", VorotoolWarning)  # that there is no interior was told before
+        return skeleton_of(ShapeDiagram(graph, diagram, placed), side=side, frame=frame, threads=threads)
+
+
+def widened(frame: Frame) -> Frame:
+    """Give a frame three times as large around the same middle."""
+    x, y, w, h = frame
+    return (x - w, y - h, 3 * w, 3 * h)
+
+
+def _as_dict(found: Deviation | None) -> dict[str, Any] | None:
+    return None if found is None else asdict(found)
+
+
+def places_on_arcs(skeleton: Skeleton, parameters: NDArray[np.float64]) -> Places:
+    """(a, k, 2) places on each arc, by the parameter of the Bezier curve that it is."""
+    source, control, target = (corner[:, None] for corner in _bezier(skeleton))
+    t = parameters[None, :, None]
+    places: Places = np.square(1 - t) * source + 2 * t * (1 - t) * control + t * t * target
+    return places
+
+
+def distances_to(skeleton: Skeleton, places: Places) -> NDArray[np.float64]:
+    """(n,) distances of places from the nearest arc, right to a few ulp of the coordinates."""
+    import shapely
+
+    tolerance = FLATTEN * float(np.ptp(np.concatenate([skeleton.vertices, places]), axis=0).max() or 1.0)
+    points, start = skeleton.flattened(tolerance)
+    lines = shapely.linestrings(points, indices=np.repeat(np.arange(len(skeleton)), np.diff(start)))
+    tree = shapely.STRtree(lines)
+    geometry = shapely.points(places)
+    _, about = tree.query_nearest(geometry, return_distance=True, all_matches=False)
+    row, arc = tree.query(geometry, predicate="dwithin", distance=about + 2 * tolerance)
+    nearest = np.full(len(places), np.inf)
+    source, control, target = _bezier(skeleton)
+    for is_bent in (False, True):
+        own = skeleton.is_parabola[arc] == is_bent
+        r, a = row[own], arc[own]
+        curve = source[a], control[a], target[a]
+        found = _from_parabola(places[r], *curve) if is_bent else _from_segment(places[r], curve[0], curve[2])
+        np.minimum.at(nearest, r, found)
+    return nearest
+
+
+def _bezier(skeleton: Skeleton) -> tuple[Places, Places, Places]:
+    source, target = skeleton.vertices[skeleton.arcs].swapaxes(0, 1)
+    return source, np.where(skeleton.is_parabola[:, None], skeleton.control, (source + target) / 2), target
+
+
+def _from_segment(x: Places, a: Places, b: Places) -> NDArray[np.float64]:
+    way = b - a
+    square = (way * way).sum(axis=1)
+    t = np.divide(((x - a) * way).sum(axis=1), square, out=np.zeros(len(x)), where=square > 0)
+    away = x - a - np.clip(t, 0, 1)[:, None] * way
+    return np.asarray(np.sqrt((away * away).sum(axis=1)))
+
+
+def _from_parabola(x: Places, source: Places, control: Places, target: Places) -> NDArray[np.float64]:
+    """The least of the distances at minima that Newton's method finds from several places."""
+    first, bend = 2 * (control - source), source - 2 * control + target
+    offset = source - x
+
+    def away(t: NDArray[np.float64]) -> Places:
+        moved: Places = offset + t[:, None] * (first + t[:, None] * bend)
+        return moved
+
+    best = np.full(len(x), np.inf)
+    for start in np.linspace(0, 1, STARTS + 1):
+        t = np.full(len(x), start)
+        for _ in range(NEWTON_STEPS):
+            from_x, tangent = away(t), first + 2 * t[:, None] * bend
+            slope = (from_x * tangent).sum(axis=1)
+            curvature = (tangent * tangent).sum(axis=1) + 2 * (from_x * bend).sum(axis=1)
+            step = np.divide(slope, np.abs(curvature), out=np.zeros(len(x)), where=curvature != 0)
+            moved = np.clip(t - step, 0, 1)
+            if np.array_equal(moved, t):
+                break
+            t = moved
+        distance = away(t)
+        best = np.minimum(best, np.sqrt((distance * distance).sum(axis=1)))
+    return best

@@ -1,0 +1,253 @@
+"""Approximate skeletons of features: what is inside each as if it were alone, what is outside of all together."""
+
+from __future__ import annotations
+
+import threading
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.arrangement.lattice_rings import placed_shapes
+from vorotool.engines.arrangement.planar_graph import arranged, placed_vertices
+from vorotool.engines.common.label_arrays import Progress
+from vorotool.engines.features.batches import BatchShapes, FeatureShapes, in_batches, together
+from vorotool.engines.features.order import Places
+from vorotool.engines.features.sheets import Features
+from vorotool.engines.sampled_skeleton.approximate import (
+    MOST_SEEDS,
+    ApproximateSkeleton,
+    SamplingOptions,
+    SeedGroups,
+    approximate_skeleton,
+    diagram_by_step,
+    sampled_graph,
+    skeleton_of_samples,
+)
+from vorotool.engines.sampled_skeleton.refinement import refined_skeleton, refuse_unproved, skeleton_within
+from vorotool.engines.skeleton.both_sides import joined_sides
+from vorotool.engines.skeleton.exact import Frame, warn_empty
+from vorotool.engines.skeleton.per_feature import joined_with_places
+from vorotool.errors import LimitError, VorotoolWarning
+from vorotool.geometry.box import bounds
+from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.skeleton.skeleton import Skeleton
+
+Indices = NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class FeatureApproximation:
+    """An approximate skeleton of features, and what it was made of.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        What is inside features, one after the other, then what is outside.
+    seeds : (a, 2) int32 array
+        The seeds beside each arc, numbered part after part; -1 of lines that lead to corners.
+    parts : list of ApproximateSkeleton
+        Of batches of features, then of what is outside.
+    arcs : list of int64 arrays
+        The number in `skeleton` of each arc of each part.
+    inside : FeatureShapes, optional
+        What features are; None of what is outside alone.
+    """
+
+    skeleton: Skeleton
+    seeds: NDArray[np.int32]
+    parts: list[ApproximateSkeleton]
+    arcs: list[Indices]
+    inside: FeatureShapes | None
+
+    @property
+    def open_corners(self) -> int:
+        """Corners under 180 degrees that could not be joined."""
+        return sum(part.open_corners for part in self.parts)
+
+    @property
+    def places(self) -> NDArray[np.float64]:
+        """(s, 2) the seeds of all parts."""
+        return np.concatenate([np.empty((0, 2)), *(part.shapes.samples.xy for part in self.parts)])
+
+    def counts(self) -> dict[str, int]:
+        """Sums over the diagrams."""
+        total = {"samples": 0, "triangles": 0, "shared_label": 0, "crossed": 0, "walked_pieces": 0}
+        for part in self.parts:
+            for name, count in {"samples": len(part.shapes.samples), **part.shapes.diagram.counts}.items():
+                total[name] += count
+        return total
+
+
+class _SeedBudget:
+    """How many seeds all batches may have, whichever thread they are on."""
+
+    def __init__(self, most: int, options: SamplingOptions) -> None:
+        self.most, self._left, self._options, self._lock = most, most, options, threading.Lock()
+
+    def take(self, count: int) -> None:
+        with self._lock:
+            self._left -= count
+            if self._left < 0:
+                raise self.error()
+
+    def error(self) -> LimitError:
+        if self._options.step is not None:
+            return LimitError(
+                f"a step of {self._options.step:g} gives too many seeds, more than {self.most}: use a larger one"
+            )
+        return LimitError(
+            f"errors of at most {self._options.tolerance:g} take more than {self.most} seeds (too many seeds): use a "
+            "larger tolerance, or allow more seeds"
+        )
+
+
+def of_one_part(found: ApproximateSkeleton) -> FeatureApproximation:
+    """Give the approximate skeleton of one arrangement as one of features taken together."""
+    return FeatureApproximation(found.skeleton, found.seeds, [found], [np.arange(len(found.skeleton))], None)
+
+
+def feature_approximation(
+    polygons: PolygonSet,
+    options: SamplingOptions,
+    *,
+    complete: bool = False,
+    strict: bool = False,
+    most: int = MOST_SEEDS,
+    threads: int = 0,
+    progress: Progress = None,
+) -> FeatureApproximation:
+    """Approximate the skeleton inside polygons, in which each feature is what it would be alone on the lattice of all.
+
+    Parameters
+    ----------
+    polygons : PolygonSet
+        What `PolygonSet.feature` is the same of is one feature.
+    options : SamplingOptions
+        How edges are sampled.
+    complete, strict, threads, progress
+        As of `vorotool.skeleton_approx`, as are errors and warnings.
+    most : int
+        The most seeds of all features.
+
+    Examples
+    --------
+    >>> from vorotool.geometry.polygons.conversion import as_polygons
+    >>> square = [[0, 0], [4, 0], [4, 4], [0, 4]]
+    >>> made = feature_approximation(as_polygons([square, square]), SamplingOptions(step=1.0))
+    >>> made.skeleton.polygon.tolist()
+    [0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1]
+    """
+    budget = _SeedBudget(most, options)
+
+    def work(shapes: BatchShapes, threads: int, poll: Progress) -> ApproximateSkeleton:
+        try:
+            found = _inside(shapes, options, complete=complete, most=most, threads=threads, progress=poll)
+        except _core.TooManySeedsError:
+            raise budget.error() from None
+        budget.take(len(found.shapes.samples))
+        return found
+
+    whole, made = in_batches(polygons, work, strict=strict, threads=threads, progress=progress)
+    if not whole.polygon_count:
+        warn_empty(polygons, "interior")
+    skeleton, places = joined_with_places(whole, [(shapes, found.skeleton) for shapes, found in made])
+    if options.tolerance is not None:
+        refuse_unproved(skeleton, options.tolerance)
+    parts = [found for _, found in made]
+    arcs = _numbers(places, [len(found.skeleton) for found in parts])
+    return FeatureApproximation(skeleton, _joined_seeds(parts, arcs), parts, arcs, whole)
+
+
+def approximation_of_sides(
+    polygons: PolygonSet,
+    options: SamplingOptions,
+    *,
+    side: str,
+    frame: Frame | None = None,
+    complete: bool = False,
+    strict: bool = False,
+    most: int = MOST_SEEDS,
+    threads: int = 0,
+    progress: Progress = None,
+) -> FeatureApproximation:
+    """Approximate the skeleton outside of all polygons, and with both sides what is inside each feature, too."""
+    common: dict[str, Any] = {"most": most, "threads": threads, "progress": progress}
+    graph = together(polygons, strict=strict, threads=threads, progress=progress)
+    if side == "exterior":
+        found = _outside(graph, options, frame=frame, complete=complete, **common)
+        return of_one_part(found)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", VorotoolWarning)  # repairs were told where all were put together
+        inside = feature_approximation(polygons, options, complete=complete, **common)
+    if not len(inside.skeleton):
+        warn_empty(polygons, side)
+    placement = placed_vertices(inside.skeleton.polygons, threads=threads, progress=progress)
+    again = arranged(inside.skeleton.polygons, placement, progress=progress).graph
+    outside = _outside(again, options, frame=frame, complete=complete, **common)
+    skeleton = joined_sides(inside.skeleton, outside.skeleton, outside.shapes.placed, again)
+    parts = [*inside.parts, outside]
+    arcs = [*inside.arcs, len(inside.skeleton) + np.arange(len(outside.skeleton))]
+    return FeatureApproximation(skeleton, _joined_seeds(parts, arcs), parts, arcs, inside.inside)
+
+
+def _inside(
+    shapes: BatchShapes, options: SamplingOptions, *, complete: bool, most: int, threads: int, progress: Progress
+) -> ApproximateSkeleton:
+    groups = _groups(shapes)
+    common: dict[str, Any] = {"threads": threads, "progress": progress}
+    wanted: dict[str, Any] = {"side": "interior", "frame": None, "complete": complete}
+    if options.tolerance is not None:
+        return refined_skeleton(shapes.graph, shapes.placed, options.tolerance, groups, most=most, **wanted, **common)
+    sampled = diagram_by_step(shapes.graph, shapes.placed, options, groups, most=most, **common)
+    return skeleton_of_samples(sampled, tolerance=0.0, **wanted, **common)
+
+
+def _outside(
+    graph: PlanarGraph,
+    options: SamplingOptions,
+    *,
+    frame: Frame | None,
+    complete: bool,
+    most: int,
+    threads: int,
+    progress: Progress,
+) -> ApproximateSkeleton:
+    common: dict[str, Any] = {"threads": threads, "progress": progress}
+    wanted: dict[str, Any] = {"side": "exterior", "frame": frame, "complete": complete}
+    placed = placed_shapes(graph, threads=threads)
+    if options.tolerance is not None:
+        return skeleton_within(graph, placed, options.tolerance, most=most, **wanted, **common)
+    return approximate_skeleton(sampled_graph(graph, placed, options, most=most, **common), **wanted, **common)
+
+
+def _groups(shapes: BatchShapes) -> SeedGroups:
+    """Each feature has a diagram of its own, which is put into order in the bounds of all."""
+    graph, batch = shapes.graph, shapes.batch
+    corners = np.concatenate([batch.placement.vertices, batch.beyond])
+    (least_x, least_y), (most_x, most_y) = (bound.tolist() for bound in bounds(corners))
+    within = (float(least_x), float(most_x), float(least_y), float(most_y))
+    of_vertex = Features.of(batch.part).of_vertex
+    feature = of_vertex[graph.point_vertex]  # of crossings any: they are ends
+    feature[graph.segments] = of_vertex[graph.source_edge[graph.source_start[:-1]]][:, None]
+    present, group = np.unique(feature, return_inverse=True)
+    return SeedGroups(group.astype(np.int32) if len(present) > 1 else np.empty(0, dtype=np.int32), within)
+
+
+def _numbers(places: Places, counts: Sequence[int]) -> list[Indices]:
+    numbers = np.arange(sum(counts)) if places.place is None else places.place
+    return np.split(numbers, np.cumsum(counts)[:-1]) if counts else []
+
+
+def _joined_seeds(parts: Sequence[ApproximateSkeleton], arcs: Sequence[Indices]) -> NDArray[np.int32]:
+    seeds = np.full((sum(map(len, arcs)), 2), -1, dtype=np.int32)
+    first = 0
+    for part, numbers in zip(parts, arcs, strict=True):
+        seeds[numbers] = np.where(part.seeds >= 0, part.seeds + np.int32(first), -1)
+        first += len(part.shapes.samples)
+    return seeds

@@ -1,0 +1,169 @@
+"""Approximate skeletons as fine as a tolerance needs: sampling where the error bounds ask for it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.arrangement.lattice_rings import PlacedShapes
+from vorotool.engines.common.label_arrays import Progress
+from vorotool.engines.sampled_skeleton.approximate import (
+    MOST_SEEDS,
+    ApproximateSkeleton,
+    SampledShapes,
+    SeedGroups,
+    diagram_of_samples,
+    graph_arrays,
+    skeleton_of_samples,
+    told_together,
+)
+from vorotool.engines.skeleton.exact import Frame, warn_empty
+from vorotool.errors import LimitError
+from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.skeleton.skeleton import Skeleton
+
+COARSEST = 2.0**-4
+"""Of the extent: the longest gaps that sampling begins with."""
+LEAST_STEPS = 2.0**-8
+"""Of the lattice: the least tolerance. Seeds and nodes are rounded to about 2^-21 of a step."""
+MOST_ROUNDS = 60
+"""Gaps are at least halved where they are too long: no more than this from the extent to the least of doubles."""
+
+
+def skeleton_within(
+    graph: PlanarGraph,
+    placed: PlacedShapes,
+    tolerance: float,
+    *,
+    side: str = "interior",
+    frame: Frame | None = None,
+    complete: bool = True,
+    most: int = MOST_SEEDS,
+    threads: int = 0,
+    progress: Progress = None,
+) -> ApproximateSkeleton:
+    """Sample a graph until the error bounds of all arcs are at most a tolerance.
+
+    The seeds are symmetric about each corner. They begin with gaps that double away from it. Where a bound is too
+    large, the gaps nearest to the arc are divided by what the bound, which goes with their square, asks for; and pieces
+    of edges that the cells of other seeds reach are halved, so that nothing is deleted but what should be.
+
+    Parameters
+    ----------
+    graph, placed : PlanarGraph, PlacedShapes
+        Of the polygons.
+    tolerance : float
+        In input units.
+    side, frame, complete
+        As of `vorotool.skeleton_approx`.
+    most : int
+        The most seeds.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done of each step.
+
+    Raises
+    ------
+    LimitError
+        If it takes more seeds, or coordinates are not that fine.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_approx
+    >>> skeleton = skeleton_approx([[0, 0], [8, 0], [8, 3], [4, 1], [0, 3]], tolerance=0.001)
+    >>> bool(skeleton.error_bound.max() <= 0.001)
+    True
+    """
+    if side != "exterior" and not graph.is_inside.any():
+        warn_empty(placed.polygons, side)
+    try:
+        found = refined_skeleton(
+            graph,
+            placed,
+            tolerance,
+            SeedGroups(),
+            side=side,
+            frame=frame,
+            complete=complete,
+            most=most,
+            threads=checked_threads(threads),
+            progress=progress,
+        )
+    except _core.TooManySeedsError as error:
+        raise LimitError(
+            f"errors of at most {tolerance:g} take more than {most} seeds ({error}): use a larger tolerance, or allow "
+            "more seeds"
+        ) from None
+    refuse_unproved(found.skeleton, tolerance)
+    return told_together(found, side)
+
+
+def refined_skeleton(
+    graph: PlanarGraph,
+    placed: PlacedShapes,
+    tolerance: float,
+    groups: SeedGroups,
+    *,
+    side: str,
+    frame: Frame | None,
+    complete: bool,
+    most: int,
+    threads: int,
+    progress: Progress,
+) -> ApproximateSkeleton:
+    """Sample until there is nothing more to be divided, or it does not help; TooManySeedsError is the core's.
+
+    What one group asks for is of this one alone: where it asks for nothing more its seeds stay.
+    """
+    if tolerance < LEAST_STEPS * graph.scale:
+        raise LimitError(
+            f"a tolerance of {tolerance:g} is finer than the lattice that polygons are placed on: use at least "
+            f"{LEAST_STEPS * graph.scale:.2g}"
+        )
+    arrays = graph_arrays(graph)
+    common: dict[str, Any] = {"threads": threads, "progress": progress}
+    steps = _core.corner_steps(*arrays, COARSEST * _extent(graph, groups), False, most)
+    for _ in range(MOST_ROUNDS):
+        made = _core.sample_from_corners(*arrays, steps, most, threads, progress)
+        shapes = diagram_of_samples(graph, placed, made, groups, **common)
+        found = skeleton_of_samples(shapes, side=side, frame=frame, complete=complete, tolerance=tolerance, **common)
+        parts = _parts(shapes, found, tolerance)
+        if (parts == 1).all():
+            break
+        steps = _core.refined_steps(*arrays, steps, made[2], parts, most)
+    return found
+
+
+def refuse_unproved(skeleton: Skeleton, tolerance: float) -> None:
+    """Raise LimitError for arcs without a bound, or with one above a tolerance."""
+    wrong = ~(skeleton.error_bound <= tolerance)
+    if not wrong.any():
+        return
+    x, y = skeleton.vertices[skeleton.arcs[wrong.argmax(), 0]].tolist()
+    raise LimitError(
+        f"errors of at most {tolerance:g} could not be proved for {np.count_nonzero(wrong)} arcs, the first near "
+        f"({x:g}, {y:g}): use a larger tolerance"
+    )
+
+
+def _extent(graph: PlanarGraph, groups: SeedGroups) -> float:
+    """The larger side of the bounds, of all if what is sampled is a part."""
+    if groups.within is not None:
+        least_x, most_x, least_y, most_y = groups.within
+        return max(most_x - least_x, most_y - least_y)
+    return float(np.ptp(graph.points, axis=0).max()) if len(graph.points) else 1.0
+
+
+def _parts(shapes: SampledShapes, found: ApproximateSkeleton, tolerance: float) -> NDArray[np.int32]:
+    """Into how many parts each piece of an edge should be divided."""
+    parts = found.parts.copy()
+    walked = shapes.diagram.walked_pieces
+    lengths, _ = shapes.samples.gaps()
+    reached = walked[lengths[walked] > tolerance]
+    parts[reached] = np.maximum(parts[reached], 2)
+    return parts

@@ -1,0 +1,1 @@
+"""Planar graph -> segment Voronoi diagram, and its check."""

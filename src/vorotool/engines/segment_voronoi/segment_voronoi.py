@@ -1,0 +1,163 @@
+"""The Voronoi diagram of points and open line segments: exact topology (paper, section 3.2)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.common.label_arrays import Progress
+from vorotool.errors import InputError, LimitError, VerificationError, VorotoolError
+from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.skeleton.segment_voronoi import LATTICE_LIMIT, SegmentVoronoiDiagram
+
+MOST_SITES = 2**28 - 1
+"""Of n sites there are at most 2 n - 2 vertices, each with four corner numbers in 31 bits."""
+NEITHER = 3
+"""What `idle_sides` tells of a site where neither side is wanted."""
+
+
+def segment_voronoi(
+    points: Any,
+    segments: Any,
+    *,
+    idle: NDArray[np.uint8] | None = None,
+    within: tuple[int, int, int, int] | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> SegmentVoronoiDiagram:
+    """Compute the Voronoi diagram of the points and open segments of a planar straight-line graph.
+
+    Every decision on the topology is exact; a vertex that more than three sites share is one vertex. The result depends
+    on the input alone, not on the number of threads.
+
+    Parameters
+    ----------
+    points : (n, 2) array of integers
+        Distinct, at most 2^30 - 1 in magnitude. Every one is a site, also where segments end.
+    segments : (m, 2) array of integers
+        Indices of the ends of each segment. Segments meet at shared ends only, no point lies inside one, and no two
+        have the same ends: placement makes such a graph. This is not checked in full.
+    idle : (n + m,) uint8 array, optional
+        Sides of points, then of segments, where the diagram is not asked for, as `idle_sides` gives them: vertices
+        there are left out, but for corners, and so are the edges to them. All else is as in the whole diagram.
+    within : (least x, most x, least y, most y), optional
+        Bounds that hold all points, by default theirs: sites, and what is numbered or rounded along them, are put into
+        an order in these.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Returns
+    -------
+    SegmentVoronoiDiagram
+        With ``counts``: ``visited`` vertices that were tested, ``cyclic`` segments whose conflict set had to be cut,
+        and tests settled beyond floating point by ``integer`` arithmetic, in ``double_double`` and ``exact``. These
+        numbers depend a little on how threads meet; nothing else does.
+
+    Raises
+    ------
+    InputError
+        If a coordinate is beyond the lattice, an index out of range, a segment of length zero, two points are at one
+        place, or segments cross where that comes to light.
+    LimitError
+        If there are more than 2^28 - 1 sites. Engine and result together take mostly 350 to 490 bytes for each point
+        and its segment.
+    VerificationError
+        If the engine finds its own diagram not planar, with valid input.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 3.2.
+
+    Examples
+    --------
+    >>> diagram = segment_voronoi([[0, 0], [4, 0], [0, 3]], [[0, 1], [1, 2], [2, 0]])
+    >>> diagram.vertices[-1].tolist(), diagram.radius[-1].tolist(), diagram.sites_of(3).tolist()
+    ([1.0, 1.0], 1.0, [3, 4, 5])
+    """
+    rows = np.asarray(points), np.asarray(segments)
+    count = sum(len(array) for array in rows if array.ndim)
+    if count > MOST_SITES:
+        raise LimitError(f"there are {count} points and segments, more than {MOST_SITES}: simplify or split the input")
+    places, ends = _on_lattice(rows[0], "points"), _on_lattice(rows[1], "segments")
+    threads = checked_threads(threads)
+    try:
+        core = _core.SegmentVoronoi(places, ends, threads, progress, within)
+    except ValueError as error:
+        raise InputError(f"{error}: place the input on the lattice first") from None
+    except RuntimeError as error:
+        raise _explained(str(error), places, ends) from None
+    return SegmentVoronoiDiagram(places, ends, *core.take_arrays(idle, threads, progress), counts=core.counts)
+
+
+def idle_sides(graph: PlanarGraph, is_wanted: NDArray[np.bool_]) -> NDArray[np.uint8]:
+    """Tell on which sides of its points and segments a planar graph has faces that are not wanted.
+
+    Parameters
+    ----------
+    graph : PlanarGraph
+        Points without segments are taken to be in no face that is wanted.
+    is_wanted : (f,) bool array
+        Of the faces.
+
+    Returns
+    -------
+    (n + m,) uint8 array
+        Of each point and segment: 1 for the left side, and 2 for the right one. A point has both or none.
+
+    Examples
+    --------
+    >>> from vorotool.engines.arrangement.planar_graph import planar_graph
+    >>> graph = planar_graph([[0, 0], [6, 0], [3, 2], [0, 6]])
+    >>> sides = idle_sides(graph, graph.is_inside)
+    >>> sides.tolist()
+    [3, 3, 0, 3, 2, 2, 2, 2]
+    >>> [len(segment_voronoi(graph.points, graph.segments, idle=idle)) for idle in (None, sides)]
+    [9, 7]
+    """
+    return _core.idle_sides(graph.points, graph.segments, graph.segment_faces, is_wanted.view(np.uint8))
+
+
+def _explained(symptom: str, points: NDArray[np.int32], segments: NDArray[np.int32]) -> VorotoolError:
+    """What was wrong with the graph where the diagram came out as none."""
+    fault = _fault_of(points, segments)
+    if fault is not None:
+        return InputError(f"{fault}: place the input on the lattice first")
+    return VerificationError(f"{symptom}: a defect of vorotool, please report it with the input")
+
+
+def _fault_of(points: NDArray[np.int32], segments: NDArray[np.int32]) -> str | None:
+    """Where segments have more in common than an end."""
+    import shapely
+
+    lines = shapely.linestrings(points[segments])
+    tree = shapely.STRtree(lines)
+    places, at = tree.query(shapely.points(points), predicate="intersects")
+    inside = np.flatnonzero((segments[at] != places[:, None]).all(axis=1))
+    if inside.size:
+        return f"point {places[inside[0]]} lies inside segment {at[inside[0]]}"
+    first, second = tree.query(lines, predicate="intersects")
+    common = (segments[first][:, :, None] == segments[second][:, None, :]).sum(axis=(1, 2))
+    faults = np.flatnonzero((first < second) & (common != 1))
+    if not faults.size:
+        return None
+    return f"segments {first[faults[0]]} and {second[faults[0]]} cross, or have the same ends"
+
+
+def _on_lattice(array: NDArray[Any], name: str) -> NDArray[np.int32]:
+    """Pairs of integers on the lattice."""
+    if array.size == 0:
+        return np.empty((0, 2), np.int32)
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise InputError(f"{name} must have shape (…, 2), but has shape {array.shape}")
+    if array.dtype.kind not in "iu":
+        raise InputError(f"{name} must be integers, but have type {array.dtype}")
+    largest = max(int(array.max()), -int(array.min()))
+    if largest > LATTICE_LIMIT:
+        raise InputError(f"{name} hold {largest}, beyond {LATTICE_LIMIT}: place the input on the lattice first")
+    return np.array(array, dtype=np.int32, order="C")  # a copy: no kernel reads memory that others may change

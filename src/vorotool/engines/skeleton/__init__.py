@@ -1,0 +1,1 @@
+"""Diagram -> skeleton; site distances; its check."""

@@ -1,0 +1,326 @@
+"""Exact skeletons from the Voronoi diagram of line segments (paper, section 3.2)."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.arrangement.lattice_rings import PlacedShapes, placed_shapes
+from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
+from vorotool.engines.common.label_arrays import Progress
+from vorotool.engines.segment_voronoi.segment_voronoi import idle_sides, segment_voronoi
+from vorotool.errors import Kind, Message, UsageError, VorotoolWarning
+from vorotool.geometry.box import bounds
+from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.numbers import finite_double, shown_number
+from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
+from vorotool.geometry.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
+
+SIDE_NAMES = ("interior", "exterior", "both")
+FEATURES = ("separate", "together")
+FRAME_MARGIN = 0.1
+"""Of the larger side of the bounds, on each side of the default frame."""
+
+Frame = tuple[float, float, float, float]
+
+
+def check_skeleton_options(side: str, gap: float, frame: Frame | None) -> None:
+    """Raise UsageError for what is no side, gap or frame."""
+    if side not in SIDE_NAMES:
+        raise UsageError(f"the side is {side!r}: use {', '.join(SIDE_NAMES)}")
+    if finite_double(gap, "the gap") < 0:
+        raise UsageError(f"the gap is {shown_number(gap)}: use a length of 0 or more")
+    if frame is not None and not (np.isfinite(frame).all() and frame[2] > 0 and frame[3] > 0):
+        raise UsageError(f"the frame is {frame}: use X, Y, W, H, the last two above 0")
+
+
+def check_features(features: str) -> None:
+    """Raise UsageError for what tells not how features are taken."""
+    if features not in FEATURES:
+        raise UsageError(f"features is {features!r}: use {' or '.join(FEATURES)}")
+
+
+@dataclass(frozen=True, eq=False)
+class ShapeDiagram:
+    """Polygons made a planar graph, and the Voronoi diagram of its points and open segments.
+
+    Parameters
+    ----------
+    graph : PlanarGraph
+        Of the polygons.
+    diagram : SegmentVoronoiDiagram
+        Of the graph.
+    placed : PlacedShapes
+        The rings as the graph has them, and what the sites of the diagram are there.
+    """
+
+    graph: PlanarGraph
+    diagram: SegmentVoronoiDiagram
+    placed: PlacedShapes
+
+
+def shape_diagram(polygons: Any, *, strict: bool = False, threads: int = 0, progress: Progress = None) -> ShapeDiagram:
+    """Place polygons and compute their segment Voronoi diagram; arguments and errors as of `skeleton_exact`.
+
+    Examples
+    --------
+    >>> len(shape_diagram([[0, 0], [4, 0], [4, 4], [0, 4]]).diagram)
+    5
+    """
+    threads = checked_threads(threads)
+    graph = graph_for_skeletons(polygons, strict=strict, threads=threads, progress=progress)
+    return diagram_of_graph(graph, threads=threads, progress=progress)
+
+
+def diagram_of_graph(
+    graph: PlanarGraph, *, interior_only: bool = False, threads: int = 0, progress: Progress = None
+) -> ShapeDiagram:
+    """Compute the segment Voronoi diagram of polygons that are placed.
+
+    If only the interior is asked for, vertices outside are left out, but for corners.
+    """
+    threads = checked_threads(threads)
+    idle = interior_idle_sides(graph) if interior_only else None
+    diagram = segment_voronoi(graph.points, graph.segments, idle=idle, threads=threads, progress=progress)
+    return ShapeDiagram(graph, diagram, placed_shapes(graph, threads=threads))
+
+
+def interior_idle_sides(graph: PlanarGraph) -> NDArray[np.uint8] | None:
+    """Tell where there is nothing inside; None if that is not known of a point: a line of one place."""
+    is_known = np.bincount(graph.segments.ravel(), minlength=len(graph.points)) > 0
+    is_known[graph.point_holes[:, 0]] = True
+    if not is_known.all():
+        return None
+    idle = idle_sides(graph, graph.is_inside)
+    idle[graph.point_holes[:, 0]] = 0
+    return idle
+
+
+def skeleton_of(
+    shapes: ShapeDiagram,
+    *,
+    side: str = "interior",
+    frame: Frame | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Skeleton:
+    """Delete what is not the skeleton's from the diagram of shapes; arguments as of `skeleton_exact`."""
+    check_skeleton_options(side, 0, frame)
+    threads = checked_threads(threads)
+    edges, faces = kept_edges(shapes, threads=threads, progress=progress)
+    group = face_groups(shapes.placed, side)[faces]
+    kept = group >= 0
+    if side != "exterior" and not shapes.graph.is_inside.any():
+        warn_empty(shapes.placed.polygons, side)
+    made = assembled(
+        shapes.graph,
+        shapes.diagram,
+        edges[kept],
+        group[kept],
+        shapes.placed,
+        frame=frame if side != "interior" else None,
+        clips=side != "interior",
+        threads=threads,
+        progress=progress,
+    )
+    return made if side == "exterior" else of_one_arrangement(made)
+
+
+def of_one_arrangement(skeleton: Skeleton) -> Skeleton:
+    """Say that features were taken together, where there are several."""
+    feature = skeleton.polygons.feature
+    assert feature is not None
+    has_several = len(feature) > 0 and feature[0] != feature[-1]
+    return replace(skeleton, features="together") if has_several else skeleton
+
+
+def interior_skeleton(shapes: ShapeDiagram, *, threads: int = 1, progress: Progress = None) -> Skeleton:
+    """Give the skeleton inside shapes, and no word about it if there is none."""
+    edges, faces = kept_edges(shapes, threads=threads, progress=progress)
+    group = face_groups(shapes.placed, "interior")[faces]
+    kept = group >= 0
+    return assembled(
+        shapes.graph,
+        shapes.diagram,
+        edges[kept],
+        group[kept],
+        shapes.placed,
+        frame=None,
+        clips=False,
+        threads=threads,
+        progress=progress,
+    )
+
+
+def kept_edges(
+    shapes: ShapeDiagram, *, threads: int = 0, progress: Progress = None
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Edges of the diagram that are not deleted, and the face of the graph that each is in."""
+    return _core.skeleton_edges(
+        *diagram_arrays(shapes.diagram), shapes.graph.segment_faces, checked_threads(threads), progress
+    )
+
+
+def whole_diagram(
+    shapes: ShapeDiagram, *, frame: Frame | None = None, threads: int = 0, progress: Progress = None
+) -> Skeleton:
+    """Give all edges of the diagram as arcs, cut by a frame: what it is before anything is deleted.
+
+    They have no side and no polygon (-1).
+
+    Examples
+    --------
+    >>> len(whole_diagram(shape_diagram([[0, 0], [4, 0], [4, 4], [0, 4]])))
+    12
+    """
+    check_skeleton_options("both", 0, frame)
+    count = len(shapes.diagram.edges)
+    everything = assembled(
+        shapes.graph,
+        shapes.diagram,
+        np.arange(count, dtype=np.int32),
+        np.full(count, len(shapes.placed.polygons), dtype=np.int32),
+        shapes.placed,
+        frame=frame,
+        clips=True,
+        joins=False,
+        threads=checked_threads(threads),
+        progress=progress,
+    )
+    everything.side[:] = -1
+    return everything
+
+
+def face_groups(placed: PlacedShapes, side: str) -> NDArray[np.int32]:
+    """(f,) the first polygon of each face, their number for faces outside; -1 for those on another side."""
+    inside = placed.face_polygon >= 0
+    group = np.where(inside, placed.face_polygon, len(placed.polygons)).astype(np.int32)
+    if side == "interior":
+        group[~inside] = -1
+    elif side == "exterior":
+        group[inside] = -1
+    return group
+
+
+def default_frame(polygons: PolygonSet) -> Frame:
+    """Bounds of polygons and a tenth of their larger side around them; of a single place a square of side 2."""
+    if not len(polygons.xy):
+        return (-1.0, -1.0, 2.0, 2.0)
+    low, high = bounds(polygons.xy)
+    margin = FRAME_MARGIN * float((high - low).max()) or 1.0
+    x, y = (low - margin).tolist()
+    w, h = (high - low + 2 * margin).tolist()
+    return (x, y, w, h)
+
+
+def joined_groups(placed: PlacedShapes) -> tuple[int, int]:
+    """First group of `face_groups` in which arcs that end in one corner are connected there, and the one after last."""
+    outside = len(placed.polygons)
+    return {8: (0, outside), 4: (outside, outside + 1)}.get(placed.polygons.connectivity or 0, (0, 0))
+
+
+def assembled(
+    graph: PlanarGraph,
+    diagram: SegmentVoronoiDiagram,
+    edges: NDArray[np.int32],
+    group: NDArray[np.int32],
+    placed: PlacedShapes,
+    *,
+    frame: Frame | None,
+    clips: bool,
+    joins: bool = True,
+    threads: int,
+    progress: Progress = None,
+) -> Skeleton:
+    """Make a skeleton of edges of a diagram, each in the group of its polygon; those outside are the last group.
+
+    Where pixels are connected at corners only, so are the arcs that end there, if `joins`.
+    """
+    outside = len(placed.polygons)
+    frame = (frame or default_frame(placed.polygons)) if clips else None
+    clipped = None if frame is None else (outside, on_lattice(frame, graph))
+    made: dict[str, Any] = _core.extract_skeleton(
+        *diagram_arrays(diagram),
+        edges,
+        group,
+        clipped,
+        joined_groups(placed) if joins else (0, 0),
+        *graph.origin,
+        graph.scale,
+        threads,
+        progress,
+    )
+    return skeleton_of_arrays({**made, "error_bound": np.zeros(len(made["arcs"]))}, placed, frame)
+
+
+def skeleton_of_arrays(made: dict[str, Any], placed: PlacedShapes, frame: Frame | None) -> Skeleton:
+    """Put a skeleton together from the arrays of the core, in which the polygons of arcs are groups.
+
+    Those outside are the last group. `frame` is what they were cut by.
+    """
+    outside = len(placed.polygons)
+    vertices, cut = made["vertices"], made.pop("frame_side")
+    if frame is not None:  # rounding must not move what was cut off the frame
+        x, y, w, h = frame
+        for number, (axis, value) in enumerate(((0, x), (0, x + w), (1, y), (1, y + h))):
+            vertices[cut == number, axis] = value
+    polygon = made.pop("group")
+    is_outside = polygon == outside
+    polygon[is_outside] = -1
+    return Skeleton(
+        **made,
+        site_table=placed.sites,
+        polygon=polygon,
+        side=np.where(is_outside, EXTERIOR, INTERIOR).astype(np.int8),
+        polygons=placed.polygons,
+        frame=frame,
+    )
+
+
+def on_lattice(frame: Frame, graph: PlanarGraph) -> tuple[float, float, float, float]:
+    """Least and most x, then least and most y."""
+    x, y, w, h = frame
+    (origin_x, origin_y), scale = graph.origin, graph.scale
+    return (
+        (x - origin_x) / scale,
+        (x + w - origin_x) / scale,
+        (y - origin_y) / scale,
+        (y + h - origin_y) / scale,
+    )
+
+
+_Points = NDArray[np.float64]
+_Rows = NDArray[np.int32]
+
+
+def diagram_arrays(diagram: SegmentVoronoiDiagram) -> tuple[_Rows, _Rows, _Points, _Points, _Rows, _Rows]:
+    """Arrays of a diagram, but for the sites around vertices."""
+    return (
+        diagram.points,
+        diagram.segments,
+        diagram.vertices,
+        diagram.radius,
+        diagram.edges,
+        diagram.edge_sites,
+    )
+
+
+def warn_empty(polygons: PolygonSet, side: str) -> None:
+    """Say why there is no interior; with both sides, that of open lines is not missed."""
+    if not len(polygons):
+        reason = "there are no polygons"
+    elif polygons.is_line.all():
+        if side == "both":
+            return
+        reason = "open lines have no inside: use --side exterior"
+    else:
+        reason = "no polygon has an inside"
+    message = Message(f"the interior skeleton is empty: {reason}", Kind.EMPTY_RESULT)
+    warnings.warn(VorotoolWarning(message), stacklevel=4)

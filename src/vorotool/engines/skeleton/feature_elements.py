@@ -1,0 +1,149 @@
+"""Skeletons with a gap: what is inside each feature as if it were alone, what is outside of all together."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from vorotool.engines.arrangement.lattice_rings import placed_shapes
+from vorotool.engines.arrangement.planar_graph import arranged, placed_vertices
+from vorotool.engines.common.label_arrays import Progress
+from vorotool.engines.features.batches import BatchShapes, FeatureShapes, in_batches, together
+from vorotool.engines.features.order import InputOrder
+from vorotool.engines.skeleton.both_sides import joined_sides
+from vorotool.engines.skeleton.exact import Frame, warn_empty
+from vorotool.engines.skeleton.per_feature import FeatureSkeleton, Seen, joined_skeletons
+from vorotool.engines.skeleton.short_edges import ShortEdges
+from vorotool.engines.skeleton.shortened_edges import (
+    ElementDiagram,
+    elements_of_graph,
+    elements_of_shapes,
+    skeleton_of_elements,
+)
+from vorotool.errors import VorotoolWarning
+from vorotool.geometry.box import bounds
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.skeleton.skeleton import Skeleton
+
+
+def feature_elements(
+    polygons: PolygonSet,
+    gap: float,
+    *,
+    complete: bool = True,
+    look: Callable[[ElementDiagram, Skeleton], Seen] | None = None,
+    strict: bool = False,
+    threads: int = 0,
+    progress: Progress = None,
+) -> FeatureSkeleton[Seen]:
+    """Compute the skeleton inside polygons by the paper's decomposition of each feature alone.
+
+    Parameters
+    ----------
+    polygons : PolygonSet
+        What `PolygonSet.feature` is the same of is one feature. Each has a diagram of its own: others would be seen
+        through gaps, however far they are. Its elements are on the lattice of all.
+    gap, complete, strict, threads, progress
+        As of `vorotool.skeleton_exact`, as are errors and warnings.
+    look : callable, optional
+        Called with the elements of each feature and its skeleton.
+
+    Examples
+    --------
+    >>> from vorotool.geometry.polygons.conversion import as_polygons
+    >>> square = [[0, 0], [8, 0], [8, 8], [0, 8]]
+    >>> made = feature_elements(as_polygons([square, square]), 1.0)
+    >>> np.bincount(made.skeleton.polygon).tolist(), made.skeleton.gap
+    ([12, 12], 1.0)
+    """
+
+    def work(shapes: BatchShapes, threads: int, poll: Progress) -> tuple[ShortEdges, list[tuple[Skeleton, list[Seen]]]]:
+        short = ShortEdges.of(shapes.graph, gap)
+        if len(short):  # which of all is the first is known when all are there
+            return short, []
+        batch = shapes.batch
+        within = np.stack(bounds(np.concatenate([batch.placement.vertices, batch.beyond])))
+        common: dict[str, Any] = {"threads": threads, "progress": poll}
+        elements = elements_of_shapes(shapes.graph, shapes.placed, gap, within=within, **common)
+        made = skeleton_of_elements(elements, complete=complete, **common)
+        return short, [(made, [] if look is None else [look(elements, made)])]
+
+    whole, made = in_batches(polygons, work, alone=True, strict=strict, threads=threads, progress=progress)
+    _refuse(whole, [(shapes, short) for shapes, (short, _) in made], gap)
+    if not whole.polygon_count:
+        warn_empty(polygons, "interior")
+    parts = [(shapes, *found) for shapes, (_, results) in made for found in results]
+    skeleton = joined_skeletons(whole, [(shapes, skeleton) for shapes, skeleton, _ in parts])
+    return FeatureSkeleton(replace(skeleton, gap=gap), whole, [one for _, _, seen in parts for one in seen])
+
+
+def _refuse(whole: FeatureShapes, parts: Sequence[tuple[BatchShapes, ShortEdges]], gap: float) -> None:
+    """Raise InputError if features have edges that nothing would be left of, naming the first along the input."""
+    if not any(len(short) for _, short in parts):
+        return
+    order = InputOrder.of(whole, [shapes for shapes, _ in parts])
+    numbers = [own[short.site] for own, (_, short) in zip(order.site_numbers, parts, strict=True)]
+    short = ShortEdges(
+        np.concatenate(numbers),
+        np.concatenate([short.ends for _, short in parts]),
+        np.concatenate([short.length for _, short in parts]),
+    )
+    short.refuse(order.polygons, order.site_table, gap)
+
+
+def skeleton_with_gap(
+    polygons: PolygonSet,
+    gap: float,
+    *,
+    side: str,
+    complete: bool = True,
+    frame: Frame | None = None,
+    strict: bool = False,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Skeleton:
+    """Compute a skeleton by the paper's decomposition; arguments, errors and warnings as of `vorotool.skeleton_exact`.
+
+    What is outside is of all features.
+    """
+    common: dict[str, Any] = {"threads": threads, "progress": progress}
+    if side == "interior":
+        return feature_elements(polygons, gap, complete=complete, strict=strict, **common).skeleton
+    elements = elements_of_graph(together(polygons, strict=strict, **common), gap, **common)
+    return sides_of_elements(elements, side=side, complete=complete, frame=frame, **common)
+
+
+def sides_of_elements(
+    elements: ElementDiagram,
+    *,
+    side: str,
+    complete: bool = True,
+    frame: Frame | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Skeleton:
+    """Give what is outside of the features of one arrangement, and what is inside each of them by itself."""
+    common: dict[str, Any] = {"threads": threads, "progress": progress}
+    polygons = elements.shapes.polygons
+    assert polygons is not None
+    assert polygons.feature is not None
+    if side == "exterior" or len(np.unique(polygons.feature)) < 2:
+        made = skeleton_of_elements(elements, side=side, complete=complete, frame=frame, **common)
+        return replace(made, features="separate")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", VorotoolWarning)  # repairs were told where all were put together
+        inside = feature_elements(polygons, elements.gap, complete=complete, **common).skeleton
+    if not len(inside):
+        warn_empty(polygons, side)
+    graph = arranged(inside.polygons, placed_vertices(inside.polygons, **common), progress=progress).graph
+    placed = placed_shapes(graph, threads=threads)
+    # outlines of pixels are cut where only neighbours meet, and stay outlines of pixels
+    placed = replace(placed, polygons=replace(placed.polygons, connectivity=inside.polygons.connectivity))
+    ShortEdges.of(graph, elements.gap).refuse(placed.polygons, placed.sites, elements.gap)
+    again = elements_of_shapes(graph, placed, elements.gap, **common)
+    outside = skeleton_of_elements(again, side="exterior", complete=complete, frame=frame, **common)
+    return joined_sides(inside, outside, placed, graph)

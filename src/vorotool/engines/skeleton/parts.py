@@ -1,0 +1,91 @@
+"""Skeletons with some of their arcs, or with some of their polygons."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.polygons.ring_arrays import RingArrays
+from vorotool.geometry.skeleton.skeleton import Skeleton
+
+PER_ARC = ("arcs", "control", "sites", "polygon", "side", "branch", "length", "error_bound")
+
+
+def with_arcs(skeleton: Skeleton, kept: NDArray[np.bool_]) -> Skeleton:
+    """Leave out arcs, and the nodes where then none ends; branches, which are left or left out, keep their order.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> skeleton = skeleton_exact([[0, 0], [4, 0], [4, 4], [0, 4]], side="both")
+    >>> inside = with_arcs(skeleton, skeleton.polygon >= 0)
+    >>> len(inside), len(inside.vertices)
+    (4, 5)
+    """
+    if kept.all():
+        return skeleton
+    columns: dict[str, Any] = {name: getattr(skeleton, name)[kept] for name in PER_ARC}
+    nodes, ends = np.unique(columns["arcs"], return_inverse=True)
+    _, branch = np.unique(columns["branch"], return_inverse=True)
+    columns |= {"arcs": ends.reshape(-1, 2).astype(np.int32), "branch": branch.astype(np.int32)}
+    return replace(skeleton, **columns, vertices=skeleton.vertices[nodes], radius=skeleton.radius[nodes])
+
+
+def with_polygons(skeleton: Skeleton, chosen: NDArray[np.int64]) -> Skeleton:
+    """Give what is inside some polygons, with the sites of these polygons.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        No site of an arc in one of the polygons is of another one.
+    chosen : (q,) int64 array
+        Ascending.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> skeleton = skeleton_exact([[[0, 0], [4, 0], [4, 4]], [[0, 0], [4, 0], [4, 4]]])
+    >>> second = with_polygons(skeleton, np.array([1]))
+    >>> len(second), len(second.site_table), second.polygon.tolist()
+    (3, 6, [0, 0, 0])
+    """
+    polygons = skeleton.polygons
+    if len(chosen) == len(polygons) and skeleton.site_table.ends is None:
+        return with_arcs(skeleton, skeleton.polygon >= 0)
+    number = np.full(len(polygons) + 1, -1, dtype=np.int32)  # the last one is for -1
+    number[chosen] = np.arange(len(chosen))
+    made = with_arcs(skeleton, number[skeleton.polygon] >= 0)
+    table = skeleton.site_table
+    is_inside = number[table.polygon] >= 0
+    if table.ends is not None:
+        is_inside &= np.isnan(table.ends[:, 0, 0])
+    sites = np.flatnonzero(is_inside)
+    place = np.full(len(table), -1, dtype=np.int32)
+    place[sites] = np.arange(len(sites))
+    own = table.taken(sites)
+    return replace(
+        made,
+        sites=place[made.sites],
+        polygon=number[made.polygon],
+        site_table=replace(own, polygon=number[own.polygon]),
+        polygons=_chosen(polygons, chosen),
+    )
+
+
+def outside_of(skeleton: Skeleton) -> Skeleton:
+    """Give what is outside of all polygons, with the sites that this is made of."""
+    made, table = with_arcs(skeleton, skeleton.polygon < 0), skeleton.site_table
+    if table.ends is None:
+        return made
+    sites = np.flatnonzero(~np.isnan(table.ends[:, 0, 0]))
+    place = np.full(len(table), -1, dtype=np.int32)
+    place[sites] = np.arange(len(sites))
+    return replace(made, sites=place[made.sites], site_table=table.taken(sites))
+
+
+def _chosen(polygons: PolygonSet, chosen: NDArray[np.int64]) -> PolygonSet:
+    return RingArrays.of(polygons).taken(chosen)[0].polygons(polygons, chosen)

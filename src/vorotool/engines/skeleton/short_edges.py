@@ -1,0 +1,65 @@
+"""Edges that a gap at both ends leaves nothing of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.geometry.curves.inverse_functions import hypotenuse
+from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.skeleton.skeleton import SiteTable
+
+
+@dataclass(frozen=True, eq=False)
+class ShortEdges:
+    """Segments that are not longer than twice a gap.
+
+    Parameters
+    ----------
+    site : (k,) int array
+        Their numbers among the sites.
+    ends : (k, 2, 2) float64 array
+        Where they begin and end.
+    length : (k,) float64 array
+        How long they are.
+    """
+
+    site: NDArray[np.int64]
+    ends: NDArray[np.float64]
+    length: NDArray[np.float64]
+
+    @classmethod
+    def of(cls, graph: PlanarGraph, gap: float) -> ShortEdges:
+        """Find those of a graph.
+
+        Examples
+        --------
+        >>> from vorotool.engines.arrangement.planar_graph import planar_graph
+        >>> ShortEdges.of(planar_graph([[0, 0], [8, 0], [8, 3], [0, 9]]), 1.5).site.tolist()
+        [5]
+        """
+        ends = graph.coordinates()[graph.segments]
+        length = hypotenuse(*(ends[:, 1] - ends[:, 0]).T)
+        short = np.flatnonzero(~(length > 2 * gap))
+        return cls(len(graph.points) + short, ends[short], length[short])
+
+    def __len__(self) -> int:
+        return len(self.site)
+
+    def refuse(self, polygons: PolygonSet, sites: SiteTable, gap: float) -> None:
+        """Raise InputError if there are any, naming the first along the input."""
+        if not len(self):
+            return
+        first = int(self.site.argmin())
+        site = self.site[first]
+        ring = int(polygons.polygon_start[sites.polygon[site]] + sites.ring[site])
+        (ax, ay), (bx, by) = self.ends[first].tolist()
+        raise InputError(
+            f"{polygons.ring_place(ring)}, edge {int(sites.index[site]) + 1} from ({ax!r}, {ay!r}) to ({bx!r}, {by!r}) "
+            f"is {self.length[first]:.6g} long, and a gap of {gap:g} at both ends leaves nothing of it "
+            f"({len(self)} such edges): use a gap below {self.length.min() / 2:.6g}"
+        )

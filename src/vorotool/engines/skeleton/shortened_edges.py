@@ -1,0 +1,409 @@
+"""Skeletons by the paper's decomposition: points, and edges shortened at both ends (section 3.2, Figure 10)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.arrangement.lattice_rings import PlacedShapes, placed_shapes
+from vorotool.engines.arrangement.planar_graph import Placement, arranged, graph_for_skeletons, placed_vertices
+from vorotool.engines.common.label_arrays import Progress
+from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
+from vorotool.engines.skeleton.exact import (
+    Frame,
+    ShapeDiagram,
+    assembled,
+    face_groups,
+    interior_skeleton,
+    of_one_arrangement,
+    skeleton_of,
+    whole_diagram,
+)
+from vorotool.engines.skeleton.short_edges import ShortEdges
+from vorotool.engines.skeleton.verify_regions import corner_sectors
+from vorotool.geometry.box import bounds
+from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.curves.inverse_functions import angle_of, hypotenuse
+from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
+from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
+from vorotool.geometry.skeleton.skeleton import Skeleton
+
+DEVIATION_STEPS = 2.0**-14
+"""Of the extent: how finely arcs are flattened to measure how far two skeletons are apart."""
+
+
+@dataclass(frozen=True, eq=False)
+class ElementDiagram:
+    """Elements of shapes, and their Voronoi diagram.
+
+    Parameters
+    ----------
+    shapes : PlanarGraph
+        Of the polygons: vertex i is element i, edge j element n + j.
+    graph : PlanarGraph
+        Of the elements: the shortened edges' new ends are at the nearest lattice points.
+    diagram : SegmentVoronoiDiagram
+        Of that graph.
+    element : (s,) int64 array
+        The element that each site of the diagram is a part of: a shortened edge is a closed segment, of three sites.
+    placed : PlacedShapes
+        The rings as `shapes` has them, and what the elements are there.
+    gap : float
+        By how much edges are shortened at both ends.
+    """
+
+    shapes: PlanarGraph
+    graph: PlanarGraph
+    diagram: SegmentVoronoiDiagram
+    element: NDArray[np.int64]
+    placed: PlacedShapes
+    gap: float
+
+
+def element_diagram(
+    polygons: Any, gap: float, *, strict: bool = False, threads: int = 0, progress: Progress = None
+) -> ElementDiagram:
+    """Decompose polygons, and compute the Voronoi diagram of the elements; arguments as of `vorotool.skeleton_exact`.
+
+    Raises
+    ------
+    InputError
+        If an edge is not longer than twice the gap; the first one is named.
+
+    Examples
+    --------
+    >>> square = element_diagram([[0, 0], [4, 0], [4, 4], [0, 4]], 1)
+    >>> len(square.graph.points), len(square.graph), int(square.element.max())
+    (12, 4, 7)
+    """
+    shapes = graph_for_skeletons(polygons, strict=strict, threads=threads, progress=progress)
+    return elements_of_graph(shapes, gap, threads=threads, progress=progress)
+
+
+def elements_of_graph(
+    shapes: PlanarGraph, gap: float, *, threads: int = 0, progress: Progress = None
+) -> ElementDiagram:
+    """Decompose polygons that are placed; errors as of `element_diagram`."""
+    placed = placed_shapes(shapes, threads=checked_threads(threads))
+    ShortEdges.of(shapes, gap).refuse(placed.polygons, placed.sites, gap)
+    return elements_of_shapes(shapes, placed, gap, threads=threads, progress=progress)
+
+
+def elements_of_shapes(
+    shapes: PlanarGraph,
+    placed: PlacedShapes,
+    gap: float,
+    *,
+    within: NDArray[np.int32] | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> ElementDiagram:
+    """Decompose polygons whose edges are all longer than twice the gap.
+
+    Parameters
+    ----------
+    shapes, placed : PlanarGraph, PlacedShapes
+        The polygons.
+    gap : float
+        By how much edges are shortened at both ends.
+    within : (k, 2) int32 array, optional
+        Corners of bounds on the lattice of `shapes`: elements are placed, and put into an order, as if there were
+        points.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done.
+    """
+    threads = checked_threads(threads)
+    points = shapes.coordinates()
+    a, b = points[shapes.segments].swapaxes(0, 1)
+    way = (b - a) * (gap / np.sqrt(np.square(b - a).sum(axis=1, keepdims=True)))
+    ends = np.stack([a + way, b - way], axis=1).reshape(-1, 2)
+    count = len(points) + len(shapes)
+    starts = np.concatenate([np.arange(len(points)), len(points) + 2 * np.arange(len(shapes) + 1)])
+    elements = PolygonSet(
+        np.concatenate([points, ends]), starts, np.full(count, LINE, np.int8), np.arange(count, dtype=np.int32)
+    )
+    placement, box = _placed_within(elements, shapes, within, threads=threads, progress=progress)
+    graph = arranged(elements, placement, progress=progress).graph  # rounded ends may touch: nobody asked about these
+    owner = np.repeat(np.arange(count), np.diff(starts))
+    vertex = np.concatenate([graph.point_vertex, graph.source_edge[graph.source_start[:-1]]])
+    diagram = segment_voronoi(graph.points, graph.segments, within=box, threads=threads, progress=progress)
+    return ElementDiagram(shapes, graph, diagram, owner[vertex], placed, gap)
+
+
+def _placed_within(
+    elements: PolygonSet, shapes: PlanarGraph, within: NDArray[np.int32] | None, **common: Any
+) -> tuple[Placement, tuple[int, int, int, int] | None]:
+    """Elements on a lattice over further places too, and the bounds of all there."""
+    if within is None:
+        return placed_vertices(elements, **common), None
+    places = np.concatenate([elements.xy, shapes.coordinates(within)])
+    count = len(places)
+    alone = PolygonSet(places, np.arange(count + 1), np.full(count, LINE, np.int8), np.arange(count, dtype=np.int32))
+    placement = placed_vertices(alone, **common)
+    (least_x, least_y), (most_x, most_y) = (bound.tolist() for bound in bounds(placement.vertices))
+    own = replace(placement, vertices=placement.vertices[: len(elements.xy)])
+    return own, (least_x, most_x, least_y, most_y)
+
+
+def skeleton_of_elements(
+    elements: ElementDiagram,
+    *,
+    side: str = "interior",
+    complete: bool = True,
+    frame: Frame | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Skeleton:
+    """Delete the bisectors of elements with a label in common, and add the missing portions if wanted.
+
+    Arguments are as of `vorotool.skeleton_exact`. Error bounds are NaN: how far the arcs are from the skeleton is not
+    known without that (`gap_deviation`).
+    """
+    kept = np.flatnonzero(~_share_label(elements)).astype(np.int32)
+    group = face_groups(elements.placed, side)[_faces_of(elements, kept)]
+    diagram = elements.diagram
+    if complete:
+        portions, sites, faces = _missing_portions(elements, kept)
+        own = face_groups(elements.placed, side)[faces]
+        diagram, added = _with_portions(elements, portions, sites)
+        kept, group = np.concatenate([kept, added]), np.concatenate([group, own])
+    on_side = group >= 0
+    made = assembled(
+        elements.graph,
+        diagram,
+        kept[on_side],
+        group[on_side].astype(np.int32),
+        elements.placed,
+        frame=frame if side != "interior" else None,
+        clips=side != "interior",
+        threads=threads,
+        progress=progress,
+    )
+    return _of_elements(made, elements)
+
+
+def whole_element_diagram(elements: ElementDiagram, *, frame: Frame | None = None, threads: int = 0) -> Skeleton:
+    """Give all edges of the diagram of elements; see `vorotool.engines.skeleton.exact.whole_diagram`."""
+    shapes = ShapeDiagram(elements.graph, elements.diagram, elements.placed)
+    return _of_elements(whole_diagram(shapes, frame=frame, threads=threads), elements)
+
+
+def _of_elements(made: Skeleton, elements: ElementDiagram) -> Skeleton:
+    return replace(
+        of_one_arrangement(made),
+        sites=elements.element[made.sites].astype(np.int32),
+        error_bound=np.full(len(made), np.nan),
+        gap=elements.gap,
+    )
+
+
+def _share_label(elements: ElementDiagram) -> NDArray[np.bool_]:
+    """(e,) edges between elements with a label in common: an edge has one label, a vertex those of its edges."""
+    left, right = np.sort(elements.element[elements.diagram.edge_sites], axis=1).T
+    vertices = len(elements.shapes.points)
+    share: NDArray[np.bool_] = left == right
+    mixed = np.flatnonzero((left < vertices) & (right >= vertices))
+    ends = elements.shapes.segments[right[mixed] - vertices]
+    share[mixed] = (ends == left[mixed, None]).any(axis=1)
+    both = np.flatnonzero((right < vertices) & ~share)  # neighbouring vertices have the label of the edge between them
+    low, high = np.sort(elements.shapes.segments.astype(np.int64), axis=1).T
+    share[both] = np.isin(left[both] * vertices + right[both], low * vertices + high)
+    return share
+
+
+def _middles(diagram: SegmentVoronoiDiagram, edges: NDArray[np.int32]) -> NDArray[np.float64]:
+    """Places inside edges, or beyond the end of unbounded ones: about half-way between the ends' directions."""
+    source, target = diagram.edges[edges].T
+    ends = np.where(source >= 0, source, target), np.where(target >= 0, target, source)
+    if not len(diagram.vertices):
+        return np.zeros((len(edges), 2))
+    middle: NDArray[np.float64] = diagram.vertices[np.stack(ends)].mean(axis=0)
+    return middle
+
+
+def _faces_of(elements: ElementDiagram, kept: NDArray[np.int32]) -> NDArray[np.int32]:
+    """The face of the shapes that each edge is in: of an edge that leaves it through a gap, its middle's."""
+    diagram, shapes = elements.diagram, elements.shapes
+    middle = _middles(diagram, kept)
+    sites = elements.element[diagram.edge_sites[kept]]
+    face = np.zeros(len(kept), dtype=np.int32)
+    unbounded = (diagram.edges[kept] < 0).any(axis=1)
+    vertices = len(shapes.points)
+    nearest = sites.max(axis=1)  # an edge of the shapes, if one of the two is
+    by_edge = np.flatnonzero((nearest >= vertices) & ~unbounded)
+    segment = nearest[by_edge] - vertices
+    a, b = elements.shapes.points[shapes.segments[segment]].astype(np.float64).swapaxes(0, 1)
+    place = _in_shapes(elements, middle[by_edge])
+    left = (b - a)[:, 0] * (place - a)[:, 1] - (b - a)[:, 1] * (place - a)[:, 0] > 0
+    face[by_edge] = shapes.segment_faces[segment, np.where(left, 0, 1)]
+    by_vertex = np.flatnonzero((nearest < vertices) & ~unbounded)
+    face[by_vertex] = _sector_faces(shapes, nearest[by_vertex], _in_shapes(elements, middle[by_vertex]))
+    return face
+
+
+def _in_shapes(elements: ElementDiagram, places: NDArray[np.float64]) -> NDArray[np.float64]:
+    """From the lattice of the elements to that of the shapes."""
+    back: NDArray[np.float64] = (elements.graph.coordinates(places) - elements.shapes.origin) / elements.shapes.scale
+    return back
+
+
+def _sector_faces(shapes: PlanarGraph, vertex: NDArray[np.int64], place: NDArray[np.float64]) -> NDArray[np.int32]:
+    """The faces in which places lie as seen from vertices; face 0 where a vertex has no edges."""
+    at = np.concatenate([shapes.segments[:, 0], shapes.segments[:, 1]]).astype(np.int64)
+    to = np.concatenate([shapes.segments[:, 1], shapes.segments[:, 0]])
+    left = np.concatenate([shapes.segment_faces[:, 0], shapes.segment_faces[:, 1]])
+    if not len(at):
+        return np.zeros(len(vertex), dtype=np.int32)
+    way = (shapes.points[to].astype(np.float64) - shapes.points[at]).T
+    angle = angle_of(*way)
+    order = np.lexsort((angle, at))
+    at, angle, left = at[order], angle[order], left[order]
+    seen = (place - shapes.points[vertex]).T
+    wanted = angle_of(*seen)
+    first, stop = np.searchsorted(at, vertex), np.searchsorted(at, vertex, side="right")
+    turns = 8.0  # more than a full circle, so that vertices stay apart
+    rank = np.searchsorted(at * turns + angle, vertex * turns + wanted, side="right") - 1
+    rank = np.where(rank < first, stop - 1, rank)
+    found: NDArray[np.int32] = np.where(stop > first, left[np.clip(rank, 0, len(left) - 1)], 0).astype(np.int32)
+    return found
+
+
+def _missing_portions(
+    elements: ElementDiagram, kept: NDArray[np.int32]
+) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]]:
+    """Vertices of the diagram and corners to join, (k, 2), the sites beside the lines between, and their faces.
+
+    A vertex is where one arc ends beside the corner. Of a corner of nearly 180 degrees the cell may reach to other arcs
+    instead: then it is the end of one of these in whose direction the middle of the corner points most.
+
+    The sites, left and right, are those beside the corner's around the vertex.
+    """
+    diagram, corners = elements.diagram, len(elements.shapes.points)
+    degree = np.bincount(diagram.edges[kept][diagram.edges[kept] >= 0], minlength=len(diagram))
+    start = diagram.vertex_start
+    ends = np.flatnonzero(degree == 1)
+    portions, sites = [], []
+    for vertex in ends.tolist():
+        ring = diagram.vertex_sites[start[vertex] : start[vertex + 1]]
+        for k in np.flatnonzero(elements.element[ring] < corners).tolist():
+            before, after = int(ring[k - 1]), int(ring[(k + 1) % len(ring)])
+            edges = elements.element[[before, after]] - corners
+            corner = elements.element[ring[k]]
+            if (edges >= 0).all() and (elements.shapes.segments[edges] == corner).any(axis=1).all():
+                portions.append((vertex, int(corner)))
+                sites.append((after, before))
+    done = elements.element[np.array(sites, dtype=np.int64).reshape(-1, 2)]
+    for portion, beside in _portions_to_arcs(elements, kept, set(map(tuple, done.tolist()))):
+        portions.append(portion)
+        sites.append(beside)
+    pairs = np.array(portions, dtype=np.int32).reshape(-1, 2)
+    places = _in_shapes(elements, diagram.vertices[pairs[:, 0]])
+    faces = _sector_faces(elements.shapes, pairs[:, 1].astype(np.int64), places)
+    return pairs, np.array(sites, dtype=np.int32).reshape(-1, 2), faces
+
+
+def _portions_to_arcs(
+    elements: ElementDiagram, kept: NDArray[np.int32], done: set[tuple[int, ...]]
+) -> Iterator[tuple[tuple[int, int], tuple[int, int]]]:
+    """For corners between edges that are not done yet: vertex and corner, and the sites left and right of the line."""
+    shapes, diagram = elements.shapes, elements.diagram
+    corners = len(shapes.points)
+    sectors = corner_sectors(shapes)
+    first_site = len(diagram.points)
+    site_of = dict(zip(elements.element[first_site:].tolist(), range(first_site, len(elements.element)), strict=True))
+    ends = diagram.edges[kept]
+    beside = elements.element[diagram.edge_sites[kept]]
+    for point, right, left in zip(sectors.point.tolist(), sectors.right.tolist(), sectors.left.tolist(), strict=True):
+        if (corners + right, corners + left) in done:
+            continue
+        around = np.unique(ends[(beside == point).any(axis=1)])
+        around = around[around >= 0]
+        way = _in_shapes(elements, diagram.vertices[around]) - shapes.points[point]
+        a, b = (_way_from(shapes, point, segment) for segment in (right, left))
+        inside = (a[0] * way[:, 1] > a[1] * way[:, 0]) & (b[0] * way[:, 1] < b[1] * way[:, 0])
+        if inside.any():
+            middle = a / hypotenuse(*a) + b / hypotenuse(*b)
+            towards = (way * middle).sum(axis=1) / hypotenuse(*way.T)
+            vertex = int(around[np.where(inside, towards, -np.inf).argmax()])
+            yield (vertex, point), (site_of[corners + right], site_of[corners + left])
+
+
+def _way_from(shapes: PlanarGraph, point: int, segment: int) -> NDArray[np.float64]:
+    a, b = shapes.segments[segment]
+    way: NDArray[np.float64] = shapes.points[b if a == point else a].astype(np.float64) - shapes.points[point]
+    return way
+
+
+def _with_portions(
+    elements: ElementDiagram, portions: NDArray[np.int32], sites: NDArray[np.int32]
+) -> tuple[SegmentVoronoiDiagram, NDArray[np.int32]]:
+    """Add straight edges that end in corners; gives their numbers too."""
+    diagram, corners = elements.diagram, portions[:, 1]
+    site_of = np.full(len(elements.shapes.points), -1)
+    own = np.flatnonzero(elements.element[: len(diagram.points)] < len(site_of))
+    site_of[elements.element[own]] = own
+    ends = np.stack([portions[:, 0], len(diagram) + np.arange(len(corners))], axis=1)
+    extended = replace(
+        diagram,
+        vertices=np.concatenate([diagram.vertices, diagram.points[site_of[corners]].astype(np.float64)]),
+        radius=np.concatenate([diagram.radius, np.zeros(len(corners))]),
+        vertex_start=np.concatenate([diagram.vertex_start, np.full(len(corners), diagram.vertex_start[-1])]),
+        edges=np.concatenate([diagram.edges, ends.astype(np.int32)]),
+        edge_sites=np.concatenate([diagram.edge_sites, sites]),
+    )
+    return extended, np.arange(len(diagram.edges), len(extended.edges), dtype=np.int32)
+
+
+def gap_deviation(skeleton: Skeleton, exact: Skeleton) -> float:
+    """Measure how far places on a skeleton with a gap are at most from the exact one.
+
+    Parameters
+    ----------
+    skeleton, exact : Skeleton
+        Of the same polygons and side, with a gap and without.
+
+    Returns
+    -------
+    float
+        In input units; places are the ends of arcs, and points on parabolas as dense as flattening to 2^-14 of the
+        extent makes them. 0 if one of the two has no arcs.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> shape = [[0, 0], [8, 0], [8, 3], [4, 1], [0, 3]]
+    >>> round(gap_deviation(skeleton_exact(shape, gap=0.5), skeleton_exact(shape)), 3)
+    0.027
+    """
+    import shapely
+
+    if not len(skeleton) or not len(exact):
+        return 0.0
+    tolerance = DEVIATION_STEPS * float(np.ptp(exact.polygons.xy, axis=0).max())
+    places = shapely.points(skeleton.flattened(tolerance)[0])
+    points, start = exact.flattened(tolerance / 16)
+    lines = shapely.linestrings(points, indices=np.repeat(np.arange(len(exact)), np.diff(start)))
+    _, distance = shapely.STRtree(lines).query_nearest(places, return_distance=True, all_matches=False)
+    return float(distance.max())
+
+
+def exact_for(elements: ElementDiagram, side: str, *, frame: Frame | None = None, threads: int = 0) -> Skeleton:
+    """Compute the exact skeleton of the shapes that were decomposed."""
+    shapes = elements.shapes
+    diagram = segment_voronoi(shapes.points, shapes.segments, threads=threads)
+    whole = ShapeDiagram(shapes, diagram, elements.placed)
+    return skeleton_of(whole, side=side, frame=frame, threads=threads)
+
+
+def exact_inside(elements: ElementDiagram) -> Skeleton:
+    """Compute what is inside the shapes that were decomposed exactly, and say no word if there is nothing."""
+    shapes = elements.shapes
+    diagram = segment_voronoi(shapes.points, shapes.segments, threads=1)
+    return interior_skeleton(ShapeDiagram(shapes, diagram, elements.placed))

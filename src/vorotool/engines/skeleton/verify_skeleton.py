@@ -1,0 +1,263 @@
+"""A check of skeletons that knows their arrays only, not how they were made."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import replace
+
+import numpy as np
+
+from vorotool.engines.arrangement.planar_graph import planar_graph
+from vorotool.engines.common.label_arrays import Progress
+from vorotool.engines.features.batches import BatchShapes, in_batches
+from vorotool.engines.skeleton.exact import ShapeDiagram, kept_edges
+from vorotool.engines.skeleton.parts import PER_ARC, outside_of, with_arcs, with_polygons
+from vorotool.engines.skeleton.site_distances import (
+    SitePlaces,
+    check_equal_distances,
+    check_nothing_nearer,
+    fail,
+    first_wrong,
+)
+from vorotool.engines.skeleton.verify_regions import SkeletonRegions, border_components, check_regions
+from vorotool.errors import VorotoolWarning
+from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.skeleton.skeleton import INTERIOR, Skeleton
+from vorotool.geometry.skeleton.tables import connected_roots
+
+
+def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress = None) -> None:
+    """Check a skeleton from its arrays alone.
+
+    Nodes and the insides of arcs are as far from the sites on both sides as the radius tells, their feet are on the
+    sites, and no site is nearer; no arc is between an edge and its end. For each region inside polygons, or inside a
+    hole if the exterior is there: its skeleton is connected, has as many independent cycles as the complement has
+    components less one, and one end in each corner under 180 degrees, which nothing else shares; the regions between
+    the arcs and their feet sum to its area within 1e-9 of it and 8 ulp of the extent times its perimeter. Outside, all
+    is connected with the frame. Branches are chains that end where they should. Where pixels hang together at corners
+    (`PolygonSet.connectivity`), arcs of one polygon, or outside, share a node there; all else is as if they did not.
+    Unless features are together (`Skeleton.features`), each is looked at as if there were no others.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        However it was made. With a gap only distances are checked.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Raises
+    ------
+    VerificationError
+        Naming the first fault.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 3.2.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> from vorotool import skeleton_exact
+    >>> skeleton = skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])
+    >>> verify_skeleton(skeleton)
+    >>> verify_skeleton(replace(skeleton, radius=skeleton.radius + 1))
+    Traceback (most recent call last):
+        ...
+    vorotool.errors.VerificationError: node 0 at (0.0, 0.0) is 0.0 from site 7, but its radius is 1.0
+    """
+    threads = checked_threads(threads)
+    if not len(skeleton):
+        return
+    check_arrays(skeleton)
+    check_branches(skeleton)
+    if skeleton.gap:  # the lines that lead to the corners are no bisectors of the shortened edges
+        skeleton = _without_portions(skeleton)
+    check_equal_distances(skeleton, SitePlaces(skeleton))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", VorotoolWarning)  # what bounds nothing is still in the rings
+        if skeleton.features == "together" or not len(skeleton.polygons):
+            graph = planar_graph(skeleton.polygons, threads=threads, progress=progress)
+            _check_in_graph(skeleton, graph, threads, progress)
+        else:
+            _check_sides(skeleton, threads, progress)
+
+
+def _check_sides(skeleton: Skeleton, threads: int, progress: Progress) -> None:
+    """Check what is inside each feature by itself, and what is outside in the arrangement of all."""
+    inside = skeleton.side == INTERIOR
+    if not inside.all():
+        graph = planar_graph(skeleton.polygons, threads=threads, progress=progress)
+        _check_in_graph(outside_of(skeleton), graph, threads, progress)
+    if inside.any():
+        _check_own(skeleton)
+        own, whole = with_arcs(skeleton, inside), SitePlaces(skeleton)
+
+        def check(shapes: BatchShapes, threads: int, poll: Progress) -> None:
+            of_batch = with_polygons(own, shapes.batch.polygons)
+            if len(of_batch):
+                _check_in_graph(of_batch, shapes.graph, threads, poll, whole=whole)
+
+        alone = bool(skeleton.gap)
+        in_batches(skeleton.polygons, check, alone=alone, drops=False, threads=threads, progress=progress)
+
+
+def _check_own(skeleton: Skeleton) -> None:
+    """Raise if an arc inside is between sites of another feature, or shares a corner with arcs in another polygon."""
+    polygons = skeleton.polygons
+    assert polygons.feature is not None
+    inside = np.flatnonzero(skeleton.side == INTERIOR)
+    polygon = skeleton.polygon[inside]
+    of_sites = polygons.feature[skeleton.site_table.polygon][skeleton.sites[inside]]
+    at = first_wrong((of_sites != polygons.feature[polygon][:, None]).any(axis=1))
+    if at is not None:
+        fail(f"arc {inside[at]} is said to be in polygon {polygon[at]}, but is between sites of another feature")
+    owner = np.full(len(skeleton.vertices), -1)
+    for end in (0, 1):
+        owner[skeleton.arcs[inside, end]] = polygon
+    for end in (0, 1):
+        node = skeleton.arcs[inside, end]
+        at = first_wrong((skeleton.radius[node] == 0) & (owner[node] != polygon))
+        if at is not None:
+            fail(f"node {node[at]} is a corner that arcs in different polygons share")
+
+
+def _check_in_graph(
+    skeleton: Skeleton, graph: PlanarGraph, threads: int, progress: Progress, *, whole: SitePlaces | None = None
+) -> None:
+    sites = SitePlaces(skeleton, whole)
+    check_nothing_nearer(skeleton, sites, _elements(skeleton, graph, threads), threads, progress)
+    if not skeleton.gap:
+        check_regions(SkeletonRegions(_with_corners_apart(skeleton), graph, sites))
+
+
+def verify_exterior(shapes: ShapeDiagram, *, threads: int = 0) -> None:
+    """Check the unbounded part of a skeleton before it is clipped, as a graph.
+
+    With one node at infinity it is connected, and has as many independent cycles as the closed shape has components
+    less one.
+
+    Parameters
+    ----------
+    shapes : ShapeDiagram
+        However its diagram was computed.
+    threads : int
+        0 uses all.
+
+    Raises
+    ------
+    VerificationError
+        If it is not so.
+
+    Examples
+    --------
+    >>> from vorotool.engines.skeleton.exact import shape_diagram
+    >>> verify_exterior(shape_diagram([[[0, 0], [2, 0], [0, 2]], [[5, 5], [7, 5], [5, 7]]]))
+    """
+    graph, diagram = shapes.graph, shapes.diagram
+    edges, faces = kept_edges(shapes, threads=threads)
+    edges = edges[faces == 0]
+    if not len(edges):
+        return
+    ends = diagram.edges[edges].astype(np.int64)
+    infinity = len(diagram)
+    ends[ends < 0] = infinity
+    corner = (ends < infinity) & (np.append(diagram.radius, 1.0)[ends] == 0)
+    ends[corner] = infinity + 1 + np.arange(np.count_nonzero(corner))  # each arc has its own
+    nodes = np.unique(ends)
+    roots = connected_roots(ends, int(ends.max()) + 1)[nodes]
+    if len(np.unique(roots)) > 1:
+        fail(f"the skeleton outside has {len(np.unique(roots))} connected parts, even with a node at infinity")
+    lone = np.bincount(graph.segments.reshape(-1), minlength=len(graph.points)) == 0
+    sites = np.unique(diagram.edge_sites[edges])
+    points = np.count_nonzero(lone[sites[sites < len(graph.points)]])
+    expected = border_components(graph)[0] + points - 1
+    cycles = len(edges) - len(nodes) + 1
+    if cycles != expected:
+        fail(f"the skeleton outside has {cycles} independent cycles, not {expected}")
+
+
+def _without_portions(skeleton: Skeleton) -> Skeleton:
+    kept = (skeleton.radius[skeleton.arcs] > 0).all(axis=1)
+    return replace(skeleton, **{name: getattr(skeleton, name)[kept] for name in PER_ARC})
+
+
+def _with_corners_apart(skeleton: Skeleton) -> Skeleton:
+    """Give each arc a node of its own at corners where arcs are joined, after a check that just these are."""
+    inside = {8: True, 4: False}.get(skeleton.polygons.connectivity or 0)
+    if inside is None:
+        return skeleton
+    on_side = (skeleton.polygon >= 0) == inside
+    arc, end = np.nonzero((skeleton.radius[skeleton.arcs] == 0) & on_side[:, None])
+    node = skeleton.arcs[arc, end]
+    keys = np.column_stack([skeleton.vertices[node], skeleton.polygon[arc]])
+    _, corner = np.unique(keys, axis=0, return_inverse=True)
+    corner = corner.reshape(-1)
+    first = np.full(corner.max(initial=-1) + 1, len(skeleton.vertices))
+    np.minimum.at(first, corner, node)
+    at = first_wrong(node != first[corner])
+    if at is not None:
+        fail(f"nodes {first[corner[at]]} and {node[at]} are at one corner, where pixels hang together, but not joined")
+    _, owner = np.unique(np.stack([node, corner]), axis=1, return_index=True)
+    at = first_wrong(np.bincount(node[owner], minlength=1) > 1)
+    if at is not None:
+        fail(f"node {at} is a corner that arcs in different polygons share")
+    arcs = skeleton.arcs.copy()
+    arcs[arc, end] = len(skeleton.vertices) + np.arange(len(arc))
+    used, numbers = np.unique(arcs, return_inverse=True)
+    origin = np.concatenate([np.arange(len(skeleton.vertices)), node])[used]
+    return replace(
+        skeleton,
+        arcs=numbers.reshape(-1, 2).astype(np.int32),
+        vertices=skeleton.vertices[origin],
+        radius=skeleton.radius[origin],
+    )
+
+
+def _elements(skeleton: Skeleton, graph: PlanarGraph, threads: int) -> PlanarGraph:
+    """The points and segments that nothing may be nearer than."""
+    if not skeleton.gap:
+        return graph
+    from vorotool.engines.skeleton.shortened_edges import element_diagram
+
+    return element_diagram(skeleton.polygons, skeleton.gap, threads=threads).graph
+
+
+def check_arrays(skeleton: Skeleton) -> None:
+    """Raise unless indices exist, nodes are finite and used, and sides go with polygons."""
+    for name, limit in (("arcs", len(skeleton.vertices)), ("sites", len(skeleton.site_table))):
+        at = first_wrong(((getattr(skeleton, name) < 0) | (getattr(skeleton, name) >= limit)).any(axis=1))
+        if at is not None:
+            fail(f"{name} of arc {at} are {getattr(skeleton, name)[at].tolist()}, beyond {limit - 1}")
+    if not (np.isfinite(skeleton.vertices).all() and np.isfinite(skeleton.radius).all()):
+        fail("a node is not finite")
+    at = first_wrong((skeleton.degree == 0) | (skeleton.radius < 0))
+    if at is not None:
+        fail(f"node {at} has no arcs, or a negative radius")
+    inside = skeleton.polygon >= 0
+    at = first_wrong((inside != (skeleton.side == INTERIOR)) | (skeleton.polygon >= len(skeleton.polygons)))
+    if at is not None:
+        fail(
+            f"arc {at} is {'inside' if skeleton.side[at] == INTERIOR else 'outside'}, in polygon {skeleton.polygon[at]}"
+        )
+
+
+def check_branches(skeleton: Skeleton) -> None:
+    """Raise unless branches are chains that end where they should."""
+    step = np.diff(skeleton.branch, prepend=-1)
+    at = first_wrong((step < 0) | (step > 1))
+    if at is not None:
+        fail(f"the branch of arc {at} is {skeleton.branch[at]}, after {skeleton.branch[at - 1]}")
+    joined = np.flatnonzero(step == 0)
+    before, after = skeleton.arcs[joined - 1, 1], skeleton.arcs[joined, 0]
+    at = first_wrong((before != after) | (skeleton.degree[after] != 2))
+    if at is not None:
+        fail(f"arc {joined[at]} does not go on where the arc before, of the same branch, ends")
+    first = np.flatnonzero(step)
+    last = np.append(first[1:], len(skeleton)) - 1
+    ends = np.stack([skeleton.arcs[first, 0], skeleton.arcs[last, 1]])
+    at = first_wrong((skeleton.degree[ends] == 2).any(axis=0) & (ends[0] != ends[1]))
+    if at is not None:
+        fail(f"branch {at} ends at a node where it could go on")

@@ -1,0 +1,216 @@
+"""Skeletons of polygons: exact ones (paper, section 3.2), and approximate ones (section 3.1)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from vorotool.engines.arrangement.lattice_rings import placed_shapes
+from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
+from vorotool.engines.common.label_arrays import Progress
+from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, approximate_skeleton, sampled_graph
+from vorotool.engines.sampled_skeleton.per_feature import approximation_of_sides, feature_approximation
+from vorotool.engines.sampled_skeleton.refinement import skeleton_within
+from vorotool.engines.skeleton.both_sides import skeleton_of_sides
+from vorotool.engines.skeleton.exact import Frame, check_features, check_skeleton_options, diagram_of_graph, skeleton_of
+from vorotool.engines.skeleton.feature_elements import skeleton_with_gap
+from vorotool.engines.skeleton.per_feature import feature_skeleton
+from vorotool.engines.skeleton.shortened_edges import element_diagram, skeleton_of_elements
+from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.magnitude import check_lengths
+from vorotool.geometry.polygons.conversion import as_polygons
+from vorotool.geometry.skeleton.skeleton import Skeleton
+
+
+def skeleton_exact(
+    polygons: Any,
+    *,
+    side: str = "interior",
+    features: str = "separate",
+    gap: float = 0.0,
+    complete: bool = True,
+    frame: Frame | None = None,
+    strict: bool = False,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Skeleton:
+    """Compute the skeleton of polygons: where the nearest place on the boundary is not one alone.
+
+    The polygons are placed on a lattice of 31 bits, and from there on every decision is exact: the Voronoi diagram of
+    the vertices and open edges is made, and of its edges those between an edge and its own end are deleted. With holes
+    the result is exact just the same. What is inside a feature, one item of the input with all its parts, is what it
+    would be if there were no others: they may touch it, overlap it, or lie in it. What is outside is of all features.
+    The skeleton of crack outlines goes through corners that pixels hang together at: see :func:`vorotool.outlines`.
+
+    Parameters
+    ----------
+    polygons : PolygonSet, shapely geometry, (n, 2) array-like, or a list of these
+        See :func:`vorotool.geometry.polygons.conversion.as_polygons`.
+    side : {"interior", "exterior", "both"}
+        Inside polygons, outside all of them, or both.
+    features : {"separate", "together"}
+        Take each feature by itself, or all of them, and open lines among them, as boundaries of one diagram.
+    gap : float
+        Shorten each edge by so much at both ends, as the paper does (Figure 10): then nothing leads to the corners,
+        and the result is no longer exact. The new ends go to the nearest points of the lattice.
+    complete : bool
+        With a gap, add the straight lines that lead from the skeleton to the corners.
+    frame : (x, y, w, h), optional
+        Rectangle that arcs outside are cut by; by default the bounds and a tenth of their larger side around them.
+    strict : bool
+        Refuse polygons that would be repaired.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done of each step.
+
+    Returns
+    -------
+    Skeleton
+        Without arcs where there is no such side.
+
+    Raises
+    ------
+    InputError
+        If a coordinate is not finite, an edge is not longer than twice the gap, or `strict` and something would be
+        repaired.
+    UsageError
+        If the side, the gap or the frame is none.
+    LimitError
+        If there are too many vertices.
+
+    Warns
+    -----
+    VorotoolWarning
+        If polygons were repaired, or none has an inside and that is asked for.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 3.2.
+
+    Examples
+    --------
+    >>> skeleton = skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])
+    >>> float(skeleton.radius.max()), round(float(skeleton.length.sum()), 9)
+    (1.0, 7.656854249)
+    """
+    check_skeleton_options(side, gap, frame)
+    check_features(features)
+    check_lengths(frame or (), "frame's coordinate")
+    given = as_polygons(polygons)
+    common: dict[str, Any] = {"strict": strict, "threads": checked_threads(threads), "progress": progress}
+    if gap and features == "together":
+        elements = element_diagram(given, gap, **common)
+        common.pop("strict")
+        return skeleton_of_elements(elements, side=side, complete=complete, frame=frame, **common)
+    if gap:
+        return skeleton_with_gap(given, gap, side=side, complete=complete, frame=frame, **common)
+    if features == "separate":
+        if side == "interior":
+            return feature_skeleton(given, **common).skeleton
+        return skeleton_of_sides(given, side=side, frame=frame, **common)
+    graph = graph_for_skeletons(given, **common)
+    common.pop("strict")
+    shapes = diagram_of_graph(graph, interior_only=side == "interior", **common)
+    return skeleton_of(shapes, side=side, frame=frame, **common)
+
+
+def skeleton_approx(
+    polygons: Any,
+    *,
+    step: float | None = None,
+    tolerance: float | None = None,
+    sampling: str | None = None,
+    side: str = "interior",
+    features: str = "separate",
+    complete: bool | None = None,
+    frame: Frame | None = None,
+    strict: bool = False,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Skeleton:
+    """Approximate the skeleton of polygons by the Voronoi diagram of samples, with a certified error of every arc.
+
+    The edges are sampled, and each seed has the labels of the edges that it is on. Of the Voronoi diagram of the seeds,
+    the edges between seeds with a label in common are deleted, and those that the polygons cross. All that is decided
+    exactly. No point of an arc is farther from the exact skeleton than its `error_bound`. What is inside a feature is
+    what it would be if there were no others, as of :func:`skeleton_exact`; what is outside is of all features.
+
+    Parameters
+    ----------
+    polygons : PolygonSet, shapely geometry, (n, 2) array-like, or a list of these
+        See :func:`vorotool.geometry.polygons.conversion.as_polygons`.
+    step : float
+        Between samples, in input units.
+    tolerance : float
+        Instead of a step: edges are sampled as finely as it takes for all error bounds to be at most this. The bounds
+        are from approximate to exact; where corners of nearly 180 degrees have nearly invisible branches, the exact
+        skeleton may be farther away.
+    sampling : {"paper", "symmetric"}
+        Every edge from its first end, the last gap being between h/2 and 3h/2, as the paper prints it (by default with
+        a step); or the same distances from each corner on all of its edges (always with a tolerance).
+    side : {"interior", "exterior", "both"}
+        Inside polygons, outside all of them, or both.
+    features : {"separate", "together"}
+        Take each feature by itself, or all of them, and open lines among them, as boundaries of one diagram.
+    complete : bool, optional
+        Join corners under 180 degrees by a line along the bisector to the first arc; by default with a tolerance.
+    frame : (x, y, w, h), optional
+        Rectangle that arcs outside are cut by; by default the bounds and a tenth of their larger side around them.
+    strict : bool
+        Refuse polygons that would be repaired.
+    threads : int
+        0 uses all.
+    progress : callable, optional
+        Called with the fraction done of each step.
+
+    Returns
+    -------
+    Skeleton
+        Of straight arcs. Radii are clearances: distances from the polygons. Error bounds are NaN where nothing is
+        proved, which is so in a few places where edges are much nearer to each other than samples.
+
+    Raises
+    ------
+    InputError
+        If a coordinate is not finite, or `strict` and something would be repaired.
+    UsageError
+        If the step or the tolerance is none, or both or neither is given; of the other options likewise.
+    LimitError
+        If there are too many seeds, or the tolerance cannot be met.
+
+    Warns
+    -----
+    VorotoolWarning
+        If polygons were repaired, or none has an inside and that is asked for.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 3.1.
+
+    Examples
+    --------
+    >>> skeleton = skeleton_approx([[0, 0], [8, 0], [8, 3], [0, 3]], step=0.5)
+    >>> bool(skeleton.error_bound.max() < 0.2), round(float(skeleton.radius.max()), 6)
+    (True, 1.5)
+    """
+    options = SamplingOptions(step, tolerance, sampling)
+    check_skeleton_options(side, 0, frame)
+    check_features(features)
+    check_lengths(frame or (), "frame's coordinate")
+    complete = (tolerance is not None) if complete is None else complete
+    common: dict[str, Any] = {"threads": checked_threads(threads), "progress": progress}
+    if features == "separate":
+        given = as_polygons(polygons)
+        if side == "interior":
+            return feature_approximation(given, options, complete=complete, strict=strict, **common).skeleton
+        made = approximation_of_sides(
+            given, options, side=side, frame=frame, complete=complete, strict=strict, **common
+        )
+        return made.skeleton
+    graph = graph_for_skeletons(polygons, strict=strict, **common)
+    placed = placed_shapes(graph, threads=threads)
+    if options.tolerance is not None:
+        shapes = skeleton_within(graph, placed, options.tolerance, side=side, frame=frame, complete=complete, **common)
+        return shapes.skeleton
+    shapes_sampled = sampled_graph(graph, placed, options, **common)
+    return approximate_skeleton(shapes_sampled, side=side, frame=frame, complete=complete, **common).skeleton

@@ -1,0 +1,1 @@
+"""Image/seeds -> label image."""

@@ -1,0 +1,186 @@
+"""What digital diagrams share: seeds from anything, frames, types of labels, limits."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Iterator
+from fractions import Fraction
+from numbers import Rational, Real
+from operator import index
+from typing import Any
+
+import numpy as np
+
+from vorotool import _core
+from vorotool.engines.common.label_arrays import described
+from vorotool.engines.common.point_input import as_points
+from vorotool.engines.tessellation.seeding import Check, seeds_from_points, seeds_from_raster
+from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
+from vorotool.geometry.numbers import real_number, shown_number
+from vorotool.geometry.pixel_frame import Frame
+from vorotool.geometry.points.raster import Raster
+from vorotool.geometry.points.seed_set import SeedSet
+
+SIMD_LEVELS = ("portable", "avx2", "avx512")
+BAND_PIXELS = 2**24
+"""Pixels of a band when rows are streamed: large enough to keep all threads busy."""
+
+MOST_UNASKED = 2**28
+"""Pixels that a frame may have which follows from the points alone: more are likely points in map units."""
+
+
+def as_seeds(source: Any, *, check: Check = None) -> SeedSet:
+    """Seeds from whatever `tessellate` accepts; `check` may refuse them before anyone is told that they moved."""
+    if not isinstance(source, SeedSet | Raster):
+        expected = "seeds must be an (n, 2) array of numbers, shapely points, or an image"
+        return seeds_from_points(as_points(source, expected=expected, noun="seed"), check=check)
+    seeds = source if isinstance(source, SeedSet) else seeds_from_raster(source)
+    if check is not None:
+        check(seeds)
+    return seeds
+
+
+def require_seeds(seeds: SeedSet) -> None:
+    """Refuse an empty list: nothing could be labelled. An image without foreground has been told of."""
+    if not len(seeds) and not seeds.is_empty_image:
+        raise InputError("there are no seeds, so nothing could be labelled: give at least one point")
+
+
+def report_duplicates(duplicates: int, seeds: int, *, strict: bool) -> None:
+    """Warn of several seeds at one place, or refuse them."""
+    if not duplicates:
+        return
+    if strict:
+        raise InputError(
+            f"{duplicates} of {seeds} seeds lie on another seed: remove the duplicates, or leave out --strict"
+        )
+    warnings.warn(
+        f"{duplicates} of {seeds} seeds lie on another seed: the smallest label has the region",
+        VorotoolWarning,
+        stacklevel=4,
+    )
+
+
+def default_frame(
+    seeds: SeedSet, *, how: str = "give shape=(H, W) or window=(x, y, w, h)", instead: str = "voronoi_cells"
+) -> Frame:
+    """Give the frame that the input brings, else the smallest at the origin that holds the points.
+
+    Parameters
+    ----------
+    seeds : SeedSet
+        Points or an image.
+    how, instead : str
+        How a frame is given, and what needs none, for messages.
+
+    Raises
+    ------
+    InputError
+        If a coordinate is negative: such points need a window.
+    LimitError
+        If the points need a frame that is larger than anyone would take without asking for it.
+
+    Examples
+    --------
+    >>> default_frame(as_seeds([[2, 1], [7.25, 5.5]])).shape
+    (7, 8)
+    """
+    if seeds.frame is not None:
+        return seeds.frame
+    for name, values in (("x", seeds.x), ("y", seeds.y)):
+        if values.min() < 0:
+            low, high = values.min() / seeds.scale, values.max() / seeds.scale
+            raise InputError(f"points span {name} {low:g}..{high:g}: use --window X,Y,W,H, or delaunay --what cells")
+    nearest = [int((2 * v.max() + seeds.scale) // (2 * seeds.scale)) + 1 for v in (seeds.x, seeds.y)]
+    if nearest[0] * nearest[1] > MOST_UNASKED:
+        raise LimitError(
+            f"no frame is given, and one that holds the points has {nearest[0]} x {nearest[1]} pixels, more than "
+            f"{MOST_UNASKED}: {how}; for points in map units use {instead}"
+        )
+    return Frame(0, 0, nearest[0], nearest[1])
+
+
+def asked_frame(shape: Any, window: Any) -> Frame | None:
+    """Give the frame that is asked for by ``shape`` (H, W) or ``window`` (x, y, w, h), if one is.
+
+    Raises
+    ------
+    UsageError
+        If both are given, or not integers.
+
+    Examples
+    --------
+    >>> asked_frame((480, 640), None)
+    Frame(x=0, y=0, width=640, height=480)
+    """
+    if shape is not None and window is not None:
+        raise UsageError("give shape or window, not both")
+    given, size = (window, 4) if window is not None else (shape, 2)
+    if given is None:
+        return None
+    try:
+        numbers = [index(number) for number in given]
+    except TypeError:
+        numbers = []
+    if len(numbers) != size:
+        form = "window must be four integers (x, y, w, h)" if size == 4 else "shape must be two integers (H, W)"
+        raise UsageError(f"{form}, but is {shown_number(given)}")
+    return Frame(*numbers) if size == 4 else Frame(0, 0, numbers[1], numbers[0])
+
+
+def require_memory(frame: Frame, max_pixels: int) -> None:
+    """Refuse a frame that is too large to be held in memory."""
+    if frame.pixels > real_number(max_pixels, "max_pixels"):
+        width, height, pixels, most = map(shown_number, (frame.width, frame.height, frame.pixels, max_pixels))
+        raise LimitError(f"the frame has {width} x {height} = {pixels} pixels, more than --max-pixels {most}")
+
+
+def band_limits(frame: Frame) -> Iterator[tuple[int, int]]:
+    """First row and number of rows of the bands in which a frame is streamed."""
+    height = max(1, BAND_PIXELS // frame.width)
+    for first in range(0, frame.height, height):
+        yield first, min(height, frame.height - first)
+
+
+def label_dtype(largest: int, dtype: Any = None) -> np.dtype[Any]:
+    """Check or choose the type of labels up to `largest`."""
+    if dtype is None:
+        return np.dtype(np.uint16 if largest <= 0xFFFF else np.uint32)
+    try:
+        kind: np.dtype[Any] = np.dtype(dtype)
+    except TypeError:
+        raise UsageError(f"dtype is {dtype!r}: use uint8, uint16, uint32 or int32") from None
+    if kind not in (np.uint8, np.uint16, np.uint32, np.int32):
+        raise UsageError(f"labels cannot have type {kind}: use uint8, uint16, uint32 or int32")
+    if largest > np.iinfo(kind).max:
+        raise LimitError(f"labels up to {largest} do not fit {kind}: use --dtype uint32")
+    return kind
+
+
+def squared_limit(max_distance: float | Fraction | None, scale: int) -> int | None:
+    """The largest squared distance in lattice steps that is within `max_distance` pixels."""
+    if max_distance is None:
+        return None
+    if not isinstance(max_distance, Real) or not 0 <= max_distance < float("inf"):
+        raise UsageError(f"max_distance is {shown_number(max_distance)}: it must be a number, 0 or larger, and finite")
+    exact = Fraction(max_distance) if isinstance(max_distance, Rational) else Fraction(float(max_distance))
+    steps = exact * scale
+    return int(min(steps * steps, Fraction(2**127)))
+
+
+def check_out(out: Any, shape: tuple[int, int]) -> None:
+    """Refuse what is no array to write an image of this shape to."""
+    usable = isinstance(out, np.ndarray) and out.shape == shape and out.flags.c_contiguous and out.flags.writeable
+    if not usable:
+        raise UsageError(f"out must be a writeable C-contiguous array of shape {shape}, but is {described(out)}")
+
+
+def simd_level() -> str:
+    """Name the instruction set of the kernels: the widest of this machine, or ``VOROTOOL_SIMD``."""
+    widest: str = _core.widest_simd()
+    wanted = os.environ.get("VOROTOOL_SIMD") or widest
+    available = SIMD_LEVELS[: SIMD_LEVELS.index(widest) + 1]
+    if wanted not in available:
+        raise UsageError(f"VOROTOOL_SIMD is {wanted!r}: this machine has {', '.join(available)}")
+    return wanted

@@ -1,0 +1,313 @@
+"""What an image holds: foreground by a threshold, a mask of components, or labels."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from math import floor
+from typing import Any, Literal, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.errors import InputError, Kind, Message, VorotoolWarning
+from vorotool.geometry.numbers import finite_double
+from vorotool.geometry.points.raster import Raster
+
+Objects = Literal["components", "labels"]
+Threshold = float | Literal["otsu"] | None
+Note = Callable[[str], None] | None
+"""Called with what may surprise."""
+
+LARGEST_LABEL = 0xFFFFFFFF
+
+MASK_VALUES = (1, 255)
+"""Of masks, beside the largest value of the type."""
+
+_LUMINANCE = (0.2125, 0.7154, 0.0721)
+"""Weights of red, green and blue (ITU-R BT.709, as scikit-image has them)."""
+
+
+def foreground_values(raster: Raster, threshold: Threshold, *, invert: bool) -> NDArray[Any]:
+    """Values of which the nonzero ones are foreground.
+
+    Parameters
+    ----------
+    raster : Raster
+        The image.
+    threshold : float or "otsu", optional
+        Foreground is what is larger, and of one value.
+    invert : bool
+        Exchange foreground and background.
+
+    Raises
+    ------
+    InputError
+        If there is no threshold, and the image has colours; or values are not finite.
+
+    Examples
+    --------
+    >>> foreground_values(Raster(np.array([[3, 200]])), 100, invert=False).tolist()
+    [[False, True]]
+    """
+    values = raster.values
+    if threshold is not None:
+        number, invert = settled_threshold(raster, threshold, invert=invert)
+        grey = grey_values(raster)
+        values = grey > whole_threshold(grey, number)
+    elif raster.is_colour:
+        raise InputError("a colour image holds no objects by itself: use --threshold T or --threshold otsu")
+    if values.dtype.kind == "f" and not np.isfinite(values).all():
+        raise InputError("the image holds NaN or infinite values: use --threshold T, a number, or repair them")
+    values = values == 0 if invert else values
+    return values if raster.mask is None else np.where(raster.mask, values.dtype.type(0), values)
+
+
+def grey_values(raster: Raster) -> NDArray[Any]:
+    """(H, W) the values, or the luminance of a colour image; transparency does not count."""
+    values = raster.values
+    if not raster.is_colour:
+        return values
+    if values.shape[2] <= 2:
+        return values[:, :, 0]
+    red, green, blue = (weight * values[:, :, k] for k, weight in enumerate(_LUMINANCE))
+    luminance: NDArray[np.float64] = red + green + blue
+    return luminance
+
+
+def settled_threshold(raster: Raster, threshold: float | Literal["otsu"], *, invert: bool) -> tuple[float, bool]:
+    """Give the threshold of an image as a number, and whether foreground is what is not larger.
+
+    What is masked does not count. Otsu's method parts nothing of an image whose pixels all have one value: no pixel is
+    larger, and so there is no foreground, with `invert` as without.
+
+    Raises
+    ------
+    InputError
+        If values are not finite, for ``otsu``.
+    UsageError
+        If the threshold is no finite number.
+
+    Examples
+    --------
+    >>> settled_threshold(Raster(np.array([[0, 1, 10]])), "otsu", invert=True)
+    (1, True)
+    >>> settled_threshold(Raster(np.array([[7, 7, 7]])), "otsu", invert=True)
+    (7, False)
+    """
+    if not _is_otsu(threshold):
+        finite_double(threshold, "threshold")
+        return cast(float, threshold), invert  # as it is: a double would round integers beyond 2^53
+    from vorotool.engines.tessellation.otsu import otsu_threshold
+
+    grey = counted_values(raster)
+    if grey.dtype.kind == "f" and not np.isfinite(grey).all():
+        raise InputError("the image holds NaN or infinite values: use --threshold T, a number, or repair them")
+    if is_flat(grey):
+        return (grey.flat[0].item() if grey.size else 0), False
+    return otsu_threshold(grey), invert
+
+
+def counted_values(raster: Raster) -> NDArray[Any]:
+    """Grey values of the pixels that are not masked."""
+    grey = grey_values(raster)
+    return grey if raster.mask is None else grey[~raster.mask]
+
+
+def is_flat(grey: NDArray[Any]) -> bool:
+    """Whether there are no two different values.
+
+    Examples
+    --------
+    >>> is_flat(np.array([[7, 7]])), is_flat(np.array([[7, 8]]))
+    (True, False)
+    """
+    return not grey.size or bool(grey.min() == grey.max())
+
+
+def _is_otsu(threshold: Any) -> bool:
+    return isinstance(threshold, str) and threshold == "otsu"
+
+
+def whole_threshold(grey: NDArray[Any], threshold: float) -> float:
+    """Give a threshold as an integer where values are: a float would round those beyond 2^53 when it is compared.
+
+    Examples
+    --------
+    >>> whole_threshold(np.array([3, 200]), 99.5), whole_threshold(np.array([0.5]), 0.25)
+    (99, 0.25)
+    """
+    return floor(threshold) if grey.dtype.kind in "iu" else threshold
+
+
+def default_objects(values: NDArray[Any], *, note: Note = None) -> Objects:
+    """Tell whether the nonzero values are of a mask or labels: several are labels, of one `objects_of_value` tells.
+
+    Parameters
+    ----------
+    values : (H, W) array
+        Of an image.
+    note : callable, optional
+        As of `objects_of_value`.
+
+    Raises
+    ------
+    InputError
+        If they look like a photograph.
+
+    Examples
+    --------
+    >>> default_objects(np.array([[0, 255]])), default_objects(np.array([[0, 7]])), default_objects(np.array([[1, 2]]))
+    ('components', 'labels', 'labels')
+    """
+    if values.dtype == bool:
+        return "components"
+    is_zero = values == 0
+    first = values.flat[int(is_zero.argmin())]  # nonzero, if any is
+    if (is_zero | (values == first)).all():
+        return objects_of_value(first, note=note)
+    refuse_photograph(values)
+    return "labels"
+
+
+def objects_of_value(value: Any, *, note: Note = None) -> Objects:
+    """Tell what an image holds that has no value but this one and 0: a mask or a label.
+
+    A mask has 1, 255, the largest value of its type, or True; any other value is the label that it is.
+
+    Parameters
+    ----------
+    value : NumPy scalar
+        The value; 0 where the image has no foreground.
+    note : callable, optional
+        Called with what was taken, where that may surprise: of a label, and of 1 and 255 in a type of more than 8 bits,
+        in which labels are written.
+
+    Examples
+    --------
+    >>> [objects_of_value(np.uint16(value)) for value in (0, 1, 7, 255, 65535)]
+    ['components', 'components', 'labels', 'components', 'components']
+    """
+    kind = value.dtype
+    is_largest = kind == np.bool_ or (kind.kind in "iu" and value == np.iinfo(kind).max)
+    if value == 0 or is_largest:
+        return "components"
+    is_mask = value in MASK_VALUES
+    if note is not None and not is_mask:
+        note(f"{value} is the only value besides 0, and taken for a label: --seeds components takes a mask")
+    if note is not None and is_mask and kind.itemsize > 1:
+        note(f"{value} is the only value besides 0, and taken for a mask: --seeds labels takes a label")
+    return "components" if is_mask else "labels"
+
+
+def numbered_components(values: NDArray[Any], connectivity: int = 8) -> NDArray[np.uint32]:
+    """Number the components of what is not 0: libraries that do it take longer to load than most images to process.
+
+    Examples
+    --------
+    >>> numbered_components(np.array([[5, 0, 5], [5, 0, 5]])).tolist()
+    [[1, 0, 2], [1, 0, 2]]
+    """
+    components = np.empty(values.shape, np.uint32)
+    _core.label_components((values != 0).view(np.uint8), connectivity == 8, components, None)
+    return components
+
+
+def objects_of_mask(labels: NDArray[Any]) -> NDArray[Any] | None:
+    """Number the objects of what is a mask by the rule of `objects_of_value`; None of labels, and where nothing is.
+
+    Examples
+    --------
+    >>> objects_of_mask(np.array([[1, 0, 1]])).tolist(), objects_of_mask(np.array([[7, 0, 7]]))
+    ([[1, 0, 2]], None)
+    """
+    value = labels.max(initial=0)
+    is_mask = value > 0 and objects_of_value(value) == "components"
+    return numbered_components(labels) if is_mask and ((labels == 0) | (labels == value)).all() else None
+
+
+def report_no_foreground(*, strict: bool) -> None:
+    """Warn of an image in which there is nothing, or refuse it.
+
+    Raises
+    ------
+    InputError
+        If it is refused.
+    """
+    if strict:
+        raise InputError("the image has no foreground: use --invert or --threshold, or leave out --strict")
+    message = Message("the image has no foreground: use --invert or --threshold", Kind.NO_FOREGROUND)
+    warnings.warn(VorotoolWarning(message), stacklevel=3)
+
+
+def refuse_distances() -> None:
+    """Refuse distances to nothing.
+
+    Raises
+    ------
+    InputError
+        Always.
+    """
+    raise InputError("the image has no foreground, so that there are no distances to it: use --invert or --threshold")
+
+
+def refuse_photograph(values: NDArray[Any]) -> None:
+    """A label image has about as many fragments as labels; a photograph falls into far more."""
+    fractional = values.dtype.kind == "f" and bool((values != np.floor(values)).any())
+    distinct, fragments = (len(np.unique(values)),) * 2 if fractional else _fragments(label_values(values))
+    if fractional or (fragments > 4 * distinct and fragments > 256):
+        if min(values.shape) <= 3 < max(values.shape):  # the sides of a list, which no photograph has
+            raise InputError(
+                f"the array has the shape {values.shape}: a list of points? save x and y as one of shape (n, 2); "
+                "for an image use --seeds labels or --threshold"
+            )
+        raise InputError(
+            f"the image holds {distinct} values in {fragments} fragments: a photograph? use --threshold otsu, "
+            f"or --seeds labels if these are labels"
+        )
+
+
+def _fragments(labels: NDArray[Any]) -> tuple[int, int]:
+    """Count the values of an image, and the 4-connected pieces of those that are not 0."""
+    steps = sum(int(np.count_nonzero(row[1:] != row[:-1])) for row in labels)
+    if 8 * steps < labels.size:  # the borders between the regions of noise would take more memory than labels do
+        found = _core.measure_regions(np.ascontiguousarray(labels), 0, None)
+        return len(found["labels"]) + bool((labels == 0).any()), int(found["components"].sum())
+    from skimage.measure import label
+
+    return len(np.unique(labels)), int(label(labels.astype(np.int64), connectivity=1).max())
+
+
+def label_values(values: NDArray[Any], *, first_row: int = 0) -> NDArray[Any]:
+    """Give labels in an unsigned type; the first value that is none is named with its place.
+
+    Parameters
+    ----------
+    values : (h, W) array
+        Rows of an image.
+    first_row : int
+        Which is the first.
+
+    Raises
+    ------
+    InputError
+        If a value is no integer from 0 to 2^32 - 1.
+
+    Examples
+    --------
+    >>> label_values(np.array([[0, 7]])).dtype.name
+    'uint32'
+    """
+    if values.dtype in (np.bool_, np.uint8, np.uint16, np.uint32):
+        return values
+    bad = (values < 0) | (values > LARGEST_LABEL)
+    if values.dtype.kind == "f":
+        bad |= values != np.floor(values)
+    if bad.any():
+        row, column = np.unravel_index(int(bad.argmax()), bad.shape)
+        raise InputError(
+            f"the image holds the value {values[row, column]} in row {first_row + row}, column {column}: labels must "
+            f"be integers from 0 to {LARGEST_LABEL}; use --threshold T or --seeds components for a mask"
+        )
+    return values.astype(np.uint32)

@@ -1,0 +1,292 @@
+"""Seeds from points and from images."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from typing import Any, Literal, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.tessellation.raster_objects import (
+    LARGEST_LABEL,
+    Note,
+    default_objects,
+    foreground_values,
+    label_values,
+    numbered_components,
+    report_no_foreground,
+)
+from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
+from vorotool.geometry.curves.inverse_functions import hypotenuse
+from vorotool.geometry.numbers import shown_number
+from vorotool.geometry.pixel_frame import Frame
+from vorotool.geometry.points.point_set import PointSet
+from vorotool.geometry.points.raster import Raster
+from vorotool.geometry.points.seed_set import FINEST_SCALE, SeedSet
+
+SeedMode = Literal["pixels", "components", "labels", "centroids"]
+
+Check = Callable[[SeedSet], object] | None
+"""Raises an error for seeds that cannot be used: called before anyone is told what became of them."""
+
+LARGEST_COORDINATE = float(2**44)
+"""Coordinates up to here, times 256, are exact in a double."""
+
+CHUNK = 1 << 22
+"""Pixels that are counted at a time."""
+
+
+def seeds_from_points(points: PointSet, *, strict: bool = False, check: Check = None) -> SeedSet:
+    """Put points on the lattice of seeds.
+
+    Parameters
+    ----------
+    points : PointSet
+        Coordinates in pixels. Multiples of 1/256 are kept exactly; finer ones move to the nearest multiple.
+    strict : bool
+        Refuse points that would have to move.
+    check : callable, optional
+        Called with the seeds before that they moved is told of: raises an error where they need no telling.
+
+    Returns
+    -------
+    SeedSet
+        One seed a point, on the coarsest lattice that holds all of them.
+
+    Raises
+    ------
+    InputError
+        If a coordinate is beyond 2^44, or ``strict`` and a point is finer than 1/256 pixel.
+
+    Warns
+    -----
+    VorotoolWarning
+        If points were moved: how many, and the largest move.
+
+    Examples
+    --------
+    >>> seeds = seeds_from_points(PointSet([[0.5, 2], [7, 5]]))
+    >>> seeds.scale, seeds.x.tolist()
+    (2, [1, 14])
+    """
+    far = np.flatnonzero((np.abs(points.xy) > LARGEST_COORDINATE).any(axis=1))
+    if far.size:
+        raise InputError(
+            f"point {far[0] + 1} is ({points.xy[far[0], 0]:.17g}, {points.xy[far[0], 1]:.17g}): "
+            f"coordinates of seeds must be at most 2^44 pixels; scale the points"
+        )
+    fine = points.xy * FINEST_SCALE
+    steps = np.rint(fine)
+    moved = (steps != fine).any(axis=1)
+    snapped = int(moved.sum())
+    largest_move = 0.0
+    if snapped:
+        largest_move = float(hypotenuse(*(fine - steps).T).max()) / FINEST_SCALE
+    lattice = steps.astype(np.int64)
+    scale = _coarsest_scale(lattice)
+    lattice //= FINEST_SCALE // scale
+    labels = points.label_array.astype(np.uint32)
+    seeds = SeedSet(
+        lattice[:, 0],
+        lattice[:, 1],
+        labels,
+        scale=scale,
+        snapped=snapped,
+        largest_move=largest_move,
+        **_sites_of_points(lattice / scale, labels, points),
+    )
+    if check is not None:
+        check(seeds)
+    if snapped:
+        _report_snapped(points, moved, largest_move, strict=strict)
+    return seeds
+
+
+def _sites_of_points(xy: NDArray[np.float64], labels: NDArray[np.uint32], points: PointSet) -> dict[str, Any]:
+    """Sites in increasing label order; points that share a label leave the choice to SeedSet."""
+    if points.labels is None:
+        return {"sites": xy, "site_labels": labels, "properties": points.properties}
+    order = np.argsort(labels, kind="stable")
+    if len(labels) and (np.diff(labels[order].astype(np.int64)) == 0).any():
+        if points.properties:
+            raise InputError("points that share a label cannot bring further columns: use --no-properties")
+        return {}
+    properties = {name: [column[i] for i in order] for name, column in points.properties.items()}
+    return {"sites": xy[order], "site_labels": labels[order], "properties": properties}
+
+
+def _report_snapped(points: PointSet, moved: NDArray[np.bool_], largest: float, *, strict: bool) -> None:
+    count = int(moved.sum())
+    if strict:
+        row = int(np.flatnonzero(moved)[0])
+        raise InputError(
+            f"point {row + 1} is ({points.xy[row, 0]}, {points.xy[row, 1]}): seeds lie on multiples of 1/256 pixel "
+            f"({count} such points); round them or leave out --strict"
+        )
+    warnings.warn(
+        f"{count} of {len(points)} seeds moved to the nearest 1/256 pixel, by at most {largest:.6f} pixels",
+        VorotoolWarning,
+        stacklevel=4,
+    )
+
+
+def _coarsest_scale(lattice: NDArray[np.int64]) -> int:
+    """The smallest power of two of steps a pixel for coordinates given in 1/256 pixel."""
+    used = int(np.bitwise_or.reduce(lattice, axis=None)) & (FINEST_SCALE - 1)
+    return FINEST_SCALE // (used & -used) if used else 1
+
+
+def seeds_from_raster(
+    raster: Raster | NDArray[Any],
+    *,
+    mode: SeedMode | None = None,
+    connectivity: int = 8,
+    threshold: float | Literal["otsu"] | None = None,
+    invert: bool = False,
+    strict: bool = False,
+    max_sites: int = LARGEST_LABEL,
+    note: Note = None,
+) -> SeedSet:
+    """Take seeds from an image.
+
+    Parameters
+    ----------
+    raster : Raster or (H, W) array
+        Nonzero pixels are foreground.
+    mode : {"pixels", "components", "labels", "centroids"}, optional
+        What shares a label: nothing, a connected component, or all pixels of one value; or one seed at the
+        centroid of each component or label. By default components of a mask, whose only value besides 0 is 1, 255,
+        the largest of its type, or True; else labels.
+    connectivity : {8, 4}
+        Neighbourhood of components.
+    threshold : float or "otsu", optional
+        Foreground is what is larger.
+    invert : bool
+        Exchange foreground and background.
+    strict : bool
+        Refuse an image without foreground, and centroids that would have to move to the lattice of 1/256 pixel.
+    max_sites : int
+        More seeds, which are the foreground pixels unless centroids are taken, are refused before memory is
+        taken for them.
+    note : callable, optional
+        Called with what was taken for a mask or a label, where that may surprise.
+
+    Returns
+    -------
+    SeedSet
+        Seeds with the image's frame. Pixels and components are numbered by raster order of their first pixel.
+
+    Raises
+    ------
+    InputError
+        If the image looks like a photograph and no threshold is given; or there is no foreground, and `strict`.
+    LimitError
+        If there are more seeds than `max_sites`.
+    UsageError
+        If options do not go together.
+
+    Warns
+    -----
+    VorotoolWarning
+        If there is no foreground, and so no seed.
+
+    Examples
+    --------
+    >>> seeds_from_raster(Raster(np.array([[1, 0, 1], [0, 0, 1]]))).labels.tolist()
+    [1, 2, 2]
+    """
+    if connectivity not in (4, 8):
+        raise UsageError(f"connectivity is {shown_number(connectivity)}: it must be 4 or 8")
+    raster = raster if isinstance(raster, Raster) else Raster(raster)
+    values = foreground_values(raster, threshold, invert=invert)
+    if mode not in (None, *get_args(SeedMode)):
+        raise UsageError(f"mode is {mode!r}: it must be one of {', '.join(get_args(SeedMode))}")
+    frame = Frame(0, 0, values.shape[1], values.shape[0])
+    if not values.any():
+        report_no_foreground(strict=strict)
+        return _no_seeds(frame, has_objects=mode != "pixels")
+    kind = default_objects(values, note=note) if mode in (None, "centroids") else mode
+    if kind == "pixels":
+        x, y = _foreground(values, max_sites)
+        labels = np.arange(1, len(x) + 1, dtype=np.uint32)
+        sites = np.stack([x, y], axis=1).astype(np.float64)
+        return SeedSet(x, y, labels, frame=frame, sites=sites, site_labels=labels)
+    objects = label_values(values) if kind == "labels" else numbered_components(values, connectivity)
+    return _seeds_of_objects(objects, frame, centroids_only=mode == "centroids", max_sites=max_sites, strict=strict)
+
+
+def _no_seeds(frame: Frame, *, has_objects: bool) -> SeedSet:
+    """Of an image without foreground; with the columns that others have."""
+    nothing = np.empty(0, dtype=np.int64)
+    labels = np.empty(0, np.uint32)
+    area = nothing if has_objects else None
+    return SeedSet(nothing, nothing, labels, frame=frame, sites=np.empty((0, 2)), site_labels=labels, object_area=area)
+
+
+def _foreground(objects: NDArray[Any], most: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Columns and rows of the nonzero pixels, in raster order; counted before memory is taken for them."""
+    count = int(np.count_nonzero(objects))
+    if count > most:
+        raise LimitError(
+            f"the image has {count} foreground pixels, more than --max-sites {most}: use --seeds centroids, or a "
+            "larger limit"
+        )
+    x = np.flatnonzero(objects)
+    width = objects.shape[1]
+    y = x // width
+    x -= y * width
+    return x, y
+
+
+def _numbered(labels: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Distinct labels, and the index of each seed's: by a table unless the labels are sparse."""
+    largest = int(labels.max())
+    if largest > 4 * labels.size + 65536:
+        return np.unique(labels, return_inverse=True)
+    present = np.zeros(largest + 1, bool)
+    for part in _parts(len(labels), CHUNK):
+        present[labels[part]] = True
+    distinct = np.flatnonzero(present)
+    if len(distinct) == largest:
+        return distinct, labels - labels.dtype.type(1)  # labels 1 to n: the commonest
+    return distinct, (np.cumsum(present, dtype=np.uint32) - np.uint32(1))[labels]
+
+
+def _parts(count: int, size: int) -> Iterator[slice]:
+    for start in range(0, count, size):
+        yield slice(start, start + size)
+
+
+def _sums(index: NDArray[Any], kinds: int, weights: NDArray[Any] | None = None) -> NDArray[Any]:
+    """Sums of weights by index, part by part: NumPy would copy all of both to 64 bits."""
+    sums = np.zeros(kinds, np.int64 if weights is None else np.float64)
+    for part in _parts(len(index), max(CHUNK, kinds)):
+        sums += np.bincount(index[part], None if weights is None else weights[part], minlength=kinds)
+    return sums
+
+
+def _seeds_of_objects(
+    objects: NDArray[Any], frame: Frame, *, centroids_only: bool, max_sites: int, strict: bool
+) -> SeedSet:
+    """Seeds of a label image: all pixels of each label, or its centroid."""
+    x, y = _foreground(objects, objects.size if centroids_only else max_sites)
+    labels = objects[y, x].astype(np.uint32, copy=False)
+    distinct, index = _numbered(labels)
+    area = _sums(index, len(distinct))
+    # Sums of coordinates stay below 2^53, so the centroid is the rounded quotient of two exact integers.
+    sites = np.stack([_sums(index, len(distinct), weights) / area for weights in (x, y)], axis=1)
+    known: dict[str, Any] = {
+        "frame": frame,
+        "sites": sites,
+        "site_labels": distinct.astype(np.uint32),
+        "object_area": area,
+    }
+    if not centroids_only:
+        return SeedSet(x, y, labels, **known)
+    if len(distinct) > max_sites:
+        raise LimitError(f"the image has {len(distinct)} objects, more than --max-sites {max_sites}")
+    seeds = seeds_from_points(PointSet(sites, distinct), strict=strict)
+    return replace(seeds, properties={}, **known)

@@ -1,0 +1,153 @@
+"""Digital Voronoi tessellations: exact, and by the paper's propagation (sections 2.1 and 2.2)."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any, Literal
+
+from numpy.typing import NDArray
+
+from vorotool.engines.common.label_arrays import Progress
+from vorotool.engines.tessellation.frames import (
+    as_seeds,
+    asked_frame,
+    band_limits,
+    default_frame,
+    require_memory,
+    squared_limit,
+)
+from vorotool.engines.tessellation.propagation import PropagatedRows, propagate
+from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.engines.tessellation.verify_tessellation import verify_label_image
+from vorotool.errors import UsageError
+from vorotool.geometry.numbers import shown_number, whole_number
+from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
+from vorotool.geometry.points.label_image import LabelImage
+from vorotool.geometry.points.seed_set import SeedSet
+
+Method = Literal["exact", "propagation"]
+
+
+def tessellate(
+    seeds: Any,
+    *,
+    shape: tuple[int, int] | None = None,
+    window: tuple[int, int, int, int] | None = None,
+    method: Method = "exact",
+    passes: int = 2,
+    max_distance: float | Fraction | None = None,
+    dtype: Any = None,
+    out: NDArray[Any] | None = None,
+    threads: int = 0,
+    max_pixels: int = MAX_PIXELS,
+    progress: Progress = None,
+) -> LabelImage:
+    """Label every pixel with its nearest seed; ties go to the smallest label.
+
+    Parameters
+    ----------
+    seeds : SeedSet, PointSet, Raster, or (n, 2) array-like or shapely points
+        Where the regions come from. Point i of an array has label i + 1.
+    shape : (H, W), optional
+        Rows and columns of the image; pixel (0, 0) is at the origin.
+    window : (x, y, w, h), optional
+        The same with an origin. By default an image's own frame, or what just holds the points.
+    method : {"exact", "propagation"}
+        "propagation" is the paper's algorithm to the letter, whose labels are nearly always right.
+    passes : {2, 1}
+        Passes of the propagation.
+    max_distance : float or Fraction, optional
+        Pixels farther than this from every seed get label 0.
+    dtype, out
+        As in `Tessellator.labels`.
+    threads : int
+        0 uses all. The result does not depend on it.
+    max_pixels : int
+        Larger images are refused before memory is taken.
+
+    Returns
+    -------
+    LabelImage
+
+    Raises
+    ------
+    InputError
+        If there is no seed, a seed is unusable, or the points have negative coordinates and no window.
+    LimitError
+        If the frame has more than `max_pixels` pixels; or none is given, and the points need more than 2^28.
+    UsageError
+        If options do not go together.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", sections 2.1 and 2.2.
+
+    Examples
+    --------
+    >>> tessellate([[0, 0], [2, 1]], shape=(2, 3)).labels.tolist()
+    [[1, 1, 2], [1, 2, 2]]
+    """
+    frame = asked_frame(shape, window)
+
+    def require_frame(made: SeedSet) -> None:
+        if len(made) or made.is_empty_image:
+            require_memory(frame or default_frame(made), max_pixels)
+
+    seed_set = as_seeds(seeds, check=require_frame)
+    if method == "propagation":
+        if max_distance is not None:
+            raise UsageError("max_distance needs method='exact': the paper's propagation has no distance limit")
+        return propagate(seed_set, frame, passes=passes, dtype=dtype, out=out, progress=progress)
+    if method != "exact":
+        raise UsageError(f"method is {method!r}: it must be 'exact' or 'propagation'")
+    if whole_number(passes, "passes") != 2:
+        raise UsageError(f"passes is {shown_number(passes)}, which needs method='propagation'")
+    sweep = Tessellator(seed_set, frame, max_distance=max_distance, threads=threads, progress=progress)
+    return LabelImage(sweep.labels(dtype=dtype, out=out), sweep.frame, seed_set)
+
+
+def verify_rows(rows: Tessellator | PropagatedRows, *, threads: int = 0) -> None:
+    """Check every label against an independent exact nearest-seed search, band by band.
+
+    Raises
+    ------
+    VerificationError
+        If a label is wrong; the first such pixel is named.
+
+    Examples
+    --------
+    >>> verify_rows(Tessellator(as_seeds([[0, 0], [4, 0]]), Frame(0, 0, 5, 3)))
+    """
+    for first, count in band_limits(rows.frame):
+        frame = Frame(rows.frame.x, rows.frame.y + first, rows.frame.width, count)
+        limit = rows.most_squared if isinstance(rows, Tessellator) else None
+        verify_label_image(rows.labels(first, count), rows.seeds, frame, max_distance2=limit, threads=threads)
+
+
+def verify_tessellation(image: LabelImage, *, max_distance: float | Fraction | None = None, threads: int = 0) -> None:
+    """Check that every pixel of a tessellation has the smallest label of its nearest seeds.
+
+    Parameters
+    ----------
+    image : LabelImage
+        With its seeds, as `tessellate` gives it.
+    max_distance : float or Fraction, optional
+        The limit that the tessellation was made with.
+    threads : int
+        0 uses all.
+
+    Raises
+    ------
+    VerificationError
+        If a label is wrong; the first such pixel is named.
+    UsageError
+        If the image carries no seeds.
+
+    Examples
+    --------
+    >>> verify_tessellation(tessellate([[0, 0], [2, 1]], shape=(2, 3)))
+    """
+    if not isinstance(image, LabelImage) or image.seeds is None or image.frame is None:
+        raise UsageError("the label image carries no seeds: make it with vorotool.tessellate")
+    limit = squared_limit(max_distance, image.seeds.scale)
+    verify_label_image(image.labels, image.seeds, image.frame, max_distance2=limit, threads=threads)

@@ -1,0 +1,258 @@
+"""The exact digital tessellation of a frame (section 2.1), row by row."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.common.label_arrays import Progress
+from vorotool.engines.tessellation.frames import (
+    check_out,
+    default_frame,
+    label_dtype,
+    report_duplicates,
+    require_seeds,
+    simd_level,
+    squared_limit,
+)
+from vorotool.engines.tessellation.interior_seeds import needed_seeds, paint_seeds
+from vorotool.engines.tessellation.raster_objects import refuse_distances
+from vorotool.errors import InputError, LimitError, UsageError
+from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.numbers import shown_number
+from vorotool.geometry.pixel_frame import MAX_SIDE, Frame
+from vorotool.geometry.points.seed_set import SeedSet
+
+
+class _NothingLabelled:
+    """What the core would be for no seeds: those of an image without foreground."""
+
+    duplicates = 0
+    is_wide = False
+    products_exact = True
+
+    def labels(self, rows: NDArray[Any], *_: Any) -> None:
+        rows[...] = 0
+
+    def squared_distances(self, *_: Any) -> None:
+        refuse_distances()
+
+    distances = squared_distances
+
+
+class Tessellator:
+    """The exact tessellation of a frame, ready to give any of its rows.
+
+    Parameters
+    ----------
+    seeds : SeedSet
+        At least one seed, unless they are those of an image.
+    frame : Frame, optional
+        The pixels to label; by default `default_frame` of the seeds.
+    max_distance : float or Fraction, optional
+        Pixels farther than this from every seed get label 0.
+    threads : int
+        0 uses all.
+    strict : bool
+        Refuse several seeds at one place.
+    progress : callable, optional
+        Called now and then with the fraction done of the frame, of which rows are asked for from top to bottom.
+
+    Raises
+    ------
+    InputError
+        If there is no seed, or one is too far away for exact arithmetic.
+
+    Warns
+    -----
+    VorotoolWarning
+        If several seeds lie at one place: the smallest label has the region.
+
+    Notes
+    -----
+    A row sweep with dead seeds dropped for good: memory grows with the seeds and the width, not with the
+    frame. Of the pixels of large objects only the outer ones take part, see `needed_seeds`. Every row is the
+    same whatever the band it is computed in, the threads and the instruction set.
+
+    Examples
+    --------
+    >>> from vorotool.engines.tessellation.seeding import seeds_from_points
+    >>> from vorotool.geometry.points.point_set import PointSet
+    >>> sweep = Tessellator(seeds_from_points(PointSet([[0, 0], [4, 0]])), Frame(0, 0, 5, 1))
+    >>> sweep.labels().tolist()
+    [[1, 1, 1, 2, 2]]
+    """
+
+    def __init__(
+        self,
+        seeds: SeedSet,
+        frame: Frame | None = None,
+        *,
+        max_distance: float | Fraction | None = None,
+        threads: int = 0,
+        strict: bool = False,
+        progress: Progress = None,
+    ) -> None:
+        require_seeds(seeds)
+        self.seeds = seeds
+        self.frame = frame or default_frame(seeds)
+        if max(self.frame.shape) > MAX_SIDE:
+            width, height = shown_number(self.frame.width), shown_number(self.frame.height)
+            raise LimitError(f"the frame is {width} x {height}: a side has at most 2^30 pixels")
+        self.simd = simd_level()
+        self.most_squared = squared_limit(max_distance, seeds.scale)
+        self._threads = checked_threads(threads)
+        self._progress = progress
+        self._core = self._prepare()
+        self.duplicates: int = self._core.duplicates
+        report_duplicates(self.duplicates, len(seeds), strict=strict)
+
+    def _prepare(self) -> _core.Tessellation | _NothingLabelled:
+        seeds, frame = self.seeds, self.frame
+        self._paints = False
+        if not len(seeds):
+            return _NothingLabelled()
+        needed = needed_seeds(seeds)
+        self._paints = needed is not None
+        chosen = slice(None) if needed is None else needed
+        try:
+            return _core.Tessellation(
+                seeds.x[chosen],
+                seeds.y[chosen],
+                seeds.labels[chosen],
+                frame.x,
+                frame.y,
+                frame.width,
+                frame.height,
+                seeds.scale,
+                self.simd,
+            )
+        except _core.SeedTooFarError as error:
+            (index,) = error.args  # from 0, of the seeds that the core was given
+            raise self._too_far(index if needed is None else int(needed[index])) from None
+
+    def _too_far(self, index: int) -> InputError:
+        seeds, frame = self.seeds, self.frame
+        x, y = (int(values[index]) / seeds.scale for values in (seeds.x, seeds.y))
+        return InputError(
+            f"seed {index + 1} at ({x:.17g}, {y:.17g}) is too far from the frame, which begins at ({frame.x}, "
+            f"{frame.y}), for exact arithmetic: coordinates relative to the middle of the frame must be at most "
+            f"2^40 lattice steps ({2**40 // seeds.scale} pixels for these seeds); use a nearer --window"
+        )
+
+    def _paint(self, rows: NDArray[Any], first: int, value: int | None = None) -> None:
+        """Put the seeds on their pixels, where those that only matter there were left out."""
+        if self._paints:
+            place = Frame(self.frame.x, self.frame.y + first, self.frame.width, len(rows))
+            paint_seeds(rows, self.seeds, place, value)
+
+    def _progress_of(self, first: int, rows: int) -> Progress:
+        """What is told while some rows are made: the fraction of the frame, as those above them are made before."""
+        tell, height = self._progress, self.frame.height
+        if tell is None:
+            return None
+        return lambda fraction: tell((first + fraction * rows) / height)
+
+    @property
+    def arithmetic(self) -> str:
+        """The narrowest arithmetic that is exact for these seeds."""
+        if self._core.is_wide:
+            return "int128"
+        return "float64" if self._core.products_exact else "float64 with int128"
+
+    def labels(
+        self, first: int = 0, rows: int | None = None, *, dtype: Any = None, out: NDArray[Any] | None = None
+    ) -> NDArray[Any]:
+        """Labels of some rows of the frame.
+
+        Parameters
+        ----------
+        first, rows : int
+            The first row and the number of rows; by default all.
+        dtype : dtype, optional
+            uint8, uint16, uint32 or int32; by default uint16 where the labels fit, else uint32.
+        out : (rows, W) array, optional
+            Written instead of a new array; C-contiguous, of one of these types.
+
+        Returns
+        -------
+        (rows, W) array
+            `out` if it was given.
+
+        Raises
+        ------
+        UsageError
+            If the labels do not fit the type, or `out` has another shape or layout.
+        """
+        kind = label_dtype(self.seeds.largest_label, getattr(out, "dtype", dtype))
+        array = self._output(first, rows, kind, out)
+        limit = None if self.most_squared is None else divmod(self.most_squared, 2**64)
+        self._core.labels(array, first, limit, self._threads, self._progress_of(first, len(array)))
+        self._paint(array, first)
+        return array
+
+    def squared_distances(
+        self, first: int = 0, rows: int | None = None, *, dtype: np.dtype[Any] | None = None
+    ) -> NDArray[Any]:
+        """Exact squared distances to the nearest seed, in units of 1 / ``seeds.scale``² square pixels.
+
+        Parameters
+        ----------
+        first, rows : int
+            The first row and the number of rows; by default all.
+        dtype : dtype, optional
+            uint32 or uint64, where it is known that they fit; by default `square_dtype`.
+
+        Returns
+        -------
+        (rows, W) array
+            uint32 where every distance of the frame fits, else uint64.
+
+        Raises
+        ------
+        LimitError
+            If a squared distance may exceed 64 bits.
+        """
+        array = self._output(first, rows, dtype or self.square_dtype, None)
+        self._core.squared_distances(array, first, self._threads, self._progress_of(first, len(array)))
+        self._paint(array, first, 0)
+        return array
+
+    def distances(self, first: int = 0, rows: int | None = None) -> NDArray[np.float32]:
+        """Distances to the nearest seed in pixels, rounded once from double precision."""
+        array = self._output(first, rows, np.dtype(np.float32), None)
+        self._core.distances(array, first, self._threads, self._progress_of(first, len(array)))
+        self._paint(array, first, 0)
+        return array
+
+    def check_distances(self) -> None:
+        """Refuse distances where there are no seeds."""
+        if not len(self.seeds):
+            refuse_distances()
+
+    @cached_property
+    def square_dtype(self) -> np.dtype[Any]:
+        """The type of squared distances: the smaller one that holds the largest possible."""
+        self.check_distances()
+        scale, frame = self.seeds.scale, self.frame
+        # No pixel is farther from its nearest seed than from this one, and none farther than a corner.
+        dx = max(abs(int(self.seeds.x[0]) - scale * c) for c in (frame.x, frame.x + frame.width - 1))
+        dy = max(abs(int(self.seeds.y[0]) - scale * r) for r in (frame.y, frame.y + frame.height - 1))
+        largest = dx * dx + dy * dy
+        if largest >= 2**64:
+            raise LimitError("squared distances of this frame may exceed 64 bits: use --what distance")
+        return np.dtype(np.uint32 if largest < 2**32 else np.uint64)
+
+    def _output(self, first: int, rows: int | None, dtype: np.dtype[Any], out: NDArray[Any] | None) -> NDArray[Any]:
+        rows = self.frame.height - first if rows is None else rows
+        if not 0 <= first < self.frame.height or not 1 <= rows <= self.frame.height - first:
+            raise UsageError(f"rows {first} to {first + rows - 1} are not all in a frame of {self.frame.height} rows")
+        if out is None:
+            return np.empty((rows, self.frame.width), dtype)
+        check_out(out, (rows, self.frame.width))
+        return out

@@ -1,0 +1,95 @@
+"""An exact check of digital tessellations, by another way than the one that makes them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.engines.common.label_arrays import Progress, label_array
+from vorotool.errors import InputError, UsageError, VerificationError
+from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.pixel_frame import Frame
+from vorotool.geometry.points.label_image import LabelImage
+from vorotool.geometry.points.seed_set import SeedSet
+
+
+def verify_label_image(
+    labels: NDArray[Any],
+    seeds: SeedSet,
+    frame: Frame,
+    *,
+    max_distance2: int | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> None:
+    """Check a tessellation exactly, by another way than the one that makes it.
+
+    Every pixel must have the label of the nearest seed, ties to the smallest label; the nearest seed is found
+    in a k-d tree with integers of 64 or 128 bits.
+
+    Parameters
+    ----------
+    labels : (H, W) integer array
+        The labels to check.
+    seeds : SeedSet
+        All seeds, also those outside the frame; coordinates up to 2^40 lattice steps.
+    frame : Frame
+        Where the pixels lie.
+    max_distance2 : int, optional
+        Squared distance in lattice steps; pixels beyond it must be 0.
+    threads : int
+        0 for all.
+    progress : callable, optional
+        Called with the fraction done.
+
+    Raises
+    ------
+    VerificationError
+        If a pixel is wrong: the message counts them and names the first in row-major order.
+    InputError
+        If the shapes differ, or coordinates are beyond 2^40 lattice steps.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> seeds = SeedSet(np.array([0, 2]), np.array([0, 0]), np.array([1, 2]))
+    >>> verify_label_image(np.array([[1, 1, 2]]), seeds, Frame(0, 0, 3, 1))
+    >>> verify_label_image(np.array([[1, 2, 2]]), seeds, Frame(0, 0, 3, 1))
+    Traceback (most recent call last):
+        ...
+    vorotool.errors.VerificationError: 1 of 3 pixels is wrong: the first, (x, y) = (1, 0), has label 2, not 1
+    """
+    image = LabelImage(labels, frame)
+    high, low = _split_limit(max_distance2)
+    try:
+        count, column, row, _, right = _core.verify_labels(
+            label_array(image.labels),
+            frame.x,
+            frame.y,
+            seeds.x,
+            seeds.y,
+            seeds.labels,
+            seeds.scale,
+            high,
+            low,
+            checked_threads(threads),
+            progress,
+        )
+    except IndexError as error:
+        raise InputError(f"cannot verify: {error}; move the frame and the seeds nearer to the origin") from error
+    if count:
+        raise VerificationError(
+            f"{count} of {frame.pixels} pixels {'is' if count == 1 else 'are'} wrong: the first, (x, y) = "
+            f"({frame.x + column}, {frame.y + row}), has label {image.labels[row, column]}, not {right}"
+        )
+
+
+def _split_limit(limit: int | None) -> tuple[int | None, int]:
+    """Halves of a 128-bit limit; no squared distance exceeds 128 bits."""
+    if limit is None or limit >= 1 << 128:
+        return None, 0
+    if limit < 0:
+        raise UsageError(f"max_distance2 is {limit}: it must not be negative")
+    return int(limit) >> 64, int(limit) & 0xFFFFFFFFFFFFFFFF

@@ -1,0 +1,1 @@
+"""Undoing compressions, up to a limit."""

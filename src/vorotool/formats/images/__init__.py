@@ -1,0 +1,1 @@
+"""Image readers and writers, whole and by bands."""

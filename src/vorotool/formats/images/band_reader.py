@@ -1,0 +1,231 @@
+"""Images in files that are read band by band: Zarr arrays, and pages of TIFF files."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.formats.images.tiff_layout import TiffLayout
+from vorotool.formats.images.tiff_reader import Resolution, opened_tiff, page_layout, page_of, resolution_of
+from vorotool.formats.images.tiff_segments import decode_rows, is_decoded_here
+from vorotool.formats.io.descriptors import stream_kind
+from vorotool.formats.io.limits import check_pixels, decoding
+from vorotool.formats.zarr.metadata import read_metadata
+from vorotool.formats.zarr.reader import StoredArray
+from vorotool.formats.zarr.store import is_array, is_folder, is_group, is_store
+from vorotool.geometry.pixel_frame import MAX_PIXELS
+from vorotool.geometry.points.raster import Raster
+
+_TIFF_MAGIC = (b"II*\x00", b"MM\x00*", b"II+\x00", b"MM\x00+")
+
+
+@dataclass(frozen=True)
+class ZarrRows:
+    """The rows of a Zarr array.
+
+    Parameters
+    ----------
+    name : str
+        As the user wrote it.
+    path : str
+        Absolute, for processes in other folders.
+
+    Raises
+    ------
+    InputError
+        If it is no array of numbers with two axes, or is damaged.
+    """
+
+    name: str
+    path: str
+    resolution: Resolution | None = None
+
+    @cached_property
+    def _array(self) -> StoredArray:
+        if not is_array(self.path):
+            if is_group(self.path):
+                example = f"{self.name.rstrip(os.sep)}/0"
+                raise InputError(f"{self.name} is a Zarr group: name an array in it, such as {example}")
+            try:
+                read_metadata(self.path)
+            except InputError as error:
+                raise InputError(f"{self.name} holds no Zarr array: {error}") from None
+            raise InputError(
+                f"{self.name} holds no Zarr array: a zarr.json or .zarray that describes one must be in it"
+            )
+        with decoding(self.name, "Zarr"):
+            array = StoredArray(self.name, self.path)
+        shape, kind = array.shape, array.dtype
+        if len(shape) != 2:
+            raise InputError(f"{self.name} has {len(shape)} axes, shape {shape}: an image has two, rows and columns")
+        if kind.kind not in "biuf":
+            raise InputError(f"{self.name} holds {kind}: an image of numbers was expected")
+        check_pixels(self.name, shape[1], shape[0], shape[0] * shape[1])
+        return array
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns."""
+        height, width = self._array.shape
+        return height, width
+
+    def rows(self, first: int, count: int) -> NDArray[Any]:
+        """Read some rows; bool becomes uint8."""
+        with decoding(self.name, "Zarr"):
+            return _plain(self._array.read((slice(first, first + count), slice(0, self.shape[1]))))
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out what is open."""
+        return {"name": self.name, "path": self.path, "resolution": self.resolution}
+
+
+@dataclass(frozen=True)
+class TiffRows:
+    """The rows of a page of a TIFF file with one value a pixel.
+
+    Parameters
+    ----------
+    name, path
+        As of `ZarrRows`.
+    page : int, optional
+        Which page.
+
+    Raises
+    ------
+    InputError
+        If the file is damaged or cut off, or no such image.
+    """
+
+    name: str
+    path: str
+    page: int | None = None
+
+    @cached_property
+    def _opened(self) -> tuple[TiffLayout, Resolution | None]:
+        """Where the pixels of the page are, which are read when they are asked for, and its resolution."""
+        with opened_tiff(self.name, self.path) as file:
+            page = page_of(file, self.name, self.page)
+            layout = page_layout(self.name, file.filehandle.size, page)
+            with decoding(self.name, "TIFF"):
+                return layout, resolution_of(file, page)
+
+    @property
+    def _layout(self) -> TiffLayout:
+        return self._opened[0]
+
+    @property
+    def resolution(self) -> Resolution | None:
+        """Pixels a unit."""
+        return self._opened[1]
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether each pixel has one number, in a form that is decoded strip by strip."""
+        return self._layout.samples == 1 and is_decoded_here(self._layout)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns."""
+        return self._layout.height, self._layout.width
+
+    def rows(self, first: int, count: int) -> NDArray[Any]:
+        """Read some rows; bool becomes uint8."""
+        layout = self._layout
+        rows = np.empty((count, layout.width), layout.dtype)
+        with decoding(self.name, "TIFF"), Path(self.path).open("rb") as file:
+
+            def read(offset: int, size: int) -> bytes:
+                file.seek(offset)
+                return file.read(size)
+
+            for band in range(first // layout.rows, -(-(first + count) // layout.rows)):
+                for index in range(band * layout.across, (band + 1) * layout.across):
+                    _, y, x, height = layout.place(index)
+                    top, bottom = max(y, first), min(y + height, first + count)
+                    place = rows[top - first : bottom - first, x : x + layout.columns]
+                    decoded = decode_rows(layout, read, index, top - y, bottom - top)
+                    place[...] = decoded[:, : place.shape[1], 0]
+        return _plain(rows)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out what is open."""
+        return {"name": self.name, "path": self.path, "page": self.page}
+
+
+def open_rows(
+    path: str | os.PathLike[str], *, input_format: str | None = None, page: int | None = None
+) -> ZarrRows | TiffRows | None:
+    """Open an image that can be read band by band; None if it is none, or comes through a stream.
+
+    Parameters
+    ----------
+    path : str or path
+        Of a Zarr store or of a file.
+    input_format : str, optional
+        What the caller says that it is.
+    page : int, optional
+        Of a TIFF.
+
+    Raises
+    ------
+    InputError
+        If it is one, but damaged.
+
+    Examples
+    --------
+    >>> open_rows("data/dots.csv")
+    """
+    name = os.fspath(path)
+    if is_zarr(name, input_format):
+        if page not in (None, 0):
+            raise InputError(f"{name} has a single page, so there is no --page {page}")
+        return ZarrRows(name, str(Path(name).absolute()))
+    if input_format not in (None, "tiff") or not _begins_as_tiff(name):
+        return None
+    rows = TiffRows(name, str(Path(name).absolute()), page)
+    return rows if rows.is_plain else None
+
+
+def is_zarr(name: str, input_format: str | None = None) -> bool:
+    """Whether an input is, or should be, a Zarr array: a folder that holds one, or is named or said to."""
+    if input_format not in (None, "zarr") or not is_folder(name):
+        return False
+    return input_format == "zarr" or is_store(name) or name.rstrip(os.sep).lower().endswith(".zarr")
+
+
+def read_rows(rows: ZarrRows | TiffRows, *, max_pixels: int = MAX_PIXELS) -> Raster:
+    """Read a whole image.
+
+    Raises
+    ------
+    LimitError
+        If it has more than ``max_pixels`` pixels.
+    """
+    height, width = rows.shape
+    check_pixels(rows.name, width, height, max_pixels)
+    return Raster(rows.rows(0, height), rows.resolution)
+
+
+def _plain(values: NDArray[Any]) -> NDArray[Any]:
+    """Native bytes; two-valued images are 0 and 1."""
+    if values.dtype == np.bool_:
+        return values.astype(np.uint8)
+    return values.astype(values.dtype.newbyteorder("="), copy=False)
+
+
+def _begins_as_tiff(name: str) -> bool:
+    """Whether a file begins as a TIFF does; streams, which have one beginning only, are read whole elsewhere."""
+    try:
+        if stream_kind(name) is not None:
+            return False
+        with Path(name).open("rb") as file:
+            return file.read(4) in _TIFF_MAGIC
+    except (OSError, ValueError):  # who reads it says why
+        return False

@@ -1,0 +1,47 @@
+"""Sizes that JPEG pictures within a TIFF state for themselves, and by which they would be decoded."""
+
+from __future__ import annotations
+
+from vorotool.errors import InputError
+from vorotool.formats.images.tiff_layout import TiffLayout
+
+_LARGEST_UNIT = 32
+"""Pixels: 8 x 8 values, of up to 4 x 4 pixels each; a picture is filled up to whole units."""
+
+
+def check_jpegs(layout: TiffLayout, data: bytes) -> None:
+    """Refuse pictures that are larger than the strip or tile that they fill.
+
+    Raises
+    ------
+    InputError
+        If one is.
+    """
+    wide, high = (-(-side // _LARGEST_UNIT) * _LARGEST_UNIT for side in (layout.columns, layout.rows))
+    for index, (offset, count) in enumerate(zip(layout.offsets, layout.counts, strict=True)):
+        width, height = jpeg_size(data[offset : offset + count]) or (0, 0)
+        if width > wide or height > high:
+            raise InputError(
+                f"{layout.name} is damaged: {layout.kind} {index} holds a JPEG of {width} x {height} pixels, "
+                f"but has place for {layout.columns} x {layout.rows}"
+            )
+
+
+def jpeg_size(data: bytes) -> tuple[int, int] | None:
+    """Width and height by the first frame header; None if there is none.
+
+    Examples
+    --------
+    >>> jpeg_size(bytes.fromhex("ffd8 ffc0 000b 08 0010 0020 01 01 11 00"))
+    (32, 16)
+    """
+    at = 2
+    while at + 9 <= len(data) and data[at] == 0xFF:
+        marker = data[at + 1]
+        if marker == 0xFF:  # fills
+            at += 1
+        elif 0xC0 <= marker <= 0xCF and marker not in (0xC4, 0xC8, 0xCC):
+            return int.from_bytes(data[at + 7 : at + 9], "big"), int.from_bytes(data[at + 5 : at + 7], "big")
+        else:
+            at += 2 + int.from_bytes(data[at + 2 : at + 4], "big")
+    return None

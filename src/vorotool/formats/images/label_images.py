@@ -1,0 +1,186 @@
+"""Label images in and out, whatever the file format."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, BinaryIO, Literal
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+from vorotool.errors import InputError, LimitError, UsageError
+from vorotool.formats.images.label_text import write_label_text
+from vorotool.formats.images.npy import write_npy
+from vorotool.formats.images.png_writer import write_png
+from vorotool.formats.images.reader import read_image
+from vorotool.formats.images.tiff_writer import write_tiff
+from vorotool.formats.io.limits import SourceLike
+from vorotool.geometry.pixel_frame import MAX_PIXELS
+from vorotool.geometry.points.label_image import LabelImage
+from vorotool.geometry.points.raster import Raster
+
+LabelFormat = Literal["png", "tiff", "npy", "text"]
+
+LARGEST_PNG_LABEL = 65_535
+_LARGEST_LABEL = 2**32 - 1
+
+
+def write_label_image(
+    out: BinaryIO,
+    bands: Iterable[NDArray[Any]],
+    *,
+    shape: tuple[int, int],
+    dtype: DTypeLike,
+    fmt: LabelFormat,
+    largest_label: int,
+    palette: NDArray[np.uint8] | None = None,
+    bit_depth: int | None = None,
+    resolution: tuple[float, float, str] | None = None,
+    threads: int = 0,
+) -> None:
+    r"""Write an image from bands of rows; what the format cannot hold is refused before anything is written.
+
+    Parameters
+    ----------
+    out : binary file
+        Where to write.
+    bands : iterable of (rows, W) arrays
+        Rows from top to bottom.
+    shape : (int, int)
+        Height and width.
+    dtype : dtype
+        Type in TIFF and NPY files: an integer, bool (stored as uint8), or float32 for distances.
+    fmt : {"png", "tiff", "npy", "text"}
+        File format.
+    largest_label : int
+        The largest value there can be.
+    palette : (k, 3) uint8 array, optional
+        Makes PNG and TIFF palette images (8 bits a pixel unless ``bit_depth`` says less); NPY and text get
+        the indices.
+    bit_depth : {1, 2, 4, 8, 16}, optional
+        Of a PNG; by default 16, with a palette 8.
+    resolution : (float, float, str), optional
+        Pixels a unit in x and y, and the unit, for TIFF.
+    threads : int
+        0 for all processors.
+
+    Raises
+    ------
+    UsageError
+        If the format is for integers and these are not.
+    LimitError
+        If a label or the size exceeds what the format holds.
+
+    Examples
+    --------
+    >>> import io
+    >>> labels = np.array([[1, 1, 2]], dtype=np.uint16)
+    >>> out = io.BytesIO()
+    >>> write_label_image(out, [labels], shape=(1, 3), dtype=np.uint16, fmt="text", largest_label=2)
+    >>> out.getvalue()
+    b'1 1 2\n'
+    """
+    kind = np.dtype(np.uint8 if np.dtype(dtype) == np.bool_ else dtype)
+    if kind.kind not in "ui" and fmt in ("png", "text"):
+        raise UsageError(f"{kind} values cannot be written as {fmt}: use -o image.tif or image.npy")
+    if fmt == "png":
+        depth = bit_depth or (16 if palette is None else 8)
+        check_png(kind, largest_label, depth)
+        write_png(out, bands, shape, bit_depth=depth, palette=palette, threads=threads)
+    elif fmt == "tiff":
+        write_tiff(out, bands, shape, dtype=kind, palette=palette, resolution=resolution, threads=threads)
+    elif fmt == "npy":
+        write_npy(out, bands, shape, dtype=kind)
+    elif fmt == "text":
+        write_label_text(out, bands, shape, largest_label=largest_label)
+    else:
+        raise UsageError(f"{fmt!r} is no format of label images: use png, tiff, npy or text")
+
+
+def check_png(kind: np.dtype[Any], largest: int, depth: int = 16) -> None:
+    """Refuse values that a PNG does not hold.
+
+    Raises
+    ------
+    UsageError
+        If the type is wider than 32 bits.
+    LimitError
+        If the largest value needs more bits a pixel.
+
+    Examples
+    --------
+    >>> check_png(np.dtype(np.uint32), 65535)
+    """
+    if kind.itemsize > 4:
+        raise UsageError(f"{kind} values cannot be written as png: use -o image.tif or image.npy")
+    if largest >= 1 << depth:
+        raise LimitError(
+            f"labels up to {largest} do not fit in a {depth}-bit PNG, which ends at {(1 << depth) - 1}: "
+            "use -o labels.tif or labels.npy"
+        )
+
+
+def read_label_image(
+    source: SourceLike,
+    *,
+    input_format: str | None = None,
+    page: int | None = None,
+    max_pixels: int = MAX_PIXELS,
+) -> LabelImage:
+    """Read an image whose values are labels.
+
+    Parameters
+    ----------
+    source, input_format, page, max_pixels
+        As for `vorotool.formats.images.reader.read_image`.
+
+    Raises
+    ------
+    InputError
+        If the image has colour channels or values that are no labels from 0 to 4294967295; the pixel is
+        named.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> read_label_image(SimpleNamespace(name="a.pgm", data=b"P2 3 1 9 1 1 2")).labels
+    array([[1, 1, 2]], dtype=uint8)
+    """
+    image = read_image(source, input_format=input_format, page=page, max_pixels=max_pixels)
+    return label_image_of(image, source.name)
+
+
+def label_image_of(image: Raster, name: str) -> LabelImage:
+    """Take the values of an image for labels.
+
+    Raises
+    ------
+    InputError
+        As of `read_label_image`.
+
+    Examples
+    --------
+    >>> label_image_of(Raster(np.array([[1, 1, 2]])), "a.zarr").labels
+    array([[1, 1, 2]], dtype=uint32)
+    """
+    values = image.values
+    if values.ndim != 2:
+        raise InputError(f"{name} has {values.shape[2]} channels: labels need a single one")
+    if values.dtype.kind not in "bui":
+        raise InputError(f"{name} holds {values.dtype} values: labels need integers")
+    return LabelImage(values.view(np.uint8) if values.dtype == np.bool_ else _as_labels(values, name))
+
+
+def _as_labels(values: NDArray[Any], name: str) -> NDArray[Any]:
+    """Keep the unsigned types up to 32 bits; the others become uint32 where their values allow it."""
+    if values.dtype in (np.uint8, np.uint16, np.uint32):
+        return values
+    outside = values < 0
+    if values.dtype.itemsize > 4:
+        outside |= values > _LARGEST_LABEL
+    if outside.any():
+        row, column = np.unravel_index(int(np.argmax(outside)), values.shape)
+        raise InputError(
+            f"{name} has {values[row, column]} in row {row}, column {column}: labels are from 0 to {_LARGEST_LABEL}"
+        )
+    return values.astype(np.uint32)

@@ -1,0 +1,116 @@
+"""Reading PBM, PGM and PPM with the values as stored: Pillow would rescale them to the full range."""
+
+from __future__ import annotations
+
+import re
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.formats.io.limits import SourceLike, check_pixels
+
+_LARGEST_MAXIMUM = 65_535
+_GAP = rb"(?:\s|#[^\n\r]*[\n\r])+"
+_START = re.compile(rb"P([1-6])" + _GAP + rb"(?=[0-9])")
+_HEADERS = {
+    True: re.compile(rb"P[14]" + _GAP + rb"(\d{1,18})" + _GAP + rb"(\d{1,18})()(?:\s|(?=#)|$)"),
+    False: re.compile(rb"P[2356]" + (_GAP + rb"(\d{1,18})") * 3 + rb"(?:\s|(?=#)|$)"),
+}
+_COMMENT = re.compile(rb"#[^\n\r]*")
+
+
+class PnmHeader(NamedTuple):
+    """Kind (1 to 6), size, largest value, and where the pixels begin."""
+
+    kind: int
+    width: int
+    height: int
+    maximum: int
+    offset: int
+
+
+def looks_like_pnm(data: bytes) -> bool:
+    """Tell whether data begins as a PBM, PGM or PPM file: P1 to P6, space or comments, a number."""
+    return _START.match(data[:65_536]) is not None
+
+
+def pnm_header(source: SourceLike) -> PnmHeader:
+    """Read the header alone.
+
+    Raises
+    ------
+    InputError
+        If it is not complete, or the largest value not from 1 to 65535.
+    """
+    start = source.data[:65_536]
+    kind = start[1] - ord("0") if re.match(rb"P[1-6]", start) else 0
+    match = _HEADERS[kind in (1, 4)].match(start)
+    if match is None:
+        raise InputError(
+            f"{source.name} has no complete PBM, PGM or PPM header: P1 to P6, width, height, largest value"
+        )
+    maximum = int(match[3] or 1)
+    if not 1 <= maximum <= _LARGEST_MAXIMUM:
+        raise InputError(
+            f"{source.name} states {maximum} as the largest value: it must be from 1 to {_LARGEST_MAXIMUM}"
+        )
+    return PnmHeader(kind, int(match[1]), int(match[2]), maximum, match.end())
+
+
+def read_pnm(source: SourceLike, max_pixels: int) -> NDArray[Any]:
+    """Return (H, W), or (H, W, 3) values of type uint8, or uint16 where the largest value needs it."""
+    header = pnm_header(source)
+    check_pixels(source.name, header.width, header.height, max_pixels)
+    if header.kind == 4:
+        return _bits(source, header)
+    channels = 3 if header.kind in (3, 6) else 1
+    needed = header.width * header.height * channels
+    values = _binary(source, header, needed) if header.kind > 3 else _text(source, header, needed)
+    above = np.flatnonzero(values > header.maximum)
+    if above.size:
+        row, column = divmod(int(above[0]) // channels, header.width)
+        raise InputError(
+            f"{source.name} has {values[above[0]]} in row {row}, column {column}, "
+            f"above its largest value {header.maximum}"
+        )
+    values = values.astype(np.uint8 if header.maximum < 256 else np.uint16, copy=False)
+    shape = (header.height, header.width)
+    return values.reshape(shape if channels == 1 else (*shape, channels))
+
+
+def _bits(source: SourceLike, header: PnmHeader) -> NDArray[np.uint8]:
+    row_bytes = -(-header.width // 8)
+    packed = _raw(source, header, np.dtype(np.uint8), row_bytes * header.height)
+    return np.unpackbits(packed.reshape(header.height, row_bytes), axis=1, count=header.width)
+
+
+def _binary(source: SourceLike, header: PnmHeader, needed: int) -> NDArray[Any]:
+    return _raw(source, header, np.dtype(np.uint8 if header.maximum < 256 else ">u2"), needed)
+
+
+def _raw(source: SourceLike, header: PnmHeader, dtype: np.dtype[Any], items: int) -> NDArray[Any]:
+    present = len(source.data) - header.offset
+    if present < items * dtype.itemsize:
+        raise InputError(f"{source.name} is cut off: its pixels need {items * dtype.itemsize} bytes, it has {present}")
+    return np.frombuffer(source.data, dtype, items, header.offset)
+
+
+def _text(source: SourceLike, header: PnmHeader, needed: int) -> NDArray[Any]:
+    body = _COMMENT.sub(b" ", source.data[header.offset :])
+    if header.kind == 1:  # digits of PBM need no space between them
+        values: NDArray[Any] = np.frombuffer(body.translate(None, b" \t\n\v\f\r"), np.uint8) - np.uint8(ord("0"))
+    else:
+        values = _numbers(source.name, body)
+    if len(values) < needed:
+        raise InputError(f"{source.name} is cut off: it has {len(values)} of {needed} values")
+    return values[:needed]
+
+
+def _numbers(name: str, body: bytes) -> NDArray[np.int64]:
+    words = body.split()
+    bad = next((place for place, word in enumerate(words) if not word.isdigit() or len(word) > 18), None)
+    if bad is not None:
+        raise InputError(f"{name} has {words[bad][:40].decode('latin-1')!r} as value {bad + 1}: it must be an integer")
+    return np.array(words, dtype="S18").astype(np.int64)

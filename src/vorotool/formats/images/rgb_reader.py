@@ -1,0 +1,80 @@
+"""Images as they look: red, green and blue, to draw over."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.formats.images import png_reader, tiff_reader
+from vorotool.formats.images.reader import image_format, read_image
+from vorotool.formats.io.limits import SourceLike
+from vorotool.geometry.pixel_frame import MAX_PIXELS
+
+_WHITE = 255
+
+
+def read_picture(source: SourceLike, *, page: int | None = None, max_pixels: int = MAX_PIXELS) -> NDArray[np.uint8]:
+    """Read an image as a screen shows it.
+
+    Values of 8 bits stay as they are; others, and images of two values, are spread from black for the least to white
+    for the largest one. Indices of a PNG palette get their colours. What is transparent lies on white.
+
+    Parameters
+    ----------
+    source : SourceLike
+        Name and content of the file.
+    page : int, optional
+        Which page of a TIFF that has several, from 0.
+    max_pixels : int
+        Larger images are refused before memory is taken.
+
+    Returns
+    -------
+    (H, W, 3) uint8 array
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or has several pages and none is chosen.
+    LimitError
+        If it is too large.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> read_picture(SimpleNamespace(name="a.pbm", data=b"P1 3 1 1 0 1"))[0, :, 0].tolist()
+    [255, 0, 255]
+    """
+    kind = image_format(source)
+    if kind != "tiff" or tiff_reader.tiff_pages(source) == 1:
+        page = None
+    values = read_image(source, page=page, max_pixels=max_pixels).values
+    palette = png_reader.png_palette(source) if kind == "png" else None
+    if palette is not None and values.ndim == 2:
+        colours: NDArray[np.uint8] = palette[values]
+        return colours
+    channels = _spread(values[:, :, None] if values.ndim == 2 else values)
+    if channels.shape[2] in (2, 4):
+        alpha = channels[:, :, -1:].astype(np.uint16)
+        channels = ((channels[:, :, :-1] * alpha + _WHITE * (_WHITE - alpha) + _WHITE // 2) // _WHITE).astype(np.uint8)
+    return np.ascontiguousarray(np.broadcast_to(channels, (*channels.shape[:2], 3)))
+
+
+def _spread(values: NDArray[Any]) -> NDArray[np.uint8]:
+    """Values as 8 bits; an alpha channel runs from 0 to the largest value of its type."""
+    if values.dtype == np.uint8 and not _is_two_valued(values):
+        return values
+    colours = slice(None, -1) if values.shape[2] in (2, 4) else slice(None)
+    scaled = np.nan_to_num(values.astype(np.float64), nan=0.0, posinf=0.0, neginf=0.0)
+    low, high = scaled[:, :, colours].min(), scaled[:, :, colours].max()
+    spread = (scaled - low) * (_WHITE / (high - low)) if high > low else np.zeros_like(scaled)
+    if values.shape[2] in (2, 4):
+        opaque = 1.0 if values.dtype.kind == "f" else np.iinfo(values.dtype).max
+        spread[:, :, -1] = np.clip(scaled[:, :, -1] / opaque, 0, 1) * _WHITE
+    return np.rint(spread).astype(np.uint8)
+
+
+def _is_two_valued(values: NDArray[np.uint8]) -> bool:
+    return values.shape[2] == 1 and bool(((values == values.min()) | (values == values.max())).all())

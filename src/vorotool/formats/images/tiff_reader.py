@@ -1,0 +1,145 @@
+"""Reading one page of a TIFF: its tags by tifffile, its pixels as they are checked, pictures within it by Pillow."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError, LimitError
+from vorotool.formats.images.jpeg_sizes import check_jpegs
+from vorotool.formats.images.tiff_layout import JPEGS, TiffLayout, layout_of
+from vorotool.formats.images.tiff_segments import decode_image, is_decoded_here
+from vorotool.formats.images.tiff_tags import check_tags
+from vorotool.formats.io.limits import SourceLike, check_pixels, decoding, interruptible
+
+Resolution = tuple[float, float, str]
+
+_UNITS = {2: "inch", 3: "cm"}
+_MOST_CHANNELS = 4
+_PILLOW_MODES = {"1", "L", "P", "LA", "RGB", "RGBA", "I;16", "I;16B"}
+
+
+def tiff_size(source: SourceLike, page: int | None) -> tuple[int, int]:
+    """Read width and height of a page from its tags."""
+    with opened_tiff(source.name, io.BytesIO(source.data)) as file:
+        layout = page_layout(source.name, len(source.data), page_of(file, source.name, page))
+        return layout.width, layout.height
+
+
+def tiff_pages(source: SourceLike) -> int:
+    """Count the pages."""
+    with opened_tiff(source.name, io.BytesIO(source.data)) as file, decoding(source.name, "TIFF"):
+        return len(file.pages)
+
+
+def read_tiff(source: SourceLike, *, page: int | None, max_pixels: int) -> tuple[NDArray[Any], Resolution | None]:
+    """Return the stored values, (H, W) or (H, W, C), and pixels a unit, where the file states them."""
+    with opened_tiff(source.name, io.BytesIO(source.data)) as file:
+        chosen = page_of(file, source.name, page)
+        layout = page_layout(source.name, len(source.data), chosen)
+        check_pixels(source.name, layout.width, layout.height, max_pixels)
+        if layout.width * layout.height * layout.samples > _MOST_CHANNELS * max_pixels:
+            raise LimitError(
+                f"{source.name} has {layout.samples} values a pixel: with {layout.width} x {layout.height} pixels "
+                f"these are more than {_MOST_CHANNELS} x --max-pixels {max_pixels}"
+            )
+        with decoding(source.name, "TIFF"):
+            resolution = resolution_of(file, chosen)
+            if is_decoded_here(layout):
+                values = decode_image(layout, source.data)
+            else:
+                values = interruptible(lambda: _by_library(source, chosen, layout))
+    if values.dtype.kind not in "buif" or not 2 <= values.ndim <= 3:
+        raise InputError(
+            f"{source.name} holds {values.dtype} of shape {values.shape}: an image of numbers was expected"
+        )
+    return values, resolution
+
+
+def page_layout(name: str, size: int, page: Any) -> TiffLayout:
+    """Check a page of a file of so many bytes: see `layout_of`."""
+    with decoding(name, "TIFF"):
+        return layout_of(name, size, page)
+
+
+def opened_tiff(name: str, file: str | BinaryIO) -> Any:
+    """Open a file by its path, or its content."""
+    import logging
+
+    import tifffile
+
+    # what tifffile would log is either raised below or does not matter; without a handler it goes to standard
+    # error
+    logger = logging.getLogger("tifffile")
+    if not logger.handlers:
+        logger.addHandler(logging.NullHandler())
+    with decoding(name, "TIFF"):
+        if isinstance(file, str):
+            with Path(file).open("rb") as tags:
+                check_tags(name, tags)
+        else:
+            check_tags(name, file)
+        return tifffile.TiffFile(file)
+
+
+def page_of(file: Any, name: str, page: int | None) -> Any:
+    """Choose a page of a file; without a number there must be one only."""
+    with decoding(name, "TIFF"):
+        count = len(file.pages)
+        if 0 <= (page or 0) < count and (page is not None or count == 1):
+            return file.pages[page or 0]
+    if page is None and count > 1:
+        raise InputError(f"{name} has {count} pages: choose one with --page 0 to --page {count - 1}")
+    if count == 0:
+        raise InputError(f"{name} is damaged: it begins as a TIFF, but there is no image in it")
+    raise InputError(f"{name} has {count} page{'s' * (count != 1)}, counted from 0: there is no --page {page}")
+
+
+def _by_library(source: SourceLike, page: Any, layout: TiffLayout) -> NDArray[Any]:
+    """Decode what other libraries know: JPEG, fax and further pictures within TIFF."""
+    import tifffile
+
+    if layout.compression in JPEGS:
+        check_jpegs(layout, source.data)
+    if layout.compression not in tifffile.TIFF.DECOMPRESSORS:
+        return _by_pillow(source, page)
+    values = np.asarray(page.asarray())
+    if values.ndim == 3 and page.planarconfig == 2 and page.samplesperpixel == values.shape[0]:
+        values = np.moveaxis(values, 0, 2)
+    return values
+
+
+def _by_pillow(source: SourceLike, page: Any) -> NDArray[Any]:
+    from PIL.TiffImagePlugin import TiffImageFile
+
+    compression = getattr(page.compression, "name", str(page.compression))
+    with TiffImageFile(io.BytesIO(source.data)) as image:
+        image.seek(page.index)
+        if image.size != (page.imagewidth, page.imagelength):
+            raise InputError(f"{source.name} is damaged: its size is stated twice, the second time as {image.size}")
+        if image.mode not in _PILLOW_MODES:
+            raise InputError(
+                f"{source.name} has {compression} compression of {page.dtype} pixels: "
+                "install imagecodecs, or save it with deflate or no compression"
+            )
+        return np.asarray(image)
+
+
+def resolution_of(file: Any, page: Any) -> Resolution | None:
+    """Pixels a unit in x and y, and the unit, where the file states them."""
+    if "XResolution" not in page.tags or "YResolution" not in page.tags:
+        return None
+    per_unit = [page.tags[name].value for name in ("XResolution", "YResolution")]
+    if any(denominator == 0 or numerator == 0 for numerator, denominator in per_unit):
+        return None
+    unit = _UNITS.get(int(page.tags.valueof("ResolutionUnit", default=2)))
+    if file.is_imagej:
+        unit = (file.imagej_metadata or {}).get("unit") or unit
+    if unit is None:
+        return None
+    x, y = (numerator / denominator for numerator, denominator in per_unit)
+    return x, y, str(unit)

@@ -1,0 +1,153 @@
+"""Writing TIFF images row by row, through tifffile.
+
+Labels are stored with the horizontal predictor and zlib's run-length deflate: of 67 MB, 4096 x 4096 uint32
+labels of 15 000 seeds, 2.6 MB remain after 0.12 s in one thread. For its choice see `vorotool.formats.images.png_writer`.
+Distances hold few runs (86 % remains; level 1 would leave 16 to 69 %), so they and 64-bit integers are stored
+as they are.
+"""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+import zlib
+from collections.abc import Iterable, Iterator
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+from vorotool.formats.images.npy import stored
+from vorotool.formats.io.row_bands import BLOCK_BYTES, blocks, in_order
+
+_CENTIMETRES = {"m": 0.01, "cm": 1, "mm": 10, "um": 1e4, "µm": 1e4, "μm": 1e4, "micron": 1e4, "microns": 1e4, "nm": 1e7}
+"""How many of each unit a centimetre has."""
+
+_CLASSIC_LIMIT = 2**32 - 2**25
+"""Bytes of pixels from which offsets may need BigTIFF; the rest is room for tags and tables of strips."""
+
+
+def write_tiff(
+    out: BinaryIO,
+    bands: Iterable[NDArray[Any]],
+    shape: tuple[int, int],
+    *,
+    dtype: DTypeLike,
+    palette: NDArray[np.uint8] | None = None,
+    resolution: tuple[float, float, str] | None = None,
+    threads: int = 0,
+) -> None:
+    r"""Write a single-page TIFF from bands of rows, in bounded memory; a BigTIFF where the pixels need it.
+
+    Parameters
+    ----------
+    out : binary file
+        Where it cannot be sought, the file is made in a temporary one first, since the tags come before the
+        strips.
+    bands : iterable of (rows, W) arrays
+        Rows from top to bottom.
+    shape : (int, int)
+        Height and width.
+    dtype : dtype
+        uint8, uint16, uint32, uint64, int32 or float32.
+    palette : (k, 3) uint8 array, optional
+        Colours of uint8 indices.
+    resolution : (float, float, str), optional
+        Pixels a unit in x and y, and the unit; lengths of the metric system become centimetres.
+    threads : int
+        0 for all processors.
+
+    Raises
+    ------
+    LimitError
+        If an integer does not fit in ``dtype``.
+
+    Examples
+    --------
+    >>> import io
+    >>> out = io.BytesIO()
+    >>> write_tiff(out, [np.array([[1, 70000]])], (1, 2), dtype=np.uint32)
+    >>> out.getvalue()[:4]
+    b'II*\x00'
+    """
+    if out.seekable():
+        _write(out, bands, shape, np.dtype(dtype), palette, resolution, threads)
+        return
+    with tempfile.TemporaryFile() as spool:
+        _write(spool, bands, shape, np.dtype(dtype), palette, resolution, threads)
+        spool.seek(0)
+        shutil.copyfileobj(spool, out)
+
+
+def _write(
+    out: BinaryIO,
+    bands: Iterable[NDArray[Any]],
+    shape: tuple[int, int],
+    dtype: np.dtype[Any],
+    palette: NDArray[np.uint8] | None,
+    resolution: tuple[float, float, str] | None,
+    threads: int,
+) -> None:
+    import tifffile
+
+    height, width = shape
+    kind = dtype.newbyteorder("<")
+    compressed = kind.kind in "ui" and kind.itemsize <= 4
+    rows = max(1, min(height, BLOCK_BYTES // (width * kind.itemsize)))
+    # named here, since the name of a temporary file is a number, which tifffile does not expect
+    handle = tifffile.FileHandle(out, name="image.tif", size=0)
+    large = width * height * kind.itemsize >= _CLASSIC_LIMIT
+    with tifffile.TiffWriter(handle, bigtiff=large, byteorder="<") as writer:
+        writer.write(
+            _strips(bands, shape, kind, compressed, threads),
+            shape=shape,
+            dtype=kind,
+            photometric="minisblack" if palette is None else "palette",
+            colormap=None if palette is None else _colormap(palette),
+            compression="zlib" if compressed else None,
+            predictor=2 if compressed else None,
+            rowsperstrip=rows,
+            metadata=None,
+            software=False,
+            **_resolution_tags(resolution),
+        )
+
+
+def _resolution_tags(resolution: tuple[float, float, str] | None) -> dict[str, Any]:
+    """What tifffile is told of pixels a unit; TIFF knows inches, centimetres and units without a name."""
+    if resolution is None:
+        return {}
+    x, y, unit = resolution
+    if unit == "inch":
+        return {"resolution": (x, y), "resolutionunit": 2}
+    in_centimetres = _CENTIMETRES.get(unit)
+    if in_centimetres is None:
+        return {"resolution": (x, y), "resolutionunit": 1}
+    return {"resolution": (x * in_centimetres, y * in_centimetres), "resolutionunit": 3}
+
+
+def _strips(
+    bands: Iterable[NDArray[Any]], shape: tuple[int, int], kind: np.dtype[Any], compressed: bool, threads: int
+) -> Iterator[bytes]:
+    def encode(rows: NDArray[Any], out: NDArray[Any]) -> None:
+        out[...] = stored(rows, kind)
+
+    strips = blocks(bands, shape, columns=shape[1], dtype=kind, encode=encode)
+    if compressed:
+        return in_order(_deflated, strips, threads)
+    return (strip[1:].tobytes() for strip in strips)
+
+
+def _deflated(strip: NDArray[Any]) -> bytes:
+    """Differences along each row (TIFF's predictor 2, modulo the type's size), as a zlib stream."""
+    data = strip[1:].copy()
+    np.subtract(strip[1:, 1:], strip[1:, :-1], out=data[:, 1:])
+    stream = zlib.compressobj(1, zlib.DEFLATED, zlib.MAX_WBITS, 8, zlib.Z_RLE)
+    return stream.compress(data.view(np.uint8).data) + stream.flush()
+
+
+def _colormap(palette: NDArray[np.uint8]) -> NDArray[np.uint16]:
+    """TIFF's form of a palette: 256 entries of 16 bits, channel by channel."""
+    colours = np.zeros((256, 3), np.uint16)
+    colours[: len(palette)] = palette.astype(np.uint16) * 257
+    return np.ascontiguousarray(colours.T)

@@ -1,0 +1,1 @@
+"""Sources, atomic outputs, stores, limits, disk space, row bands; knows no format."""

@@ -1,0 +1,331 @@
+"""Outputs that appear whole or not at all."""
+
+from __future__ import annotations
+
+import errno
+import os
+import stat
+import sys
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
+from functools import partial
+from pathlib import Path
+from typing import BinaryIO
+
+from vorotool.errors import OutputError, UsageError, VorotoolError
+from vorotool.formats.io.descriptors import (
+    STANDARD,
+    check_writable,
+    descriptor_of,
+    is_of_another_process,
+    open_onward,
+    open_output_descriptor,
+)
+from vorotool.formats.io.temporaries import new_file, temporary_beside
+
+STANDARD_OUTPUT = "standard output"
+
+
+@contextmanager
+def open_output(
+    path: str | os.PathLike[str],
+    *,
+    binary: bool = False,
+    no_clobber: bool = False,
+    inputs: Iterable[str | os.PathLike[str]] = (),
+    option: str = "-o",
+) -> Iterator[BinaryIO]:
+    """Open an output that replaces an older file only when all of it has been written.
+
+    A regular file is written beside its place under a temporary name and renamed at the end; on any
+    exception, an interrupt too, the temporary file is removed and the older file is as it was. Pipes and
+    devices are written directly; what is open already, such as ``/dev/stdout``, is written where it stands. The body
+    should do nothing but write: its ``OSError`` is taken for one of the output.
+
+    Parameters
+    ----------
+    path : str or path
+        Where to write; ``-`` is standard output.
+    binary : bool
+        The output is not text: it is never sent to a terminal.
+    no_clobber : bool
+        Refuse to replace an existing file.
+    inputs : iterable of paths
+        Files that must not be replaced because they are being read.
+    option : str
+        The option that names the output, for messages.
+
+    Yields
+    ------
+    binary file object
+        Regular files can be written at any position; pipes only in order.
+
+    Raises
+    ------
+    UsageError
+        If the output is one of the inputs, or binary on a terminal.
+    OutputError
+        If it cannot be written; the message names the path and the reason.
+    BrokenPipeError
+        If the reader of a pipe has gone; for the caller to end quietly.
+
+    Examples
+    --------
+    >>> with open_output("/dev/null") as out:
+    ...     out.write(b"label,x,y")
+    9
+    """
+    name = os.fspath(path)
+    descriptor = _checked_descriptor(name, binary, option)
+    if descriptor is not None:
+        writer = _continuing(name, descriptor, option)
+    elif name == STANDARD:
+        writer = _embedded_output()
+    else:
+        target = _checked_target(name, no_clobber, inputs, option)
+        if _is_regular(target):
+            writer = _replacing(name, target, no_clobber, option)
+        else:
+            writer = _direct(name, target, binary, option)
+    with writer as out:
+        yield out
+
+
+def check_output(
+    path: str | os.PathLike[str],
+    *,
+    binary: bool = False,
+    no_clobber: bool = False,
+    inputs: Iterable[str | os.PathLike[str]] = (),
+    makes_folder: bool = False,
+    option: str = "-o",
+) -> None:
+    """Find out before any work whether `open_output` would refuse an output.
+
+    Parameters
+    ----------
+    path, binary, no_clobber, inputs, option
+        As for `open_output`.
+    makes_folder : bool
+        The folder of the file is yet to be made.
+
+    Raises
+    ------
+    UsageError
+        If the output is one of the inputs, or binary on a terminal.
+    OutputError
+        If it cannot be written; the message names the path and the reason.
+
+    Examples
+    --------
+    >>> check_output("/dev/null")
+    """
+    name = os.fspath(path)
+    if _checked_descriptor(name, binary, option) is not None or name == STANDARD:
+        return
+    target = _checked_target(name, no_clobber, inputs, option)
+    if not _is_regular(target):
+        return
+    check_folder(name, target.parent, makes_folder=makes_folder, option=option)
+
+
+def check_folder(name: str, folder: Path, *, makes_folder: bool = False, option: str = "-o") -> None:
+    """Refuse an output whose folder is not there, unless it is made, or cannot be written in."""
+    while makes_folder and not folder.exists():
+        folder = folder.parent
+    if not folder.is_dir():
+        raise failure(name, OSError(errno.ENOTDIR if folder.exists() else errno.ENOENT, "not a directory"), option)
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise failure(name, OSError(errno.EACCES, f"no permission to write in {folder}"), option)
+
+
+def make_folder(path: str | os.PathLike[str]) -> None:
+    """Make a folder for outputs and those above it, where they are not there yet.
+
+    Raises
+    ------
+    OutputError
+        If it cannot be made.
+
+    Examples
+    --------
+    >>> make_folder("build")
+    """
+    try:
+        Path(path).mkdir(parents=True, exist_ok=True)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise OutputError(f"the folder {os.fspath(path)!r} cannot be made: {reason}; name another") from error
+
+
+def _checked_descriptor(name: str, binary: bool, option: str) -> int | None:
+    """Give the number of the descriptor that an output is, if it is one that can be written.
+
+    Standard output has none where Python is embedded in what has replaced it.
+    """
+    if name != STANDARD:
+        number = descriptor_of(name)
+        is_terminal = number is not None and os.isatty(number)
+    else:
+        number, is_terminal = _number_of_standard_output(), sys.stdout.isatty()
+    if binary and is_terminal:
+        raise terminal_error()
+    if number is not None:
+        with explained(spoken(name), option):
+            check_writable(number)
+    return number
+
+
+def terminal_error() -> UsageError:
+    """Say that a terminal is no place for what is not text."""
+    return UsageError("binary output is not written to a terminal: name a file with -o, or a text format with -f")
+
+
+def _number_of_standard_output() -> int | None:
+    try:
+        return sys.stdout.fileno()
+    except (AttributeError, OSError, ValueError):
+        return None
+
+
+def spoken(name: str) -> str:
+    """Give what messages call an output."""
+    return STANDARD_OUTPUT if name == STANDARD else name
+
+
+@contextmanager
+def _continuing(name: str, descriptor: int, option: str) -> Iterator[BinaryIO]:
+    """Write what is open already, in order, after what it holds."""
+    with explained(spoken(name), option), open_output_descriptor(descriptor) as out:
+        yield out
+
+
+@contextmanager
+def _embedded_output() -> Iterator[BinaryIO]:
+    """Write to standard output where it is no descriptor."""
+    with explained(STANDARD_OUTPUT):
+        sys.stdout.flush()
+        yield sys.stdout.buffer
+        sys.stdout.buffer.flush()
+
+
+def _checked_target(name: str, no_clobber: bool, inputs: Iterable[str | os.PathLike[str]], option: str) -> Path:
+    target = followed(name, option)
+    exists = target.exists()
+    if not name or target.is_dir() or name.endswith(os.sep):
+        raise OutputError(f"{name!r} is {'a directory' if name else 'no name'}: name a file{' in it' * bool(name)}")
+    if not exists or not _is_regular(target):
+        return target
+    for each in inputs:
+        if is_same_file(target, os.fspath(each)):
+            raise UsageError(f"{name} is also an input, which is never replaced: choose another name with {option}")
+    if no_clobber:
+        raise clobber_error(name, option)
+    if not os.access(target, os.W_OK):
+        raise OutputError(f"{name} cannot be written: it is write-protected; choose another name with {option}")
+    return target
+
+
+def followed(name: str, option: str = "-o") -> Path:
+    """Follow links, so that a file is replaced and not the link to it.
+
+    Raises
+    ------
+    OutputError
+        If that leads nowhere, or to what another process has open.
+    """
+    try:
+        if is_of_another_process(name):
+            raise OutputError(
+                f"{name} is open in another process, which alone can go on with it: name a file with {option}"
+            )
+        target = Path(os.path.realpath(name))
+        if not target.exists() and target.is_symlink():
+            raise OutputError(f"{name} cannot be written: its links lead back to themselves; choose another name")
+    except VorotoolError:
+        raise
+    except (OSError, ValueError) as error:
+        raise OutputError(f"{name!r} cannot be written: {error}; choose another name") from None
+    return target
+
+
+def clobber_error(name: str, option: str = "-o") -> OutputError:
+    """Say that an output is there already, with ``--no-clobber``."""
+    return OutputError(f"{name} exists already and --no-clobber is given: choose another name with {option}")
+
+
+def _is_regular(target: Path) -> bool:
+    """Whether ``target`` is, or will be, an ordinary file; links have been followed."""
+    try:
+        return stat.S_ISREG(target.stat().st_mode)
+    except OSError:
+        return True
+
+
+def is_same_file(target: Path, source: str) -> bool:
+    """Whether an output is an input; ``-`` is standard input."""
+    try:
+        if source == STANDARD:
+            return os.path.samestat(target.stat(), os.fstat(sys.stdin.fileno()))
+        return target.samefile(source)
+    except (OSError, ValueError, AttributeError):  # an input that is not there, or no file, is no output
+        return False
+
+
+@contextmanager
+def _direct(name: str, target: Path, binary: bool, option: str) -> Iterator[BinaryIO]:
+    """Write to a pipe or a device."""
+    with explained(name, option), open_onward(target) as out:
+        if binary and out.isatty():
+            raise terminal_error()
+        yield out
+
+
+@contextmanager
+def _replacing(name: str, target: Path, no_clobber: bool, option: str) -> Iterator[BinaryIO]:
+    with explained(name, option), temporary_beside(target, partial(_create, target=target)) as temporary:
+        with temporary.opened() as out:
+            yield out
+        if no_clobber and target.exists():
+            raise clobber_error(name, option)
+        temporary.move_to(target)
+
+
+def _create(temporary: Path, target: Path) -> int:
+    """Create the temporary file with the permissions of the older file, else those of the umask."""
+    descriptor = new_file(temporary)
+    with suppress(OSError):  # no older file, or a file system without permissions
+        temporary.chmod(stat.S_IMODE(target.stat().st_mode))
+    return descriptor
+
+
+@contextmanager
+def explained(name: str, option: str = "-o") -> Iterator[None]:
+    """Turn what the system says of an output into an `OutputError` that names it."""
+    try:
+        yield
+    except (BrokenPipeError, VorotoolError):
+        raise
+    except OSError as error:
+        raise failure(name, error, option) from error
+
+
+def failure(name: str, error: OSError, option: str = "-o") -> OutputError:
+    """Say why an output cannot be written, and what to do."""
+    elsewhere = f"write elsewhere with {option}"
+    advice = {
+        "ENOENT": "create the directory first",
+        "ENOTDIR": "a part of the path is a file, choose another folder",
+        "ENOSPC": f"free some space, or {elsewhere}",
+        "EDQUOT": f"free some space, or {elsewhere}",
+    }
+    code, reason = _error_name(error), error.strerror or error
+    if code == "ENOENT":
+        reason = "the directory does not exist"
+        if (folder := Path(name).parent).is_dir():  # as in /proc and /dev/fd, which are made by the system
+            code, reason = "", f"no file can be made in {folder}"
+    return OutputError(f"{name} cannot be written: {reason}; {advice.get(code, elsewhere)}")
+
+
+def _error_name(error: OSError) -> str:
+    return errno.errorcode.get(error.errno or 0, "")

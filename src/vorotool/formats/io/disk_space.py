@@ -1,0 +1,54 @@
+"""Room on a disk for an output, which is asked for before it is made."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+from vorotool.errors import OutputError
+from vorotool.formats.io.descriptors import stream_kind
+
+
+def check_space(path: str | os.PathLike[str], most: int, expected: Callable[[], int]) -> None:
+    """Refuse an output for which there is no room.
+
+    Parameters
+    ----------
+    path : str or path
+        Of the output; standard output, pipes and devices need no room.
+    most : int
+        Bytes that it has at most, or nearly so.
+    expected : callable
+        Estimates the bytes; called where there is less room than for `most`.
+
+    Raises
+    ------
+    OutputError
+        If there is not even room for the bytes that are expected.
+
+    Examples
+    --------
+    >>> check_space("build/labels.npy", 1000, lambda: 500)
+    """
+    free = _free(path)
+    if free is None or most <= free:
+        return
+    needed = expected()
+    if needed > free:
+        raise OutputError(
+            f"{os.fspath(path)} takes about {needed / 1e9:.3g} GB, but {free / 1e9:.3g} GB are free: free some space, "
+            "or write elsewhere with -o"
+        )
+
+
+def _free(path: str | os.PathLike[str]) -> int | None:
+    """Bytes that are free where a file is, or will be; None where it takes none."""
+    if stream_kind(os.fspath(path)) is not None:
+        return None
+    target = Path(os.path.realpath(path))
+    folder = target.parent
+    while not folder.exists():
+        folder = folder.parent
+    return shutil.disk_usage(folder).free

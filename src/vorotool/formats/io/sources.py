@@ -1,0 +1,186 @@
+"""Bytes of an input, and what is checked before a parser sees them."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from vorotool import _core
+from vorotool.errors import InputError, UsageError, VorotoolError
+from vorotool.formats.io.descriptors import STANDARD, descriptor_of, open_input
+
+STANDARD_INPUT = "standard input"
+NESTING_LIMIT = 100
+"""Levels of brackets; no file of points or polygons has ten."""
+
+
+@dataclass(frozen=True)
+class Source:
+    """The content of one input.
+
+    Parameters
+    ----------
+    name : str
+        The path as the user wrote it, or ``standard input``: what messages say.
+    data : bytes
+        The whole content.
+
+    Examples
+    --------
+    >>> Source("seeds.CSV", b"1,2").suffix
+    '.csv'
+    """
+
+    name: str
+    data: bytes
+
+    @property
+    def suffix(self) -> str:
+        """Extension of the name in lower case, with its dot; empty for standard input."""
+        return Path(self.name).suffix.lower()
+
+    def line_at(self, offset: int) -> int:
+        """1-based line of the byte at ``offset``."""
+        return self.data.count(b"\n", 0, offset) + 1
+
+
+def read_source(path: str | os.PathLike[str]) -> Source:
+    """Read a whole file, or standard input for ``-``.
+
+    Raises
+    ------
+    InputError
+        If there is no such file, it is a directory, or it cannot be read.
+    """
+    name = os.fspath(path)
+    if not name:
+        raise InputError("the name of the input is empty: name a file, or - for standard input")
+    try:
+        return Source(STANDARD_INPUT if name == STANDARD else name, read_bytes(name))
+    except FileNotFoundError:
+        raise InputError(f"{name}: there is no such file; check the path ({_place(name)})") from None
+    except IsADirectoryError:
+        raise InputError(f"{name} is a directory: name the files in it, for example {name}/*") from None
+    except PermissionError:
+        raise InputError(f"{name} cannot be read: permission denied; check who owns it") from None
+    except InputError:
+        raise
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise InputError(f"{name!r} cannot be read: {reason}; check the path") from None
+
+
+@contextmanager
+def reading(name: str) -> Iterator[None]:
+    """Let errors carry the name of an input that is read: the words of all readers name it.
+
+    Errors in the use of options are about these, whatever the input.
+
+    Parameters
+    ----------
+    name : str
+        As the user wrote it; ``-`` is standard input.
+
+    Examples
+    --------
+    >>> try:
+    ...     with reading("no-such-file.csv"):
+    ...         read_source("no-such-file.csv")
+    ... except InputError as error:
+    ...     print(error.source)
+    no-such-file.csv
+    """
+    try:
+        yield
+    except VorotoolError as error:
+        if error.source is None and not isinstance(error, UsageError):
+            error.source = name
+        raise
+
+
+def read_bytes(name: str) -> bytes:
+    """Read all that a file holds, or that comes through a stream: each is opened once, and read to its end.
+
+    Parameters
+    ----------
+    name : str
+        A path, or ``-`` for standard input. What is open already is read from where it stands.
+
+    Raises
+    ------
+    InputError
+        If it is no file that is open for reading.
+    OSError, ValueError
+        If a path cannot be opened or read.
+
+    Examples
+    --------
+    >>> read_bytes("data/six-seeds.csv")[:3]
+    b'x,y'
+    """
+    number = 0 if name == STANDARD else descriptor_of(name)
+    if number is None:
+        return Path(name).read_bytes()
+    spoken = STANDARD_INPUT if name == STANDARD else name
+    standard, begun = _number_of_standard_input(), b""
+    try:
+        if name == STANDARD or standard == number:
+            begun = sys.stdin.buffer.read() or b""  # with what is in its buffer already
+            if standard is None or os.get_blocking(standard):
+                return begun
+        with open_input(number) as file:
+            return begun + file.read()
+    except IsADirectoryError:
+        raise
+    except (AttributeError, ValueError):  # None or closed, as under a daemon
+        raise InputError(f"{spoken} is closed: name a file instead of {name}") from None
+    except OSError as error:
+        raise InputError(f"{spoken} cannot be read: {error.strerror}; name a file instead of {name}") from None
+
+
+def _number_of_standard_input() -> int | None:
+    try:
+        return sys.stdin.fileno()
+    except (AttributeError, OSError, ValueError):
+        return None
+
+
+def _place(name: str) -> str:
+    parent = Path(name).parent
+    return f"looked in {parent.resolve()}" if parent.is_dir() else f"nor is there a directory {parent}"
+
+
+def check_nesting(text: str | bytes, limit: int = NESTING_LIMIT, name: str = "the text") -> None:
+    """Refuse brackets nested beyond ``limit`` before a recursive parser sees them.
+
+    Parameters
+    ----------
+    text : str or bytes
+        JSON or WKT; brackets inside JSON strings do not count.
+    limit : int
+        Levels that are accepted.
+    name : str
+        What the message calls the text.
+
+    Raises
+    ------
+    InputError
+        If a bracket opens a level beyond ``limit``; the line is named.
+
+    Examples
+    --------
+    >>> check_nesting(b"[[1, 2], [3, 4]]")
+    >>> check_nesting("(" * 500, name="deep.wkt")
+    Traceback (most recent call last):
+        ...
+    vorotool.errors.InputError: deep.wkt, line 1: brackets are nested more than 100 deep; check the brackets
+    """
+    data = text.encode("utf-8", "replace") if isinstance(text, str) else text
+    offset = _core.find_too_deep(data, limit)
+    if offset is not None:
+        line = data.count(b"\n", 0, offset) + 1
+        raise InputError(f"{name}, line {line}: brackets are nested more than {limit} deep; check the brackets")

@@ -1,0 +1,1 @@
+"""GeoJSON, WKT, format names and reader options: what readers share."""

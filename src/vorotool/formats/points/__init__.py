@@ -1,0 +1,1 @@
+"""Point readers, one module a format."""

@@ -1,0 +1,385 @@
+"""Points from delimited text: which columns are the coordinates, and what each bad line says."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.errors import InputError, UsageError
+from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.convertible import refuse_geometry_column
+from vorotool.formats.parsing.reader_options import (
+    LARGEST_LABEL,
+    LATITUDES,
+    LONGITUDES,
+    PointOptions,
+    no_points,
+    shortened,
+)
+from vorotool.geometry.crs import LONGITUDE_LATITUDE, crs_member
+from vorotool.geometry.points.point_set import PointSet
+
+COORDINATE_NAMES = (
+    ("x", "y"),
+    ("lon", "lat"),
+    ("longitude", "latitude"),
+    ("centroid-1", "centroid-0"),  # scikit-image: row first
+    ("axis-1", "axis-0"),  # napari: row first
+)
+_BEGINNINGS = (("x", "y"), ("longitude", "latitude"), ("lon", "lat"), ("lng", "lat"), ("east", "north"))
+"""Of names that may be a pair of coordinates, such as x0 and y0."""
+
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?|[+-]?(nan|inf|infinity)", re.IGNORECASE)
+_DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+(e[+-]?\d+)?", re.IGNORECASE)
+_QUOTED = re.compile(r'"[^"]*"')
+_MOST_LISTED = 12
+
+
+@dataclass(frozen=True)
+class _Layout:
+    """How the text of one file is read: columns are 0-based; without a header there are no names."""
+
+    name: str
+    data: bytes
+    delimiter: str
+    first_line: int
+    first_record: list[str]
+    header: bool
+    x: int
+    y: int
+    label: int | None
+
+    @property
+    def header_records(self) -> int:
+        return int(self.header)
+
+    def described(self, column: int) -> str:
+        shown = f" ({self.first_record[column]})" if self.header and column < len(self.first_record) else ""
+        return f"column {column + 1}{shown}"
+
+
+def read_text(source: Source, options: PointOptions) -> PointSet:
+    """Read delimited text; see :func:`vorotool.formats.points.reader.read_points` for the rules."""
+    data = _plain_lines(source.data)
+    wanted = None if options.columns is None else _parse_columns(options.columns)
+    delimiter = _guess_delimiter(data)
+    first = _core.first_record(data, delimiter)
+    if first is None:
+        return PointSet(no_points())
+    layout = _choose_layout(source.name, data, delimiter, first, wanted, options)
+    if options.max_sites is not None and data.count(b"\n") >= options.max_sites:
+        rows = _core.count_rows(data, delimiter, layout.header_records, options.threads)
+        options.check_sites(source.name, rows)
+    return _read_rows(layout, options)
+
+
+def header_fields(data: bytes) -> list[str]:
+    """Fields of the first record of delimited text.
+
+    Examples
+    --------
+    >>> header_fields(b"id;WKT\\n1;POINT (1 2)\\n")
+    ['id', 'WKT']
+    """
+    data = _plain_lines(data)
+    first = _core.first_record(data, _guess_delimiter(data))
+    return [] if first is None else first[2]
+
+
+def _plain_lines(data: bytes) -> bytes:
+    """Give lines that end with LF: a text without any LF may end them with CR."""
+    return data if b"\n" in data or b"\r" not in data else data.replace(b"\r", b"\n")
+
+
+def _guess_delimiter(data: bytes) -> str:
+    first = _core.first_record(data, ",")
+    text = "" if first is None else _QUOTED.sub("", first[1]).strip()
+    return next((delimiter for delimiter in ("\t", ";", ",") if delimiter in text), " ")
+
+
+# ---- which columns -------------------------------------------------------------------------------
+def _parse_columns(columns: str) -> list[str]:
+    parts = [part.strip() for part in columns.split(",")]
+    is_zero = [_is_number(part) and not part.strip("0") for part in parts]
+    if len(parts) not in (2, 3) or not all(parts) or any(is_zero) or len(set(parts)) < len(parts):
+        raise UsageError(
+            f"--columns is {shortened(columns)}: name two or three different columns as X,Y or X,Y,LABEL, by name or "
+            "by number from 1"
+        )
+    return parts
+
+
+def _choose_layout(
+    name: str,
+    data: bytes,
+    delimiter: str,
+    first: tuple[int, str, list[str]],
+    wanted: list[str] | None,
+    options: PointOptions,
+) -> _Layout:
+    line, _, fields = first
+    header, chosen = _choose(name, fields, wanted, options)
+    x, y, label = (*chosen, None)[:3] if len(chosen) == 2 else chosen
+    assert x is not None
+    assert y is not None
+    return _Layout(name, data, delimiter, line, fields, header, x, y, label)
+
+
+def _choose(
+    name: str, fields: list[str], wanted: list[str] | None, options: PointOptions
+) -> tuple[bool, Sequence[int | None]]:
+    """Whether the first record is a header, and which columns are x, y and, if one is, the label."""
+    return _recognise(name, fields, options) if wanted is None else _look_up(name, fields, wanted)
+
+
+def chosen_columns(name: str, fields: list[str], options: PointOptions) -> list[int]:
+    """Choose the columns of a table that are x, y and, if one is, the label: as in delimited text.
+
+    Raises
+    ------
+    InputError
+        If the names are not known as coordinates, or ``--columns`` names one that is not there.
+
+    Examples
+    --------
+    >>> chosen_columns("a.json", ["label", "x", "y"], PointOptions())
+    [1, 2, 0]
+    """
+    wanted = None if options.columns is None else _parse_columns(options.columns)
+    return [column for column in _choose(name, fields, wanted, options)[1] if column is not None]
+
+
+def _recognise(name: str, fields: list[str], options: PointOptions) -> tuple[bool, Sequence[int | None]]:
+    """Find the coordinates by the header; two columns without one are x, y."""
+    lower = [_lower(field) for field in fields]
+    for pair in COORDINATE_NAMES:
+        if all(lower.count(each) == 1 for each in pair):
+            chosen: list[int | None] = [lower.index(each) for each in pair]
+            used = [fields[i] for i in chosen if i is not None]
+            if sorted(lower) == ["label", "x", "y"]:
+                chosen.append(lower.index("label"))
+                used.append(fields[lower.index("label")])
+            meanings = "x, y, label" if len(chosen) == 3 else "x, y"
+            if pair != ("x", "y") or len(chosen) == 3:  # plain x, y need no word
+                options.note(f"{name}: columns {', '.join(used)} are read as {meanings}")
+            return True, chosen
+    header = not any(_looks_numeric(field) for field in fields) and any(fields)
+    if not header and len(fields) == 2:
+        return False, [0, 1]
+    raise _unknown_columns(name, fields, header)
+
+
+def _look_up(name: str, fields: list[str], wanted: list[str]) -> tuple[bool, Sequence[int | None]]:
+    """Find the columns that the user named; a name makes the first record a header."""
+    chosen = [_find_column(name, fields, column) for column in wanted]
+    if len(set(chosen)) < len(chosen):
+        raise InputError(f"{name}: --columns {_cut(','.join(wanted))} names one column twice; {_listing(fields)}")
+    named = not all(map(_is_number, wanted))
+    values = [fields[i] for i in chosen]
+    return named or (any(values) and not any(_looks_numeric(value) for value in values)), chosen
+
+
+def _is_number(column: str) -> bool:
+    """Whether a column is named by its number; digits of other scripts may be a name."""
+    return column.isascii() and column.isdecimal()
+
+
+def _find_column(name: str, fields: list[str], wanted: str) -> int:
+    if _is_number(wanted):
+        digits = wanted.lstrip("0")
+        if len(digits) > len(str(len(fields))) or int(digits) > len(fields):
+            raise InputError(
+                f"{name}: --columns names column {_cut(wanted)}, but there are {len(fields)}; {_listing(fields)}"
+            )
+        return int(digits) - 1
+    for names, key in ((fields, wanted), ([_lower(field) for field in fields], _lower(wanted))):
+        if names.count(key) == 1:
+            return names.index(key)
+        if names.count(key) > 1:
+            raise InputError(f"{name}: several columns are called {shortened(wanted)}; give --columns by number")
+    raise InputError(f"{name}: there is no column {shortened(wanted)}; {_listing(fields)}; correct --columns")
+
+
+def _unknown_columns(name: str, fields: list[str], header: bool) -> InputError:
+    if len(fields) == 1:
+        return InputError(
+            f"{name}: the first line has one column, {fields[0][:40]!r}; give x and y, separated by "
+            "a comma, a semicolon, a tab or blanks"
+        )
+    if header:
+        refuse_geometry_column(name, fields)
+    what = "the header names no known pair of coordinates" if header else f"{len(fields)} columns without a header"
+    example = _example(fields) if header else _numeric_example(fields)
+    if example is None:
+        return InputError(
+            f"{name}: {what}, and no two columns look like one; give the points that the table was made from, or say "
+            f"which are x and y with --columns X,Y ({_listing(fields)})"
+        )
+    return InputError(f"{name}: {what}; say which are x and y, for example --columns {example} ({_listing(fields)})")
+
+
+def _example(fields: list[str]) -> str | None:
+    """Two columns that may be x and y, as their names begin alike and go on the same; None where no two do."""
+    names = {_lower(field): field for field in fields}
+    for first, second in _BEGINNINGS:
+        for key, field in names.items():
+            other = names.get(second + key.removeprefix(first))
+            if key.startswith(first) and other is not None and "," not in field + other:
+                return f"{field},{other}"
+    return None
+
+
+def _numeric_example(fields: list[str]) -> str | None:
+    """The numbers of the first two columns that hold numbers; None where no two do."""
+    numeric = [str(i) for i, field in enumerate(fields, 1) if _looks_numeric(field)]
+    return ",".join(numeric[:2]) if len(numeric) > 1 else None
+
+
+def _listing(fields: list[str]) -> str:
+    shown = ", ".join(f"{i} = {field[:24] or 'empty'}" for i, field in enumerate(fields[:_MOST_LISTED], 1))
+    more = f", … {len(fields)} in all" if len(fields) > _MOST_LISTED else ""
+    return f"its columns are {shown}{more}"
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= 40 else f"{text[:39]}…"
+
+
+def _lower(text: str) -> str:
+    return text.strip().lower()
+
+
+def _looks_numeric(text: str) -> bool:
+    return bool(_NUMBER.fullmatch(text) or _DECIMAL_COMMA.fullmatch(text))
+
+
+# ---- rows ----------------------------------------------------------------------------------------
+def _read_rows(layout: _Layout, options: PointOptions) -> PointSet:
+    columns = [layout.x, layout.y] if layout.label is None else [layout.x, layout.y, layout.label]
+    fields = len(layout.first_record)
+    advice = "correct it, or choose other columns with --columns"
+    try:
+        values = _core.parse_numbers(
+            layout.data, layout.delimiter, columns, layout.header_records, fields, options.threads
+        )
+    except _core.TextError as error:
+        raise explain(layout.name, error, layout.described, _counted_by(layout), advice) from None
+    options.check_sites(layout.name, len(values))
+    labels = None if layout.label is None else _labels(layout, values[:, 2])
+    rest = [i for i in range(fields) if i not in columns] if options.properties else []
+    x, y = (layout.first_record[column] if layout.header else "" for column in (layout.x, layout.y))
+    return PointSet(values[:, :2], labels, _properties(layout, rest, options.threads), **placed_by(x, y, options))
+
+
+def placed_by(x: str, y: str, options: PointOptions) -> dict[str, Any]:
+    """Give the direction of y and the coordinate reference system of points, which the names of the columns tell.
+
+    Examples
+    --------
+    >>> placed_by("x", "y", PointOptions())
+    {'y_up': False, 'crs': None}
+    """
+    is_map = _lower(x) in LONGITUDES and _lower(y) in LATITUDES
+    return {"y_up": is_map, "crs": crs_member(LONGITUDE_LATITUDE) if is_map and options.crs is None else None}
+
+
+def _counted_by(layout: _Layout) -> str:
+    return f"the {'header' if layout.header else 'first row'} (line {layout.first_line})"
+
+
+def _labels(layout: _Layout, values: NDArray[np.float64]) -> NDArray[np.int64]:
+    bad = np.flatnonzero((values != np.floor(values)) | (values < 1) | (values > LARGEST_LABEL))
+    if bad.size:
+        row = int(bad[0])
+        line = _core.line_of_row(layout.data, layout.delimiter, layout.header_records, row)
+        raise InputError(
+            f"{layout.name}, line {line}: the label {values[row]:.17g} is not a whole number from 1 to "
+            f"{LARGEST_LABEL}; correct it, or leave the label out of --columns"
+        )
+    return values.astype(np.int64)
+
+
+def _properties(layout: _Layout, columns: list[int], threads: int) -> dict[str, list[str]]:
+    if not columns:
+        return {}
+    _check_utf8(layout)
+    header = layout.header_records
+    fields = len(layout.first_record)
+    texts = _core.parse_fields(layout.data, layout.delimiter, columns, header, fields, threads)
+    result: dict[str, list[str]] = {}
+    for column, values in zip(columns, texts, strict=True):
+        name = (layout.first_record[column] if layout.header else "") or f"column_{column + 1}"
+        result[_unused(name, result)] = values
+    return result
+
+
+def _unused(name: str, taken: dict[str, list[str]]) -> str:
+    number, candidate = 2, name
+    while candidate in taken:
+        number, candidate = number + 1, f"{name}_{number}"
+    return candidate
+
+
+def _check_utf8(layout: _Layout) -> None:
+    try:
+        layout.data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        line = layout.data.count(b"\n", 0, error.start) + 1
+        raise InputError(
+            f"{layout.name}, line {line}: the byte {layout.data[error.start]:#04x} is not UTF-8; "
+            "save the file as UTF-8, or use --no-properties"
+        ) from None
+
+
+def explain(
+    name: str,
+    error: _core.TextError,
+    described: Callable[[int], str],
+    counted_by: str,
+    advice: str = "correct it, or remove the line",
+) -> InputError:
+    """Put an error of the core into words.
+
+    Parameters
+    ----------
+    name : str
+        The input.
+    error : TextError
+        What the core found.
+    described : callable
+        Gives the words for a 0-based column.
+    counted_by : str
+        What set the number of fields that each line must have.
+    advice : str
+        What to do about text that is no number.
+
+    Returns
+    -------
+    InputError
+        To be raised.
+    """
+    kind, line, column, text, found, expected = error.args
+    place = described(column)
+    if kind == "field_count":
+        what = (
+            f"{found} field{'s' * (found != 1)}, but {counted_by} has {expected}; "
+            "give every line the same number of fields"
+        )
+    elif kind == "open_quote":
+        what = f"the quote that opens {place} is not closed before the next delimiter; close it, or remove it"
+    elif kind == "not_finite":
+        what = f"{text!r} in {place} is not a finite number; correct it, or remove the line"
+    elif not text:
+        what = f"{place} is empty; fill in a number, or remove the line"
+    elif _DECIMAL_COMMA.fullmatch(text):
+        point = text.replace(",", ".")
+        what = f"{text!r} in {place} is not a number: decimal commas are not read, write {point}"
+    else:
+        what = f"{text!r} in {place} is not a number; {advice}"
+    return InputError(f"{name}, line {line}: {what}")

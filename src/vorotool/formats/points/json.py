@@ -1,0 +1,136 @@
+"""Points from JSON: GeoJSON, or a plain list of pairs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from vorotool.errors import InputError, UsageError
+from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.geojson import (
+    feature_places,
+    features_of,
+    geometry_of,
+    list_of,
+    parse_json,
+    property_columns,
+)
+from vorotool.formats.parsing.reader_options import PointOptions, position_array, shortened
+from vorotool.formats.parsing.reference_systems import note_unnamed
+from vorotool.formats.points.tables import is_table, points_of_rows
+from vorotool.geometry.points.point_set import PointSet
+
+
+def read_json(source: Source, options: PointOptions) -> PointSet:
+    """Read ``[[x, y], ...]``, the rows of a table, or GeoJSON where the document is an object."""
+    options.check_sites(source.name, 0 if b"{" in source.data else source.data.count(b"[") - 1)
+    document = parse_json(source)
+    if isinstance(document, dict):
+        _refuse_columns(source.name, options)
+        return _read_document(source.name, document, options)
+    if not isinstance(document, list):
+        raise InputError(f"{source.name}: {shortened(document)} is no list of points; write [[x, y], …]")
+    if is_table(document):
+        return points_of_rows(source.name, document, options)
+    _refuse_columns(source.name, options)
+    for index, point in enumerate(document):
+        if type(point) is list and len(point) > 2:
+            raise InputError(
+                f"{source.name}, point {index + 1}: {shortened(point)} has {len(point)} numbers; write [x, y]"
+            )
+    return PointSet(position_array(document, lambda i: f"{source.name}, point {i + 1}"))
+
+
+def _refuse_columns(name: str, options: PointOptions) -> None:
+    if options.columns is not None:
+        raise UsageError(f"--columns is for delimited text and tables, but {name} is neither: leave it out")
+
+
+def read_geojson(source: Source, options: PointOptions) -> PointSet:
+    """Read the points of a GeoJSON document with their ``id`` and properties."""
+    document = parse_json(source)
+    if not isinstance(document, dict):
+        raise InputError(f"{source.name}: GeoJSON is an object with a type; use --input-format json for [[x, y], …]")
+    return _read_document(source.name, document, options)
+
+
+@dataclass
+class _Collected:
+    """Positions in order, and for each the feature it comes from (0-based) and its part there (1-based)."""
+
+    positions: list[Any] = field(default_factory=list)
+    features: list[int] = field(default_factory=list)
+    parts: list[int] = field(default_factory=list)
+    without_geometry: int = 0
+
+
+def _read_document(name: str, document: Mapping[str, Any], options: PointOptions) -> PointSet:
+    if "polygons" in document:
+        raise InputError(
+            f"{name} holds polygons, or what was made of them, not points: skeleton-exact reads it; for places along a "
+            "skeleton use --what points -f csv there"
+        )
+    features = features_of(name, document)
+    place = feature_places(name, document)
+    collected = _Collected()
+    for index, feature in enumerate(features):
+        _collect(collected, index, feature, place(index))
+    options.check_sites(name, len(collected.positions))
+    xy = position_array(collected.positions, lambda i: place(collected.features[i]))
+    if collected.without_geometry:
+        options.note(f"{name}: {collected.without_geometry} features without a geometry are left out")
+    if any(len(position) > 2 for position in collected.positions):
+        options.note(f"{name}: only x and y are used, heights are left out")
+    crs = document.get("crs")
+    if crs is None and options.crs is None:
+        note_unnamed(name, xy, options.note)
+    properties = _properties(name, features, collected) if options.properties else {}
+    return PointSet(xy, None, properties, y_up=True, crs=crs)
+
+
+def _collect(collected: _Collected, index: int, feature: Any, place: str) -> None:
+    positions = _positions(geometry_of(feature, place), place)
+    if not positions:
+        collected.without_geometry += 1
+    collected.positions.extend(positions)
+    collected.features.extend([index] * len(positions))
+    collected.parts.extend(range(1, len(positions) + 1))
+
+
+def _positions(geometry: Any, place: str) -> list[Any]:
+    """Give the positions of a geometry; a collection is as deep as the nesting guard lets it be."""
+    if geometry is None:
+        return []
+    if not isinstance(geometry, dict):
+        raise InputError(f"{place}: the geometry is {shortened(geometry)}; write an object with type and coordinates")
+    kind = geometry.get("type")
+    if kind == "GeometryCollection":
+        return [p for each in list_of(geometry, "geometries", place) for p in _positions(each, place)]
+    if kind == "MultiPoint":
+        return list_of(geometry, "coordinates", place)
+    if kind == "Point":
+        position = list_of(geometry, "coordinates", place)
+        return [position] if position else []
+    raise InputError(f"{place}: {shortened(kind)} is not a point; {not_a_point_advice(str(kind))}")
+
+
+def not_a_point_advice(kind: str) -> str:
+    """Say what to do with a geometry that is no point."""
+    lines = kind.lower().removeprefix("multi")
+    if lines in ("polygon", "linestring"):
+        return "replace it by its centroid or its vertices (skeleton-exact reads polygons and lines)"
+    return "use Point or MultiPoint"
+
+
+def _properties(name: str, features: list[Mapping[str, Any]], collected: _Collected) -> dict[str, list[Any]]:
+    own = property_columns(name, features, collected.features, "points")
+    columns: dict[str, list[Any]] = {}
+    has_id = any("id" in feature for feature in features)
+    if has_id:
+        columns["id"] = [features[i].get("id") for i in collected.features]
+    for key, values in own.items():
+        columns["property_id" if has_id and key == "id" else key] = values
+    if max(collected.parts, default=1) > 1:
+        columns["voro_part" if "part" in columns else "part"] = collected.parts
+    return columns

@@ -1,0 +1,95 @@
+"""Points from the ``.node`` files of Triangle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.errors import InputError
+from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.reader_options import PointOptions
+from vorotool.formats.points.delimited import explain
+from vorotool.geometry.points.point_set import PointSet
+
+_FORM = "<vertices> 2 <attributes> <0 or 1 boundary markers>"
+
+
+@dataclass(frozen=True)
+class _Header:
+    line: int
+    vertices: int
+    attributes: int
+    markers: int
+
+    @property
+    def fields(self) -> int:
+        return 3 + self.attributes + self.markers
+
+
+def read_node(source: Source, options: PointOptions) -> PointSet:
+    """Read vertices; attributes and boundary markers become properties, numbering may begin at 0 or 1."""
+    first = _core.first_record(source.data, " ")
+    if first is None:
+        raise InputError(f"{source.name}: the file is empty; a .node file begins with {_FORM}")
+    header = _read_header(source.name, first)
+    options.check_sites(source.name, header.vertices)
+    try:
+        values = _core.parse_numbers(source.data, " ", [0, 1, 2], 1, header.fields, options.threads)
+    except _core.TextError as error:
+        counted_by = f"each vertex after the header (line {header.line})"
+        raise explain(source.name, error, _described, counted_by) from None
+    _check_count(source.name, header, len(values))
+    base = _checked_numbering(source, values[:, 0])
+    return PointSet(values[:, 1:3], None, _properties(source, header, options), first_number=base)
+
+
+def _described(column: int) -> str:
+    return f"column {column + 1}"
+
+
+def _read_header(name: str, first: tuple[int, str, list[str]]) -> _Header:
+    line, text, fields = first
+    if not 1 <= len(fields) <= 4 or not all(field.isdecimal() and len(field) < 16 for field in fields):
+        raise InputError(f"{name}, line {line}: {text[:40]!r} is no header of a .node file; write {_FORM}")
+    vertices, dimension, attributes, markers = (int(v) for v in fields + ["0", "2", "0", "0"][len(fields) :])
+    if dimension != 2:
+        raise InputError(f"{name}, line {line}: the vertices have {dimension} dimensions; only 2 are read")
+    if markers > 1 or attributes > 1000:
+        raise InputError(
+            f"{name}, line {line}: {attributes} attributes and {markers} boundary markers a vertex; write {_FORM}"
+        )
+    return _Header(line, vertices, attributes, markers)
+
+
+def _check_count(name: str, header: _Header, rows: int) -> None:
+    if rows != header.vertices:
+        raise InputError(
+            f"{name}, line {header.line}: {header.vertices} vertices are announced, but {rows} follow; "
+            "correct the header, or complete the file"
+        )
+
+
+def _checked_numbering(source: Source, indices: NDArray[np.float64]) -> int:
+    """Number of the first vertex; the others follow without gaps."""
+    base = 0 if len(indices) and indices[0] == 0 else 1
+    bad = np.flatnonzero(indices != np.arange(base, base + len(indices)))
+    if bad.size:
+        row = int(bad[0])
+        line = _core.line_of_row(source.data, " ", 1, row)
+        raise InputError(
+            f"{source.name}, line {line}: vertex {indices[row]:.17g} stands where {row + base} is due; "
+            "number the vertices from 0 or 1 without gaps"
+        )
+    return base
+
+
+def _properties(source: Source, header: _Header, options: PointOptions) -> dict[str, list[str]]:
+    names = [f"attribute_{i + 1}" for i in range(header.attributes)] + ["boundary_marker"] * header.markers
+    if not names or not options.properties:
+        return {}
+    columns = list(range(3, header.fields))
+    texts = _core.parse_fields(source.data, " ", columns, 1, header.fields, options.threads)
+    return dict(zip(names, texts, strict=True))

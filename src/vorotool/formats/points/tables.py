@@ -1,0 +1,147 @@
+"""Points from tables that were written as JSON or NPZ: the columns that CSV has, with their types."""
+
+from __future__ import annotations
+
+import io
+import math
+import zipfile
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.formats.io.limits import decoding
+from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.reader_options import LARGEST_LABEL, PointOptions, shortened
+from vorotool.formats.points.delimited import chosen_columns, placed_by
+from vorotool.geometry.coordinates import INEXACT, first_inexact
+from vorotool.geometry.numbers import shown_number
+from vorotool.geometry.points.point_set import PointSet
+
+NPZ_MAGIC = b"PK\x03\x04"
+_MISSING = "_missing"
+
+
+def is_table(document: Any) -> bool:
+    """Whether parsed JSON is a list of rows of a table, such as ``--what table -f json`` writes.
+
+    Examples
+    --------
+    >>> is_table([{"label": 1, "x": 0.5, "y": 2}]), is_table([[0.5, 2]]), is_table([{"shell": []}])
+    (True, False, False)
+    """
+    row = document[0] if isinstance(document, list) and document else None
+    return isinstance(row, dict) and bool(row) and not row.keys() & {"type", "shell", "line"}
+
+
+def points_of_rows(name: str, rows: Sequence[Any], options: PointOptions) -> PointSet:
+    """Read points from the rows of a table.
+
+    Parameters
+    ----------
+    name : str
+        The input.
+    rows : sequence of mapping
+        Objects with the same members; None where there is no value.
+    options : PointOptions
+        What is read.
+
+    Raises
+    ------
+    InputError
+        If a row has other members, a coordinate is no finite number, or no columns are known as coordinates.
+    """
+    options.check_sites(name, len(rows))
+    names = list(rows[0])
+    for number, row in enumerate(rows, 1):
+        if not isinstance(row, dict) or row.keys() != rows[0].keys():
+            raise InputError(
+                f"{name}, row {number}: {shortened(row)} has other fields than the first; give all the same"
+            )
+    return _points_of(name, {each: [row[each] for row in rows] for each in names}, options)
+
+
+def read_npz(source: Source, options: PointOptions) -> PointSet:
+    """Read points from the columns of a table; what a column ``<name>_missing`` marks has no value.
+
+    Raises
+    ------
+    InputError
+        If it is no archive of uncompressed 1-D arrays of one length, or has no coordinates.
+    """
+    columns: dict[str, NDArray[Any]] = {}
+    with decoding(source.name, "NPZ"), zipfile.ZipFile(io.BytesIO(source.data)) as archive:
+        for entry in archive.infolist():
+            columns[entry.filename.removesuffix(".npy")] = _column(source.name, archive, entry, options)
+    lengths = {len(values) for values in columns.values()}
+    if len(lengths) != 1:
+        held = "no arrays" if not lengths else f"arrays of {min(lengths)} to {max(lengths)} values"
+        raise InputError(
+            f"{source.name} is no table: it holds {held}; give one whose columns are of one length, and of a "
+            "skeleton or offset curves the table (--what points -f npz) or the JSON"
+        )
+    kept = {name: values for name, values in columns.items() if not name.endswith(_MISSING)}
+    values = {name: _present(values, columns.get(f"{name}{_MISSING}")) for name, values in kept.items()}
+    return _points_of(source.name, values, options)
+
+
+def _column(name: str, archive: zipfile.ZipFile, entry: zipfile.ZipInfo, options: PointOptions) -> NDArray[Any]:
+    """One array, of which no more is read than its header announces and the file holds."""
+    if entry.compress_type != zipfile.ZIP_STORED:
+        raise InputError(f"{name}: {entry.filename} is compressed; save it with numpy.savez, which does not compress")
+    with archive.open(entry) as member:
+        version = np.lib.format.read_magic(member)
+        read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
+        shape, _, dtype = read(member)
+        if len(shape) != 1 or dtype.kind not in "biufU" or dtype.itemsize == 0:
+            raise InputError(
+                f"{name}: {entry.filename} is of type {dtype} and shape {shape}; a table has 1-D columns of numbers or "
+                "text"
+            )
+        options.check_sites(name, shape[0])
+        needed = math.prod(shape) * dtype.itemsize
+        data = member.read(needed)
+    if len(data) < needed:
+        raise InputError(f"{name}: {entry.filename} is cut off: {needed} bytes are announced, {len(data)} are there")
+    return np.frombuffer(data, dtype)
+
+
+def _present(values: NDArray[Any], missing: NDArray[Any] | None) -> list[Any]:
+    listed: list[Any] = values.tolist()
+    if missing is None:
+        return listed
+    return [None if none else value for value, none in zip(listed, missing.tolist(), strict=True)]
+
+
+def _points_of(name: str, columns: Mapping[str, list[Any]], options: PointOptions) -> PointSet:
+    """Choose coordinates and labels as in CSV; the other columns are properties."""
+    names = list(columns)
+    x, y, *label = (names[column] for column in chosen_columns(name, names, options))
+    xy = np.stack([_numbers(name, each, columns[each]) for each in (x, y)], axis=1)
+    labels = None if not label else _labels(name, columns[label[0]])
+    others = [each for each in names if each not in (x, y, *label)] if options.properties else []
+    return PointSet(xy, labels, {each: columns[each] for each in others}, **placed_by(x, y, options))
+
+
+def _numbers(name: str, column: str, values: list[Any]) -> NDArray[np.float64]:
+    for row, value in enumerate(values, 1):
+        if type(value) is not int and not (type(value) is float and math.isfinite(value)):
+            raise InputError(
+                f"{name}, row {row}: {column} is {shortened(value)}, no finite number; correct or remove it"
+            )
+    inexact = first_inexact(np.array(values, dtype=object).reshape(-1, 1))
+    if inexact is not None:
+        raise InputError(f"{name}, row {inexact + 1}: {column} is {shown_number(values[inexact])}: {INEXACT}")
+    return np.array(values, dtype=np.float64)
+
+
+def _labels(name: str, values: list[Any]) -> NDArray[np.int64]:
+    for row, value in enumerate(values, 1):
+        if type(value) not in (int, float) or value != value // 1 or not 1 <= value <= LARGEST_LABEL:
+            raise InputError(
+                f"{name}, row {row}: the label {shortened(value)} is not a whole number from 1 to {LARGEST_LABEL}; "
+                "correct it, or leave the label out of --columns"
+            )
+    return np.array(values, dtype=np.int64)

@@ -1,0 +1,97 @@
+"""Points from well-known text."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import numpy as np
+
+from vorotool.errors import InputError
+from vorotool.formats.io.sources import Source, check_nesting
+from vorotool.formats.parsing.reader_options import PointOptions, no_points, shortened
+from vorotool.formats.parsing.reference_systems import crs_of_numbers
+from vorotool.formats.points.json import not_a_point_advice
+from vorotool.geometry.points.point_set import PointSet
+
+_SRID = re.compile(r"\ASRID\s*=\s*(\d{1,9})\s*;\s*", re.IGNORECASE)
+_POINT, _MULTIPOINT, _COLLECTION = 0, 4, 7  # type numbers of GEOS
+
+
+def read_wkt(source: Source, options: PointOptions) -> PointSet:
+    """Read POINT, MULTIPOINT and collections of them; several points of one geometry are its parts."""
+    import shapely
+
+    check_nesting(source.data, name=source.name)
+    texts, lines, srids = geometry_texts(source)
+    crs = crs_of_numbers(source.name, srids, lines)
+    with np.errstate(all="ignore"):  # numbers beyond the largest double are found below
+        geometries = shapely.from_wkt(np.array(texts, dtype=object), on_invalid="ignore")
+    for index in np.flatnonzero(shapely.get_type_id(geometries) != _POINT):
+        _check_geometry(geometries[index], texts[index], f"{source.name}, line {lines[index]}")
+    points, owners = _single_points(geometries)
+    options.check_sites(source.name, len(points))
+    if not len(points):
+        return PointSet(no_points(), y_up=True, crs=crs)
+    xy = shapely.get_coordinates(points)
+    bad = np.flatnonzero(~np.isfinite(xy).all(axis=1))
+    if bad.size:
+        owner = int(owners[bad[0]])
+        raise InputError(f"{source.name}, line {lines[owner]}: {texts[owner][:40]!r} is not finite; correct it")
+    if shapely.has_z(points).any():
+        options.note(f"{source.name}: only x and y are used, heights are left out")
+    parts = _part_numbers(owners)
+    properties = {"part": parts.tolist()} if options.properties and parts.max() > 1 else {}
+    return PointSet(xy, None, properties, y_up=True, crs=crs)
+
+
+def geometry_texts(source: Source) -> tuple[list[str], list[int], list[int]]:
+    """Cut a text into geometries, and give the line and the SRID (or 0) of each: it ends when its brackets close."""
+    texts: list[str] = []
+    lines: list[int] = []
+    srids: list[int] = []
+    depth = 0
+    for number, line in enumerate(source.data.decode("utf-8", "replace").splitlines(), 1):
+        text = line.strip()
+        if not text or (depth == 0 and text.startswith("#")):
+            continue
+        if depth > 0 or (texts and text.startswith("(")):
+            texts[-1] += " " + text
+        else:
+            srid = _SRID.match(text)
+            texts.append(text if srid is None else text[srid.end() :])
+            lines.append(number)
+            srids.append(0 if srid is None else int(srid[1]))
+        depth = max(0, depth + text.count("(") - text.count(")"))
+    return texts, lines, srids
+
+
+def _check_geometry(geometry: Any, text: str, place: str) -> None:
+    import shapely
+
+    if geometry is None:
+        raise InputError(f"{place}: {shortened(text)} is not WKT; write for example POINT (3 4)")
+    kind = shapely.get_type_id(geometry)
+    if kind == _COLLECTION:
+        for part in shapely.get_parts(geometry):
+            _check_geometry(part, text, place)
+    elif kind not in (_POINT, _MULTIPOINT):
+        name = geometry.geom_type
+        raise InputError(f"{place}: a {name} is not a point; {not_a_point_advice(name)}")
+
+
+def _single_points(geometries: Any) -> tuple[Any, Any]:
+    """Give the points that are not empty, and the index of the geometry that each comes from."""
+    import shapely
+
+    points, owners = geometries, np.arange(len(geometries))
+    while len(points) and (shapely.get_type_id(points) != _POINT).any():
+        points, index = shapely.get_parts(points, return_index=True)
+        owners = owners[index]
+    there = ~shapely.is_empty(points) if len(points) else np.zeros(0, dtype=bool)
+    return points[there], owners[there]
+
+
+def _part_numbers(owners: Any) -> Any:
+    starts = np.flatnonzero(np.r_[True, owners[1:] != owners[:-1]])
+    return np.arange(len(owners)) - np.repeat(starts, np.diff(np.r_[starts, len(owners)])) + 1

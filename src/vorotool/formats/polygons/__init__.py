@@ -1,0 +1,1 @@
+"""Polygon readers, one module a format."""

@@ -1,0 +1,118 @@
+"""Polygons and lines in GeoJSON."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from itertools import pairwise
+from typing import Any, BinaryIO
+
+import numpy as np
+
+from vorotool.errors import InputError
+from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.geojson import (
+    feature_places,
+    features_of,
+    geometry_of,
+    list_of,
+    parse_json,
+    property_columns,
+)
+from vorotool.formats.parsing.reader_options import shortened
+from vorotool.formats.parsing.reference_systems import note_unnamed
+from vorotool.formats.polygons.ring_collector import PolygonOptions, RingCollector
+from vorotool.formats.text.coordinate_text import Digits
+from vorotool.formats.text.feature_collection import collection_opening
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+
+
+def read_geojson(source: Source, options: PolygonOptions) -> PolygonSet:
+    """Read the polygons and lines of a GeoJSON document with their ``id``, properties and ``crs``."""
+    document = parse_json(source)
+    if not isinstance(document, dict):
+        raise InputError(f"{source.name}: GeoJSON is an object with a type; use --input-format json for [[x, y], …]")
+    features = features_of(source.name, document)
+    place = feature_places(source.name, document)
+    collector = RingCollector(options, source.name, place)
+    for index, feature in enumerate(features):
+        geometry = geometry_of(feature, place(index))
+        if geometry is not None:
+            _collect(collector, index, geometry, place(index))
+    owners = collector.features
+    ids = [features[i].get("id") for i in owners] if any("id" in feature for feature in features) else None
+    own = property_columns(source.name, features, owners, "polygons") if options.properties else {}
+    crs = document.get("crs")
+    polygons = collector.finish(ids=ids if options.properties else None, properties=own, y_up=True, crs=crs)
+    options.note_left_out(source.name, len(features) - len(set(owners)))
+    if crs is None and options.crs is None:
+        note_unnamed(source.name, polygons.xy, options.note)
+    return polygons
+
+
+def _collect(collector: RingCollector, feature: int, geometry: Any, place: str) -> None:
+    """Take all parts of a geometry; a collection is as deep as the nesting guard lets it be."""
+    if not isinstance(geometry, Mapping):
+        raise InputError(f"{place}: the geometry is {shortened(geometry)}; write an object with type and coordinates")
+    kind = geometry.get("type")
+    if kind == "GeometryCollection":
+        for each in list_of(geometry, "geometries", place):
+            _collect(collector, feature, each, place)
+    elif kind in ("Polygon", "MultiPolygon"):
+        coordinates = list_of(geometry, "coordinates", place)
+        for rings in coordinates if kind == "MultiPolygon" else [coordinates]:
+            collector.add_polygon(feature, rings)
+    elif kind in ("LineString", "MultiLineString"):
+        coordinates = list_of(geometry, "coordinates", place)
+        for line in coordinates if kind == "MultiLineString" else [coordinates]:
+            collector.add_line(feature, line)
+    else:
+        raise InputError(f"{place}: {shortened(kind)} is no polygon or line; {not_a_shape_advice(str(kind))}")
+
+
+def not_a_shape_advice(kind: str) -> str:
+    """Say what to do with a geometry that is neither polygon nor line."""
+    if kind.lower().removeprefix("multi") == "point":
+        return "put points into a file of their own"
+    return "use (Multi)Polygon or (Multi)LineString"
+
+
+def write_geojson(out: BinaryIO, polygons: PolygonSet, precision: int | None) -> None:
+    """Write one feature for each feature of the input, with its id and properties."""
+    import orjson
+
+    digits = Digits(precision)
+    out.write(collection_opening(polygons.crs))
+    separator = b"\n"
+    for first, last in feature_ranges(polygons):
+        feature: dict[str, Any] = {"type": "Feature"}
+        if polygons.ids is not None and polygons.ids[first] is not None:
+            feature["id"] = polygons.ids[first]
+        feature["properties"] = {key: values[first] for key, values in polygons.properties.items()}
+        feature["geometry"] = _joined([_geometry(polygons, i, digits) for i in range(first, last)])
+        out.write(separator + orjson.dumps(feature, default=str, option=orjson.OPT_SERIALIZE_NUMPY))
+        separator = b",\n"
+    out.write(b"\n]}\n" if len(polygons) else b"]}\n")
+
+
+def feature_ranges(polygons: PolygonSet) -> list[tuple[int, int]]:
+    """Give the first polygon of each feature, and the one after its last."""
+    assert polygons.feature is not None
+    starts = np.flatnonzero(np.diff(polygons.feature, prepend=-1)).tolist()
+    return list(pairwise([*starts, len(polygons)]))
+
+
+def _geometry(polygons: PolygonSet, index: int, digits: Digits) -> dict[str, Any]:
+    rings = [digits.rounded(ring) for ring in polygons.rings_of(index)]
+    if polygons.is_line[index]:
+        return {"type": "LineString", "coordinates": rings[0]}
+    return {"type": "Polygon", "coordinates": [[*ring, ring[0]] for ring in rings]}
+
+
+def _joined(parts: list[dict[str, Any]]) -> dict[str, Any]:
+    """Give one geometry for the parts of a feature."""
+    kinds = {part["type"] for part in parts}
+    if len(parts) == 1:
+        return parts[0]
+    if len(kinds) == 1:
+        return {"type": f"Multi{kinds.pop()}", "coordinates": [part["coordinates"] for part in parts]}
+    return {"type": "GeometryCollection", "geometries": parts}

@@ -1,0 +1,163 @@
+"""Polygons and lines as plain JSON."""
+
+from __future__ import annotations
+
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.geojson import parse_json, property_columns, refuse_table
+from vorotool.formats.parsing.reader_options import shortened
+from vorotool.formats.polygons.geojson import read_geojson
+from vorotool.formats.polygons.ring_collector import PolygonOptions, RingCollector
+from vorotool.formats.text.coordinate_text import Digits
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+
+_FORM = '{"polygons": [{"shell": [[x, y], …], "holes": [[[x, y], …], …]}, {"line": [[x, y], …]}, …]}'
+
+
+def read_json(source: Source, options: PolygonOptions) -> PolygonSet:
+    """Read ``[[x, y], …]``, a list of such shells, ``{"polygons": […]}``, or GeoJSON where the object has a type."""
+    document = parse_json(source)
+    _check_type(source.name, document, options)
+    if isinstance(document, dict) and "polygons" not in document and "type" in document:
+        return read_geojson(source, options)
+    items = _items(source.name, document)
+
+    def place(index: int) -> str:
+        return f"{source.name}, polygon {index + 1}"
+
+    collector = RingCollector(options, source.name, place, flat_only=True)
+    for index, item in enumerate(items):
+        _collect(collector, index, item, place(index))
+    owners = collector.features
+    described = [item if isinstance(item, dict) else {} for item in items]
+    has_ids = options.properties and any("id" in item for item in described)
+    polygons = collector.finish(
+        ids=[described[i].get("id") for i in owners] if has_ids else None,
+        feature=_features(described, owners, place),
+        properties=property_columns(source.name, described, owners, "polygons") if options.properties else {},
+    )
+    options.note_left_out(source.name, len(items) - len(owners))
+    if isinstance(document, list) and len(polygons) > 1 and all(isinstance(item, list) for item in items):
+        _note_holes(source.name, polygons, options)
+    return polygons
+
+
+def _note_holes(name: str, polygons: PolygonSet, options: PolygonOptions) -> None:
+    """Say that a ring inside the first one is a shell of its own here: where GeoJSON has it, it would be a hole."""
+    low, high = (bound.reduceat(polygons.xy, polygons.ring_start[:-1]) for bound in (np.minimum, np.maximum))
+    within = np.flatnonzero((low >= low[0]).all(axis=1) & (high <= high[0]).all(axis=1))[1:]
+    if not within.size:
+        return
+    import shapely
+
+    first = shapely.polygons(_closed(polygons.ring(0)))
+    if not shapely.is_valid(first):
+        return
+    shapely.prepare(first)
+    for ring in within.tolist():
+        if shapely.covers(first, shapely.linestrings(_closed(polygons.ring(ring)))):
+            options.note(
+                f"{name}: ring {ring + 1} lies in ring 1, but each ring of a list is a polygon of its own: if it is a "
+                f"hole, write {_FORM}"
+            )
+            return
+
+
+def _closed(ring: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.concatenate([ring, np.repeat(ring[:1], max(1, 4 - len(ring)), axis=0)])
+
+
+def _check_type(name: str, document: Any, options: PolygonOptions) -> None:
+    """Refuse curves in whose place the polygons that they are around would be read; say so of a skeleton."""
+    kind = document.get("type") if isinstance(document, dict) and "polygons" in document else None
+    if kind == "vorotool.offsets":
+        raise InputError(
+            f"{name} holds offset curves, with arcs: write them as GeoJSON (--what offset -f geojson), which has "
+            "polygons instead, or give the file that they were made from"
+        )
+    if kind == "vorotool.skeleton":
+        options.note(f"{name} holds a skeleton: the polygons in it are read")
+
+
+def _items(name: str, document: Any) -> list[Any]:
+    if isinstance(document, dict):
+        items = document.get("polygons")
+        if not isinstance(items, list):
+            raise InputError(f"{name}: the object has no list of polygons; write {_FORM}, GeoJSON, or [[x, y], …]")
+        return items
+    if not isinstance(document, list):
+        raise InputError(f"{name}: {shortened(document)} is no polygon; write [[x, y], …], or {_FORM}")
+    refuse_table(name, document, f"polygons: give the file that it was made from, or write {_FORM}")
+    return document if is_list_of_shells(document) else [document] if document else []
+
+
+def is_list_of_shells(document: Any) -> bool:
+    """Whether a list is one of shells, not of pairs: its first item that is not empty begins with a list."""
+    first = next((item for item in document if item), None)
+    return isinstance(first, dict) or (isinstance(first, list) and isinstance(first[0], list))
+
+
+def _collect(collector: RingCollector, index: int, item: Any, place: str) -> None:
+    if isinstance(item, list):
+        collector.add_polygon(index, [item])
+    elif isinstance(item, dict) and ("shell" in item) != ("line" in item):
+        if "properties" in item and not isinstance(item["properties"], dict | None):
+            raise InputError(f"{place}: properties are {shortened(item['properties'])}; write an object or null")
+        if "line" in item:
+            collector.add_line(index, item["line"])
+            return
+        holes = item.get("holes")
+        if not isinstance(holes, list | None):
+            raise InputError(f"{place}: holes are {shortened(holes)}; write [[[x, y], …], …]")
+        collector.add_polygon(index, [item["shell"], *(holes or [])])
+    else:
+        raise InputError(f"{place}: {shortened(item)} is no polygon; write {_FORM}")
+
+
+def _features(described: list[dict[str, Any]], owners: list[int], place: Any) -> list[int]:
+    """Number the features: a polygon whose ``part`` is one more than that of the one before continues that feature."""
+    features: list[int] = []
+    before = 0
+    for index in owners:
+        part = described[index].get("part", 1)
+        if type(part) is not int or (part != 1 and part != before + 1):
+            raise InputError(
+                f"{place(index)}: part is {shortened(part)}; number the parts of a feature 1, 2, … one after the other"
+            )
+        features.append((features[-1] if features else -1) + (part == 1))
+        before = part
+    return features
+
+
+def write_json(out: BinaryIO, polygons: PolygonSet, precision: int | None) -> None:
+    """Write ``{"polygons": […]}``, one polygon or line a line of text."""
+    out.write(b"{")
+    write_items(out, polygons, precision)
+    out.write(b"}\n")
+
+
+def write_items(out: BinaryIO, polygons: PolygonSet, precision: int | None) -> None:
+    """Write ``"polygons": […]``, a member of an object."""
+    import orjson
+
+    digits = Digits(precision)
+    part = polygons.part.tolist()
+    in_parts = max(part, default=1) > 1
+    out.write(b'"polygons":[')
+    for index, is_line in enumerate(polygons.is_line):
+        item: dict[str, Any] = {}
+        if polygons.ids is not None:
+            item["id"] = polygons.ids[index]
+        if in_parts:
+            item["part"] = part[index]
+        if polygons.properties:
+            item["properties"] = {key: values[index] for key, values in polygons.properties.items()}
+        rings = [digits.rounded(ring) for ring in polygons.rings_of(index)]
+        item |= {"line": rings[0]} if is_line else {"shell": rings[0], "holes": rings[1:]}
+        out.write((b",\n" if index else b"\n") + orjson.dumps(item, default=str, option=orjson.OPT_SERIALIZE_NUMPY))
+    out.write(b"\n]" if len(polygons) else b"]")

@@ -1,0 +1,113 @@
+"""Polylines of polygons as GeoJSON and WKT."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any, BinaryIO, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.formats.text.feature_collection import collection_opening
+from vorotool.formats.text.row_writer import Column, RowShape, write_rows
+from vorotool.formats.text.tables import json_text
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.table import Lookup
+
+
+class Wording(NamedTuple):
+    """What stands around the coordinates of polylines."""
+
+    before: bytes
+    openings: Sequence[str]
+    """Of each polyline."""
+    comma: str
+    space: str
+    """Between points, and between x and y."""
+    closing: str
+    """Of a polyline, with what parts it from the next one."""
+    after: bytes
+
+
+def geojson_wording(polygons: PolygonSet, polygon: Sequence[int], own: Mapping[str, Sequence[Any]]) -> Wording:
+    """One feature a polyline, with the id and the properties of its polygon.
+
+    Parameters
+    ----------
+    polygons : PolygonSet
+        Named and described.
+    polygon : sequence of int
+        That of each polyline; -1 for none.
+    own : mapping of str to sequence
+        Further properties; their names take a prefix where a polygon has the same.
+
+    Examples
+    --------
+    >>> shapes = PolygonSet([[0, 0], [4, 0], [0, 3]], [0, 3], [0], [0], ids=["a"])
+    >>> geojson_wording(shapes, [0], {"length": [2.5]}).openings[0][:70]
+    '{"type":"Feature","id":"a","properties":{"polygon":0,"length":2.5},"ge'
+    """
+    names = {name: f"voro_{name}" if name in polygons.properties else name for name in ("polygon", *own)}
+    openings = []
+    for row, index in enumerate(polygon):
+        described: dict[str, Any] = {}
+        name = ""
+        if index >= 0:
+            described = {key: values[index] for key, values in polygons.properties.items()}
+            if polygons.ids is not None and polygons.ids[index] is not None:
+                name = f'"id":{json_text(polygons.ids[index])},'
+            described[names["polygon"]] = index
+        described |= {names[key]: values[row] for key, values in own.items()}
+        openings.append(
+            f'{{"type":"Feature",{name}"properties":{json_text(described)},'
+            '"geometry":{"type":"LineString","coordinates":[['
+        )
+    return Wording(collection_opening(polygons.crs) + b"\n", openings, "],[", ",", "]]}},\n", b"]}\n")
+
+
+def wkt_wording(count: int) -> Wording:
+    """One LINESTRING a line of text."""
+    return Wording(b"", ["LINESTRING ("] * count, ", ", " ", ")\n", b"")
+
+
+def write_polylines(
+    out: BinaryIO,
+    points: NDArray[np.float64],
+    start: NDArray[np.int64],
+    wording: Wording,
+    *,
+    precision: int | None = None,
+    threads: int = 0,
+) -> None:
+    r"""Write polylines.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable.
+    points : (n, 2) float64 array
+        Of one polyline after the other.
+    start : (k,) integer array
+        Where each begins.
+    wording : Wording
+        Of the format.
+    precision, threads : int
+        As of `vorotool.formats.text.tables.write_table`.
+
+    Examples
+    --------
+    >>> import io
+    >>> out = io.BytesIO()
+    >>> write_polylines(out, np.array([[0.0, 0.0], [1.0, 0.5]]), np.array([0]), wkt_wording(1))
+    >>> out.getvalue()
+    b'LINESTRING (0 0, 1 0.5)\n'
+    """
+    texts = [wording.comma, *(wording.closing + text if k else text for k, text in enumerate(wording.openings))]
+    token = np.zeros(len(points), dtype=np.int32)  # what stands before each point
+    token[start] = np.arange(1, len(start) + 1)
+    out.write(wording.before)
+    if len(points):
+        columns = [Column("", Lookup(texts, token)), Column("", points[:, 0].copy()), Column("", points[:, 1].copy())]
+        write_rows(out, columns, RowShape(("", "", wording.space, "")), precision=precision, threads=threads)
+        out.write(wording.closing.rstrip(",\n").encode() + b"\n")
+    out.write(wording.after)

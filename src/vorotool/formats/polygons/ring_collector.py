@@ -1,0 +1,130 @@
+"""What every reader of polygons and lines is told, and the rings that it collects."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from itertools import accumulate
+from typing import Any
+
+import numpy as np
+
+from vorotool.errors import InputError, LimitError
+from vorotool.formats.parsing.reader_options import no_note, position_array, shortened
+from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
+
+MOST_VERTICES = 2**28
+"""Vertices and edges are numbered in 32 bits, with room for the crossings of edges."""
+
+
+@dataclass(frozen=True)
+class PolygonOptions:
+    """Options of :func:`vorotool.formats.polygons.reader.read_polygons`, passed on to the reader of a format."""
+
+    properties: bool = True
+    max_sites: int | None = None
+    note: Callable[[str], None] = no_note
+    crs: Any = None
+
+    def check_vertices(self, name: str, count: int) -> None:
+        """Raise LimitError if ``count`` vertices are too many."""
+        limit = MOST_VERTICES if self.max_sites is None else min(self.max_sites, MOST_VERTICES)
+        if count > limit:
+            advice = "raise --max-sites or split the file" if limit < MOST_VERTICES else "split the file"
+            raise LimitError(f"{name} holds {count} vertices, more than the limit of {limit}: {advice}")
+
+    def note_left_out(self, name: str, features: int) -> None:
+        """Say how many features have no geometry, if any."""
+        if features:
+            self.note(f"{name}: {features} features without a geometry are left out")
+
+    def note_heights(self, name: str) -> None:
+        """Say that coordinates beyond x and y are not used."""
+        self.note(f"{name}: only x and y are used, heights are left out")
+
+
+@dataclass
+class RingCollector:
+    """Rings of JSON positions, as they were parsed: anything may stand where a position is due.
+
+    Parameters
+    ----------
+    options : PolygonOptions
+        Of the reader.
+    name : str
+        The input.
+    feature_place : callable
+        Gives the words for the place of a feature (0-based).
+    flat_only : bool
+        Positions must not have more than two numbers.
+    """
+
+    options: PolygonOptions
+    name: str
+    feature_place: Callable[[int], str]
+    flat_only: bool = False
+    positions: list[Any] = field(default_factory=list)
+    sizes: list[int] = field(default_factory=list)
+    kinds: list[int] = field(default_factory=list)
+    polygons: list[int] = field(default_factory=list)
+    features: list[int] = field(default_factory=list)  # of each polygon
+
+    def add_polygon(self, feature: int, rings: Any) -> None:
+        """Take a list of a shell and holes; empty ones are left out."""
+        self._check_list(rings, feature, "the polygon", "[[[x, y], …], …]")
+        if rings and self._add_ring(feature, rings[0], SHELL):
+            for hole in rings[1:]:
+                self._add_ring(feature, hole, HOLE)
+            self.features.append(feature)
+
+    def add_line(self, feature: int, line: Any) -> None:
+        """Take the positions of an open line; an empty one is left out."""
+        if self._add_ring(feature, line, LINE):
+            self.features.append(feature)
+
+    def finish(self, **described: Any) -> PolygonSet:
+        """Make the polygons, once all are collected.
+
+        Raises
+        ------
+        InputError
+            If a position is not a list of at least two finite numbers; its place is named.
+        LimitError
+            If there are too many of them.
+        """
+        self.options.check_vertices(self.name, len(self.positions))
+        longest = max((len(p) for p in self.positions if type(p) is list), default=2)
+        if longest > 2 and self.flat_only:
+            at = next(i for i, p in enumerate(self.positions) if type(p) is list and len(p) > 2)
+            position = self.positions[at]
+            raise InputError(f"{self._place(at)}: {shortened(position)} has {len(position)} numbers; write [x, y]")
+        xy = position_array(self.positions, self._place)
+        if longest > 2:
+            self.options.note_heights(self.name)
+        return set_of_rings(xy, self.sizes, self.kinds, self.polygons, **{"feature": self.features, **described})
+
+    def _add_ring(self, feature: int, ring: Any, kind: int) -> bool:
+        what = ("the shell", "a hole", "the line")[kind]
+        self._check_list(ring, feature, what, "[[x, y], …]")
+        if ring:
+            self.positions.extend(ring)
+            self.sizes.append(len(ring))
+            self.kinds.append(kind)
+            self.polygons.append(len(self.features))
+        return bool(ring)
+
+    def _check_list(self, value: Any, feature: int, what: str, form: str) -> None:
+        if not isinstance(value, list):
+            raise InputError(f"{self.feature_place(feature)}: {what} is {shortened(value)}; write {form}")
+
+    def _place(self, position: int) -> str:
+        ends = list(accumulate(self.sizes))
+        ring = int(np.searchsorted(ends, position, side="right"))
+        polygon = self.polygons[ring]
+        feature = self.features[polygon]
+        words = [self.feature_place(feature)]
+        if self.features.count(feature) > 1:
+            words.append(f"part {polygon - self.features.index(feature) + 1}")
+        if self.kinds[ring] == HOLE:
+            words.append(f"hole {ring - self.polygons.index(polygon)}")
+        return ", ".join([*words, f"vertex {position - (ends[ring] - self.sizes[ring]) + 1}"])

@@ -1,0 +1,106 @@
+"""Polygons and lines in well-known text."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from typing import Any, BinaryIO
+
+import numpy as np
+
+from vorotool.errors import InputError
+from vorotool.formats.io.sources import Source, check_nesting
+from vorotool.formats.parsing.reader_options import shortened
+from vorotool.formats.parsing.reference_systems import crs_of_numbers
+from vorotool.formats.points.wkt import geometry_texts
+from vorotool.formats.polygons.geojson import feature_ranges, not_a_shape_advice
+from vorotool.formats.polygons.ring_collector import PolygonOptions
+from vorotool.formats.text.coordinate_text import Digits
+from vorotool.geometry.polygons.conversion import polygons_of_geometry
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+
+_COMMENT = re.compile(rb"^\s*#.*$", re.MULTILINE)
+_SHAPE = re.compile(rb"POLYGON|LINESTRING|LINEARRING", re.IGNORECASE)
+_SHAPES, _COLLECTION = (1, 2, 3, 5, 6), 7  # type numbers of GEOS
+
+
+def read_wkt(source: Source, options: PolygonOptions) -> PolygonSet:
+    """Read (MULTI)POLYGON, (MULTI)LINESTRING and collections of them, one feature a geometry."""
+    import shapely
+
+    check_nesting(source.data, name=source.name)
+    texts, lines, srids = geometry_texts(source)
+    crs = crs_of_numbers(source.name, srids, lines)
+    with np.errstate(all="ignore"):  # numbers beyond the largest double are found below
+        geometries = shapely.from_wkt(np.array(texts, dtype=object), on_invalid="ignore")
+    for index in np.flatnonzero(~np.isin(shapely.get_type_id(geometries), _SHAPES)):
+        _check_geometry(geometries[index], texts[index], f"{source.name}, line {lines[index]}")
+    options.check_vertices(source.name, int(shapely.get_num_coordinates(geometries).sum()))
+    _check_finite(source.name, geometries, texts, lines)
+    if shapely.has_z(geometries).any():
+        options.note_heights(source.name)
+    options.note_left_out(source.name, int(shapely.is_empty(geometries).sum()))
+    return replace(polygons_of_geometry(geometries), y_up=True, crs=crs)
+
+
+def holds_shapes(data: bytes) -> bool:
+    """Whether a well-known text names a polygon or a line."""
+    return _SHAPE.search(_COMMENT.sub(b"", data)) is not None
+
+
+def _check_geometry(geometry: Any, text: str, place: str) -> None:
+    import shapely
+
+    if geometry is None:
+        raise InputError(
+            f"{place}: {shortened(text)} is not WKT; write for example POLYGON ((0 0, 4 0, 0 3, 0 0)), each ring closed"
+        )
+    kind = shapely.get_type_id(geometry)
+    if kind == _COLLECTION:
+        for part in shapely.get_parts(geometry):
+            _check_geometry(part, text, place)
+    elif kind not in _SHAPES:
+        name = geometry.geom_type
+        raise InputError(f"{place}: a {name} is no polygon or line; {not_a_shape_advice(name)}")
+
+
+def _check_finite(name: str, geometries: Any, texts: list[str], lines: list[int]) -> None:
+    import shapely
+
+    xy, owners = shapely.get_coordinates(geometries, return_index=True)
+    bad = np.flatnonzero(~np.isfinite(xy).all(axis=1))
+    if bad.size:
+        at = int(bad[0])
+        owner = int(owners[at])
+        vertex = at - int(np.searchsorted(owners, owner)) + 1
+        raise InputError(
+            f"{name}, line {lines[owner]}: vertex {vertex} of {shortened(texts[owner])} is ({xy[at, 0]}, {xy[at, 1]}): "
+            "coordinates must be finite; correct it"
+        )
+
+
+def write_wkt(out: BinaryIO, polygons: PolygonSet, precision: int | None) -> None:
+    """Write one geometry a line for each feature; WKT has no place for ids and properties."""
+    digits = Digits(precision)
+    is_line = polygons.is_line
+    for first, last in feature_ranges(polygons):
+        bodies = [_body(polygons, index, digits) for index in range(first, last)]
+        kinds = ["LINESTRING" if line else "POLYGON" for line in is_line[first:last]]
+        if len(bodies) == 1:
+            text = f"{kinds[0]} {bodies[0]}"
+        elif len(set(kinds)) == 1:
+            text = f"MULTI{kinds[0]} ({', '.join(bodies)})"
+        else:
+            parts = ", ".join(f"{kind} {body}" for kind, body in zip(kinds, bodies, strict=True))
+            text = f"GEOMETRYCOLLECTION ({parts})"
+        out.write(text.encode() + b"\n")
+
+
+def _body(polygons: PolygonSet, index: int, digits: Digits) -> str:
+    rings = []
+    for ring in polygons.rings_of(index):
+        positions = [f"{digits.text(x)} {digits.text(y)}" for x, y in ring.tolist()]
+        if polygons.is_line[index]:  # of a single vertex it would be no line
+            return f"({', '.join(positions * 2 if len(positions) == 1 else positions)})"
+        rings.append(f"({', '.join(positions + positions[:1] * max(1, 4 - len(positions)))})")
+    return f"({', '.join(rings)})"

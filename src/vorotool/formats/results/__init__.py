@@ -1,0 +1,1 @@
+"""Writers (and the reader back) of result types."""

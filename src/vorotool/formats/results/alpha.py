@@ -1,0 +1,253 @@
+"""GeoJSON and WKT of alpha shapes: edges, all parts of a shape, the hull."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, BinaryIO
+
+import numpy as np
+
+from vorotool.formats.polygons.reader import write_polygons
+from vorotool.formats.results.meshes import write_features
+from vorotool.formats.text.coordinate_text import Digits
+from vorotool.formats.text.feature_collection import collection_opening
+from vorotool.formats.text.refusals import check_format, check_what
+from vorotool.formats.text.tables import json_text, write_table
+from vorotool.geometry.alpha.complex import CLASSES, AlphaComplex
+from vorotool.geometry.alpha.hull import AlphaHull
+from vorotool.geometry.alpha.shape import AlphaShape
+from vorotool.geometry.alpha.tables import described_polygons, family_table, shape_edge_table
+
+GENERAL_FORMATS = ("geojson", "wkt")
+_HULL_FINENESS = 7.529816085545908e-05
+"""Of the radius: how far the chords of flattened hulls may be from their arcs: 1 - cos(π/256), 256 to a circle."""
+
+
+def write_shape(
+    out: BinaryIO,
+    value: AlphaShape | AlphaComplex,
+    fmt: str,
+    *,
+    what: str | None = None,
+    precision: int | None = None,
+    threads: int = 0,
+) -> None:
+    r"""Write the edges or the polygons of a shape, or the radii of a family.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable.
+    value : AlphaShape or AlphaComplex
+        A family has the table of its radii only.
+    fmt : {"csv", "json", "npz", "geojson", "wkt", "poly"}
+        The format.
+    what : {"edges", "polygons", "family"}, optional
+        By default polygons where the format is for these, else edges.
+    precision : int, optional
+        Significant digits; by default the shortest that reads back the same.
+    threads : int
+        0 for all.
+
+    Raises
+    ------
+    UsageError
+        If the value has no such part, or the format no place for it.
+
+    Examples
+    --------
+    >>> import io
+    >>> from vorotool import alpha_shape
+    >>> out = io.BytesIO()
+    >>> write_shape(out, alpha_shape([[0, 0], [4, 0], [0, 3]], r=2.5), "wkt")
+    >>> out.getvalue()
+    b'POLYGON ((4 0, 0 3, 0 0, 4 0))\n'
+    """
+    own = ("family",) if isinstance(value, AlphaComplex) else ("edges", "polygons")
+    what = what or (own[-1] if fmt in ("geojson", "wkt", "poly") else own[0])
+    check_what(what, own, f"an {type(value).__name__} is")
+    if isinstance(value, AlphaComplex):
+        write_table(out, family_table(value), fmt, precision=precision, threads=threads)
+    elif what == "polygons":
+        write_polygons(out, described_polygons(value), fmt, precision=precision)
+    elif fmt == "geojson":
+        write_shape_edges(out, value, precision=precision, threads=threads)
+    else:
+        write_table(out, shape_edge_table(value), fmt, precision=precision, threads=threads)
+
+
+def write_shape_edges(
+    out: BinaryIO, shape: AlphaShape, *, interior: bool = False, precision: int | None = None, threads: int = 0
+) -> None:
+    """Write edges as GeoJSON: LineStrings with labels, length, radii and class.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable.
+    shape : AlphaShape
+        Whose edges.
+    interior : bool
+        Interior ones too.
+    precision : int, optional
+        Significant digits; by default the shortest that reads back the same.
+    threads : int
+        0 for all.
+
+    Examples
+    --------
+    >>> import io
+    >>> from vorotool import alpha_shape
+    >>> out = io.BytesIO()
+    >>> write_shape_edges(out, alpha_shape([[0, 0], [4, 0], [0, 3]], r=2))
+    >>> out.getvalue().count(b"LineString")
+    2
+    """
+    table = shape_edge_table(shape, interior=interior).stored()
+    chosen = np.flatnonzero(shape.edge_classes()) if interior else shape.edge_index
+    names = [name for name in table if name[:2] not in ("x_", "y_")]
+    columns = {name: table[name] for name in names}
+    mesh = shape.family.mesh
+    write_features(
+        out, columns, mesh.points, shape.family.edges[chosen], crs=mesh.crs, precision=precision, threads=threads
+    )
+
+
+def write_general(out: BinaryIO, shape: AlphaShape, fmt: str, *, precision: int | None = None) -> None:
+    r"""Write all of a shape: regions as polygons, singular edges as lines, isolated points.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable.
+    shape : AlphaShape
+        What to write.
+    fmt : {"geojson", "wkt"}
+        In GeoJSON each part tells its class, and its region, labels or label.
+    precision : int, optional
+        Significant digits; by default the shortest that reads back the same.
+
+    Raises
+    ------
+    UsageError
+        If the format is another one.
+
+    Examples
+    --------
+    >>> import io
+    >>> from vorotool import alpha_shape
+    >>> out = io.BytesIO()
+    >>> write_general(out, alpha_shape([[0, 0], [4, 0], [0, 3], [9, 9]], r=2), "wkt")
+    >>> out.getvalue()
+    b'LINESTRING (0 0, 0 3)\nLINESTRING (0 0, 4 0)\nPOINT (9 9)\n'
+    """
+    digits = Digits(precision)
+    check_format(fmt, GENERAL_FORMATS, "a whole shape")
+    if fmt == "wkt":
+        for geometry, _ in _parts(shape, digits):
+            out.write(f"{geometry['type'].upper()} {_wkt(geometry, digits)}\n".encode())
+    else:
+        _write_collection(out, shape.family.mesh.crs, _parts(shape, digits))
+
+
+def write_hull_geojson(out: BinaryIO, hull: AlphaHull, *, precision: int | None = None) -> None:
+    """Write a hull as GeoJSON: its rings flattened to polygons, and points without extent.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable.
+    hull : AlphaHull
+        What to write.
+    precision : int, optional
+        Significant digits; by default the shortest that reads back the same.
+
+    Examples
+    --------
+    >>> import io
+    >>> from vorotool import alpha_hull, alpha_shape
+    >>> out = io.BytesIO()
+    >>> write_hull_geojson(out, alpha_hull(alpha_shape([[0, 0], [1, 0], [0.5, 0.75**0.5]], r=0.6)))
+    >>> out.getvalue().count(b"Polygon"), out.getvalue().count(b"Point")
+    (1, 3)
+    """
+    digits = Digits(precision)
+    mesh = hull.shape.family.mesh
+
+    def parts() -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
+        for rings in _nested(hull):
+            closed = [[*ring, ring[0]] for ring in map(digits.rounded, rings)]
+            yield {"type": "Polygon", "coordinates": closed}, {"class": "hull"}
+        for v in hull.points.tolist():
+            place = digits.rounded(mesh.points[[v]])[0]
+            yield {"type": "Point", "coordinates": place}, {"class": "point", "label": int(mesh.label_array[v])}
+
+    _write_collection(out, mesh.crs, parts())
+
+
+def _parts(shape: AlphaShape, digits: Digits) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
+    """Geometry and properties of each part."""
+    mesh = shape.family.mesh
+    polygons = described_polygons(shape)
+    for k in range(len(polygons)):
+        rings = [[*ring, ring[0]] for ring in map(digits.rounded, polygons.rings_of(k))]
+        values = {name: column[k] for name, column in polygons.properties.items()}
+        yield {"type": "Polygon", "coordinates": rings}, {"class": "region", "region": k + 1, **values}
+    for a, b in shape.edges[shape.kind == CLASSES.index("singular")].tolist():
+        labels = {"label_a": int(mesh.label_array[a]), "label_b": int(mesh.label_array[b])}
+        yield (
+            {"type": "LineString", "coordinates": digits.rounded(mesh.points[[a, b]])},
+            {"class": "singular", **labels},
+        )
+    for v in shape.isolated.tolist():
+        place = digits.rounded(mesh.points[[v]])[0]
+        yield {"type": "Point", "coordinates": place}, {"class": "isolated", "label": int(mesh.label_array[v])}
+
+
+def _write_collection(out: BinaryIO, crs: Any, parts: Iterator[tuple[dict[str, Any], dict[str, Any]]]) -> None:
+    out.write(collection_opening(crs))
+    separator = "\n"
+    for geometry, properties in parts:
+        feature = {"type": "Feature", "properties": properties, "geometry": geometry}
+        out.write((separator + json_text(feature)).encode())
+        separator = ",\n"
+    out.write(b"\n]}\n" if separator != "\n" else b"]}\n")
+
+
+def _wkt(geometry: dict[str, Any], digits: Digits) -> str:
+    def position(place: list[float]) -> str:
+        return " ".join(digits.text(value) for value in place)
+
+    def line(places: list[list[float]]) -> str:
+        return f"({', '.join(map(position, places))})"
+
+    coordinates = geometry["coordinates"]
+    if geometry["type"] == "Point":
+        return f"({position(coordinates)})"
+    return line(coordinates) if geometry["type"] == "LineString" else f"({', '.join(map(line, coordinates))})"
+
+
+def _nested(hull: AlphaHull) -> list[list[Any]]:
+    """Rings of each polygon: counter-clockwise ones, each with the clockwise ones that it is the smallest around."""
+    import shapely
+
+    xy, starts = hull.flattened(hull.r * _HULL_FINENESS)
+    exponent = int(np.frexp(np.abs(xy).max(initial=0.0))[1])
+    near_one = np.ldexp(xy, -exponent)  # of any magnitude areas are floating-point numbers then
+    spans = [slice(a, b) for a, b in zip(starts[:-1].tolist(), starts[1:].tolist(), strict=True)]
+    rings, small = [xy[span] for span in spans], [near_one[span] for span in spans]
+    areas = np.array([_signed_area(ring) for ring in small])
+    shells = sorted(np.flatnonzero(areas > 0).tolist(), key=lambda k: (areas[k], k))
+    polygons = {k: [rings[k]] for k in shells}
+    for k in np.flatnonzero(areas < 0).tolist():
+        middle = shapely.Polygon(small[k]).representative_point()
+        for shell in shells:
+            if areas[shell] > -areas[k] and shapely.contains(shapely.Polygon(small[shell]), middle):
+                polygons[shell].append(rings[k])
+                break
+    return [polygons[k] for k in sorted(polygons)]
+
+
+def _signed_area(ring: Any) -> float:
+    x, y = (ring - ring[0]).T
+    return float((x * np.roll(y, -1) - y * np.roll(x, -1)).sum()) / 2

@@ -1,0 +1,160 @@
+"""Writing Voronoi cells: one feature a site, in the order of the input."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.formats.text.feature_collection import write_collection
+from vorotool.formats.text.refusals import check_format
+from vorotool.formats.text.row_writer import Column, RowShape, write_list_rows, write_rows
+from vorotool.formats.text.tables import json_column, json_text, object_shape, write_npz, write_table
+from vorotool.geometry.mesh.cells import CellSet
+from vorotool.geometry.table import Computed, Lookup, Table
+
+CELL_FORMATS = ("geojson", "csv", "json", "npz", "wkt")
+
+
+def write_cells(out: BinaryIO, cells: CellSet, fmt: str, *, precision: int | None = None, threads: int = 0) -> None:
+    r"""Write cells; the bytes depend on nothing but the cells, the format and the precision.
+
+    Further columns of the input are kept; where a name is one of ours, ours takes the prefix ``voro_``. An empty cell
+    has no geometry: ``null`` in GeoJSON, an empty field in CSV, ``POLYGON EMPTY`` in WKT, an empty shell in JSON.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable; only some cells are in memory as text at a time.
+    cells : CellSet
+        One row, or feature, a cell.
+    fmt : {"geojson", "csv", "json", "npz", "wkt"}
+        GeoJSON features have the id of the input, else the label; CSV has the cell as WKT after label and place of its
+        site; JSON is that of polygons, with the parts of a cell numbered if any has several; NPZ has beside the columns
+        the vertices, where each ring begins among these (``ring_starts``), each polygon among the rings, each cell
+        among the polygons, and the sides of the frame; WKT is one geometry a line, without the columns.
+    precision : int, optional
+        Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
+    threads : int
+        0 for all.
+
+    Raises
+    ------
+    UsageError
+        If the format is unknown or ``precision`` is not from 1 to 17.
+
+    Examples
+    --------
+    >>> import io, vorotool
+    >>> out = io.BytesIO()
+    >>> write_cells(out, vorotool.voronoi_cells([[1, 1], [3, 1]], frame=(0, 0, 4, 2)), "csv")
+    >>> print(out.getvalue().decode().splitlines()[1])
+    1,1,1,"POLYGON ((0 0, 2 0, 2 2, 0 2, 0 0))"
+    """
+    check_format(fmt, CELL_FORMATS, "cells")
+    _WRITERS[fmt](out, cells, precision, threads)
+
+
+def _shapes(cells: CellSet, style: str, rows: NDArray[np.int64] | None = None) -> Computed:
+    """The column of the cells' polygons, or that of other rows of polygons."""
+    rings, polygons, of_cells = cells.nesting
+    starts = of_cells if rows is None else rows
+
+    def texts(part: slice) -> Any:
+        begin, end, _ = part.indices(len(starts) - 1)
+        return _core.PolygonTexts(cells.coordinates, rings, polygons, starts[begin : end + 1], style)
+
+    return Computed(texts, len(starts) - 1)
+
+
+def _table(cells: CellSet, shapes: Computed | None = None) -> Table:
+    """Label and place of the sites, and the shapes of their cells if wanted; then the input's own columns."""
+    x, y = np.ascontiguousarray(cells.sites.T)
+    columns: dict[str, Any] = {"label": cells.label_array, "x": x, "y": y}
+    if shapes is not None:
+        columns["wkt"] = shapes
+    return Table(columns).with_properties(cells.properties)
+
+
+def _write_csv(out: BinaryIO, cells: CellSet, precision: int | None, threads: int) -> None:
+    write_table(out, _table(cells, _shapes(cells, "wkt")), "csv", precision=precision, threads=threads)
+
+
+def _write_wkt(out: BinaryIO, cells: CellSet, precision: int | None, threads: int) -> None:
+    shape = RowShape(("", "\n"), "", "POLYGON EMPTY")
+    write_rows(out, [Column("", _shapes(cells, "wkt"))], shape, precision=precision, threads=threads)
+
+
+def _write_geojson(out: BinaryIO, cells: CellSet, precision: int | None, threads: int) -> None:
+    table = _table(cells).stored()
+    ids = table.pop("id", None)
+    columns = [json_column(Column.of(name, values), precision) for name, values in table.items()]
+    around = object_shape([column.name for column in columns], '"properties":', ',"geometry":').around
+    if ids is None:
+        head, opening = Column.of("id", cells.label_array), ('{"type":"Feature","id":', "," + around[0])
+    else:  # a feature may have none
+        texts = ["" if value is None else f'"id":{json_text(value)},' for value in ids]
+        head, opening = Column("id", texts), ('{"type":"Feature",', around[0])
+    shape = RowShape((*opening, *around[1:], "}"), ",\n", "null")
+    columns = [head, *columns, Column("", _shapes(cells, "geojson"))]
+    write_collection(out, columns, shape, crs=cells.crs, precision=precision, threads=threads)
+
+
+def _write_json(out: BinaryIO, cells: CellSet, precision: int | None, threads: int) -> None:
+    """One item a polygon, and one for each empty cell."""
+    of_cells = cells.nesting.cells
+    sizes = np.maximum(np.diff(of_cells), 1)
+    cell = np.repeat(np.arange(len(cells), dtype=np.int32), sizes)
+    part = np.arange(len(cell)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
+    rows = np.append(of_cells[cell] + part, of_cells[-1])
+    empty = cells.is_empty
+    rows[:-1][empty[cell]] = of_cells[1:][empty]  # an empty row ends where it begins
+    table = _table(cells).stored()
+    ids = table.pop("id", cells.label_array)
+    columns = [_looked_up(name, values, cell, precision) for name, values in table.items()]
+    around = object_shape([column.name for column in columns], ',"properties":', ",")
+    head, opening = [_looked_up("id", ids, cell, precision)], ['{"id":']
+    if sizes.max(initial=1) > 1:
+        head.append(Column.of("part", part + 1))
+        opening.append(',"part":')
+    shape = RowShape((*opening, *around.around, "}"), ",\n", "null")
+    out.write(b'{"polygons":[')
+    columns = [*head, *columns, Column("", _shapes(cells, "json", rows))]
+    write_list_rows(out, columns, shape, precision=precision, threads=threads)
+    out.write(b"]}\n")
+
+
+def _looked_up(name: str, values: Any, cell: NDArray[np.int32], precision: int | None) -> Column:
+    """The column of the polygons from that of the cells."""
+    column = json_column(Column.of(name, values), precision)
+    if isinstance(column.values, list):
+        missing = None if column.missing is None else column.missing[cell]
+        return Column(name, [column.values[i] for i in cell.tolist()], missing)
+    return Column(name, Lookup(np.asarray(column.values), cell), column.missing)
+
+
+def _write_npz(out: BinaryIO, cells: CellSet, _precision: int | None, threads: int) -> None:
+    rings, polygons, of_cells = cells.nesting
+    x, y = np.ascontiguousarray(cells.coordinates.T)
+    arrays = {
+        **_table(cells).stored(),
+        "cell_starts": of_cells,
+        "polygon_starts": polygons,
+        "ring_starts": rings,
+        "vertex_x": x,
+        "vertex_y": y,
+        "frame": np.array(cells.frame.sides),
+    }
+    write_npz(out, [Column.of(name, values) for name, values in arrays.items()], threads)
+
+
+_WRITERS: dict[str, Callable[[BinaryIO, CellSet, int | None, int], None]] = {
+    "geojson": _write_geojson,
+    "csv": _write_csv,
+    "json": _write_json,
+    "npz": _write_npz,
+    "wkt": _write_wkt,
+}

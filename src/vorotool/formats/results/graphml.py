@@ -1,0 +1,133 @@
+"""Skeletons as GraphML."""
+
+from __future__ import annotations
+
+from typing import Any, BinaryIO
+from xml.sax.saxutils import escape, quoteattr
+
+import numpy as np
+
+from vorotool.formats.polygons.polylines import Wording, write_polylines
+from vorotool.formats.text.row_writer import Column, RowShape, check_precision, write_rows
+from vorotool.formats.text.tables import json_text
+from vorotool.geometry.skeleton.graph import SkeletonGraph, skeleton_graph
+from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.geometry.xml_text import xml_characters
+
+_NODE_KEYS = ("x", "y", "r")
+_HEAD = (
+    '<?xml version="1.0" encoding="UTF-8"?>\n'
+    '<graphml xmlns="http://graphml.graphdrawing.org/xmlns" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"\n'
+    ' xsi:schemaLocation="http://graphml.graphdrawing.org/xmlns http://graphml.graphdrawing.org/xmlns/1.0/graphml.xsd">\n'
+)
+
+
+def write_graphml(
+    out: BinaryIO,
+    skeleton: Skeleton,
+    *,
+    by: str = "branch",
+    flatten: float | None = None,
+    precision: int | None = None,
+    threads: int = 0,
+) -> None:
+    """Write a skeleton as an undirected graph in GraphML, with what `to_networkx` gives; geometry is WKT.
+
+    Characters in names and texts that XML cannot hold become U+FFFD.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable.
+    skeleton : Skeleton
+        Which.
+    by : {"branch", "arc"}
+        What an edge is; its id is the number of it, and the id of a node that of the vertex.
+    flatten : float, optional
+        How far the geometry may be from parabolas; by default 1/4096 of the larger side of the bounds.
+    precision : int, optional
+        Significant digits of floating-point numbers; by default the shortest that reads back the same.
+    threads : int
+        0 for all.
+
+    Raises
+    ------
+    UsageError
+        If ``by`` is something else, or the tolerance is not positive.
+
+    Examples
+    --------
+    >>> import io, vorotool
+    >>> out = io.BytesIO()
+    >>> write_graphml(out, vorotool.skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]))
+    >>> out.getvalue().count(b"<node "), out.getvalue().count(b"<edge ")
+    (6, 5)
+    """
+    check_precision(precision)
+    graph = skeleton_graph(skeleton, by=by, flatten=flatten)
+    edges = _EdgeTexts(graph, precision)
+    out.write(_HEAD.encode())
+    for name in _NODE_KEYS:
+        out.write(f'<key id="n_{name}" for="node" attr.name="{name}" attr.type="double"/>\n'.encode())
+    for number, (name, kind) in enumerate(edges.kinds.items()):
+        named = quoteattr(xml_characters(name))
+        out.write(f'<key id="e{number}" for="edge" attr.name={named} attr.type="{kind}"/>\n'.encode())
+    out.write(b'<graph edgedefault="undirected">\n')
+    if len(graph.nodes):
+        x, y = skeleton.vertices[graph.nodes].T.copy()
+        columns = [Column("", graph.nodes), *(Column("", values) for values in (x, y, skeleton.radius[graph.nodes]))]
+        names = [f'<data key="n_{name}">' for name in _NODE_KEYS]
+        between = (f'">{names[0]}', f"</data>{names[1]}", f"</data>{names[2]}")
+        shape = RowShape(('<node id="', *between, "</data></node>\n"))
+        write_rows(out, columns, shape, precision=precision, threads=threads)
+    wording = Wording(b"", edges.openings(by), ", ", " ", ")</data></edge>\n", b"</graph>\n</graphml>\n")
+    write_polylines(out, graph.points, graph.start[:-1], wording, precision=precision, threads=threads)
+
+
+class _EdgeTexts:
+    """The attributes of edges, by name with their types, and their text before the geometry."""
+
+    def __init__(self, graph: SkeletonGraph, precision: int | None) -> None:
+        self.graph, self.precision = graph, precision
+        self.columns = {name: graph.edges[name].tolist() for name in graph.edges}
+        given = graph.skeleton.polygons.properties
+        rows = self.columns["polygon"]
+        described = {name: [None if p is None else values[p] for p in rows] for name, values in given.items()}
+        own = {f"voro_{name}" if name in given else name: values for name, values in self.columns.items()}
+        self.values = {**described, **own}
+        geometry = "voro_geometry" if "geometry" in given else "geometry"
+        self.kinds = {**{name: _kind(values) for name, values in self.values.items()}, geometry: "string"}
+
+    def openings(self, by: str) -> list[str]:
+        """One text an edge, up to its first point."""
+        graph = self.graph
+        keys = [(f'<data key="e{number}">', self.kinds[name]) for number, name in enumerate(self.values)]
+        last = f'<data key="e{len(keys)}">LINESTRING ('
+        texts = []
+        rows = zip(self.columns[by], graph.source.tolist(), graph.target.tolist(), *self.values.values(), strict=True)
+        for number, source, target, *values in rows:
+            data = "".join(
+                f"{key}{self._text(value, kind)}</data>"
+                for (key, kind), value in zip(keys, values, strict=True)
+                if value is not None
+            )
+            texts.append(f'<edge id="{number}" source="{source}" target="{target}">{data}{last}')
+        return texts
+
+    def _text(self, value: Any, kind: str) -> str:
+        if kind == "double":
+            return f"{value:.{self.precision}g}" if self.precision else repr(float(value)).removesuffix(".0")
+        if kind == "string":
+            text = value if isinstance(value, str) else json_text(value)
+            return escape(xml_characters(text), {"\r": "&#13;"})  # which parsers would take for the end of a line
+        return json_text(value)
+
+
+def _kind(values: list[Any]) -> str:
+    """The type of an attribute; what has no type of its own is text."""
+    kinds = {type(value) for value in values if value is not None}
+    if kinds <= {int} and all(value is None or -(2**63) <= value < 2**63 for value in values):
+        return "long"
+    if kinds <= {int, float} and all(value is None or np.isfinite(value) for value in values):
+        return "double"
+    return "boolean" if kinds == {bool} else "string"

@@ -1,0 +1,198 @@
+"""Writing the edges, triangles and points of a triangulation, in every format that has a place for them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import UsageError
+from vorotool.formats.text.feature_collection import write_collection
+from vorotool.formats.text.refusals import check_format, check_what
+from vorotool.formats.text.row_writer import Column, RowShape, write_rows
+from vorotool.formats.text.tables import TABLE_FORMATS, json_column, object_shape, write_table
+from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
+from vorotool.geometry.mesh.tables import edge_table, point_table, triangle_table
+from vorotool.geometry.mesh.triangulation import Triangulation
+from vorotool.geometry.table import Lookup, Table
+
+EDGE_FORMATS = ("csv", "json", "geojson", "npz", "edge", "obj")
+TRIANGLE_FORMATS = ("csv", "json", "geojson", "npz", "ele", "obj")
+POINT_FORMATS = (*TABLE_FORMATS, "node")
+_FORMATS = {"edges": EDGE_FORMATS, "triangles": TRIANGLE_FORMATS, "table": POINT_FORMATS}
+_TABLES: dict[str, Callable[[Any], Table]] = {
+    "edges": edge_table,
+    "triangles": triangle_table,
+    "table": point_table,
+}
+
+
+def write_mesh(
+    out: BinaryIO,
+    mesh: AnyTriangulation,
+    fmt: str,
+    *,
+    what: str = "edges",
+    precision: int | None = None,
+    threads: int = 0,
+) -> None:
+    r"""Write edges, triangles or points; the bytes depend on nothing but the mesh, the format and the precision.
+
+    Tables (CSV, JSON, NPZ) and GeoJSON tell the labels of the vertices. The others number the points in the order of
+    the input, duplicates included. OBJ holds them. An ``.edge`` or ``.ele`` file of Triangle belongs to a ``.node``
+    file: the one that was read, whose numbering from 0 or 1 is kept, or the one that the table is written as. The
+    marker of an edge or node is 1 on the hull, else 0.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable.
+    mesh : Triangulation or DigitalTriangulation
+        Rows are in the order of its arrays.
+    fmt : {"csv", "json", "geojson", "npz", "edge", "ele", "node", "obj"}
+        Edges are LineStrings in GeoJSON and lines in OBJ, triangles are Polygons and faces.
+    what : {"edges", "triangles", "table"}
+        What to write; the table has one row a point.
+    precision : int, optional
+        Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
+    threads : int
+        0 for all.
+
+    Raises
+    ------
+    UsageError
+        If there is no such format of them.
+
+    Examples
+    --------
+    >>> import io, vorotool
+    >>> out = io.BytesIO()
+    >>> write_mesh(out, vorotool.delaunay([[0, 0], [4, 0], [0, 3]]), "ele", what="triangles")
+    >>> out.getvalue()
+    b'1 3 0\n1 1 2 3\n'
+    """
+    check_what(what, _FORMATS, "a triangulation is")
+    if fmt in ("svg", "png"):
+        raise UsageError(f"{fmt.upper()} is for pictures: draw it with vorotool delaunay -o picture.{fmt}")
+    check_format(fmt, _FORMATS[what], what)
+    if isinstance(mesh, DigitalTriangulation) and (what == "table" or fmt in ("edge", "ele")):
+        raise UsageError(
+            f"{what} as {fmt!r} is for triangulations: what a digital tessellation shows need not be one; write its "
+            "edges or triangles as csv, json, geojson, npz or obj"
+        )
+    if fmt in TABLE_FORMATS:
+        write_table(out, _TABLES[what](mesh), fmt, precision=precision, threads=threads)
+    else:
+        _WRITERS[fmt](out, mesh, what, precision, threads)
+
+
+# ---- GeoJSON -------------------------------------------------------------------------------------
+def _write_geojson(out: BinaryIO, mesh: AnyTriangulation, what: str, precision: int | None, threads: int) -> None:
+    """One feature an edge or triangle; its id is its number from 1, its labels and length are properties."""
+    rows = mesh.edges if what == "edges" else mesh.triangles
+    stored = _TABLES[what](mesh).stored()
+    columns = {name: stored[name] for name in stored if name.startswith("label") or name == "length"}
+    write_features(out, columns, mesh.points, rows, crs=mesh.crs, precision=precision, threads=threads)
+
+
+def write_features(
+    out: BinaryIO,
+    columns: Mapping[str, Any],
+    points: NDArray[np.float64],
+    rows: NDArray[np.int32],
+    *,
+    crs: Any = None,
+    precision: int | None = None,
+    threads: int = 0,
+) -> None:
+    """Write edges or triangles as GeoJSON, streamed: one feature each, whose id is its number from 1.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable.
+    columns : mapping of str to column
+        Properties, as in a `Table`.
+    points : (n, 2) float64 array
+        Coordinates.
+    rows : (m, 2) or (m, 3) int32 array
+        Points of each edge, which becomes a LineString, or triangle, which becomes a Polygon.
+    crs : object, optional
+        The ``crs`` member.
+    precision : int, optional
+        Significant digits; by default the shortest that reads back the same.
+    threads : int
+        0 for all.
+    """
+    x, y = np.ascontiguousarray(points.T)
+    ring = [*rows.T, *([rows[:, 0]] if rows.shape[1] == 3 else [])]
+    corners = [Column("", Lookup(values, index)) for index in ring for values in (x, y)]
+    properties = [json_column(Column.of(name, column), precision) for name, column in columns.items()]
+    numbers = Column.of("id", np.arange(1, len(rows) + 1))
+    shape = _feature_shape(list(columns), rows.shape[1])
+    write_collection(out, [numbers, *properties, *corners], shape, crs=crs, precision=precision, threads=threads)
+
+
+def _feature_shape(names: list[str], vertices: int) -> RowShape:
+    kind, opening, closing = ("LineString", "[[", "]]") if vertices == 2 else ("Polygon", "[[[", "]]]")
+    corners = 2 if vertices == 2 else 4
+    properties = object_shape(names, ',"properties":', f',"geometry":{{"type":"{kind}","coordinates":{opening}')
+    between = ("],[" if k % 2 else "," for k in range(2 * corners - 1))
+    return RowShape(('{"type":"Feature","id":', *properties.around, *between, f"{closing}}}}}"), ",\n", "null")
+
+
+# ---- OBJ -----------------------------------------------------------------------------------------
+def _write_obj(out: BinaryIO, mesh: AnyTriangulation, what: str, precision: int | None, threads: int) -> None:
+    x, y = (Column("", values) for values in np.ascontiguousarray(mesh.points.T))
+    write_rows(out, [x, y], RowShape(("v ", " ", " 0\n")), precision=precision, threads=threads)
+    if what == "edges":
+        write_rows(out, _numbers(mesh, mesh.edges), RowShape(("l ", " ", "\n")), threads=threads)
+    else:
+        write_rows(out, _numbers(mesh, mesh.triangles), RowShape(("f ", " ", " ", "\n")), threads=threads)
+
+
+# ---- Triangle ------------------------------------------------------------------------------------
+def _write_edge(out: BinaryIO, mesh: Triangulation, _what: str, _precision: int | None, threads: int) -> None:
+    """``<edges> <markers>``, then ``<number> <end> <end> <marker>``."""
+    out.write(f"{len(mesh.edges)} 1\n".encode())
+    ends = _numbers(mesh, mesh.edges, mesh.first_number)
+    columns = [_counted(mesh, len(mesh.edges)), *ends, Column.of("", mesh.hull_edges().astype(np.int64))]
+    write_rows(out, columns, RowShape(("", " ", " ", " ", "\n")), threads=threads)
+
+
+def _write_ele(out: BinaryIO, mesh: Triangulation, _what: str, _precision: int | None, threads: int) -> None:
+    """``<triangles> <nodes a triangle> <attributes>``, then ``<number> <node> <node> <node>``."""
+    out.write(f"{len(mesh.triangles)} 3 0\n".encode())
+    columns = [_counted(mesh, len(mesh.triangles)), *_numbers(mesh, mesh.triangles, mesh.first_number)]
+    write_rows(out, columns, RowShape(("", " ", " ", " ", "\n")), threads=threads)
+
+
+def _write_node(out: BinaryIO, mesh: Triangulation, _what: str, precision: int | None, threads: int) -> None:
+    """``<vertices> <dimension> <attributes> <markers>``, then ``<number> <x> <y> <marker>``."""
+    out.write(f"{len(mesh.points)} 2 0 1\n".encode())
+    x, y = (Column("", values) for values in np.ascontiguousarray(mesh.points.T))
+    on_hull = np.zeros(len(mesh.points), dtype=np.int64)
+    on_hull[mesh.hull] = 1
+    columns = [_counted(mesh, len(mesh.points)), x, y, Column("", on_hull)]
+    write_rows(out, columns, RowShape(("", " ", " ", " ", "\n")), precision=precision, threads=threads)
+
+
+def _counted(mesh: Triangulation, rows: int) -> Column:
+    return Column("", np.arange(rows, dtype=np.int64) + mesh.first_number)
+
+
+def _numbers(mesh: AnyTriangulation, rows: NDArray[np.int32], first: int = 1) -> list[Column]:
+    """Columns of vertices by their numbers, the first of which is given."""
+    numbers = np.arange(len(mesh.points), dtype=np.int64) + first
+    return [Column("", Lookup(numbers, index)) for index in rows.T]
+
+
+_WRITERS: dict[str, Callable[[BinaryIO, Any, str, int | None, int], None]] = {
+    "geojson": _write_geojson,
+    "obj": _write_obj,
+    "edge": _write_edge,
+    "ele": _write_ele,
+    "node": _write_node,
+}

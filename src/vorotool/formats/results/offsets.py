@@ -1,0 +1,97 @@
+"""Writing offset curves, in every format that has a place for them."""
+
+from __future__ import annotations
+
+from typing import Any, BinaryIO
+
+from numpy.typing import NDArray
+
+from vorotool.formats.polygons.reader import write_polygons
+from vorotool.formats.results.offset_json import write_json
+from vorotool.formats.text.refusals import check_format
+from vorotool.formats.text.tables import write_arrays, write_table
+from vorotool.geometry.curves.flatten_tolerance import checked_flatten
+from vorotool.geometry.skeleton.offsets import Offsets
+
+OFFSET_FORMATS = ("json", "csv", "geojson", "npz", "wkt")
+
+
+def write_offsets(
+    out: BinaryIO,
+    offsets: Offsets,
+    fmt: str,
+    *,
+    flatten: float | None = None,
+    precision: int | None = None,
+    threads: int = 0,
+) -> None:
+    r"""Write offset curves; the bytes depend on nothing but these and the options.
+
+    JSON (version 1) and NPZ hold all there is, CSV one row a piece. GeoJSON and WKT have no arcs: shapes are polygons,
+    those of one polygon at one distance one feature, in GeoJSON with its id, its properties and ``distance``.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable.
+    offsets : Offsets
+        What to write, in its order.
+    fmt : {"json", "csv", "geojson", "npz", "wkt"}
+        The format.
+    flatten : float, optional
+        How far a chord may be from its arc, in input units; by default 1/4096 of the larger side of the bounds of the
+        polygons.
+    precision : int, optional
+        Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
+    threads : int
+        0 for all.
+
+    Raises
+    ------
+    UsageError
+        If there is no such format of them, or the tolerance is not positive.
+
+    Examples
+    --------
+    >>> import io
+    >>> from vorotool import offset
+    >>> out = io.BytesIO()
+    >>> write_offsets(out, offset([[0, 0], [4, 0], [4, 4], [0, 4]], -1), "wkt")
+    >>> out.getvalue()
+    b'POLYGON ((1 1, 3 1, 3 3, 1 3, 1 1))\n'
+    """
+    check_format(fmt, OFFSET_FORMATS, "offset curves")
+    if fmt == "csv":
+        write_table(out, offsets.table(), fmt, precision=precision, threads=threads)
+    elif fmt == "json":
+        write_json(out, offsets, precision=precision, threads=threads)
+    elif fmt == "npz":
+        write_arrays(out, offset_arrays(offsets), threads=threads)
+    else:
+        tolerance = checked_flatten(flatten, offsets.polygons)
+        write_polygons(out, offsets.flattened(tolerance), fmt, precision=precision)
+
+
+def offset_arrays(offsets: Offsets) -> dict[str, NDArray[Any]]:
+    """1-D arrays of pieces, rings and shapes; no polygon is -1, the centre of a line NaN.
+
+    Examples
+    --------
+    >>> from vorotool import offset
+    >>> offset_arrays(offset([[0, 0], [4, 0], [4, 4], [0, 4]], -1))["piece_x0"].tolist()
+    [1.0, 3.0, 3.0, 1.0]
+    """
+    places = {"x0": offsets.start, "x1": offsets.end, "cx": offsets.centre}
+    return {
+        **{f"piece_{name}": values[:, 0] for name, values in places.items()},
+        **{f"piece_{name.replace('x', 'y')}": values[:, 1] for name, values in places.items()},
+        "piece_site": offsets.site,
+        "ring_start": offsets.ring_start,
+        "shape_start": offsets.shape_start,
+        "shape_distance": offsets.distance,
+        "shape_polygon": offsets.polygon,
+        "site_kind": offsets.site_table.kind,
+        "site_polygon": offsets.site_table.polygon,
+        "site_ring": offsets.site_table.ring,
+        "site_index": offsets.site_table.index,
+    }

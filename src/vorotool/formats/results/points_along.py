@@ -1,0 +1,116 @@
+"""Writing places along skeletons, and the segments between their feet."""
+
+from __future__ import annotations
+
+from typing import Any, BinaryIO
+
+import numpy as np
+
+from vorotool.formats.text.feature_collection import write_collection
+from vorotool.formats.text.refusals import check_format, check_what
+from vorotool.formats.text.row_writer import Column, RowShape, write_rows
+from vorotool.formats.text.tables import TABLE_FORMATS, json_text, write_table
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.skeleton.points_along import SkeletonPoints
+from vorotool.geometry.skeleton.skeleton import SIDES
+from vorotool.geometry.table import Lookup
+
+POINT_FORMATS = (*TABLE_FORMATS, "geojson", "wkt")
+WHAT = ("points", "transects")
+
+
+def write_skeleton_points(
+    out: BinaryIO,
+    points: SkeletonPoints,
+    fmt: str,
+    *,
+    what: str = "points",
+    precision: int | None = None,
+    threads: int = 0,
+) -> None:
+    r"""Write a row or a feature a point, or a transect: the segment between its two feet, none in a corner.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable.
+    points : SkeletonPoints
+        What to write, in its order.
+    fmt : {"csv", "json", "npz", "geojson", "wkt"}
+        The first three are of tables. GeoJSON has the id and the properties of the polygon, and ``branch``, ``along``,
+        ``r`` and ``width``.
+    what : {"points", "transects"}
+        What to write.
+    precision : int, optional
+        Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
+    threads : int
+        0 for all.
+
+    Raises
+    ------
+    UsageError
+        If there is no such format of them.
+
+    Examples
+    --------
+    >>> import io
+    >>> from vorotool import points_along, skeleton_exact
+    >>> points = points_along(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]), every=2)
+    >>> out = io.BytesIO()
+    >>> write_skeleton_points(out, points, "wkt", what="transects")
+    >>> out.getvalue().splitlines()[-1]
+    b'LINESTRING (3 2, 3 0)'
+    """
+    check_what(what, WHAT, "points of a skeleton are")
+    check_format(fmt, POINT_FORMATS, what)
+    if what == "transects":
+        points = points.transects()
+    if fmt in TABLE_FORMATS:
+        write_table(out, points.table(), fmt, precision=precision, threads=threads)
+        return
+    places = points.xy if what == "points" else points.feet.reshape(-1, 4)
+    coordinates = [Column("", values.copy()) for values in places.T]
+    if fmt == "wkt":
+        around = ("POINT (", " ", ")\n") if what == "points" else ("LINESTRING (", " ", ", ", " ", ")\n")
+        write_rows(out, coordinates, RowShape(around), precision=precision, threads=threads)
+    else:
+        _write_geojson(out, points, coordinates, precision, threads)
+
+
+def _write_geojson(
+    out: BinaryIO, points: SkeletonPoints, coordinates: list[Column], precision: int | None, threads: int
+) -> None:
+    skeleton = points.skeleton
+    polygons, side = skeleton.polygons, skeleton.side[points.arc]
+    own = {name: f"voro_{name}" if name in polygons.properties else name for name in _OWN}
+    columns: list[Any] = [
+        Lookup(_openings(polygons, own["polygon"]), points.polygon % (len(polygons) + 1)),
+        skeleton.branch[points.arc].astype(np.int64),
+        points.along,
+        points.radius,
+        2 * points.radius,
+        Lookup([f'"{name}"' for name in SIDES] + ["null"], np.where(side < 0, len(SIDES), side).astype(np.int32)),
+    ]
+    between: tuple[str, ...] = (",",)
+    kind, after = "Point", "]}}"
+    if len(coordinates) > 2:
+        kind, between, after = "LineString", (",", "],[", ","), "]]}}"
+    names = [f',"{own[name]}":' for name in _OWN[1:]]
+    opening = f'}},"geometry":{{"type":"{kind}","coordinates":{"[" * (len(coordinates) // 2)}'
+    shape = RowShape(("", *names, opening, *between, after), ",\n", "null")
+    rows = [*(Column("", values) for values in columns), *coordinates]
+    write_collection(out, rows, shape, crs=polygons.crs, precision=precision, threads=threads)
+
+
+_OWN = ("polygon", "branch", "along", "r", "width", "side")
+
+
+def _openings(polygons: PolygonSet, name: str) -> list[str]:
+    """The beginning of a feature in each polygon, and of one in none."""
+    texts = []
+    for index in (*range(len(polygons)), None):
+        identity = None if index is None or polygons.ids is None else polygons.ids[index]
+        named = "" if identity is None else f'"id":{json_text(identity)},'
+        given = {} if index is None else {key: values[index] for key, values in polygons.properties.items()}
+        texts.append(f'{{"type":"Feature",{named}"properties":{json_text({**given, name: index}).removesuffix("}")}')
+    return texts

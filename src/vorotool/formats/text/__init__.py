@@ -1,0 +1,1 @@
+"""Rows, tables, JSON lists, feature collections: what writers of text share."""

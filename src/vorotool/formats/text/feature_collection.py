@@ -1,0 +1,54 @@
+"""Collections of GeoJSON features."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, BinaryIO
+
+from vorotool.formats.text.row_writer import Column, RowShape, write_list_rows
+from vorotool.formats.text.tables import json_text
+
+
+def collection_opening(crs: Any) -> bytes:
+    """What stands before the features of a collection, whose ``crs`` member may be None.
+
+    Examples
+    --------
+    >>> collection_opening(None)
+    b'{"type":"FeatureCollection","features":['
+    """
+    member = "" if crs is None else f'"crs":{json_text(crs)},'
+    return f'{{"type":"FeatureCollection",{member}"features":['.encode()
+
+
+def write_collection(
+    out: BinaryIO,
+    columns: Sequence[Column],
+    shape: RowShape,
+    *,
+    crs: Any = None,
+    precision: int | None = None,
+    threads: int = 0,
+) -> None:
+    r"""Write a collection, streamed: one feature a row.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable.
+    columns, shape, precision, threads
+        As of `vorotool.formats.text.row_writer.write_rows`.
+    crs : object, optional
+        The ``crs`` member.
+
+    Examples
+    --------
+    >>> import io
+    >>> out = io.BytesIO()
+    >>> write_collection(out, [Column.of("id", [7])], RowShape(('{"type":"Feature","id":', "}"), ",\n"))
+    >>> out.getvalue()
+    b'{"type":"FeatureCollection","features":[\n{"type":"Feature","id":7}\n]}\n'
+    """
+    out.write(collection_opening(crs))
+    write_list_rows(out, columns, shape, precision=precision, threads=threads)
+    out.write(b"]}\n")

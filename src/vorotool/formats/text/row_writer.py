@@ -1,0 +1,200 @@
+"""Columns to text, streamed: slices of rows are formatted in parallel while earlier ones are written."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, BinaryIO, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.errors import UsageError
+from vorotool.formats.io.row_bands import in_order
+from vorotool.geometry.numbers import shown_number, whole_number
+from vorotool.geometry.table import Computed, Lookup
+
+SLICE_ROWS = 1 << 14
+"""Rows whose text is made at a time: some 2 MB."""
+
+MOST_DIGITS = 17
+
+_WIDE = {"b": np.bool_, "i": np.int64, "u": np.uint64, "f": np.float64}
+
+
+class RowShape(NamedTuple):
+    """The text of a row: ``around`` its fields (one more than there are), ``separator`` between rows."""
+
+    around: tuple[str, ...]
+    separator: str = ""
+    missing: str = ""
+
+
+@dataclass(frozen=True)
+class Column:
+    """Values (an array of bool, int64, uint64 or float64, or a list; or lazy), and which of them are missing."""
+
+    name: str
+    values: NDArray[Any] | list[Any] | Lookup | Computed
+    missing: NDArray[np.bool_] | None = None
+
+    @staticmethod
+    def of(name: str, column: Any) -> Column:
+        """Widen an array, find out what is missing, and take for a list what no array holds."""
+        if isinstance(column, Lookup):
+            values = column.values
+            return Column(name, Lookup(_widened(values), column.index) if isinstance(values, np.ndarray) else column)
+        if isinstance(column, Computed):
+            return Column(name, column)
+        mask = np.ma.getmaskarray(column) if isinstance(column, np.ma.MaskedArray) else None
+        array = _as_array(np.ma.getdata(column) if mask is not None else column)
+        if array is None or array.dtype.kind not in "biuf":
+            values = column.tolist() if isinstance(column, np.ndarray) else list(column)
+            absent = np.array([_is_absent(value) for value in values], dtype=bool)
+        else:
+            values = _widened(array)
+            absent = ~np.isfinite(values) if values.dtype.kind == "f" else np.zeros(len(values), dtype=bool)
+        absent = absent if mask is None else absent | mask
+        return Column(name, values, absent if absent.any() else None)
+
+    def part(self, rows: slice) -> Column:
+        """Give some of the rows; of a lookup, not yet looked up; others are computed now."""
+        if isinstance(self.values, Lookup):
+            return Column(self.name, Lookup(self.values.values, self.values.index[rows]))
+        values = self.values[rows]
+        return Column(self.name, values, None if self.missing is None else self.missing[rows])
+
+
+def _widened(array: NDArray[Any]) -> NDArray[Any]:
+    return np.ascontiguousarray(array, dtype=_WIDE[array.dtype.kind])
+
+
+def _as_array(column: Any) -> NDArray[Any] | None:
+    """Give the column as a 1-D array, or None when only a list can hold it."""
+    if isinstance(column, np.ndarray):
+        return column if column.ndim == 1 else None
+    values = list(column)
+    kinds = {type(value) for value in values}
+    if kinds <= {bool} or kinds <= {float} or (kinds <= {int, float} and _all_short(values)):
+        return np.array(values)
+    return None
+
+
+def _all_short(values: list[int | float]) -> bool:
+    """Whether integers survive in an array: all in int64, and none beside a float."""
+    return all(type(v) is int and -(2**63) <= v < 2**63 for v in values)
+
+
+def _is_absent(value: Any) -> bool:
+    return value is None or (isinstance(value, float | np.floating) and not np.isfinite(value))
+
+
+def check_precision(precision: int | None) -> int:
+    """Return the number of significant digits, 0 for the shortest text that reads back the same.
+
+    Raises
+    ------
+    UsageError
+        If it is not from 1 to 17.
+    """
+    if precision is not None and not 1 <= whole_number(precision, "--precision") <= MOST_DIGITS:
+        raise UsageError(
+            f"--precision is {shown_number(precision)}: use 1 to {MOST_DIGITS} significant digits, or leave it out"
+        )
+    return precision or 0
+
+
+def write_rows(
+    out: BinaryIO,
+    columns: Sequence[Column],
+    shape: RowShape | None = None,
+    *,
+    precision: int | None = None,
+    threads: int = 0,
+) -> None:
+    r"""Write the text of rows; the bytes do not depend on the number of threads.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable; only some slices of text are in memory at a time, and one text a value of lookups.
+    columns : sequence of Column
+        Of one length. Lists hold str.
+    shape : RowShape, optional
+        By default rows of CSV.
+    precision : int, optional
+        Significant digits of floating-point numbers; by default the shortest that reads back the same.
+    threads : int
+        0 for all.
+
+    Examples
+    --------
+    >>> import io
+    >>> out = io.BytesIO()
+    >>> write_rows(out, [Column.of("a", [1, 2]), Column.of("b", [0.5, 3.0])], RowShape(("l ", " ", "\n")))
+    >>> out.getvalue()
+    b'l 1 0.5\nl 2 3\n'
+    """
+    if not columns:
+        return
+    digits = check_precision(precision)
+    texts = _lookup_texts(columns, digits, threads)
+    rows = len(columns[0].values)
+
+    def formatted(part: slice) -> list[bytes]:
+        parts = [column.part(part) for column in columns]
+        values = [_core_values(column, texts) for column in parts]
+        return _core.format_columns(values, [column.missing for column in parts], digits, 1, shape)
+
+    between = b"" if shape is None else shape.separator.encode()
+    for number, blocks in enumerate(in_order(formatted, slices(rows, SLICE_ROWS), threads if rows > SLICE_ROWS else 1)):
+        if number and between:
+            out.write(between)
+        for block in blocks:
+            out.write(block)
+
+
+def write_list_rows(
+    out: BinaryIO, columns: Sequence[Column], shape: RowShape, *, precision: int | None = None, threads: int = 0
+) -> None:
+    r"""Write the rows of a list between its brackets: on lines of their own, if there are any; see `write_rows`.
+
+    Examples
+    --------
+    >>> import io
+    >>> out = io.BytesIO()
+    >>> write_list_rows(out, [Column.of("a", [1, 2])], RowShape(("", ""), ",\n"))
+    >>> out.getvalue()
+    b'\n1,\n2\n'
+    """
+    if columns and len(columns[0].values):
+        out.write(b"\n")
+        write_rows(out, columns, shape, precision=precision, threads=threads)
+        out.write(b"\n")
+
+
+def slices(rows: int, size: int) -> list[slice]:
+    """Cut rows into slices of a size; none for no rows."""
+    return [slice(begin, min(begin + size, rows)) for begin in range(0, rows, size)]
+
+
+def _lookup_texts(columns: Sequence[Column], digits: int, threads: int) -> dict[int, _core.NumberTexts]:
+    """Texts of the numbers that lookups show, by the identity of their arrays: each array once."""
+    arrays = {id(c.values.values): c.values.values for c in columns if isinstance(c.values, Lookup)}
+    return {
+        key: _core.NumberTexts(array, digits, threads)
+        for key, array in arrays.items()
+        if isinstance(array, np.ndarray) and array.dtype.kind == "f"
+    }
+
+
+def _core_values(column: Column, texts: dict[int, _core.NumberTexts]) -> Any:
+    values = column.values
+    if isinstance(values, Lookup):
+        return (texts.get(id(values.values), values.values), values.index)
+    if isinstance(values, list | Computed):
+        return values[:]
+    if isinstance(values, _core.PolygonTexts):
+        return values
+    return values.astype(np.int64) if values.dtype.kind == "b" else values

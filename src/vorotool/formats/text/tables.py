@@ -1,0 +1,231 @@
+"""Writing tables as CSV, JSON or NPZ."""
+
+from __future__ import annotations
+
+import re
+import zipfile
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import UsageError
+from vorotool.formats.io.row_bands import in_order
+from vorotool.formats.text.row_writer import Column, RowShape, check_precision, slices, write_list_rows, write_rows
+from vorotool.geometry.table import Computed, Lookup, Table
+
+TABLE_FORMATS = ("csv", "json", "npz")
+_SLICE_VALUES = 1 << 16  # numbers of an array that are gathered and written at a time
+
+
+def write_table(out: BinaryIO, table: Table, fmt: str, *, precision: int | None = None, threads: int = 0) -> None:
+    r"""Write a table; the bytes depend on nothing but the table, the format and the precision.
+
+    What does not exist (masked, ``None``, or a number that is not finite) is an empty field in CSV, ``null``
+    in JSON, and marked in a further array ``<name>_missing`` in NPZ. Truth values are 0 and 1 in CSV.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable.
+    table : Table
+        Columns of numbers, truth values, text, or mixed objects.
+    fmt : {"csv", "json", "npz"}
+        CSV always has a header; JSON is a list of one object a row; NPZ has one array a column.
+    precision : int, optional
+        Significant digits of floating-point numbers in text; by default the shortest that
+        reads back the same.
+    threads : int
+        Threads for CSV; 0 for all.
+
+    Raises
+    ------
+    UsageError
+        If the format is unknown or ``precision`` is not from 1 to 17.
+
+    Examples
+    --------
+    >>> import io
+    >>> out = io.BytesIO()
+    >>> write_table(out, Table({"label": [1, 2], "x": np.ma.array([0.5, 0], mask=[False, True])}), "csv")
+    >>> out.getvalue()
+    b'label,x\n1,0.5\n2,\n'
+    """
+    check_precision(precision)
+    columns = [Column.of(name, values) for name, values in table.stored().items()]
+    if fmt == "csv":
+        _write_csv(out, columns, precision, threads)
+    elif fmt == "json":
+        _write_json(out, columns, precision, threads)
+    elif fmt == "npz":
+        write_npz(out, columns, threads)
+    else:
+        raise UsageError(f"-f {fmt!r} is no format of tables: use {', '.join(TABLE_FORMATS)}")
+
+
+# ---- CSV -----------------------------------------------------------------------------------------
+_SAFE: ContextVar[bool] = ContextVar("safe", default=False)
+_FORMULA = re.compile(r"[=+\-@\t\r]")
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+
+
+@contextmanager
+def safe_texts(is_wanted: bool = True) -> Iterator[None]:
+    """Keep spreadsheets from taking texts of the CSV written within for formulas: see `safe_text`."""
+    token = _SAFE.set(is_wanted)
+    try:
+        yield
+    finally:
+        _SAFE.reset(token)
+
+
+def safe_text(text: str) -> str:
+    """Put an apostrophe before a text that begins with =, +, -, @, a tab or a carriage return and is no number.
+
+    Examples
+    --------
+    >>> safe_text("=1+1"), safe_text("-2.5"), safe_text("a=b")
+    ("'=1+1", '-2.5', 'a=b')
+    """
+    return f"'{text}" if _FORMULA.match(text) and not _NUMBER.fullmatch(text) else text
+
+
+def _write_csv(out: BinaryIO, columns: list[Column], precision: int | None, threads: int) -> None:
+    write_rows(out, [Column(c.name, [safe_text(c.name) if _SAFE.get() else c.name]) for c in columns])
+    is_safe = _SAFE.get()
+    texts = [_with_texts(column, precision, is_safe=is_safe) for column in columns]
+    write_rows(out, texts, precision=precision, threads=threads)
+
+
+def _with_texts(column: Column, precision: int | None, *, is_safe: bool) -> Column:
+    def text(value: Any) -> str:
+        return safe_text(value) if is_safe and isinstance(value, str) else _text_of(value, precision)
+
+    if isinstance(column.values, Lookup) and isinstance(column.values.values, list):
+        return Column(column.name, Lookup([text(value) for value in column.values.values], column.values.index))
+    if not isinstance(column.values, list):
+        return column
+    return Column(column.name, [text(value) for value in column.values], column.missing)
+
+
+def _text_of(value: Any, precision: int | None) -> str:
+    """Text of a mixed column: numbers as in other columns, lists and objects as JSON."""
+    if isinstance(value, str):
+        return value
+    if value is None:
+        return ""
+    if isinstance(value, float):
+        return f"{value:.{precision}g}" if precision else repr(value).removesuffix(".0")
+    return str(value) if type(value) is int else json_text(value)
+
+
+# ---- JSON ----------------------------------------------------------------------------------------
+def _write_json(out: BinaryIO, columns: list[Column], precision: int | None, threads: int) -> None:
+    shape = object_shape([column.name for column in columns])
+    out.write(b"[")
+    texts = [json_column(column, precision) for column in columns]
+    write_list_rows(out, texts, shape, precision=precision, threads=threads)
+    out.write(b"]\n")
+
+
+def object_shape(names: list[str], before: str = "", after: str = "") -> RowShape:
+    """Shape of rows that are JSON objects with these members, within further text."""
+    openings = [f"{json_text(name)}:" for name in names]
+    return RowShape(
+        (f"{before}{{{openings[0]}", *(f",{opening}" for opening in openings[1:]), f"}}{after}"), ",\n", "null"
+    )
+
+
+def json_column(column: Column, precision: int | None = None) -> Column:
+    """The column with what is no number as JSON text."""
+    values = column.values
+    if isinstance(values, Lookup) and isinstance(values.values, list):
+        return Column(column.name, Lookup([json_text(value) for value in values.values], values.index))
+    if isinstance(values, Lookup | Computed) or (not isinstance(values, list) and values.dtype.kind != "b"):
+        return column
+    plain = values if isinstance(values, list) else values.tolist()
+    if precision:
+        plain = [float(f"{v:.{precision}g}") if type(v) is float else v for v in plain]
+    return Column(column.name, [json_text(value) for value in plain], column.missing)
+
+
+def json_text(value: Any) -> str:
+    """JSON of anything; what JSON does not know becomes text."""
+    import orjson
+
+    return orjson.dumps(value, default=str, option=orjson.OPT_SERIALIZE_NUMPY | orjson.OPT_NON_STR_KEYS).decode()
+
+
+# ---- NPZ -----------------------------------------------------------------------------------------
+class _Stream:
+    """A file without a position: the archive is then the same for pipes and for files."""
+
+    def __init__(self, out: BinaryIO) -> None:
+        self._out = out
+
+    def write(self, data: bytes) -> int:
+        return self._out.write(data)
+
+    def flush(self) -> None:
+        self._out.flush()
+
+
+def write_npz(out: BinaryIO, columns: list[Column], threads: int) -> None:
+    """Write one array a column, of any lengths."""
+    with zipfile.ZipFile(_Stream(out), "w", zipfile.ZIP_STORED) as archive:  # type: ignore[call-overload]
+        for column in columns:
+            _write_array(archive, column.name, _npz_values(column), threads)
+            if column.missing is not None:
+                _write_array(archive, f"{column.name}_missing", column.missing, threads)
+
+
+def write_arrays(out: BinaryIO, arrays: Mapping[str, NDArray[Any]], *, threads: int = 0) -> None:
+    """Write 1-D arrays of any lengths as NPZ: the same bytes for the same arrays.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable.
+    arrays : mapping of str to 1-D array
+        Of numbers or texts.
+    threads : int
+        0 for all.
+    """
+    with zipfile.ZipFile(_Stream(out), "w", zipfile.ZIP_STORED) as archive:  # type: ignore[call-overload]
+        for name, values in arrays.items():
+            _write_array(archive, name, values, threads)
+
+
+def _npz_values(column: Column) -> NDArray[Any] | Lookup | Computed:
+    """Give values without objects; what is missing is zero or empty."""
+    values, missing = column.values, column.missing
+    if isinstance(values, Lookup) and isinstance(values.values, list):
+        return np.array([_text_of(value, 0) for value in values.values], dtype=np.str_)[values.index]
+    if not isinstance(values, list):
+        if missing is None or isinstance(values, Lookup | Computed):
+            return values
+        return np.where(missing, np.zeros((), values.dtype), values)
+    absent = [False] * len(values) if missing is None else missing.tolist()
+    pairs = zip(values, absent, strict=True)
+    return np.array(["" if none else _text_of(value, 0) for value, none in pairs], dtype=np.str_)
+
+
+def _write_array(archive: zipfile.ZipFile, name: str, values: NDArray[Any] | Lookup | Computed, threads: int) -> None:
+    """Write an array part by part: the next ones are gathered while one is summed and written."""
+    entry = zipfile.ZipInfo(f"{name}.npy", date_time=(1980, 1, 1, 0, 0, 0))
+    entry.create_system = 3  # what the file says of the machine that wrote it: always the same
+    entry.external_attr = 0o644 << 16
+    kind = values[:0].dtype.newbyteorder("<")
+    header = {"descr": np.lib.format.dtype_to_descr(kind), "fortran_order": False, "shape": (len(values),)}
+
+    def gathered(rows: slice) -> NDArray[np.uint8]:
+        return np.ascontiguousarray(values[rows], dtype=kind).view(np.uint8)
+
+    parts = slices(len(values), _SLICE_VALUES)
+    with archive.open(entry, "w", force_zip64=True) as member:
+        np.lib.format.write_array_header_1_0(member, header)
+        for part in in_order(gathered, parts, threads if len(parts) > 1 else 1):
+            member.write(part.data)

@@ -1,0 +1,1 @@
+"""Zarr stores: metadata, chunks, codecs, writing."""

@@ -1,0 +1,266 @@
+"""What a Zarr array is, by its metadata of format 2 or 3: checked and turned into values of our own.
+
+No codec is looked up by its name in a registry, as the zarr package does: a registry may hold one that runs code.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import re
+import struct
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from vorotool.errors import InputError
+from vorotool.formats.io.sources import check_nesting
+from vorotool.formats.zarr.codecs import BYTES_CODECS, Checksum, Codec, Pipeline, Shard, checked_bytes_codec
+
+LARGEST_METADATA = 2**20
+"""Bytes; of an array they are some hundred."""
+
+LARGEST_CHUNK = 2**26
+"""Bytes of a chunk; only a larger array may have larger ones."""
+
+_VERSION_3, _VERSION_2 = "zarr.json", ".zarray"
+_NAMED_TYPE = re.compile(r"bool|u?int(8|16|32|64)|float(16|32|64)|complex(64|128)")
+_CODED_TYPE = re.compile(r"[<>|](b1|[iu][1248]|f[248]|c(8|16))")
+_KNOWN_KEYS = {
+    "zarr_format",
+    "node_type",
+    "shape",
+    "data_type",
+    "chunk_grid",
+    "chunk_key_encoding",
+    "fill_value",
+    "codecs",
+    "attributes",
+    "storage_transformers",
+    "dimension_names",
+    "consolidated_metadata",
+}
+_SPECIAL = {"NaN": math.nan, "Infinity": math.inf, "-Infinity": -math.inf}
+_ACCEPTED = "bytes, transpose, sharding_indexed, shuffle, delta, crc32c, " + ", ".join(BYTES_CODECS)
+
+
+@dataclass(frozen=True)
+class ZarrMetadata:
+    """An array in a store.
+
+    Parameters
+    ----------
+    shape : tuple of int
+        Of the array.
+    pipeline : Pipeline
+        How a chunk is stored; it knows the shape of chunks, the type and the value of what is left out.
+    prefix, separator : str
+        Of the names of chunks, as in ``c/0/1``.
+    """
+
+    shape: tuple[int, ...]
+    pipeline: Pipeline
+    prefix: str
+    separator: str
+
+    @property
+    def chunks(self) -> tuple[int, ...]:
+        """Shape of a chunk."""
+        return self.pipeline.shape
+
+    def key(self, place: tuple[int, ...]) -> str:
+        """Name of the file of a chunk."""
+        return self.prefix + self.separator.join(map(str, place))
+
+
+def read_metadata(path: str | os.PathLike[str]) -> dict[str, Any] | None:
+    """Read the JSON that says what a folder holds; None if it holds no Zarr array or group.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, is too large, nested too deep, or no JSON object.
+    """
+    folder = Path(path)
+    for name in (_VERSION_3, _VERSION_2, ".zgroup"):
+        file = folder / name
+        if not file.is_file():
+            continue
+        with file.open("rb") as opened:
+            text = opened.read(LARGEST_METADATA + 1)
+        if len(text) > LARGEST_METADATA:
+            raise InputError(f"{file} has more than {LARGEST_METADATA} bytes: metadata of an array are far shorter")
+        check_nesting(text, name=str(file))
+        try:
+            made = json.loads(text)
+        except ValueError as error:
+            raise InputError(f"{file} is no JSON: {error}") from None
+        if not isinstance(made, dict):
+            raise InputError(f"{file} holds no JSON object, which metadata are")
+        if name != _VERSION_3:
+            made = made | {"zarr_format": 2, "node_type": "array" if name == _VERSION_2 else "group"}
+        return made
+    return None
+
+
+def array_metadata(name: str, made: dict[str, Any]) -> ZarrMetadata:
+    """Check metadata of an array that `read_metadata` gave.
+
+    Raises
+    ------
+    InputError
+        If they are damaged, or name a codec, a type or an extension that is not known.
+    """
+    try:
+        metadata = _version_2(made) if made["zarr_format"] == 2 else _version_3(made)
+    except InputError as error:
+        raise InputError(f"{name}: {error}") from None
+    except (KeyError, TypeError, ValueError, OverflowError, struct.error) as error:
+        missing = f"there is no {error}" if isinstance(error, KeyError) else str(error)
+        raise InputError(f"{name} cannot be read as Zarr: {missing}; is its metadata damaged?") from None
+    array, chunk = (math.prod(shape) * metadata.pipeline.dtype.itemsize for shape in (metadata.shape, metadata.chunks))
+    if chunk > max(LARGEST_CHUNK, 4 * array):
+        raise InputError(
+            f"{name} is damaged: it has chunks of shape {metadata.chunks} for an array of shape {metadata.shape}"
+        )
+    return metadata
+
+
+def _version_2(made: dict[str, Any]) -> ZarrMetadata:
+    shape, chunks = _sizes(made["shape"], 0), _sizes(made["chunks"], 1)
+    _check_axes(shape, chunks)
+    code = made["dtype"]
+    if not (isinstance(code, str) and _CODED_TYPE.fullmatch(code)):
+        raise InputError(f"it holds {code!r:.60}: an image of numbers was expected")
+    dtype = np.dtype(code)
+    steps = [*(made.get("filters") or ()), *([made["compressor"]] if made.get("compressor") else ())]
+    codecs = tuple(checked_bytes_codec(*_named(step, "id"), dtype) for step in steps)
+    orders = (tuple(range(len(shape)))[::-1],) if _choice(made, "order", ("C", "F")) == "F" else ()
+    separator = _choice(made, "dimension_separator", (".", "/"))
+    fill = _fill_value(made.get("fill_value"), dtype)
+    return ZarrMetadata(shape, Pipeline(chunks, dtype, fill, orders, None, codecs), "", separator)
+
+
+def _version_3(made: dict[str, Any]) -> ZarrMetadata:
+    if made["zarr_format"] != 3:
+        raise InputError(f"its format is {made['zarr_format']!r:.40}: 2 or 3 was expected")
+    for key, value in made.items():
+        if key not in _KNOWN_KEYS and not (isinstance(value, dict) and value.get("must_understand") is False):
+            raise InputError(f"its metadata have {key!r:.60}, an extension that is not known")
+    if made.get("storage_transformers"):
+        raise InputError("it has storage transformers, which are not known")
+    grid, grid_options = _named(made["chunk_grid"], "name")
+    if grid != "regular":
+        raise InputError(f"its grid of chunks is {grid!r:.60}: regular was expected")
+    shape, chunks = _sizes(made["shape"], 0), _sizes(grid_options["chunk_shape"], 1)
+    _check_axes(shape, chunks)
+    kind = made["data_type"]
+    if not (isinstance(kind, str) and _NAMED_TYPE.fullmatch(kind)):
+        raise InputError(f"it holds {kind!r:.60}: an image of numbers was expected")
+    dtype = np.dtype(kind)
+    encoding, key_options = _named(made["chunk_key_encoding"], "name")
+    if encoding not in ("default", "v2"):
+        raise InputError(f"its chunks are named by {encoding!r:.60}: default or v2 was expected")
+    separator = _choice(key_options, "separator", ("/", ".") if encoding == "default" else (".", "/"))
+    pipeline = _pipeline(made["codecs"], chunks, dtype, _fill_value(made["fill_value"], dtype))
+    return ZarrMetadata(shape, pipeline, f"c{separator}" if encoding == "default" else "", separator)
+
+
+def _pipeline(steps: Any, shape: tuple[int, ...], dtype: np.dtype[Any], fill: Any, depth: int = 0) -> Pipeline:
+    """Codecs of format 3: of arrays, one that makes bytes of them, and of bytes."""
+    if not isinstance(steps, list):
+        raise InputError(f"its codecs are {steps!r:.60}: a list was expected")
+    orders: list[tuple[int, ...]] = []
+    shard: Shard | None = None
+    stored: np.dtype[Any] | None = None
+    codecs: list[Codec] = []
+    for name, options in (_named(step, "name") for step in steps):
+        if name == "transpose" and stored is None:
+            orders.append(_order(options["order"], len(shape)))
+        elif name == "bytes" and stored is None:
+            stored = dtype.newbyteorder(">" if _choice(options, "endian", ("little", "big")) == "big" else "<")
+        elif name == "sharding_indexed" and stored is None and depth < 2:
+            if orders:
+                raise InputError("its shards are transposed, which is not known: save it without")
+            stored, shard = dtype, _shard(options, shape, dtype, fill, depth)
+        elif stored is not None:
+            codecs.append(Checksum() if name == "crc32c" else checked_bytes_codec(name, options, dtype))
+        else:
+            raise InputError(f"its codec {name!r:.60} is not known or not in its place: accepted are {_ACCEPTED}")
+    if stored is None:
+        raise InputError("its codecs make no bytes: bytes or sharding_indexed was expected")
+    return Pipeline(shape, stored, fill, tuple(orders), shard, tuple(codecs))
+
+
+def _shard(options: dict[str, Any], shape: tuple[int, ...], dtype: np.dtype[Any], fill: Any, depth: int) -> Shard:
+    inner = _sizes(options["chunk_shape"], 1)
+    if len(inner) != len(shape) or any(whole % part for whole, part in zip(shape, inner, strict=True)):
+        raise InputError(f"its shards of shape {shape} are not made of whole chunks of shape {inner}")
+    counts = tuple(whole // part for whole, part in zip(shape, inner, strict=True))
+    location = _choice(options, "index_location", ("end", "start"))
+    index = _pipeline(options["index_codecs"], (*counts, 2), np.dtype(np.uint64), 2**64 - 1, depth=2)
+    if any(not isinstance(codec, Checksum) for codec in index.codecs) or index.orders:
+        raise InputError("the index of its shards is compressed: only bytes and crc32c are known")
+    return Shard(counts, _pipeline(options["codecs"], inner, dtype, fill, depth + 1), index, location == "start")
+
+
+def _named(step: Any, key: str) -> tuple[str, dict[str, Any]]:
+    """Name and configuration of a codec, a grid or an encoding."""
+    if isinstance(step, str):
+        step = {key: step}
+    if not isinstance(step, dict) or not isinstance(step.get(key), str):
+        raise InputError(f"{step!r:.60} in its metadata has no {key}")
+    options = step.get("configuration") or {} if key == "name" else step
+    if not isinstance(options, dict):
+        raise InputError(f"the configuration of {step[key]!r:.60} is no JSON object")
+    return step[key], options
+
+
+def _sizes(values: Any, least: int) -> tuple[int, ...]:
+    if not isinstance(values, list) or not all(type(value) is int and least <= value < 2**62 for value in values):
+        raise InputError(f"{values!r:.60} is no shape: whole numbers from {least} on were expected")
+    return tuple(values)
+
+
+def _check_axes(shape: tuple[int, ...], chunks: tuple[int, ...]) -> None:
+    if len(shape) != len(chunks):
+        raise InputError(f"its shape is {shape}, but that of its chunks {chunks}")
+
+
+def _choice(options: dict[str, Any], key: str, choices: tuple[str, str]) -> str:
+    """Value of an option, the first of its choices if it is not there."""
+    value = options.get(key, choices[0])
+    if value not in choices:
+        raise InputError(f"its {key} is {value!r:.40}: {choices[0]} or {choices[1]} was expected")
+    return str(value)
+
+
+def _order(order: Any, axes: int) -> tuple[int, ...]:
+    values = tuple(range(axes))
+    known = {"C": values, "F": values[::-1]}
+    if isinstance(order, str):
+        order = list(known.get(order, ()))
+    if not isinstance(order, list) or sorted(order) != list(values):
+        raise InputError(f"its transpose has the order {order!r:.60}, which is none of {axes} axes")
+    return tuple(order)
+
+
+def _fill_value(value: Any, dtype: np.dtype[Any]) -> Any:
+    """Value of pixels that are in no chunk."""
+    if value is None:
+        return 0
+    if dtype.kind == "c":
+        return complex(*(float(_SPECIAL.get(part, part)) for part in value))
+    if dtype.kind == "f":
+        if isinstance(value, str) and value.startswith("0x"):
+            return np.array(int(value, 16), f">u{dtype.itemsize}").view(f">f{dtype.itemsize}").item()
+        return float(_SPECIAL.get(value, value))
+    if dtype.kind == "b":
+        return bool(value)
+    number = int(value)
+    if not np.iinfo(dtype).min <= number <= np.iinfo(dtype).max:
+        raise InputError(f"its fill value {number} does not fit in {dtype}")
+    return number

@@ -1,0 +1,201 @@
+"""Zarr stores as files are: what they are, and outputs of this kind, which appear whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from vorotool.errors import InputError, OutputError, UsageError
+from vorotool.formats.io.atomic_output import check_folder, clobber_error, explained, followed, is_same_file
+from vorotool.formats.io.descriptors import STANDARD, stream_kind
+from vorotool.formats.io.temporaries import ASIDE, Temporary, new_folder, temporary_beside
+
+_METADATA = ("zarr.json", ".zarray", ".zgroup")
+
+
+def is_store(path: str | os.PathLike[str]) -> bool:
+    """Whether a path is a folder that holds a Zarr array or group.
+
+    Examples
+    --------
+    >>> is_store("data")
+    False
+    """
+    return any(_is_file(Path(path) / name) for name in _METADATA)
+
+
+def is_folder(path: str | os.PathLike[str]) -> bool:
+    """Whether a path is a folder; what must not be looked at is none, and who opens it says why.
+
+    Examples
+    --------
+    >>> is_folder("data"), is_folder("data/dots.csv")
+    (True, False)
+    """
+    try:
+        return Path(path).is_dir()
+    except (OSError, ValueError):
+        return False
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
+
+
+def is_array(path: str | os.PathLike[str]) -> bool:
+    """Whether a path is a folder that holds a Zarr array, and not a group of them."""
+    return _is_file(Path(path) / ".zarray") or _node_type(path) == "array"
+
+
+def is_group(path: str | os.PathLike[str]) -> bool:
+    """Whether a path is a folder that holds a group of Zarr arrays."""
+    return _is_file(Path(path) / ".zgroup") or _node_type(path) == "group"
+
+
+def _node_type(path: str | os.PathLike[str]) -> object:
+    """What the metadata of format 3 say, if they can be read."""
+    from vorotool.formats.zarr.metadata import read_metadata
+
+    try:
+        return (read_metadata(path) or {}).get("node_type")
+    except (OSError, InputError):
+        return None
+
+
+def check_store(
+    path: str | os.PathLike[str],
+    *,
+    no_clobber: bool = False,
+    inputs: Iterable[str | os.PathLike[str]] = (),
+    makes_folder: bool = False,
+) -> Path:
+    """Refuse a store that `open_store` would not write.
+
+    Parameters
+    ----------
+    path : str or path
+        Where to write.
+    no_clobber : bool
+        Refuse to replace a store.
+    inputs : iterable of paths
+        What is being read: neither replaced nor within what is replaced.
+    makes_folder : bool
+        The folder of the store is yet to be made.
+
+    Returns
+    -------
+    Path
+        The place, links followed.
+
+    Raises
+    ------
+    UsageError
+        If it is standard output, or one of the inputs.
+    OutputError
+        If something else is there, or it cannot be written.
+
+    Examples
+    --------
+    >>> check_store("build/new.zarr").name
+    'new.zarr'
+    """
+    name = os.fspath(path)
+    if (kind := stream_kind(name)) is not None:
+        place = "standard output" if name == STANDARD else f"{name}, {kind}"
+        raise UsageError(f"a Zarr store is a folder, which does not go to {place}: name it with -o")
+    with explained(name):
+        target = followed(name)
+        exists = target.exists()
+    if exists and not is_array(target):
+        raise _other_error(name)
+    for each in inputs:
+        within = target in Path(os.path.realpath(each)).parents
+        if exists and (within or is_same_file(target, os.fspath(each))):
+            raise UsageError(f"{name} is also an input, which is never replaced: choose another name with -o")
+    if exists and no_clobber:
+        raise clobber_error(name)
+    check_folder(name, target.parent, makes_folder=makes_folder)
+    return target
+
+
+def _other_error(name: str) -> OutputError:
+    return OutputError(f"{name!r} is there and is no Zarr array, which alone is replaced: choose another name")
+
+
+@contextmanager
+def open_store(
+    path: str | os.PathLike[str], *, no_clobber: bool = False, inputs: Iterable[str | os.PathLike[str]] = ()
+) -> Iterator[Path]:
+    """Give a folder to write a store in; it takes its place when all of it has been written.
+
+    It is made beside its place under a temporary name, and exchanged with an older store, which is removed then. On any
+    exception the folder is removed, and the older store is as it was.
+
+    Parameters
+    ----------
+    path, no_clobber, inputs
+        As for `check_store`.
+
+    Yields
+    ------
+    Path
+        The folder, which is there and empty.
+
+    Raises
+    ------
+    UsageError, OutputError
+        As by `check_store`, or if it cannot be written.
+
+    Examples
+    --------
+    >>> with open_store("build/one.zarr") as folder:
+    ...     _ = (folder / ".zarray").write_text("{}")
+    >>> is_array("build/one.zarr")
+    True
+    """
+    name = os.fspath(path)
+    target = check_store(name, no_clobber=no_clobber, inputs=inputs)
+    with explained(name), temporary_beside(target, new_folder) as temporary:
+        yield temporary.path
+        if target.exists():
+            _replace(target, temporary, no_clobber)
+        else:
+            temporary.move_to(target)
+
+
+def _replace(target: Path, temporary: Temporary, no_clobber: bool) -> None:
+    """Put a folder in the place of another, which then goes with the temporary name or with a folder aside.
+
+    Where the system cannot exchange the two, the older store is away for a moment. Of a process that is killed then
+    it is put back by the next one that writes in the folder.
+    """
+    if no_clobber:
+        raise clobber_error(str(target))
+    if not is_array(target):
+        raise _other_error(str(target))
+    temporary.check()
+    if _exchange(temporary.path, target):
+        return
+    with temporary_beside(target, new_folder, ending=ASIDE) as aside:
+        target.rename(aside.path / target.name)
+        temporary.move_to(target)
+
+
+def _exchange(one: Path, other: Path) -> bool:
+    """Exchange two folders at once, or say that the system or the file system cannot."""
+    if sys.platform != "linux":
+        return False
+    import ctypes
+
+    here, exchange = -100, 2  # AT_FDCWD, RENAME_EXCHANGE
+    try:
+        rename = ctypes.CDLL(None).renameat2
+    except (OSError, AttributeError):
+        return False
+    return bool(rename(here, os.fsencode(one), here, os.fsencode(other), exchange) == 0)

@@ -1,0 +1,1 @@
+"""Alpha complexes, shapes, hulls and their tables."""

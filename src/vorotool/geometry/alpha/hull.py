@@ -1,0 +1,122 @@
+"""The alpha hull of points: what no empty disc of one radius covers, bounded by circular arcs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.alpha.shape import AlphaShape
+from vorotool.geometry.curves.inverse_functions import PI, cosine_and_sine, hypotenuse, inverse_sine
+from vorotool.geometry.table import Lookup, Table
+
+
+@dataclass(frozen=True, eq=False)
+class AlphaHull:
+    """The complement of all open discs of radius r that hold no point.
+
+    Arcs go clockwise around their centres, so that the hull is on their left; one begins where another one ends. Those
+    of each ring follow one another.
+
+    Parameters
+    ----------
+    shape : AlphaShape
+        The shape of the same radius.
+    start, end, centre : (k, 2) float64 array
+        Ends of the arcs, and centres of their circles, in input units.
+    edge : (k,) int32 array
+        The boundary edge of the family that each arc belongs to.
+    ring_start : (q + 1,) int64 array
+        The first arc of each ring, and k.
+    points : (p,) int32 array
+        Points of the hull that are on no arc and not inside: the hull has no extent around them.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 2.3; Edelsbrunner, Kirkpatrick and Seidel 1983.
+    """
+
+    shape: AlphaShape
+    start: NDArray[np.float64]
+    end: NDArray[np.float64]
+    centre: NDArray[np.float64]
+    edge: NDArray[np.int32]
+    ring_start: NDArray[np.int64]
+    points: NDArray[np.int32]
+
+    def __len__(self) -> int:
+        return len(self.start)
+
+    @property
+    def r(self) -> float:
+        """The radius of all arcs."""
+        return float(self.shape.r)
+
+    @cached_property
+    def angles(self) -> NDArray[np.float64]:
+        """(k,) angle of each arc at its centre, in radians: at most π, since an arc is less than half a circle."""
+        return 2 * inverse_sine(hypotenuse(*(self.end - self.start).T) / 2 / self.r)
+
+    @property
+    def perimeter(self) -> float:
+        """Length of all arcs."""
+        return float(self.angles.sum() * self.r)
+
+    def flattened(self, tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """Replace arcs by chords that are off by at most a length.
+
+        Returns
+        -------
+        xy : (n, 2) float64 array
+            Vertices of all rings, each once.
+        ring_start : (q + 1,) int64 array
+            The first vertex of each ring, and n.
+        """
+        if not len(self):  # of an image without foreground the radius is infinite
+            return np.empty((0, 2)), np.zeros(1, np.int64)
+        # A chord over an angle a is off by r (1 - cos(a / 2)), which is 2 r times the square of sin(a / 4).
+        widest = 4 * float(inverse_sine(sqrt(tolerance / self.r / 2))) or PI / 512
+        counts = np.maximum(np.ceil(self.angles / widest), 1).astype(np.int64)
+        arc = np.repeat(np.arange(len(self)), counts)
+        ends = np.cumsum(counts)
+        step = np.arange(len(arc)) - np.repeat(ends - counts, counts)
+        turned = self.angles[arc] * (step / counts[arc])
+        offset = self.start[arc] - self.centre[arc]
+        cosine, sine = cosine_and_sine(turned)
+        x = offset[:, 0] * cosine + offset[:, 1] * sine
+        y = offset[:, 1] * cosine - offset[:, 0] * sine
+        xy = np.where((step == 0)[:, None], self.start[arc], self.centre[arc] + np.stack([x, y], axis=1))
+        return xy, np.append(0, ends)[self.ring_start]
+
+    def table(self) -> Table:
+        """Give one row an arc: ``x0, y0, x1, y1, cx, cy, r, label_a, label_b, ring``.
+
+        The labels are those of the points of its circle; rings count from 1.
+        """
+        family = self.shape.family
+        labels = family.mesh.label_array
+        ends = family.edges[self.edge]
+        rings = np.repeat(np.arange(1, len(self.ring_start)), np.diff(self.ring_start))
+        columns = {
+            f"{name}{axis}": values[:, k]
+            for name, axis, values, k in (
+                ("x", 0, self.start, 0),
+                ("y", 0, self.start, 1),
+                ("x", 1, self.end, 0),
+                ("y", 1, self.end, 1),
+            )
+        }
+        return Table(
+            {
+                **columns,
+                "cx": self.centre[:, 0],
+                "cy": self.centre[:, 1],
+                "r": np.full(len(self), self.r),
+                "label_a": Lookup(labels, np.ascontiguousarray(ends[:, 0])),
+                "label_b": Lookup(labels, np.ascontiguousarray(ends[:, 1])),
+                "ring": rings,
+            }
+        )

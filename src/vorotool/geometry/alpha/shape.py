@@ -1,0 +1,152 @@
+"""One alpha shape of points: edges, regions, polygons."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.alpha.complex import CLASSES, AlphaComplex, Radius
+from vorotool.geometry.numbers import nearest_double
+from vorotool.geometry.polygons.polygon_set import HOLE, PolygonSet
+
+POINT_CLASSES = ("isolated", "singular", "boundary", "interior")
+"""What a point is in a shape: on no edge of it, on edges without a triangle only, on the boundary, inside."""
+
+
+@dataclass(frozen=True, eq=False)
+class AlphaShape:
+    """The shape of points for one radius r (the paper's α is -1/r).
+
+    Parameters
+    ----------
+    family : AlphaComplex
+        The shapes of all radii.
+    r : float or Fraction
+        The radius.
+    edge_index : (k,) int32 array
+        Edges of the family that are singular or boundary, increasing.
+    kind : (k,) uint8 array
+        Their places in `CLASSES`.
+    region : (t,) int32 array
+        Region of each triangle of the mesh, from 0; -1 of one that is not in the shape.
+    polygons : PolygonSet
+        One polygon a region, in this order, with ids from 1: a counter-clockwise shell and clockwise holes, each ring
+        without repeated vertices. Regions, and rings of one region, may touch at points.
+    cavity_count : int
+        Bounded components of what the triangles leave: one that several regions enclose is a hole of no polygon.
+    has_thresholds : bool
+        Whether small holes were filled or small regions left out.
+
+    Examples
+    --------
+    >>> from vorotool import alpha_shape
+    >>> shape = alpha_shape([[0, 0], [4, 0], [0, 3], [9, 9]], r=2.5)
+    >>> shape.edges.tolist(), shape.classes.tolist(), shape.isolated.tolist()
+    ([[1, 2], [0, 2], [0, 1]], ['boundary', 'boundary', 'boundary'], [3])
+    >>> shape.area, shape.perimeter, shape.polygons.ring(0).tolist()
+    (6.0, 12.0, [[4.0, 0.0], [0.0, 3.0], [0.0, 0.0]])
+    """
+
+    family: AlphaComplex
+    r: Radius
+    edge_index: NDArray[np.int32]
+    kind: NDArray[np.uint8]
+    region: NDArray[np.int32]
+    polygons: PolygonSet
+    cavity_count: int
+    has_thresholds: bool = False
+
+    @property
+    def alpha(self) -> float:
+        """The paper's parameter, -1/r."""
+        return -nearest_double(1 / self.r)
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """(n, 2) coordinates, in the order of the input."""
+        return self.family.points
+
+    @property
+    def edges(self) -> NDArray[np.int32]:
+        """(k, 2) ends of the singular and boundary edges."""
+        return self.family.edges[self.edge_index]
+
+    @property
+    def classes(self) -> NDArray[np.str_]:
+        """(k,) class of each of these edges."""
+        return np.array(CLASSES)[self.kind]
+
+    @property
+    def inside(self) -> NDArray[np.bool_]:
+        """(t,) whether each triangle is in the shape."""
+        return np.greater_equal(self.region, 0)
+
+    @property
+    def region_count(self) -> int:
+        """Number of regions: triangles joined through edges."""
+        return len(self.polygons)
+
+    @property
+    def area(self) -> float:
+        """Area of the shape."""
+        return float(self.region_areas().sum())
+
+    @property
+    def perimeter(self) -> float:
+        """Length of the boundary edges."""
+        return float(self.family.lengths()[self.edge_index[self.kind == CLASSES.index("boundary")]].sum())
+
+    def region_areas(self) -> NDArray[np.float64]:
+        """(regions,) areas."""
+        inside = self.inside
+        areas = self.family.mesh.areas()[inside]
+        return np.bincount(self.region[inside], areas, self.region_count).astype(np.float64)
+
+    def edge_classes(self) -> NDArray[np.uint8]:
+        """(e,) place of the class of each edge of the family in `CLASSES`."""
+        classes = np.zeros(len(self.family), dtype=np.uint8)
+        sides = self.family.sides
+        both = np.append(self.inside, False)[sides].all(axis=1)  # side -1 is none
+        classes[both] = CLASSES.index("interior")
+        classes[self.edge_index] = self.kind
+        return classes
+
+    def point_classes(self) -> NDArray[np.uint8]:
+        """(n,) place of each point in `POINT_CLASSES`; a duplicate is what the first point at its place is."""
+        found = np.zeros(len(self.points), dtype=np.uint8)
+        mesh = self.family.mesh
+        found[mesh.triangles[self.inside].reshape(-1)] = POINT_CLASSES.index("interior")
+        for name in ("singular", "boundary"):  # a point on both bounds the shape
+            ends = self.edges[self.kind == CLASSES.index(name)].reshape(-1)
+            if name == "singular":
+                ends = ends[found[ends] == 0]
+            found[ends] = POINT_CLASSES.index(name)
+        return found[mesh.first]
+
+    def point_regions(self) -> NDArray[np.int32]:
+        """(n,) the first region that each point is a vertex of, from 0; -1 if there is none."""
+        mesh, none = self.family.mesh, np.iinfo(np.int32).max
+        found = np.full(len(self.points), none, dtype=np.int32)
+        inside = self.inside
+        np.minimum.at(found, mesh.triangles[inside], self.region[inside][:, None])
+        found[found == none] = -1
+        return found[mesh.first]
+
+    @property
+    def isolated(self) -> NDArray[np.int32]:
+        """Points on no edge of the shape: 0-based, the first of each place."""
+        mesh = self.family.mesh
+        is_first = mesh.first == np.arange(len(mesh.first))
+        return np.flatnonzero((self.point_classes() == 0) & is_first).astype(np.int32)
+
+    @property
+    def hole_count(self) -> int:
+        """Holes of all polygons."""
+        return int((self.polygons.ring_kind == HOLE).sum())
+
+    def holes_of_regions(self) -> NDArray[np.int64]:
+        """(regions,) number of holes of each polygon."""
+        holes = self.polygons.ring_polygon[self.polygons.ring_kind == HOLE]
+        return np.bincount(holes, minlength=self.region_count)

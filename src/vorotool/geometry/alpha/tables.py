@@ -1,0 +1,183 @@
+"""Tables of alpha shapes and of their family, in labels."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.alpha.complex import CLASSES, AlphaComplex
+from vorotool.geometry.alpha.shape import POINT_CLASSES, AlphaShape
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.table import Lookup, Table
+
+
+def shape_edge_table(shape: AlphaShape, *, interior: bool = False) -> Table:
+    """Give one row an edge of a shape, in the order of the family.
+
+    Parameters
+    ----------
+    shape : AlphaShape
+        Whose edges.
+    interior : bool
+        Interior edges too, not only singular and boundary ones.
+
+    Returns
+    -------
+    Table
+        ``label_a, label_b, x_a, y_a, x_b, y_b, length, r_min, r_max, class``; an infinite r_max is missing.
+
+    Examples
+    --------
+    >>> from vorotool import alpha_shape
+    >>> table = shape_edge_table(alpha_shape([[0, 0], [4, 0], [0, 3]], r=2))
+    >>> table["label_a"].tolist(), table["r_max"].tolist(), table["class"]
+    ([1, 1], [inf, inf], ['singular', 'singular'])
+    """
+    family = shape.family
+    classes = shape.edge_classes()
+    chosen = np.flatnonzero(classes).astype(np.int32) if interior else shape.edge_index
+    a, b = np.ascontiguousarray(family.edges[chosen].T)
+    x, y = np.ascontiguousarray(family.points.T)
+    labels = family.mesh.label_array
+    return Table(
+        {
+            "label_a": Lookup(labels, a),
+            "label_b": Lookup(labels, b),
+            "x_a": Lookup(x, a),
+            "y_a": Lookup(y, a),
+            "x_b": Lookup(x, b),
+            "y_b": Lookup(y, b),
+            "length": family.lengths()[chosen],
+            "r_min": family.r_min[chosen],
+            "r_max": family.r_max[chosen],
+            "class": _named(CLASSES, classes[chosen]),
+        }
+    )
+
+
+def family_table(family: AlphaComplex) -> Table:
+    """Give one row a Delaunay edge: the radii at which it enters, bounds a triangle, and goes inside.
+
+    Returns
+    -------
+    Table
+        ``label_a, label_b, r_min, r_mid, r_max``; infinite radii are missing.
+
+    Examples
+    --------
+    >>> from vorotool import alpha_complex
+    >>> family_table(alpha_complex([[0, 0], [4, 0], [0, 3]]))["r_mid"].tolist()
+    [2.5, 2.5, 2.5]
+    """
+    labels = family.mesh.label_array
+    a, b = np.ascontiguousarray(family.edges.T)
+    return Table(
+        {
+            "label_a": Lookup(labels, a),
+            "label_b": Lookup(labels, b),
+            "r_min": family.r_min,
+            "r_mid": family.r_mid,
+            "r_max": family.r_max,
+        }
+    )
+
+
+def shape_point_table(shape: AlphaShape) -> Table:
+    """Give one row a point, in the order of the input.
+
+    Returns
+    -------
+    Table
+        ``label, x, y, class, region``: isolated, singular (on edges without a triangle), boundary or interior, and the
+        first region that has the point, from 1; it is missing where there is none. Then the input's own columns.
+
+    Examples
+    --------
+    >>> from vorotool import alpha_shape
+    >>> table = shape_point_table(alpha_shape([[0, 0], [4, 0], [0, 3], [9, 9]], r=2.5))
+    >>> table["class"], table["region"].tolist()
+    (['boundary', 'boundary', 'boundary', 'isolated'], [1, 1, 1, None])
+    """
+    mesh = shape.family.mesh
+    x, y = np.ascontiguousarray(mesh.points.T)
+    region = shape.point_regions()
+    table = Table(
+        {
+            "label": mesh.label_array,
+            "x": x,
+            "y": y,
+            "class": _named(POINT_CLASSES, shape.point_classes()),
+            "region": np.ma.array(region + 1, mask=region < 0),
+        }
+    )
+    return table.with_properties(mesh.properties)
+
+
+def region_table(shape: AlphaShape) -> Table:
+    """Give one row a region of a shape.
+
+    Returns
+    -------
+    Table
+        ``region, area, perimeter, holes, points, triangles, bbox_x, bbox_y, bbox_w, bbox_h``: regions are numbered from
+        1, holes are those of its polygon, points are its vertices.
+
+    Examples
+    --------
+    >>> from vorotool import alpha_shape
+    >>> table = region_table(alpha_shape([[0, 0], [4, 0], [0, 3]], r=2.5))
+    >>> table["area"].tolist(), table["perimeter"].tolist(), table["points"].tolist()
+    ([6.0], [12.0], [3])
+    """
+    inside, count = shape.inside, shape.region_count
+    of = shape.region[inside]
+    corners = shape.family.mesh.triangles[inside]
+    pairs = np.unique(of.astype(np.int64).repeat(3) << 32 | corners.reshape(-1))
+    places = shape.points[corners]
+    low, high = np.full((count, 2), np.inf), np.full((count, 2), -np.inf)
+    np.minimum.at(low, of, places.min(axis=1))
+    np.maximum.at(high, of, places.max(axis=1))
+    return Table(
+        {
+            "region": np.arange(1, count + 1),
+            "area": shape.region_areas(),
+            "perimeter": _perimeters(shape),
+            "holes": shape.holes_of_regions(),
+            "points": np.bincount(pairs >> 32, minlength=count),
+            "triangles": np.bincount(of, minlength=count),
+            "bbox_x": low[:, 0],
+            "bbox_y": low[:, 1],
+            "bbox_w": high[:, 0] - low[:, 0],
+            "bbox_h": high[:, 1] - low[:, 1],
+        }
+    )
+
+
+def _perimeters(shape: AlphaShape) -> NDArray[np.float64]:
+    boundary = shape.edge_index[shape.kind == CLASSES.index("boundary")]
+    region = np.append(shape.region, np.int32(-1))[shape.family.sides[boundary]].max(axis=1)
+    lengths = shape.family.lengths()[boundary]
+    return np.bincount(region, lengths, shape.region_count).astype(np.float64)
+
+
+def _named(names: tuple[str, ...], numbers: NDArray[np.uint8]) -> list[str]:
+    return [names[number] for number in numbers.tolist()]
+
+
+def described_polygons(shape: AlphaShape) -> PolygonSet:
+    """Give the polygons of a shape with the area, the perimeter and the number of holes of each.
+
+    Examples
+    --------
+    >>> from vorotool import alpha_shape
+    >>> described_polygons(alpha_shape([[0, 0], [4, 0], [0, 3]], r=2.5)).properties
+    {'area': [6.0], 'perimeter': [12.0], 'holes': [0]}
+    """
+    described = {
+        "area": shape.region_areas().tolist(),
+        "perimeter": _perimeters(shape).tolist(),
+        "holes": shape.holes_of_regions().tolist(),
+    }
+    return replace(shape.polygons, properties=described)

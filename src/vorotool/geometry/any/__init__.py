@@ -1,0 +1,1 @@
+"""Functions over all result types (scaled, table)."""

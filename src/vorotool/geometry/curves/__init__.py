@@ -1,0 +1,1 @@
+"""Circular and parabolic arcs, flattening, bit-stable inverse functions."""

@@ -1,0 +1,1 @@
+"""Triangulations, cells, digital triangulations and their tables."""

@@ -1,0 +1,182 @@
+"""Voronoi cells of points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.geometry.box import Box
+from vorotool.geometry.checks import set_rows
+from vorotool.geometry.curves.inverse_functions import hypotenuse
+
+
+class Nesting(NamedTuple):
+    """Where the vertices of each ring begin, the rings of each polygon, the polygons of each cell; and the ends."""
+
+    rings: NDArray[np.int64]
+    polygons: NDArray[np.int64]
+    cells: NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class CellSet:
+    """The Voronoi cells of points, clipped: one a point, in the order of the points.
+
+    A cell that meets its frame nowhere, or in no area, is empty; so is that of a point which lies on an earlier one.
+
+    Parameters
+    ----------
+    sites : (n, 2) float64 array
+        The points.
+    coordinates : (k, 2) float64 array
+        Vertices, ring after ring; the first of a ring is not repeated. Shells are counter-clockwise (a positive
+        shoelace sum), holes clockwise.
+    starts : (r + 1,) int64 array
+        Where each ring begins in `coordinates`, and the end.
+    frame : Box
+        What the cells were clipped to.
+    polygon_starts : (p + 1,) int64 array, optional
+        The first ring, its shell, of each polygon. Without it ring i is cell i: cells are convex, r = n.
+    cell_starts : (n + 1,) int64 array, optional
+        The first polygon of each cell; along with `polygon_starts`.
+    labels : (n,) int64 array, optional
+        The input's own labels. Without them point i has label i + 1.
+    properties : dict of str to sequence, optional
+        Further columns of the input, one value a point.
+    y_up : bool
+        Pictures of this input are drawn y upwards.
+    crs : object, optional
+        The ``crs`` member of a GeoJSON input.
+
+    Raises
+    ------
+    InputError
+        If the arrays do not go together.
+
+    Examples
+    --------
+    >>> cells = CellSet([[1, 1], [3, 1]], [[0, 0], [2, 0], [2, 2], [0, 2], [2, 0], [4, 0], [4, 2], [2, 2]], [0, 4, 8],
+    ...                 Box(0, 0, 4, 2))
+    >>> len(cells), cells.areas().tolist(), cells.perimeters().tolist()
+    (2, [4.0, 4.0], [8.0, 8.0])
+    >>> cells.to_shapely()[1].wkt
+    'POLYGON ((2 0, 4 0, 4 2, 2 2, 2 0))'
+    """
+
+    sites: NDArray[np.float64]
+    coordinates: NDArray[np.float64]
+    starts: NDArray[np.int64]
+    frame: Box
+    polygon_starts: NDArray[np.int64] | None = None
+    cell_starts: NDArray[np.int64] | None = None
+    labels: NDArray[np.int64] | None = None
+    properties: dict[str, Any] = field(default_factory=dict)
+    y_up: bool = False
+    crs: Any = None
+
+    def __post_init__(self) -> None:
+        for name in ("sites", "coordinates"):
+            set_rows(self, name, np.float64, 2)
+        if (self.polygon_starts is None) != (self.cell_starts is None):
+            raise InputError("polygon_starts and cell_starts go together: give both or none")
+        count = len(self.coordinates)
+        for name in ("starts", "polygon_starts", "cell_starts"):
+            if getattr(self, name) is not None:
+                object.__setattr__(self, name, _checked_starts(getattr(self, name), count, name))
+                count = len(getattr(self, name)) - 1
+        if count != len(self.sites):
+            raise InputError(f"there are {count} cells, but {len(self.sites)} sites: give one cell a site")
+
+    def __len__(self) -> int:
+        return len(self.sites)
+
+    @property
+    def label_array(self) -> NDArray[np.int64]:
+        """(n,) labels: the input's own, else 1 to n."""
+        if self.labels is not None:
+            return self.labels
+        return np.arange(1, len(self) + 1, dtype=np.int64)
+
+    @property
+    def nesting(self) -> Nesting:
+        """Rings, polygons and cells by where each begins; no ring, and no polygon, is empty."""
+        if self.polygon_starts is not None and self.cell_starts is not None:
+            return Nesting(self.starts, self.polygon_starts, self.cell_starts)
+        kept = np.diff(self.starts) > 0
+        rings = np.concatenate([self.starts[:-1][kept], self.starts[-1:]])
+        cells = np.concatenate([[0], np.cumsum(kept)]).astype(np.int64)
+        return Nesting(rings, np.arange(len(rings), dtype=np.int64), cells)
+
+    @property
+    def is_empty(self) -> NDArray[np.bool_]:
+        """(n,) whether each cell is empty."""
+        empty: NDArray[np.bool_] = np.diff(self.starts if self.cell_starts is None else self.cell_starts) == 0
+        return empty
+
+    def areas(self) -> NDArray[np.float64]:
+        """(n,) areas of the cells, 0 of empty ones.
+
+        The error is about 1e-15 times the square of a ring's diameter.
+        """
+        rings = self.nesting.rings
+        left, bottom, right, top = self.frame.sides
+        exponent = int(np.frexp(max(right / 2 - left / 2, top / 2 - bottom / 2))[1])  # products do not overflow
+        start = np.repeat(self.coordinates[rings[:-1]], np.diff(rings), axis=0)
+        x, y = np.ldexp(self.coordinates - start, -exponent).T
+        following = _following(rings)
+        with np.errstate(over="ignore"):
+            return np.ldexp(self._sum(x * y[following] - x[following] * y), 2 * exponent - 1)
+
+    def perimeters(self) -> NDArray[np.float64]:
+        """(n,) lengths of the boundaries, those of holes included; 0 of empty cells."""
+        with np.errstate(over="ignore"):  # beyond the largest double: infinite
+            step = self.coordinates[_following(self.nesting.rings)] - self.coordinates
+            return self._sum(hypotenuse(step[:, 0], step[:, 1]))
+
+    def cell_of_vertices(self) -> NDArray[np.int64]:
+        """(n + 1,) where the vertices of each cell begin in `coordinates`, and the end."""
+        rings, polygons, cells = self.nesting
+        starts: NDArray[np.int64] = rings[polygons[cells]]
+        return starts
+
+    def to_shapely(self) -> NDArray[Any]:
+        """(n,) shapely geometries: polygons, multipolygons where a cell has several parts, empty polygons."""
+        import shapely
+
+        rings, polygons, cells = self.nesting
+        closed = np.insert(self.coordinates, rings[1:], self.coordinates[rings[:-1]], axis=0)
+        rings = rings + np.arange(len(rings))
+        parts = shapely.from_ragged_array(shapely.GeometryType.POLYGON, closed, (rings, polygons))
+        sizes = np.diff(cells)
+        result = np.full(len(self), shapely.Polygon(), dtype=object)
+        result[sizes == 1] = parts[cells[:-1][sizes == 1]]
+        for i in np.flatnonzero(sizes > 1):
+            result[i] = shapely.MultiPolygon(list(parts[cells[i] : cells[i + 1]]))
+        return result
+
+    def _sum(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Sums over the vertices of each cell."""
+        starts = self.cell_of_vertices()
+        sums = np.zeros(len(self))
+        kept = np.diff(starts) > 0
+        if kept.any():
+            sums[kept] = np.add.reduceat(values, starts[:-1][kept])
+        return sums
+
+
+def _following(rings: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Index of the vertex after each, in its ring."""
+    following = np.arange(1, rings[-1] + 1, dtype=np.int64)
+    following[rings[1:] - 1] = rings[:-1]
+    return following
+
+
+def _checked_starts(values: Any, count: int, name: str) -> NDArray[np.int64]:
+    array = np.ascontiguousarray(values, dtype=np.int64)
+    if array.ndim != 1 or not len(array) or array[0] != 0 or array[-1] != count or (np.diff(array) < 0).any():
+        raise InputError(f"{name} must increase from 0 to {count}, the number of what it divides")
+    return array

@@ -1,0 +1,110 @@
+"""What a digital tessellation shows of a triangulation: edges and triangles that need not fit together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.geometry.checks import check_as_long
+from vorotool.geometry.mesh.triangulation import ALL, Triangulation, lengths_of
+
+
+@dataclass(frozen=True, eq=False)
+class DigitalTriangulation:
+    """Edges and triangles read off a label image by the rule of section 2.1; indices are 0-based and of type int32.
+
+    This is no `Triangulation`: triangles may overlap or be flat, and a side of a triangle need not be an edge.
+
+    Parameters
+    ----------
+    points : (n, 2) float64 array
+        Position of each region's site: the seed, or the centroid of an object; in increasing order of labels.
+    edges : (e, 2) int32 array
+        Regions that share a pixel side, the smaller index first, in lexicographic order.
+    triangles : (t, 3) int32 array
+        Regions of a pixel and two of its 4-neighbours that are 8-neighbours of each other: the smallest index first,
+        then counter-clockwise (collinear sites: in increasing order), in lexicographic order of the sorted indices.
+    at_four : (t,) bool array
+        Whether the triangle was found at a corner where four labels meet. All four triples of these are triangles.
+    labels : (n,) int64 array
+        Label of each region.
+    three_label_corners, four_label_corners : int
+        Corners of the pixel lattice at which so many labels meet.
+    properties : dict of str to sequence, optional
+        Further columns of the input, one value a site.
+    y_up : bool
+        Pictures of this input are drawn y upwards.
+    crs : object, optional
+        The ``crs`` member of a GeoJSON input.
+
+    Raises
+    ------
+    InputError
+        If an array has another shape.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 2.1.
+
+    Examples
+    --------
+    >>> points, edges = [[0, 0], [3, 0], [0, 3]], [[0, 1], [0, 2], [1, 2]]
+    >>> corner = DigitalTriangulation(points, edges, [[0, 1, 2]], [False], [1, 2, 3])
+    >>> len(corner), corner.sides().tolist()
+    (1, [[0, 1], [0, 2], [1, 2]])
+    """
+
+    points: NDArray[np.float64]
+    edges: NDArray[np.int32]
+    triangles: NDArray[np.int32]
+    at_four: NDArray[np.bool_]
+    labels: NDArray[np.int64]
+    three_label_corners: int = 0
+    four_label_corners: int = 0
+    properties: dict[str, Any] = field(default_factory=dict)
+    y_up: bool = False
+    crs: Any = None
+
+    def __post_init__(self) -> None:
+        kinds = {
+            "points": (np.float64, (-1, 2)),
+            "edges": (np.int32, (-1, 2)),
+            "triangles": (np.int32, (-1, 3)),
+            "at_four": (np.bool_, (-1,)),
+            "labels": (np.int64, (-1,)),
+        }
+        for name, (dtype, shape) in kinds.items():
+            array: NDArray[Any] = np.ascontiguousarray(getattr(self, name), dtype=dtype)
+            if array.size == 0:
+                array = array.reshape((0, *shape[1:]))
+            if array.ndim != len(shape) or array.shape[1:] != shape[1:]:
+                raise InputError(f"{name} must have shape {('n', *shape[1:])}, but has shape {array.shape}")
+            object.__setattr__(self, name, array)
+        check_as_long(self, "labels", "points")
+        check_as_long(self, "at_four", "triangles")
+
+    def __len__(self) -> int:
+        return len(self.triangles)
+
+    @property
+    def label_array(self) -> NDArray[np.int64]:
+        """(n,) labels of the regions."""
+        return self.labels
+
+    def edge_lengths(self, rows: slice = ALL) -> NDArray[np.float64]:
+        """(e,) distances between the sites of the edges, or of some of them."""
+        return lengths_of(self.points, self.edges[rows])
+
+    def sides(self) -> NDArray[np.int32]:
+        """(s, 2) sides of the triangles, each once, the smaller index first, in lexicographic order."""
+        pairs = self.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+        sides: NDArray[np.int32] = np.unique(np.sort(pairs, axis=1), axis=0)
+        return sides
+
+
+AnyTriangulation = Triangulation | DigitalTriangulation
+"""What has points, edges and triangles to write or draw, whether or not these fit together."""

@@ -1,0 +1,113 @@
+"""Tables of a triangulation: its edges, triangles and points, in labels."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
+from vorotool.geometry.mesh.triangulation import Triangulation
+from vorotool.geometry.table import Computed, Lookup, Table
+
+
+def edge_table(mesh: AnyTriangulation) -> Table:
+    """Give one row an edge: its labels, its ends and its length.
+
+    Parameters
+    ----------
+    mesh : Triangulation or DigitalTriangulation
+        Rows are in the order of its edges, ends as there.
+
+    Returns
+    -------
+    Table
+        ``label_a, label_b, x_a, y_a, x_b, y_b, length``; coordinates and lengths in input units.
+
+    Examples
+    --------
+    >>> from vorotool import delaunay
+    >>> table = edge_table(delaunay([[0, 0], [4, 0], [0, 3]]))
+    >>> table["label_a"].tolist(), table["label_b"].tolist(), table["length"].tolist()
+    ([1, 1, 2], [3, 2, 3], [3.0, 4.0, 5.0])
+    """
+    a, b = mesh.edges.T
+    x, y = _columns(mesh.points)
+    labels = mesh.label_array
+    return Table(
+        {
+            "label_a": Lookup(labels, a),
+            "label_b": Lookup(labels, b),
+            "x_a": Lookup(x, a),
+            "y_a": Lookup(y, a),
+            "x_b": Lookup(x, b),
+            "y_b": Lookup(y, b),
+            "length": Computed(mesh.edge_lengths, len(mesh.edges)),
+        }
+    )
+
+
+def triangle_table(mesh: AnyTriangulation) -> Table:
+    """Give one row a triangle: its labels, counter-clockwise.
+
+    Parameters
+    ----------
+    mesh : Triangulation or DigitalTriangulation
+        Rows are in the order of its triangles, vertices as there.
+
+    Returns
+    -------
+    Table
+        ``label_a, label_b, label_c``.
+
+    Examples
+    --------
+    >>> from vorotool import delaunay
+    >>> {name: column.tolist() for name, column in triangle_table(delaunay([[0, 0], [4, 0], [0, 3]])).items()}
+    {'label_a': [1], 'label_b': [2], 'label_c': [3]}
+    """
+    labels = mesh.label_array
+    return Table({f"label_{name}": Lookup(labels, mesh.triangles[:, k]) for k, name in enumerate("abc")})
+
+
+def point_table(mesh: Triangulation) -> Table:
+    """Give one row a point, in the order of the input.
+
+    Parameters
+    ----------
+    mesh : Triangulation
+        Its properties are the further columns.
+
+    Returns
+    -------
+    Table
+        ``label, x, y, neighbours, on_hull, duplicate_of_label``: edges that end at the point, whether it is on the
+        hull, and the label of the first point of the same place. Of a point that lies on an earlier one the second
+        and third do not exist, of the others the last.
+
+    Examples
+    --------
+    >>> from vorotool import delaunay
+    >>> point_table(delaunay([[0, 0], [4, 0], [0, 3], [1, 1]]))["neighbours"].tolist()
+    [3, 3, 3, 3]
+    """
+    count = len(mesh.points)
+    is_duplicate = mesh.first != np.arange(count)
+    on_hull = np.zeros(count, dtype=bool)
+    on_hull[mesh.hull] = True
+    labels = mesh.label_array
+    table = Table(
+        {
+            "label": labels,
+            "x": mesh.points[:, 0],
+            "y": mesh.points[:, 1],
+            "neighbours": np.ma.array(np.bincount(mesh.edges.reshape(-1), minlength=count), mask=is_duplicate),
+            "on_hull": np.ma.array(on_hull, mask=is_duplicate),
+            "duplicate_of_label": np.ma.array(labels[mesh.first], mask=~is_duplicate),
+        }
+    )
+    return table.with_properties(mesh.properties)
+
+
+def _columns(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(2, n) coordinates, each column contiguous."""
+    return np.ascontiguousarray(points.T)

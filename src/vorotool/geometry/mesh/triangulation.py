@@ -1,0 +1,244 @@
+"""A Delaunay triangulation of points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+from math import sqrt
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.checks import check_as_long, set_rows
+from vorotool.geometry.curves.inverse_functions import hypotenuse
+from vorotool.geometry.numbers import nearest_double
+
+FLAT = 2.0**-20
+"""Triangles whose largest angle has a smaller sine are computed in rationals: floating point would lose half."""
+
+
+ALL = slice(None)
+
+CHUNK = 1 << 14
+"""Edges that are measured at a time, so that their ends stay in the cache."""
+
+
+@dataclass(frozen=True, eq=False)
+class Triangulation:
+    """Triangles, edges and hull of points; indices are 0-based and of type int32.
+
+    The order of triangles and edges is that of a Morton curve through the points: it depends on where they are, not on
+    how they are numbered. Triangles and edges come with their vertex that is earliest on the curve, counter-clockwise
+    around it from its earliest neighbour; a triangle begins with that vertex. Collinear points, and fewer than three,
+    have no triangles: their edges are a chain. Each cocircular polygon is a fan from its lexicographically smallest
+    vertex.
+
+    Parameters
+    ----------
+    points : (n, 2) float64 array
+        Coordinates, in the order of the input; finite.
+    triangles : (t, 3) int32 array
+        Vertices of each triangle, counter-clockwise: a positive shoelace sum on the coordinates as stored.
+    neighbours : (t, 3) int32 array
+        The triangle across the edge opposite to each vertex, -1 on the hull.
+    edges : (e, 2) int32 array
+        Ends of each edge, the smaller index first.
+    hull : (h,) int32 array
+        Vertices on the hull, those inside its sides too, counter-clockwise from the lexicographically smallest; the
+        whole chain if there are no triangles.
+    first : (n,) int32 array
+        For each point the first one at the same place: itself unless it is a duplicate. Duplicates are in no triangle.
+    labels : (n,) int64 array, optional
+        The input's own labels. Without them point i has label i + 1.
+    properties : dict of str to sequence, optional
+        Further columns of the input, one value a point.
+    y_up : bool
+        Pictures of this input are drawn y upwards.
+    crs : object, optional
+        The ``crs`` member of a GeoJSON input.
+    first_number : {1, 0}
+        Number of the first point in files of Triangle: that in the ``.node`` file that the points come from.
+
+    Raises
+    ------
+    InputError
+        If an array has another shape.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 2.1.
+
+    Examples
+    --------
+    >>> triangle = Triangulation([[0, 0], [4, 0], [0, 3]], [[0, 1, 2]], [[-1, -1, -1]], [[0, 1], [0, 2], [1, 2]],
+    ...                          [0, 1, 2], [0, 1, 2])
+    >>> triangle.circumcentres().tolist(), triangle.circumradii().tolist(), triangle.areas().tolist()
+    ([[2.0, 1.5]], [2.5], [6.0])
+    """
+
+    points: NDArray[np.float64]
+    triangles: NDArray[np.int32]
+    neighbours: NDArray[np.int32]
+    edges: NDArray[np.int32]
+    hull: NDArray[np.int32]
+    first: NDArray[np.int32]
+    labels: NDArray[np.int64] | None = None
+    properties: dict[str, Any] = field(default_factory=dict)
+    y_up: bool = False
+    crs: Any = None
+    first_number: int = 1
+
+    def __post_init__(self) -> None:
+        columns = {"points": 2, "triangles": 3, "neighbours": 3, "edges": 2, "hull": 0, "first": 0}
+        for name, width in columns.items():
+            set_rows(self, name, np.float64 if name == "points" else np.int32, width)
+        check_as_long(self, "neighbours", "triangles")
+        check_as_long(self, "first", "points")
+
+    def __len__(self) -> int:
+        return len(self.triangles)
+
+    @property
+    def label_array(self) -> NDArray[np.int64]:
+        """(n,) labels: the input's own, else 1 to n."""
+        if self.labels is not None:
+            return self.labels
+        return np.arange(1, len(self.points) + 1, dtype=np.int64)
+
+    @property
+    def duplicates(self) -> int:
+        """Number of points that lie on an earlier one."""
+        return int(np.count_nonzero(self.first != np.arange(len(self.first))))
+
+    def edge_lengths(self, rows: slice = ALL) -> NDArray[np.float64]:
+        """(e,) lengths of the edges, or of some; relative error below 1e-15, infinite beyond the largest double."""
+        return lengths_of(self.points, self.edges[rows])
+
+    def hull_edges(self) -> NDArray[np.bool_]:
+        """(e,) whether each edge is a side of the hull; all are, where there is no triangle."""
+        if not len(self.triangles):
+            return np.ones(len(self.edges), dtype=bool)
+        onward = np.full(len(self.points), -1, dtype=np.int32)  # next vertex on the hull
+        onward[self.hull] = np.roll(self.hull, -1)
+        a, b = self.edges.T
+        found: NDArray[np.bool_] = (onward[a] == b) | (onward[b] == a)
+        return found
+
+    def circumcentres(self) -> NDArray[np.float64]:
+        """(t, 2) centres of the circles through the vertices of each triangle.
+
+        The error is at most about 1e-9 times the circumradius, nearly always about 1e-15 times, plus the rounding of
+        the result. A centre beyond the largest double is infinite.
+        """
+        return self._circles()[0]
+
+    def circumradii(self) -> NDArray[np.float64]:
+        """(t,) radii of these circles, with a relative error of at most about 1e-9, nearly always about 1e-15."""
+        return self._circles()[1]
+
+    def areas(self) -> NDArray[np.float64]:
+        """(t,) areas of the triangles, positive.
+
+        The error is about 1e-15 times the product of the two shorter sides; triangles flat beyond that are exact to
+        rounding.
+        """
+        _, b, c, _, exponent = self._corners()
+        cross, flat = _cross(b, c)
+        with np.errstate(over="ignore", under="ignore"):
+            areas = np.ldexp(0.5 * cross, 2 * exponent)
+        for t in np.flatnonzero(flat):
+            areas[t] = nearest_double(abs(_exact_cross(self.points[self.triangles[t]])) / 2)
+        return areas
+
+    def _circles(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        a, b, c, scale, exponent = self._corners()
+        cross, flat = _cross(b, c)
+        b2, c2 = (b * b).sum(axis=1), (c * c).sum(axis=1)
+        with np.errstate(all="ignore"):  # flat triangles divide by zero and are done again
+            x = (c[:, 1] * b2 - b[:, 1] * c2) / (2 * cross)
+            y = (b[:, 0] * c2 - c[:, 0] * b2) / (2 * cross)
+            centres = np.ldexp(np.ldexp(np.stack([x, y], axis=1), (exponent - scale)[:, None]) + a, scale)
+            radii = np.ldexp(hypotenuse(x, y), exponent)
+        for t in np.flatnonzero(flat):
+            centres[t], radii[t] = _exact_circle(self.points[self.triangles[t]])
+        return centres, radii
+
+    def _corners(self) -> tuple[NDArray[np.float64], ...]:
+        """The vertex opposite to the longest side (times 2^-scale), and the way to the others (times 2^-exponent).
+
+        From there the formulas are as well-conditioned as the triangle is; powers of two keep them within range.
+        """
+        scale = 4 if np.abs(self.points).max(initial=0.0) > 2.0**1000 else 0
+        corners = np.ldexp(self.points, -scale)[self.triangles]
+        sides = np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1)  # opposite to each vertex
+        largest = np.abs(sides).max(axis=(1, 2), initial=0.0)
+        exponent = np.frexp(largest)[1]
+        sides = np.ldexp(np.ldexp(sides, -(exponent // 2)[:, None, None]), (exponent // 2 - exponent)[:, None, None])
+        apex = (sides * sides).sum(axis=2).argmax(axis=1)
+        rows = np.arange(len(corners))
+        b, c = sides[rows, (apex + 2) % 3], -sides[rows, (apex + 1) % 3]
+        return corners[rows, apex], b, c, np.asarray(scale), exponent + scale
+
+
+def lengths_of(points: NDArray[np.float64], edges: NDArray[np.int32]) -> NDArray[np.float64]:
+    """(e,) distances between the ends of edges; relative error below 1e-15, infinite beyond the largest double.
+
+    Examples
+    --------
+    >>> lengths_of(np.array([[0.0, 0.0], [3.0, 4.0]]), np.array([[0, 1]])).tolist()
+    [5.0]
+    """
+    lengths = np.empty(len(edges))
+    for start in range(0, len(lengths), CHUNK):
+        ends = edges[start : start + CHUNK]
+        a, b = points.take(ends[:, 0], axis=0), points.take(ends[:, 1], axis=0)
+        lengths[start : start + CHUNK] = _distances(a, b)
+    return lengths
+
+
+def _distances(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Distances of pairs of points: square roots of sums of squares, scaled by powers of two out of their range.
+
+    From 2^-900 on no square that counts has lost a bit: one below 2^-1022 is less than 2^-100 of the sum.
+    """
+    with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+        way = b - a
+        square = way[:, 0] * way[:, 0] + way[:, 1] * way[:, 1]
+        found: NDArray[np.float64] = np.sqrt(square)
+        far = np.flatnonzero(~((square >= 2.0**-900) & (square < np.inf)))
+        if far.size:
+            shift = np.where(np.isfinite(way[far]).all(axis=1), 0, 2)
+            way = np.ldexp(b[far], -shift[:, None]) - np.ldexp(a[far], -shift[:, None])
+            exponent = np.frexp(np.abs(way).max(axis=1))[1]
+            way = np.ldexp(way, -exponent[:, None])
+            found[far] = np.ldexp(np.sqrt((way * way).sum(axis=1)), exponent + shift)
+    return found
+
+
+def _cross(b: NDArray[np.float64], c: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Twice the area of each triangle, and where cancellation makes it useless."""
+    left, right = b[:, 0] * c[:, 1], b[:, 1] * c[:, 0]
+    cross = left - right
+    return cross, ~(np.abs(cross) >= FLAT * (np.abs(left) + np.abs(right)))
+
+
+def _exact_cross(triangle: NDArray[np.float64]) -> Fraction:
+    (ax, ay), (bx, by), (cx, cy) = ((Fraction(x), Fraction(y)) for x, y in triangle.tolist())
+    return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+
+
+def _exact_circle(triangle: NDArray[np.float64]) -> tuple[tuple[float, float], float]:
+    """Centre and radius of one circle, from rationals."""
+    (ax, ay), (bx, by), (cx, cy) = ((Fraction(x), Fraction(y)) for x, y in triangle.tolist())
+    bx, by, cx, cy = bx - ax, by - ay, cx - ax, cy - ay
+    b2, c2, cross = bx * bx + by * by, cx * cx + cy * cy, bx * cy - by * cx
+    x, y = (cy * b2 - by * c2) / (2 * cross), (bx * c2 - cx * b2) / (2 * cross)
+    return (nearest_double(ax + x), nearest_double(ay + y)), _root(x * x + y * y)
+
+
+def _root(value: Fraction) -> float:
+    """The square root of a fraction of any size."""
+    shift = (value.numerator.bit_length() - value.denominator.bit_length()) // 2
+    reduced = sqrt(value / Fraction(4) ** shift)
+    return nearest_double(Fraction(reduced) * Fraction(2) ** shift)

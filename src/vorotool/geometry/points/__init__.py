@@ -1,0 +1,1 @@
+"""Point sets, seed sets, rasters, label images."""

@@ -1,0 +1,67 @@
+"""A label image: the result of a digital tessellation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.geometry.pixel_frame import Frame
+from vorotool.geometry.points.seed_set import SeedSet
+
+
+@dataclass(frozen=True)
+class LabelImage:
+    """Labels of the pixels of a frame.
+
+    Parameters
+    ----------
+    labels : (H, W) array of uint8, uint16, uint32 or int32
+        Label of each pixel; 0 where there is none.
+    frame : Frame, optional
+        Where the pixels lie; by default pixel (0, 0) is at the origin.
+    seeds : SeedSet, optional
+        The seeds that the labels come from.
+
+    Examples
+    --------
+    >>> LabelImage(np.array([[1, 1, 2]], dtype=np.uint16)).frame.shape
+    (1, 3)
+    """
+
+    labels: NDArray[Any]
+    frame: Frame | None = None
+    seeds: SeedSet | None = None
+
+    def __post_init__(self) -> None:
+        labels = self.labels
+        labels = labels.filled(0) if isinstance(labels, np.ma.MaskedArray) else np.asarray(labels)
+        if labels.ndim != 2 or labels.dtype.kind not in "ui":
+            raise InputError(f"labels must be a 2-D integer array, but are {labels.ndim}-D of type {labels.dtype}")
+        object.__setattr__(self, "labels", labels)
+        if self.frame is None:
+            object.__setattr__(self, "frame", Frame(0, 0, labels.shape[1], labels.shape[0]))
+        elif self.frame.shape != labels.shape:
+            raise InputError(f"labels have shape {labels.shape}, but the frame {self.frame.shape}")
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns."""
+        return (self.labels.shape[0], self.labels.shape[1])
+
+    def flipped(self) -> LabelImage:
+        """The image with its rows in reverse order, for pictures with y upwards; its seeds move along.
+
+        Examples
+        --------
+        >>> LabelImage(np.array([[1, 1], [2, 2]], dtype=np.uint16)).flipped().labels.tolist()
+        [[2, 2], [1, 1]]
+        """
+        seeds, frame = self.seeds, self.frame
+        if seeds is not None and frame is not None:
+            last = 2 * frame.y + frame.height - 1  # y of a seed becomes last - y
+            seeds = replace(seeds, y=last * seeds.scale - seeds.y)
+        return LabelImage(self.labels[::-1], frame, seeds)

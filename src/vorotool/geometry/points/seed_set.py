@@ -1,0 +1,100 @@
+"""Seeds: sites on the pixel lattice, or on a lattice up to 256 times finer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.geometry.checks import whole_numbers
+from vorotool.geometry.pixel_frame import Frame
+
+FINEST_SCALE = 256
+"""Lattice steps a pixel at most: coordinates are kept to 1/256 of a pixel."""
+
+
+@dataclass(frozen=True)
+class SeedSet:
+    """Generators of a digital Voronoi tessellation, several of which may share a label.
+
+    Parameters
+    ----------
+    x, y : (n,) int64 arrays
+        Coordinates in steps of 1 / ``scale`` pixel.
+    labels : (n,) uint32 array
+        Label of each seed, at least 1.
+    scale : int
+        Lattice steps a pixel: a power of two from 1 to 256, the smallest that holds the input.
+    frame : Frame, optional
+        The frame that the input brings along (an image's); points have none.
+    sites : (k, 2) float64 array
+        Position of each object in pixels: the point, or the centroid of a component or label.
+    site_labels : (k,) uint32 array
+        Label of each site, increasing.
+    object_area : (k,) int64 array, optional
+        Pixels of each object, for components and labels.
+    properties : dict of str to sequence
+        Further columns of the input, one value a site.
+    snapped : int
+        Seeds that were moved to the lattice.
+    largest_move : float
+        The largest of these moves, in pixels.
+
+    Raises
+    ------
+    InputError
+        If the shapes differ, a coordinate is no integer, or a label none from 1 to 4294967295.
+
+    Examples
+    --------
+    >>> seeds = SeedSet(np.array([0, 5]), np.array([0, 1]), np.array([1, 2]))
+    >>> seeds.scale, len(seeds)
+    (1, 2)
+    """
+
+    x: NDArray[np.int64]
+    y: NDArray[np.int64]
+    labels: NDArray[np.uint32]
+    scale: int = 1
+    frame: Frame | None = None
+    sites: NDArray[np.float64] | None = None
+    site_labels: NDArray[np.uint32] | None = None
+    object_area: NDArray[np.int64] | None = None
+    properties: dict[str, Any] = field(default_factory=dict)
+    snapped: int = 0
+    largest_move: float = 0.0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "x", whole_numbers(self.x, "x of seed", np.int64))
+        object.__setattr__(self, "y", whole_numbers(self.y, "y of seed", np.int64))
+        object.__setattr__(self, "labels", whole_numbers(self.labels, "label of seed", np.uint32, 1))
+        if not (self.x.shape == self.y.shape == self.labels.shape and self.x.ndim == 1):
+            raise InputError(
+                f"x, y and labels must be 1-D of one length, but have shapes {self.x.shape}, {self.y.shape}, "
+                f"{self.labels.shape}"
+            )
+        if self.scale not in (1, 2, 4, 8, 16, 32, 64, 128, 256):
+            raise InputError(f"scale is {self.scale}: it must be a power of two from 1 to {FINEST_SCALE}")
+        if self.sites is None:
+            order = np.argsort(self.labels, kind="stable")
+            labels, first = np.unique(self.labels[order], return_index=True)
+            chosen = order[first]
+            sites = np.stack([self.x[chosen], self.y[chosen]], axis=1) / self.scale
+            object.__setattr__(self, "sites", sites)
+            object.__setattr__(self, "site_labels", labels)
+
+    def __len__(self) -> int:
+        return len(self.x)
+
+    @property
+    def is_empty_image(self) -> bool:
+        """Whether these are the seeds of an image without foreground: no list of points brings a frame."""
+        return not len(self) and self.frame is not None
+
+    @property
+    def largest_label(self) -> int:
+        """The largest label, 0 for no seeds."""
+        return int(self.labels.max(initial=0))

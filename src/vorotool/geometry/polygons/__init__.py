@@ -1,0 +1,1 @@
+"""Polygon sets, repairs, conversion to shapely/GeoPandas, planar graphs."""

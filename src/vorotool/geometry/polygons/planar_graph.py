@@ -1,0 +1,153 @@
+"""The planar straight-line graph of polygons and lines on an integer lattice."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from vorotool.errors import InputError
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+
+REPAIRS = (
+    "repeated_vertices",
+    "touching_vertices",
+    "crossings",
+    "moved_edges",
+    "idle_segments",
+    "empty_polygons",
+)
+"""What is counted, in the order of the core: see `PlanarGraph.repairs`."""
+
+
+@dataclass(frozen=True, eq=False)
+class PlanarGraph:
+    """Distinct lattice points, and segments between them that meet at common ends only.
+
+    Lattice point (i, j) stands for ``origin + scale * (i, j)``, where ``scale`` is a power of two; |i| and |j| are
+    below 2^30. Segments and points are in the order of the input edges and vertices; crossings follow the vertices.
+
+    A face is a connected region between the segments. It lies in a polygon if it is inside the shell and in none of the
+    holes, each ring by the even-odd rule: twice covered by one ring is outside, a hole reaches nowhere beyond its
+    shell, and where holes overlap is a hole. Polygons may overlap: a face then lies in several of them. A hole whose
+    vertices are at one or two places is a point or a segment that its polygon lies around.
+
+    Parameters
+    ----------
+    points : (n, 2) int32 array
+        Lattice points, all different; every one is a site of the segment Voronoi diagram.
+    segments : (m, 2) int32 array
+        Ends of each segment, directed as the first edge that it is part of.
+    point_vertex : (n,) int32 array
+        The first vertex of the input at each point; -1 for a crossing of edges.
+    source_start : (m + 1,) int32 array
+        Where the edges of each segment begin in `source_edge`.
+    source_edge : (k,) int32 array
+        The edges of the input that a segment is part of, ascending. Edge k goes from vertex k of the input to the next
+        one of its ring.
+    segment_faces : (m, 2) int32 array
+        The faces left and right of each segment (as seen along it, y upwards). Face 0 is the unbounded one.
+    face_start : (f + 1,) int32 array
+        Where the polygons of each face begin in `face_polygon`.
+    face_polygon : (l,) int32 array
+        The polygons that each face lies in, ascending.
+    origin : tuple of float
+        The place of lattice point (0, 0).
+    scale : float
+        The step of the lattice in input units, a power of two.
+    largest_move : float
+        By how much a vertex or a point of an edge was moved at most, in input units, rounded up: 0 if nothing was.
+    repairs : dict of str to int
+        ``repeated_vertices``: edges without length, left out. ``touching_vertices``: a vertex inside an edge cuts it.
+        ``crossings``: places where edges cross, each now a point of the graph. ``moved_edges``: edges that are led
+        through neighbouring lattice points, by less than a step, since a crossing is on no lattice point.
+        ``idle_segments``: parts of edges that bound nothing, such as spikes, left out. ``empty_polygons``: polygons
+        without any inside.
+    polygons : PolygonSet, optional
+        The input.
+    vertices : (v, 2) int32 array, optional
+        Where the vertices of the input are on the lattice.
+    point_holes : (h, 3) int32 array, optional
+        Holes of one place where no segment ends: the point, the face that it is in, and the polygon.
+
+    Raises
+    ------
+    InputError
+        If an array has another shape.
+
+    Examples
+    --------
+    >>> square = PlanarGraph([[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1], [1, 2], [2, 3], [3, 0]], [0, 1, 2, 3],
+    ...     [0, 1, 2, 3, 4], [0, 1, 2, 3], [[1, 0]] * 4, [0, 0, 1], [0], origin=(10.0, 20.0), scale=0.5)
+    >>> square.coordinates().tolist()
+    [[10.0, 20.0], [10.5, 20.0], [10.5, 20.5], [10.0, 20.5]]
+    >>> square.faces, square.is_inside.tolist()
+    (2, [False, True])
+    """
+
+    points: NDArray[np.int32]
+    segments: NDArray[np.int32]
+    point_vertex: NDArray[np.int32]
+    source_start: NDArray[np.int32]
+    source_edge: NDArray[np.int32]
+    segment_faces: NDArray[np.int32]
+    face_start: NDArray[np.int32]
+    face_polygon: NDArray[np.int32]
+    origin: tuple[float, float] = (0.0, 0.0)
+    scale: float = 1.0
+    largest_move: float = 0.0
+    repairs: dict[str, int] = field(default_factory=lambda: dict.fromkeys(REPAIRS, 0))
+    polygons: PolygonSet | None = None
+    vertices: NDArray[np.int32] | None = None
+    point_holes: NDArray[np.int32] = field(default_factory=lambda: np.empty((0, 3), dtype=np.int32))
+
+    def __post_init__(self) -> None:
+        pairs = {"points", "segments", "segment_faces"}
+        for name in ("point_vertex", "source_start", "source_edge", "face_start", "face_polygon", *sorted(pairs)):
+            array = np.ascontiguousarray(getattr(self, name), dtype=np.int32)
+            if name in pairs and array.size == 0:
+                array = array.reshape(0, 2)
+            if array.ndim != 1 + (name in pairs) or (name in pairs and array.shape[1] != 2):
+                raise InputError(f"{name} must have shape {'(…, 2)' if name in pairs else '(…,)'}, not {array.shape}")
+            object.__setattr__(self, name, array)
+        lengths = (len(self.points), len(self.segments), len(self.segments))
+        if (len(self.point_vertex), len(self.segment_faces), len(self.source_start) - 1) != lengths:
+            raise InputError("the arrays of a planar graph have lengths that do not go together")
+
+    def __len__(self) -> int:
+        return len(self.segments)
+
+    @property
+    def faces(self) -> int:
+        """Number of faces, the unbounded one included."""
+        return len(self.face_start) - 1
+
+    @property
+    def is_inside(self) -> NDArray[np.bool_]:
+        """(f,) whether each face lies in any polygon."""
+        return np.diff(self.face_start) > 0
+
+    @property
+    def source_count(self) -> NDArray[np.int32]:
+        """(m,) number of input edges that each segment is part of."""
+        return np.diff(self.source_start)
+
+    def polygons_of(self, face: int) -> NDArray[np.int32]:
+        """Polygons that a face lies in, ascending."""
+        return self.face_polygon[self.face_start[face] : self.face_start[face + 1]]
+
+    def sources_of(self, segment: int) -> NDArray[np.int32]:
+        """Input edges that a segment is part of, ascending."""
+        return self.source_edge[self.source_start[segment] : self.source_start[segment + 1]]
+
+    def coordinates(self, points: ArrayLike | None = None) -> NDArray[np.float64]:
+        """Input coordinates of lattice points, by default of all points of the graph; each rounded once.
+
+        Parameters
+        ----------
+        points : (..., 2) array-like, optional
+            Lattice coordinates, which need not be whole.
+        """
+        lattice = np.asarray(self.points if points is None else points, dtype=np.float64)
+        return np.asarray(self.origin) + self.scale * lattice

@@ -1,0 +1,1 @@
+"""Segment diagrams, skeletons, arcs, branches, offsets and their tables."""

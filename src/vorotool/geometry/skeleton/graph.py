@@ -1,0 +1,125 @@
+"""A skeleton as a graph: nodes with places and radii, edges with lengths, radii and polylines."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import UsageError
+from vorotool.geometry.curves.flatten_tolerance import checked_flatten
+from vorotool.geometry.skeleton.skeleton import KINDS, SIDES, Skeleton
+from vorotool.geometry.skeleton.tables import branch_table, ids_of
+from vorotool.geometry.table import Lookup, Table
+
+BY = ("branch", "arc")
+
+
+@dataclass(frozen=True, eq=False)
+class SkeletonGraph:
+    """Nodes and edges of a skeleton; several edges may join the same nodes, and one may join a node with itself.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Of which.
+    nodes : (n,) int64 array
+        Its vertices that are nodes, ascending.
+    source, target : (e,) int64 array
+        The vertices at the ends of each edge.
+    edges : Table
+        ``branch`` or ``arc``, ``polygon``, ``id``, ``side``, ``kind``, ``length``, ``r_min``, ``r_max``, ``r_mean``.
+    points : (k, 2) float64 array
+        Places along the edges, from source to target, the ends included.
+    start : (e + 1,) int64 array
+        Where those of each edge begin.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> graph = skeleton_graph(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]]))
+    >>> len(graph.nodes), len(graph.source), graph.edges["r_max"].tolist()
+    (6, 5, [1.0, 1.0, 1.0, 1.0, 1.0])
+    """
+
+    skeleton: Skeleton
+    nodes: NDArray[np.int64]
+    source: NDArray[np.int64]
+    target: NDArray[np.int64]
+    edges: Table
+    points: NDArray[np.float64]
+    start: NDArray[np.int64]
+
+
+def skeleton_graph(skeleton: Skeleton, *, by: str = "branch", flatten: float | None = None) -> SkeletonGraph:
+    """Give the graph of a skeleton.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Which.
+    by : {"branch", "arc"}
+        What an edge is. Nodes are the ends of edges; a closed branch joins one of its vertices with itself.
+    flatten : float, optional
+        How far the polylines may be from parabolas; by default 1/4096 of the larger side of the bounds.
+
+    Raises
+    ------
+    UsageError
+        If edges are to be something else, or the tolerance is not positive.
+    """
+    if by not in BY:
+        raise UsageError(f"by is {by!r}: use {' or '.join(BY)}")
+    points, start = skeleton.flattened(checked_flatten(flatten, skeleton.polygons))
+    first = np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
+    if by == "arc":
+        first = np.arange(len(skeleton))
+    last = np.append(first[1:], len(skeleton))[: len(first)] - 1
+    source, target = skeleton.arcs[first, 0].astype(np.int64), skeleton.arcs[last, 1].astype(np.int64)
+    kept = np.ones(len(points), dtype=bool)  # inside an edge an arc's first point is the last one of the arc before
+    kept[start[:-1]] = False
+    kept[start[first]] = True
+    number = np.concatenate([[0], np.cumsum(kept)])
+    return SkeletonGraph(
+        skeleton,
+        np.unique(np.concatenate([source, target])),
+        source,
+        target,
+        _branches(skeleton, first) if by == "branch" else _arcs(skeleton),
+        points[kept],
+        number[np.append(start[first], len(points))],
+    )
+
+
+def _branches(skeleton: Skeleton, first: NDArray[np.int64]) -> Table:
+    table = branch_table(skeleton, threads=1)
+    names = ("branch", "polygon", "id", "kind", "length", "r_min", "r_max", "r_mean")
+    columns = {name: table.stored()[name] for name in names}
+    return Table({"branch": columns.pop("branch"), "side": _sides(skeleton, first), **columns})
+
+
+def _arcs(skeleton: Skeleton) -> Table:
+    least, most, integral = skeleton.arc_radii
+    radius = skeleton.radius[skeleton.arcs[:, 0]]
+    mean = np.divide(integral, skeleton.length, out=radius, where=skeleton.length > 0)
+    polygon = skeleton.polygon
+    return Table(
+        {
+            "arc": np.arange(len(skeleton)),
+            "branch": skeleton.branch,
+            "side": _sides(skeleton, np.arange(len(skeleton))),
+            "polygon": np.ma.array(polygon, mask=polygon < 0),
+            "id": ids_of(skeleton.polygons, polygon),
+            "kind": Lookup(list(KINDS), skeleton.is_parabola.astype(np.int32)),
+            "length": skeleton.length,
+            "r_min": least,
+            "r_max": most,
+            "r_mean": mean,
+        }
+    )
+
+
+def _sides(skeleton: Skeleton, arcs: NDArray[np.int64]) -> Lookup:
+    side = skeleton.side[arcs]
+    return Lookup([*SIDES, None], np.where(side < 0, len(SIDES), side).astype(np.int32))

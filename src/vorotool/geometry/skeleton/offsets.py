@@ -1,0 +1,247 @@
+"""Curves at a distance from polygons and lines: rings of straight lines and circular arcs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.geometry.checks import set_array
+from vorotool.geometry.curves.circular_arcs import chords_of
+from vorotool.geometry.curves.inverse_functions import inverse_sine
+from vorotool.geometry.numbers import nearest_double, real_number, shown_number
+from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
+from vorotool.geometry.skeleton.skeleton import SiteTable
+from vorotool.geometry.table import Lookup, Table
+
+PIECE_KINDS = ("line", "arc")
+RING_KINDS = ("shell", "hole")
+
+
+@dataclass(frozen=True, eq=False)
+class Offsets:
+    """Shapes bounded by offset curves, distance by distance, each a shell and holes.
+
+    At a distance d > 0 a shape is what is no farther than d from the polygons and lines; at d < 0 what lies in a
+    polygon, farther than -d from all of them. The pieces of a ring follow one another, each from the end of the one
+    before, with the shape on their left: shells go counter-clockwise (y upwards), holes clockwise; all arcs turn
+    counter-clockwise where d > 0, else clockwise.
+
+    Parameters
+    ----------
+    start, end : (k, 2) float64 array
+        Ends of the pieces, in input units.
+    centre : (k, 2) float64 array
+        Of the circle of each arc, which is at most half of it; NaN on straight lines.
+    site : (k,) int32 array
+        The site that each piece is at the distance from, a row of `site_table`: an edge of a line, a vertex of an arc.
+    ring_start : (q + 1,) int64 array
+        The first piece of each ring, and k.
+    shape_start : (s + 1,) int64 array
+        The first ring of each shape, its shell, and q.
+    distance : (s,) float64 array
+        Of each shape.
+    polygon : (s,) int32 array
+        The polygon that each is around or in, the first one of several that share it, or of several parts of a feature
+        that it is around; -1 around several features.
+    site_table : SiteTable
+        Vertices and edges of `polygons`.
+    polygons : PolygonSet
+        As they were used: placed, and cut where they meet, each feature by itself or all together.
+    features : {"separate", "together"}
+        Whether what is inside a feature is what it would be if there were no others; see `vorotool.Skeleton`.
+
+    Raises
+    ------
+    InputError
+        If an array has another shape.
+
+    Examples
+    --------
+    >>> from vorotool import offset
+    >>> made = offset([[0, 0], [4, 0], [4, 2], [0, 2]], [-0.5, 1])
+    >>> made.distance.tolist(), np.diff(made.ring_start).tolist(), made.area.round(6).tolist()
+    ([-0.5, 1.0], [4, 8], [3.0, 23.141593])
+    """
+
+    start: NDArray[np.float64]
+    end: NDArray[np.float64]
+    centre: NDArray[np.float64]
+    site: NDArray[np.int32]
+    ring_start: NDArray[np.int64]
+    shape_start: NDArray[np.int64]
+    distance: NDArray[np.float64]
+    polygon: NDArray[np.int32]
+    site_table: SiteTable
+    polygons: PolygonSet
+    features: str = "separate"
+
+    def __post_init__(self) -> None:
+        pieces, rings, shapes = len(self.site), len(self.ring_start) - 1, len(self.shape_start) - 1
+        for name, dtype, shape in (
+            ("start", np.float64, (pieces, 2)),
+            ("end", np.float64, (pieces, 2)),
+            ("centre", np.float64, (pieces, 2)),
+            ("site", np.int32, (pieces,)),
+            ("ring_start", np.int64, (rings + 1,)),
+            ("shape_start", np.int64, (shapes + 1,)),
+            ("distance", np.float64, (shapes,)),
+            ("polygon", np.int32, (shapes,)),
+        ):
+            set_array(self, name, dtype, shape)
+        for name, last in (("ring_start", pieces), ("shape_start", rings)):
+            starts = getattr(self, name)
+            if starts[0] != 0 or starts[-1] != last or (np.diff(starts) < 1).any():
+                raise InputError(f"{name} must rise from 0 to {last}")
+
+    def __len__(self) -> int:
+        """Give the number of shapes."""
+        return len(self.distance)
+
+    @cached_property
+    def is_arc(self) -> NDArray[np.bool_]:
+        """(k,) whether each piece is a circular arc."""
+        return ~np.isnan(self.centre[:, 0])
+
+    @cached_property
+    def shape_of_ring(self) -> NDArray[np.int64]:
+        """(q,) the shape of each ring."""
+        return np.repeat(np.arange(len(self)), np.diff(self.shape_start))
+
+    @cached_property
+    def ring_of_piece(self) -> NDArray[np.int64]:
+        """(k,) the ring of each piece."""
+        return np.repeat(np.arange(len(self.shape_of_ring)), np.diff(self.ring_start))
+
+    @cached_property
+    def ring_kind(self) -> NDArray[np.int8]:
+        """(q,) `SHELL` or `HOLE`."""
+        kind = np.full(len(self.shape_of_ring), HOLE, dtype=np.int8)
+        kind[self.shape_start[:-1]] = SHELL
+        return kind
+
+    @cached_property
+    def piece_distance(self) -> NDArray[np.float64]:
+        """(k,) the distance of the shape of each piece; its magnitude is the radius of arcs."""
+        return self.distance[self.shape_of_ring][self.ring_of_piece]
+
+    @cached_property
+    def angle(self) -> NDArray[np.float64]:
+        """(k,) how far each arc turns, in radians, at most π; 0 for straight lines."""
+        chord = self.end - self.start
+        sine = np.sqrt((chord * chord).sum(axis=1)) / (2 * np.abs(self.piece_distance))
+        return np.where(self.is_arc, 2 * inverse_sine(sine), 0.0)
+
+    @cached_property
+    def length(self) -> NDArray[np.float64]:
+        """(k,) true lengths."""
+        chord = self.end - self.start
+        straight = np.sqrt((chord * chord).sum(axis=1))
+        return np.where(self.is_arc, self.angle * np.abs(self.piece_distance), straight)
+
+    @cached_property
+    def area(self) -> NDArray[np.float64]:
+        """(s,) areas: of the chords' polygons, and of the segments of circles outside, or inside them."""
+        first = self.start[self.ring_start[:-1]][self.ring_of_piece]
+        a, b = self.start - first, self.end - first
+        # sin x near 0 and π: by the chord and the height of its triangle
+        x, y = np.where(self.is_arc[:, None], self.start - self.centre, 0).T
+        u, v = np.where(self.is_arc[:, None], self.end - self.centre, 0).T
+        sector = self.piece_distance * np.abs(self.piece_distance) * self.angle - (x * v - y * u)
+        pieces = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0] + np.where(self.is_arc, sector, 0)) / 2
+        if not len(self):
+            return np.zeros(0)
+        areas: NDArray[np.float64] = np.add.reduceat(
+            np.add.reduceat(pieces, self.ring_start[:-1]), self.shape_start[:-1]
+        )
+        return areas
+
+    @property
+    def y_up(self) -> bool:
+        """Whether pictures are drawn y upwards."""
+        return self.polygons.y_up
+
+    def flattened(self, tolerance: float) -> PolygonSet:
+        """Shapes as polygons, arcs as chords between places on them.
+
+        Parameters
+        ----------
+        tolerance : float
+            How far a chord may be from its arc; none takes more than a quarter of a circle.
+
+        Returns
+        -------
+        PolygonSet
+            One polygon a shape, with the id and the properties of its polygon and its ``distance``.
+
+        Raises
+        ------
+        InputError
+            If the tolerance is not positive.
+        UsageError
+            If it is no number.
+        """
+        tolerance = nearest_double(real_number(tolerance, "the tolerance"))
+        if not tolerance > 0:
+            raise InputError(f"the tolerance is {shown_number(tolerance)}: it must be positive")
+        is_left = self.piece_distance > 0
+        xy, first = chords_of(self.start, self.end, self.centre, is_left, tolerance)
+        return PolygonSet(
+            xy,
+            first[self.ring_start],
+            self.ring_kind,
+            self.shape_of_ring,  # type: ignore[arg-type]
+            **self._described(),
+            y_up=self.polygons.y_up,
+            crs=self.polygons.crs,
+        )
+
+    def _described(self) -> dict[str, Any]:
+        """Ids and properties of the shapes: what is around several features has none."""
+        polygons, of = self.polygons, self.polygon.tolist()
+        name = "voro_distance" if "distance" in polygons.properties else "distance"
+        properties = {key: [values[p] if p >= 0 else None for p in of] for key, values in polygons.properties.items()}
+        ids = None if polygons.ids is None else [polygons.ids[p] if p >= 0 else None for p in of]
+        return {"ids": ids, "properties": {**properties, name: self.distance.tolist()}}
+
+    def table(self) -> Table:
+        """Give one row a piece.
+
+        Returns
+        -------
+        Table
+            ``polygon, id, shape, distance, ring, ring_kind, piece, kind, x0, y0, x1, y1, cx, cy, r, ccw, site_index,
+            length``. Rings are counted in their shape, 0 is the shell. A straight line has no centre, no radius, and
+            does not turn.
+        """
+        ring = self.ring_of_piece
+        shape = self.shape_of_ring[ring]
+        polygon = self.polygon[shape]
+        names = [None] * len(self.polygons) if self.polygons.ids is None else list(self.polygons.ids)
+        line = ~self.is_arc
+        return Table(
+            {
+                "polygon": np.ma.array(polygon, mask=polygon < 0),
+                "id": Lookup([*names, None], np.where(polygon < 0, len(names), polygon).astype(np.int32)),
+                "shape": shape,
+                "distance": self.piece_distance,
+                "ring": ring - self.shape_start[shape],
+                "ring_kind": Lookup(list(RING_KINDS), self.ring_kind[ring].astype(np.int32)),
+                "piece": np.arange(len(self.site)),
+                "kind": Lookup(list(PIECE_KINDS), self.is_arc.astype(np.int32)),
+                "x0": self.start[:, 0].copy(),
+                "y0": self.start[:, 1].copy(),
+                "x1": self.end[:, 0].copy(),
+                "y1": self.end[:, 1].copy(),
+                "cx": np.ma.array(self.centre[:, 0], mask=line),
+                "cy": np.ma.array(self.centre[:, 1], mask=line),
+                "r": np.ma.array(np.abs(self.piece_distance), mask=line),
+                "ccw": np.ma.array((self.piece_distance > 0).astype(np.int8), mask=line),
+                "site_index": self.site,
+                "length": self.length,
+            }
+        )

@@ -1,0 +1,114 @@
+"""Places along the branches of a skeleton, and the segments between their feet."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.checks import set_array
+from vorotool.geometry.skeleton.skeleton import SIDES, Skeleton
+from vorotool.geometry.skeleton.tables import ids_of
+from vorotool.geometry.table import Lookup, Table
+
+
+@dataclass(frozen=True, eq=False)
+class SkeletonPoints:
+    """Centres of discs along the branches of a skeleton, in the order of these.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        What they are on.
+    arc : (n,) int64 array
+        Its arc that each is on.
+    along : (n,) float64 array
+        How far each is from the beginning of its branch, along the branch.
+    xy : (n, 2) float64 array
+        Places.
+    radius : (n,) float64 array
+        Their clearance.
+    feet : (n, 2, 2) float64 array
+        The nearest place on the site left of the arc, and on that to its right.
+
+    Raises
+    ------
+    InputError
+        If an array has another shape.
+
+    Examples
+    --------
+    >>> from vorotool import points_along, skeleton_exact
+    >>> points = points_along(skeleton_exact([[0, 0], [8, 0], [8, 2], [0, 2]]), every=2)
+    >>> points.feet[points.radius == 1].tolist()
+    [[[1.0, 2.0], [1.0, 0.0]], [[3.0, 2.0], [3.0, 0.0]], [[5.0, 2.0], [5.0, 0.0]], [[7.0, 2.0], [7.0, 0.0]]]
+    """
+
+    skeleton: Skeleton
+    arc: NDArray[np.int64]
+    along: NDArray[np.float64]
+    xy: NDArray[np.float64]
+    radius: NDArray[np.float64]
+    feet: NDArray[np.float64]
+
+    def __post_init__(self) -> None:
+        count = len(self.arc)
+        for name, shape in (("along", (count,)), ("xy", (count, 2)), ("radius", (count,)), ("feet", (count, 2, 2))):
+            set_array(self, name, np.float64, shape)
+
+    def __len__(self) -> int:
+        return len(self.arc)
+
+    @property
+    def y_up(self) -> bool:
+        """Whether pictures are drawn y upwards."""
+        return self.skeleton.y_up
+
+    @cached_property
+    def polygon(self) -> NDArray[np.int32]:
+        """(n,) the polygon that each is in; -1 outside."""
+        return self.skeleton.polygon[self.arc]
+
+    @cached_property
+    def spans(self) -> NDArray[np.bool_]:
+        """(n,) whether there is a segment between both feet: not in a corner."""
+        return np.asarray((self.feet[:, 0] != self.feet[:, 1]).any(axis=1))
+
+    def table(self) -> Table:
+        """Give one row a point.
+
+        Returns
+        -------
+        Table
+            ``polygon, id, branch, arc, side, along, x, y, r, width, x_a, y_a, x_b, y_b``: foot a is on the left of the
+            arc. The width is twice the radius. Outside there is no polygon.
+        """
+        skeleton, arc = self.skeleton, self.arc
+        side = skeleton.side[arc]
+        return Table(
+            {
+                "polygon": np.ma.array(self.polygon, mask=self.polygon < 0),
+                "id": ids_of(skeleton.polygons, self.polygon),
+                "branch": skeleton.branch[arc],
+                "arc": arc,
+                "side": Lookup([*SIDES, None], np.where(side < 0, len(SIDES), side).astype(np.int32)),
+                "along": self.along,
+                "x": self.xy[:, 0].copy(),
+                "y": self.xy[:, 1].copy(),
+                "r": self.radius,
+                "width": 2 * self.radius,
+                "x_a": self.feet[:, 0, 0].copy(),
+                "y_a": self.feet[:, 0, 1].copy(),
+                "x_b": self.feet[:, 1, 0].copy(),
+                "y_b": self.feet[:, 1, 1].copy(),
+            }
+        )
+
+    def transects(self) -> SkeletonPoints:
+        """Give those with a segment from foot to foot."""
+        kept = self.spans
+        return SkeletonPoints(
+            self.skeleton, self.arc[kept], self.along[kept], self.xy[kept], self.radius[kept], self.feet[kept]
+        )

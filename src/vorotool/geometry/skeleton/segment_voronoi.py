@@ -1,0 +1,105 @@
+"""A planar straight-line graph on the lattice, and the Voronoi diagram of its points and open segments."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.geometry.checks import set_rows
+
+LATTICE_LIMIT = 2**30 - 1
+"""Largest magnitude of a coordinate: products of differences fit in 64 bits."""
+
+_SHAPES = {
+    "points": (np.int32, 2),
+    "segments": (np.int32, 2),
+    "vertices": (np.float64, 2),
+    "radius": (np.float64, 0),
+    "vertex_start": (np.int32, 0),
+    "vertex_sites": (np.int32, 0),
+    "edges": (np.int32, 2),
+    "edge_sites": (np.int32, 2),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class SegmentVoronoiDiagram:
+    """The Voronoi diagram of n points and m open segments, in lattice units.
+
+    Point i is site i, open segment j is site n + j. The order of vertices and edges is that of a Morton curve through
+    the points: it depends on where they are, not on how they are numbered, and on nothing else. An edge comes with its
+    source, which is the end with the smaller number, counter-clockwise around it.
+
+    Parameters
+    ----------
+    points : (n, 2) int32 array
+        Distinct points, at most `LATTICE_LIMIT` in magnitude.
+    segments : (m, 2) int32 array
+        Ends of each segment. Segments meet at shared ends only, and no point lies inside one.
+    vertices : (v, 2) float64 array
+        Centres of the discs that touch three sites or more and hold none inside.
+    radius : (v,) float64 array
+        Their radii; 0 at a point where segments meet, which then is the vertex.
+    vertex_start : (v + 1,) int32 array
+        The sites of vertex i are ``vertex_sites[vertex_start[i]:vertex_start[i + 1]]``.
+    vertex_sites : (k,) int32 array
+        All sites that the disc touches and whose cells meet there, counter-clockwise from the smallest number. A point
+        whose segments leave no gap of 180 degrees has no cell.
+    edges : (e, 2) int32 array
+        Source and target of each edge; -1 at infinity, as source only of lines without a vertex. Edges between a
+        segment and its own end are included, edges of length zero are not.
+    edge_sites : (e, 2) int32 array
+        The sites left and right of source -> target.
+    counts : dict of str to int
+        Statistics of the computation.
+
+    Raises
+    ------
+    InputError
+        If an array has another shape.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 3.2.
+
+    Examples
+    --------
+    >>> from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
+    >>> square = segment_voronoi([[0, 0], [2, 0], [2, 2], [0, 2]], [[0, 1], [1, 2], [2, 3], [3, 0]])
+    >>> square.vertices.tolist(), square.radius.tolist()
+    ([[0.0, 0.0], [0.0, 2.0], [2.0, 0.0], [2.0, 2.0], [1.0, 1.0]], [0.0, 0.0, 0.0, 0.0, 1.0])
+    >>> square.sites_of(4).tolist()
+    [4, 5, 6, 7]
+    """
+
+    points: NDArray[np.int32]
+    segments: NDArray[np.int32]
+    vertices: NDArray[np.float64]
+    radius: NDArray[np.float64]
+    vertex_start: NDArray[np.int32]
+    vertex_sites: NDArray[np.int32]
+    edges: NDArray[np.int32]
+    edge_sites: NDArray[np.int32]
+    counts: dict[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for name, (dtype, width) in _SHAPES.items():
+            set_rows(self, name, dtype, width)
+        for name, count in (
+            ("radius", len(self.vertices)),
+            ("vertex_start", len(self.vertices) + 1),
+            ("edge_sites", len(self.edges)),
+        ):
+            if len(getattr(self, name)) != count:
+                raise InputError(f"{name} must have {count} rows, but has {len(getattr(self, name))}")
+
+    def __len__(self) -> int:
+        return len(self.vertices)
+
+    def sites_of(self, vertex: int) -> NDArray[np.int32]:
+        """Sites around a vertex, counter-clockwise from the smallest number."""
+        return self.vertex_sites[self.vertex_start[vertex] : self.vertex_start[vertex + 1]]

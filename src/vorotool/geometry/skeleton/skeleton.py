@@ -1,0 +1,333 @@
+"""Skeletons of polygons and lines: arcs of bisectors, each with its clearance radius and its sites."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.geometry.checks import set_array
+from vorotool.geometry.curves.chunked_threads import in_chunks
+from vorotool.geometry.curves.inverse_functions import hypotenuse
+from vorotool.geometry.numbers import nearest_double, real_number, shown_number
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.skeleton.arc_measures import ArcMeasures
+from vorotool.geometry.skeleton.arc_radii import arc_radii
+
+INTERIOR, EXTERIOR = 0, 1
+"""Sides of an arc: inside a polygon, or in none."""
+
+SIDES = ("interior", "exterior")
+KINDS = ("line", "parabola")
+VERTEX, EDGE = 0, 1
+"""Kinds of sites."""
+
+
+@dataclass(frozen=True, eq=False)
+class SiteTable:
+    """What each site is: a vertex of a polygon as it was used, or the open edge that begins at a vertex.
+
+    Parameters
+    ----------
+    kind : (s,) int8 array
+        `VERTEX` or `EDGE`.
+    polygon, ring, index : (s,) int32 array
+        The polygon; its ring, 0 for the shell or a line; the vertex in the ring, or the one where the edge begins.
+    source_ring, source_index : (s,) int32 array
+        The ring of the input, counted over all polygons, and the vertex or edge there that it is, or is a part of; -1
+        for a crossing of edges.
+    ends : (s, 2, 2) float64 array, optional
+        Where sites are that need not be whole edges of the polygons, or their vertices: those of what is outside, where
+        features overlap. NaN for others.
+    """
+
+    kind: NDArray[np.int8]
+    polygon: NDArray[np.int32]
+    ring: NDArray[np.int32]
+    index: NDArray[np.int32]
+    source_ring: NDArray[np.int32]
+    source_index: NDArray[np.int32]
+    ends: NDArray[np.float64] | None = None
+
+    def __post_init__(self) -> None:
+        if self.ends is not None:
+            set_array(self, "ends", np.float64, (len(self.kind), 2, 2))
+        for name in ("kind", "polygon", "ring", "index", "source_ring", "source_index"):
+            array = np.ascontiguousarray(getattr(self, name), dtype=np.int8 if name == "kind" else np.int32)
+            if array.ndim != 1 or len(array) != len(self.kind):
+                raise InputError(f"{name} of the sites must be one value a site, but has shape {array.shape}")
+            object.__setattr__(self, name, array)
+
+    def __len__(self) -> int:
+        return len(self.kind)
+
+    def taken(self, chosen: NDArray[np.intp]) -> SiteTable:
+        """Some of the sites."""
+        return SiteTable(
+            self.kind[chosen],
+            self.polygon[chosen],
+            self.ring[chosen],
+            self.index[chosen],
+            self.source_ring[chosen],
+            self.source_index[chosen],
+            None if self.ends is None else self.ends[chosen],
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Skeleton:
+    """A graph of arcs, each a straight line or a part of a parabola, in the units of the input.
+
+    Arcs follow each other branch by branch: a branch is a chain of arcs between nodes with one arc or more than two.
+    Those inside polygons come first, polygon by polygon.
+
+    Parameters
+    ----------
+    vertices : (v, 2) float64 array
+        Nodes: centres of discs that touch the boundary without crossing it.
+    radius : (v,) float64 array
+        Their radii: 0 at corners.
+    arcs : (a, 2) int32 array
+        Source and target of each arc.
+    control : (a, 2) float64 array
+        Where the tangents at the ends of a parabola meet: the control point of the quadratic Bezier curve that it is.
+        NaN on straight lines.
+    sites : (a, 2) int32 array
+        The sites left and right of each arc, from source to target and y upwards: rows of `site_table`.
+    site_table : SiteTable
+        Vertices and edges of `polygons`.
+    polygon : (a,) int32 array
+        The polygon that the arc is in, the first of several; -1 outside.
+    side : (a,) int8 array
+        `INTERIOR` or `EXTERIOR`.
+    branch : (a,) int32 array
+        Number of the branch: from 0, not decreasing.
+    length : (a,) float64 array
+        True arc lengths.
+    error_bound : (a,) float64 array
+        How far the arc may be from the skeleton of `polygons`; 0 for exact arcs, which are rounded only.
+    polygons : PolygonSet
+        As they were used: placed, and cut where they meet, each feature by itself or all together.
+    frame : (x, y, w, h), optional
+        The rectangle that arcs outside are cut by.
+    gap : float
+        By how much edges were shortened at both ends; see `vorotool.skeleton_exact`.
+    features : {"separate", "together"}
+        Whether what is inside a feature is what it would be if there were no others, or all are one arrangement. What
+        is outside always is of all of them.
+
+    Raises
+    ------
+    InputError
+        If an array has another shape.
+
+    References
+    ----------
+    Melkemi and Vandorpe, "Voronoi Diagrams and Applications", section 3.2.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> skeleton = skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])
+    >>> len(skeleton), sorted(map(tuple, skeleton.vertices.tolist()))
+    (5, [(0.0, 0.0), (0.0, 2.0), (1.0, 1.0), (3.0, 1.0), (4.0, 0.0), (4.0, 2.0)])
+    """
+
+    vertices: NDArray[np.float64]
+    radius: NDArray[np.float64]
+    arcs: NDArray[np.int32]
+    control: NDArray[np.float64]
+    sites: NDArray[np.int32]
+    site_table: SiteTable
+    polygon: NDArray[np.int32]
+    side: NDArray[np.int8]
+    branch: NDArray[np.int32]
+    length: NDArray[np.float64]
+    error_bound: NDArray[np.float64]
+    polygons: PolygonSet
+    frame: tuple[float, float, float, float] | None = None
+    gap: float = 0.0
+    features: str = "separate"
+
+    def __post_init__(self) -> None:
+        nodes, arcs = len(self.radius), len(self.arcs)
+        for name, dtype, count, width in (
+            ("vertices", np.float64, nodes, 2),
+            ("radius", np.float64, nodes, 0),
+            ("arcs", np.int32, arcs, 2),
+            ("control", np.float64, arcs, 2),
+            ("sites", np.int32, arcs, 2),
+            ("polygon", np.int32, arcs, 0),
+            ("side", np.int8, arcs, 0),
+            ("branch", np.int32, arcs, 0),
+            ("length", np.float64, arcs, 0),
+            ("error_bound", np.float64, arcs, 0),
+        ):
+            set_array(self, name, dtype, (count, width) if width else (count,))
+        if self.frame is not None:
+            x, y, w, h = map(float, self.frame)
+            object.__setattr__(self, "frame", (x, y, w, h))
+
+    def __len__(self) -> int:
+        return len(self.arcs)
+
+    @cached_property
+    def is_parabola(self) -> NDArray[np.bool_]:
+        """(a,) whether each arc is a part of a parabola."""
+        return ~np.isnan(self.control[:, 0])
+
+    @property
+    def kind(self) -> NDArray[Any]:
+        """(a,) ``line`` or ``parabola``."""
+        return np.array(KINDS)[self.is_parabola.astype(np.int8)]
+
+    @cached_property
+    def degree(self) -> NDArray[np.int64]:
+        """(v,) number of arcs that end at each node."""
+        return np.bincount(self.arcs.reshape(-1), minlength=len(self.vertices))
+
+    @cached_property
+    def on_frame(self) -> NDArray[np.bool_]:
+        """(v,) whether each node is an end on the frame."""
+        touches: NDArray[np.bool_] = self.touches_frame
+        return touches if self.frame is None else touches & (self.degree == 1)
+
+    @cached_property
+    def touches_frame(self) -> NDArray[np.bool_]:
+        """(v,) whether each node is on the border of the frame: what goes on beyond is cut off.
+
+        Arcs are cut exactly there; a node that happens to be there may be rounded by some ulp.
+        """
+        if self.frame is None:
+            return np.zeros(len(self.vertices), dtype=bool)
+        x, y, w, h = self.frame
+        sides = np.array([x, x + w, y, y + h])
+        apart = np.abs(self.vertices[:, [0, 0, 1, 1]] - sides)
+        return np.asarray((apart <= 8 * np.spacing(np.abs(sides).max())).any(axis=1))
+
+    @property
+    def y_up(self) -> bool:
+        """Whether pictures are drawn y upwards."""
+        return self.polygons.y_up
+
+    @cached_property
+    def site_ends(self) -> NDArray[np.float64]:
+        """(s, 2, 2) the ends of each site, with a gap those of the shortened edges; a vertex has one place twice."""
+        return self.site_ends_on(1)
+
+    def site_ends_on(self, threads: int) -> NDArray[np.float64]:
+        """Compute `site_ends` on several threads, if they are not there yet; 0 uses all."""
+        if "site_ends" not in self.__dict__:
+            made = np.empty((len(self.site_table), 2, 2))
+
+            def fill(sites: slice) -> None:
+                made[sites] = self._ends_of(sites)
+
+            in_chunks(len(made), fill, threads=threads)
+            self.__dict__["site_ends"] = made
+        ends: NDArray[np.float64] = self.__dict__["site_ends"]
+        return ends
+
+    def _ends_of(self, sites: Any) -> NDArray[np.float64]:
+        ends = ends_of_sites(self.polygons, self.site_table, sites)
+        if self.gap:
+            a, b = ends[..., 0, :], ends[..., 1, :]
+            length = np.sqrt(np.square(b - a).sum(axis=-1, keepdims=True))
+            way = np.divide(self.gap * (b - a), length, out=np.zeros_like(a), where=length > 0)
+            a += way
+            b -= way
+        return ends
+
+    @cached_property
+    def arc_radii(self) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Smallest and largest radius on each arc, and the integral of the radius along it."""
+        return self.arc_radii_on(1)
+
+    def arc_radii_on(self, threads: int) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Compute `arc_radii` on several threads, if they are not there yet; 0 uses all."""
+        if "arc_radii" not in self.__dict__:
+            self.__dict__["arc_radii"] = arc_radii(len(self), self._arc_arrays, threads=threads)
+        found: tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]] = self.__dict__["arc_radii"]
+        return found
+
+    def measures(self, arcs: NDArray[np.integer]) -> ArcMeasures:
+        """Places, radii and lengths along some arcs, which may come more than once."""
+        return ArcMeasures(*self._arc_arrays(arcs))
+
+    def _arc_arrays(self, arcs: Any) -> tuple[NDArray[Any], ...]:
+        """Ends, radii, control points, ends of the sites, whether these are edges, and lengths."""
+        sites = self.sites[arcs].T.astype(np.intp, order="C")
+        nodes = self.arcs[arcs].astype(np.intp)
+        known = "site_ends" in self.__dict__
+        return (
+            self.vertices.take(nodes, axis=0),
+            self.radius.take(nodes),
+            self.control[arcs],
+            self.site_ends.take(sites, axis=0) if known else self._ends_of(sites),
+            self.site_table.kind.take(sites) == EDGE,
+            self.length[arcs],
+        )
+
+    def flattened(self, tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+        """Arcs as polylines, parabolas divided evenly in their parameter.
+
+        Parameters
+        ----------
+        tolerance : float
+            How far a polyline may be from its arc.
+
+        Returns
+        -------
+        points : (k, 2) float64 array
+            Places along each arc, its ends included.
+        start : (a + 1,) int64 array
+            Where the points of each arc begin.
+
+        Raises
+        ------
+        InputError
+            If the tolerance is not positive.
+        UsageError
+            If it is no number.
+        """
+        tolerance = nearest_double(real_number(tolerance, "the tolerance"))
+        if not tolerance > 0:
+            raise InputError(f"the tolerance is {shown_number(tolerance)}: it must be positive")
+        source, target = self.vertices[self.arcs[:, 0]], self.vertices[self.arcs[:, 1]]
+        control = np.where(self.is_parabola[:, None], self.control, (source + target) / 2)
+        bend = source - 2 * control + target
+        # a chord over 1/n of the parameter is off by |bend| / (4 n^2)
+        pieces = np.ceil(np.sqrt(hypotenuse(*bend.T) / (4 * tolerance)))
+        pieces = np.where(self.is_parabola, np.clip(pieces, 1, MOST_PIECES), 1).astype(np.int64)
+        start = np.concatenate([[0], np.cumsum(pieces + 1)])
+        arc = np.repeat(np.arange(len(self)), pieces + 1)
+        step = np.arange(start[-1]) - start[arc]
+        t = (step / pieces[arc])[:, None]
+        points = source[arc] + t * (2 * (control - source)[arc] + t * bend[arc])
+        points[start[1:] - 1] = target
+        return points, start
+
+
+def ends_of_sites(polygons: PolygonSet, table: SiteTable, sites: Any = slice(None)) -> NDArray[np.float64]:
+    """(…, 2, 2) the ends of all or some sites of polygons; a vertex has one place twice."""
+    polygon, ring, index, kind = (
+        column[sites] if isinstance(sites, slice) else column.take(sites)
+        for column in (table.polygon, table.ring, table.index, table.kind)
+    )
+    first = polygons.ring_start.take(polygons.polygon_start.take(polygon) + ring) + index
+    places = np.empty((*first.shape, 2), dtype=np.int64)
+    places[..., 0] = first
+    places[..., 1] = np.where(kind == EDGE, polygons.following.take(first), first)
+    ends: NDArray[np.float64] = polygons.xy.take(places, axis=0)
+    if table.ends is not None:
+        own = table.ends[sites] if isinstance(sites, slice) else table.ends.take(sites, axis=0)
+        ends = np.where(np.isnan(own), ends, own)
+    return ends
+
+
+MOST_PIECES = 1 << 12
+"""Of a flattened arc: 2^24 times nearer than its chord."""

@@ -1,0 +1,1 @@
+"""One job = options dataclass + read + compute + name products + write; no click."""

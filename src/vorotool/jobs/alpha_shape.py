@@ -1,0 +1,346 @@
+"""What the shapes of points can be written as (``--what``)."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from dataclasses import replace
+from decimal import Decimal, localcontext
+from fractions import Fraction
+from functools import cached_property
+from math import inf
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+from vorotool.cli.options.pixel_size import in_units, length_in_units, table_in_units
+from vorotool.engines.alpha.alpha_shape import alpha_complex, alpha_curves, alpha_edges, alpha_shape
+from vorotool.engines.alpha.few_points import unjoined
+from vorotool.errors import VorotoolWarning
+from vorotool.geometry.alpha.complex import AlphaComplex, Radius
+from vorotool.geometry.alpha.shape import AlphaShape
+from vorotool.geometry.numbers import nearest_double
+from vorotool.geometry.points.point_set import PointSet
+from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.table import Table
+from vorotool.jobs.inputs import window_of
+from vorotool.jobs.names import OF_ONE_SHAPE
+from vorotool.jobs.pictures import write_layers
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.targets import Target
+
+if TYPE_CHECKING:
+    from vorotool.geometry.alpha.hull import AlphaHull
+    from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
+    from vorotool.render.canvas.layers import Page
+
+DEFAULT_LAYERS = {
+    "edges": ("boundary", "singular", "points"),
+    "polygons": ("polygons",),
+    "complex": ("interior", "boundary", "singular", "points"),
+    "general": ("polygons", "boundary", "singular", "points"),
+    "hull": ("hull", "points"),
+}
+"""Layers of the picture of each result."""
+
+
+class ShapeProducts:
+    """Results of the alpha shapes of one list of points.
+
+    Parameters
+    ----------
+    points : PointSet or SeedSet
+        The points.
+    options : namespace
+        Options of the command line; ``radius`` is the one asked for, or None.
+    run : Run
+        Takes notes and seconds.
+    """
+
+    def __init__(self, points: PointSet | SeedSet, options: SimpleNamespace, run: Run) -> None:
+        self.options, self.run = options, run
+        self._empty: dict[str, Any] = {"strict": options.strict, "allow_empty": isinstance(points, SeedSet)}
+        with run.phase("triangulate"):
+            mesh = self._triangulation(points)
+        with run.phase("alpha complex"):
+            progress = run.progress("computing radii")
+            self.family = alpha_complex(
+                mesh, rule=options.rule, **self._empty, threads=options.threads, progress=progress
+            )
+        if set(options.what) & OF_ONE_SHAPE:
+            with run.phase("shape"):
+                self.shape = self._shape()
+            if options.radius is None and not self.is_unjoined:
+                regions = "one region" if options.regions in (None, 1) else f"at most {options.regions} regions"
+                run.note(f"r = {radius_text(self.shape.r)}, the smallest whose shape is {regions} with every point")
+
+    def _triangulation(self, points: PointSet | SeedSet) -> AnyTriangulation | SeedSet:
+        if isinstance(points, SeedSet) and points.is_empty_image:
+            return points
+        from vorotool.engines.delaunay.delaunay import delaunay
+        from vorotool.engines.digital.triangulation import digital_triangulation, repair_digital
+        from vorotool.engines.tessellation.seeding import seeds_from_points
+
+        o, progress = self.options, self.run.progress("triangulating")
+        if o.method == "exact":
+            return delaunay(points, strict=o.strict, threads=o.threads, progress=progress)
+        if isinstance(points, SeedSet):
+            seeds = points
+        else:
+            seeds = seeds_from_points(points, strict=o.strict, check=lambda made: window_of(o, made))
+        frame: Any = {"window": window_of(o, seeds), "strict": o.strict, "threads": o.threads}
+        mesh: AnyTriangulation
+        if o.method == "digital":
+            mesh = digital_triangulation(seeds, **frame, progress=progress)
+        else:
+            mesh, _ = repair_digital(seeds, **frame, max_pixels=o.max_pixels, progress=progress)
+        return replace(mesh, y_up=points.y_up, crs=points.crs) if isinstance(points, PointSet) else mesh
+
+    def _shape(self) -> AlphaShape:
+        o = self.options
+        if o.method == "digital":
+            return self._edges_only(o.radius)
+        return alpha_shape(
+            self.family,
+            r=o.radius,
+            regions=o.regions or 1,
+            hole_threshold=o.hole_threshold,
+            region_threshold=o.region_threshold,
+            **self._empty,
+            threads=o.threads,
+            progress=self.run.progress("computing the shape"),
+        )
+
+    @cached_property
+    def is_unjoined(self) -> bool:
+        """Whether the radius was to be found, but none gives a region that holds every point."""
+        return self.options.radius is None and unjoined(self.family) is not None
+
+    def _edges_only(self, r: Radius) -> AlphaShape:
+        """The shape of triangles that need not fit together: each is a region of its own, and nothing is traced."""
+        import numpy as np
+
+        index, kind = alpha_edges(self.family, r, threads=self.options.threads)
+        reached = self.family.triangle_rank < self.family.reached(r)
+        region = np.where(reached, np.cumsum(reached, dtype=np.int32) - np.int32(1), np.int32(-1))
+        nothing = PolygonSet(np.empty((0, 2)), np.zeros(1, np.int64), np.empty(0, np.int8), np.empty(0, np.int32))
+        return AlphaShape(self.family, r, index, kind, region, nothing, 0)
+
+    @cached_property
+    def curves(self) -> Table:
+        """Area, perimeter, regions, cavities and edges of all radii."""
+        return alpha_curves(self.family, progress=self.run.progress("sweeping over r"))
+
+    @cached_property
+    def hull(self) -> AlphaHull:
+        """The hull of the shape's radius."""
+        from vorotool.engines.alpha.alpha_hull import alpha_hull
+
+        return alpha_hull(self.shape)
+
+    @property
+    def written(self) -> AlphaShape:
+        """The shape in the units of files."""
+        return in_units(self.options, self.shape)
+
+    @property
+    def written_family(self) -> AlphaComplex:
+        """The family in the units of files."""
+        return in_units(self.options, self.family)
+
+    @property
+    def written_curves(self) -> Table:
+        """The curves in the units of files."""
+        table: Table = table_in_units(self.options, self.curves)
+        return table
+
+    def check(self, target: Target) -> None:
+        """Refuse what cannot be written, and say what will be empty, before anything is written."""
+        if target.fmt == "png":
+            from vorotool.render.canvas.png import check_picture_size
+
+            check_picture_size(self.page, self.options.max_pixels)
+        if target.fmt == "html":
+            from vorotool.render.pages.alpha_html import check_html_size
+
+            check_html_size(self.family)
+        empty = {
+            "edges": lambda: not len(self.shape.edge_index),
+            "polygons": lambda: not len(self.shape.polygons),
+            "table": lambda: not len(self.shape.polygons),
+            "hull": lambda: not len(self.hull),
+        }.get(target.what)
+        if empty is not None and len(self.family.spectrum) and not self.is_unjoined and empty():
+            words = {"table": "regions", "hull": "arcs in the hull"}.get(target.what, target.what)
+            smallest = radius_text(float(self.family.spectrum[0]))
+            warnings.warn(
+                f"there are no {words} at r = {radius_text(self.shape.r)}: shapes begin at r = {smallest}",
+                VorotoolWarning,
+                stacklevel=2,
+            )
+
+    def write(self, target: Target, *, inputs: Sequence[str]) -> None:
+        """Write one result."""
+        from vorotool.formats.io.atomic_output import open_output
+
+        with open_output(
+            target.path, binary=target.is_binary, no_clobber=self.options.no_clobber, inputs=inputs
+        ) as out:
+            if target.fmt == "html":
+                self._write_html(out)
+            elif target.fmt in ("svg", "png") and target.what in DEFAULT_LAYERS:
+                self._write_picture(out, target.fmt, DEFAULT_LAYERS[target.what])
+            else:
+                getattr(self, f"_write_{target.what}")(out, target.fmt)
+
+    def _write_table_of(self, out: BinaryIO, table: Table, fmt: str) -> None:
+        from vorotool.formats.text.tables import write_table
+
+        write_table(out, table, fmt, precision=self.options.precision, threads=self.options.threads)
+
+    def _write_edges(self, out: BinaryIO, fmt: str, *, interior: bool = False) -> None:
+        from vorotool.formats.results.alpha import write_shape_edges
+        from vorotool.geometry.alpha.tables import shape_edge_table
+
+        if fmt == "geojson":
+            o = self.options
+            write_shape_edges(out, self.written, interior=interior, precision=o.precision, threads=o.threads)
+        else:
+            self._write_table_of(out, shape_edge_table(self.written, interior=interior), fmt)
+
+    def _write_complex(self, out: BinaryIO, fmt: str) -> None:
+        self._write_edges(out, fmt, interior=True)
+
+    def _write_polygons(self, out: BinaryIO, fmt: str) -> None:
+        from vorotool.formats.polygons.reader import write_polygons
+        from vorotool.geometry.alpha.tables import described_polygons
+
+        write_polygons(out, described_polygons(self.written), fmt, precision=self.options.precision)
+
+    def _write_general(self, out: BinaryIO, fmt: str) -> None:
+        from vorotool.formats.results.alpha import write_general
+
+        write_general(out, self.written, fmt, precision=self.options.precision)
+
+    def _write_family(self, out: BinaryIO, fmt: str) -> None:
+        from vorotool.geometry.alpha.tables import family_table
+
+        self._write_table_of(out, family_table(self.written_family), fmt)
+
+    def _write_spectrum(self, out: BinaryIO, fmt: str) -> None:
+        self._write_table_of(out, Table({"r": self.written_family.spectrum}), fmt)
+
+    def _write_curves(self, out: BinaryIO, fmt: str) -> None:
+        if fmt == "svg":
+            from vorotool.render.pages.alpha_plot import write_curves_svg
+
+            write_curves_svg(out, self.written_curves, width=self.options.width or 1000)
+        else:
+            self._write_table_of(out, self.written_curves, fmt)
+
+    def _write_hull(self, out: BinaryIO, fmt: str) -> None:
+        from vorotool.formats.results.alpha import write_hull_geojson
+
+        if fmt == "geojson":
+            write_hull_geojson(out, in_units(self.options, self.hull), precision=self.options.precision)
+        else:
+            self._write_table_of(out, in_units(self.options, self.hull).table(), fmt)
+
+    def _write_points(self, out: BinaryIO, fmt: str) -> None:
+        from vorotool.geometry.alpha.tables import shape_point_table
+
+        self._write_table_of(out, shape_point_table(self.written), fmt)
+
+    def _write_table(self, out: BinaryIO, fmt: str) -> None:
+        from vorotool.geometry.alpha.tables import region_table
+
+        self._write_table_of(out, region_table(self.written), fmt)
+
+    def _write_html(self, out: BinaryIO) -> None:
+        from vorotool.render.pages.alpha_html import write_alpha_html
+
+        r = self.shape.r if hasattr(self, "shape") else self.options.radius
+        r = None if r is None else length_in_units(self.options, r)
+        write_alpha_html(out, self.written_family, self.written_curves, r=r, y_up=self.options.y_up)
+
+    @cached_property
+    def page(self) -> Page:
+        """Where pictures show what."""
+        from vorotool.render.canvas.layers import ImagePage
+        from vorotool.render.layers.mesh import mesh_page
+
+        if self.options.backdrop is not None:
+            return ImagePage(self.options.backdrop)
+        return mesh_page(self.family.mesh, width=self.options.width or 1000, y_up=self.options.y_up)
+
+    def _write_picture(self, out: BinaryIO, fmt: str, layers: Sequence[str]) -> None:
+        from vorotool.render.layers.alpha import alpha_layers
+
+        chosen = self.options.layers or layers
+        hull = self.hull if "hull" in chosen else None
+        drawn = alpha_layers(self.shape, self.page, chosen, hull=hull)
+        write_layers(out, drawn, self.page, fmt=fmt, threads=self.options.threads)
+
+    def verify(self) -> None:
+        """Check the shape exactly, from its triangulation."""
+        from vorotool.engines.alpha.verify_alpha import verify_alpha_shape
+
+        shape = self.shape if hasattr(self, "shape") else alpha_shape(self.family, r=inf, threads=self.options.threads)
+        verify_alpha_shape(shape, threads=self.options.threads, progress=self.run.progress("verifying"))
+
+    def stats(self) -> dict[str, Any]:
+        """Counts and sizes."""
+        mesh = self.family.mesh
+        counts: dict[str, Any] = {
+            "points": len(mesh.points),
+            "duplicates": mesh.duplicates,
+            "triangles": len(mesh.triangles),
+            "delaunay_edges": len(self.family),
+            "radii": len(self.family.spectrum),
+            "rule": self.family.rule,
+            "method": self.options.method,
+            "threads": self.options.threads,
+        }
+        if not hasattr(self, "shape"):
+            return counts
+        shape = self.shape
+        chosen: dict[str, Any] = {
+            "r": None if self.is_unjoined else _json_number(shape.r),
+            "alpha": None if self.is_unjoined else shape.alpha,
+            "automatic": self.options.radius is None,
+        }
+        kinds = {"singular_edges": int((shape.kind == 1).sum()), "boundary_edges": int((shape.kind == 2).sum())}
+        if self.options.method == "digital":
+            return {**counts, **chosen, **kinds}
+        return {
+            **counts,
+            **chosen,
+            **kinds,
+            "isolated_points": len(shape.isolated),
+            "regions": shape.region_count,
+            "holes": shape.hole_count,
+            "cavities": shape.cavity_count,
+            "area": shape.area,
+            "perimeter": shape.perimeter,
+        }
+
+
+def radius_text(r: Radius) -> str:
+    """Write a radius with which the same shape is found again: a double's shortest digits, a fraction's all.
+
+    Examples
+    --------
+    >>> radius_text(2.5), radius_text(Fraction(1, 8)), radius_text(10.0)
+    ('2.5', '0.125', '10')
+    """
+    if not isinstance(r, Fraction):
+        return repr(float(r)).removesuffix(".0")
+    with localcontext() as context:
+        context.prec = 60
+        return f"{(Decimal(r.numerator) / Decimal(r.denominator)).normalize()}"
+
+
+def _json_number(r: Radius) -> float | str:
+    """A number where it says all; JSON has no infinity."""
+    number = nearest_double(r)
+    return number if number == r and number != inf else radius_text(r)

@@ -1,0 +1,120 @@
+"""What `vorotool delaunay` gives from the digital tessellation: the paper's rule, its repair, the comparison."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, replace
+from functools import cached_property
+from types import SimpleNamespace
+from typing import Any, BinaryIO
+
+from vorotool.cli.options.pixel_size import table_in_units
+from vorotool.engines.digital.comparison import compare_digital
+from vorotool.engines.digital.triangulation import DigitalRepair, digital_triangulation, repair_digital
+from vorotool.engines.digital.verify_digital import verify_digital_triangulation
+from vorotool.engines.tessellation.seeding import seeds_from_points
+from vorotool.geometry.mesh.digital_comparison import DigitalComparison
+from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
+from vorotool.geometry.points.point_set import PointSet
+from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.jobs.inputs import window_of
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.triangulation import MeshProducts
+
+
+class DigitalProducts(MeshProducts):
+    """Results of the paper's rule (``--method digital``), and of its comparison with the exact triangulation."""
+
+    def __init__(self, points: PointSet | SeedSet, options: SimpleNamespace, run: Run) -> None:
+        if isinstance(points, SeedSet):
+            self.seeds = points
+        else:
+            self.seeds = seeds_from_points(points, strict=options.strict, check=lambda seeds: window_of(options, seeds))
+        super().__init__(points, options, run)
+        if "compare" in options.what:
+            with run.phase("compare"):
+                self._tell_comparison()
+
+    @property
+    def where(self) -> dict[str, Any]:
+        """Options of the engines: the frame, and the threads."""
+        return {"window": window_of(self.options, self.seeds), "threads": self.options.threads}
+
+    def _triangulate(self, points: PointSet | SeedSet) -> AnyTriangulation:
+        progress = self.run.progress("triangulating")
+        return self._as_input(
+            points, digital_triangulation(self.seeds, **self.where, strict=self.options.strict, progress=progress)
+        )
+
+    def _as_input(self, points: PointSet | SeedSet, mesh: AnyTriangulation) -> AnyTriangulation:
+        return replace(mesh, y_up=points.y_up, crs=points.crs) if isinstance(points, PointSet) else mesh
+
+    @cached_property
+    def comparison(self) -> DigitalComparison:
+        """Differences from the exact triangulation."""
+        return compare_digital(self.seeds, **self.where, max_pixels=self.options.max_pixels)
+
+    def _tell_comparison(self) -> None:
+        self.run.note(self.comparison.summary())
+        if self.comparison.suggestion:
+            self.run.note(self.comparison.suggestion)
+
+    def _write_compare(self, out: BinaryIO, fmt: str) -> None:
+        from vorotool.formats.text.tables import write_table
+
+        table = table_in_units(self.options, self.comparison.table)
+        write_table(out, table, fmt, precision=self.options.precision, threads=self.options.threads)
+
+    def _shape(self) -> str:
+        return f"of {len(self.mesh.points)} regions too few touch"
+
+    def verify(self) -> None:
+        """Check labels, edges and triangles by another way."""
+        found = digital_triangulation(self.seeds, **self.where)
+        verify_digital_triangulation(found, self.seeds, **self.where)
+
+    def stats(self) -> dict[str, Any]:
+        """Counts, and how good they are."""
+        counts: dict[str, Any] = {"points": len(self.seeds.sites) if self.seeds.sites is not None else 0}
+        if self.wants_mesh:
+            mesh: Any = self.mesh
+            counts |= {
+                "edges": len(mesh.edges),
+                "triangles": len(mesh.triangles),
+                "three_label_corners": mesh.three_label_corners,
+                "four_label_corners": mesh.four_label_corners,
+            }
+        if "compare" in self.options.what:
+            found = self.comparison
+            names = ("edge_precision", "edge_recall", "triangle_precision", "triangle_recall")
+            counts["compare"] = {name: getattr(found, name) for name in names} | {
+                "differences": found.counts,
+                "suggestion": found.suggestion,
+            }
+        return {**counts, "method": "digital", "threads": self.options.threads}
+
+
+class RepairedProducts(DigitalProducts):
+    """Results of the certified repair (``--method digital-valid``): those of the exact triangulation."""
+
+    repair: DigitalRepair
+
+    def _triangulate(self, points: PointSet | SeedSet) -> AnyTriangulation:
+        o = self.options
+        progress = self.run.progress("triangulating")
+        mesh, self.repair = repair_digital(
+            self.seeds, **self.where, strict=o.strict, max_pixels=o.max_pixels, progress=progress
+        )
+        if isinstance(points, PointSet):
+            mesh = replace(mesh, first_number=points.first_number)
+        return self._as_input(points, mesh)
+
+    def _shape(self) -> str:
+        return MeshProducts._shape(self)
+
+    def verify(self) -> None:
+        """Check the triangulation exactly, once more."""
+        MeshProducts.verify(self)
+
+    def stats(self) -> dict[str, Any]:
+        """Counts, and what each step of the repair did."""
+        return {**MeshProducts.stats(self), "repair": asdict(self.repair)}

@@ -1,0 +1,181 @@
+"""Pictures of results that were written before: what the file holds decides."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from types import SimpleNamespace
+from typing import Any, BinaryIO
+
+from vorotool.errors import InputError, Kind, Message
+from vorotool.formats import NPY_MAGIC
+from vorotool.formats.images.band_reader import is_zarr, open_rows, read_rows
+from vorotool.formats.images.label_images import label_image_of, read_label_image
+from vorotool.formats.images.reader import is_image
+from vorotool.formats.io.atomic_output import open_output
+from vorotool.formats.io.sources import read_source, reading
+from vorotool.formats.parsing.format_names import DRAWN_NAMES, POLYGON_NAMES, known_input_format
+from vorotool.formats.parsing.geojson import JsonSource
+from vorotool.formats.points.tables import is_table
+from vorotool.formats.polygons.reader import read_polygons, recognise
+from vorotool.formats.results.offset_json import read_offsets, says_offsets
+from vorotool.formats.results.skeleton_json import read_skeleton, says_skeleton
+from vorotool.geometry.points.label_image import LabelImage
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.skeleton.offsets import Offsets
+from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.jobs.inputs import note_other_size, refuse
+from vorotool.jobs.names import DERIVED, SKELETON_LAYERS
+from vorotool.jobs.pictures import default_layers, drawing_of, write_label_picture, write_layers
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.targets import Target, check_picture_options
+
+LABEL_LAYERS = {"png": ("cells", "diagram", "labels"), "svg": ("cells", "labels")}
+"""A label image from a file has no seeds."""
+
+Lined = Skeleton | Offsets | PolygonSet
+"""What is drawn in layers of lines and areas."""
+
+Drawing = tuple[Callable[[BinaryIO], None], dict[str, Any]]
+"""What draws, and what it draws in numbers."""
+
+
+class Picture:
+    """The picture of one input.
+
+    Parameters
+    ----------
+    run : Run
+        Takes notes and seconds.
+    options : namespace
+        Options of the command line.
+    source : str
+        The input; ``-`` is standard input.
+    """
+
+    def __init__(self, run: Run, options: SimpleNamespace, source: str) -> None:
+        self._run, self._options, self._source = run, options, source
+
+    def check(self, target: Target) -> None:
+        """Read the input, and prepare what draws it."""
+        run, o = self._run, self._options
+        with reading(self._source), run.phase("read"):
+            value = _read(run, o, self._source)
+        if isinstance(value, LabelImage):
+            self._draw, self._counts = _of_labels(run, o, value, target.fmt)
+        else:
+            self._draw, self._counts = _of_layers(run, o, value, target.fmt)
+
+    def verify(self) -> None:
+        """There is nothing to check in a picture."""
+
+    def write(self, target: Target, *, inputs: Sequence[str]) -> None:
+        """Draw."""
+        no_clobber = self._options.no_clobber
+        with open_output(target.path, binary=target.is_binary, no_clobber=no_clobber, inputs=inputs) as out:
+            self._draw(out)
+
+    def stats(self) -> dict[str, Any]:
+        """Counts and sizes."""
+        return self._counts
+
+
+def _read(run: Run, o: SimpleNamespace, path: str) -> LabelImage | Lined:
+    """Read whatever is drawn: its content tells what it is, where the options do not."""
+    fmt = known_input_format(o.input_format, DRAWN_NAMES)
+    if is_zarr(path, fmt):
+        rows = open_rows(path, input_format=fmt, page=o.page)
+        assert rows is not None
+        return label_image_of(read_rows(rows, max_pixels=o.max_pixels), path)
+    source = read_source(path)
+    if says_skeleton(source.data):
+        return read_skeleton(source, properties=False)
+    if says_offsets(source.data):
+        return read_offsets(source, properties=False)
+    is_array = source.data.startswith(NPY_MAGIC)  # of two columns, too: points are not drawn
+    if (is_array or is_image(source)) if fmt is None else fmt not in POLYGON_NAMES:
+        return read_label_image(source, input_format=fmt, page=o.page, max_pixels=o.max_pixels)
+    if not source.data.strip():
+        raise InputError(f"{source.name} is empty: there is nothing to draw; check what was to write it")
+    source, has_shapes = recognise(source, fmt)
+    document = source.document if isinstance(source, JsonSource) else None
+    if not (has_shapes or _is_empty_collection(document) or is_table(document)):  # of which the reader says more
+        raise InputError(
+            f"{source.name} is not drawn: give a label image, the JSON of a skeleton or of offset curves, or polygons "
+            "and lines (GeoJSON, WKT, JSON, .poly); other results are drawn by the command that makes them, with -f svg"
+        )
+    return read_polygons(source, input_format=fmt, properties=False, note=partial(_note, run))
+
+
+def _is_empty_collection(document: object) -> bool:
+    """Whether it is GeoJSON that does not tell what it is of, since there is nothing in it."""
+    return isinstance(document, dict) and document.get("features") == []
+
+
+def _note(run: Run, message: str) -> None:
+    """Say what was left out; pictures have no lengths, so that these are in degrees, or may be, says nothing."""
+    if Message.of(message).kind not in (Kind.DEGREES, Kind.UNNAMED_CRS):
+        run.note(message)
+
+
+def _of_labels(run: Run, o: SimpleNamespace, image: LabelImage, fmt: str) -> Drawing:
+    from vorotool.engines.label_images.object_colours import object_colours
+
+    check_picture_options(o, [fmt], LABEL_LAYERS)
+    note_other_size(run, o, image.shape)
+    image = _objects(run, image)
+    with run.phase("colour"):
+        colours = object_colours(image, threads=o.threads)
+    draw = partial(
+        write_label_picture,
+        image=image,
+        colours=colours,
+        fmt=fmt,
+        layers=o.layers or default_layers(image, ("cells", "labels") if fmt == "svg" else ("cells",)),
+        width=o.width or 1000,
+        y_up=bool(o.y_up),
+        backdrop=o.backdrop,
+        threads=o.threads,
+    )
+    return draw, {"shape": image.shape, "colours": int(colours[1].max(initial=0))}
+
+
+def _objects(run: Run, image: LabelImage) -> LabelImage:
+    """The objects of a mask, numbered as other commands number them; label images stay."""
+    from vorotool.engines.tessellation.raster_objects import objects_of_mask
+
+    objects = objects_of_mask(image.labels)
+    if objects is None:
+        return image
+    if image.labels.dtype.itemsize > 1:  # in which labels are written, too
+        value = int(image.labels.max())
+        run.note(f"{value} is the only value besides 0, and taken for a mask: each of its objects is drawn by itself")
+    return LabelImage(objects, image.frame)
+
+
+def _of_layers(run: Run, o: SimpleNamespace, value: Lined, fmt: str) -> Drawing:
+    from vorotool.render.canvas.png import check_picture_size
+
+    kind, layers, counts = _described(value)
+    in_format = {"svg": layers, "png": layers}
+    check_picture_options(o, [fmt], in_format, png_has_width=True)
+    refuse(o, ("page",), f"is for images, but the input is {kind}")
+    if not len(value):
+        run.warn(f"the picture is empty: the input is {kind}, but there are none in it")
+    drawing = drawing_of(value, layers=o.layers, width=o.width or 1000, y_up=o.y_up, backdrop=o.backdrop)
+    if fmt == "png":
+        check_picture_size(drawing.page, o.max_pixels)
+    return partial(write_layers, layers=drawing.layers, page=drawing.page, fmt=fmt, threads=o.threads), counts
+
+
+def _described(value: Lined) -> tuple[str, tuple[str, ...], dict[str, Any]]:
+    """What it is called, the layers that there are of it, and how much it is."""
+    if isinstance(value, Skeleton):
+        return "arcs of a skeleton", SKELETON_LAYERS, {"arcs": len(value), "nodes": len(value.vertices)}
+    if isinstance(value, Offsets):
+        return "offset curves", DERIVED["offset"], {"shapes": len(value), "pieces": len(value.site)}
+    return (
+        "polygons or lines",
+        DERIVED["shape"],
+        {"polygons": int((~value.is_line).sum()), "lines": int(value.is_line.sum())},
+    )

@@ -1,0 +1,266 @@
+"""The input of a command: read, named in messages, and options that do not fit it refused."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from functools import partial
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from vorotool.errors import InputError, Kind, Message
+from vorotool.jobs.run_log import Run
+
+if TYPE_CHECKING:
+    from vorotool.geometry.pixel_frame import Frame
+    from vorotool.geometry.points.point_set import PointSet
+    from vorotool.geometry.points.raster import Raster
+    from vorotool.geometry.points.seed_set import SeedSet
+    from vorotool.geometry.polygons.polygon_set import PolygonSet
+    from vorotool.render.canvas.layers import Backdrop
+
+IMAGE_OPTIONS = ("page", "seeds", "connectivity", "threshold", "invert")
+
+
+def read_seed_input(run: Run, o: SimpleNamespace, source: str, *, properties: bool) -> PointSet | Raster:
+    """Read points or an image, as the options say.
+
+    Raises
+    ------
+    click.UsageError
+        If the input is a list of points and an option for images is given.
+    """
+    from vorotool.formats import read
+    from vorotool.geometry.points.point_set import PointSet
+    from vorotool.geometry.points.raster import Raster
+
+    value = read(
+        source,
+        geometry="points",
+        input_format=o.input_format,
+        columns=o.columns,
+        page=o.page,
+        max_pixels=o.max_pixels,
+        max_sites=o.max_sites,
+        properties=properties and not o.no_properties,
+        threads=o.threads,
+        note=run.note,
+        crs=o.input_crs,
+    )
+    if isinstance(value, PointSet):
+        refuse(o, IMAGE_OPTIONS, "is for images, but the input is a list of points")
+        return value
+    assert isinstance(value, Raster)  # what is asked for is points, or an image
+    note_other_size(run, o, value.values.shape)
+    return value
+
+
+def settle_threshold(run: Run, o: SimpleNamespace, image: Raster) -> None:
+    """Find the threshold of Otsu's method if it is asked for: as a number it is said, and in the statistics."""
+    if o.threshold == "otsu":
+        from vorotool.engines.tessellation.raster_objects import counted_values, is_flat, settled_threshold
+
+        o.threshold, o.invert = settled_threshold(image, "otsu", invert=o.invert)
+        if is_flat(counted_values(image)):
+            run.note(f"all pixels have the value {o.threshold:.17g}: Otsu's method finds no foreground")
+            run.stats["threshold"] = None
+            return
+        run.note(f"threshold {o.threshold:.17g}, by Otsu's method")
+    if o.threshold is not None:
+        run.stats["threshold"] = o.threshold
+
+
+def check_components(o: SimpleNamespace) -> None:
+    """Refuse ``--connectivity`` where no components are made."""
+    if o.connectivity is not None and o.seeds in ("pixels", "labels"):
+        raise click.UsageError(f"--connectivity is for components: leave it out with --seeds {o.seeds}")
+
+
+def check_frame_options(o: SimpleNamespace, *, is_digital: bool) -> None:
+    """Refuse two frames, and any where nothing is tessellated."""
+    if o.size is not None and o.window is not None:
+        raise click.UsageError("give --size or --window, not both")
+    if not is_digital:
+        refuse(o, ("size", "window"), "is the frame of a tessellation: use --method digital or digital-valid")
+
+
+def read_sites(run: Run, o: SimpleNamespace, source: str, *, properties: bool, is_digital: bool) -> PointSet | SeedSet:
+    """Read points to triangulate, or find those of an image, as the options say."""
+    from vorotool.engines.tessellation.seeding import seeds_from_raster
+    from vorotool.geometry.points.point_set import PointSet
+
+    value = read_seed_input(run, o, source, properties=properties)
+    if isinstance(value, PointSet):
+        return value
+    refuse(o, ("columns",), "is for lists of points, but the input is an image")
+    refuse(o, ("size", "window"), "is for lists of points, but the input is an image, which brings its own frame")
+    settle_threshold(run, o, value)
+    # The sites of objects are their centroids, but their regions are not those of the centroids.
+    mode = None if o.seeds == "centroids" and not is_digital else o.seeds
+    return seeds_from_raster(
+        value,
+        mode=mode,
+        connectivity=int(o.connectivity or 8),
+        threshold=o.threshold,
+        invert=o.invert,
+        strict=o.strict,
+        max_sites=o.max_sites,
+        note=run.note,
+    )
+
+
+def frame_of(o: SimpleNamespace, seeds: SeedSet) -> Frame | None:
+    """Give the frame that is asked for, else the one that the seeds bring or need; None where there are no seeds."""
+    from vorotool.engines.tessellation.frames import default_frame
+    from vorotool.geometry.pixel_frame import Frame
+
+    if o.window is not None:
+        return Frame(*o.window)
+    if o.size is not None:
+        return Frame(0, 0, *o.size)
+    if not len(seeds) and not seeds.is_empty_image:
+        return None
+    return default_frame(seeds, how="give one with --size WxH or --window X,Y,W,H", instead="delaunay --what cells")
+
+
+def window_of(o: SimpleNamespace, seeds: SeedSet) -> tuple[int, int, int, int] | None:
+    """Give the same as the engines take it."""
+    frame = frame_of(o, seeds)
+    return None if frame is None else (frame.x, frame.y, frame.width, frame.height)
+
+
+def read_clip(
+    run: Run, o: SimpleNamespace, path: str, points: PointSet | SeedSet, source: str
+) -> tuple[Sequence[Any], PointSet | SeedSet]:
+    """Read the polygons of ``--clip``, as shapely geometry; lines are left out with a note.
+
+    Of polygons and points that name no coordinate reference system, the ones are taken to be in that of the others.
+
+    Returns
+    -------
+    polygons : sequence of shapely geometry
+        To clip to.
+    points : PointSet or SeedSet
+        The points, in a system if the polygons are in one.
+
+    Raises
+    ------
+    InputError
+        If there are no polygons, or they are in another system than the points.
+    """
+    from vorotool.formats import read
+    from vorotool.geometry.polygons.conversion import to_shapely
+    from vorotool.geometry.polygons.polygon_set import PolygonSet
+
+    value = read(path, geometry="polygons", properties=False, threads=o.threads, note=partial(_note_of_clip, run))
+    if not isinstance(value, PolygonSet):
+        raise InputError(f"{path} is an image: give --clip a file of polygons")
+    points = _in_one_crs(run, (path, value), (source, points))
+    lines = int(value.is_line.sum())
+    if lines:
+        run.note(f"{path}: {lines} open lines are left out of --clip")
+    if lines == len(value):
+        raise InputError(f"{path} holds no polygons: give --clip a file that does")
+    return list(to_shapely(value)[~value.is_line]), points
+
+
+def _note_of_clip(run: Run, message: str) -> None:
+    """Say what the reader noticed, but what is said of the points, or of both together."""
+    if Message.of(message).kind not in (Kind.DEGREES, Kind.UNNAMED_CRS):
+        run.note(message)
+
+
+def _in_one_crs(run: Run, clip: tuple[str, PolygonSet], data: tuple[str, PointSet | SeedSet]) -> PointSet | SeedSet:
+    """Check that polygons and points are in one coordinate reference system, as far as they name any."""
+    from vorotool.formats.io.sources import STANDARD_INPUT
+    from vorotool.formats.parsing.reference_systems import with_crs
+    from vorotool.geometry.crs import crs_name, same_crs
+    from vorotool.geometry.points.point_set import PointSet
+
+    (path, polygons), (source, points) = clip, data
+    if not isinstance(points, PointSet) or (points.crs is None and polygons.crs is None):
+        return points
+    source = STANDARD_INPUT if source == "-" else source
+    if points.crs is None or polygons.crs is None:
+        unnamed, named, crs = (source, path, polygons.crs) if points.crs is None else (path, source, points.crs)
+        _check_they_meet(points, polygons, f"{unnamed} names no coordinate reference system", f"{named} is in", crs)
+        run.note(f"{unnamed} names no coordinate reference system: it is taken to be in {crs_name(crs)}, as {named} is")
+        return with_crs(points, source, crs, run.note) if points.crs is None else points
+    if not same_crs(points.crs, polygons.crs):
+        wanted = crs_name(points.crs)
+        raise InputError(
+            f"{path} is in {crs_name(polygons.crs)}, but {source} in {wanted}: bring them into one coordinate "
+            f"reference system, for example: ogr2ogr -f GeoJSON -t_srs {wanted} clip.geojson {path}"
+        )
+    return points
+
+
+def _check_they_meet(points: PointSet, polygons: PolygonSet, unnamed: str, named: str, crs: Any) -> None:
+    """Refuse to take what lies elsewhere to be in the same system."""
+    from vorotool.geometry.box import bounds
+    from vorotool.geometry.crs import crs_name
+
+    if not len(points.xy) or not len(polygons.xy):
+        return
+    (low_a, high_a), (low_b, high_b) = bounds(points.xy), bounds(polygons.xy)
+    if (low_a > high_b).any() or (low_b > high_a).any():
+        raise InputError(
+            f"{unnamed}, {named} {crs_name(crs)}, and the points lie outside the polygons: bring them into one system "
+            "that both name, for example with ogr2ogr -t_srs, or with --input-crs for the points"
+        )
+
+
+def read_backdrop(o: SimpleNamespace) -> Backdrop | None:
+    """Read the image of ``--overlay``, if there is one."""
+    if o.overlay is None:
+        return None
+    import io
+
+    from vorotool.formats.images.png_writer import write_png
+    from vorotool.formats.images.rgb_reader import read_picture
+    from vorotool.formats.io.sources import read_source, reading
+    from vorotool.render.canvas.layers import Backdrop
+
+    with reading(o.overlay):
+        pixels = read_picture(read_source(o.overlay), page=o.page, max_pixels=o.max_pixels)
+    height, width = pixels.shape[:2]
+
+    def encode() -> bytes:
+        out = io.BytesIO()
+        write_png(out, [pixels.reshape(height, 3 * width)], (height, width), rgb=True, threads=o.threads)
+        return out.getvalue()
+
+    return Backdrop(pixels, encode)
+
+
+def note_other_size(run: Run, o: SimpleNamespace, shape: Sequence[int]) -> None:
+    """Say that the image of ``--overlay`` is not of the size of the input, whose pixels are those of the picture."""
+    if o.overlay is None or o.backdrop.pixels.shape[:2] == tuple(shape[:2]):
+        return
+    height, width = o.backdrop.pixels.shape[:2]
+    run.note(
+        f"{o.overlay} has {width} x {height} pixels, the input {shape[1]} x {shape[0]}: both begin in one corner, and "
+        "what lies beside the overlay is not drawn"
+    )
+
+
+def refuse(o: SimpleNamespace, names: tuple[str, ...], reason: str) -> None:
+    """Refuse options that are given although they mean nothing here."""
+    for name in names:
+        if getattr(o, name) is not None and getattr(o, name) is not False:  # 0 is given, too
+            raise click.UsageError(f"--{name} {reason}")
+
+
+@contextmanager
+def naming(source: str) -> Iterator[None]:
+    """Let messages about the content of the input begin with its name, unless they name an input already."""
+    try:
+        yield
+    except InputError as error:
+        if error.source is not None:
+            raise
+        named = InputError(f"{'standard input' if source == '-' else source}: {error}")
+        named.source = source
+        raise named from error

@@ -1,0 +1,97 @@
+"""What a command does with one input: the steps that all commands have in common."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, Protocol
+
+from vorotool.cli.options.pixel_size import unit_stats
+from vorotool.jobs.inputs import read_backdrop
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.targets import Target, check_targets
+from vorotool.signals import end_by_exceptions
+
+
+class Products(Protocol):
+    """Results of one input, each computed when it is first asked for."""
+
+    def check(self, target: Target) -> None:
+        """Refuse what cannot be written, before anything is."""
+
+    def verify(self) -> None:
+        """Check the results by another way."""
+
+    def write(self, target: Target, *, inputs: Sequence[str]) -> None:
+        """Write one result."""
+
+    def stats(self) -> dict[str, Any]:
+        """Counts and sizes."""
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """A command, as far as it is about one input.
+
+    Parameters
+    ----------
+    name : str
+        Of the command.
+    formats : mapping of str to sequence of str
+        Formats of each result; the first is its default.
+    check_options : callable
+        ``check_options(options, targets)`` refuses options that do not go together, or that no output would show.
+    make : callable
+        ``make(run, options, source)`` reads an input and gives its products. It may change the options.
+    geometry : {"points", "polygons"}, optional
+        What it reads beside images.
+
+    The callables are functions of a module, so that a recipe can be sent to another process.
+    """
+
+    name: str
+    formats: Mapping[str, Sequence[str]]
+    check_options: Callable[[SimpleNamespace, list[Target]], None]
+    make: Callable[[Run, SimpleNamespace, str], Products]
+    geometry: str | None = None
+
+
+def process_input(recipe: Recipe, run: Run, o: SimpleNamespace, source: str, targets: Sequence[Target]) -> None:
+    """Read one input, compute, check and write its results.
+
+    Parameters
+    ----------
+    recipe : Recipe
+        Of the command.
+    run : Run
+        Takes notes, warnings, seconds and statistics.
+    o : namespace
+        Options of the command line.
+    source : str
+        The input; ``-`` is standard input.
+    targets : sequence of Target
+        The outputs.
+    """
+    from vorotool.formats.io.atomic_output import make_folder
+    from vorotool.formats.text.tables import safe_texts
+
+    check_targets(o, targets, source)
+    with run.phase("read"):
+        o.backdrop = read_backdrop(o)
+    products = recipe.make(run, o, source)
+    for target in targets:
+        products.check(target)
+    if getattr(o, "verify", False):
+        with run.phase("verify"):
+            products.verify()
+    end_by_exceptions()
+    for target in targets:
+        if o.out_dir is not None:
+            make_folder(Path(target.path).parent)
+        with run.phase(f"write {target.what}"), safe_texts(getattr(o, "safe_csv", False)):
+            products.write(target, inputs=(source,))
+    if o.stats is not None:
+        with run.phase("count"):
+            run.stats.update({**products.stats(), **unit_stats(o)})

@@ -1,0 +1,140 @@
+"""One run of a command: notes, warnings, progress, seconds, and the statistics it leaves behind."""
+
+from __future__ import annotations
+
+import sys
+import time
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from types import TracebackType
+from typing import Any
+
+import click
+
+from vorotool import __version__
+from vorotool.errors import Kind, Message, VorotoolWarning
+from vorotool.signals import end_by_exceptions
+
+PROGRESS_AFTER = 1.0
+"""Seconds before a progress bar appears on a terminal."""
+
+
+class Run:
+    """What a command says besides its result.
+
+    Parameters
+    ----------
+    command : str
+        Its name.
+    quiet, verbose : bool
+        Say nothing but errors, whatever else is asked for; say what takes how long.
+    stats : str, optional
+        File for the statistics, ``-`` for standard output.
+    no_clobber : bool
+        Refuse to replace that file.
+
+    Attributes
+    ----------
+    stats : dict
+        Statistics, beside seconds and warnings.
+    seconds : dict of str to float
+        By phases.
+    warnings, notes : list of Message
+        What was said, or would have been.
+    """
+
+    def __init__(
+        self, command: str, *, quiet: bool, verbose: bool, stats: str | None, no_clobber: bool = False
+    ) -> None:
+        self._quiet, self._verbose = quiet, verbose and not quiet
+        self._target, self._no_clobber = stats, no_clobber
+        self.warnings: list[Message] = []
+        self.notes: list[Message] = []
+        self.seconds: dict[str, float] = {}
+        self._inner: list[float] = []
+        self._stack = ExitStack()
+        self.stats: dict[str, Any] = {"command": command, "version": __version__}
+
+    def __enter__(self) -> Run:
+        """Collect warnings from here on."""
+        self._stack.enter_context(warnings.catch_warnings())
+        warnings.simplefilter("always", VorotoolWarning)
+        warnings.showwarning = self._show_warning
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Write the statistics of a run that went well."""
+        self._stack.close()
+        if self._verbose:
+            for name, seconds in self.seconds.items():
+                click.echo(f"{name}: {seconds:.3f} s", err=True)
+        if kind is None and self._target is not None:
+            self._write_stats(self._target)
+
+    def note(self, message: str) -> None:
+        """Say something useful on standard error; that lengths are in degrees is about the result: a warning."""
+        if Message.of(message).kind is Kind.DEGREES:
+            self.warn(message)
+            return
+        self.notes.append(Message.of(message))
+        if not self._quiet:
+            click.echo(f"note: {message}", err=True)
+
+    def warn(self, message: str) -> None:
+        """Say what was repaired, snapped or guessed: on standard error and in the statistics, each once.
+
+        That results are empty is left out where the image has been told to be.
+        """
+        is_empty = Message.of(message).kind is Kind.EMPTY_RESULT
+        if message in self.warnings or (is_empty and any(said.kind is Kind.NO_FOREGROUND for said in self.warnings)):
+            return
+        self.warnings.append(Message.of(message))
+        if not self._quiet:
+            click.echo(f"warning: {message}", err=True)
+
+    @contextmanager
+    def phase(self, name: str) -> Iterator[None]:
+        """Measure a part of the run; time spent in a part of this part counts there only."""
+        start = time.perf_counter()
+        self._inner.append(0.0)
+        try:
+            yield
+        finally:
+            elapsed = time.perf_counter() - start
+            self.seconds[name] = self.seconds.get(name, 0.0) + elapsed - self._inner.pop()
+            if self._inner:
+                self._inner[-1] += elapsed
+
+    def progress(self, label: str) -> Callable[[float], None] | None:
+        """Make a callback that shows a bar on a terminal, once the work has taken a second."""
+        if self._quiet or not sys.stderr.isatty():
+            return None
+        start = time.monotonic()
+        bar: list[Any] = []
+
+        def show(fraction: float) -> None:
+            if not bar:
+                if time.monotonic() - start < PROGRESS_AFTER:
+                    return
+                end_by_exceptions()  # a bar that is left as it is hides the cursor
+                bar.append(self._stack.enter_context(click.progressbar(length=1000, label=label, file=sys.stderr)))
+            bar[0].update(int(1000 * fraction) - bar[0].pos)
+
+        return show
+
+    def _show_warning(self, message: Warning | str, category: type[Warning], *_: Any, **__: Any) -> None:
+        if isinstance(message, VorotoolWarning):  # a library's own remark says nothing about the user's data
+            self.warn(message.message)
+
+    def _write_stats(self, target: str) -> None:
+        import orjson
+
+        from vorotool.formats.io.atomic_output import open_output
+
+        self.stats["seconds"] = {name: round(value, 6) for name, value in self.seconds.items()}
+        self.stats["warnings"] = self.warnings
+        with open_output(target, no_clobber=self._no_clobber, option="--stats") as out:
+            out.write(orjson.dumps(self.stats, option=orjson.OPT_INDENT_2 | orjson.OPT_APPEND_NEWLINE))

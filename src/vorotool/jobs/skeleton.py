@@ -1,0 +1,325 @@
+"""What a skeleton can be written as (``--what``)."""
+
+from __future__ import annotations
+
+import warnings
+from abc import ABC, abstractmethod
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from functools import cached_property
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.cli.options.pixel_size import in_units, length_in_units
+from vorotool.cli.options.pruning import CRITERIA, Pruning, chosen_pruning
+from vorotool.errors import Kind, Message, RepairWarning, VorotoolWarning
+from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.skeleton.skeleton import EXTERIOR, Skeleton
+from vorotool.jobs.names import DERIVED
+from vorotool.jobs.pictures import write_layers
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.skeleton_extras import Derived
+from vorotool.jobs.targets import Target
+
+if TYPE_CHECKING:
+    from vorotool.engines.skeleton.exact import ShapeDiagram
+    from vorotool.geometry.polygons.polygon_set import PolygonSet
+    from vorotool.geometry.skeleton.centerline import Centerlines
+    from vorotool.render.canvas.layers import Page
+
+Place = tuple[float, float]
+
+DEFAULT_LAYERS = {
+    "skeleton": ("polygons", "skeleton"),
+    "diagram": ("polygons", "elements", "points", "skeleton"),
+    "elements": ("polygons", "elements", "points"),
+    "centerline": ("polygons", "skeleton"),
+}
+"""Layers of the picture of each result."""
+
+
+class SkeletonProducts(ABC):
+    """Results of one skeleton, however it is made.
+
+    Parameters
+    ----------
+    polygons : PolygonSet
+        Of what.
+    options : namespace
+        Options of the command line.
+    run : Run
+        Takes notes and seconds.
+    """
+
+    def __init__(self, polygons: PolygonSet, options: SimpleNamespace, run: Run) -> None:
+        self._polygons = polygons
+        self._is_told = False  # what was repaired, once
+        self.options, self.run = options, run
+        self.derived = Derived(options, run, lambda: self.skeleton, self._shapes)
+
+    @contextmanager
+    def telling_once(self) -> Iterator[None]:
+        """Let repairs be told where polygons are placed first."""
+        with warnings.catch_warnings():
+            if self._is_told:
+                warnings.simplefilter("ignore", RepairWarning)
+            yield
+        self._is_told = True
+
+    @property
+    def wants_skeleton(self) -> bool:
+        """Whether a result shows anything of the skeleton: offset curves are of the whole diagram."""
+        return bool(set(self.options.what) != {"offset"})
+
+    @cached_property
+    def whole(self) -> Skeleton:
+        """Of the side that is asked for, before it is pruned."""
+        with self.run.phase("skeleton"):
+            return self._make_skeleton()
+
+    @cached_property
+    def pruning(self) -> Pruning:
+        """What is removed."""
+        return chosen_pruning(self.options.prune, is_mask=self.options.is_mask)
+
+    @cached_property
+    def skeleton(self) -> Skeleton:
+        """What is left of it."""
+        if self.pruning.criterion is None:
+            return self.whole
+        from vorotool.engines.pruning.pruning import prune
+
+        whole = self.whole
+        threshold: dict[str, Any] = {self.pruning.criterion: self.pruning.threshold}
+        with self.run.phase("prune"):
+            return prune(whole, **threshold, threads=self.options.threads, progress=self.run.progress("pruning"))
+
+    @cached_property
+    def centerlines(self) -> Centerlines:
+        """The longest path in each polygon, or the one between the places that are given."""
+        return self._made_centerlines(self.options.start, self.options.end)
+
+    @cached_property
+    def _longest(self) -> Centerlines:
+        """The longest path in each polygon, for tables, which show who has none."""
+        if self.options.start is None and self.options.end is None and "centerline" in self.options.what:
+            return self.centerlines
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", VorotoolWarning)
+            return self._made_centerlines(None, None)
+
+    def _made_centerlines(self, start: Place | None, end: Place | None) -> Centerlines:
+        from vorotool.engines.centerlines.centerline import centerline
+
+        skeleton = self.skeleton
+        with self.run.phase("centerline"):
+            ends: Any = self.options.ends or "middle"
+            return centerline(skeleton, start=start, end=end, ends=ends, progress=self.run.progress("centerlines"))
+
+    @cached_property
+    def diagram(self) -> Skeleton:
+        """All edges of the diagram, cut by the frame."""
+        with self.run.phase("skeleton"):
+            return self._make_diagram()
+
+    @abstractmethod
+    def _make_skeleton(self) -> Skeleton: ...
+
+    @abstractmethod
+    def _make_diagram(self) -> Skeleton: ...
+
+    @property
+    @abstractmethod
+    def graph(self) -> PlanarGraph:
+        """The shapes as they were placed."""
+
+    def _shapes(self) -> ShapeDiagram | PolygonSet:
+        """What offset curves are of: each feature by itself, or the diagram of all."""
+        return self._shape_diagram() if self.options.features == "together" else self._polygons
+
+    def _shape_diagram(self) -> ShapeDiagram:
+        """The exact diagram of the shapes."""
+        from vorotool.engines.skeleton.exact import diagram_of_graph
+
+        with self.run.phase("diagram"):
+            return diagram_of_graph(self.graph, threads=self.options.threads, progress=self.run.progress("diagram"))
+
+    def _points(self, what: str) -> NDArray[np.float64] | None:
+        """What pictures of a result show as points, if not the ends of edges."""
+        return None
+
+    @property
+    def exact(self) -> Skeleton | None:
+        """What pictures show beside an approximate skeleton."""
+        return None
+
+    def verify(self) -> None:
+        """Check the diagram and the skeleton, from their arrays alone, and what pruning left of it."""
+        self.derived.verify()
+        if not self.wants_skeleton:
+            return
+        self._verify_whole()
+        if self.pruning.criterion is not None:
+            from vorotool.engines.pruning.verify_pruning import verify_pruning
+
+            verify_pruning(self.skeleton, self.whole)
+
+    @abstractmethod
+    def _verify_whole(self) -> None: ...
+
+    def _value(self, what: str) -> Skeleton:
+        if what == "centerline":
+            return self.centerlines.path
+        return self.diagram if what == "diagram" else self.skeleton
+
+    def check(self, target: Target) -> None:
+        """Compute a result, and refuse what cannot be written, before anything is written."""
+        if target.what in DERIVED:
+            self.derived.check(target)
+            return
+        value = self._value(target.what)
+        if target.fmt == "png":
+            from vorotool.render.canvas.png import check_picture_size
+
+            check_picture_size(self._page(value), self.options.max_pixels)
+        if target.fmt == "html":
+            from vorotool.render.pages.skeleton_html import check_html_size
+
+            check_html_size(self.whole)
+        if not len(value) and target.what in ("skeleton", "branches") and self.options.side == "exterior":
+            self.run.warn(Message("the exterior skeleton is empty", Kind.EMPTY_RESULT))
+
+    def write(self, target: Target, *, inputs: Sequence[str]) -> None:
+        """Write one result."""
+        from vorotool.formats.io.atomic_output import open_output
+
+        with open_output(
+            target.path, binary=target.is_binary, no_clobber=self.options.no_clobber, inputs=inputs
+        ) as out:
+            if target.what in DERIVED:
+                self.derived.write(out, target)
+            elif target.fmt in ("svg", "png"):
+                self._write_picture(out, target)
+            elif target.fmt == "html":
+                self._write_html(out)
+            elif target.what == "centerline":
+                self._write_centerlines(out, target.fmt)
+            else:
+                self._write_data(out, target)
+
+    def _write_data(self, out: BinaryIO, target: Target) -> None:
+        from vorotool.formats.results.skeletons import write_skeleton
+        from vorotool.geometry.skeleton.centerline import centerline_columns
+
+        has_table = target.what == "table"
+        write_skeleton(
+            out,
+            in_units(self.options, self._value(target.what)),
+            target.fmt,
+            what="skeleton" if target.what == "diagram" else target.what,
+            flatten=length_in_units(self.options, self.options.flatten),
+            columns=centerline_columns(in_units(self.options, self._longest)) if has_table else None,
+            precision=self.options.precision,
+            threads=self.options.threads,
+        )
+
+    def _write_centerlines(self, out: BinaryIO, fmt: str) -> None:
+        from vorotool.formats.results.centerlines import write_centerlines
+
+        write_centerlines(
+            out,
+            in_units(self.options, self.centerlines),
+            fmt,
+            flatten=length_in_units(self.options, self.options.flatten),
+            precision=self.options.precision,
+            threads=self.options.threads,
+        )
+
+    def _write_html(self, out: BinaryIO) -> None:
+        """A page of all prunings, which begins with that which is asked for."""
+        from vorotool.engines.pruning.pruning import arc_profiles, critical_values
+        from vorotool.render.pages.skeleton_html import write_skeleton_html
+
+        whole, (_, criterion, threshold) = in_units(self.options, self.whole), self.pruning
+        values = [critical_values(whole, name) for name in CRITERIA]
+        shown = None
+        if criterion is not None:
+            is_length = criterion in ("chord", "length")
+            shown = (criterion, length_in_units(self.options, threshold) if is_length else threshold)
+        write_skeleton_html(out, whole, values, arc_profiles(whole), shown=shown, y_up=self.options.y_up)
+
+    def _page(self, value: Skeleton) -> Page:
+        from vorotool.render.canvas.layers import ImagePage
+        from vorotool.render.layers.skeleton import skeleton_page
+
+        if self.options.backdrop is not None:
+            return ImagePage(self.options.backdrop)
+        return skeleton_page(value, width=self.options.width or 1000, y_up=self.options.y_up)
+
+    def _write_picture(self, out: BinaryIO, target: Target) -> None:
+        from vorotool.render.layers.skeleton import centerline_layers, picture_layers
+
+        value = self._value(target.what)
+        page, wanted = self._page(value), self._layers(target.what)
+        if target.what == "centerline":
+            layers = centerline_layers(self.centerlines, page, wanted)
+        else:
+            exact = self.exact if "exact" in wanted else None
+            points = self._points(target.what) if "points" in wanted else None
+            layers = picture_layers(value, page, wanted, what=target.what, points=points, exact=exact)
+        write_layers(out, layers, page, fmt=target.fmt, threads=self.options.threads)
+
+    def _layers(self, what: str) -> Sequence[str]:
+        """Layers of a picture: over an image the shapes are to be seen already."""
+        if self.options.layers is not None or self.options.backdrop is None:
+            return self.options.layers or DEFAULT_LAYERS[what]
+        return [layer for layer in DEFAULT_LAYERS[what] if layer != "polygons"]
+
+    def stats(self) -> dict[str, Any]:
+        """Counts and sizes."""
+        found: dict[str, Any] = {
+            **self._shape_stats(),
+            **self._diagram_stats(),
+            "side": self.options.side,
+            "threads": self.options.threads,
+        }
+        if self.options.is_mask:
+            found |= {"outline": self.options.outline or "crack", "connectivity": int(self.options.connectivity or 8)}
+        if self.wants_skeleton:
+            found |= self._skeleton_stats(self.skeleton)
+        return found | self.derived.stats()
+
+    def _shape_stats(self) -> dict[str, Any]:
+        graph = self.graph
+        assert graph.polygons is not None
+        return {
+            "polygons": len(graph.polygons),
+            "vertices": len(graph.polygons.xy),
+            "sites": len(graph.points) + len(graph),
+            "segments": len(graph),
+            "lattice_step": graph.scale,
+            "largest_move": graph.largest_move,
+            "repairs": graph.repairs,
+        }
+
+    def _skeleton_stats(self, skeleton: Skeleton) -> dict[str, Any]:
+        found: dict[str, Any] = {
+            "arcs": len(skeleton),
+            "parabolas": int(np.count_nonzero(skeleton.is_parabola)),
+            "exterior_arcs": int(np.count_nonzero(skeleton.side == EXTERIOR)),
+            "branches": int(skeleton.branch[-1]) + 1 if len(skeleton) else 0,
+            "nodes": len(skeleton.vertices),
+            "prune": self.pruning.stats(),
+        }
+        if skeleton.frame is not None:
+            found["frame"] = list(skeleton.frame)
+        return found | self._more_stats()
+
+    @abstractmethod
+    def _diagram_stats(self) -> dict[str, Any]: ...
+
+    def _more_stats(self) -> dict[str, Any]:
+        return {}

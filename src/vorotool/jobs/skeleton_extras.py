@@ -1,0 +1,145 @@
+"""What follows from a skeleton and its diagram: offset curves, the shape again, places along it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cached_property
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+from vorotool.cli.options.pixel_size import in_units, length_in_units
+from vorotool.errors import Kind, Message
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.skeleton.offsets import Offsets
+from vorotool.geometry.skeleton.points_along import SkeletonPoints
+from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.jobs.pictures import Drawing, drawing_of, write_layers
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.targets import Target
+
+if TYPE_CHECKING:
+    from vorotool.engines.skeleton.exact import ShapeDiagram
+
+
+class Derived:
+    """Results that are made when they are asked for.
+
+    Parameters
+    ----------
+    options : namespace
+        Options of the command line.
+    run : Run
+        Takes seconds.
+    skeleton, shapes : callable
+        Give the skeleton, and the shapes or their exact diagram.
+    """
+
+    def __init__(
+        self,
+        options: SimpleNamespace,
+        run: Run,
+        skeleton: Callable[[], Skeleton],
+        shapes: Callable[[], ShapeDiagram | PolygonSet],
+    ) -> None:
+        self.options, self.run = options, run
+        self._skeleton, self._shapes = skeleton, shapes
+
+    @cached_property
+    def offset(self) -> Offsets:
+        """Curves at all distances."""
+        from vorotool.engines.offsets.offsets import offset
+
+        shapes, o = self._shapes(), self.options
+        with self.run.phase("offset"):
+            progress = self.run.progress("offset")
+            made = offset(
+                shapes, o.distance, features=o.features, strict=o.strict, threads=o.threads, progress=progress
+            )
+        empty = [f"{distance:g}" for distance in self.options.distance if distance not in made.distance]
+        if empty:
+            self.run.warn(Message(f"nothing is left at the distance {', '.join(empty)}", Kind.EMPTY_RESULT))
+        return made
+
+    @cached_property
+    def shape(self) -> PolygonSet:
+        """Rebuilt from the skeleton."""
+        from vorotool.engines.from_skeleton.reconstruction import rebuild
+
+        skeleton = self._skeleton()
+        with self.run.phase("rebuild"):
+            return rebuild(skeleton, flatten=self.options.flatten)
+
+    @cached_property
+    def points(self) -> SkeletonPoints:
+        """At equal steps along the branches."""
+        from vorotool.engines.from_skeleton.points_along import points_along
+
+        skeleton = self._skeleton()
+        with self.run.phase("points"):
+            return points_along(skeleton, every=self.options.every)
+
+    def value(self, what: str) -> Any:
+        """Of a result by its name."""
+        return getattr(self, {"transects": "points"}.get(what, what))
+
+    def check(self, target: Target) -> None:
+        """Compute a result, and refuse what cannot be written."""
+        from vorotool.render.canvas.png import check_picture_size
+
+        self.value(target.what)
+        if target.fmt == "png":
+            check_picture_size(self._drawing(target.what).page, self.options.max_pixels)
+
+    def _drawing(self, what: str) -> Drawing:
+        o = self.options
+        return drawing_of(
+            self.value(what),
+            what=what if what in ("points", "transects") else None,
+            layers=o.layers,
+            width=o.width or 1000,
+            y_up=o.y_up,
+            backdrop=o.backdrop,
+        )
+
+    def write(self, out: BinaryIO, target: Target) -> None:
+        """Write one result, as a picture or in units."""
+        o = self.options
+        if target.fmt in ("svg", "png"):
+            drawing = self._drawing(target.what)
+            write_layers(out, drawing.layers, drawing.page, fmt=target.fmt, threads=o.threads)
+            return
+        value = in_units(o, self.value(target.what))
+        if isinstance(value, PolygonSet):
+            from vorotool.formats.polygons.reader import write_polygons
+
+            write_polygons(out, value, target.fmt, precision=o.precision)
+        elif isinstance(value, Offsets):
+            from vorotool.formats.results.offsets import write_offsets
+
+            flatten = length_in_units(o, o.flatten)
+            write_offsets(out, value, target.fmt, flatten=flatten, precision=o.precision, threads=o.threads)
+        else:
+            from vorotool.formats.results.points_along import write_skeleton_points
+
+            write_skeleton_points(out, value, target.fmt, what=target.what, precision=o.precision, threads=o.threads)
+
+    def verify(self) -> None:
+        """Check the offset curves, if there are any."""
+        if "offset" in self.options.what:
+            from vorotool.engines.offsets.verify_offsets import verify_offsets
+
+            distances = self.options.distance
+            progress = self.run.progress("verifying")
+            verify_offsets(self.offset, distances=distances, threads=self.options.threads, progress=progress)
+
+    def stats(self) -> dict[str, Any]:
+        """Counts of what was made."""
+        made = self.__dict__
+        found: dict[str, Any] = {}
+        if "offset" in made:
+            offsets = self.offset
+            found["distances"] = list(self.options.distance)
+            found |= {"shapes": len(offsets), "rings": len(offsets.ring_kind), "pieces": len(offsets.site)}
+        if "points" in made:
+            found |= {"every": self.options.every, "points": len(self.points)}
+        return found

@@ -1,0 +1,168 @@
+"""Images that are written as they are computed, rows by rows: into files, and into Zarr stores chunk by chunk."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.tessellation.bands import Band
+from vorotool.engines.tessellation.frames import band_limits
+from vorotool.errors import LimitError
+from vorotool.geometry.pixel_frame import Frame
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.targets import Target
+
+RowsOf = Callable[[int, int], NDArray[Any]]
+"""``rows_of(first, rows)`` gives some rows of an image."""
+
+SAMPLES = 3
+"""Bands that are encoded to learn how much room all need, where it may not be there."""
+
+
+@dataclass(frozen=True)
+class Stream:
+    """An image that need not be in memory.
+
+    Parameters
+    ----------
+    frame : Frame
+        Its pixels.
+    rows_of : callable
+        Gives any rows.
+    dtype : dtype
+        Of the pixels.
+    largest : int
+        The largest value there can be.
+    band : callable
+        Gives any rows as what computes them anywhere.
+    kind : mapping
+        Further options of `write_label_image`.
+    """
+
+    frame: Frame
+    rows_of: RowsOf
+    dtype: np.dtype[Any]
+    largest: int
+    band: Callable[[int, int], Band]
+    kind: Mapping[str, Any]
+
+    def bands(self) -> Iterator[NDArray[Any]]:
+        """Give all rows, band by band."""
+        return (self.rows_of(first, rows) for first, rows in band_limits(self.frame))
+
+    def write(self, out: Any, fmt: str, bands: Iterator[NDArray[Any]], rows: int, *, threads: int) -> None:
+        """Write bands of so many rows to a file."""
+        from vorotool.formats.images.label_images import write_label_image
+
+        write_label_image(
+            out,
+            bands,
+            shape=(rows, self.frame.width),
+            dtype=self.dtype,
+            fmt=fmt,  # type: ignore[arg-type]  # which the command has looked up
+            largest_label=self.largest,
+            threads=threads,
+            **self.kind,
+        )
+
+
+def check_chunks(o: SimpleNamespace, frame: Frame, dtype: np.dtype[Any]) -> tuple[int, int]:
+    """Choose rows and columns of the chunks of a store.
+
+    Raises
+    ------
+    LimitError
+        If a row of chunks is too large to be held.
+    UsageError
+        If zarr is not installed.
+    """
+    from vorotool.formats.zarr.arrays import chunks_of, zarr_module
+
+    zarr_module()
+    chunks = chunks_of(frame.shape, dtype, None if o.chunk is None else o.chunk[::-1])
+    if chunks[0] * frame.width > o.max_pixels:
+        raise LimitError(
+            f"a row of chunks has {frame.width} x {chunks[0]} pixels, more than --max-pixels {o.max_pixels}: "
+            "use a lower --chunk"
+        )
+    return chunks
+
+
+def write_file(out: Any, o: SimpleNamespace, target: Target, stream: Stream) -> None:
+    """Write an image to a file that is open, if there is room for it."""
+    from vorotool.formats.io.disk_space import check_space
+
+    frame, fmt = stream.frame, target.fmt
+
+    def size_of(rows: NDArray[Any]) -> int:
+        sample = io.BytesIO()
+        stream.write(sample, fmt, iter([rows]), len(rows), threads=o.threads)
+        return sample.tell()
+
+    most = frame.pixels * (11 if fmt == "text" else stream.dtype.itemsize)
+    check_space(target.path, most, lambda: expected_bytes(stream, next(band_limits(frame))[1], size_of))
+    stream.write(out, fmt, stream.bands(), frame.height, threads=o.threads)
+
+
+def write_store(run: Run, o: SimpleNamespace, target: Target, stream: Stream, inputs: Sequence[str]) -> None:
+    """Write an image to a Zarr store, if there is room for it: here, or on a cluster."""
+    from vorotool.formats.io.disk_space import check_space
+    from vorotool.formats.zarr.arrays import create_array, write_rows
+    from vorotool.formats.zarr.store import open_store
+
+    frame, dtype = stream.frame, stream.dtype
+    chunks = check_chunks(o, frame, dtype)
+
+    def size_of(rows: NDArray[Any]) -> int:
+        files: dict[str, Any] = {}
+        write_rows(create_array(files, rows.shape, dtype=dtype, chunks=chunks), 0, rows, threads=o.threads)
+        return sum(map(len, files.values()))
+
+    check_space(target.path, frame.pixels * dtype.itemsize, lambda: expected_bytes(stream, chunks[0], size_of))
+    with open_store(target.path, no_clobber=o.no_clobber, inputs=inputs) as folder:
+        array = create_array(folder, frame.shape, dtype=dtype, chunks=chunks)
+        limits = [(first, min(chunks[0], frame.height - first)) for first in range(0, frame.height, chunks[0])]
+        if o.cluster is not None and o.out_dir is None:
+            _write_on_cluster(run, o, folder, stream, limits)
+            return
+        for first, count in limits:
+            write_rows(array, first, stream.rows_of(first, count), threads=o.threads)
+
+
+def _write_on_cluster(
+    run: Run, o: SimpleNamespace, folder: Path, stream: Stream, limits: Sequence[tuple[int, int]]
+) -> None:
+    from vorotool.batch.dask_bands import write_bands
+
+    show = run.progress("tessellating")
+    bands = ((first, stream.band(first, count)) for first, count in limits)
+    for done, _ in enumerate(write_bands(folder, bands, address=o.cluster, jobs=o.jobs), start=1):
+        if show is not None:
+            show(done / len(limits))
+
+
+def expected_bytes(stream: Stream, rows: int, size_of: Callable[[NDArray[Any]], int]) -> int:
+    """Estimate the bytes of an image from those of some bands, in which its parts differ.
+
+    Examples
+    --------
+    >>> rows_of = lambda first, rows: np.zeros((rows, 4))
+    >>> zeros = Stream(Frame(0, 0, 4, 100), rows_of, np.dtype(float), 0, lambda first, rows: None, {})
+    >>> expected_bytes(zeros, 10, lambda rows: rows.nbytes)
+    3200
+    """
+    bands = -(-stream.frame.height // rows)
+    chosen = {bands * (2 * k + 1) // (2 * SAMPLES) for k in range(SAMPLES)}
+    seen = size = 0
+    for band in sorted(chosen):
+        count = min(rows, stream.frame.height - band * rows)
+        size += size_of(stream.rows_of(band * rows, count))
+        seen += count
+    return size * stream.frame.height // seen

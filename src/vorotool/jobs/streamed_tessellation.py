@@ -1,0 +1,155 @@
+"""Tessellations of images beyond memory: what can be written of them, and which images are such."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from functools import cached_property, partial
+from types import SimpleNamespace
+from typing import Any
+
+import click
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.engines.tessellation.bands import Quantity
+from vorotool.engines.tessellation.frames import label_dtype
+from vorotool.engines.tessellation.streamed_image import ObjectRows, StreamedImage
+from vorotool.jobs.inputs import refuse
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.streamed_output import Stream, check_chunks, write_file, write_store
+from vorotool.jobs.targets import Target
+
+LARGE = 2**24
+"""Pixels from which an image that can be read in bands is not held: a seed in memory takes some 40 bytes."""
+
+LEAST_ROWS = 128
+"""Rows that are read at a time, however low chunks are: for each band two lists are kept."""
+
+STREAMED = frozenset({"labels", "distance", "distance2"})
+"""What can be written of an image that is not held."""
+
+
+def open_large(o: SimpleNamespace, source: str) -> Any:
+    """Open an image band by band, if it is large or its bands go to a cluster, and the options allow that."""
+    from vorotool.formats.images.band_reader import open_rows
+    from vorotool.formats.io.sources import reading
+    from vorotool.formats.parsing.format_names import NAMES_WITH, known_input_format
+
+    held = o.verify or o.seeds == "centroids" or o.threshold == "otsu" or o.method != "exact" or o.columns is not None
+    if source == "-" or held or not set(o.what) <= STREAMED:
+        return None
+    fmt = known_input_format(o.input_format, NAMES_WITH["points"])
+    with reading(source):
+        rows = open_rows(source, input_format=fmt, page=o.page)
+        if rows is None:
+            return None
+        height, width = rows.shape
+    on_cluster = o.cluster is not None and o.out_dir is None
+    return rows if on_cluster or height * width > LARGE else None
+
+
+class StreamedProducts:
+    """Results of one image that is not held.
+
+    Parameters
+    ----------
+    run : Run
+        Takes seconds.
+    options : namespace
+        Options of the command line.
+    image : ImageRows
+        The input.
+    """
+
+    def __init__(self, run: Run, options: SimpleNamespace, image: Any) -> None:
+        refuse(options, ("size", "window"), "is for lists of points, but the input is an image, which brings its own")
+        self.run, self.options, self.resolution = run, options, image.resolution
+        from vorotool.formats.zarr.arrays import CHUNK
+
+        source = ObjectRows(
+            image,
+            options.seeds,
+            int(options.connectivity or 8),
+            options.threshold,
+            options.invert,
+            CHUNK[0] if options.chunk is None else max(LEAST_ROWS, options.chunk[1]),
+        )
+        self.image = StreamedImage(
+            source,
+            max_sites=options.max_sites,
+            strict=options.strict,
+            progress=run.progress("reading"),
+            note=run.note,
+        )
+        if set(options.what) & {"distance", "distance2"}:
+            self.image.check_distances()
+        self.dtype = label_dtype(self.image.largest_label, options.dtype)
+
+    def check(self, target: Target) -> None:
+        """Refuse what cannot be written in the format of a target."""
+        from vorotool.formats.images.label_images import check_png
+
+        if target.fmt == "svg":
+            raise click.UsageError("the image is too large for a picture: write a PNG, a TIFF or a Zarr store")
+        stream = self._stream(target.what)
+        if target.fmt == "png":
+            check_png(stream.dtype, stream.largest)
+        if target.fmt == "zarr":
+            check_chunks(self.options, stream.frame, stream.dtype)
+
+    def verify(self) -> None:
+        """Nothing: with ``--verify`` an image is held."""
+
+    def write(self, target: Target, *, inputs: Sequence[str]) -> None:
+        """Write one result."""
+        from vorotool.formats.io.atomic_output import open_output
+
+        o, stream = self.options, self._stream(target.what)
+        if target.fmt == "zarr":
+            write_store(self.run, o, target, stream, inputs)
+            return
+        with open_output(target.path, binary=target.is_binary, no_clobber=o.no_clobber, inputs=inputs) as out:
+            write_file(out, o, target, stream)
+
+    def _stream(self, what: Any) -> Stream:
+        dtype, largest = self.dtype, self.image.largest_label
+        if what == "distance":
+            dtype, largest = np.dtype(np.float32), 0
+        elif what == "distance2":
+            dtype = self.image.square_dtype
+            largest = int(np.iinfo(dtype).max)
+        band = partial(self.image.band, what, dtype, max_distance=self._max_distance(what))
+        return Stream(
+            self.image.frame, partial(self._rows, what, dtype), dtype, largest, band, {"resolution": self.resolution}
+        )
+
+    def _rows(self, what: Quantity, dtype: np.dtype[Any], first: int, rows: int) -> NDArray[Any]:
+        show = self._progress
+        with self.run.phase("tessellate"):
+            made = self.image.band(what, dtype, first, rows, self._max_distance(what)).rows(
+                threads=self.options.threads
+            )
+        if show is not None:
+            show((first + rows) / self.image.frame.height)
+        return made
+
+    def _max_distance(self, what: str) -> Fraction | None:
+        limit: Fraction | None = self.options.max_distance
+        return limit if what == "labels" else None
+
+    @cached_property
+    def _progress(self) -> Any:
+        return self.run.progress("tessellating")
+
+    def stats(self) -> dict[str, Any]:
+        """Counts and sizes."""
+        frame = self.image.frame
+        return {
+            "seeds": self.image.pixels,
+            "largest_label": self.image.largest_label,
+            "frame": [frame.x, frame.y, frame.width, frame.height],
+            "objects": self.image.source.mode,
+            "method": "exact",
+            "threads": self.options.threads,
+        }

@@ -1,0 +1,295 @@
+"""Which outputs a command writes, where, and in which format."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import click
+
+from vorotool.formats.io.atomic_output import is_same_file, spoken
+from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
+
+EXTENSIONS = {
+    ".png": "png",
+    ".tif": "tiff",
+    ".tiff": "tiff",
+    ".npy": "npy",
+    ".txt": "text",
+    ".svg": "svg",
+    ".csv": "csv",
+    ".json": "json",
+    ".npz": "npz",
+    ".geojson": "geojson",
+    ".edge": "edge",
+    ".ele": "ele",
+    ".node": "node",
+    ".obj": "obj",
+    ".wkt": "wkt",
+    ".poly": "poly",
+    ".graphml": "graphml",
+    ".html": "html",
+    ".zarr": "zarr",
+}
+FORMATS = tuple(dict.fromkeys(EXTENSIONS.values()))
+TEXT_FORMATS = frozenset(FORMATS) - {"png", "tiff", "npy", "npz", "zarr"}
+TRIANGLE_FILES = frozenset({"node", "edge", "ele"})
+_EXTENSION_OF = {"tiff": "tif", "text": "txt"}
+
+
+PICTURE_LAYERS = {"png": ("cells", "diagram", "seeds", "labels"), "svg": ("cells", "labels", "seeds")}
+"""Layers of pictures by format, as `vorotool.render` draws them."""
+
+
+@dataclass(frozen=True)
+class Target:
+    """One output: ``path`` is a file's name, or ``-`` for standard output."""
+
+    what: str
+    path: str
+    fmt: str
+
+    @property
+    def is_binary(self) -> bool:
+        """Whether it must not go to a terminal."""
+        return self.fmt not in TEXT_FORMATS
+
+
+def plan_targets(
+    formats: Mapping[str, Sequence[str]],
+    what: Sequence[str],
+    *,
+    output: str | None,
+    fmt: str | None,
+    out_dir: str | None,
+    source: str,
+) -> list[Target]:
+    """Lay out the outputs of one input.
+
+    Parameters
+    ----------
+    formats : mapping of str to sequence of str
+        Formats of each kind of result; the first is its default.
+    what : sequence of str
+        The results wanted.
+    output, fmt, out_dir : str, optional
+        As given on the command line.
+    source : str
+        The input, which names outputs in ``out_dir``.
+
+    Raises
+    ------
+    click.UsageError
+        If a result cannot be written in a format, or would go unnamed.
+    """
+    if output is not None and out_dir is not None:
+        raise click.UsageError("give -o or --out-dir, not both")
+    fmt = _known_format(fmt, formats)
+    several = len(what) > 1
+    if out_dir is not None:
+        stem = Path(out_dir) / ("stdin" if source == "-" else Path(source).stem)
+        choose = _several_format if several else _chosen
+        chosen = {name: choose(formats, name, fmt, None) for name in what}
+        return [Target(name, _named(stem, name if several else None, chosen[name]), chosen[name]) for name in what]
+    if several:
+        if output is None or stream_kind(output) is not None:
+            raise click.UsageError("several results need -o STEM (files STEM.<what>.<ext>) or --out-dir DIR")
+        given = EXTENSIONS.get(Path(output).suffix.lower())
+        stem = Path(output).with_suffix("") if given else Path(output)
+        chosen = {name: _several_format(formats, name, fmt, given) for name in what}
+        return [Target(name, _named(stem, name, chosen[name]), chosen[name]) for name in what]
+    name = what[0]
+    path = "-" if output is None else output
+    chosen_format = _chosen(formats, name, fmt, None if path == "-" else Path(path).suffix.lower())
+    target = Target(name, path, chosen_format)
+    if output is None and fmt is None and target.is_binary:
+        raise click.UsageError(
+            f"{name} output is binary: name a file with -o, or a text format with -f {_text(formats[name])}"
+        )
+    return [target]
+
+
+FILES_READ = ("clip", "overlay", "files_from")
+"""Options that name files which are read, and so are never replaced."""
+
+
+def files_read(options: Any) -> dict[str, str]:
+    """Give the files that options name to be read, by the option.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> files_read(SimpleNamespace(clip="land.geojson", overlay=None))
+    {'--clip': 'land.geojson'}
+    """
+    given = {f"--{name.replace('_', '-')}": getattr(options, name, None) for name in FILES_READ}
+    return {option: path for option, path in given.items() if path is not None}
+
+
+def check_stats(stats: str | None, targets: Sequence[Target], source: str, further: Mapping[str, str]) -> None:
+    """Refuse statistics that would go where the input, another file that is read, or a result is.
+
+    Parameters
+    ----------
+    stats : str, optional
+        As given.
+    targets : sequence of Target
+        The results.
+    source : str
+        The input.
+    further : mapping of str to str
+        As of `files_read`.
+
+    Raises
+    ------
+    click.UsageError
+        If they would.
+    """
+    if stats is None:
+        return
+    is_open = stats == STANDARD or descriptor_of(stats) is not None
+    for role, path in () if is_open else (("the input", source), *further.items()):
+        if is_same_file(Path(stats), path):
+            raise click.UsageError(f"--stats {stats} is also {role}, which is never replaced: choose another name")
+    for target in targets:
+        if not is_same_output(stats, target.path):
+            continue
+        if is_open and (target.path == STANDARD or descriptor_of(target.path) is not None):
+            raise click.UsageError(f"--stats {stats} needs -o FILE: {spoken(target.path)} holds the result")
+        raise click.UsageError(f"--stats {stats} is also the output of {target.what}: choose another name")
+
+
+def check_picture_options(
+    options: Any,
+    pictures: Sequence[str],
+    layers: Mapping[str, Sequence[str]] = PICTURE_LAYERS,
+    *,
+    png_has_width: bool = False,
+    has_page: bool = False,
+) -> None:
+    """Refuse layers, a width, a direction and an image beneath that no picture would show.
+
+    Parameters
+    ----------
+    options : namespace
+        With ``layers``, ``width``, ``overlay`` and ``y_up`` as given, or None.
+    pictures : sequence of str
+        Formats of the pictures that are to be written.
+    layers : mapping of str to sequence of str
+        Layers of each format.
+    png_has_width : bool
+        PNG pictures are of no image, so that they are as wide as is asked for.
+    has_page : bool
+        A page of HTML is written, too, in which y can go upwards.
+
+    Raises
+    ------
+    click.UsageError
+        If a layer is none of a picture's format, or the width is for SVG only.
+    """
+    if options.overlay is not None:
+        _check_overlay(options, pictures)
+    if options.y_up is not None and not pictures and not has_page:
+        raise click.UsageError("--y-up and --y-down are for pictures: use -f svg or -f png, or leave them out")
+    if options.width is not None and png_has_width and not pictures:
+        raise click.UsageError("--width is for pictures: use -f svg or -f png, or leave it out")
+    if options.width is not None and not png_has_width and "svg" not in pictures:
+        raise click.UsageError(
+            "--width is for SVG pictures: a PNG has the size of the image; use -f svg, or leave it out"
+        )
+    for fmt in pictures:
+        for layer in options.layers or ():
+            if layer not in layers[fmt]:
+                raise click.UsageError(
+                    f"--layers {layer}: a picture in {fmt.upper()} has {', '.join(layers[fmt])}; choose of these"
+                )
+
+
+def _check_overlay(options: Any, pictures: Sequence[str]) -> None:
+    if not pictures:
+        raise click.UsageError("--overlay is for pictures: use -f svg or -f png, or leave it out")
+    if options.width is not None:
+        raise click.UsageError("a picture over an image has its size: leave out --width or --overlay")
+    if options.y_up is not None:
+        raise click.UsageError("a picture over an image has y downwards: leave out --y-up, --y-down or --overlay")
+
+
+def check_targets(options: Any, targets: Sequence[Target], source: str) -> None:
+    """Find out before any work whether the outputs and the statistics can be written.
+
+    Parameters
+    ----------
+    options : namespace
+        With ``stats``, ``out_dir``, ``no_clobber``, ``overlay`` and perhaps ``clip``.
+    targets : sequence of Target
+        The outputs.
+    source : str
+        The input, which is never replaced; neither are further files that are read.
+    """
+    from vorotool.formats.io.atomic_output import check_output
+    from vorotool.formats.zarr.store import check_store
+
+    rules = {
+        "no_clobber": options.no_clobber,
+        "inputs": (source, *files_read(options).values()),
+        "makes_folder": options.out_dir is not None,
+    }
+    for target in targets:
+        if target.fmt == "zarr":
+            check_store(target.path, **rules)
+        else:
+            check_output(target.path, binary=target.is_binary, **rules)
+    if options.stats is not None:
+        in_out_dir = options.out_dir is not None and Path(options.stats).parent == Path(options.out_dir)
+        check_output(options.stats, no_clobber=options.no_clobber, makes_folder=in_out_dir, option="--stats")
+
+
+def _known_format(fmt: str | None, formats: Mapping[str, Sequence[str]]) -> str | None:
+    """Return the format that a name stands for; one of another command is refused where its result is known."""
+    if fmt is None:
+        return None
+    known = {**{name: name for name in FORMATS}, **{ext[1:]: name for ext, name in EXTENSIONS.items()}}
+    if fmt.lower() not in known:
+        possible = dict.fromkeys(each for those in formats.values() for each in those)
+        raise click.UsageError(f"-f {fmt} is no format: use one of {', '.join(possible)}")
+    return known[fmt.lower()]
+
+
+def _chosen(formats: Mapping[str, Sequence[str]], what: str, fmt: str | None, extension: str | None) -> str:
+    possible, chosen = formats[what], fmt
+    if chosen is None and extension:
+        chosen = EXTENSIONS.get(extension)
+        if chosen is None:
+            raise click.UsageError(
+                f"the extension {extension} names no format: use one of {', '.join(possible)}, or -f"
+            )
+    chosen = chosen or possible[0]
+    if chosen not in possible:
+        others = [name for name, those in formats.items() if chosen in those]
+        instead = f"use --what {' or '.join(others)}, or " if others else "use "
+        raise click.UsageError(f"{what} cannot be written as {chosen}: {instead}one of {', '.join(possible)}")
+    return chosen
+
+
+def _several_format(formats: Mapping[str, Sequence[str]], what: str, fmt: str | None, given: str | None) -> str:
+    """With several results the extension of -o holds for those that can be written so.
+
+    The files of Triangle are one format: each result goes to its own kind.
+    """
+    wanted = fmt or given
+    if wanted in TRIANGLE_FILES and wanted not in formats[what]:
+        fmt = next((own for own in formats[what] if own in TRIANGLE_FILES), fmt)
+    if fmt is None and given in formats[what]:
+        return str(given)
+    return _chosen(formats, what, fmt, None)
+
+
+def _named(stem: Path, what: str | None, fmt: str) -> str:
+    middle = f".{what}" if what else ""
+    return f"{stem}{middle}.{_EXTENSION_OF.get(fmt, fmt)}"
+
+
+def _text(possible: Sequence[str]) -> str:
+    return next((fmt for fmt in possible if fmt in TEXT_FORMATS), possible[0])

@@ -1,0 +1,222 @@
+"""What a tessellation can be written as (``--what``): each from rows, or from the label image held in memory."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from functools import cached_property, partial
+from types import SimpleNamespace
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.cli.options.pixel_size import table_in_units
+from vorotool.engines.label_images.regions import (
+    RegionMeasures,
+    measure_regions,
+    neighbour_table,
+    region_colours,
+    region_table,
+    voronoi_diagram,
+)
+from vorotool.engines.tessellation.bands import Band, Quantity, SeedBand, SeedBands
+from vorotool.engines.tessellation.frames import label_dtype, require_memory
+from vorotool.engines.tessellation.propagation import PropagatedRows
+from vorotool.engines.tessellation.tessellate import verify_rows
+from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.geometry.pixel_frame import Frame
+from vorotool.geometry.points.label_image import LabelImage
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.streamed_output import RowsOf, Stream, check_chunks, write_file, write_store
+from vorotool.jobs.targets import Target
+
+PICTURE = {"labels": ("cells", "seeds", "labels"), "diagram": ("diagram",), "colour": ("cells", "seeds")}
+"""Layers of pictures, unless they are chosen."""
+
+DARK_LABELS = 1024
+"""Labels up to here look black in a 16-bit image."""
+
+
+class Products:
+    """Results of one tessellation.
+
+    Parameters
+    ----------
+    rows : Tessellator or PropagatedRows
+        Gives any rows of labels.
+    options : namespace
+        Options of the command line.
+    run : Run
+        Takes notes and seconds.
+    """
+
+    def __init__(self, rows: Tessellator | PropagatedRows, options: SimpleNamespace, run: Run) -> None:
+        self.rows, self.options, self.run = rows, options, run
+        self.dtype = label_dtype(rows.seeds.largest_label, options.dtype)
+
+    @cached_property
+    def image(self) -> LabelImage:
+        """The whole label image, in memory."""
+        require_memory(self.rows.frame, self.options.max_pixels)
+        return LabelImage(self._labels(), self.rows.frame, self.rows.seeds)
+
+    def _labels(self, first: int = 0, rows: int | None = None) -> NDArray[Any]:
+        with self.run.phase("tessellate"):
+            return self.rows.labels(first, rows, dtype=self.dtype)
+
+    @cached_property
+    def measures(self) -> RegionMeasures:
+        """Areas, borders and boxes of the regions: one pass that tables and colours share."""
+        return measure_regions(self.image, threads=self.options.threads)
+
+    @cached_property
+    def colours(self) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
+        """Labels, and the colour class of each."""
+        return region_colours(self.image, measures=self.measures)
+
+    def check(self, target: Target) -> None:
+        """Refuse what cannot be written in the format of a target, before anything is."""
+        from vorotool.formats.images.label_images import check_png
+        from vorotool.render.label_images.svg import check_size
+
+        what, fmt = target.what, target.fmt
+        if fmt == "svg":
+            check_size(self.rows.frame.shape)
+        elif what == "labels" and fmt == "png":
+            check_png(self.dtype, self.rows.seeds.largest_label)
+        elif what == "distance2":
+            _ = self._exact_rows().square_dtype
+        if fmt == "zarr":
+            check_chunks(self.options, self.rows.frame, self._stream(what).dtype)
+        if what in ("table", "neighbours") or self._is_picture(target):
+            require_memory(self.rows.frame, self.options.max_pixels)
+
+    def write(self, target: Target, *, inputs: Sequence[str]) -> None:
+        """Write one result."""
+        from vorotool.formats.io.atomic_output import open_output
+
+        what, o = target.what, self.options
+        self._tell(target)
+        if target.fmt == "zarr":
+            write_store(self.run, o, target, self._stream(what), inputs)
+            return
+        with open_output(target.path, binary=target.is_binary, no_clobber=o.no_clobber, inputs=inputs) as out:
+            if self._is_picture(target):
+                self._write_picture(out, target)
+            elif what in ("table", "neighbours"):
+                self._write_columns(out, target.fmt, getattr(self, f"_{what}")())
+            else:
+                write_file(out, o, target, self._stream(what))
+
+    def _is_picture(self, target: Target) -> bool:
+        """Whether it is drawn from the whole image."""
+        layered = bool(self.options.layers or self.options.backdrop)
+        return (
+            target.what == "colour"
+            or target.fmt == "svg"
+            or (target.what == "diagram" and target.fmt == "png" and layered)
+        )
+
+    def _tell(self, target: Target) -> None:
+        """Say what may surprise in a result."""
+        seeds = self.rows.seeds
+        is_png = (target.what, target.fmt) == ("labels", "png")
+        if is_png and seeds.largest_label < DARK_LABELS and sys.stderr.isatty():
+            self.run.note(
+                f"labels up to {seeds.largest_label} look black in a 16-bit PNG: --what colour draws a picture"
+            )
+        if target.what == "distance2" and seeds.scale > 1:
+            self.run.note(f"squared distances are in units of 1/{seeds.scale}² square pixels: seeds lie between pixels")
+
+    def _stream(self, what: str) -> Stream:
+        """Labels, the diagram or distances, which need not be in memory."""
+        if what == "labels":
+            return self._streamed(what, self._labels, self.dtype, self.rows.seeds.largest_label)
+        if what == "diagram":
+            from vorotool.render.canvas.palettes import LINE_ON_PAPER
+
+            return self._streamed(what, self._diagram, np.dtype(np.uint8), 1, palette=LINE_ON_PAPER, bit_depth=1)
+        rows = self._exact_rows()
+        if what == "distance":
+            return self._streamed(what, rows.distances, np.dtype(np.float32), 0)
+        largest = int(np.iinfo(rows.square_dtype).max)
+        return self._streamed(what, rows.squared_distances, rows.square_dtype, largest)
+
+    def _streamed(self, what: Any, rows_of: RowsOf, dtype: np.dtype[Any], largest: int, **kind: Any) -> Stream:
+        resolution = getattr(self.options, "resolution", None)
+        band = partial(self._band, what, dtype)
+        return Stream(self.rows.frame, rows_of, dtype, largest, band, {"resolution": resolution, **kind})
+
+    def _band(self, what: Quantity, dtype: np.dtype[Any], first: int, rows: int) -> Band:
+        """Give some rows as what computes them anywhere."""
+        frame = self.rows.frame
+        seeds = self._seed_bands.seeds_of(first, rows)
+        place = Frame(frame.x, frame.y + first, frame.width, rows)
+        return SeedBand(seeds, place, what, dtype, self.options.max_distance)
+
+    @cached_property
+    def _seed_bands(self) -> SeedBands:
+        return SeedBands(self.rows.seeds, self.rows.frame)
+
+    def _diagram(self, first: int, rows: int) -> NDArray[Any]:
+        above, below = min(1, first), min(1, self.rows.frame.height - first - rows)
+        labels = self._labels(first - above, rows + above + below)
+        return voronoi_diagram(labels, threads=self.options.threads)[above : above + rows]
+
+    def _table(self) -> Any:
+        image, measures = self.image, self.measures  # refuses a frame that is too large, before distances are taken
+        has_distances = isinstance(self.rows, Tessellator) and len(self.rows.seeds)
+        squares = self._exact_rows().squared_distances() if has_distances else None
+        table = region_table(image, distance2=squares, measures=measures, threads=self.options.threads)
+        return table_in_units(self.options, table, properties=self.rows.seeds.properties)
+
+    def _neighbours(self) -> Any:
+        return table_in_units(self.options, neighbour_table(self.image, measures=self.measures))
+
+    def _write_columns(self, out: BinaryIO, fmt: str, table: Any) -> None:
+        from vorotool.formats.text.tables import write_table
+
+        write_table(out, table, fmt, precision=self.options.precision, threads=self.options.threads)
+
+    def _write_picture(self, out: BinaryIO, target: Target) -> None:
+        from vorotool.jobs.pictures import default_layers, write_label_picture
+
+        write_label_picture(
+            out,
+            self.image,
+            self.colours,
+            fmt=target.fmt,
+            layers=self.options.layers or default_layers(self.image, PICTURE[target.what]),
+            width=self.options.width or 1000,
+            y_up=bool(self.options.y_up) and self.options.backdrop is None,
+            backdrop=self.options.backdrop,
+            threads=self.options.threads,
+        )
+
+    def _exact_rows(self) -> Tessellator:
+        assert isinstance(self.rows, Tessellator)  # the command refuses distances of the propagation
+        return self.rows
+
+    def verify(self) -> None:
+        """Check the labels of every band against an independent nearest-seed search."""
+        verify_rows(self.rows, threads=self.options.threads)
+
+    def stats(self) -> dict[str, Any]:
+        """Counts and sizes."""
+        rows, seeds = self.rows, self.rows.seeds
+        counts: dict[str, Any] = {
+            "seeds": len(seeds),
+            "labels": len(seeds.site_labels) if seeds.site_labels is not None else 0,
+            "largest_label": seeds.largest_label,
+            "duplicates": rows.duplicates,
+            "snapped": seeds.snapped,
+            "largest_move": seeds.largest_move,
+            "steps_per_pixel": seeds.scale,
+            "frame": [rows.frame.x, rows.frame.y, rows.frame.width, rows.frame.height],
+            "method": self.options.method,
+            "threads": self.options.threads,
+        }
+        if isinstance(rows, Tessellator):
+            return {**counts, "arithmetic": rows.arithmetic, "simd": rows.simd}
+        return {**counts, "passes": self.options.passes or 2, **rows.compare_with_exact()}

@@ -1,0 +1,186 @@
+"""What a triangulation can be written as (``--what``)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+from vorotool.cli.options.pixel_size import in_units, table_in_units
+from vorotool.engines.delaunay.cells import cell_colours, verify_cells, voronoi_cells
+from vorotool.engines.delaunay.delaunay import delaunay, verify_triangulation
+from vorotool.engines.delaunay.site_table import site_table
+from vorotool.errors import Kind, Message
+from vorotool.formats.text.tables import TABLE_FORMATS, write_table
+from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
+from vorotool.geometry.points.point_set import PointSet
+from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.jobs.names import MESH_LAYERS
+from vorotool.jobs.pictures import write_layers
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.targets import Target
+
+if TYPE_CHECKING:
+    from vorotool.geometry.mesh.cells import CellSet
+    from vorotool.render.canvas.layers import Layer, Page
+
+DEFAULT_LAYERS = {
+    "edges": ("edges", "points"),
+    "triangles": ("triangles", "edges", "points"),
+    "cells": ("cells", "points"),
+}
+"""Layers of the picture of each result."""
+
+
+class MeshProducts:
+    """Results of one triangulation.
+
+    Parameters
+    ----------
+    points : PointSet or SeedSet
+        What to triangulate.
+    options : namespace
+        Options of the command line.
+    run : Run
+        Takes notes and seconds.
+    """
+
+    def __init__(self, points: PointSet | SeedSet, options: SimpleNamespace, run: Run) -> None:
+        self.options, self.run = options, run
+        if self.wants_mesh:
+            with run.phase("triangulate"):
+                self.mesh: Any = self._triangulate(points)
+
+    @property
+    def wants_mesh(self) -> bool:
+        """Whether a result shows the triangulation itself."""
+        return bool(self.options.what != ("compare",))
+
+    def _triangulate(self, points: PointSet | SeedSet) -> AnyTriangulation:
+        progress = self.run.progress("triangulating")
+        return delaunay(points, strict=self.options.strict, threads=self.options.threads, progress=progress)
+
+    def check(self, target: Target) -> None:
+        """Refuse what cannot be written, and say what will be empty, before anything is written."""
+        if target.fmt == "png":
+            from vorotool.render.canvas.png import check_picture_size
+
+            check_picture_size(self._page(target.what), self.options.max_pixels)
+        if target.what in ("edges", "triangles") and not len(getattr(self.mesh, target.what)):
+            self.run.warn(Message(f"there are no {target.what}: {self._shape()}", Kind.EMPTY_RESULT))
+
+    def _shape(self) -> str:
+        count = len(self.mesh.points) - self.mesh.duplicates
+        if count < 3:
+            return f"{count} distinct point{'s' * (count != 1)}"
+        return f"all {count} distinct points lie on a line"
+
+    def write(self, target: Target, *, inputs: Sequence[str]) -> None:
+        """Write one result."""
+        from vorotool.formats.io.atomic_output import open_output
+
+        with open_output(
+            target.path, binary=target.is_binary, no_clobber=self.options.no_clobber, inputs=inputs
+        ) as out:
+            getattr(self, f"_write_{target.what}")(out, target.fmt)
+
+    def _write_edges(self, out: BinaryIO, fmt: str) -> None:
+        self._write_mesh(out, fmt, "edges")
+
+    def _write_triangles(self, out: BinaryIO, fmt: str) -> None:
+        self._write_mesh(out, fmt, "triangles")
+
+    def _write_table(self, out: BinaryIO, fmt: str) -> None:
+        if fmt not in TABLE_FORMATS:
+            self._write_mesh(out, fmt, "table")
+            return
+        table = site_table(self.mesh, self.cells, threads=self.options.threads)
+        table = table_in_units(self.options, table, properties=self.mesh.properties)
+        write_table(out, table, fmt, precision=self.options.precision, threads=self.options.threads)
+
+    def _write_cells(self, out: BinaryIO, fmt: str) -> None:
+        from vorotool.formats.results.cells import write_cells
+
+        if fmt in ("svg", "png"):
+            self._write_picture(out, fmt, "cells")
+            return
+        cells = in_units(self.options, self.cells)
+        write_cells(out, cells, fmt, precision=self.options.precision, threads=self.options.threads)
+
+    def _write_mesh(self, out: BinaryIO, fmt: str, what: str) -> None:
+        from vorotool.formats.results.meshes import write_mesh
+
+        if fmt in ("svg", "png"):
+            self._write_picture(out, fmt, what)
+            return
+        mesh = in_units(self.options, self.mesh)
+        write_mesh(out, mesh, fmt, what=what, precision=self.options.precision, threads=self.options.threads)
+
+    @cached_property
+    def cells(self) -> CellSet:
+        """The Voronoi cells of the points, clipped."""
+        with self.run.phase("cells"):
+            return self._cells_in(self.options.frame, clip=self.options.clip)
+
+    def _cells_in(self, frame: Any, *, clip: Any = None) -> CellSet:
+        return voronoi_cells(
+            self.mesh,
+            frame=frame,
+            clip=clip,
+            threads=self.options.threads,
+            progress=self.run.progress("making cells"),
+        )
+
+    def _layers(self, what: str) -> Sequence[str]:
+        return self.options.layers or DEFAULT_LAYERS[what]
+
+    def _page(self, what: str) -> Page:
+        """Where the picture of a result shows what: the frame of cells, where it has any."""
+        from vorotool.render.canvas.layers import ImagePage
+        from vorotool.render.layers.mesh import mesh_page
+
+        if self.options.backdrop is not None:
+            return ImagePage(self.options.backdrop)
+        bounds = self.cells.frame.sides if {"cells", "diagram"} & set(self._layers(what)) else None
+        return mesh_page(self.mesh, width=self.options.width or 1000, y_up=self.options.y_up, bounds=bounds)
+
+    def _write_picture(self, out: BinaryIO, fmt: str, what: str) -> None:
+        from vorotool.render.layers import mesh as mesh_layers
+        from vorotool.render.layers.cells import cell_lines, cell_polygons
+
+        wanted, page = self._layers(what), self._page(what)
+        of_mesh = [name for name in wanted if name in mesh_layers.LAYERS]
+        made: dict[str, Layer] = {layer.name: layer for layer in mesh_layers.mesh_layers(self.mesh, page, of_mesh)}
+        if "cells" in wanted:
+            made["cells"] = cell_polygons(self.cells, cell_colours(self.mesh), page)
+        if "diagram" in wanted:
+            made["diagram"] = cell_lines(self.cells, page)
+        layers = [made[name] for name in MESH_LAYERS if name in made]
+        write_layers(out, layers, page, fmt=fmt, threads=self.options.threads)
+
+    def verify(self) -> None:
+        """Check the triangulation exactly, from its arrays alone; and cells before they are clipped to polygons."""
+        progress = self.run.progress("verifying")
+        verify_triangulation(self.mesh, threads=self.options.threads, progress=progress)
+        if {"cells", "table"} & set(self.options.what):
+            cells = self.cells if self.options.clip is None else self._cells_in(self.cells.frame)
+            verify_cells(cells, threads=self.options.threads, progress=progress)
+
+    def stats(self) -> dict[str, Any]:
+        """Counts and sizes."""
+        mesh = self.mesh
+        cells: dict[str, Any] = {}
+        if "cells" in self.__dict__:
+            cells = {"frame": self.cells.frame.extent, "empty_cells": int(self.cells.is_empty.sum())}
+        return {
+            **cells,
+            "points": len(mesh.points),
+            "duplicates": mesh.duplicates,
+            "edges": len(mesh.edges),
+            "triangles": len(mesh.triangles),
+            "hull": len(mesh.hull),
+            "collinear": len(mesh.triangles) == 0,
+            "method": self.options.method,
+            "threads": self.options.threads,
+        }

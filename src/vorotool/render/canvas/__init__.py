@@ -1,0 +1,1 @@
+"""Layers, palettes, SVG and PNG back ends; knows no result type."""

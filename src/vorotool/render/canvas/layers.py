@@ -1,0 +1,439 @@
+"""Pictures as layers of lines, polygons, points and texts, in the coordinates of the data, and the page they go to."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.box import bounds
+from vorotool.geometry.curves.circular_arcs import chords_of
+from vorotool.render.canvas.palettes import INK, SEED, WHITE
+
+MARGIN = 0.02
+"""Of the larger side of the data, on each side of the page."""
+
+TALLEST = 4
+"""A page is at most so many times as high as wide: narrower data are drawn smaller."""
+
+
+MOST_PIECES = 1 << 12
+"""Lines that a curve is drawn with."""
+
+
+@dataclass(frozen=True, eq=False)
+class Lines:
+    """Straight lines.
+
+    Parameters
+    ----------
+    name : str
+        Of the layer: the id of its group in SVG.
+    points : (n, 2) float64 array
+        Finite coordinates.
+    pairs : (m, 2) int32 array
+        Ends of each line, indices of points.
+    colour : str
+        ``#rrggbb``.
+    width : float
+        In px, whatever the scale.
+    """
+
+    name: str
+    points: NDArray[np.float64]
+    pairs: NDArray[np.int32]
+    colour: str = INK
+    width: float = 1.5
+
+
+@dataclass(frozen=True, eq=False)
+class Curves:
+    """Straight lines and quadratic Bezier curves.
+
+    Parameters
+    ----------
+    name : str
+        Of the layer.
+    points : (n, 2) float64 array
+        Finite coordinates of ends and control points.
+    pairs : (m, 2) int32 array
+        Ends of each curve. Curves of which one begins where the one before ends are drawn as one path.
+    control : (m,) int32 array
+        The control point of each; -1: it is a straight line.
+    colour : str
+        ``#rrggbb``.
+    width : float
+        In px, whatever the scale.
+    is_broken : bool
+        Drawn as a broken line in SVG.
+    """
+
+    name: str
+    points: NDArray[np.float64]
+    pairs: NDArray[np.int32]
+    control: NDArray[np.int32]
+    colour: str = INK
+    width: float = 1.5
+    is_broken: bool = False
+
+    def flattened(self, places: NDArray[np.float64], tolerance: float) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+        """Straight lines instead of the curves.
+
+        Parameters
+        ----------
+        places : (n, 2) float64 array
+            Where the points are drawn.
+        tolerance : float
+            How far a line may be from its curve.
+
+        Returns
+        -------
+        places : (k, 2) float64 array
+        pairs : (l, 2) int32 array
+            Ends of each line.
+        """
+        source, target = places[self.pairs[:, 0]], places[self.pairs[:, 1]]
+        control = np.where((self.control >= 0)[:, None], places[self.control], (source + target) / 2)
+        bend = source - 2 * control + target
+        square = (bend * bend).sum(axis=1)  # a chord over 1/n of a curve is off by |bend| / (4 n^2)
+        pieces = np.clip(np.ceil(np.sqrt(np.sqrt(square) / (4 * tolerance))), 1, MOST_PIECES).astype(np.int64)
+        start = np.cumsum(pieces + 1) - (pieces + 1)
+        curve = np.repeat(np.arange(len(pieces)), pieces + 1)
+        step = np.arange(len(curve)) - start[curve]
+        t = (step / pieces[curve])[:, None]
+        points = source[curve] + t * (2 * (control - source)[curve] + t * bend[curve])
+        first = np.flatnonzero(step < pieces[curve])
+        return points, np.stack([first, first + 1], axis=1).astype(np.int32)
+
+
+@dataclass(frozen=True, eq=False)
+class Polygons:
+    """Polygons of one or more rings each, filled by the even-odd rule.
+
+    Parameters
+    ----------
+    name : str
+        Of the layer.
+    points : (n, 2) float64 array
+        Finite coordinates.
+    corners : (k,) int32 array
+        Indices of points, ring after ring; rings are not closed by repetition.
+    rings : (r + 1,) integer array
+        Where each ring begins in ``corners``, and ``k``.
+    first_rings : (p + 1,) integer array, optional
+        Where each polygon begins among the rings, and ``r``; by default each ring is a polygon.
+    colours : sequence of str
+        Fills, ``#rrggbb``.
+    colour_of : (p,) integer array, optional
+        Index of each polygon's fill; by default all have the first.
+    ids : sequence of str, optional
+        Id of each polygon in SVG: each is a path of its own then, unless they are too many.
+    edge : str, optional
+        Colour of the outlines.
+    width : float
+        Of the outlines, in px.
+    is_alone : (p,) bool array, optional
+        Polygons that are paths of their own in SVG in any case, since others lie over them.
+    """
+
+    name: str
+    points: NDArray[np.float64]
+    corners: NDArray[np.int32]
+    rings: NDArray[np.int64]
+    first_rings: NDArray[np.int64] | None = None
+    colours: Sequence[str] = ("#ffffff",)
+    colour_of: NDArray[np.integer] | None = None
+    ids: Sequence[str] | None = None
+    edge: str | None = None
+    width: float = 1.5
+    is_alone: NDArray[np.bool_] | None = None
+
+    @property
+    def ring_limits(self) -> NDArray[np.int64]:
+        """(p + 1,) where each polygon begins among the rings."""
+        if self.first_rings is not None:
+            return np.asarray(self.first_rings, dtype=np.int64)
+        return np.arange(len(self.rings), dtype=np.int64)
+
+    @property
+    def polygon_of_ring(self) -> NDArray[np.int64]:
+        """(r,) polygon that each ring belongs to."""
+        limits = self.ring_limits
+        return np.repeat(np.arange(len(limits) - 1), np.diff(limits))
+
+    def sides(self) -> NDArray[np.int32]:
+        """(k, 2) corners at the ends of each side, in the order of ``corners``."""
+        following = np.arange(1, len(self.corners) + 1)
+        rings = np.asarray(self.rings)
+        has_corners = rings[1:] > rings[:-1]
+        following[rings[1:][has_corners] - 1] = rings[:-1][has_corners]
+        return np.stack([self.corners, self.corners[following]], axis=1)
+
+
+@dataclass(frozen=True, eq=False)
+class Points:
+    """Discs of one radius, in px."""
+
+    name: str
+    points: NDArray[np.float64]
+    colour: str = SEED
+    radius: float = 2.5
+
+
+@dataclass(frozen=True, eq=False)
+class Texts:
+    """Short texts beside points.
+
+    Parameters
+    ----------
+    name : str
+        Of the layer.
+    points : (n, 2) float64 array
+        Finite coordinates.
+    texts : sequence of str
+        One a point.
+    colour : str
+        ``#rrggbb``.
+    size : float
+        Of the letters, in px.
+    halo : str, optional
+        Colour of an edge around the letters, which sets them off from what they lie on; in PNG there always is one.
+    is_centred : bool
+        Write them on the points instead, as names of what is around these.
+    """
+
+    name: str
+    points: NDArray[np.float64]
+    texts: Sequence[str]
+    colour: str = INK
+    size: float = 12.0
+    halo: str | None = None
+    is_centred: bool = False
+
+    def lowered(self, y: NDArray[np.float64], capital: float) -> NDArray[np.float64]:
+        """Give the px from the top at which the letters stand, for points at these.
+
+        They stand above points in the lower half of the page and below those in the upper one, where the margin is
+        narrow.
+
+        Parameters
+        ----------
+        y : (n,) float64 array
+            Px from the top.
+        capital : float
+            Height of capitals, as a part of the size.
+        """
+        if self.is_centred:
+            return y + self.size * capital / 2
+        below = y < (y.min(initial=0.0) + y.max(initial=0.0)) / 2
+        return y + self.size * np.where(below, 1.1, -0.5)
+
+
+@dataclass(frozen=True, eq=False)
+class Arcs:
+    """Closed curves of circular arcs and straight lines, filled by the even-odd rule or not at all.
+
+    Parameters
+    ----------
+    name : str
+        Of the layer.
+    start, end, centre : (k, 2) float64 array
+        Of each arc, which is at most half a circle; the centre of a straight line is NaN.
+    rings : (r + 1,) integer array
+        Where each curve begins among the arcs, and ``k``.
+    fill : str, optional
+        ``#rrggbb``.
+    edge : str
+        ``#rrggbb``.
+    width : float
+        Of the curves, in px.
+    is_left : (k,) bool array, optional
+        Whether each arc turns counter-clockwise with y upwards; by default none does.
+    """
+
+    name: str
+    start: NDArray[np.float64]
+    end: NDArray[np.float64]
+    centre: NDArray[np.float64]
+    rings: NDArray[np.int64]
+    fill: str | None
+    edge: str
+    width: float = 1.5
+    is_left: NDArray[np.bool_] | None = None
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """(k, 2) where arcs begin, and so end."""
+        return self.start
+
+    @property
+    def turns_left(self) -> NDArray[np.bool_]:
+        """(k,) whether each arc does."""
+        return np.zeros(len(self.start), dtype=bool) if self.is_left is None else self.is_left
+
+    def chords(self, tolerance: float) -> Polygons | Lines:
+        """Chords instead that are off by no more than a length of the data; only lines if there is no fill."""
+        places, first = chords_of(self.start, self.end, self.centre, self.turns_left, tolerance)
+        corners, rings = np.arange(len(places), dtype=np.int32), first[self.rings]
+        whole = np.array([0, len(self.rings) - 1]) if len(self.rings) > 1 else None
+        colours = [self.edge if self.fill is None else self.fill]
+        filled = Polygons(self.name, places, corners, rings, whole, colours, edge=self.edge, width=self.width)
+        return Lines(self.name, places, filled.sides(), self.edge, self.width) if self.fill is None else filled
+
+
+def name_size(page: Page, count: int) -> float:
+    """Give the size in px of the names of so many objects, which get smaller where these are many.
+
+    Examples
+    --------
+    >>> name_size(Page((0, 0, 1, 1), width=1000, y_up=False), 100)
+    16.0
+    """
+    return min(max(page.spacing(count) / 4, 6.0), 16.0)
+
+
+Layer = Lines | Curves | Polygons | Points | Texts | Arcs
+
+
+def with_halos(layers: Sequence[Layer]) -> list[Layer]:
+    """Put a white edge of up to 1 px beneath each layer of lines, so that they show on dark and on light ground.
+
+    Examples
+    --------
+    >>> line = Lines("edges", np.zeros((2, 2)), np.array([[0, 1]], dtype=np.int32))
+    >>> [(layer.name, layer.colour, layer.width) for layer in with_halos([line])]
+    [('edges-halo', '#ffffff', 3.5), ('edges', '#222222', 1.5)]
+    """
+    made: list[Layer] = []
+    for layer in layers:
+        if isinstance(layer, Lines | Curves | Arcs):
+            width = layer.width + min(2.0, 2 * layer.width)  # lines that are fine, as there are many, leave room
+            wider = replace(layer, name=f"{layer.name}-halo", width=width)
+            made.append(
+                replace(wider, edge=WHITE, fill=None) if isinstance(wider, Arcs) else replace(wider, colour=WHITE)
+            )
+        made.append(layer)
+    return made
+
+
+def bounds_of(layers: Iterable[Layer]) -> tuple[float, float, float, float]:
+    """Smallest box that holds the points of layers: least x, least y, largest x, largest y.
+
+    Examples
+    --------
+    >>> bounds_of([Points("sites", np.array([[1.0, 5.0], [3.0, 2.0]]))])
+    (1.0, 2.0, 3.0, 5.0)
+    """
+    used = [bounds(layer.points) for layer in layers if len(layer.points)]
+    if not used:
+        return (0.0, 0.0, 1.0, 1.0)
+    low, high = np.min([low for low, _ in used], axis=0), np.max([high for _, high in used], axis=0)
+    return (*low.tolist(), *high.tolist())
+
+
+class Page:
+    """Where the data are on the page.
+
+    Parameters
+    ----------
+    bounds : (x, y, x, y)
+        The least and the largest coordinates to show; any finite ones.
+    width : int
+        Of the page, in px. The height follows from the bounds.
+    y_up : bool
+        Draw y upwards.
+
+    Examples
+    --------
+    >>> page = Page((0, 0, 100, 46), width=104, y_up=True)
+    >>> page.height, page.place(np.array([[0.0, 0.0]])).tolist()
+    (50, [[2.0, 48.0]])
+    """
+
+    def __init__(self, bounds: tuple[float, float, float, float], *, width: int, y_up: bool) -> None:
+        box = np.array(bounds, dtype=np.float64)
+        self._exponent = int(np.frexp(np.abs(box).max())[1])  # a power of two keeps differences within range
+        low, high = np.ldexp(box, -self._exponent).reshape(2, 2)
+        span = high - low
+        margin = MARGIN * (span.max() or 1.0)
+        across, down = span + 2 * margin
+        self.scale = float(min(width / across, TALLEST * width / down))  # px a unit of the scaled data
+        self.width, self.height = width, max(1, round(float(down * self.scale)))
+        self.y_up, self._middle = y_up, low + span / 2
+
+    @property
+    def backdrop(self) -> Backdrop | None:
+        """What lies beneath the layers."""
+        return None
+
+    def place(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(n, 2) px from the left and from the top."""
+        scale = np.array([self.scale, -self.scale if self.y_up else self.scale])
+        centre = np.array([self.width / 2, self.height / 2])
+        placed: NDArray[np.float64] = (np.ldexp(points, -self._exponent) - self._middle) * scale + centre
+        return placed
+
+    def length(self, distance: float) -> float:
+        """Px of a distance."""
+        return float(np.ldexp(distance, -self._exponent) * self.scale)
+
+    def distance(self, length: float) -> float:
+        """Give a length in px as one of the data."""
+        return float(np.ldexp(length / self.scale, self._exponent))
+
+    def spacing(self, count: int) -> float:
+        """Distance in px between neighbours of so many points, spread evenly over the page."""
+        return math.sqrt(self.width * self.height / max(count, 1))
+
+
+@dataclass(frozen=True, eq=False)
+class Backdrop:
+    """An image to draw over.
+
+    Parameters
+    ----------
+    pixels : (H, W, 3) uint8 array
+        Red, green and blue.
+    encode : callable
+        Gives the image as the bytes of a PNG file.
+    """
+
+    pixels: NDArray[np.uint8]
+    encode: Callable[[], bytes]
+
+
+class ImagePage(Page):
+    """The page of an image: a px is a pixel, whose centre is at integers of the data; y downwards.
+
+    Parameters
+    ----------
+    backdrop : Backdrop
+        The image, which lies beneath the layers. Areas are half see-through over it.
+
+    Examples
+    --------
+    >>> page = ImagePage(Backdrop(np.zeros((2, 3, 3), np.uint8), bytes))
+    >>> (page.width, page.height), page.place(np.array([[0.0, 1.0]])).tolist()
+    ((3, 2), [[0.5, 1.5]])
+    """
+
+    def __init__(self, backdrop: Backdrop) -> None:
+        height, width = backdrop.pixels.shape[:2]
+        super().__init__((-0.5, -0.5, width - 0.5, height - 0.5), width=width, y_up=False)
+        self.height, self._backdrop = height, backdrop
+
+    @property
+    def backdrop(self) -> Backdrop:
+        """The image."""
+        return self._backdrop
+
+    def place(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(n, 2) px from the left and from the top."""
+        return points + 0.5
+
+    def length(self, distance: float) -> float:
+        """Px of a distance."""
+        return distance

@@ -1,0 +1,251 @@
+"""PNG pictures from layers: drawn four times as large without grey, then reduced."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import LimitError
+from vorotool.render.canvas.glyphs import HEIGHT, text_cells
+from vorotool.render.canvas.layers import Arcs, Curves, Layer, Lines, Page, Points, Polygons, Texts
+from vorotool.render.canvas.palettes import WHITE
+
+FINE = 4
+"""Pixels of the drawing a pixel of the picture, each way: 16 shades."""
+
+FLATNESS = 0.25
+"""Pixels of the drawing that lines may be off the curves that they stand for."""
+
+CAPITAL = 0.72
+"""Height of capitals, as a part of the size of letters; as in SVG."""
+
+MOST_COLOURS = 255
+NOTHING = "#000000"
+"""What adds nothing to the image beneath."""
+BAND_ROWS = 64
+_PIXELS = 1 << 22  # of the drawing, that are set at a time
+_TEXTS = 1 << 14  # that are written at a time
+_ITEMS = 1 << 18  # lines or corners that are taken at a time
+
+
+def check_picture_size(page: Page, max_pixels: int) -> None:
+    """Refuse a picture whose drawing would have more pixels than there may be.
+
+    Raises
+    ------
+    LimitError
+        If it would.
+    """
+    fine = page.width * page.height * FINE**2
+    if fine > max_pixels:
+        raise LimitError(
+            f"a PNG of {page.width} x {page.height} pixels is drawn with {fine}, more than --max-pixels {max_pixels}: "
+            "use a smaller --width, or -f svg"
+        )
+
+
+def layer_bands(layers: Iterable[Layer], page: Page) -> Iterator[NDArray[np.uint8]]:
+    """Draw layers from below, over the page's image if it has one.
+
+    Parameters
+    ----------
+    layers : iterable of Layer
+        What to draw; at most 254 colours together.
+    page : Page
+        Where it lies.
+
+    Yields
+    ------
+    (rows, 3 W) uint8 array
+        Red, green and blue of each pixel, in bands from top to bottom.
+
+    Examples
+    --------
+    >>> line = Lines("line", np.array([[0.0, 0.0], [1.0, 0.0]]), np.array([[0, 1]], np.int32), width=2)
+    >>> next(layer_bands([line], Page((0, 0, 1, 1), width=16, y_up=False))).shape
+    (16, 48)
+    """
+    canvas = _Canvas(page)
+    for layer in layers:
+        canvas.draw(layer)
+    return canvas.bands()
+
+
+class _Canvas:
+    """A drawing in palette indices, ``FINE`` times as large as the page each way."""
+
+    def __init__(self, page: Page) -> None:
+        self.page = page
+        self.indices = np.zeros((page.height * FINE, page.width * FINE), np.uint8)  # 0: nothing
+        self.colours: dict[str, int] = {}
+
+    def draw(self, layer: Layer) -> None:
+        if isinstance(layer, Arcs):
+            layer = layer.chords(self.page.distance(FLATNESS / FINE))
+        places = self.page.place(layer.points) * FINE
+        if isinstance(layer, Polygons):
+            self._fill(layer, places)
+            if layer.edge is not None:
+                self._stroke(places, layer.sides(), layer.width, self._colour(layer.edge))
+        elif isinstance(layer, Lines):
+            self._stroke(places, layer.pairs, layer.width, self._colour(layer.colour))
+        elif isinstance(layer, Curves):
+            lines = layer.flattened(places, FLATNESS)
+            self._stroke(*lines, layer.width, self._colour(layer.colour))
+        elif isinstance(layer, Points):
+            self._discs(places, layer.radius * FINE, self._colour(layer.colour))
+        elif isinstance(layer, Texts):
+            self._write(layer, places)
+
+    def bands(self) -> Iterator[NDArray[np.uint8]]:
+        """Means of the colours of FINE x FINE pixels; where nothing is drawn, that is white or the image."""
+        backdrop = self.page.backdrop
+        names = [WHITE if backdrop is None else NOTHING, *self.colours]
+        palette = np.array([list(bytes.fromhex(name[1:])) for name in names], dtype=np.uint16)
+        for top in range(0, self.page.height, BAND_ROWS):
+            fine = self.indices[top * FINE : (top + BAND_ROWS) * FINE]
+            rows = len(fine) // FINE
+            sums = np.zeros((rows, self.page.width, 3), np.uint16)
+            bare = np.zeros((rows, self.page.width, 1), np.uint16)
+            for k in range(FINE**2):
+                part = fine[k // FINE :: FINE, k % FINE :: FINE]
+                sums += palette[part]
+                bare[:, :, 0] += part == 0
+            if backdrop is not None:
+                sums += bare * backdrop.pixels[top : top + rows]
+            yield ((sums + FINE**2 // 2) // FINE**2).astype(np.uint8).reshape(rows, -1)
+
+    def _colour(self, name: str) -> int:
+        number = self.colours.setdefault(name, len(self.colours) + 1)
+        if number > MOST_COLOURS:
+            raise LimitError(f"a PNG picture has at most {MOST_COLOURS} colours: use -f svg")
+        return number
+
+    def _fill(self, layer: Polygons, places: NDArray[np.float64]) -> None:
+        """Fill each polygon by the even-odd rule: rows of pixels between crossings of its sides, in pairs."""
+        classes = np.array([self._colour(name) for name in layer.colours], dtype=np.uint8)
+        polygon = layer.polygon_of_ring
+        limits, rings = layer.ring_limits, np.asarray(layer.rings)
+        fills = classes[np.zeros(len(limits) - 1, np.int64) if layer.colour_of is None else layer.colour_of]
+        owner = np.repeat(polygon, np.diff(rings))
+        sides = layer.sides()
+        corner_limits = rings[limits]  # where each polygon begins among the corners
+        start = 0
+        while start < len(corner_limits) - 1:  # some whole polygons at a time
+            stop = max(start + 1, int(np.searchsorted(corner_limits, corner_limits[start] + _ITEMS, "right")) - 1)
+            part = slice(corner_limits[start], corner_limits[stop])
+            self._fill_part(places, sides[part], owner[part], fills)
+            start = stop
+
+    def _fill_part(
+        self, places: NDArray[np.float64], sides: NDArray[np.int32], owner: NDArray[np.int64], fills: NDArray[np.uint8]
+    ) -> None:
+        a, b = places[sides[:, 0]], places[sides[:, 1]]
+        height = self.indices.shape[0]
+        ends = np.clip(np.ceil(np.stack([a[:, 1], b[:, 1]]) - 0.5), 0, height).astype(np.int64)
+        first, counts = ends.min(axis=0), np.abs(ends[1] - ends[0])
+        side, row = _expanded(first, counts)
+        slope = (b[side, 0] - a[side, 0]) / (b[side, 1] - a[side, 1])
+        x = a[side, 0] + (row + 0.5 - a[side, 1]) * slope
+        order = np.lexsort((x, row, owner[side]))
+        row, x, of = row[order], np.ceil(x[order] - 0.5), owner[side][order]
+        self._set_rows(row[::2], x[::2], x[1::2], fills[of[::2]], every_other=self.page.backdrop is not None)
+
+    def _stroke(self, places: NDArray[np.float64], pairs: NDArray[np.int32], width: float, value: int) -> None:
+        """Draw lines as runs of pixels across them: a column of pixels where they are flat, else a row."""
+        thick = max(width * FINE, 1.0)
+        for begin in range(0, len(pairs), _ITEMS):
+            part = pairs[begin : begin + _ITEMS]
+            a, b = places[part[:, 0]], places[part[:, 1]]
+            way = np.abs(b - a)
+            flat = way[:, 0] >= way[:, 1]
+            self._runs(a[flat], b[flat], thick, value, self.indices.T)
+            self._runs(a[~flat][:, ::-1], b[~flat][:, ::-1], thick, value, self.indices)
+
+    def _runs(
+        self,
+        a: NDArray[np.float64],
+        b: NDArray[np.float64],
+        thick: float,
+        value: int,
+        target: NDArray[np.uint8],
+    ) -> None:
+        """Lines along the rows of a target, which lies with its rows across them."""
+        swap = a[:, 0] > b[:, 0]
+        a, b = np.where(swap[:, None], b, a), np.where(swap[:, None], a, b)
+        way = b - a
+        along = np.maximum(way[:, 0], 2.0**-30)  # of a line of no length: a dot
+        length = np.sqrt(way[:, 0] * way[:, 0] + way[:, 1] * way[:, 1])
+        half = 0.5 * thick * np.clip(length / along, 1.0, 1.5)
+        first = np.clip(np.floor(a[:, 0]), 0, target.shape[0]).astype(np.int64)
+        last = np.clip(np.floor(b[:, 0]) + 1, 0, target.shape[0]).astype(np.int64)
+        line, step = _expanded(first, last - first)
+        ahead = np.clip((step + 0.5 - a[line, 0]) / along[line], 0.0, 1.0)
+        middle = a[line, 1] + ahead * way[line, 1]
+        self._set_rows(step, np.ceil(middle - half[line] - 0.5), np.ceil(middle + half[line] - 0.5), value, target)
+
+    def _write(self, layer: Texts, places: NDArray[np.float64]) -> None:
+        """Write texts, each cell of a glyph a square of pixels; halos first, so that they cover no letter."""
+        cell = max(2, round(CAPITAL * layer.size * FINE / HEIGHT))
+        foot = layer.lowered(places[:, 1] / FINE, CAPITAL) * FINE - cell * (HEIGHT - 1) / 2
+        corner = np.floor(np.stack([places[:, 0], foot], axis=1) - cell / 2).astype(np.int64)
+        ink, halo = self._colour(layer.colour), self._colour(layer.halo or WHITE)
+        for begin in range(0, len(layer.texts), _TEXTS):
+            owner, cells, is_ink = text_cells(layer.texts[begin : begin + _TEXTS])
+            at = corner[begin + owner] + cell * cells
+            for chosen, value in ((~is_ink, halo), (is_ink, ink)):
+                left, top = at[chosen].T
+                for row in range(cell):
+                    self._set_rows(top + row, left.astype(np.float64), (left + cell).astype(np.float64), value)
+
+    def _discs(self, places: NDArray[np.float64], radius: float, value: int) -> None:
+        radius = max(radius, 1.0)
+        for begin in range(0, len(places), _ITEMS):
+            x, y = places[begin : begin + _ITEMS].T
+            for offset in range(-int(radius) - 1, int(radius) + 2):
+                row = np.floor(y) + offset
+                square = radius * radius - np.square(row + 0.5 - y)
+                half = np.sqrt(np.maximum(square, 0.0))
+                hit = square > 0
+                left, right = np.ceil(x - half - 0.5)[hit], np.ceil(x + half - 0.5)[hit]
+                self._set_rows(row[hit].astype(np.int64), left, right, value)
+
+    def _set_rows(
+        self,
+        row: NDArray[np.int64],
+        left: NDArray[np.float64],
+        right: NDArray[np.float64],
+        values: NDArray[np.uint8] | int,
+        target: NDArray[np.uint8] | None = None,
+        *,
+        every_other: bool = False,
+    ) -> None:
+        """Set pixels from ``left`` to before ``right`` of rows, each with its value; what is outside is left out.
+
+        Every other one, as on a chessboard, leaves half of what is beneath.
+        """
+        drawing = self.indices if target is None else target
+        height, width = drawing.shape
+        start = np.clip(left, 0, width).astype(np.int64)
+        counts = np.clip(right, 0, width).astype(np.int64) - start
+        counts[(counts < 0) | (row < 0) | (row >= height)] = 0
+        done = np.cumsum(counts)
+        begin = 0
+        while begin < len(row):  # runs of about _PIXELS pixels together
+            before = int(done[begin - 1]) if begin else 0
+            end = max(begin + 1, int(np.searchsorted(done, before + _PIXELS, "right")))
+            run, x = _expanded(start[begin:end], counts[begin:end])
+            if every_other:
+                chosen = (row[begin:end][run] + x) % 2 == 0
+                run, x = run[chosen], x[chosen]
+            drawing[row[begin:end][run], x] = values if isinstance(values, int) else values[begin:end][run]
+            begin = end
+
+
+def _expanded(first: NDArray[np.int64], counts: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Every whole number of runs that begin at ``first``, and the run that each is in."""
+    run = np.repeat(np.arange(len(counts)), counts)
+    begin = np.cumsum(counts) - counts
+    return run, np.arange(len(run)) + (first - begin)[run]

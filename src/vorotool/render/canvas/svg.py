@@ -1,0 +1,256 @@
+"""SVG pictures from layers, streamed: the numbers are formatted in the core."""
+
+from __future__ import annotations
+
+from base64 import b64encode
+from collections.abc import Iterable, Iterator
+from html import escape
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool import _core
+from vorotool.geometry.curves.inverse_functions import hypotenuse
+from vorotool.geometry.xml_text import xml_characters
+from vorotool.render.canvas.layers import Arcs, Backdrop, Curves, Layer, Lines, Page, Points, Polygons, Texts
+from vorotool.render.canvas.palettes import WHITE
+
+PATH_ROWS = 4096
+"""Lines or polygons of one path: viewers slow down with longer ones, and with many elements."""
+
+MOST_ELEMENTS = 100_000
+"""Elements of a layer: resvg refuses files of 10^6, browsers become slow before. More share paths."""
+
+CAPITAL = 0.72
+"""Height of capitals, as a part of the size of letters."""
+
+HALO = 0.25
+"""Width of the edge around letters, half of it outside, as a part of their size."""
+
+SLICE_ROWS = 1 << 17
+DECIMALS = 2
+DASH = 6
+"""Px: of broken lines, and between."""
+
+
+def write_layers_svg(out: BinaryIO, layers: Iterable[Layer], page: Page, *, threads: int = 0) -> None:
+    """Draw layers from below, each a group with its name for an id; strokes keep their width when it is scaled.
+
+    Parameters
+    ----------
+    out : binary file
+        Receives UTF-8.
+    layers : iterable of Layer
+        What to draw.
+    page : Page
+        Where it lies.
+    threads : int
+        0 for all.
+
+    Examples
+    --------
+    >>> import io
+    >>> out = io.BytesIO()
+    >>> write_layers_svg(out, [Points("sites", np.zeros((3, 2)))], Page((0, 0, 1, 1), width=100, y_up=False))
+    >>> out.getvalue().count(b"<circle")
+    3
+    """
+    size = f'width="{page.width}" height="{page.height}"'
+    out.write(
+        f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="0 0 {page.width} {page.height}">\n'
+        f'<rect {size} fill="{WHITE}"/>\n'.encode()
+    )
+    if page.backdrop is not None:
+        out.write(image_element(page.backdrop))
+    for layer in layers:
+        for part in _parts(layer, page, threads):
+            out.write(part)
+    out.write(b"</svg>\n")
+
+
+def image_element(backdrop: Backdrop) -> bytes:
+    """The image as an element with its pixels in it."""
+    height, width = backdrop.pixels.shape[:2]
+    head = f'<image id="image" width="{width}" height="{height}" style="image-rendering:pixelated" href="data:image/png'
+    return head.encode() + b";base64," + b64encode(backdrop.encode()) + b'"/>\n'
+
+
+def halo_style(colour: str, size: float) -> str:
+    """Attributes of letters of a size that have an edge around them."""
+    return f'stroke="{colour}" stroke-width="{HALO * size:.3g}" stroke-linejoin="round" paint-order="stroke"'
+
+
+def fill_style(backdrop: Backdrop | None) -> str:
+    """Attribute of a group whose areas the image shows through, if there is one."""
+    return "" if backdrop is None else ' fill-opacity="0.5"'
+
+
+def _parts(layer: Layer, page: Page, threads: int) -> Iterator[bytes]:
+    if isinstance(layer, Arcs):
+        return _arcs(layer, page)
+    x, y = np.ascontiguousarray(np.round(page.place(layer.points), DECIMALS).T + 0.0)  # no -0
+    if isinstance(layer, Lines):
+        return _lines(layer, x, y, threads)
+    if isinstance(layer, Curves):
+        return _curves(layer, x, y, threads)
+    if isinstance(layer, Polygons):
+        return _polygons(layer, x, y, fill_style(page.backdrop), threads)
+    return _points(layer, x, y, threads) if isinstance(layer, Points) else _texts(layer, x, y, threads)
+
+
+def _rows(columns: list[Any], around: tuple[str, ...], threads: int, separator: str = "") -> list[bytes]:
+    return _core.format_columns(columns, [None] * len(columns), 0, threads, (around, separator, ""))
+
+
+def _chunks(count: int, size: int) -> Iterator[slice]:
+    return (slice(begin, min(begin + size, count)) for begin in range(0, count, size))
+
+
+def _lines(layer: Lines, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
+    across, down = _core.NumberTexts(x, 0, threads), _core.NumberTexts(y, 0, threads)
+    yield f'<g id="{_escaped(layer.name)}" fill="none" {_stroke(layer.colour, layer.width)}>\n'.encode()
+    for rows in _chunks(len(layer.pairs), PATH_ROWS):
+        a, b = layer.pairs[rows].T
+        yield f"<path {_UNSCALED} d=".encode() + b'"'
+        yield from _rows([(across, a), (down, a), (across, b), (down, b)], ("M", " ", "L", " ", ""), threads)
+        yield b'"/>\n'
+    yield b"</g>\n"
+
+
+def _curves(layer: Curves, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
+    """One row a place: M before the begin of a path, Q before a control point, then L or nothing before an end."""
+    across, down = _core.NumberTexts(x, 0, threads), _core.NumberTexts(y, 0, threads)
+    dashes = f' stroke-dasharray="{DASH:g}"' if layer.is_broken else ""
+    yield f'<g id="{_escaped(layer.name)}" fill="none" {_stroke(layer.colour, layer.width)}{dashes}>\n'.encode()
+    for rows in _chunks(len(layer.pairs), PATH_ROWS):
+        source, target = layer.pairs[rows].T
+        control = layer.control[rows]
+        begins = np.append(True, source[1:] != target[:-1])
+        bends = control >= 0
+        last = np.cumsum(1 + begins + bends) - 1  # the row of each target
+        place = np.empty(last[-1] + 1, dtype=np.int32)
+        token = np.empty(last[-1] + 1, dtype=np.int32)
+        place[last], token[last] = target, np.where(bends, 3, 1)
+        place[last[bends] - 1], token[last[bends] - 1] = control[bends], 2
+        first = (last - bends - 1)[begins]
+        place[first], token[first] = source[begins], 0
+        yield f"<path {_UNSCALED} d=".encode() + b'"'
+        yield from _rows([(_COMMANDS, token), (across, place), (down, place)], ("", "", " ", ""), threads)
+        yield b'"/>\n'
+    yield b"</g>\n"
+
+
+_COMMANDS = ["M", "L", "Q", " "]
+
+
+def _polygons(layer: Polygons, x: NDArray[Any], y: NDArray[Any], style: str, threads: int) -> Iterator[bytes]:
+    """One row a corner: what stands before it is L, the end of a ring, or the end of a path and another's begin."""
+    across, down = _core.NumberTexts(x, 0, threads), _core.NumberTexts(y, 0, threads)
+    stroke = "" if layer.edge is None else f" {_stroke(layer.edge, layer.width)}"
+    yield f'<g id="{_escaped(layer.name)}" fill-rule="evenodd"{style}{stroke}>\n'.encode()
+    texts, before = _openings(layer)
+    for rows in _chunks(len(layer.corners), SLICE_ROWS):
+        corners = layer.corners[rows]
+        yield from _rows([(texts, before[rows]), (across, corners), (down, corners)], ("", "", " ", ""), threads)
+    yield b'Z"/>\n</g>\n' if len(layer.corners) else b"</g>\n"
+
+
+def _openings(layer: Polygons) -> tuple[list[str], NDArray[np.int32]]:
+    """Texts that stand before corners, and which of them stands before each."""
+    rings = np.asarray(layer.rings, dtype=np.int64)
+    drawn = np.flatnonzero(rings[1:] > rings[:-1])  # rings with corners
+    polygon = layer.polygon_of_ring[drawn]
+    is_first = np.ones(len(drawn), dtype=bool)
+    is_first[1:] = polygon[1:] != polygon[:-1]
+    colour = np.zeros(len(layer.ring_limits) - 1, np.int64) if layer.colour_of is None else layer.colour_of
+    ids = None if len(colour) > MOST_ELEMENTS else layer.ids
+    texts = ["L", "ZM"]
+    before = np.zeros(len(layer.corners), dtype=np.int32)
+    opens = is_first.copy()
+    if ids is None:  # polygons of one colour that follow each other share a path
+        order = np.cumsum(is_first) - 1
+        fills = colour[polygon]
+        opens &= (order % PATH_ROWS == 0) | np.append(True, fills[1:] != fills[:-1])
+        if layer.is_alone is not None:
+            is_alone = layer.is_alone[polygon]
+            opens |= is_first & (is_alone | np.append(True, is_alone[:-1]))
+    for number, of in enumerate(polygon[opens].tolist()):
+        name = "" if ids is None else f' id="{_escaped(ids[of])}"'
+        fill = layer.colours[int(colour[of])]
+        end = 'Z"/>\n' if number else ""
+        texts.append(f'{end}<path{name} {_UNSCALED} fill="{fill}" d="M')
+    before[rings[:-1][drawn]] = np.where(opens, np.cumsum(opens) + 1, 1)
+    return texts, before
+
+
+def _points(layer: Points, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
+    if len(x) > MOST_ELEMENTS:
+        yield from _dots(layer, x, y, threads)
+        return
+    yield f'<g id="{_escaped(layer.name)}" fill="{layer.colour}">\n'.encode()
+    radius = f'" r="{layer.radius:.3g}"/>\n'
+    yield from _rows([x, y], ('<circle cx="', '" cy="', radius), threads)
+    yield b"</g>\n"
+
+
+def _dots(layer: Points, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
+    """Lines of no length with round ends are discs."""
+    yield f'<g id="{_escaped(layer.name)}" fill="none" {_stroke(layer.colour, 2 * layer.radius)}>\n'.encode()
+    for rows in _chunks(len(x), PATH_ROWS):
+        yield f"<path {_UNSCALED} d=".encode() + b'"'
+        yield from _rows([x[rows], y[rows]], ("M", " ", "h0"), threads)
+        yield b'"/>\n'
+    yield b"</g>\n"
+
+
+def _texts(layer: Texts, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
+    font = f'font-family="Helvetica, Arial, sans-serif" font-size="{layer.size:g}"'
+    halo = "" if layer.halo is None else f" {halo_style(layer.halo, layer.size)}"
+    yield f'<g id="{_escaped(layer.name)}" text-anchor="middle" {font} fill="{layer.colour}"{halo}>\n'.encode()
+    texts = [_escaped(text) for text in layer.texts]
+    y = np.round(layer.lowered(y, CAPITAL), DECIMALS)
+    for rows in _chunks(len(x), SLICE_ROWS):
+        yield from _rows([x[rows], y[rows], texts[rows]], ('<text x="', '" y="', '">', "</text>\n"), threads)
+    yield b"</g>\n"
+
+
+def _arcs(layer: Arcs, page: Page) -> Iterator[bytes]:
+    """One path of all curves; with y downwards what turned clockwise turns counter-clockwise."""
+    start, end = (np.round(page.place(places), DECIMALS) + 0.0 for places in (layer.start, layer.end))
+    is_arc = ~np.isnan(layer.centre[:, 0])
+    radii = hypotenuse(*np.where(is_arc[:, None], layer.start - layer.centre, 0).T).tolist()
+    sweeps = (layer.turns_left != page.y_up).astype(int).tolist()  # 1 is clockwise as seen
+    commands = []
+    for k, (x, y) in enumerate(end.tolist()):
+        command = "L"
+        if is_arc[k]:
+            radius = f"{page.length(radii[k]):.3f}".rstrip("0").rstrip(".")
+            command = f"A{radius} {radius} 0 0 {sweeps[k]} "
+        commands.append(f"{command}{_short(x)} {_short(y)}")
+    paths = []
+    for first, last in zip(layer.rings[:-1].tolist(), layer.rings[1:].tolist(), strict=True):
+        x, y = start[first].tolist()
+        paths.append(f"M{_short(x)} {_short(y)}{''.join(commands[first:last])}Z")
+    style = 'fill="none"'
+    if layer.fill is not None:
+        style = f'fill="{layer.fill}" fill-rule="evenodd"{fill_style(page.backdrop)}'
+    yield f'<g id="{_escaped(layer.name)}" {style} {_stroke(layer.edge, layer.width)}>\n'.encode()
+    for begin in range(0, len(paths), PATH_ROWS):
+        yield f'<path {_UNSCALED} d="{"".join(paths[begin : begin + PATH_ROWS])}"/>\n'.encode()
+    yield b"</g>\n"
+
+
+def _escaped(text: str) -> str:
+    return escape(xml_characters(text))
+
+
+def _short(number: float) -> str:
+    return f"{number:.{DECIMALS}f}".rstrip("0").rstrip(".")
+
+
+_UNSCALED = 'vector-effect="non-scaling-stroke"'
+
+
+def _stroke(colour: str, width: float) -> str:
+    return f'stroke="{colour}" stroke-width="{width:.3g}" stroke-linejoin="round" stroke-linecap="round"'

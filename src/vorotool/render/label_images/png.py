@@ -1,0 +1,255 @@
+"""PNG pictures of label images: palette indices composed band by band from layers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import UsageError
+from vorotool.geometry.pixel_frame import Frame
+from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.render.canvas.glyphs import text_cells
+from vorotool.render.canvas.layers import Backdrop
+from vorotool.render.canvas.palettes import PicturePalette
+
+LAYERS = ("cells", "diagram", "seeds", "labels")
+
+
+def picture_bands(
+    bands: Iterable[NDArray[Any]],
+    *,
+    shape: tuple[int, int],
+    palette: PicturePalette,
+    colour_of_label: NDArray[Any],
+    diagram: Iterable[NDArray[np.bool_]] | None = None,
+    halo: Iterable[NDArray[np.bool_]] | None = None,
+    seeds: SeedSet | None = None,
+    frame: Frame | None = None,
+    names: Names | None = None,
+    layers: Iterable[str] = LAYERS,
+) -> Iterator[NDArray[np.uint8]]:
+    """Compose rows of palette indices: cells below, the diagram over them, seeds and names on top.
+
+    Parameters
+    ----------
+    bands : iterable of (rows, W) integer arrays
+        Labels from top to bottom.
+    shape : (int, int)
+        Height and width of the image.
+    palette : PicturePalette
+        From `vorotool.render.canvas.palettes.picture_palette`.
+    colour_of_label : integer array
+        Colour class by label; entry 0, for no label, is 0.
+    diagram : iterable of (rows, W) bool arrays, optional
+        The pixels to draw black, in the same bands as the labels.
+    halo : iterable of (rows, W) bool arrays, optional
+        The pixels around the diagram to draw white, likewise.
+    seeds : SeedSet, optional
+        Drawn as discs.
+    frame : Frame, optional
+        Where the image lies; by default pixel (0, 0) is at the origin.
+    names : Names, optional
+        Of the regions.
+    layers : iterable of str
+        Which of "cells", "diagram", "seeds", "labels" to draw; one without data is left out.
+
+    Yields
+    ------
+    (rows, W) uint8 array
+        Palette indices, one band for each given.
+
+    Raises
+    ------
+    UsageError
+        If a layer is unknown.
+
+    Examples
+    --------
+    >>> from vorotool.render.canvas.palettes import picture_palette
+    >>> labels = np.array([[1, 2], [2, 0]])
+    >>> colours = np.array([0, 1, 2])
+    >>> next(picture_bands([labels], shape=(2, 2), palette=picture_palette(2), colour_of_label=colours))
+    array([[1, 2],
+           [2, 0]], dtype=uint8)
+    """
+    wanted = checked_layers(layers, LAYERS)
+    classes = np.asarray(colour_of_label).astype(np.uint8)
+    masks = iter(diagram) if diagram is not None and "diagram" in wanted else None
+    edges = iter(halo) if halo is not None and masks is not None else None
+    discs = _Discs(seeds, frame or Frame(0, 0, shape[1], shape[0])) if seeds and "seeds" in wanted else None
+    letters = _Letters(names, palette) if names is not None and "labels" in wanted else None
+    top = 0
+    for labels in bands:
+        picture = classes[labels] if "cells" in wanted else np.zeros(labels.shape, np.uint8)
+        if edges is not None:
+            picture[next(edges)] = palette.halo
+        if masks is not None:
+            picture[next(masks)] = palette.line
+        if discs is not None:
+            discs.draw(picture, top, palette.seed)
+        if letters is not None:
+            letters.draw(picture, top)
+        top += len(labels)
+        yield picture
+
+
+def over_image(
+    bands: Iterable[NDArray[np.uint8]], backdrop: Backdrop, palette: PicturePalette, frame: Frame
+) -> NDArray[np.uint8]:
+    """Draw a picture over an image: cells half see-through, lines and seeds not.
+
+    Parameters
+    ----------
+    bands : iterable of (rows, W) uint8 arrays
+        What `picture_bands` gives.
+    backdrop : Backdrop
+        The image.
+    palette : PicturePalette
+        Of the bands.
+    frame : Frame
+        Where the picture lies in the image; what is beside it is left out.
+
+    Returns
+    -------
+    (H, 3 W) uint8 array
+        Red, green and blue of each pixel of the image.
+
+    Examples
+    --------
+    >>> from vorotool.render.canvas.palettes import picture_palette
+    >>> grey = Backdrop(np.full((1, 2, 3), 100, np.uint8), bytes)
+    >>> over_image([np.array([[13]], np.uint8)], grey, picture_palette(2), Frame(1, 0, 1, 1)).tolist()
+    [[100, 100, 100, 0, 0, 0]]
+    """
+    made = backdrop.pixels.copy()
+    height, width = made.shape[:2]
+    left, right = (min(max(x, 0), width) for x in (frame.x, frame.x + frame.width))
+    row = frame.y
+    for band in bands:
+        top, bottom = (min(max(y, 0), height) for y in (row, row + len(band)))
+        index = band[top - row : bottom - row, left - frame.x : right - frame.x]
+        beneath = made[top:bottom, left:right]
+        colour = palette.colours[index]
+        mixed = ((beneath.astype(np.uint16) + colour + 1) // 2).astype(np.uint8)
+        is_line = (index == palette.line) | (index == palette.seed) | (index == palette.halo)
+        beneath[...] = np.where(is_line[..., None], colour, np.where(index[..., None] > 0, mixed, beneath))
+        row += len(band)
+    return made.reshape(height, -1)
+
+
+def around(lines: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Give the pixels beside those of lines, corner to corner, too: an edge that shows them on any ground.
+
+    Examples
+    --------
+    >>> around(np.array([[False, False, False, True]])).tolist()
+    [[False, False, True, False]]
+    """
+    made = lines.copy()
+    for step in (np.s_[1:, :], np.s_[:, 1:]):
+        back = tuple(slice(None, -1) if part.start else part for part in step)
+        grown = made.copy()
+        grown[step] |= made[back]
+        grown[back] |= made[step]
+        made = grown
+    return made & ~lines
+
+
+def checked_layers(layers: Iterable[str], known: tuple[str, ...]) -> frozenset[str]:
+    """Return the layers as a set.
+
+    Raises
+    ------
+    UsageError
+        If one is not known; it is named.
+    """
+    wanted = tuple(layers)
+    for layer in wanted:
+        if layer not in known:
+            raise UsageError(f"there is no layer {layer!r}: use {', '.join(known)}")
+    return frozenset(wanted)
+
+
+def disc_radius(shape: tuple[int, int], count: int) -> float:
+    """Radius of a seed's disc in pixels: 1/250 of the smaller side, but less where that would fill cells.
+
+    Examples
+    --------
+    >>> disc_radius((1000, 2000), 50), disc_radius((1000, 1000), 10**6)
+    (4.0, 0.5)
+    """
+    height, width = shape
+    spacing = math.sqrt(width * height / max(count, 1))
+    return min(max(1.0, min(shape) / 250), max(0.5, spacing / 8))
+
+
+class Names(NamedTuple):
+    """Names of regions, and the (k, 2) column and row of the pixel on which each is centred."""
+
+    texts: Sequence[str]
+    places: NDArray[np.int64]
+
+
+class _Letters:
+    """Pixels of names, sorted by row, so that each band looks at its own only; halos come before letters."""
+
+    def __init__(self, names: Names, palette: PicturePalette) -> None:
+        owner, cells, is_ink = text_cells(names.texts)
+        x, y = (names.places[owner] + cells).T
+        order = np.lexsort((is_ink, y))
+        self.x, self.y = x[order], y[order]
+        self.value = np.where(is_ink[order], palette.line, palette.halo).astype(np.uint8)
+
+    def draw(self, picture: NDArray[np.uint8], top: int) -> None:
+        """Set the pixels of a band; what is outside is left out."""
+        rows, width = picture.shape
+        part = slice(*np.searchsorted(self.y, [top, top + rows]))
+        x, y, value = self.x[part], self.y[part] - top, self.value[part]
+        inside = (x >= 0) & (x < width)
+        picture[y[inside], x[inside]] = value[inside]
+
+
+class _Discs:
+    """Discs around seeds, sorted by row, so that each band looks at its own only."""
+
+    def __init__(self, seeds: SeedSet, frame: Frame) -> None:
+        x, y = seeds.x / seeds.scale - frame.x, seeds.y / seeds.scale - frame.y
+        self.radius = disc_radius(frame.shape, len(seeds))
+        order = np.argsort(y, kind="stable")
+        self.x, self.y = x[order], y[order]
+
+    def draw(self, picture: NDArray[np.uint8], top: int, value: int) -> None:
+        """Set the pixels whose centres lie in a disc; the smallest discs still mark the nearest pixel."""
+        rows, width = picture.shape
+        reach = math.ceil(self.radius) + 1
+        first, last = np.searchsorted(self.y, [top - reach, top + rows + reach])
+        x, y = self.x[first:last], self.y[first:last]
+        self._set(picture, np.floor(x + 0.5), np.floor(x + 0.5), np.floor(y + 0.5) - top, value)
+        for offset in range(-reach, reach + 1):
+            row = np.floor(y) + offset
+            square = self.radius * self.radius - np.square(row - y)
+            half = np.sqrt(np.maximum(square, 0.0))
+            hit = square >= 0
+            left, right = np.ceil(x - half)[hit], np.floor(x + half)[hit]
+            self._set(picture, np.maximum(left, 0), np.minimum(right, width - 1), row[hit] - top, value)
+
+    @staticmethod
+    def _set(
+        picture: NDArray[np.uint8],
+        left: NDArray[np.float64],
+        right: NDArray[np.float64],
+        row: NDArray[np.float64],
+        value: int,
+    ) -> None:
+        """Fill spans of pixels, ends included; what is outside the picture is left out."""
+        rows, width = picture.shape
+        inside = (row >= 0) & (row < rows) & (left <= right) & (right >= 0) & (left < width)
+        start = left[inside].astype(np.int64)
+        lengths = right[inside].astype(np.int64) - start + 1
+        begin = np.cumsum(lengths) - lengths
+        column = np.arange(lengths.sum()) - np.repeat(begin - start, lengths)
+        picture[np.repeat(row[inside].astype(np.int64), lengths), column] = value

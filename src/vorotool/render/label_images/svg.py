@@ -1,0 +1,229 @@
+"""SVG pictures of small label images: cells as crack outlines, labels as numbers, seeds."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from html import escape
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import LimitError
+from vorotool.geometry.points.label_image import LabelImage
+from vorotool.render.canvas.layers import Backdrop
+from vorotool.render.canvas.palettes import EDGE, FAINT, INK, SEED, WHITE, cell_colour
+from vorotool.render.canvas.svg import CAPITAL, fill_style, halo_style, image_element
+from vorotool.render.label_images.crack_outline import Loop, crack_loops
+from vorotool.render.label_images.png import Names, checked_layers, disc_radius
+
+LAYERS = ("cells", "labels", "seeds")
+MOST_PIXELS = 1_000_000
+MOST_NUMBERED = 40
+_MARGIN = 0.02
+
+
+def write_label_svg(
+    out: BinaryIO,
+    image: LabelImage,
+    *,
+    colour_of_label: NDArray[Any] | Mapping[int, int],
+    width: int = 1000,
+    layers: Iterable[str] = LAYERS,
+    backdrop: Backdrop | None = None,
+    names: Names | None = None,
+) -> None:
+    """Draw a label image with one path a label, and numbers in the pixels of images of at most 40 x 40.
+
+    In larger ones a name is written in each region instead.
+
+    Seeds are discs or, where there are numbers, bold underlined numbers, as in the paper's Figures 1
+    and 2.
+
+    Parameters
+    ----------
+    out : binary file
+        Receives UTF-8.
+    image : LabelImage
+        Labels, frame, and seeds if there are any.
+    colour_of_label : integer array or mapping
+        Colour class by label; an array's entry 0, for no label, is 0.
+    width : int
+        Width of the picture in px.
+    layers : iterable of str
+        Which of "cells", "labels", "seeds" to draw; each is a named group.
+    backdrop : Backdrop, optional
+        An image to draw over, at its size: cells are half see-through then.
+    names : Names, optional
+        Of the regions of an image that is larger than 40 x 40.
+
+    Raises
+    ------
+    LimitError
+        If the image has more than 10^6 pixels.
+    UsageError
+        If a layer is unknown.
+
+    Examples
+    --------
+    >>> import io
+    >>> out = io.BytesIO()
+    >>> write_label_svg(out, LabelImage(np.array([[1, 2]])), colour_of_label=np.array([0, 1, 2]))
+    >>> out.getvalue().decode().count("<path")
+    2
+    """
+    check_size(image.shape)
+    wanted = checked_layers(layers, LAYERS)
+    page = _Page(image, width, backdrop)
+    numbered = "labels" in wanted and has_numbers(image.shape)
+    size = f'width="{page.width}" height="{page.height}"'
+    parts = [f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="0 0 {page.width} {page.height}">']
+    parts.append(f'<rect {size} fill="{WHITE}"/>')
+    if backdrop is not None:
+        parts.append(image_element(backdrop).decode().rstrip())
+        assert image.frame is not None  # LabelImage has filled it in
+        parts.append(f'<g transform="translate({image.frame.x} {image.frame.y})">')
+    if "cells" in wanted:
+        parts += _cells(page, colour_of_label)
+    if numbered:
+        parts += _numbers(page, "seeds" in wanted)
+    if "seeds" in wanted and image.seeds is not None and not numbered:
+        parts += _discs(page)
+    if "labels" in wanted and names is not None and not numbered:
+        parts += _names(page, names)
+    if backdrop is not None:
+        parts.append("</g>")
+    out.write(("\n".join([*parts, "</svg>"]) + "\n").encode())
+
+
+def has_numbers(shape: tuple[int, int]) -> bool:
+    """Whether an image is so small that each pixel shows its label, as in the paper's Figures 1 and 2."""
+    return max(shape) <= MOST_NUMBERED
+
+
+def check_size(shape: tuple[int, int]) -> None:
+    """Refuse an image that is too large for a picture with a path a label.
+
+    Raises
+    ------
+    LimitError
+        If it has more than 10^6 pixels.
+
+    Examples
+    --------
+    >>> check_size((1000, 1000))
+    """
+    if shape[0] * shape[1] > MOST_PIXELS:
+        raise LimitError(f"{shape[1]} x {shape[0]} pixels are too many for SVG, at most {MOST_PIXELS}: use -f png")
+
+
+class _Page:
+    """Where pixels are on the page: it is as wide as the image and 2 % of its larger side as a margin.
+
+    Over another image it has that one's size.
+    """
+
+    def __init__(self, image: LabelImage, width: int, backdrop: Backdrop | None) -> None:
+        rows, columns = image.shape
+        margin = _MARGIN * max(rows, columns)
+        self.image, self.width, self.backdrop = image, width, backdrop
+        if backdrop is not None:
+            self.height, self.width = backdrop.pixels.shape[:2]
+            self.scale, self.offset = 1.0, 0.0
+            return
+        self.scale = width / (columns + 2 * margin)
+        self.offset = margin * self.scale
+        self.height = max(1, round((rows + 2 * margin) * self.scale))
+
+    def corner(self, index: int) -> str:
+        """Return the page coordinate, across or down, of a line of the lattice of pixel corners."""
+        return _short(index * self.scale + self.offset)
+
+    def place(self, x: float, y: float) -> tuple[str, str]:
+        """Return the page coordinates of a point given in pixels, whose centres are at integers."""
+        return _short((x + 0.5) * self.scale + self.offset), _short((y + 0.5) * self.scale + self.offset)
+
+    def seeds(self) -> NDArray[np.float64]:
+        """(k, 2) positions in pixels of the image, of the seeds that lie in it."""
+        seeds, frame = self.image.seeds, self.image.frame
+        if seeds is None or frame is None:
+            return np.empty((0, 2))
+        places = np.stack([seeds.x / seeds.scale - frame.x, seeds.y / seeds.scale - frame.y], axis=1)
+        rows, columns = self.image.shape
+        inside = (places >= -0.5) & (places < np.array([columns - 0.5, rows - 0.5]))
+        return places[inside.all(axis=1)]
+
+
+def _short(value: float) -> str:
+    return f"{value:.2f}".rstrip("0").rstrip(".")
+
+
+def _cells(page: _Page, colour_of_label: NDArray[Any] | Mapping[int, int]) -> Iterator[str]:
+    # page coordinates, not a transform: not every renderer knows strokes that do not scale
+    corners = [page.corner(index) for index in range(max(page.image.shape) + 1)]
+    style = fill_style(page.backdrop)
+    yield f'<g id="cells" fill-rule="evenodd"{style} stroke="{EDGE}" stroke-width="1.5" stroke-linejoin="round">'
+    for label, loops in crack_loops(page.image.labels):
+        colour = cell_colour(int(colour_of_label[label]))
+        path = "".join(_loop_path(loop, corners) for loop in loops)
+        yield f'<path id="cell-{label}" fill="{colour}" vector-effect="non-scaling-stroke" d="{path}"/>'
+    yield "</g>"
+
+
+def _loop_path(loop: Loop, corners: list[str]) -> str:
+    """Horizontal and vertical steps in turn; the last one closes the loop."""
+    (x, y), steps = loop[0], []
+    for number, (next_x, next_y) in enumerate(loop[1:]):
+        steps.append(f"V{corners[next_y]}" if number % 2 else f"H{corners[next_x]}")
+    return f"M{corners[x]} {corners[y]}{''.join(steps)}Z"
+
+
+def _numbers(page: _Page, mark_seeds: bool) -> Iterator[str]:
+    """Write the label in each pixel; those of seeds, bold and underlined, in a group of their own."""
+    labels = page.image.labels
+    marked = np.zeros(labels.shape, bool)
+    if mark_seeds:
+        column, row = np.floor(page.seeds() + 0.5).astype(np.int64).T
+        marked[row, column] = True
+    digits = len(str(int(labels.max())))
+    size = page.scale * min(0.5, 1.3 / max(digits, 1))
+    style = f'text-anchor="middle" font-family="Helvetica, Arial, sans-serif" font-size="{_short(size)}"'
+    yield f'<g id="labels" {style} fill="{INK}">'
+    yield from _texts(page, ~marked, size, "")
+    yield "</g>"
+    if mark_seeds:
+        yield f'<g id="seeds" {style} fill="{SEED}" font-weight="bold">'
+        yield from _texts(page, marked, size, ' text-decoration="underline"')
+        yield "</g>"
+
+
+def _texts(page: _Page, chosen: NDArray[np.bool_], size: float, attributes: str) -> Iterator[str]:
+    below_centre = 0.36 * size / page.scale  # half the height of a digit
+    for row, column in np.argwhere(chosen).tolist():
+        label = int(page.image.labels[row, column])
+        x, y = page.place(column, row + below_centre)
+        faint = "" if label else f' fill="{FAINT}"'
+        yield f'<text x="{x}" y="{y}"{attributes}{faint}>{label}</text>'
+
+
+def _names(page: _Page, names: Names) -> Iterator[str]:
+    """Write a name in each region, with an edge around the letters."""
+    spacing = math.sqrt(page.width * page.height / max(len(names.texts), 1))
+    size = min(max(spacing / 4, 6.0), 16.0)
+    style = f'text-anchor="middle" font-family="Helvetica, Arial, sans-serif" font-size="{_short(size)}"'
+    yield f'<g id="labels" {style} fill="{INK}" {halo_style(WHITE, size)}>'
+    for text, (column, row) in zip(names.texts, names.places.tolist(), strict=True):
+        x, y = page.place(column, row + CAPITAL * size / page.scale / 2)
+        yield f'<text x="{x}" y="{y}">{escape(text)}</text>'
+    yield "</g>"
+
+
+def _discs(page: _Page) -> Iterator[str]:
+    places = page.seeds()
+    radius = min(max(disc_radius(page.image.shape, len(places)) * page.scale, 1.2), 4.0)
+    yield f'<g id="seeds" fill="{SEED}">'
+    for x, y in places.tolist():
+        across, down = page.place(x, y)
+        yield f'<circle cx="{across}" cy="{down}" r="{_short(radius)}"/>'
+    yield "</g>"

@@ -1,0 +1,1 @@
+"""Result type -> layers, one module a result."""

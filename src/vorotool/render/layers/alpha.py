@@ -1,0 +1,80 @@
+"""The layers of an alpha shape's picture."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.alpha.complex import CLASSES
+from vorotool.geometry.alpha.hull import AlphaHull
+from vorotool.geometry.alpha.shape import AlphaShape
+from vorotool.render.canvas.layers import Arcs, Layer, Lines, Page, Points, Polygons, Texts
+from vorotool.render.canvas.palettes import BOUNDARY, CELLS, FAINT, INK, PALE, SINGULAR, WHITE
+from vorotool.render.label_images.png import checked_layers
+
+LAYERS = ("polygons", "delaunay", "interior", "boundary", "singular", "hull", "points", "labels")
+"""From below."""
+
+
+def alpha_layers(shape: AlphaShape, page: Page, layers: Iterable[str], *, hull: AlphaHull | None = None) -> list[Layer]:
+    """Make layers of an alpha shape; lines and discs get finer where points are crowded.
+
+    Parameters
+    ----------
+    shape : AlphaShape
+        What to draw.
+    page : Page
+        Where it will be drawn.
+    layers : iterable of str
+        Which of "polygons" (the regions), "delaunay" (all edges, faint), "interior", "boundary", "singular" (edges),
+        "hull" (its arcs), "points", "labels".
+    hull : AlphaHull, optional
+        For its layer.
+
+    Raises
+    ------
+    UsageError
+        If a layer is unknown.
+
+    Examples
+    --------
+    >>> from vorotool import alpha_shape
+    >>> from vorotool.render.layers.mesh import mesh_page
+    >>> shape = alpha_shape([[0, 0], [4, 0], [0, 3]], r=2)
+    >>> page = mesh_page(shape.family.mesh)
+    >>> [layer.name for layer in alpha_layers(shape, page, ["points", "singular"])]
+    ['singular', 'points']
+    """
+    wanted = checked_layers(layers, LAYERS)
+    points = shape.points
+    spacing = page.spacing(len(points))
+    width = min(max(spacing / 16, 0.15), 2.0)
+    made: dict[str, Layer] = {
+        "polygons": _regions(shape),
+        "delaunay": Lines("delaunay", points, shape.family.edges, PALE, width / 2),
+        "interior": Lines("interior", points, _edges(shape, "interior"), FAINT, width / 2),
+        "boundary": Lines("boundary", points, _edges(shape, "boundary"), BOUNDARY, width),
+        "singular": Lines("singular", points, _edges(shape, "singular"), SINGULAR, width),
+        "points": Points("points", points, radius=min(max(spacing / 12, 0.3), 4.0)),
+    }
+    if hull is not None:
+        made["hull"] = Arcs("hull", hull.start, hull.end, hull.centre, hull.ring_start, CELLS[4], INK, width)
+    if "labels" in wanted:
+        texts = [str(label) for label in shape.family.mesh.label_array.tolist()]
+        made["labels"] = Texts("labels", points, texts, size=min(max(spacing / 4, 2.0), 16.0), halo=WHITE)
+    return [made[name] for name in LAYERS if name in wanted]
+
+
+def _edges(shape: AlphaShape, name: str) -> NDArray[np.int32]:
+    edges: NDArray[np.int32] = shape.family.edges[shape.edge_classes() == CLASSES.index(name)]
+    return edges
+
+
+def _regions(shape: AlphaShape) -> Polygons:
+    rings = shape.polygons
+    corners = np.arange(len(rings.xy), dtype=np.int32)
+    ids = [f"region-{number}" for number in range(1, len(rings) + 1)]
+    first = rings.polygon_start
+    return Polygons("polygons", rings.xy, corners, rings.ring_start, first, colours=[CELLS[4]], ids=ids)

@@ -1,0 +1,85 @@
+"""The layers of a picture of Voronoi cells."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.mesh.cells import CellSet
+from vorotool.render.canvas.layers import Lines, Page, Polygons
+from vorotool.render.canvas.palettes import EDGE, INK, cell_colour
+
+LAYERS = ("cells", "diagram")
+"""Filled cells, and their boundaries as lines."""
+
+
+def cell_polygons(cells: CellSet, colours: NDArray[np.unsignedinteger], page: Page) -> Polygons:
+    """Fill cells; their outlines get finer where cells are small.
+
+    Parameters
+    ----------
+    cells : CellSet
+        What to draw.
+    colours : (n,) integer array
+        Colour class of each cell, from 1: what `cell_colours` gives, for neighbours to differ.
+    page : Page
+        Where they will be drawn.
+
+    Examples
+    --------
+    >>> from vorotool import voronoi_cells
+    >>> cells = voronoi_cells([[1, 1], [3, 1]], frame=(0, 0, 4, 2))
+    >>> cell_polygons(cells, np.array([1, 2]), cells_page(cells)).ids
+    ['cell-1', 'cell-2']
+    """
+    rings, polygons, of_cells = cells.nesting
+    cell = np.repeat(np.arange(len(cells)), np.diff(of_cells))
+    part = np.arange(len(cell)) - of_cells[:-1][cell] + 1
+    labels = cells.label_array[cell]
+    several = np.diff(of_cells)[cell] > 1
+    ids = [
+        f"cell-{label}-{k}" if many else f"cell-{label}"
+        for label, k, many in zip(labels.tolist(), part.tolist(), several.tolist(), strict=True)
+    ]
+    return Polygons(
+        "cells",
+        cells.coordinates,
+        np.arange(len(cells.coordinates), dtype=np.int32),
+        rings,
+        polygons,
+        [cell_colour(c) for c in range(int(colours.max(initial=0)) + 1)],
+        np.asarray(colours)[cell],
+        ids,
+        EDGE,
+        _line_width(cells, page),
+    )
+
+
+def cell_lines(cells: CellSet, page: Page, colour: str = INK) -> Lines:
+    """Draw the boundaries of cells as lines, each side once where two cells share it.
+
+    Examples
+    --------
+    >>> from vorotool import voronoi_cells
+    >>> cells = voronoi_cells([[1, 1], [3, 1]], frame=(0, 0, 4, 2))
+    >>> len(cell_lines(cells, cells_page(cells)).pairs)
+    7
+    """
+    _, index = np.unique(cells.coordinates, axis=0, return_inverse=True)
+    rings = cells.nesting.rings
+    following = np.arange(1, len(cells.coordinates) + 1)
+    following[rings[1:] - 1] = rings[:-1]
+    first = np.full(int(index.max(initial=-1)) + 1, len(index), dtype=np.int32)
+    np.minimum.at(first, index.reshape(-1), np.arange(len(index), dtype=np.int32))
+    number = first[index.reshape(-1)]  # coincident vertices have that of the first one
+    sides = np.unique(np.sort(np.stack([number, number[following]], axis=1), axis=1), axis=0)
+    return Lines("diagram", cells.coordinates, sides, colour, _line_width(cells, page))
+
+
+def cells_page(cells: CellSet, *, width: int = 1000, y_up: bool | None = None) -> Page:
+    """The page that shows the frame of cells; y upwards where the input says so."""
+    return Page(cells.frame.sides, width=width, y_up=cells.y_up if y_up is None else y_up)
+
+
+def _line_width(cells: CellSet, page: Page) -> float:
+    return min(max(page.spacing(len(cells)) / 24, 0.1), 1.5)

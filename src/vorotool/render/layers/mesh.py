@@ -1,0 +1,78 @@
+"""The layers of a triangulation's picture."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
+from vorotool.render.canvas.layers import Layer, Lines, Page, Points, Polygons, Texts, bounds_of
+from vorotool.render.canvas.palettes import CELLS, INK, WHITE
+from vorotool.render.label_images.png import checked_layers
+
+LAYERS = ("triangles", "edges", "points", "labels")
+"""From below."""
+
+
+def mesh_layers(mesh: AnyTriangulation, page: Page, layers: Iterable[str]) -> list[Layer]:
+    """Make layers of a triangulation; lines and discs get finer where points are crowded.
+
+    Parameters
+    ----------
+    mesh : Triangulation or DigitalTriangulation
+        What to draw.
+    page : Page
+        Where it will be drawn.
+    layers : iterable of str
+        Which of "triangles", "edges", "points", "labels".
+
+    Raises
+    ------
+    UsageError
+        If a layer is unknown.
+
+    Examples
+    --------
+    >>> from vorotool import delaunay
+    >>> mesh = delaunay([[0, 0], [4, 0], [0, 3]])
+    >>> [layer.name for layer in mesh_layers(mesh, mesh_page(mesh), ["points", "edges"])]
+    ['edges', 'points']
+    """
+    wanted = checked_layers(layers, LAYERS)
+    spacing = page.spacing(len(mesh.points))
+    corners, rings = mesh.triangles.reshape(-1), 3 * np.arange(len(mesh.triangles) + 1)
+    width = min(max(spacing / 24, 0.1), 1.5)
+    made: dict[str, Layer] = {
+        "triangles": Polygons("triangles", mesh.points, corners, rings, colours=[CELLS[4]]),
+        "edges": Lines("edges", mesh.points, mesh.edges, INK, width),
+        "points": Points("points", mesh.points, radius=min(max(spacing / 12, 0.3), 4.0)),
+    }
+    if "labels" in wanted:
+        texts = [str(label) for label in mesh.label_array.tolist()]
+        made["labels"] = Texts("labels", mesh.points, texts, size=min(max(spacing / 4, 2.0), 16.0), halo=WHITE)
+    return [made[name] for name in LAYERS if name in wanted]
+
+
+def mesh_page(
+    mesh: AnyTriangulation,
+    *,
+    width: int = 1000,
+    y_up: bool | None = None,
+    bounds: tuple[float, float, float, float] | None = None,
+) -> Page:
+    """The page of a picture: with all points of a triangulation, or with other bounds.
+
+    Parameters
+    ----------
+    mesh : Triangulation or DigitalTriangulation
+        What to draw; where ``y_up`` is not given, its own decides.
+    width : int
+        In px.
+    y_up : bool, optional
+        Draw y upwards.
+    bounds : (x, y, x, y), optional
+        The least and the largest coordinates to show.
+    """
+    up = mesh.y_up if y_up is None else y_up
+    return Page(bounds or bounds_of([Points("points", mesh.points)]), width=width, y_up=up)

@@ -1,0 +1,78 @@
+"""The layers of a picture of offset curves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from vorotool.geometry.skeleton.offsets import Offsets
+from vorotool.render.canvas.layers import Arcs, Layer, Page, Points, bounds_of
+from vorotool.render.canvas.palettes import RESULT
+from vorotool.render.label_images.png import checked_layers
+from vorotool.render.layers.polygons import polygon_layers
+
+LAYERS = ("polygons", "offset")
+"""From below."""
+
+_FINE = 2.0**-10
+"""Of the extent: chords of arcs whose bounds are shown."""
+
+
+def offset_layers(offsets: Offsets, page: Page, layers: Iterable[str]) -> list[Layer]:
+    """Make layers of offset curves; lines get finer where there are many.
+
+    Parameters
+    ----------
+    offsets : Offsets
+        What to draw: its polygons light grey, and its curves.
+    page : Page
+        Where it will be drawn.
+    layers : iterable of str
+        Which of "polygons", "offset".
+
+    Raises
+    ------
+    UsageError
+        If a layer is unknown.
+
+    Examples
+    --------
+    >>> from vorotool import offset
+    >>> made = offset([[0, 0], [4, 0], [0, 3]], 1)
+    >>> [layer.name for layer in offset_layers(made, offset_page(made), LAYERS)]
+    ['polygons', 'offset']
+    """
+    wanted = checked_layers(layers, LAYERS)
+    width = min(max(page.spacing(max(len(offsets.site), 1)) / 16, 0.2), 1.5)
+    curves = Arcs(
+        "offset",
+        offsets.start,
+        offsets.end,
+        offsets.centre,
+        offsets.ring_start,
+        None,
+        RESULT,
+        width,
+        offsets.piece_distance > 0,
+    )
+    made: dict[str, list[Layer]] = {"polygons": polygon_layers(offsets.polygons, width), "offset": [curves]}
+    return [layer for name in LAYERS if name in wanted for layer in made[name]]
+
+
+def offset_page(offsets: Offsets, *, width: int = 1000, y_up: bool | None = None) -> Page:
+    """The page of a picture: with all polygons and curves.
+
+    Parameters
+    ----------
+    offsets : Offsets
+        What to draw; where ``y_up`` is not given, its own decides.
+    width : int
+        In px.
+    y_up : bool, optional
+        Draw y upwards.
+    """
+    corners = np.concatenate([offsets.polygons.xy, offsets.start])
+    tolerance = _FINE * (float(np.ptp(corners, axis=0).max()) or 1.0) if len(corners) else 1.0
+    shown = [Points("shown", offsets.polygons.xy), Points("shown", offsets.flattened(tolerance).xy)]
+    return Page(bounds_of(shown), width=width, y_up=offsets.y_up if y_up is None else y_up)

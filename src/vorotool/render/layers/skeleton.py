@@ -1,0 +1,217 @@
+"""The layers of a skeleton's picture."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.skeleton.centerline import Centerlines
+from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton
+from vorotool.geometry.skeleton.tables import site_labels
+from vorotool.render.canvas.layers import Curves, Layer, Lines, Page, Points, Texts, bounds_of, name_size
+from vorotool.render.canvas.palettes import INK, RESULT, SEED, WHITE
+from vorotool.render.label_images.png import checked_layers
+from vorotool.render.layers.polygons import polygon_layers
+
+LAYERS = ("polygons", "elements", "points", "skeleton", "exact", "nodes", "labels")
+"""From below."""
+
+WIDEST = 1.5
+"""Lines, in px."""
+
+
+def skeleton_layers(
+    skeleton: Skeleton,
+    page: Page,
+    layers: Iterable[str],
+    *,
+    name: str = "skeleton",
+    colour: str = RESULT,
+    points: NDArray[np.float64] | None = None,
+    exact: Skeleton | None = None,
+) -> list[Layer]:
+    """Make layers of a skeleton; lines get finer where there are many.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        What to draw: its polygons light grey, its sites, its arcs, and its nodes.
+    page : Page
+        Where it will be drawn.
+    layers : iterable of str
+        Which of "polygons", "elements" (edges), "points" (their ends), "skeleton", "exact", "nodes", "labels":
+        the paper's, of elements, where these are drawn, else the ids of polygons and lines, or their numbers from 0.
+    name, colour : str
+        Of the layer of arcs: a whole diagram has other ones.
+    points : (s, 2) float64 array, optional
+        Samples of the edges: drawn instead of the ends of edges.
+    exact : Skeleton, optional
+        What the skeleton approximates: drawn as a broken line.
+
+    Raises
+    ------
+    UsageError
+        If a layer is unknown.
+
+    Examples
+    --------
+    >>> from vorotool import skeleton_exact
+    >>> skeleton = skeleton_exact([[0, 0], [4, 0], [0, 3]])
+    >>> [layer.name for layer in skeleton_layers(skeleton, skeleton_page(skeleton), ["skeleton", "polygons"])]
+    ['polygons', 'skeleton']
+    """
+    wanted = checked_layers(layers, LAYERS)
+    places = _site_places(skeleton) if points is None else points
+    spacing = page.spacing(max(len(skeleton.site_table), len(places), 1))
+    width = min(max(spacing / 16, 0.2), WIDEST)
+    radius = min(max(spacing / 16, 0.3), 3.0)
+    make: dict[str, Callable[[], list[Layer]]] = {
+        "polygons": lambda: polygon_layers(skeleton.polygons, width),
+        "elements": lambda: [_edges(skeleton, width)],
+        "points": lambda: [Points("points", places, radius=radius)],
+        "skeleton": lambda: [_arcs(skeleton, name, colour, max(width, _room(skeleton, page)))],
+        "exact": lambda: [] if exact is None else [replace(_arcs(exact, "exact", INK, width), is_broken=True)],
+        "nodes": lambda: [Points("nodes", skeleton.vertices, colour=colour, radius=radius)],
+        "labels": lambda: [
+            _labels(skeleton, min(max(spacing / 6, 2.0), 16.0)) if "elements" in wanted else _names(skeleton, page)
+        ],
+    }
+    return [layer for layer_name in LAYERS if layer_name in wanted for layer in make[layer_name]()]
+
+
+def picture_layers(
+    skeleton: Skeleton,
+    page: Page,
+    layers: Iterable[str],
+    *,
+    what: str = "skeleton",
+    points: NDArray[np.float64] | None = None,
+    exact: Skeleton | None = None,
+) -> list[Layer]:
+    """Make the layers of the picture of a skeleton, or of a whole diagram, which is another layer in another colour."""
+    if what == "diagram":
+        return skeleton_layers(skeleton, page, layers, name="diagram", colour=SEED, points=points, exact=exact)
+    return skeleton_layers(skeleton, page, layers, points=points, exact=exact)
+
+
+def centerline_layers(lines: Centerlines, page: Page, layers: Iterable[str]) -> list[Layer]:
+    """Make layers of centerlines: those of a skeleton, but the arcs are those of the lines, with their extensions.
+
+    Parameters
+    ----------
+    lines : Centerlines
+        What to draw.
+    page : Page
+        Where it will be drawn.
+    layers : iterable of str
+        As of `skeleton_layers`; "skeleton" are the lines.
+
+    Raises
+    ------
+    UsageError
+        If a layer is unknown.
+
+    Examples
+    --------
+    >>> from vorotool import centerline, skeleton_exact
+    >>> lines = centerline(skeleton_exact([[0, 0], [4, 0], [0, 3]]))
+    >>> [layer.name for layer in centerline_layers(lines, skeleton_page(lines.path), ["skeleton", "polygons"])]
+    ['polygons', 'centerline']
+    """
+    made = skeleton_layers(lines.path, page, layers, name="centerline")
+    return [_extended(layer, lines) if isinstance(layer, Curves) else layer for layer in made]
+
+
+def _extended(curves: Curves, lines: Centerlines) -> Curves:
+    """With the straight lines that lead to the boundary."""
+    first, last = lines.extended
+    nodes = np.concatenate([lines.end_nodes[first, 0], lines.end_nodes[last, 1]])
+    ends = np.concatenate([lines.ends[first, 0], lines.ends[last, 1]])
+    pairs = np.stack([nodes, len(curves.points) + np.arange(len(ends))], axis=1)
+    return replace(
+        curves,
+        points=np.concatenate([curves.points, ends]),
+        pairs=np.concatenate([curves.pairs, pairs]).astype(np.int32),
+        control=np.concatenate([curves.control, np.full(len(ends), -1, dtype=np.int32)]),
+    )
+
+
+def skeleton_page(
+    skeleton: Skeleton,
+    *,
+    width: int = 1000,
+    y_up: bool | None = None,
+    bounds: tuple[float, float, float, float] | None = None,
+) -> Page:
+    """The page of a picture: with all polygons and the frame, if arcs are cut by one, or with other bounds.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        What to draw; where ``y_up`` is not given, its own decides.
+    width : int
+        In px.
+    y_up : bool, optional
+        Draw y upwards.
+    bounds : (x, y, x, y), optional
+        The least and the largest coordinates to show.
+    """
+    shown = [skeleton.polygons.xy]
+    if skeleton.frame is not None:
+        x, y, w, h = skeleton.frame
+        shown.append(np.array([[x, y], [x + w, y + h]]))
+    up = skeleton.y_up if y_up is None else y_up
+    return Page(bounds or bounds_of([Points("shown", np.concatenate(shown))]), width=width, y_up=up)
+
+
+def _room(skeleton: Skeleton, page: Page) -> float:
+    """How wide arcs may be that were pruned: they cover a fortieth of the page at most."""
+    covered = 40 * page.length(float(skeleton.length.sum()))
+    return min(page.width * page.height / covered, WIDEST) if covered > 0 else WIDEST
+
+
+def _edges(skeleton: Skeleton, width: float) -> Lines:
+    ends = skeleton.site_ends[skeleton.site_table.kind == EDGE]
+    pairs = np.arange(2 * len(ends), dtype=np.int32).reshape(-1, 2)
+    return Lines("elements", ends.reshape(-1, 2), pairs, INK, width)
+
+
+def _site_places(skeleton: Skeleton) -> NDArray[np.float64]:
+    places: NDArray[np.float64] = skeleton.site_ends[skeleton.site_table.kind != EDGE, 0]
+    return places
+
+
+def _labels(skeleton: Skeleton, size: float) -> Texts:
+    pairs = [[label for label in pair if label] for pair in site_labels(skeleton).tolist()]
+    return Texts("labels", skeleton.site_ends.mean(axis=1), [",".join(map(str, pair)) for pair in pairs], size=size)
+
+
+def _names(skeleton: Skeleton, page: Page) -> Texts:
+    """Ids of the objects, each in the middle of the largest disc of its interior skeleton, else at its first vertex."""
+    polygons = skeleton.polygons
+    assert polygons.feature is not None  # PolygonSet has filled it in
+    _, first = np.unique(polygons.feature, return_index=True)
+    owner = polygons.feature[polygons.ring_polygon]
+    places = polygons.xy[polygons.ring_start[:-1][np.searchsorted(owner, polygons.feature[first])]]
+    arcs = np.flatnonzero((skeleton.side == INTERIOR) & (skeleton.polygon >= 0))
+    nodes = skeleton.arcs[arcs].reshape(-1)
+    of = np.repeat(np.searchsorted(polygons.feature[first], polygons.feature[skeleton.polygon[arcs]]), 2)
+    order = np.lexsort((nodes, -skeleton.radius[nodes], of))
+    found, best = np.unique(of[order], return_index=True)
+    places[found] = skeleton.vertices[nodes[order][best]]
+    ids = [None] * len(polygons) if polygons.ids is None else polygons.ids
+    names = [str(index if ids[index] is None else ids[index]) for index in first.tolist()]
+    return Texts("labels", places, names, size=name_size(page, len(names)), halo=WHITE, is_centred=True)
+
+
+def _arcs(skeleton: Skeleton, name: str, colour: str, width: float) -> Curves:
+    bent = np.flatnonzero(skeleton.is_parabola)
+    control = np.full(len(skeleton), -1, dtype=np.int32)
+    control[bent] = len(skeleton.vertices) + np.arange(len(bent))
+    points = np.concatenate([skeleton.vertices, skeleton.control[bent]])
+    # single places on the frame are what is left of arcs that went on beyond
+    shown = (skeleton.length > 0) | ~skeleton.touches_frame[skeleton.arcs[:, 0]]
+    return Curves(name, points, skeleton.arcs[shown], control[shown], colour, width)

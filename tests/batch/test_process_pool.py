@@ -1,0 +1,92 @@
+"""Worker processes: failures and deaths belong to one input, and an end leaves nothing."""
+
+import os
+import subprocess
+import sys
+import time
+
+from support.processes.batch_jobs import obey, written
+from vorotool.batch import process_pool as workers
+from vorotool.batch.process_pool import Worker, local_results
+
+
+def results(folder, texts, jobs):
+    tasks = written(folder, *texts)
+    return dict(local_results(obey, iter(enumerate(tasks)), jobs=jobs)), tasks
+
+
+def test_each_input_has_its_outcome(tmp_path):
+    outcomes, tasks = results(tmp_path, ["a", "fail", "die", "bb", "die", "c"], jobs=2)
+    assert [outcomes[number].code for number in range(6)] == [0, 3, 1, 0, 1, 0]
+    assert outcomes[3].stats == {"letters": 2}
+    assert outcomes[1].warnings == ("one",)
+    assert outcomes[2].message == "the process that worked on it ended by SIGKILL"
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {"0.txt", "3.txt", "5.txt"}
+    assert set(outcomes[3].outputs) == set(tasks[3].outputs)
+
+
+def test_a_failure_is_told_before_more_are_taken(tmp_path):
+    taken, told = [], []
+    tasks = written(tmp_path, "fail", "a", "b")
+
+    def feed():
+        for number, task in enumerate(tasks):
+            taken.append((number, list(told)))
+            yield number, task
+
+    for number, _ in local_results(obey, feed(), jobs=1):
+        told.append(number)
+    assert taken == [(0, []), (1, [0]), (2, [0])]  # after a success the next is taken first
+
+
+def test_an_end_leaves_no_process_and_no_file(tmp_path, monkeypatch):
+    made = []
+    monkeypatch.setattr(workers, "Worker", lambda process: made.append(Worker(process)) or made[-1])
+    going = local_results(obey, iter(enumerate(written(tmp_path, "a", "sleep", "sleep"))), jobs=2)
+    assert next(going)[0] == 0
+    wait_for(lambda: len(begun(tmp_path)) == 2)
+    started = time.monotonic()
+    going.close()
+    assert time.monotonic() - started < 5  # 0.2 s is the aim; a loaded machine must not fail the test
+    assert len(made) == 2
+    assert all(worker._process.returncode is not None for worker in made)
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["0.txt"]
+
+
+def test_a_worker_ends_quietly_where_exceptions_are_swallowed(tmp_path, capfd):
+    worker = Worker(obey)
+    worker.give(*written(tmp_path, "deaf"))
+    wait_for(lambda: begun(tmp_path))
+    time.sleep(0.1)  # until it sleeps
+    worker._process.terminate()
+    assert worker._process.wait(30) == 143
+    worker.connection.close()
+    assert list((tmp_path / "out").iterdir()) == []
+    assert capfd.readouterr() == ("", "")
+
+
+def test_workers_end_with_a_parent_that_is_killed(tmp_path):
+    written(tmp_path, "sleep")
+    script = (
+        "import sys\nfrom pathlib import Path\nfrom batch_jobs import obey\nfrom vorotool.batch.tasks import Task\n"
+        "from vorotool.batch.process_pool import local_results\n"
+        "list(local_results(obey, iter([(0, Task('0.txt', ('out/0.txt',)))]), jobs=1))"
+    )
+    path = os.pathsep.join(sys.path)
+    parent = subprocess.Popen([sys.executable, "-c", script], cwd=tmp_path, env={**os.environ, "PYTHONPATH": path})
+    wait_for(lambda: begun(tmp_path))
+    parent.kill()
+    parent.wait()
+    wait_for(lambda: not begun(tmp_path))
+    assert list((tmp_path / "out").iterdir()) == []
+
+
+def begun(folder):
+    return [path for path in (folder / "out").iterdir() if path.suffix == ".tmp"]
+
+
+def wait_for(condition):
+    deadline = time.monotonic() + 30
+    while not condition():
+        assert time.monotonic() < deadline, "it does not come"
+        time.sleep(0.02)

@@ -1,0 +1,215 @@
+"""A Dask cluster does what one machine does."""
+
+import json
+import signal
+import socket
+import subprocess
+import sys
+import time
+from contextlib import suppress
+
+import numpy as np
+import pytest
+
+pytest.importorskip("distributed")
+
+
+@pytest.fixture
+def many(tmp_path):
+    """A folder of inputs that take some milliseconds each."""
+    (tmp_path / "many").mkdir()
+    for number in range(40):
+        xy = np.random.default_rng(number).integers(0, 300, (3, 2))
+        np.savetxt(tmp_path / f"many/p{number:03}.csv", xy, fmt="%d", delimiter=",", header="x,y", comments="")
+    (tmp_path / "many/p013.csv").write_text("x,y\n1,nan\n")
+    return tmp_path
+
+
+@pytest.fixture
+def cluster(tmp_path):
+    """A scheduler and two workers, in another folder."""
+    (tmp_path / "elsewhere").mkdir()
+    options = {"cwd": tmp_path / "elsewhere", "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    common = ["--scheduler-file", tmp_path / "scheduler.json", "--no-dashboard", "--host", "127.0.0.1"]
+    commands = [
+        ["distributed.cli.dask_scheduler", "--port", "0"],
+        *2 * [["distributed.cli.dask_worker", "--no-nanny", "--nthreads", "1"]],
+    ]
+    started = [subprocess.Popen([sys.executable, "-m", *command, *common], **options) for command in commands]
+    try:
+        wait_until(lambda: address_in(tmp_path / "scheduler.json"))
+        yield address_in(tmp_path / "scheduler.json"), started[1:]
+    finally:
+        for each in started:
+            each.kill()
+            each.wait()
+
+
+def address_in(path):
+    try:
+        return json.loads(path.read_text())["address"]
+    except (OSError, ValueError):  # it is not there, or not all of it
+        return None
+
+
+def wait_until(condition):
+    deadline = time.monotonic() + 60
+    while not condition():
+        assert time.monotonic() < deadline, "it does not come"
+        time.sleep(0.02)
+
+
+def files(folder):
+    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*.csv")}
+
+
+def done(manifest):
+    records = [json.loads(line) for line in manifest.read_text().splitlines()] if manifest.exists() else []
+    return [record["input"] for record in records if record.get("status") == "done"]
+
+
+def test_a_lost_worker_loses_nothing(run, process, many, cluster):
+    address, workers = cluster
+    options = ("tessellate", "many", "--keep-going", "-q", "--what", "table", "--out-dir")
+    assert run(*options, "here", "--table", "here.csv").code == 6
+    child = process(*options, "there", "--table", "there.csv", "--cluster", address)
+    manifest = many / "there/tessellate.manifest.jsonl"
+    wait_until(lambda: len(done(manifest)) >= 10 or child.poll() is not None)
+    workers[0].kill()
+    out, err = child.communicate(timeout=60)
+    assert (child.returncode, out) == (6, b""), err
+    assert [line.split(b": ")[0] for line in err.splitlines()] == [b"error", b"error"]
+    assert b"p013.csv, line 2" in err
+    assert files(many / "there") == files(many / "here")
+    assert (many / "there.csv").read_bytes() == (many / "here.csv").read_bytes()
+    assert sorted(done(manifest)) == [f"many/p{number:03}.csv" for number in range(40) if number != 13]
+    assert list((many / "there").rglob(".vorotool-*")) == []
+
+
+@pytest.fixture
+def usual_port():
+    """The port that a scheduler usually shows itself on is taken, by us or by somebody else."""
+    with socket.socket() as taken:
+        with suppress(OSError):
+            taken.bind(("127.0.0.1", 8787))
+            taken.listen()
+        yield
+
+
+@pytest.mark.usefixtures("usual_port")
+def test_a_cluster_that_is_started_here(run, many):
+    options = ("tessellate", "many", "--keep-going", "-q", "-f", "npy", "--out-dir")
+    assert run(*options, "there", "--cluster", "local", "-j", "1").code == 6
+    assert run(*options, "there", "--resume", "--stats", "s.json").code == 6
+    stats = json.loads((many / "s.json").read_text())
+    assert (stats["done"], stats["kept"], stats["failed"]) == (0, 39, 1)
+
+
+def test_what_a_cluster_needs(run, many, monkeypatch):
+    monkeypatch.setattr("vorotool.batch.dask_cluster.PATIENCE", 0.2)
+    failed = run("tessellate", "many", "--out-dir", "out", "--cluster", "tcp://127.0.0.1:1")
+    assert failed.code == 2
+    assert "--cluster tcp://127.0.0.1:1: no scheduler answers there" in failed.err
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    failed = run("tessellate", "many", "--out-dir", "out", "--cluster", "local")
+    assert failed.code == 2
+    assert "pip install vorotool[distributed]" in failed.err
+
+
+@pytest.mark.parametrize(
+    ("address", "words"),
+    [
+        ("", "missing port number"),
+        ("somewhere", "missing port number"),
+        ("tcp://127.0.0.1", "missing port number"),
+        ("host:port", "'port'"),
+        (":8786", "HOST must not be empty"),
+        ("host:99999", "PORT from 1 to 65535"),
+        ("http://127.0.0.1:8787", "unknown address scheme 'http'"),
+        ("inproc://1/2", "inproc"),
+        ("tls://127.0.0.1:8786", "needs certificates"),
+    ],
+)
+def test_what_is_no_address_is_refused_at_once(run, many, address, words):
+    begin = time.monotonic()
+    failed = run("tessellate", "many", "--out-dir", "out", "--cluster", address)
+    assert (failed.code, words in failed.err) == (2, True)
+    assert failed.err.startswith("error: --cluster ")
+    assert len(failed.err.splitlines()) == 1
+    assert time.monotonic() - begin < 8  # seconds; connecting would take longer
+
+
+# ---- the bands of one image ------------------------------------------------------------------------------------
+
+
+def store(folder):
+    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+@pytest.fixture
+def dots(tmp_path):
+    xy = np.random.default_rng(9).integers(-100, 3100, (4000, 2)) / 2
+    np.savetxt(tmp_path / "dots.csv", xy, delimiter=",", header="x,y", comments="")
+    return tmp_path
+
+
+def test_a_lost_worker_leaves_the_same_store(run, process, dots, cluster):
+    address, workers = cluster
+    options = ("tessellate", "dots.csv", "--size", "600x600", "--chunk", "512x8", "-q")
+    assert run(*options, "-o", "here.zarr").code == 0
+    child = process(*options, "-o", "there.zarr", "--cluster", address, "--stats", "s.json")
+    wait_until(lambda: len(list(dots.glob(".vorotool-*.tmp/c/*"))) >= 10 or child.poll() is not None)
+    workers[0].kill()
+    out, err = child.communicate(timeout=60)
+    assert (child.returncode, out, err) == (0, b"", b"")
+    assert store(dots / "there.zarr") == store(dots / "here.zarr")
+    assert not list(dots.glob(".*"))
+
+
+@pytest.mark.parametrize("what", ["distance", "distance2"])
+def test_distances_and_a_failing_cluster(run, dots, cluster, monkeypatch, what):
+    address, workers = cluster
+    options = ("tessellate", "dots.csv", "--size", "300x200", "--what", what, "--chunk", "100x64", "-q")
+    assert run(*options, "-o", "here.zarr").code == 0
+    assert run(*options, "-o", "there.zarr", "--cluster", address).code == 0
+    assert store(dots / "there.zarr") == store(dots / "here.zarr")
+    for worker in workers:
+        worker.kill()
+        worker.wait()
+    monkeypatch.setattr("vorotool.batch.dask_cluster.FIRST_WORKER", 0.2)
+    wait_until(lambda: "nobody works there" in run(*options, "-o", "there.zarr", "--cluster", address).err)
+    assert store(dots / "there.zarr") == store(dots / "here.zarr")
+    assert not list(dots.glob(".*"))
+
+
+def test_tiles_of_an_image_as_seeds(run, dots, cluster, monkeypatch):
+    import zarr
+
+    monkeypatch.setattr("vorotool.engines.tessellation.streamed_image.BAND_PIXELS", 37 * 200)
+    mask = (np.random.default_rng(3).random((150, 200)) < 0.02).astype(np.uint8)
+    zarr.create_array(dots / "seeds.zarr", data=mask, chunks=(64, 64))
+    options = ("tessellate", "seeds.zarr", "--chunk", "64x50", "-q")
+    assert run(*options, "-o", "here.zarr").code == 0
+    assert run(*options, "-o", "there.zarr", "--cluster", cluster[0]).code == 0
+    assert store(dots / "there.zarr") == store(dots / "here.zarr")
+
+
+def test_an_interrupt_ends_the_cluster_that_was_started(process, dots):
+    options = ("--size", "20000x20000", "--chunk", "512x16", "-q", "--cluster", "local", "-j", "1")
+    child = process("tessellate", "dots.csv", "-o", "a.zarr", *options)
+    wait_until(lambda: len(list(dots.glob(".vorotool-*.tmp/c/*"))) >= 5 or child.poll() is not None)
+    child.send_signal(signal.SIGINT)
+    out, err = child.communicate(timeout=20)
+    assert (child.returncode, out, err) == (130, b"", b"")
+    assert [path.name for path in dots.iterdir()] == ["dots.csv"]
+
+
+def test_what_is_not_computed_on_a_cluster(run, dots):
+    for options in (("-o", "a.png"), ("-o", "all", "--what", "labels,table", "-f", "zarr")):
+        failed = run("tessellate", "dots.csv", "--cluster", "local", *options)
+        assert failed.code == 2
+    assert (
+        "--cluster with -o writes a Zarr store" in run("delaunay", "dots.csv", "--cluster", "local", "-o", "a.csv").err
+    )
+    failed = run("tessellate", "dots.csv", "--cluster", "local", "-o", "a.zarr", "--method", "propagation")
+    assert (failed.code, "leave out --method propagation" in failed.err) == (2, True)

@@ -1,0 +1,319 @@
+"""``vorotool alphashape``: every result, every kind of input, and what is said when something is wrong."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import re
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+from PIL import Image
+
+import vorotool
+from vorotool.cli.commands.alphashape import FORMATS, LAYERS
+from vorotool.geometry.alpha.complex import CLASSES
+from vorotool.jobs.alpha_shape import DEFAULT_LAYERS, ShapeProducts
+from vorotool.render.layers import alpha as alpha_layers
+
+DATA = Path(__file__).parents[3] / "data"
+DOTS = DATA / "dots.csv"
+FAMILY = vorotool.alpha_complex(vorotool.read(DOTS))
+SHAPE = vorotool.alpha_shape(FAMILY, r=60)
+
+
+def table(text):
+    return list(csv.DictReader(io.StringIO(text)))
+
+
+def test_edges_go_to_standard_output(run):
+    done = run("alphashape", DOTS, "-r", 60, "--verify")
+    assert (done.code, done.err) == (0, "")
+    assert done.out.splitlines()[0] == "label_a,label_b,x_a,y_a,x_b,y_b,length,r_min,r_max,class"
+    rows = table(done.out)
+    assert [(int(row["label_a"]), int(row["label_b"])) for row in rows] == [
+        tuple(e) for e in (SHAPE.edges + 1).tolist()
+    ]
+    assert [row["class"] for row in rows] == SHAPE.classes.tolist()
+    assert [float(row["r_min"]) for row in rows] == FAMILY.r_min[SHAPE.edge_index].tolist()
+    assert any(row["r_max"] == "" for row in rows)
+    assert float(rows[0]["length"]) == pytest.approx(np.hypot(*np.diff(SHAPE.points[SHAPE.edges[0]], axis=0)[0]))
+
+
+@pytest.mark.parametrize("what", FORMATS)
+def test_every_format_is_written(run, folder, what):
+    for fmt in FORMATS[what]:
+        done = run("alphashape", DOTS, "-r", 60, "--what", what, "-f", fmt, "-o", f"out.{fmt}")
+        assert (done.code, done.err) == (0, ""), fmt
+        assert (folder / f"out.{fmt}").stat().st_size > 0
+    assert hasattr(ShapeProducts, f"_write_{what}")
+    assert set(DEFAULT_LAYERS.get(what, ())) <= set(LAYERS) == set(alpha_layers.LAYERS)
+
+
+def polygons_of(path):
+    features = json.loads(path.read_text())["features"]
+    return features, [shapely.geometry.shape(feature["geometry"]) for feature in features]
+
+
+def test_polygons_are_the_default_of_geojson_and_wkt(run, folder):
+    run("alphashape", DOTS, "-r", 60, "-o", "shape.geojson")
+    run("alphashape", DOTS, "-r", 60, "-o", "shape.wkt")
+    features, polygons = polygons_of(folder / "shape.geojson")
+    assert [p.wkt for p in map(shapely.from_wkt, (folder / "shape.wkt").read_text().splitlines())] == [
+        p.wkt for p in polygons
+    ]
+    assert all(p.geom_type == "Polygon" and p.is_valid for p in polygons)
+    assert sum(p.area for p in polygons) == SHAPE.area
+    assert [feature["properties"]["area"] for feature in features] == [p.area for p in polygons]
+    assert [feature["id"] for feature in features] == list(range(1, SHAPE.region_count + 1))
+    edges = json.loads(run("alphashape", DOTS, "-r", 60, "--what", "edges", "-f", "geojson").out)["features"]
+    assert {feature["properties"]["class"] for feature in edges} == {"singular", "boundary"}
+    assert len(edges) == len(SHAPE.edges)
+
+
+def test_general_holds_all_parts(run, folder):
+    (folder / "far.csv").write_text(DOTS.read_text() + "5000,5000\n")
+    run("alphashape", "far.csv", "-r", 60, "--what", "general", "-o", "all.geojson")
+    features, parts = polygons_of(folder / "all.geojson")
+    kinds = [feature["properties"]["class"] for feature in features]
+    assert kinds.count("region") == SHAPE.region_count
+    assert kinds.count("singular") == SHAPE.classes.tolist().count("singular")
+    assert kinds.count("isolated") == len(SHAPE.isolated) + 1
+    assert features[-1]["properties"]["label"] == 54
+    done = run("alphashape", "far.csv", "-r", 60, "--what", "general", "-f", "wkt")
+    assert [shapely.from_wkt(line).wkt for line in done.out.splitlines()] == [part.wkt for part in parts]
+
+
+def test_complex_family_spectrum_and_curves(run):
+    rows = table(run("alphashape", DOTS, "-r", 60, "--what", "complex").out)
+    classes = SHAPE.edge_classes()
+    assert [row["class"] for row in rows] == [CLASSES[c] for c in classes if c]
+    rows = table(run("alphashape", DOTS, "--what", "family").out)
+    assert list(rows[0]) == ["label_a", "label_b", "r_min", "r_mid", "r_max"]
+    assert [float(row["r_mid"]) for row in rows] == FAMILY.r_mid.tolist()
+    assert [row["r_max"] == "" for row in rows] == np.isinf(FAMILY.r_max).tolist()
+    rows = table(run("alphashape", DOTS, "--what", "spectrum").out)
+    assert [float(row["r"]) for row in rows] == FAMILY.spectrum.tolist()
+    rows = table(run("alphashape", DOTS, "--what", "curves").out)
+    assert list(rows[0]) == ["r", "area", "perimeter", "regions", "cavities", "edges"]
+    assert float(rows[-1]["area"]) == FAMILY.mesh.areas().sum()
+    at = FAMILY.reached(60) - 1
+    assert (float(rows[at]["area"]), int(rows[at]["regions"])) == (SHAPE.area, SHAPE.region_count)
+
+
+def test_points_and_table(run, folder):
+    (folder / "named.csv").write_text("x,y,name\n0,0,a\n4,0,b\n0,3,c\n9,9,d\n0,0,e\n")
+    done = run("alphashape", "named.csv", "-r", 2.5, "--columns", "x,y", "--what", "points", "-q")
+    assert done.out.splitlines() == [
+        "label,x,y,class,region,name",
+        *["1,0,0,boundary,1,a", "2,4,0,boundary,1,b", "3,0,3,boundary,1,c", "4,9,9,isolated,,d", "5,0,0,boundary,1,e"],
+    ]
+    done = run("alphashape", "named.csv", "-r", 2.5, "--columns", "x,y", "--what", "table", "-q")
+    assert done.out.splitlines() == [
+        "region,area,perimeter,holes,points,triangles,bbox_x,bbox_y,bbox_w,bbox_h",
+        "1,6,12,0,3,1,0,0,4,3",
+    ]
+
+
+def test_auto_is_the_default_and_tells_r(run, folder):
+    done = run("alphashape", DOTS, "-o", "a.csv", "--stats", "s.json", "--verify")
+    told = re.search(
+        r"^note: r = (\S+), the smallest whose shape is one region with every point$", done.err, re.MULTILINE
+    )
+    stats = json.loads((folder / "s.json").read_text())
+    assert stats["r"] == float(told[1])
+    assert (stats["regions"], stats["isolated_points"], stats["automatic"]) == (1, 0, True)
+    run("alphashape", DOTS, "--auto", "-o", "b.csv", "-q")
+    run("alphashape", DOTS, "-r", told[1], "-o", "c.csv")
+    assert (folder / "a.csv").read_text() == (folder / "b.csv").read_text() == (folder / "c.csv").read_text()
+    less = np.nextafter(stats["r"], 0)
+    assert vorotool.alpha_shape(FAMILY, r=less).family.reached(less) == FAMILY.reached(stats["r"]) - 1
+    done = run("alphashape", DOTS, "--regions", 3, "-o", "d.csv", "--stats", "s.json")
+    assert "at most 3 regions" in done.err
+    fewer = json.loads((folder / "s.json").read_text())
+    assert fewer["r"] <= stats["r"]
+    assert fewer["regions"] <= 3
+
+
+def test_r_and_alpha_are_read_exactly(run, folder):
+    """Half of 0.2 as a double is more than 1/10, which a decimal says exactly."""
+    (folder / "pair.csv").write_text("x,y\n0,0\n0.2,0\n")
+    assert len(run("alphashape", "pair.csv", "-r", "0.1").out.splitlines()) == 1
+    assert len(run("alphashape", "pair.csv", "--alpha", "-10").out.splitlines()) == 1
+    exact = repr(0.1) + "000000000000000056"
+    assert Fraction(exact) > Fraction(0.1)
+    assert len(run("alphashape", "pair.csv", "-r", exact).out.splitlines()) == 2
+
+
+def test_the_printed_rule(run, folder):
+    (folder / "four.csv").write_text("x,y\n0,0\n4,0\n2,1\n2,-5\n")
+    right = run("alphashape", "four.csv", "-r", "2.25")
+    printed = run("alphashape", "four.csv", "-r", "2.25", "--rule", "printed")
+    wrong = set(printed.out.splitlines()) - set(right.out.splitlines())
+    assert wrong == {"1,2,0,0,4,0,4,2,2.9,singular"}
+
+
+def test_thresholds(run, folder):
+    options = ("--what", "table", "-f", "json", "-r", 60)
+    rows = json.loads(run("alphashape", DOTS, *options).out)
+    smallest = min(row["area"] for row in rows)
+    kept = json.loads(run("alphashape", DOTS, *options, "--region-threshold", smallest).out)
+    assert len(kept) == len(rows) - 1
+    run("alphashape", DOTS, "-r", 60, "--hole-threshold", "1e9", "-o", "a.csv", "--stats", "s.json", "--verify")
+    assert json.loads((folder / "s.json").read_text())["holes"] == 0
+
+
+def test_pictures(run, folder):
+    done = run("alphashape", DOTS, "-r", 60, "-f", "svg", "--what", "hull")
+    assert done.out.count("A60") == 0  # in px, not in units
+    assert done.out.count("<path") == 1
+    hull = vorotool.alpha_hull(SHAPE)
+    assert len(re.findall(r"A[\d.]+ [\d.]+ 0 0 0 ", done.out)) == len(hull)
+    up = run("alphashape", DOTS, "-r", 60, "-f", "svg", "--what", "hull", "--y-up")
+    assert len(re.findall(r"A[\d.]+ [\d.]+ 0 0 1 ", up.out)) == len(hull)
+    run(
+        "alphashape",
+        DOTS,
+        "-r",
+        60,
+        "--what",
+        "general",
+        "--layers",
+        ",".join(LAYERS[:-1]),
+        "--width",
+        300,
+        "-o",
+        "a.png",
+    )
+    with Image.open(folder / "a.png") as image:
+        assert image.width == 300
+    done = run("alphashape", DOTS, "-r", 60, "-f", "svg", "--layers", ",".join(LAYERS))
+    assert re.findall(r'<g id="(\w+)"', done.out) == list(LAYERS)
+    plot = run("alphashape", DOTS, "--what", "curves", "-f", "svg")
+    assert re.findall(r'<g id="(\w+)"', plot.out) == ["axes", "area", "perimeter", "regions", "cavities", "edges"]
+
+
+def test_the_arcs_of_the_picture_bulge_as_the_hull_does(run, folder):
+    """The flattened picture in PNG and the arcs of GeoJSON have the same area."""
+    run("alphashape", DOTS, "-r", 60, "--what", "hull", "--layers", "hull", "-o", "hull.png", "--width", 1200)
+    run("alphashape", DOTS, "-r", 60, "--what", "hull", "-o", "hull.geojson")
+    _, parts = polygons_of(folder / "hull.geojson")
+    area = sum(part.area for part in parts)
+    assert area < SHAPE.area
+    with Image.open(folder / "hull.png") as image:
+        pixels = np.asarray(image.convert("RGB"))
+    filled = (pixels != 255).any(axis=2).sum()
+    low, high = SHAPE.points.min(axis=0), SHAPE.points.max(axis=0)
+    scale = 1200 / ((high - low)[0] + 0.04 * (high - low).max())
+    assert filled / scale**2 == pytest.approx(area, rel=0.03)
+
+
+def test_images_by_both_pipelines(run, folder):
+    """A dot pattern as a picture: exact and digital triangulations agree but for what the errata say."""
+    points = np.loadtxt(DATA / "dot-pattern.csv", delimiter=",", skiprows=1, dtype=int)
+    mask = np.zeros((128, 128), np.uint8)
+    mask[points[:, 1], points[:, 0]] = 255
+    Image.fromarray(mask).save(folder / "dots.png")
+
+    def edges(*options):
+        rows = table(run("alphashape", *options, "-r", 10, "-q").out)
+        return {frozenset([(row["x_a"], row["y_a"]), (row["x_b"], row["y_b"])]) for row in rows}
+
+    exact = edges(DATA / "dot-pattern.csv")
+    assert edges("dots.png", "--seeds", "pixels") == exact
+    assert edges("dots.png", "--seeds", "pixels", "--method", "digital-valid") == exact
+    assert edges(DATA / "dot-pattern.csv", "--method", "digital-valid", "--size", "128x128") == exact
+    digital = edges("dots.png", "--seeds", "pixels", "--method", "digital")
+    assert len(digital & exact) > 0.9 * len(exact)
+    assert len(digital - exact) < 0.1 * len(exact)
+
+
+def test_several_results_and_the_same_bytes(run, folder):
+    for threads in (1, 2):
+        run("alphashape", DOTS, "-r", 60, "--what", "edges,curves,hull", "-o", f"t{threads}", "--threads", threads)
+    for name in ("edges.csv", "curves.csv", "hull.geojson"):
+        assert (folder / f"t1.{name}").read_bytes() == (folder / f"t2.{name}").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["-r", 0], "r is 0: a radius must be positive; leave it out for the smallest that joins all points"),
+        (["-r", -3], "r is -3: a radius must be positive"),
+        (["-r", "nan"], "'nan' is no number: give a decimal such as 12.5"),
+        (["--alpha", "0.1"], "alpha must be negative (α = −1/r): for the alphashape package's 0.1 use -r 10\n"),
+        (["--alpha", "0"], "alpha must be negative (α = −1/r): for the convex hull use -r inf\n"),
+        (["-r", 3, "--alpha", -3], "r and alpha are given, but each sets the radius: give one of r, alpha and auto"),
+        (["-r", 3, "--auto"], "r and auto are given"),
+        (["-r", 3, "--regions", 2], "--regions is for the automatic choice of r"),
+        (["--rule", "printed"], "curves, pages and the automatic r need --rule corrected: give -r"),
+        (["-r", 3, "--rule", "printed", "--verify"], "the printed rule fails the check, as it should"),
+        (["--what", "spectrum", "-f", "svg"], "spectrum cannot be written as svg"),
+        (["-r", 3, "--method", "digital", "--what", "table"], "table needs --method exact or digital-valid"),
+        (["-r", 3, "--method", "digital", "-f", "html"], "--method digital has no curves for a page"),
+        (["-r", 3, "--rule", "printed", "-f", "html"], "curves, pages and the automatic r need --rule corrected"),
+        (["--method", "digital"], "--method digital has no regions to choose r by: give -r or --alpha"),
+        (["--size", "3x3", "-r", 3], "--size is the frame of a tessellation"),
+        (["--what", "hull", "-r", 3, "--hole-threshold", 1], "the hull has no thresholds"),
+        (["-r", 3, "--layers", "points"], "--layers is for pictures of a shape"),
+        (["-r", "inf", "--what", "hull"], "the hull of an infinite radius is the convex hull"),
+        (["-r", 3, "--region-threshold", -1], "region_threshold is -1: give an area of at least 0"),
+    ],
+)
+def test_usage(run, arguments, words):
+    done = run("alphashape", DOTS, *arguments)
+    assert done.code == 2, done.err
+    assert words in done.err.replace("\n       ", " ")
+
+
+@pytest.mark.parametrize(
+    ("text", "arguments", "words"),
+    [
+        ("x,y\n", ["-r", 1], "few.csv: there are 0 points: an alpha shape needs at least two distinct points"),
+        ("x,y\n1,2\n", ["-r", 1], "few.csv: there is 1 point: an alpha shape needs at least two distinct points"),
+        ("x,y\n1,2\n1,2\n", ["-r", 1], "few.csv: there are 2 points, all at one place"),
+        ("x,y\n1,2\n3,4\n", [], "few.csv: two points span no triangle, so no r gives a region that holds them"),
+        ("x,y\n0,0\n1,1\n2,2\n", [], "few.csv: 3 points on a line span no triangle"),
+        ("x,y\n0,0\n1,nan\n", ["-r", 1], "few.csv, line 3"),
+    ],
+)
+def test_bad_input(run, folder, text, arguments, words):
+    (folder / "few.csv").write_text(text)
+    done = run("alphashape", "few.csv", *arguments)
+    assert done.code == 3
+    assert words in done.err
+
+
+def test_an_empty_shape_is_said(run):
+    done = run("alphashape", DOTS, "-r", 1)
+    assert done.code == 0
+    assert done.err == f"warning: there are no edges at r = 1: shapes begin at r = {FAMILY.spectrum[0]}\n"
+    assert len(done.out.splitlines()) == 1
+
+
+def test_an_infinite_radius_is_in_the_statistics(run, folder):
+    done = run("alphashape", "dots.csv", "-r", "inf", "-o", "shape.csv", "--stats", "-")
+    assert (done.code, json.loads(done.out)["r"]) == (0, "inf")
+
+
+def test_holes_mean_one_thing_and_cavities_another(run, folder):
+    """Six triangles in a ring, joined at their corners, enclose a cavity that is a hole of none; a plate has a hole."""
+    turn = np.pi / 6 * np.arange(12)
+    ring = np.stack([np.cos(turn), np.sin(turn)], axis=1) * np.where(np.arange(12) % 2, 150, 100)[:, None]
+    plate = [(x, y) for x in range(900, 1051, 50) for y in range(0, 151, 50) if not (900 < x < 1050 and 0 < y < 150)]
+    (folder / "p.csv").write_text("".join(f"{x},{y}\n" for x, y in [*ring.tolist(), *plate]))
+    for r, counts in ((60, (0, 1)), (45, None), (80, None), (110, None)):
+        run("alphashape", "p.csv", "-r", r, "--what", "table,polygons", "-f", "json", "-o", "a", "--stats", "s.json")
+        stats = json.loads((folder / "s.json").read_text())
+        tables = json.loads((folder / "a.table.json").read_text())
+        polygons = json.loads((folder / "a.polygons.json").read_text())["polygons"]
+        curves = table(run("alphashape", "p.csv", "--what", "curves").out)
+        reached = [row for row in curves if float(row["r"]) <= r][-1]
+        assert stats["holes"] == sum(row["holes"] for row in tables)
+        assert stats["holes"] == sum(len(polygon["holes"]) for polygon in polygons)
+        assert stats["cavities"] == int(reached["cavities"])
+        assert counts in (None, (stats["holes"], stats["cavities"]))

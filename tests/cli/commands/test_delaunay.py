@@ -1,0 +1,393 @@
+"""``vorotool delaunay``: every result, every kind of input, and what is said when something is wrong."""
+
+import csv
+import io
+import json
+import signal
+import struct
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+from PIL import Image
+
+import vorotool
+from vorotool.cli.commands.delaunay import FORMATS
+from vorotool.jobs.digital_triangulation import DigitalProducts
+from vorotool.jobs.names import MESH_LAYERS
+from vorotool.jobs.triangulation import DEFAULT_LAYERS
+from vorotool.render.layers import cells as cell_layers
+from vorotool.render.layers import mesh as mesh_layers
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from conftest import leftovers
+
+DATA = Path(__file__).parents[3] / "data"
+DOTS = DATA / "dots.csv"
+MESH = vorotool.delaunay(vorotool.read(DOTS))
+
+
+def table(text):
+    return list(csv.DictReader(io.StringIO(text)))
+
+
+def pairs(text):
+    return [(int(row["label_a"]), int(row["label_b"])) for row in table(text)]
+
+
+def test_edges_go_to_standard_output(run):
+    done = run("delaunay", DOTS, "--verify")
+    assert (done.code, done.err) == (0, "")
+    header, first, *rest = done.out.splitlines()
+    assert header == "label_a,label_b,x_a,y_a,x_b,y_b,length"
+    assert len(rest) == len(MESH.edges) - 1
+    assert pairs(done.out) == [tuple(edge) for edge in (MESH.edges + 1).tolist()]
+    a, b, *numbers = map(float, first.split(","))
+    ends = MESH.points[[int(a) - 1, int(b) - 1]]
+    assert numbers == [*ends.reshape(-1).tolist(), np.sqrt(((ends[0] - ends[1]) ** 2).sum())]
+
+
+def test_scipy_finds_the_same_triangles(run):
+    from scipy.spatial import Delaunay
+
+    done = run("delaunay", DOTS, "--what", "triangles")
+    found = {frozenset(int(value) - 1 for value in row.values()) for row in table(done.out)}
+    assert found == set(map(frozenset, Delaunay(MESH.points).simplices.tolist()))
+
+
+@pytest.mark.parametrize("what", FORMATS)
+def test_every_format_is_written(run, folder, what):
+    for fmt in FORMATS[what]:
+        assert run("delaunay", DOTS, "--what", what, "-o", f"a.{fmt}").code == 0
+        assert run("delaunay", DOTS, "--what", what, "-f", fmt, "-o", "b").code == 0
+        assert (folder / f"a.{fmt}").read_bytes() == (folder / "b").read_bytes()
+        assert (folder / "b").stat().st_size > 500
+    assert hasattr(DigitalProducts, f"_write_{what}")
+    assert run("delaunay", DOTS, "--what", what).out == (folder / f"a.{FORMATS[what][0]}").read_text()
+
+
+POINTS = [[2, 1], [7, 5], [1, 6], [9, 9.5]]
+INPUTS = {
+    "a.csv": b"x,y\n2,1\n7,5\n1,6\n9,9.5\n",
+    "a.tsv": b"2\t1\n7\t5\n1\t6\n9\t9.5\n",
+    "a.json": b"[[2, 1], [7, 5], [1, 6], [9, 9.5]]",
+    "a.node": b"4 2 0 0\n1 2 1\n2 7 5\n3 1 6\n4 9 9.5\n",
+    "a.wkt": shapely.MultiPoint(POINTS).wkt.encode(),
+    "a.geojson": shapely.to_geojson(shapely.MultiPoint(POINTS)).encode(),
+}
+
+
+@pytest.mark.parametrize("name", INPUTS)
+def test_all_point_formats_are_read(run, folder, name):
+    (folder / name).write_bytes(INPUTS[name])
+    np.save(folder / "a.npy", np.array(POINTS))
+    expected = run("delaunay", "a.npy").out
+    assert run("delaunay", name).out == expected
+    assert len(expected.splitlines()) == 6
+
+
+def test_standard_input_and_columns(process, folder):
+    child = process("delaunay", "-", "--columns", "3,1", stdin=-1)
+    out, err = child.communicate(b"1,a,2\n5,b,7\n6,c,1\n9.5,d,9\n")
+    np.save(folder / "a.npy", np.array(POINTS))
+    expected, _ = process("delaunay", "a.npy").communicate()
+    assert (out, err) == (expected, b"")
+
+
+def test_labels_of_the_input_are_kept(run, folder):
+    (folder / "own.csv").write_text("x,y,label\n2,1,70\n7,5,4\n1,6,70000\n")
+    done = run("delaunay", "own.csv", "--what", "triangles")
+    assert done.out == "label_a,label_b,label_c\n70,4,70000\n"
+    assert {frozenset(edge) for edge in pairs(run("delaunay", "own.csv").out)} == {
+        frozenset(edge) for edge in [(70, 4), (4, 70000), (70000, 70)]
+    }
+
+
+def test_regions_of_images_count_as_their_centroids(run, folder):
+    labels = np.zeros((20, 30), np.uint16)
+    labels[2:5, 3:6], labels[10, 10:12], labels[15:, 20:] = 300, 7, 12
+    np.save(folder / "labels.npy", labels)
+    for seeds in ([], ["--seeds", "labels"], ["--seeds", "centroids"]):
+        done = run("delaunay", "labels.npy", "--what", "table", *seeds)
+        found = [(int(row["label"]), float(row["x"]), float(row["y"])) for row in table(done.out)]
+        assert found == [(7, 10.5, 10), (12, 24.5, 17), (300, 4, 3)]
+        assert done.err == ""  # nothing is put on a lattice
+    assert len(table(run("delaunay", "mask.pbm", "--what", "table").out)) == 2
+    assert len(table(run("delaunay", "mask.pbm", "--what", "table", "--connectivity", "4").out)) == 3
+    assert len(table(run("delaunay", "mask.pbm", "--what", "table", "--seeds", "pixels").out)) == 4
+
+
+def test_properties_go_to_the_table(run, folder):
+    done = run("delaunay", "dots.csv", "--columns", "x,y", "--what", "table")
+    assert [row["name"] for row in table(done.out)] == ["a", "b", "c"]
+    assert "name" not in run("delaunay", "dots.csv", "--columns", "x,y", "--what", "table", "--no-properties").out
+    assert "name" not in run("delaunay", "dots.csv", "--columns", "x,y").out
+
+
+def test_geojson_keeps_its_crs_and_is_drawn_upwards(run, folder):
+    crs = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::2056"}}
+    features = [{"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": p}} for p in POINTS]
+    (folder / "a.geojson").write_text(json.dumps({"type": "FeatureCollection", "crs": crs, "features": features}))
+    (folder / "a.json").write_text(json.dumps(POINTS))
+    assert json.loads(run("delaunay", "a.geojson", "-f", "geojson").out)["crs"] == crs
+    up = run("delaunay", "a.geojson", "-f", "svg").out
+    assert up == run("delaunay", "a.json", "-f", "svg", "--y-up").out
+    assert run("delaunay", "a.geojson", "-f", "svg", "--y-down").out == run("delaunay", "a.json", "-f", "svg").out != up
+
+
+def test_files_of_triangle_belong_together(run, folder):
+    (folder / "zero.node").write_text("4 2 0 0\n0 0 0\n1 4 0\n2 0 3\n3 1 1\n")
+    done = run("delaunay", "zero.node", "--what", "edges,triangles,table", "-f", "ele", "-o", "mesh")
+    assert done.code == 0, done.err
+    numbers = {}
+    for name in ("edges.edge", "triangles.ele", "table.node"):
+        (count, *_), *rows = (
+            [float(v) for v in line.split()] for line in (folder / f"mesh.{name}").read_text().splitlines()
+        )
+        assert len(rows) == count
+        assert [row[0] for row in rows] == list(range(int(count)))
+        numbers[name] = rows
+    assert {row[k] for row in numbers["triangles.ele"] for k in (1, 2, 3)} == {0, 1, 2, 3}
+    assert [row[1:3] for row in numbers["table.node"]] == [[0, 0], [4, 0], [0, 3], [1, 1]]
+    done = run("delaunay", "zero.node", "-o", "a.ele")
+    assert done.code == 2
+    assert "edges cannot be written as ele: use --what triangles, or one of csv" in done.err
+
+
+def test_stats(run, folder):
+    (folder / "twice.csv").write_text("x,y\n1,1\n1,1\n4.1,2\n9,0\n5,1\n")
+    done = run("delaunay", "twice.csv", "-o", "a.csv", "--stats", "-", "--verify")
+    stats = json.loads(done.out)
+    expected = {"points": 5, "duplicates": 1, "edges": 6, "triangles": 3, "hull": 3, "collinear": False}
+    assert {name: stats[name] for name in expected} == expected
+    assert {"read", "triangulate", "verify", "write edges"} <= set(stats["seconds"])
+    warning = "1 of 5 points lie on an earlier point: the first one of each place is triangulated"
+    assert stats["warnings"] == [warning]
+    assert done.err == f"warning: {warning}\n"
+    assert run("delaunay", "twice.csv", "-o", "a.csv", "-q").err == ""
+
+
+def test_verify_notices_a_wrong_triangulation(run, monkeypatch):
+    from dataclasses import replace
+
+    monkeypatch.setattr(
+        "vorotool.jobs.triangulation.delaunay", lambda *_, **__: replace(MESH, triangles=MESH.triangles[:, ::-1])
+    )
+    assert run("delaunay", DOTS).code == 0
+    done = run("delaunay", DOTS, "--verify")
+    assert (done.code, done.out) == (1, "")
+    assert done.err.startswith("error: ")
+
+
+@pytest.mark.parametrize(
+    ("text", "edges", "words"),
+    [
+        ("", [], ["no edges: 0 distinct points"]),
+        ("x,y\n", [], ["no edges: 0 distinct points"]),
+        ("1,2\n", [], ["no edges: 1 distinct point\n"]),
+        ("1,2\n1,2\n", [], ["1 of 2 points", "no edges: 1 distinct point\n"]),
+        ("1,2\n3,4\n", [(1, 2)], []),
+        ("0,0\n2,2\n1,1\n", [(1, 3), (2, 3)], []),
+        ("0.1,0.3\n0.1,0.1\n0.1,0.2\n0.1,0.3\n", [(2, 3), (1, 3)], ["1 of 4 points"]),
+    ],
+)
+def test_few_and_collinear_points(run, folder, text, edges, words):
+    (folder / "few.csv").write_text(text)
+    done = run("delaunay", "few.csv", "--verify")
+    assert done.code == 0, done.err
+    assert set(pairs(done.out)) == set(edges)
+    assert all(word in done.err for word in words)
+    assert len(done.err.splitlines()) == len(words)
+    done = run("delaunay", "few.csv", "--what", "triangles", "--stats", "s.json", "-o", "a.csv")
+    assert (folder / "a.csv").read_text() == "label_a,label_b,label_c\n"
+    assert "warning: there are no triangles: " in done.err
+    assert json.loads((folder / "s.json").read_text())["collinear"] is True
+    for fmt in ("svg", "png", "obj", "geojson", "npz"):
+        assert run("delaunay", "few.csv", "-o", f"few.{fmt}", "-q").code == 0
+
+
+def test_an_image_without_foreground_has_no_points(run, folder):
+    (folder / "black.pbm").write_text("P1 3 2 0 0 0 0 0 0")
+    done = run("delaunay", "black.pbm")
+    assert (done.code, done.out.count("\n")) == (0, 1)
+    assert done.err == "warning: the image has no foreground: use --invert or --threshold\n"
+
+
+def npy(shape, data=b""):
+    text = f"{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}\n"
+    return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(text)) + text.encode() + data
+
+
+BAD_INPUTS = {
+    "nan.csv": (b"x,y\n1,2\nnan,4\n", 3, ["nan.csv", "line 3", "nan"]),
+    "inf.csv": (b"1,2\n-inf,4\n", 3, ["inf.csv", "line 2", "inf"]),
+    "nan.npy": (npy((2, 2), struct.pack("<4d", 1, 2, float("nan"), 4)), 3, ["nan.npy", "2", "nan"]),
+    "huge.npy": (npy((10**12, 2)), 5, ["--max-sites"]),
+    "word.csv": (b"x,y\n1,2\n3,abc\n", 3, ["line 3", "abc"]),
+    "three.csv": (b"1,2,3\n4,5,6\n", 3, ["--columns"]),
+    "label.csv": (b"x,y,label\n1,2,0\n", 3, ["label", "0"]),
+    "deep.json": (b"[" * 100_000, 3, ["nested"]),
+    "polygon.wkt": (b"POLYGON ((0 0, 1 0, 1 1, 0 0))", 3, ["polygon.wkt", "POLYGON"]),
+    "a.shp": (b"\0\0\x27\x0a", 3, ["ogr2ogr"]),
+}
+
+
+@pytest.mark.parametrize("name", BAD_INPUTS)
+def test_bad_input(run, folder, name):
+    data, code, words = BAD_INPUTS[name]
+    (folder / name).write_bytes(data)
+    done = run("delaunay", name, "-o", "out.npz")
+    assert (done.code, done.out) == (code, "")
+    assert not (folder / "out.npz").exists()
+    message = [line for line in done.err.splitlines() if not line.startswith("note:")]
+    assert len(message) == 1
+    assert message[0].startswith("error: ")
+    for word in words:
+        assert word.lower() in message[0].lower()
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--what", "faces"], "'faces' is not one of edges, triangles, cells, table"),
+        (["--method", "paper"], "paper"),
+        (["-f", "tiff"], "edges cannot be written as tiff: use one of csv"),
+        (["-f", "npz"], None),  # binary to a pipe
+        (["-o", "a.xyz"], ".xyz names no format"),
+        (["--what", "edges,triangles"], "several results need -o STEM"),
+        (["--layers", "points"], "--layers is for pictures"),
+        (["--width", "300"], "--width is for pictures"),
+        (["--layers", "cellar", "-f", "svg"], "not one of cells, triangles, diagram, edges, points, labels"),
+        (["--precision", "3", "-o", "a.npz"], "--precision is for numbers in text"),
+        (["--precision", "0"], "precision"),
+        (["--threshold", "otsu"], "--threshold is for images, but the input is a list of points"),
+        (["--seeds", "pixels", "--connectivity", "4"], "--connectivity is for components"),
+        (["--stats", "-"], "--stats - needs -o FILE"),
+        (["--stats", "dots.csv", "-o", "a.csv"], "is also the input"),
+        (["-o", "dots.csv"], "is also an input"),
+        (["dots.csv"], "2 inputs are given: name a folder"),
+    ],
+)
+def test_bad_options(run, folder, options, words):
+    before = sorted(folder.iterdir())
+    done = run("delaunay", "dots.csv", *options)
+    assert done.code == (0 if words is None else 2), done.err
+    assert words is None or words in done.err
+    assert sorted(folder.iterdir()) == before
+
+
+def test_options_for_points_are_refused_with_images(run, folder):
+    done = run("delaunay", "mask.pbm", "--columns", "1,2")
+    assert (done.code, "but the input is an image" in done.err) == (2, True)
+
+
+def test_limits(run, folder):
+    assert run("delaunay", "dots.csv", "--max-sites", "3").code == 0
+    done = run("delaunay", "dots.csv", "--max-sites", "2")
+    assert done.code == 5
+    assert "the limit of 2: raise --max-sites" in done.err
+    done = run("delaunay", "dots.csv", "-o", "a.png", "--width", "100000")
+    assert done.code == 5
+    assert "use a smaller --width, or -f svg" in done.err
+    assert run("delaunay", "dots.csv", "-o", "a.svg", "--width", "100000").code == 0
+
+
+def test_strict_refuses_duplicates(run, folder):
+    (folder / "twice.csv").write_text("x,y\n1,2\n1,2\n")
+    done = run("delaunay", "twice.csv", "--strict")
+    assert (done.code, done.out) == (3, "")
+    assert done.err.startswith("error: twice.csv: 1 of 2 points lie on an earlier point: ")
+
+
+def test_outputs_that_cannot_be_written(run, folder):
+    assert run("delaunay", "dots.csv", "-o", "no/such/a.csv").code == 4
+    assert run("delaunay", "dots.csv", "-o", "/dev/full", "-f", "csv").code == 4
+    assert run("delaunay", "dots.csv", "-o", "/dev/full", "-f", "npz").code == 4
+    (folder / "old.csv").write_text("old")
+    done = run("delaunay", "dots.csv", "-o", "old.csv", "--no-clobber")
+    assert done.code == 4
+    assert (folder / "old.csv").read_text() == "old"
+    assert leftovers(folder) == []
+
+
+def test_failed_write_leaves_the_older_file(run, folder, monkeypatch):
+    (folder / "old.npz").write_text("old")
+
+    def fail(*_args, **_options):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("vorotool.formats.results.meshes.write_table", fail)
+    done = run("delaunay", "dots.csv", "-o", "old.npz")
+    assert done.code == 4
+    assert "No space left" in done.err
+    assert (folder / "old.npz").read_text() == "old"
+    assert leftovers(folder) == []
+
+
+def test_the_same_bytes_for_any_threads(run, folder):
+    np.save(folder / "many.npy", np.random.default_rng(0).normal(size=(20_000, 2)))
+    for what, extension in [("edges", "csv"), ("edges", "npz"), ("triangles", "geojson"), ("triangles", "png")]:
+        for threads in (1, 2, 3):
+            done = run("delaunay", "many.npy", "--what", what, "-o", f"{threads}.{extension}", "--threads", threads)
+            assert done.code == 0
+        one, two, three = ((folder / f"{k}.{extension}").read_bytes() for k in (1, 2, 3))
+        assert one == two == three
+
+
+def test_permuted_input_permutes_labels_only(run, folder):
+    rng = np.random.default_rng(1)
+    points = rng.integers(0, 40, (300, 2))
+    points = np.unique(points, axis=0)
+    order = rng.permutation(len(points))
+    np.save(folder / "a.npy", points.astype(float))
+    np.save(folder / "b.npy", points[order].astype(float))
+    a, b = (pairs(run("delaunay", name).out) for name in ("a.npy", "b.npy"))
+    assert {frozenset(edge) for edge in a} == {frozenset(int(order[k - 1]) + 1 for k in edge) for edge in b}
+
+
+def test_pictures(run, folder):
+    assert run("delaunay", DOTS, "--what", "triangles", "-o", "t.png", "--width", "300").code == 0
+    with Image.open(folder / "t.png") as image:
+        assert (image.mode, image.width) == ("RGB", 300)
+    done = run("delaunay", DOTS, "-f", "svg")
+    assert '<g id="edges"' in done.out
+    assert '<g id="points"' in done.out
+    assert done.out.count("<circle") == 53
+    done = run("delaunay", DOTS, "-f", "svg", "--layers", "labels,triangles", "--width", "500")
+    assert 'width="500"' in done.out
+    assert done.out.index('<g id="triangles"') < done.out.index('<g id="labels"')
+    assert "circle" not in done.out
+    assert done.out.count("</text>") == 53
+
+
+def test_layers_are_those_of_the_renderer():
+    assert set(MESH_LAYERS) == {*mesh_layers.LAYERS, *cell_layers.LAYERS}
+    assert all(set(layers) <= set(MESH_LAYERS) for layers in DEFAULT_LAYERS.values())
+
+
+def test_broken_pipe_is_quiet(process, folder):
+    np.save(folder / "many.npy", np.random.default_rng(0).random((50_000, 2)))
+    child = process("delaunay", "many.npy")
+    with child:
+        child.stdout.readline()
+        child.stdout.close()
+        assert child.stderr.read() == b""
+    assert child.returncode == 141
+
+
+def test_interrupt_while_writing(process, folder):
+    np.save(folder / "many.npy", np.random.default_rng(0).random((500_000, 2)))
+    (folder / "out.geojson").write_text("old")
+    child = process("delaunay", "many.npy", "-o", "out.geojson", "-q", "--threads", "1")
+    deadline = time.monotonic() + 60
+    while not leftovers(folder) and time.monotonic() < deadline:
+        time.sleep(0.005)
+    assert leftovers(folder), "the output was never opened"
+    child.send_signal(signal.SIGINT)
+    out, err = child.communicate(timeout=60)
+    assert (child.returncode, out, err) == (130, b"", b"")
+    assert (folder / "out.geojson").read_text() == "old"
+    assert leftovers(folder) == []

@@ -1,0 +1,145 @@
+"""``vorotool draw``."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+SHAPES = Path(__file__).parents[3] / "data" / "two-shapes.json"
+
+
+def test_the_picture_is_that_of_tessellate(run, folder):
+    assert run("tessellate", "dots.csv", "-o", "labels.png").code == 0
+    assert run("tessellate", "dots.csv", "--what", "colour", "--layers", "cells", "-o", "a.png").code == 0
+    assert run("draw", "labels.png", "-o", "b.png").code == 0
+    assert (folder / "a.png").read_bytes() == (folder / "b.png").read_bytes()
+
+
+def test_svg_and_layers(run, folder):
+    np.save(folder / "labels.npy", np.array([[1, 1, 2], [3, 3, 2]], dtype=np.uint16))
+    done = run("draw", "labels.npy", "-f", "svg")
+    assert done.code == 0
+    assert "</svg>" in done.out
+    assert run("draw", "labels.npy", "--layers", "diagram", "-o", "lines.png").code == 0
+    lines = np.asarray(Image.open(folder / "lines.png").convert("L"))
+    assert (lines == 0).tolist() == [[True, True, False], [False, False, True]]
+
+
+def test_what_is_no_label_image_is_refused(run, folder):
+    done = run("draw", "dots.csv", "-o", "a.png")
+    assert done.code == 3
+    assert "dots.csv is not drawn: give a label image, the JSON of a skeleton or of offset curves" in done.err
+    assert run("draw", "labels.png").code == 2
+
+
+@pytest.mark.parametrize("extension", ["png", "svg"])
+def test_sparse_labels_have_the_colours_of_dense_ones(run, folder, extension):
+    dense = np.kron(np.arange(12, dtype=np.uint32).reshape(3, 4), np.ones((20, 30), np.uint32))
+    np.save(folder / "dense.npy", dense)
+    np.save(folder / "sparse.npy", dense * np.uint32(390_000_000))
+    for name in ("dense", "sparse"):
+        done = run("draw", f"{name}.npy", "-o", f"{name}.{extension}", "--layers", "cells")
+        assert done.code == 0, done.err
+    drawn = [(folder / f"{name}.{extension}").read_text("latin-1") for name in ("dense", "sparse")]
+    assert re.sub('id="cell-[0-9]+"', "", drawn[0]) == re.sub('id="cell-[0-9]+"', "", drawn[1])
+    done = run("tessellate", "sparse.npy", "--seeds", "labels", "--what", "colour", "-o", f"c.{extension}")
+    assert done.code == 0, done.err
+
+
+def groups_of(svg):
+    return re.findall(r'<g id="(\w+)"', svg)
+
+
+def test_offset_curves_are_drawn_as_by_the_command_that_makes_them(run, folder):
+    wanted = ("skeleton-exact", SHAPES, "--what", "offset", "-d", "-20,10")
+    for fmt in ("json", "svg", "png"):
+        assert run(*wanted, "-o", f"made.{fmt}").code == 0
+    for fmt in ("svg", "png"):
+        assert run("draw", "made.json", "-o", f"drawn.{fmt}", "--stats", f"{fmt}.json").code == 0
+        assert (folder / f"drawn.{fmt}").read_bytes() == (folder / f"made.{fmt}").read_bytes()
+    assert '"shapes": 5' in (folder / "svg.json").read_text()
+    assert groups_of(run("draw", "made.json", "--layers", "offset", "-f", "svg").out) == ["offset"]
+    done = run("draw", "made.json", "--layers", "nodes", "-o", "a.svg")
+    assert (done.code, "polygons, offset; choose of these" in done.err) == (2, True)
+
+
+@pytest.mark.parametrize(
+    ("options", "fmt", "groups"),
+    [
+        (["--what", "shape"], "json", ["shape"]),
+        (["--what", "shape"], "wkt", ["shape"]),
+        (["--what", "shape"], "poly", ["shape"]),
+        (["--what", "offset", "-d", "5"], "geojson", ["shape"]),
+        (["--what", "centerline"], "geojson", ["shape", "lines"]),
+        (["--what", "transects", "--every", "20"], "wkt", ["shape", "lines"]),
+    ],
+)
+def test_polygons_and_lines_are_drawn(run, folder, options, fmt, groups):
+    assert run("skeleton-exact", SHAPES, *options, "-o", f"made.{fmt}").code == 0
+    done = run("draw", f"made.{fmt}", "-f", "svg")
+    assert (done.code, done.err) == (0, "")
+    assert groups_of(done.out) == groups
+    assert run("draw", f"made.{fmt}", "-o", "a.png").code == 0
+    assert len(np.unique(np.asarray(Image.open(folder / "a.png")).reshape(-1, 3), axis=0)) > 2
+
+
+def test_an_array_of_two_columns_is_an_image(run, folder):
+    np.save(folder / "two.npy", np.array([[1, 2], [1, 2], [3, 3]], dtype=np.uint8))
+    assert run("draw", "two.npy", "-o", "a.png").code == 0
+    assert np.asarray(Image.open(folder / "a.png")).shape == (3, 2)
+    np.save(folder / "four.npy", np.zeros((2, 3, 4, 5), dtype=np.uint8))
+    done = run("draw", "four.npy", "-o", "a.png")
+    assert (done.code, "four.npy" in done.err and "is not drawn" not in done.err) == (3, True)
+
+
+def test_the_picture_of_a_store(run, folder):
+    pytest.importorskip("zarr")
+    for name in ("labels.zarr", "labels.npy"):
+        assert run("tessellate", "dots.csv", "-o", name).code == 0
+        assert run("draw", name, "-o", f"{name}.svg").code == 0
+    assert (folder / "labels.zarr.svg").read_bytes() == (folder / "labels.npy.svg").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("content", "options", "code", "words"),
+    [
+        (b"", [], 3, "a.json is empty: there is nothing to draw"),
+        (b'[{"polygon":0,"area":2}]', [], 3, "a.json holds a table, whose rows have polygon, area, not polygons"),
+        (b'{"type":"Point","coordinates":[1,2]}', [], 3, "a.json is not drawn"),
+        (b'{"polygons":[]}', [], 0, "warning: the picture is empty: the input is polygons or lines"),
+        (b'{"type":"FeatureCollection","features":[]}', [], 0, "warning: the picture is empty"),
+        (b'{"polygons":[[[0,0],[1,0],[1,1]]]}', ["--page", "0"], 2, "--page is for images, but the input is polygons"),
+        (b'{"polygons":[[[0,0],[1,0],[1,1]]]}', ["--layers", "cells"], 2, "--layers cells: a picture in SVG has shape"),
+        (b'{"type":"vorotool.offsets","version":2}', [], 3, "version 2 of vorotool.offsets is not known"),
+    ],
+)
+def test_what_is_said_of_shapes(run, folder, content, options, code, words):
+    (folder / "a.json").write_bytes(content)
+    done = run("draw", "a.json", *options, "-o", "a.svg")
+    assert done.code == code
+    assert words in done.err
+    assert (folder / "a.svg").exists() == (code == 0)
+
+
+@pytest.mark.parametrize("dtype", [bool, np.uint8, np.uint16])
+@pytest.mark.parametrize("value", [1, 255])
+def test_objects_of_a_mask_have_their_own_colours(run, folder, dtype, value):
+    mask = np.zeros((50, 60), np.uint16)
+    mask[5:20, 5:20] = mask[5:20, 35:50] = mask[30:45, 5:50] = value
+    np.save(folder / "mask.npy", mask.astype(dtype))
+    done = run("draw", "mask.npy", "--layers", "cells,labels", "-o", "a.svg")
+    note = f"note: {value} is the only value besides 0, and taken for a mask: each of its objects is drawn by itself\n"
+    assert (done.code, done.err) == (0, note if dtype == np.uint16 else "")
+    cells = re.findall(r'<path id="(cell-\d+)" fill="(#\w+)"', (folder / "a.svg").read_text())
+    assert [name for name, _ in cells] == ["cell-1", "cell-2", "cell-3"]
+    assert len({colour for _, colour in cells}) == 3
+    np.save(folder / "labels.npy", np.where(mask, 7, 0).astype(np.uint8))
+    done = run("draw", "labels.npy", "-f", "svg")
+    assert (re.findall("cell-[0-9]+", done.out), done.err) == (["cell-7"], "")
+
+
+def test_a_mask_is_drawn_as_tessellate_takes_it(run, folder):
+    assert run("draw", "mask.pbm", "-o", "a.svg").code == 0
+    assert re.findall("cell-[0-9]+", (folder / "a.svg").read_text()) == ["cell-1", "cell-2"]

@@ -1,0 +1,169 @@
+"""``--overlay``: pictures of every command over an image, at its size."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+from scipy import ndimage
+
+DATA = Path(__file__).parents[3] / "data"
+BLOBS = DATA / "blobs.png"
+COMMANDS = {
+    "tessellate": (BLOBS, "--what", "colour"),
+    "delaunay": (BLOBS,),
+    "delaunay cells": (BLOBS, "--what", "cells"),
+    "delaunay digital": (BLOBS, "--method", "digital"),
+    "alphashape": (BLOBS, "--what", "polygons", "-q"),
+    "skeleton-exact": (BLOBS,),
+    "draw": (DATA / "cells.png",),
+}
+
+
+@pytest.fixture
+def photo(folder):
+    """A grey picture of the size of the mask."""
+    Image.fromarray(np.full((200, 300), 77, dtype=np.uint8)).save(folder / "photo.png")
+    ramp = np.linspace(0, 255, 300).astype(np.uint8)[None].repeat(200, axis=0)
+    Image.fromarray(np.stack([ramp, ramp // 2, 255 - ramp], axis=2)).save(folder / "photo.png")
+    return folder / "photo.png"
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_png_has_the_size_of_the_image_and_shows_it(run, folder, photo, name):
+    assert run(name.split()[0], *COMMANDS[name], "--overlay", "photo.png", "-o", "a.png").code == 0
+    made, image = (np.asarray(Image.open(folder / path).convert("RGB")) for path in ("a.png", "photo.png"))
+    assert made.shape == image.shape
+    if name in ("tessellate", "draw", "delaunay cells"):
+        assert (made != image).any(axis=2).mean() > 0.9  # cells are everywhere
+        # but for lines and seeds, half of each pixel is the image's
+        assert (np.abs(made.astype(int) - image // 2) <= 129).mean() > 0.8
+    else:
+        assert 0.002 < (made != image).any(axis=2).mean() < 0.9
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_svg_holds_the_image(run, folder, photo, name):
+    assert run(name.split()[0], *COMMANDS[name], "--overlay", "photo.png", "-o", "a.svg").code == 0
+    text = (folder / "a.svg").read_text()
+    assert 'width="300" height="200" viewBox="0 0 300 200"' in text
+    assert text.count("data:image/png;base64,") == 1
+    assert re.search(r"<image [^>]*/>\n<g ", text)
+
+
+def test_a_point_is_drawn_where_its_pixel_is(run, folder, photo):
+    (folder / "dots.csv").write_text("x,y\n10,20\n150.5,100\n")
+    assert run("delaunay", "dots.csv", "--layers", "points", "--overlay", "photo.png", "-o", "a.svg").code == 0
+    places = re.findall(r'<circle cx="([\d.]+)" cy="([\d.]+)"', (folder / "a.svg").read_text())
+    assert places == [("10.5", "20.5"), ("151", "100.5")]
+
+
+def test_labels_in_a_window_lie_there(run, folder, photo):
+    (folder / "dots.csv").write_text("x,y\n12,22\n")
+    options = ("--window", "10,20,5,5", "--what", "colour", "--layers", "cells", "--overlay", "photo.png")
+    assert run("tessellate", "dots.csv", *options, "-o", "a.png").code == 0
+    made, image = (np.asarray(Image.open(folder / path)) for path in ("a.png", "photo.png"))
+    y, x = np.nonzero((made != image).any(axis=2))
+    assert (x.min(), x.max(), y.min(), y.max()) == (10, 14, 20, 24)
+    assert run("tessellate", "dots.csv", *options, "-o", "a.svg").code == 0
+    assert 'translate(10 20)"' in (folder / "a.svg").read_text()
+
+
+def test_the_diagram_is_drawn_over_the_image(run, folder, photo):
+    assert run("tessellate", BLOBS, "--what", "diagram", "--overlay", "photo.png", "-o", "a.png").code == 0
+    made, image = (np.asarray(Image.open(folder / path)) for path in ("a.png", "photo.png"))
+    changed = (made != image).any(axis=2)
+    is_line, is_edge = (made == 0).all(axis=2), (made == 255).all(axis=2)
+    assert not (changed & ~is_line & ~is_edge).any()
+    assert 0.01 < is_line.mean() < 0.1
+    assert (is_edge == ndimage.binary_dilation(is_line, np.ones((3, 3))) & ~is_line).all()
+
+
+LINES = {
+    "delaunay": (BLOBS,),
+    "delaunay cells": (BLOBS, "--what", "cells", "--layers", "diagram"),
+    "alphashape": (BLOBS, "-q"),
+    "alphashape hull": (BLOBS, "-q", "--what", "hull", "--layers", "hull"),
+    "skeleton-exact": (BLOBS,),
+    "skeleton-exact offset": (BLOBS, "--what", "offset", "-d", "-3"),
+    "tessellate": (BLOBS, "--what", "diagram"),
+}
+
+
+@pytest.mark.parametrize("ground", [0, 40, 255])
+@pytest.mark.parametrize("name", LINES)
+def test_lines_show_on_dark_and_on_light_ground(run, folder, name, ground):
+    Image.fromarray(np.full((200, 300), ground, np.uint8)).save(folder / "even.png")
+    assert run(name.split()[0], *LINES[name], "--overlay", "even.png", "-o", "a.png").code == 0
+    grey = np.asarray(Image.open(folder / "a.png").convert("L")).astype(int)
+    assert (np.abs(grey - ground) > 100).mean() > 0.002
+
+
+def test_lines_have_no_edge_where_there_is_no_image(run, folder):
+    run("delaunay", BLOBS, "-o", "a.svg")
+    run("delaunay", BLOBS, "--overlay", BLOBS, "-o", "b.svg")
+    assert "halo" not in (folder / "a.svg").read_text()
+    assert (folder / "b.svg").read_text().index('id="edges-halo"') < (folder / "b.svg").read_text().index('id="edges"')
+
+
+def test_geojson_over_an_image_has_y_downwards(run, folder, photo):
+    square = '{"type": "Polygon", "coordinates": [[[0, 0], [20, 0], [20, 10], [0, 10], [0, 0]]]}'
+    (folder / "a.geojson").write_text(square)
+    done = run("skeleton-exact", "a.geojson", "-q", "--overlay", "photo.png", "-o", "a.png")
+    assert done.code == 0
+    made, image = (np.asarray(Image.open(folder / path)) for path in ("a.png", "photo.png"))
+    y, x = np.nonzero((made != image).any(axis=2))
+    assert (x.max() <= 22, y.max() <= 12) == (True, True)  # with the edge of the lines
+
+
+def test_a_skeleton_from_a_file_is_drawn_over_an_image(run, folder, photo):
+    assert run("skeleton-exact", BLOBS, "-o", "a.json").code == 0
+    assert run("draw", "a.json", "--overlay", "photo.png", "-o", "a.png").code == 0
+    assert run("skeleton-exact", BLOBS, "--overlay", "photo.png", "-o", "b.png").code == 0
+    assert (folder / "a.png").read_bytes() == (folder / "b.png").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "words"),
+    [
+        (("delaunay", BLOBS, "--overlay", "none.png", "-o", "a.png"), 3, "none.png: there is no such file"),
+        (("delaunay", BLOBS, "--overlay", "dots.csv", "-o", "a.png"), 3, "dots.csv is no image that is read"),
+        (("delaunay", BLOBS, "--overlay", "photo.png", "-o", "a.csv"), 2, "--overlay is for pictures"),
+        (("tessellate", BLOBS, "--overlay", "photo.png", "-o", "a.png"), 2, "--overlay is for pictures"),
+        (("alphashape", BLOBS, "--what", "curves", "--overlay", "photo.png", "-o", "a.svg"), 2, "pictures of a shape"),
+        (
+            ("draw", DATA / "cells.png", "--overlay", "photo.png", "--width", "90", "-o", "a.svg"),
+            2,
+            "leave out --width",
+        ),
+        (("skeleton-exact", BLOBS, "--overlay", "photo.png", "--y-up", "-o", "a.svg"), 2, "y downwards"),
+        (("skeleton-exact", BLOBS, "--overlay", "photo.png", "-o", "photo.png"), 2, "photo.png"),
+        (("skeleton-exact", "-", "--overlay", "-", "-o", "a.png"), 2, "name a file for one of the two"),
+        (("draw", BLOBS, "--overlay", "photo.png", "--max-pixels", "100", "-o", "a.png"), 5, "--max-pixels"),
+    ],
+)
+def test_what_is_refused(run, folder, photo, arguments, code, words):
+    before = photo.read_bytes()
+    done = run(*arguments)
+    assert done.code == code
+    assert words in done.err
+    assert photo.read_bytes() == before
+
+
+def test_a_forgotten_image(run):
+    done = run("draw", "a.json", "--overlay", "-o", "a.png")
+    assert done.code == 2
+    assert "'-o' is no image" in done.err
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_an_image_of_another_size_is_noted(run, folder, photo, name):
+    Image.new("L", (50, 40)).save(folder / "small.png")
+    said = run(name.split()[0], *COMMANDS[name], "--overlay", "photo.png", "-o", "a.png").err
+    done = run(name.split()[0], *COMMANDS[name], "--overlay", "small.png", "-o", "a.png")
+    with Image.open(COMMANDS[name][0]) as image:
+        size = " x ".join(map(str, image.size))
+    words = f"note: small.png has 50 x 40 pixels, the input {size}: both begin in one corner"
+    assert (done.code, words in done.err or "-q" in COMMANDS[name]) == (0, True)
+    assert ("both begin" in said) == (size != "300 x 200")

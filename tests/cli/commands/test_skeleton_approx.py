@@ -1,0 +1,84 @@
+"""The command skeleton-approx, and pruning and centerlines on the command line."""
+
+import csv
+import io
+import json
+from pathlib import Path
+
+import pytest
+
+DATA = Path(__file__).parents[3] / "data"
+SHAPES = str(DATA / "two-shapes.json")
+
+
+def test_a_step_and_its_bound(run, folder):
+    done = run("skeleton-approx", SHAPES, "--step", "2", "-o", "a.csv", "--verify", "--stats", "a.json")
+    assert (done.code, done.err) == (0, "")
+    rows = list(csv.DictReader(io.StringIO((folder / "a.csv").read_text())))
+    assert {row["kind"] for row in rows} == {"line"}
+    assert len(rows) > 100
+    assert json.loads((folder / "a.json").read_text())["arcs"] == len(rows)
+
+
+def test_a_tolerance_is_met(run, folder):
+    done = run("skeleton-approx", SHAPES, "--tolerance", "0.05", "-f", "csv", "--verify")
+    assert (done.code, done.err) == (0, "")
+    assert all(float(row["error_bound"]) <= 0.05 for row in csv.DictReader(io.StringIO(done.out)))
+
+
+@pytest.mark.parametrize("arguments", [(), ("--step", "0"), ("--step", "1", "--tolerance", "1"), ("--tolerance", "x")])
+def test_what_is_refused(run, folder, arguments):
+    assert run("skeleton-approx", SHAPES, *arguments).code == 2
+
+
+def test_pruned_branches_and_a_centerline(run, folder):
+    whole = run("skeleton-exact", SHAPES, "-f", "csv")
+    pruned = run("skeleton-exact", SHAPES, "--prune", "angle=60", "-f", "csv")
+    assert (pruned.code, pruned.err) == (0, "")
+    assert len(pruned.out.splitlines()) < len(whole.out.splitlines())
+    line = run("skeleton-exact", SHAPES, "--prune", "angle=60", "--what", "centerline", "-f", "geojson")
+    assert line.code == 0
+    kinds = {feature["geometry"]["type"] for feature in json.loads(line.out)["features"]}
+    assert kinds == {"LineString"}
+
+
+@pytest.mark.parametrize("options", [[], ["--stats", "a.json"], ["--what", "table"], ["--what", "offset", "-d", "1"]])
+def test_the_comparison_is_said_with_and_without_statistics(run, options):
+    done = run("skeleton-approx", SHAPES, "--step", "5", "--compare", *options, "-o", "a.npz")
+    assert done.code == 0
+    assert done.err.splitlines() == [
+        "note: from approximate to exact the distance is up to 0.825, near (177.349, 179.301)",
+        "note: from exact to approximate the distance is up to 5.77, near (330, 40)",
+    ]
+
+
+def test_too_many_samples(run):
+    done = run("skeleton-approx", SHAPES, "--step", "1e-9")
+    assert (done.code, done.err) == (
+        5,
+        "error: a step of 1e-09 gives too many seeds, more than 268435456: use a larger one\n",
+    )
+
+
+@pytest.mark.parametrize("command", ["skeleton-approx", "skeleton-exact"])
+@pytest.mark.parametrize(
+    ("polygon", "words"),
+    [
+        ([[0, 0], [1e300, 0], [1e300, 1e300]], "a.json: a coordinate is 1e+300, too large to compute with"),
+        ([[0, 0], [1e-300, 0], [0, 1e-300]], "a.json: the extent is 1e-300, too small to compute with"),
+    ],
+)
+def test_magnitudes_whose_products_are_no_numbers(run, folder, command, polygon, words):
+    (folder / "a.json").write_text(json.dumps(polygon))
+    more = ["--step", "1"] if command == "skeleton-approx" else []
+    done = run(command, "a.json", *more, "--verify", "-o", "out.json")
+    assert (done.code, words in done.err) == (3, True)
+    assert not (folder / "out.json").exists()
+
+
+@pytest.mark.parametrize("factor", [1e-70, 1e69])
+def test_magnitudes_at_the_limits(run, folder, factor):
+    (folder / "a.json").write_text(json.dumps([[0, 0], [10 * factor, 0], [factor, 7 * factor]]))
+    options = ["--what", "skeleton,table,centerline,offset", "-d", f"{-factor},{factor}", "--verify", "-o", "out"]
+    assert run("skeleton-exact", "a.json", *options).code == 0
+    assert run("skeleton-approx", "a.json", "--step", factor, "--side", "both", "--verify", "-o", "b.svg").code == 0

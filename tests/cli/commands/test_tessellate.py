@@ -1,0 +1,219 @@
+"""``vorotool tessellate``: every result in every format, on one input."""
+
+import io
+import json
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from support.oracles.oracles import nearest_labels, nearest_squares
+from vorotool.cli.commands.tessellate import FORMATS
+from vorotool.jobs.targets import plan_targets
+
+X, Y = [2, 7, 1], [1, 5, 6]
+LABELS = nearest_labels(X, Y, [1, 2, 3], (0, 0, 8, 7))
+
+
+def read_image(path):
+    if path.suffix == ".npy":
+        return np.load(path)
+    if path.suffix == ".txt":
+        return np.loadtxt(path, dtype=int)
+    if path.suffix == ".tif":
+        import tifffile
+
+        return tifffile.imread(path)
+    return np.asarray(Image.open(path))
+
+
+@pytest.mark.parametrize("extension", ["png", "tif", "npy", "txt"])
+def test_labels(run, folder, extension):
+    done = run("tessellate", "dots.csv", "-o", f"labels.{extension}", "--verify")
+    assert (done.code, done.out) == (0, "")
+    found = read_image(folder / f"labels.{extension}")
+    np.testing.assert_array_equal(found, LABELS)
+    if extension != "txt":
+        assert found.dtype in (np.uint16, np.int32)
+
+
+def test_text_goes_to_standard_output(run, folder):
+    done = run("tessellate", "dots.csv", "-f", "text")
+    np.testing.assert_array_equal(np.loadtxt(io.StringIO(done.out), dtype=int), LABELS)
+
+
+@pytest.mark.parametrize("extension", ["png", "tif", "npy", "txt"])
+def test_diagram(run, folder, extension):
+    assert run("tessellate", "dots.csv", "--what", "diagram", "-o", f"diagram.{extension}").code == 0
+    padded = np.pad(LABELS, 1)
+    around = np.maximum.reduce([padded[1:-1, :-2], padded[1:-1, 2:], padded[:-2, 1:-1], padded[2:, 1:-1]])
+    np.testing.assert_array_equal(read_image(folder / f"diagram.{extension}") != 0, around > LABELS)
+
+
+def test_diagram_in_bands_is_that_of_the_whole(run, folder, monkeypatch):
+    run("tessellate", "dots.csv", "--size", "40x50", "--what", "diagram", "-o", "whole.npy")
+    monkeypatch.setattr("vorotool.engines.tessellation.frames.BAND_PIXELS", 40 * 7)
+    run("tessellate", "dots.csv", "--size", "40x50", "--what", "diagram", "-o", "bands.npy")
+    assert (folder / "bands.npy").read_bytes() == (folder / "whole.npy").read_bytes()
+
+
+@pytest.mark.parametrize("extension", ["tif", "npy"])
+def test_distances(run, folder, extension):
+    squares = nearest_squares(X, Y, (0, 0, 8, 7))
+    run("tessellate", "dots.csv", "--what", "distance,distance2", "-o", f"d.{extension}")
+    np.testing.assert_array_equal(read_image(folder / f"d.distance2.{extension}"), squares)
+    found = read_image(folder / f"d.distance.{extension}")
+    assert found.dtype == np.float32
+    np.testing.assert_array_equal(found, np.sqrt(squares).astype(np.float32))
+
+
+def test_table_has_the_columns_of_the_input(run, folder):
+    done = run("tessellate", "dots.csv", "--columns", "x,y", "--what", "table")
+    header, *rows = (line.split(",") for line in done.out.splitlines())
+    assert header == [
+        *["label", "x", "y", "area", "perimeter", "neighbours", "nearest_label", "nearest_distance", "touches_frame"],
+        *["max_distance", "components", "bbox_x", "bbox_y", "bbox_w", "bbox_h", "name"],
+    ]
+    assert [row[-1] for row in rows] == ["a", "b", "c"]
+    assert [int(row[3]) for row in rows] == [int((k == LABELS).sum()) for k in (1, 2, 3)]
+    squares = nearest_squares(X, Y, (0, 0, 8, 7))
+    for k, row in enumerate(rows, start=1):
+        assert float(row[9]) == np.sqrt(squares[k == LABELS].max())
+    done = run("tessellate", "dots.csv", "--columns", "x,y", "--what", "table", "--no-properties")
+    assert "name" not in done.out
+
+
+def test_components_of_a_mask(run, folder):
+    done = run("tessellate", "mask.pbm", "--what", "table", "-f", "json")
+    rows = json.loads(done.out)
+    assert [row["object_area"] for row in rows] == [2, 2]
+    assert [(row["x"], row["y"]) for row in rows] == [(0.5, 0), (5.5, 1.5)]
+    done = run("tessellate", "mask.pbm", "--what", "table", "-f", "json", "--connectivity", "4")
+    assert len(json.loads(done.out)) == 3
+    done = run("tessellate", "mask.pbm", "--seeds", "pixels", "-f", "text")
+    assert int(np.loadtxt(io.StringIO(done.out), dtype=int).max()) == 4
+    done = run("tessellate", "mask.pbm", "--seeds", "centroids", "--what", "table", "-f", "json")
+    assert [row["object_area"] for row in json.loads(done.out)] == [2, 2]
+    done = run("tessellate", "mask.pbm", "--invert", "--what", "table", "-f", "json")
+    assert [row["object_area"] for row in json.loads(done.out)] == [28]
+
+
+def test_neighbours(run, folder):
+    done = run("tessellate", "dots.csv", "--what", "neighbors")  # either spelling
+    header, *rows = (line.split(",") for line in done.out.splitlines())
+    assert header == ["label_a", "label_b", "border_length", "centroid_distance"]
+    for a, b, length, _ in rows:
+        sides = sum(
+            int(((p == int(a)) & (q == int(b))).sum() + ((p == int(b)) & (q == int(a))).sum())
+            for p, q in ((LABELS[1:], LABELS[:-1]), (LABELS[:, 1:], LABELS[:, :-1]))
+        )
+        assert sides == int(length) > 0
+
+
+def test_pictures(run, folder):
+    assert run("tessellate", "dots.csv", "--what", "color", "-o", "cells.png", "--layers", "cells").code == 0
+    image = Image.open(folder / "cells.png")
+    assert image.mode == "P"
+    classes = np.asarray(image)
+    for k in (1, 2, 3):
+        assert len(np.unique(classes[k == LABELS])) == 1
+    for p, q in ((np.s_[1:], np.s_[:-1]), (np.s_[:, 1:], np.s_[:, :-1])):
+        assert ((classes[p] != classes[q]) == (LABELS[p] != LABELS[q])).all()
+    done = run("tessellate", "dots.csv", "-f", "svg")
+    assert done.out.startswith("<svg") or done.out.startswith("<?xml")
+    assert '<g id="cells"' in done.out
+    assert '<g id="labels"' in done.out
+
+
+def test_pictures_of_maps_are_drawn_y_upwards(run, folder):
+    (folder / "dots.wkt").write_text("POINT (2 1)\nPOINT (7 5)\nPOINT (1 6)\n")
+    options = ("--size", "8x7", "--what", "colour", "--layers", "cells")
+    run("tessellate", "dots.csv", *options, "-o", "down.png")
+    run("tessellate", "dots.wkt", *options, "-o", "up.png")
+    run("tessellate", "dots.wkt", *options, "--y-down", "-o", "down2.png")
+    down, up = (np.asarray(Image.open(folder / name)) for name in ("down.png", "up.png"))
+    np.testing.assert_array_equal(up, down[::-1])
+    assert (folder / "down2.png").read_bytes() == (folder / "down.png").read_bytes()
+
+
+def test_several_results_are_named(run, folder):
+    run("tessellate", "dots.csv", "--what", "labels,table,colour", "-o", "result")
+    assert {p.name for p in folder.glob("result*")} == {"result.labels.png", "result.table.csv", "result.colour.png"}
+    run("tessellate", "dots.csv", "--what", "labels,table", "-o", "other.tif")
+    assert {p.name for p in folder.glob("other*")} == {"other.labels.tif", "other.table.csv"}
+    (folder / "out").mkdir()
+    run("tessellate", "dots.csv", "--out-dir", "out")
+    assert (folder / "out" / "dots.png").exists()
+
+
+def test_stats(run, folder):
+    (folder / "twice.csv").write_text("x,y\n1,1\n1,1\n4.1,2\n")
+    done = run("tessellate", "twice.csv", "-o", "a.png", "--stats", "-")
+    assert done.code == 0
+    stats = json.loads(done.out)
+    assert (stats["seeds"], stats["duplicates"], stats["snapped"], stats["frame"]) == (3, 1, 1, [0, 0, 5, 3])
+    assert stats["arithmetic"] == "float64"
+    assert {"read", "tessellate", "write labels"} <= set(stats["seconds"])
+    assert len(stats["warnings"]) == 2
+    assert all(line.startswith("warning: ") for line in done.err.splitlines() if not line.startswith("note"))
+    assert run("tessellate", "twice.csv", "-o", "a.png", "-q").err == ""
+
+
+def test_stats_of_the_propagation_name_the_first_wrong_pixel(run, folder):
+    (folder / "three.csv").write_text("x,y\n2,0\n1,2\n0,6\n")
+    options = ("--size", "14x8", "--method", "propagation", "-o", "a.npy", "--stats", "s.json")
+    run("tessellate", "three.csv", *options)
+    stats = json.loads((folder / "s.json").read_text())
+    assert stats["wrong_pixels"] == 1
+    assert stats["first_wrong"] == {"x": 13, "y": 7, "label": 1, "exact_label": 2}
+    assert run("tessellate", "three.csv", *options, "--verify").code == 1
+
+
+def test_the_same_bytes_for_any_threads(run, folder):
+    rng = np.random.default_rng(0)
+    np.savetxt(folder / "many.csv", rng.integers(0, 600, (500, 2)), fmt="%d", delimiter=",")
+    for what, extension in [("labels", "png"), ("labels", "tif"), ("table", "csv"), ("colour", "png")]:
+        for threads in (1, 2, 3):
+            done = run("tessellate", "many.csv", "--what", what, "-o", f"{threads}.{extension}", "--threads", threads)
+            assert done.code == 0
+        one, two, three = ((folder / f"{k}.{extension}").read_bytes() for k in (1, 2, 3))
+        assert one == two == three
+
+
+def test_window_and_distance(run, folder):
+    done = run("tessellate", "dots.csv", "--window", "-2,-1,9,5", "--max-distance", "2.5", "-f", "text")
+    right = nearest_labels(X, Y, [1, 2, 3], (-2, -1, 9, 5), most_squared=6.25)
+    np.testing.assert_array_equal(np.loadtxt(io.StringIO(done.out), dtype=int), right)
+
+
+def test_labels_of_a_column_are_kept(run, folder):
+    (folder / "own.csv").write_text("x,y,label\n2,1,70\n7,5,4\n1,6,70000\n")
+    done = run("tessellate", "own.csv", "-f", "text")
+    right = np.choose(LABELS - 1, [70, 4, 70000])
+    np.testing.assert_array_equal(np.loadtxt(io.StringIO(done.out), dtype=int), right)
+    done = run("tessellate", "own.csv", "-o", "own.png")
+    assert done.code == 5
+    assert "16-bit PNG" in done.err
+    assert run("tessellate", "own.csv", "-o", "own.tif").code == 0
+
+
+@pytest.mark.parametrize(("what", "fmt"), [(what, fmt) for what, formats in FORMATS.items() for fmt in formats])
+def test_every_result_is_written_in_every_format(run, folder, what, fmt):
+    assert run("tessellate", "dots.csv", "--what", what, "-f", fmt, "-o", f"made.{fmt}").code == 0
+    assert (folder / f"made.{fmt}").exists()
+
+
+@pytest.mark.parametrize(
+    ("what", "options", "expected"),
+    [
+        (["labels"], {"output": "a.tif"}, [("a.tif", "tiff")]),
+        (["labels"], {"output": "a", "fmt": "npy"}, [("a", "npy")]),
+        (["labels"], {"fmt": "txt"}, [("-", "text")]),
+        (["table"], {}, [("-", "csv")]),
+        (["labels", "table"], {"out_dir": "d"}, [("d/in.labels.png", "png"), ("d/in.table.csv", "csv")]),
+    ],
+)
+def test_targets(what, options, expected):
+    given = {"output": None, "fmt": None, "out_dir": None, **options}
+    found = plan_targets(FORMATS, what, source="x/in.csv", **given)
+    assert [(target.path, target.fmt) for target in found] == expected

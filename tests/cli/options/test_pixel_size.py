@@ -1,0 +1,168 @@
+"""``--pixel-size``: what is written is what a larger input gives, byte by byte where the factor is a power of two."""
+
+import csv
+import io
+import json
+from importlib import import_module
+
+import numpy as np
+import pytest
+
+from vorotool.cli.options.pixel_size import WITHOUT_UNITS
+
+XY = np.array([[0, 0], [9, 1], [4, 7], [12, 8], [2, 3], [7, 4], [11, 2], [1, 9], [5, 2], [8, 9]])
+SHAPES = [
+    [[0, 0], [9, 0], [9, 9], [5, 3], [0, 9]],
+    [[20, 0], [33, 1], [30, 8], [21, 7]],
+]
+
+OPTIONS = {
+    "delaunay": [[], ["--method", "digital-valid", "--what", "edges"]],
+    "alphashape": [["-r", "{}"], ["--auto"], ["--auto", "--what", "table,curves"]],
+    "skeleton-exact": [["--side", "both"], ["--gap", "{}", "--what", "skeleton,elements"]],
+}
+
+
+def write_inputs(folder, command, factor):
+    """The same input, larger; a column or property with the name of a length stays as it is."""
+    folder.mkdir()
+    if command.startswith("skeleton"):
+        features = [
+            {
+                "type": "Feature",
+                "properties": {"length": 3},
+                "geometry": {
+                    "type": "Polygon",
+                    "coordinates": [[[factor * x, factor * y] for x, y in [*ring, ring[0]]]],
+                },
+            }
+            for ring in SHAPES
+        ]
+        (folder / "in.geojson").write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+        return folder / "in.geojson"
+    rows = [f"{factor * x},{factor * y},{x}" for x, y in XY]
+    (folder / "in.csv").write_text("\n".join(["x,y,length", *rows]) + "\n")
+    return folder / "in.csv"
+
+
+def outputs(run, command, folder, options, *, r, more=()):
+    """Bytes of all results in all formats with units, by their names."""
+    module = "skeleton_options" if command.startswith("skeleton") else command
+    formats = import_module(f"vorotool.cli.{module}").FORMATS
+    wanted = [(what, fmt) for what in formats for fmt in formats[what] if fmt not in WITHOUT_UNITS]
+    wanted = [(what, fmt) for what, fmt in wanted if what != "compare"]  # goes with nothing else
+    if "--what" in options:
+        place = options.index("--what")
+        wanted = [(what, fmt) for what, fmt in wanted if what in options[place + 1].split(",")]
+        options = options[:place] + options[place + 2 :]
+    made = {}
+    for fmt in sorted({fmt for _, fmt in wanted}):
+        names = ",".join(what for what, each in wanted if each == fmt)
+        place = folder.parent / f"{folder.name}-{fmt}"
+        arguments = [option.format(r) for option in options]
+        if "offset" in names.split(","):
+            arguments += ["-d", f"{-r / 8},{r}"]
+        if command.startswith("skeleton") and {"points", "transects"} & set(names.split(",")):
+            arguments += ["--every", f"{r / 4}"]
+        source = next(folder.iterdir())
+        done = run(command, source, "--what", names, "-f", fmt, "--out-dir", place, "-q", *arguments, *more)
+        assert done.code == 0, done.err
+        made |= {f"{fmt} {path.name}": path.read_bytes() for path in place.iterdir()}
+    assert made
+    return made
+
+
+CASES = [(command, tuple(options)) for command, each in OPTIONS.items() for options in each]
+
+
+@pytest.mark.parametrize(("command", "options"), CASES)
+def test_results_are_those_of_a_larger_input(run, tmp_path, command, options):
+    small, large = tmp_path / "small", tmp_path / "large"
+    write_inputs(small, command, 1)
+    write_inputs(large, command, 2)
+    scaled = outputs(run, command, small, list(options), r=1.5, more=["--pixel-size", "2um"])
+    doubled = outputs(run, command, large, list(options), r=3)
+    assert scaled.keys() == doubled.keys()
+    assert [name for name in scaled if scaled[name] != doubled[name]] == []
+    assert scaled != outputs(run, command, small, list(options), r=1.5)
+
+
+KEPT = {
+    *("label", "neighbours", "nearest_label", "touches_frame", "components", "label_a", "label_b", "label_c"),
+    *("kind", "difference", "cause", "regions", "holes", "cavities", "edges", "on_hull", "duplicate_of_label"),
+}
+"""Columns of tables that are scaled by the names of their columns, and are no lengths."""
+
+
+@pytest.mark.parametrize(
+    "options",
+    ["tessellate --what table", "tessellate --what neighbours", "delaunay --what table", "alphashape --what curves",
+     "delaunay --what compare"],
+)  # fmt: skip
+def test_columns_are_scaled_by_what_they_are(run, tmp_path, options):
+    source = write_inputs(tmp_path / "in", "delaunay", 1)
+    plain, scaled = (
+        list(csv.DictReader(io.StringIO(run(*options.split(), source, "-q", *more).out)))
+        for more in ([], ["--pixel-size", "0.325 µm"])
+    )
+    assert len(plain) == len(scaled) > 0
+    for name in plain[0]:
+        before, after = ([row[name] for row in rows] for rows in (plain, scaled))
+        own = name if name == "length" else name.removeprefix("voro_")
+        if own in KEPT or own == "length":
+            assert after == before, name
+            continue
+        power = 2 if own in ("area", "object_area") else 1
+        assert [bool(text) for text in after] == [bool(text) for text in before]
+        values = np.array([[float(a), float(b)] for a, b in zip(before, after, strict=True) if a])
+        assert np.allclose(values[:, 1], values[:, 0] * 0.325**power, rtol=1e-15, atol=0), name
+        assert (values[:, 0] != 0).any(), name
+
+
+def test_objects_of_an_image(run, tmp_path):
+    (tmp_path / "mask.pbm").write_text("P1\n5 4\n1 1 0 0 0\n0 0 0 0 0\n0 0 0 0 1\n0 0 0 1 1\n")
+    done = run("tessellate", "mask.pbm", "--what", "table", "--pixel-size", "0.5mm", "-q", "--stats", "s.json")
+    assert [row["object_area"] for row in csv.DictReader(io.StringIO(done.out))] == ["0.5", "0.75"]
+    stats = json.loads((tmp_path / "s.json").read_text())
+    assert (stats["pixel_size"], stats["unit"]) == (0.5, "mm")
+
+
+def test_many_inputs(run, tmp_path):
+    write_inputs(tmp_path / "in", "delaunay", 1)
+    done = run("delaunay", "in", "--table", "-", "--pixel-size", "3", "-q", "--stats", "s.json")
+    alone = run("delaunay", "in/in.csv", "--what", "table", "--pixel-size", "3", "-q")
+    assert [line.partition(",")[2] for line in done.out.splitlines()] == alone.out.splitlines()
+    stats = json.loads((tmp_path / "s.json").read_text())
+    assert (stats["pixel_size"], stats["unit"]) == (3, None)
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ("--pixel-size um", "'um' is no size"),
+        ("--pixel-size 0um", "must be above 0"),
+        ("--pixel-size 1e300", "no more than 1e100"),
+        ("--pixel-size -1um", "'-1um' is no size"),
+        ("--pixel-size 1..5um", "is no number"),
+        ("--pixel-size 0.5um -f svg -o a.svg", "--pixel-size is for tables and vectors"),
+        ("--pixel-size 0.5um -f png -o a.png", "--pixel-size is for tables and vectors"),
+    ],
+)
+def test_sizes_that_mean_nothing(run, tmp_path, options, words):
+    source = write_inputs(tmp_path / "in", "delaunay", 1)
+    done = run("delaunay", source, *options.split())
+    assert done.code == 2
+    assert words in done.err
+
+
+@pytest.mark.parametrize("what", ["labels", "diagram", "distance"])
+def test_the_resolution_of_an_image_is_kept(run, tmp_path, what):
+    import tifffile
+
+    image = np.zeros((6, 8), np.uint8)
+    image[1, 2] = image[4, 5] = 255
+    tifffile.imwrite(tmp_path / "in.tif", image, resolution=(300, 150), resolutionunit=2)
+    assert run("tessellate", "in.tif", "-o", "out.tif", "--what", what, "-q").code == 0
+    with tifffile.TiffFile(tmp_path / "out.tif") as file:
+        tags = {name: file.pages[0].tags.valueof(name) for name in ("XResolution", "YResolution", "ResolutionUnit")}
+    assert tags == {"XResolution": (300, 1), "YResolution": (150, 1), "ResolutionUnit": 2}

@@ -1,0 +1,172 @@
+"""Small files that would unpack to gigabytes are refused at once, and within little memory."""
+
+import json
+import lzma
+import signal
+import subprocess
+import sys
+import time
+import zlib
+
+import numcodecs.blosc
+import pytest
+
+from support.families.tiff_files import grey, tiff_file
+from support.processes.peak_memory import watched
+
+HUGE = 2**30
+MEMORY = 300e6
+SECONDS = 10  # ten times what it takes on an idle machine
+
+
+def repeated(compressor, flush):
+    """A stream of a gigabyte of zeros, made piece by piece."""
+    piece = bytes(2**24)
+    return b"".join([compressor.compress(piece) for _ in range(HUGE // len(piece))] + [flush()])
+
+
+def deflated(window):
+    compressor = zlib.compressobj(1, zlib.DEFLATED, window)
+    return repeated(compressor, compressor.flush)
+
+
+def lzw_of_literals(count):
+    """Nines of a strip, each by its own code of 9 bits, the table cleared often enough that no code gets longer."""
+    bits = f"{256:09b}" + f"{9:09b}" * 231
+    block = int(bits, 2).to_bytes(len(bits) // 8, "big")
+    return block * (count // 231 + 1)
+
+
+def lzma_bomb():
+    compressor = lzma.LZMACompressor(preset=0)
+    return repeated(compressor, compressor.flush)
+
+
+def zstd_bomb(is_stated=False):
+    """Runs of 128 KiB in 4 bytes each, in a frame that does not say how much it holds, unless told to."""
+    start = "28b52ffd0038" if not is_stated else "28b52ffde0" + (HUGE + 1).to_bytes(8, "little").hex()
+    run = (1 << 1 | 2**17 << 3).to_bytes(3, "little") + b"\0"
+    last = (1 | 1 << 1 | 1 << 3).to_bytes(3, "little") + b"\0"
+    return bytes.fromhex(start) + run * (HUGE // 2**17) + last
+
+
+def store(folder, codec, chunk, shards=None):
+    codecs = [{"name": "bytes"}, {"name": codec}]
+    if shards:
+        index = [{"name": "bytes"}]
+        codecs = [{"name": "sharding_indexed", "configuration": shards | {"codecs": codecs, "index_codecs": index}}]
+    grid = {"name": "regular", "configuration": {"chunk_shape": [8, 8]}}
+    made = {"zarr_format": 3, "node_type": "array", "shape": [8, 8], "data_type": "uint8", "chunk_grid": grid}
+    made |= {"chunk_key_encoding": {"name": "default"}, "fill_value": 0, "codecs": codecs}
+    (folder / "c/0").mkdir(parents=True)
+    (folder / "zarr.json").write_text(json.dumps(made))
+    (folder / "c/0/0").write_bytes(chunk)
+
+
+def png_bomb(kind, body):
+    def chunk(kind, body):
+        return len(body).to_bytes(4, "big") + kind + body + zlib.crc32(kind + body).to_bytes(4, "big")
+
+    header = (8).to_bytes(4, "big") * 2 + bytes([8, 0, 0, 0, 0])
+    rows = body if kind == b"IDAT" else zlib.compress(bytes(9 * 8))
+    parts = [chunk(b"IHDR", header), chunk(b"IDAT", rows), chunk(b"IEND", b"")]
+    if kind != b"IDAT":
+        parts.insert(1, chunk(kind, body))
+    return b"\x89PNG\r\n\x1a\n" + b"".join(parts)
+
+
+def make(folder, kind):
+    """Write a bomb; its name."""
+    if kind.startswith("tiff"):
+        compression, segment = {
+            "tiff-deflate": (8, lambda: deflated(15)),
+            "tiff-lzma": (34925, lzma_bomb),
+            "tiff-zstd": (50000, zstd_bomb),
+            "tiff-packbits": (32773, lambda: b"\x81\0" * 2**22),
+        }[kind]
+        (folder / "a.tif").write_bytes(tiff_file(grey(8, 8, compression=compression), [segment()]))
+        return "a.tif"
+    if kind.startswith("zarr"):
+        codec, chunk = {
+            "zarr-gzip": ("gzip", lambda: deflated(31)),
+            "zarr-zlib": ("numcodecs.zlib", lambda: deflated(15)),
+            "zarr-lzma": ("numcodecs.lzma", lzma_bomb),
+            "zarr-zstd": ("zstd", lambda: zstd_bomb(is_stated=True)),
+            "zarr-zstd-unstated": ("zstd", zstd_bomb),
+            "zarr-blosc": ("blosc", lambda: numcodecs.blosc.compress(bytes(2**29), b"zstd", 1, 1)),
+            "zarr-lz4": ("numcodecs.lz4", lambda: (2**31 - 9).to_bytes(4, "little") + bytes(60)),
+            "zarr-shard": ("gzip", lambda: deflated(31)),
+        }[kind]
+        data, shards = chunk(), None
+        if kind == "zarr-shard":
+            shards = {"chunk_shape": [8, 8]}
+            data += (0).to_bytes(8, "little") + len(data).to_bytes(8, "little")
+        store(folder / "a.zarr", codec, data, shards)
+        return "a.zarr"
+    body = deflated(15)
+    if kind == "png-zTXt":
+        body = b"Comment\0\0" + body
+    elif kind == "png-iTXt":
+        body = b"Comment\0\1\0\0\0" + body
+    elif kind == "png-iCCP":
+        body = b"Profile\0\0" + body
+    (folder / "a.png").write_bytes(png_bomb(kind.removeprefix("png-").encode(), body))
+    return "a.png"
+
+
+KINDS = ["tiff-deflate", "tiff-lzma", "tiff-zstd", "tiff-packbits", "png-IDAT", "png-zTXt", "png-iTXt", "png-iCCP"]
+KINDS += [f"zarr-{name}" for name in ("gzip", "zlib", "lzma", "zstd", "zstd-unstated", "blosc", "lz4", "shard")]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_bomb_is_refused(tmp_path, kind):
+    name = make(tmp_path, kind)
+    begin = time.monotonic()
+    code, errors, peak = watched(["tessellate", name, "-o", "b.npy", "-q"], tmp_path)
+    assert time.monotonic() - begin < SECONDS
+    assert peak < MEMORY
+    if kind.startswith("png-"):  # what is beyond the rows of the picture, or beside it, is not unpacked
+        assert code in (0, 3), errors
+    else:
+        assert (code, len(errors)) == (3, 1), errors
+        assert name in errors[0]
+        assert not (tmp_path / "b.npy").exists()
+
+
+TELLING = """
+import sys
+from vorotool.cli.main import main
+from vorotool.formats.images import tiff_segments
+
+unpack = tiff_segments._unpacked
+
+
+def telling(*arguments):
+    print("decoding", flush=True)
+    unpacked = unpack(*arguments)
+    print("decoded", flush=True)
+    return unpacked
+
+
+tiff_segments._unpacked = telling
+main()
+"""
+
+
+@pytest.mark.parametrize("kind", ["deflate", "lzw"])
+def test_a_signal_ends_decoding(tmp_path, kind):
+    """Of an image whose strip takes a second or more to decode: it is not decoded to its end."""
+    rows = 2**15
+    if kind == "deflate":
+        compression, strip = 8, deflated(15)
+    else:
+        compression, strip = 5, lzw_of_literals(2**27)
+        rows = 2**12
+    (tmp_path / "a.tif").write_bytes(tiff_file(grey(2**15, rows, compression=compression), [strip]))
+    command = [sys.executable, "-c", TELLING, "tessellate", "a.tif", "-o", "b.npy", "--seeds", "centroids"]
+    child = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    assert child.stdout.readline() == b"decoding\n"
+    child.send_signal(signal.SIGTERM)
+    said, _ = child.communicate(timeout=60)
+    assert (child.returncode, said) == (143, b"")
+    assert not (tmp_path / "b.npy").exists()

@@ -1,0 +1,160 @@
+"""Every option of every command is given values that are no numbers, or no numbers that fit anything."""
+
+import json
+from importlib import import_module
+
+import click
+import numpy as np
+import pytest
+
+from vorotool.cli.main import COMMANDS
+from vorotool.cli.options.shared import OPTIONS
+
+DIGITS = "9" * 5000
+NUMBERS = (
+    DIGITS, f"-{DIGITS}", f"0.{DIGITS}", "0" * 5000, "1" + "0" * 400, "1e400", "-1e400", "1e-400", "1e308", "-1e308",
+    "5e-324", "1e999999999999", f"1e{DIGITS}", "nan", "-nan", "inf", "-inf", "infinity", "00", "01", "-0", "-1", "0",
+    "1_000", "+1", "0x10", "1/3", "1/0", f"1/{DIGITS}", f"{DIGITS}/1", "9223372036854775808", "18446744073709551616",
+    "-9223372036854775809", "4294967296", "2147483648", "٣", "²", "Ⅷ", "𝟗", "1é", "true",
+)  # fmt: skip
+TEXTS = ("", " ", ",", ",,", "\t", "é" * 3000, "\udcff", "-", "--", "=", "*", "..", "otsu", "none")
+LISTS = (
+    f"1,{DIGITS}", f"{DIGITS},1", "00,1", "1,01", "0,0", "1,1", "1,2,3", "²,1", "٣,1", "1,1e400", "nan,nan",
+    f"{DIGITS},{DIGITS},{DIGITS},{DIGITS}", "0,0,1e308,1e308", "-1e308,-1e308,1e308,1e308", "0,0,5e-324,5e-324",
+    "nan,0,1,1", "0,0,inf,1", "1e308,-1e308", "0,0,0,0", "9223372036854775807,0,1,1", "0,0,9223372036854775807,1",
+    "-9223372036854775808,0,9223372036854775807,1", "0,0,18446744073709551616,18446744073709551616",
+    f"1x{DIGITS}", f"{DIGITS}x1", "1x1", "01x01", "²x²", "0x0", "999999999999999999x999999999999999999",
+    f"1/{DIGITS}", "angle=nan", f"angle={DIGITS}", "chord=1e400", "scale=inf", "length=-1", "ratio=", "angle=1e-400",
+    f"1{DIGITS}um", "1e400um", "0um", "1e-400 m", "١um", "1,1,1,1,1", f"1,1,1,{DIGITS}", "1,nan", "inf,1",
+)  # fmt: skip
+VALUES = tuple(dict.fromkeys((*NUMBERS, *TEXTS, *LISTS)))
+
+THIRDS = 3
+"""Of the values that each command's own copy of a shared option is given; all commands together give all."""
+
+SHARED = {name.replace("-", "_") for name in OPTIONS}
+
+LEFT_OUT = {"cluster"}
+"""Addresses are asked over the network."""
+
+INPUTS = {
+    "tessellate": ("dots.csv", "-o", "out.npy"),
+    "delaunay": ("dots.csv", "-o", "out.csv"),
+    "alphashape": ("dots.csv", "-o", "out.csv"),
+    "skeleton-approx": ("shape.wkt", "-o", "out.json"),
+    "skeleton-exact": ("shape.wkt", "-o", "out.json"),
+    "draw": ("shape.wkt", "-o", "out.svg"),
+    "completion": (),
+}
+NEEDED = {
+    "frame": {
+        "delaunay": ("--what", "cells"),
+        "skeleton-exact": ("--side", "both"),
+        "skeleton-approx": ("--side", "both"),
+    },
+    "distance": {"": ("--what", "offset")},
+    "every": {"": ("--what", "points")},
+    "start": {"": ("--what", "centerline")},
+    "end": {"": ("--what", "centerline")},
+    "flatten": {"": ("-f", "geojson")},
+    "pixel_size": {"tessellate": ("--what", "table", "-f", "csv")},
+    "passes": {"": ("--method", "propagation")},
+    "chunk": {"": ("-f", "zarr")},
+    "threshold": {"": ("mask.pgm",)},
+    "connectivity": {"": ("mask.pgm",)},
+    "page": {"": ("mask.pgm",)},
+    "simplify": {"": ("mask.pgm",)},
+    "width": {"": ("-f", "svg")},
+    "precision": {"": ("-f", "csv")},
+}
+"""What an option means something with."""
+
+
+def cases():
+    for number, name in enumerate(COMMANDS):
+        command = import_module(f"vorotool.cli.{name.replace('-', '_')}").command
+        for option in command.params:
+            if isinstance(option, click.Option) and not option.is_flag and option.name not in LEFT_OUT:
+                values = VALUES[number % THIRDS :: THIRDS] if option.name in SHARED else VALUES
+                yield pytest.param(name, option, values, id=f"{name} {option.opts[-1]}")
+
+
+@pytest.mark.parametrize(("name", "option", "values"), list(cases()))
+def test_no_value_of_an_option_is_a_defect(run, folder, name, option, values):
+    (folder / "shape.wkt").write_text("POLYGON ((0 0, 9 0, 9 4, 0 4, 0 0))\n")
+    (folder / "mask.pgm").write_text("P2\n4 3\n255\n0 9 9 0\n0 9 9 0\n0 0 0 200\n")
+    needed = NEEDED.get(option.name, {})
+    given = [*INPUTS[name], *needed.get(name, needed.get("", ()))]
+    if "mask.pgm" in given:
+        given.remove(given[0])
+    codes = {value[:60]: run(name, *given, f"{option.opts[-1]}={value}").code for value in values}
+    assert {value: code for value, code in codes.items() if code not in (0, 2, 3, 4, 5)} == {}
+
+
+POINTS = {
+    "huge.json": "[[0,0],[1e300,0],[1e300,7e299],[4e299,3e299],[0,1e300]]",
+    "tiny.json": "[[0,0],[1e-308,0],[1e-308,7e-309],[4e-309,3e-309],[0,1e-308]]",
+    "flat.json": "[[18,5.3e-315],[30,5.2e-315],[1,5.4e-315],[32,5e-315],[0,5.5e-315],[5e-315,5.6e-315]]",
+}
+"""Coordinates whose squares, and radii whose values, are no floating-point numbers."""
+
+WAYS = [
+    f"{command} {options}"
+    for command, ways in {
+        "tessellate": ("-f text", "--size 20x20 -f text", "--size 20x20 --what table"),
+        "delaunay": ("", "--what cells", "--what cells -f svg", "--what table", "-f geojson", "-f png -o a.png",
+                     "--method digital --size 9x9", "--verify"),
+        "alphashape": ("", "-r 3", "-f html -o a.html", "-f svg", "-f png -o a.png", "--what hull",
+                       "--what hull -r 1e300", "--what hull -r 1e300 -f geojson", "--what hull -r 1e-308 -f svg",
+                       "--what curves -f svg", "--what family", "--what spectrum", "--what points", "--what general",
+                       "--what complex --pixel-size 1e90", "--pixel-size 1e-90 --verify", "-r 1e400",
+                       "--hole-threshold 1e400", "--region-threshold 1e-400", "--alpha=-1e-400", "--alpha=1e-400"),
+        "skeleton-exact": ("--input-format json", "--what table", "--what offset -d 1", "-f svg", "--verify"),
+        "skeleton-approx": ("--input-format json", "--step 1", "--tolerance 1"),
+        "draw": ("-f svg", "-o a.png"),
+    }.items()
+    for options in ways
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_no_coordinate_is_a_defect(run, folder, way):
+    for name, text in POINTS.items():
+        (folder / name).write_text(text)
+        command, *options = way.split()
+        assert run(command, name, *options).code in (0, 2, 3, 5), name
+
+
+@pytest.mark.parametrize("place", ["from", "to"])
+def test_a_place_beyond_all_is_refused(run, folder, place):
+    (folder / "shape.wkt").write_text("POLYGON ((0 0, 9 0, 9 4, 0 4, 0 0))")
+    outcome = run("skeleton-exact", "shape.wkt", "--what", "centerline", f"--{place}=1e308,-1e308")
+    assert outcome.code == 2
+    assert "a coordinate of 1e+308 is too large to compute with: use at most 1e+70" in outcome.err
+
+
+def test_the_hull_of_huge_points_is_that_of_small_ones(run, folder):
+    (folder / "huge.json").write_text(POINTS["huge.json"])
+    (folder / "unit.json").write_text("[[0,0],[1,0],[1,0.7],[0.4,0.3],[0,1]]")
+    huge, unit = (run("alphashape", name, "--what", "hull", "-r", r, "-f", "geojson").out
+                  for name, r in (("huge.json", "1e300"), ("unit.json", "1")))  # fmt: skip
+    rings = [json.loads(text)["features"][0]["geometry"]["coordinates"][0] for text in (huge, unit)]
+    assert np.divide(rings[0], 1e300) == pytest.approx(np.array(rings[1]), abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("columns", "code", "words"),
+    [
+        ("00,1", 2, "--columns is '00,1': name two or three different columns"),
+        ("01,02", 0, ""),
+        (f"1,{DIGITS}", 3, "--columns names column 9999"),
+        ("1,0004", 3, "--columns names column 0004, but there are 3"),
+        ("²,1", 3, "there is no column '²'"),
+        ("٣,1", 3, "there is no column '٣'"),
+    ],
+)
+def test_columns_are_numbers_of_ascii_digits(run, folder, columns, code, words):
+    outcome = run("delaunay", "dots.csv", "--columns", columns, "-o", "a.csv")
+    assert outcome.code == code
+    assert words in outcome.err
+    assert len(outcome.err) < 400

@@ -1,0 +1,166 @@
+"""Pipes and descriptors on both sides of every command: a smoke of `tests/fuzz/streams.py`, and what is said."""
+
+import os
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+
+from support.families.stream_cases import CASES, INPUTS, OUTPUTS, Expected, fault
+
+from .conftest import leftovers
+
+COMMANDS = sorted({case.command for case in CASES})
+
+
+RUNS = 5
+"""Of each command, of two of its cases: all commands together are given each way of each side."""
+
+
+def smoke(command):
+    """What is run of a command: cases, and ways of both sides."""
+    first = RUNS * COMMANDS.index(command)
+    cases = [case for case in CASES if case.command == command]
+    chosen = [cases[first % len(cases)], cases[(first + len(cases) // 2) % len(cases)]]
+    return [
+        (chosen[number % 2], INPUTS[number % len(INPUTS)], OUTPUTS[number % len(OUTPUTS)])
+        for number in range(first, first + RUNS)
+    ]
+
+
+def test_each_way_is_tried():
+    runs = [each for command in COMMANDS for each in smoke(command)]
+    assert ({given for _, given, _ in runs}, {left for _, _, left in runs}) == (set(INPUTS), set(OUTPUTS))
+
+
+@pytest.fixture(scope="module")
+def expected(tmp_path_factory):
+    return Expected(tmp_path_factory.mktemp("expected"))
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_streams_are_as_good_as_files(expected, tmp_path, command):
+    def run(numbered):
+        number, (case, given, left) = numbered
+        folder = tmp_path / str(number)
+        folder.mkdir()
+        wrong = fault(expected, case, given, left, folder)
+        return wrong and f"{case}, from {given} to {left}: {wrong}"
+
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        assert [wrong for wrong in pool.map(run, enumerate(smoke(command))) if wrong] == []
+
+
+def bash(folder, line):
+    """Run a line of a shell; V is the command."""
+    script = f'V() {{ "{sys.executable}" -m vorotool "$@"; }}\n{line}'
+    return subprocess.run(
+        ["bash", "-o", "pipefail", "-c", script], cwd=folder, capture_output=True, timeout=60, check=False
+    )
+
+
+TABLE = "V tessellate dots.csv -q --what table"
+
+
+@pytest.mark.parametrize(
+    ("line", "same"),
+    [
+        (f"{{ echo h; {TABLE} -o /dev/stdout; echo f; }} > x; sed '1d;$d' x", TABLE),
+        (f"echo old > x; {TABLE} -o /dev/stdout >> x; sed 1d x", TABLE),
+        ("cp dots.csv x; V tessellate x -q --what table -o /dev/stdout >> x; sed 1,4d x", TABLE),
+        (f"echo old > x; {TABLE} -o /dev/stderr 2>> x; sed 1d x", TABLE),
+        (f"{TABLE} -o >(cat > x; touch done); until [ -e done ]; do sleep 0.01; done; cat x", TABLE),
+        (f"ln -s /dev/stdout x.csv; {TABLE} -o x.csv | cat; [ -L x.csv ]", TABLE),
+        ("V tessellate <(cat dots.csv) -f text -q", "V tessellate dots.csv -f text -q"),
+        (f"{TABLE} --table /dev/stdout | cat", f"{TABLE} --table x.csv; cat x.csv"),
+        ("ls *.csv | V tessellate --files-from /dev/stdin --table - -q", f"{TABLE} --table x.csv; cat x.csv"),
+        (f"{TABLE} -o x --stats >(grep seeds > y; touch done); until [ -e done ]; do sleep 0.01; done; cat y x",
+         f"{TABLE} -o x --stats y; grep seeds y; cat x"),
+        (f"{TABLE} -o x -f csv --stats /dev/stderr 2> y; grep seeds y; cat x",
+         f"{TABLE} -o x -f csv --stats y; grep seeds y; cat x"),
+    ],
+)  # fmt: skip
+def test_lines_of_a_shell(folder, tmp_path_factory, line, same):
+    other = tmp_path_factory.mktemp("other")
+    for name in ("dots.csv", "mask.pbm"):
+        (other / name).write_bytes((folder / name).read_bytes())
+    done, wanted = bash(folder, line), bash(other, same)
+    assert (done.returncode, wanted.returncode) == (0, 0), (done, wanted)
+    assert (done.stdout, done.stderr) == (wanted.stdout, b"")
+    assert len(done.stdout) > 20
+    assert leftovers(folder) == []
+
+
+@pytest.mark.parametrize(
+    ("line", "code", "words"),
+    [
+        ("V tessellate - - < dots.csv", 2, "the input - and the input - are one stream"),
+        (
+            "V tessellate - --overlay /dev/stdin --what colour -o y.png < mask.pbm",
+            2,
+            "--overlay /dev/stdin and the",
+        ),
+        ("V delaunay - --what cells --clip /dev/fd/0 < dots.csv", 2, "are one stream, which is read once"),
+        ("V tessellate --files-from - - --out-dir x < dots.csv", 2, "--files-from - and the input - are one stream"),
+        ("V tessellate <(cat dots.csv) <(cat dots.csv) --out-dir x", 2, "which this process alone can read"),
+        ("mkfifo x; V tessellate x dots.csv --table y.csv", 2, "x is a pipe, which this process alone can read"),
+        ("V delaunay dots.csv mask.pbm --what cells --clip <(cat) --out-dir x", 2, "not every input can read"),
+        (f"{TABLE} -o - --stats /dev/stdout", 2, "--stats /dev/stdout needs -o FILE"),
+        (f"{TABLE} -o /dev/fd/1 --stats -", 2, "/dev/fd/1 holds the result"),
+        ("mkfifo x; V tessellate dots.csv -o x --stats x", 2, "--stats x is also the output of labels"),
+        (f"{TABLE} --out-dir x --table /dev/stdout --stats -", 2, "/dev/stdout holds the table"),
+        ("V tessellate dots.csv --what table,labels -o /dev/stdout", 2, "several results need -o STEM"),
+        ("V tessellate dots.csv -f zarr -o /dev/stdout", 2, "which does not go to /dev/stdout, an open descriptor"),
+        ("V tessellate dots.csv -q -o /dev/stdout >&-", 4, "/dev/stdout cannot be written: Bad file descriptor"),
+        ("V tessellate dots.csv -q -o y.png --stats /dev/stderr 2>&-", 4, ""),
+        ("V tessellate dots.csv -q -o /dev/fd/9", 4, "/dev/fd/9 cannot be written: Bad file descriptor: it is closed"),
+        ("V tessellate dots.csv -q -o /dev/stdin < dots.csv", 4, "open for reading only"),
+        ("V tessellate /dev/fd/9 -o y.png", 3, "/dev/fd/9 cannot be read: Bad file descriptor: it is closed"),
+        ("V tessellate /dev/stdin -o y.png <&-", 3, "/dev/stdin cannot be read: Bad file descriptor"),
+        ("V tessellate /dev/null -o y.png", 3, "/dev/null: there are no seeds"),
+        ("mkfifo x.csv; : > x.csv & V tessellate x.csv -o y.png", 3, "x.csv: there are no seeds"),
+        ("mkfifo x.png; head -c 9 mask.pbm > x.png & V tessellate x.png -o y.png", 3, "x.png"),
+        ("ln -s b a; ln -s a b; V tessellate dots.csv -o a -f npy", 4, "a cannot be written: its links lead back"),
+        ("V delaunay dots.csv --clip x.json --what cells -o x.json", 3, "x.json: there is no such file"),
+        ("cp dots.csv x; V delaunay dots.csv --clip x --what cells -f csv -o x", 2, "x is also an input"),
+    ],
+)
+def test_what_is_refused(folder, line, code, words):
+    done = bash(folder, line)
+    assert (done.returncode, done.stdout) == (code, b""), done
+    assert words in done.stderr.decode()
+    assert b"Traceback" not in done.stderr
+    assert leftovers(folder) == []
+    assert not (folder / "y.png").exists()
+    assert (folder / "dots.csv").read_text().startswith("x,y,name\n2,1,a")
+
+
+def test_pipes_in_a_folder_are_left_out(run, folder):
+    (folder / "inputs").mkdir()
+    (folder / "dots.csv").rename(folder / "inputs/dots.csv")
+    os.mkfifo(folder / "inputs/pipe.csv")
+    note = "note: inputs/pipe.csv is a pipe: left out\n"
+    done = run("tessellate", "inputs", "--out-dir", "out", "-f", "npy")
+    assert (done.code, done.err) == (0, f"{note}1/1 inputs/dots.csv: done\n")
+    done = run("tessellate", "inputs/*", "--out-dir", "out", "-f", "npy", "--dry-run")
+    assert (done.code, done.err, len(done.out.splitlines())) == (0, note, 1)
+    assert run("tessellate", "inputs", "--out-dir", "out", "-f", "npy", "-q").err == ""
+    assert Path("out/dots.npy").exists()
+
+
+def test_standard_input_that_does_not_wait(folder, process):
+    reading, writing = os.pipe()
+    os.set_blocking(reading, False)
+    child = process("tessellate", "-", "--size", "9x9", "-f", "text", stdin=reading)
+    os.close(reading)
+    lines = (folder / "dots.csv").read_bytes().splitlines(keepends=True)
+    for line in lines:
+        os.write(writing, line)
+        time.sleep(0.3)
+    os.close(writing)
+    out, err = child.communicate(timeout=60)
+    assert (child.returncode, err) == (0, b"")
+    assert out == bash(folder, "V tessellate dots.csv --size 9x9 -f text -q").stdout

@@ -1,0 +1,205 @@
+"""Zarr stores: the pixels and the bytes that every band height, chunk, thread and machine gives."""
+
+import json
+import signal
+import time
+
+import numpy as np
+import pytest
+import tifffile
+
+from support.processes.peak_memory import peak_memory
+from vorotool.engines.tessellation.tessellate import tessellate
+from vorotool.engines.tessellation.tessellator import Tessellator
+
+zarr = pytest.importorskip("zarr")
+
+SHAPE = (300, 400)
+
+
+@pytest.fixture
+def seeds(tmp_path):
+    xy = np.random.default_rng(5).integers(-20, 420, (300, 2))
+    np.savetxt(tmp_path / "seeds.csv", xy, fmt="%d", delimiter=",", header="x,y", comments="")
+    return xy
+
+
+def files(folder):
+    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+def pixels(folder):
+    return zarr.open_array(folder, mode="r")[:]
+
+
+def make(run, name, *options):
+    done = run("tessellate", "seeds.csv", "--size", "400x300", "-q", "-o", name, *options)
+    assert (done.code, done.out, done.err) == (0, "", "")
+
+
+@pytest.mark.parametrize("what", ["labels", "distance", "distance2"])
+def test_pixels_are_those_of_every_format(run, tmp_path, seeds, what):
+    make(run, "a.tif", "--what", what)
+    expected = tifffile.imread(tmp_path / "a.tif")
+    for chunk in ("400x300", "64x64", "33x7", "9999x1"):
+        make(run, f"{chunk}.zarr", "--what", what, "--chunk", chunk)
+        np.testing.assert_array_equal(pixels(tmp_path / f"{chunk}.zarr"), expected)
+    if what == "labels":
+        np.testing.assert_array_equal(expected, tessellate(seeds, shape=SHAPE).labels)
+
+
+def test_bytes_depend_on_chunks_alone(run, tmp_path, seeds, monkeypatch):
+    options = ("--chunk", "64x32", "--max-distance", "9", "--dtype", "int32")
+    make(run, "a.zarr", *options, "--threads", "1")
+    make(run, "b.zarr", *options, "--threads", "3")
+    monkeypatch.setenv("VOROTOOL_SIMD", "portable")
+    make(run, "b.zarr", *options)  # replaces it
+    assert files(tmp_path / "a.zarr") == files(tmp_path / "b.zarr")
+    assert pixels(tmp_path / "a.zarr").dtype == np.int32
+
+
+@pytest.mark.parametrize("height", [1, 7, 300])
+def test_other_files_have_the_same_bytes_for_any_height_of_bands(run, tmp_path, seeds, monkeypatch, height):
+    make(run, "a.tif")
+    monkeypatch.setattr("vorotool.engines.tessellation.frames.BAND_PIXELS", height * SHAPE[1])
+    make(run, "b.tif")
+    assert (tmp_path / "a.tif").read_bytes() == (tmp_path / "b.tif").read_bytes()
+
+
+def test_several_results_and_statistics(run, tmp_path, seeds):
+    make(run, "all", "--what", "labels,distance", "-f", "zarr", "--verify", "--stats", "s.json")
+    assert pixels(tmp_path / "all.labels.zarr").shape == pixels(tmp_path / "all.distance.zarr").shape == SHAPE
+    assert json.loads((tmp_path / "s.json").read_text())["frame"] == [0, 0, 400, 300]
+
+
+def test_many_inputs_give_many_stores(run, tmp_path, seeds):
+    (tmp_path / "in").mkdir()
+    for name in "ab":
+        (tmp_path / f"in/{name}.csv").write_bytes((tmp_path / "seeds.csv").read_bytes())
+    options = ("tessellate", "in", "--size", "400x300", "--out-dir", "out", "-f", "zarr", "-q")
+    assert run(*options).code == 0
+    assert files(tmp_path / "out/a.zarr") == files(tmp_path / "out/b.zarr")
+    (tmp_path / "out/b.zarr/zarr.json").write_text("{}")
+    assert run(*options, "--resume", "--dry-run").out.count("kept") == 1
+
+
+def test_limits_are_known_before(run, tmp_path, seeds, monkeypatch):
+    failed = run("tessellate", "seeds.csv", "--size", "400x300", "-o", "a.zarr", "--max-pixels", "1000")
+    assert failed.code == 5
+    assert "a row of chunks has 400 x 300 pixels, more than --max-pixels 1000: use a lower --chunk" in failed.err
+    make(run, "a.zarr", "--chunk", "50x2", "--max-pixels", "1000")
+    monkeypatch.setattr("shutil.disk_usage", lambda folder: type("Usage", (), {"free": 3000}))
+    for name in ("b.zarr", "b.npy", "b.tif", "b.txt"):
+        failed = run("tessellate", "seeds.csv", "--size", "400x300", "-o", name)
+        assert failed.code == 4
+        assert f"{name} takes about" in failed.err
+        assert not (tmp_path / name).exists()
+    make(run, "b.zarr", "--max-distance", "0")  # compressed there is room
+
+
+def test_memory_is_that_of_a_row_of_chunks(tmp_path):
+    """Of 2.1 GB of labels, in a process of its own; windows are those of the engine in memory."""
+    xy = np.random.default_rng(2).integers(0, 32768, (20_000, 2))
+    np.save(tmp_path / "seeds.npy", xy)
+    arguments = ["tessellate", "seeds.npy", "--size", "32768x32768", "-o", "a.zarr", "-q"]
+    assert peak_memory(arguments, tmp_path) < 300e6
+    labels = zarr.open_array(tmp_path / "a.zarr", mode="r")
+    for x, y in ((0, 0), (32768 - 200, 32768 - 150), (2000, 450), (16300, 16350)):
+        found = labels[y : y + 150, x : x + 200]
+        np.testing.assert_array_equal(found, tessellate(xy, window=(x, y, 200, 150)).labels)
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_an_interrupt_leaves_nothing(process, tmp_path, seeds, number, code):
+    child = process("tessellate", "seeds.csv", "--size", "40000x400000", "-o", "a.zarr", "--chunk", "2048x64")
+    deadline = time.monotonic() + 60
+    while len(list(tmp_path.glob(".vorotool-*.tmp/c/*"))) < 3:
+        assert child.poll() is None
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+    child.send_signal(number)
+    out, err = child.communicate(timeout=20)
+    assert (child.returncode, out, err) == (code, b"", b"")
+    assert [path.name for path in tmp_path.iterdir()] == ["seeds.csv"]
+
+
+def test_a_failure_leaves_the_older_store(run, tmp_path, seeds, monkeypatch):
+    make(run, "a.zarr")
+    before = files(tmp_path / "a.zarr")
+    rows = Tessellator.labels
+
+    def fail(self, first=0, *arguments, **options):
+        if first > 100:
+            raise OSError(28, "No space left on device")
+        return rows(self, first, *arguments, **options)
+
+    monkeypatch.setattr(Tessellator, "labels", fail)
+    failed = run("tessellate", "seeds.csv", "--size", "400x300", "-o", "a.zarr", "--chunk", "64x64")
+    assert failed.code == 4
+    assert "a.zarr cannot be written: No space left on device; free some space" in failed.err
+    assert files(tmp_path / "a.zarr") == before
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.zarr", "seeds.csv"]
+
+
+# ---- images as seeds -------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def tiles(tmp_path, monkeypatch):
+    """A mask in tiles, of which some rows are read and fewer are labelled at a time."""
+    monkeypatch.setattr("vorotool.jobs.streamed_tessellation.LARGE", 1000)
+    monkeypatch.setattr("vorotool.engines.tessellation.streamed_image.BAND_PIXELS", 37 * 200)
+    monkeypatch.setattr("vorotool.engines.tessellation.streamed_image.SWEEP_PIXELS", 16 * 200)
+    mask = (np.random.default_rng(3).random((150, 200)) < 0.02).astype(np.uint8)
+    zarr.create_array(tmp_path / "seeds.zarr", data=mask, chunks=(64, 64))
+    tifffile.imwrite(tmp_path / "seeds.tif", mask, tile=(32, 32))
+    np.save(tmp_path / "seeds.npy", mask)  # which is held
+    return mask
+
+
+@pytest.mark.parametrize("source", ["seeds.zarr", "seeds.tif"])
+@pytest.mark.parametrize("options", [(), ("--seeds", "pixels"), ("--connectivity", "4"), ("--what", "distance2")])
+def test_tiles_give_what_an_image_gives(run, tmp_path, tiles, source, options):
+    assert run("tessellate", "seeds.npy", *options, "-o", "held.tif", "-q").code == 0
+    expected = tifffile.imread(tmp_path / "held.tif")
+    for name in ("a.zarr", "b.tif", "c.npy"):
+        done = run("tessellate", source, *options, "-o", name, "-q", "--stats", "s.json")
+        assert (done.code, done.err) == (0, "")
+    assert json.loads((tmp_path / "s.json").read_text())["seeds"] == tiles.sum()
+    np.testing.assert_array_equal(pixels(tmp_path / "a.zarr"), expected)
+    assert (tmp_path / "b.tif").read_bytes() == (tmp_path / "held.tif").read_bytes()
+    np.testing.assert_array_equal(np.load(tmp_path / "c.npy"), expected)
+
+
+def test_what_needs_the_image_holds_it(run, tmp_path, tiles):
+    for options in (("--verify",), ("--seeds", "centroids"), ("--what", "table")):
+        for source, name in (("seeds.zarr", "a"), ("seeds.npy", "b")):
+            assert (
+                run("tessellate", source, *options, "-f", "npz" if "table" in options else "npy", "-o", name).code == 0
+            )
+        assert (tmp_path / "a").read_bytes() == (tmp_path / "b").read_bytes()
+
+
+def test_a_store_is_one_input_and_found_in_folders(run, tmp_path, tiles):
+    (tmp_path / "in").mkdir()
+    for name in ("seeds.zarr", "seeds.npy"):
+        (tmp_path / name).rename(tmp_path / "in" / name)
+    (tmp_path / "in/seeds.zarr").rename(tmp_path / "in/other.zarr")
+    assert run("tessellate", "in", "--out-dir", "out", "-f", "npy", "-q").code == 0
+    assert (tmp_path / "out/other.npy").read_bytes() == (tmp_path / "out/seeds.npy").read_bytes()
+
+
+def test_bad_tiles_are_bad_input(run, tmp_path, tiles):
+    chunk = tmp_path / "seeds.zarr/c/1/1"
+    chunk.write_bytes(chunk.read_bytes()[:9])
+    failed = run("tessellate", "seeds.tif", "-o", "a.svg")
+    assert (failed.code, "too large for a picture" in failed.err) == (2, True)
+    for options, code, words in (
+        (("-o", "a.zarr"), 3, "seeds.zarr cannot be read as Zarr"),
+        (("-o", "seeds.zarr"), 2, "also an input"),
+        (("-o", "a.zarr", "--size", "9x9"), 2, "--size is for lists of points"),
+        (("-o", "a.zarr", "--page", "2"), 3, "no --page 2"),
+    ):
+        failed = run("tessellate", "seeds.zarr", *options)
+        assert (failed.code, words in failed.err) == (code, True), failed.err
+    assert not (tmp_path / "a.zarr").exists()

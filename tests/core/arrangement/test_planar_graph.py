@@ -1,0 +1,233 @@
+"""Planar graphs of lattice rings beside the definition, by brute force in rationals."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from support.families.polygon_families import FAMILIES, LIMIT, LINE, draw, rings_of
+from support.oracles import planar_graph_oracle as oracle
+from vorotool import _core
+
+
+def make(vertices, rings):
+    _begin, end, kind, polygon = (list(column) for column in zip(*rings, strict=True))
+    return _core.make_planar_graph(
+        np.ascontiguousarray(vertices, dtype=np.int32),
+        np.array([0, *end], dtype=np.int64),
+        np.array(kind, dtype=np.int8),
+        np.array(polygon, dtype=np.int32),
+        None,
+    )
+
+
+def fault(graph):
+    return _core.planar_graph_fault(graph["points"], graph["segments"], graph["segment_faces"], None)
+
+
+def described(graph):
+    """{segment: (edges, polygons left, polygons right)} as the oracle has it."""
+    points = [tuple(p) for p in graph["points"].tolist()]
+    inside = [set(p.tolist()) for p in np.split(graph["face_polygon"], graph["face_start"][1:-1])]
+    start = graph["source_start"]
+    found = {}
+    for k, ((i, j), (left, right)) in enumerate(zip(graph["segments"].tolist(), graph["segment_faces"], strict=True)):
+        edges = graph["source_edge"][start[k] : start[k + 1]]
+        a, b = points[i], points[j]
+        sides = (inside[left], inside[right]) if a < b else (inside[right], inside[left])
+        found[tuple(sorted((a, b)))] = (edges.tolist(), *sides)
+    return found
+
+
+def assert_pieces_follow_their_edges(graph, vertices, rings):
+    """Segments come edge by edge, directed and in order along the first edge that each is part of."""
+    before = (-1, None)
+    for k, (i, j) in enumerate(graph["segments"].tolist()):
+        edge = int(graph["source_edge"][graph["source_start"][k]])
+        begin, end, _, _ = rings[oracle.ring_of(rings, edge)]
+        a, b = vertices[edge].tolist(), vertices[begin if edge + 1 == end else edge + 1].tolist()
+        start, stop = (
+            [(p - q) * (r - q) for p, q, r in zip(graph["points"][e].tolist(), a, b, strict=True)] for e in (i, j)
+        )
+        assert all(x <= y for x, y in zip(start, stop, strict=True))
+        assert start != stop
+        assert edge > before[0] or (edge == before[0] and all(x <= y for x, y in zip(before[1], start, strict=True)))
+        before = (edge, stop)
+
+
+def check(vertices, rings):
+    """Compare with the definition; small inputs only."""
+    graph = make(vertices, rings)
+    assert fault(graph) is None
+    points = [tuple(p) for p in graph["points"].tolist()]
+    assert oracle.fault(points, graph["segments"].tolist()) is None
+    assert_pieces_follow_their_edges(graph, vertices, rings)
+    expected, moved = oracle.planar_graph(vertices.tolist(), rings)
+    assert described(graph) == expected
+    assert graph["repairs"][3][0] == moved
+    ends = {p for pair in expected for p in pair}
+    alone = {tuple(vertices[begin].tolist()) for begin, _, kind, _ in rings if kind == LINE}
+    assert set(points) == ends | alone
+    for vertex, point in zip(graph["point_vertex"].tolist(), points, strict=True):
+        first = next((i for i, v in enumerate(vertices.tolist()) if tuple(v) == point), -1)
+        assert vertex == first
+    return graph
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+@pytest.mark.parametrize("n", [1, 2, 3, 4, 5, 6, 8, 11])
+def test_small_inputs_beside_the_definition(name, n):
+    for seed in range(5):
+        check(*draw(name, n, [seed, n]))
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_large_inputs_are_planar(name):
+    for seed in range(3):
+        graph = make(*draw(name, 400, [7, seed]))
+        assert fault(graph) is None
+
+
+@pytest.mark.parametrize("name", ["tiny", "collinear", "mosaic", "star", "spikes"])
+def test_the_eight_symmetries(name):
+    """The cells are half-open, so that only what does not move is the same under reflection."""
+    for seed in range(5):
+        vertices, rings = draw(name, 12, [3, seed])
+        graph = make(vertices, rings)
+        if graph["repairs"][3][0]:
+            continue
+        pairs = {frozenset(map(tuple, pair)) for pair in graph["points"][graph["segments"]].tolist()}
+        for sx, sy, swap in [(1, -1, 0), (-1, 1, 0), (-1, -1, 0), (1, 1, 1), (1, -1, 1), (-1, 1, 1), (-1, -1, 1)]:
+            turned = vertices * np.array([sx, sy], dtype=np.int32)
+            turned = np.ascontiguousarray(turned[:, ::-1] if swap else turned)
+            other = make(turned, rings)
+            back = other["points"][:, ::-1] if swap else other["points"]
+            back = back * [sx, sy]
+            assert {frozenset(map(tuple, pair)) for pair in back[other["segments"]].tolist()} == pairs
+            assert [r[0] for r in other["repairs"]] == [r[0] for r in graph["repairs"]]
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_the_pieces_need_no_repair(name):
+    """The segments as lines give themselves."""
+    for seed in range(3):
+        graph = make(*draw(name, 60, [11, seed]))
+        ends = graph["segments"].ravel()
+        if not len(ends):
+            continue
+        again = make(graph["points"][ends], rings_of([2] * (len(ends) // 2), [LINE] * (len(ends) // 2)))
+        assert [r[0] for r in again["repairs"]] == [0] * 6
+        pairs = graph["points"][graph["segments"]]
+        assert again["points"][again["segments"]].tolist() == pairs.tolist()
+
+
+def test_a_reversed_or_rotated_ring_gives_the_same():
+    for seed in range(20):
+        vertices, _ = draw("small", 9, [5, seed])
+        rings = rings_of([9], [0])
+        graph = described(make(vertices, rings))
+        for other in (vertices[::-1], np.roll(vertices, 4, axis=0)):
+            found = described(make(other, rings))
+            assert {s: sides[1:] for s, sides in found.items()} == {s: sides[1:] for s, sides in graph.items()}
+
+
+def chain_of_disturbances(length):
+    """Segments of which each bends where it passes beside the first end of the next one; and two that are far away."""
+    xy = [[-10, 2], [-8, -2]]  # crosses the first one
+    for i in range(length):
+        xy += [[10 * (i - 1), 0], [10 * i + 12, 1]]
+    xy += [[-1000, 50], [-900, 51], [-960, 50], [-960, 40]]
+    return np.array(xy, dtype=np.int32), rings_of([2] * (length + 3), [LINE] * (length + 3))
+
+
+def test_disturbances_that_spread():
+    graph = check(*chain_of_disturbances(12))
+    assert graph["repairs"][3][0] == 13
+
+
+def test_disturbances_that_spread_too_far():
+    """After some rounds everything is snapped, even what is far away."""
+    graph = make(*chain_of_disturbances(40))
+    assert fault(graph) is None
+    assert graph["repairs"][3][0] == 43
+    assert any({-960} < set(graph["points"][pair, 0].tolist()) for pair in graph["segments"])
+
+
+def test_every_lattice_point_of_a_crossing_of_many():
+    """Lines through one point, on the lattice and beside it."""
+    for centre in ((0, 0), (1, 0), (1, 1)):
+        ends = [(a, b) for a in range(-9, 10) for b in range(-9, 10) if max(abs(a), abs(b)) == 9]
+        xy = [p for a, b in ends for p in ((a, b), (centre[0] - a, centre[1] - b))]
+        vertices = np.array(xy, dtype=np.int32)
+        graph = check(vertices[: 2 * 18], rings_of([2] * 18, [LINE] * 18))
+        assert fault(graph) is None
+
+
+def test_corners_of_the_lattice():
+    square = np.array([[-LIMIT, -LIMIT], [LIMIT, -LIMIT], [LIMIT, LIMIT], [-LIMIT, LIMIT]], dtype=np.int32)
+    bow = square[[0, 2, 1, 3]]
+    both = np.concatenate([square, bow])
+    graph = check(both, rings_of([4, 4], [0, 0]))
+    assert len(graph["segments"]) == 8
+    check(
+        np.array([[-LIMIT, -LIMIT], [LIMIT, LIMIT], [-LIMIT, 1 - LIMIT], [LIMIT, LIMIT - 1]], dtype=np.int32),
+        rings_of([2, 2], [LINE, LINE]),
+    )
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda p, s, f: (p[:, [0, 1]] * [1, 0], s, None), "are both at"),
+        (lambda p, s, f: (p, s * 0, None), "segment 0 has no length"),
+        (lambda p, s, f: (p, s + 1, None), "segment 2 ends at a point that does not exist"),
+        (lambda p, s, f: (p, np.concatenate([s, s[:1, ::-1]]), None), "segments 0 and 4 "),
+        (lambda p, s, f: (p, np.concatenate([s, [[0, 2], [1, 3]]]), None), "segments 4 and 5 cross"),
+        (lambda p, s, f: (np.concatenate([p, [[2, 0]]]), s, None), r"point 4 at \(2, 0\) lies inside segment 0"),
+        (lambda p, s, f: (p + LIMIT, s, None), "is beyond the lattice"),
+        (lambda p, s, f: (p, s, f[::-1] * [[1, 1], [1, 1], [1, 1], [0, 0]]), "one corner has two faces"),
+    ],
+)
+def test_the_checker_finds_faults(change, message):
+    vertices = np.array([[0, 0], [4, 0], [4, 4], [0, 4]], dtype=np.int32)
+    graph = make(vertices, rings_of([4], [0]))
+    points, segments, faces = change(graph["points"], graph["segments"], graph["segment_faces"])
+    points, segments = (np.ascontiguousarray(a, dtype=np.int32) for a in (points, segments))
+    faces = None if faces is None else np.ascontiguousarray(faces, dtype=np.int32)
+    assert re.search(message, _core.planar_graph_fault(points, segments, faces, None))
+
+
+def test_the_checker_compares_new_neighbours():
+    """Two segments cross above the end of a third one between them, and nothing else happens."""
+    points = np.array([[0, 0], [10, 10], [10, 0], [0, 10], [5, 0], [5, 2]], dtype=np.int32)
+    segments = np.array([[0, 1], [2, 3], [4, 5]], dtype=np.int32)
+    assert "segments 0 and 1 cross" in _core.planar_graph_fault(points, segments, None, None)
+
+
+def test_the_checker_agrees_with_brute_force():
+    """On graphs that are made wrong at random."""
+    seen = {True: 0, False: 0}
+    for seed in range(400):
+        rng = np.random.default_rng([2, seed])
+        points = np.unique(rng.integers(0, 7, (int(rng.integers(2, 9)), 2)), axis=0).astype(np.int32)
+        rng.shuffle(points)
+        n = len(points)
+        pairs = np.array([(i, j) for i in range(n) for j in range(n) if i != j], dtype=np.int32).reshape(-1, 2)
+        chosen = pairs[rng.permutation(len(pairs))[: int(rng.integers(0, 4))]]
+        ours = _core.planar_graph_fault(points, np.ascontiguousarray(chosen), None, None)
+        theirs = oracle.fault([tuple(p) for p in points.tolist()], chosen.tolist())
+        assert (ours is None) == (theirs is None), (points, chosen, ours, theirs)
+        seen[ours is None] += 1
+    assert min(seen.values()) > 50
+
+
+def test_the_fuzz_target_runs():
+    script = Path(__file__).parents[2] / "fuzz" / "planar_graph.py"
+    done = subprocess.run(
+        [sys.executable, script, "--cases", "63", "--seed", "5"], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "63 cases, 0 failures" in done.stdout

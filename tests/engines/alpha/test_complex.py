@@ -1,0 +1,222 @@
+"""Alpha complexes: their radii beside the definition in rationals, and what must not change them."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import vorotool
+from support.families.alpha_cases import quietly
+from support.families.point_families import FAMILIES, draw
+from support.oracles.alpha_oracle import alpha_edges, rounded_root
+from vorotool import alpha_complex
+from vorotool.geometry.alpha.complex import CLASSES, classes_of
+
+families = pytest.mark.parametrize("name", FAMILIES)
+ARRAYS = ("edges", "sides", "r_min", "r_mid", "r_max", "rank_min", "rank_mid", "rank_max", "triangle_rank", "spectrum")
+
+
+def distinct(points):
+    return len({(x, y) for x, y in np.asarray(points, float).tolist()})
+
+
+def places(family, edge):
+    return frozenset((Fraction(x), Fraction(y)) for x, y in family.points[family.edges[edge]].tolist())
+
+
+def check_by_definition(points, most=20):
+    """Edges and classes at critical radii, between them, and below the first."""
+    family = quietly(points)
+    squares = [family.squared_radius(k) for k in range(len(family.spectrum))]
+    assert squares == sorted(set(squares))
+    steps = max(1, len(squares) // most)
+    for k in range(-1, len(squares), steps):
+        here = squares[k] if k >= 0 else squares[0] / 2
+        between = (squares[k] + squares[k + 1]) / 2 if 0 <= k < len(squares) - 1 else here * (1 if k < 0 else 2)
+        classes = classes_of(family, k + 1, k + 1)
+        ours = {places(family, e): CLASSES[classes[e]] for e in np.flatnonzero((classes == 1) | (classes == 2))}
+        for square in {here, between}:
+            assert ours == alpha_edges(points.tolist(), square), (k, square)
+
+
+@families
+def test_the_definition_in_rationals(name):
+    for seed in range(4):
+        points = draw(name, 4 + 2 * seed - (name == "any_double") * seed, seed)
+        if distinct(points) > 1:
+            check_by_definition(points)
+
+
+lattice = st.lists(st.tuples(st.integers(-3, 3), st.integers(-3, 3)), min_size=2, max_size=11)
+floats = st.floats(allow_nan=False, allow_infinity=False)
+tiny_steps = st.integers(0, 3).map(lambda k: 0.5 + k * 2.0**-53)
+near = st.lists(st.tuples(tiny_steps | st.integers(0, 2).map(float), tiny_steps | floats), min_size=2, max_size=7)
+
+
+@settings(max_examples=50, deadline=None)
+@given(lattice)
+def test_any_lattice_points(points):
+    if distinct(points) > 1:
+        check_by_definition(np.array(points, float))
+
+
+@settings(max_examples=30, deadline=None)
+@given(near | st.lists(st.tuples(floats, floats), min_size=2, max_size=6))
+def test_any_doubles(points):
+    if distinct(points) > 1:
+        check_by_definition(np.array(points, float))
+
+
+def exact_radii(family):
+    """Squares of the circumradii, and of half the lengths of the edges."""
+    triangles = []
+    for corners in family.points[family.mesh.triangles].tolist():
+        (ax, ay), (bx, by), (cx, cy) = ((Fraction(x), Fraction(y)) for x, y in corners)
+        sides = [(bx - cx) ** 2 + (by - cy) ** 2, (ax - cx) ** 2 + (ay - cy) ** 2, (ax - bx) ** 2 + (ay - by) ** 2]
+        cross = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+        triangles.append((sides[0] * sides[1] * sides[2] / (4 * cross * cross), sides))
+    halves = []
+    for ends in family.points[family.edges].tolist():
+        (ax, ay), (bx, by) = ((Fraction(x), Fraction(y)) for x, y in ends)
+        halves.append(((ax - bx) ** 2 + (ay - by) ** 2) / 4)
+    return triangles, halves
+
+
+@families
+@pytest.mark.parametrize("n", [12, 60])
+def test_radii_are_correctly_rounded_and_ranked(name, n):
+    points = draw(name, n, 3)
+    if distinct(points) < 2:
+        return
+    family = quietly(points)
+    triangles, halves = exact_radii(family)
+    values = set()
+    for e, (t, u) in enumerate(family.sides.tolist()):
+        around = sorted(triangles[k][0] for k in (t, u) if k >= 0)
+        # Gabriel: no opposite corner strictly inside the diametral disc, by the law of cosines
+        gabriel = all(
+            2 * max(triangles[k][1]) <= sum(triangles[k][1]) or 4 * halves[e] != max(triangles[k][1])
+            for k in (t, u)
+            if k >= 0
+        )
+        least = halves[e] if gabriel else around[0]
+        values |= {least, *around}
+        exact = [least, *around, *[None] * (2 - len(around))]
+        for radii, ranks, square in zip(
+            (family.r_min, family.r_mid, family.r_max),
+            (family.rank_min, family.rank_mid, family.rank_max),
+            exact,
+            strict=True,
+        ):
+            if square is None:
+                assert (radii[e], ranks[e]) == (np.inf, len(family.spectrum))
+            else:
+                assert radii[e] == rounded_root(square)
+                assert family.squared_radius(ranks[e]) == square
+    assert [family.squared_radius(k) for k in range(len(family.spectrum))] == sorted(values)
+    assert family.spectrum.tolist() == [rounded_root(square) for square in sorted(values)]
+
+
+@families
+def test_threads_change_nothing(name):
+    points = draw(name, 400 if name == "any_double" else 3000, 4)  # exact levels take their time
+    one = quietly(points, threads=1)
+    for threads in (2, 5):
+        other = quietly(points, threads=threads)
+        for array in ARRAYS:
+            np.testing.assert_array_equal(getattr(one, array), getattr(other, array))
+
+
+@families
+def test_permuting_the_points_permutes_their_numbers_only(name):
+    points = draw(name, 200, 5)
+    order = np.random.default_rng(6).permutation(len(points))
+    family, other = quietly(points), quietly(points[order])
+    for array in ARRAYS[2:]:
+        np.testing.assert_array_equal(getattr(other, array), getattr(family, array))
+
+
+@pytest.mark.parametrize("name", ["uniform", "small_lattice", "grid", "exact_circle", "by_ulps", "clustered"])
+def test_moved_mirrored_and_scaled(name):
+    points = draw(name, 120, 8)
+    family = quietly(points)
+    for turned, factor in (
+        (points[:, ::-1], 1),
+        (points * [-1, 1], 1),
+        (points * 2.0**-30, 2.0**-30),
+        (points * 2.0**700, 2.0**700),
+    ):
+        other = quietly(turned)
+        np.testing.assert_array_equal(other.spectrum, family.spectrum * factor)
+        for k in range(0, len(family.spectrum), 7):  # classes of edges on cocircular polygons aside, the same shapes
+            assert (
+                np.bincount(classes_of(other, k, k), minlength=4)[1:3].tolist()
+                == np.bincount(classes_of(family, k, k), minlength=4)[1:3].tolist()
+            )
+
+
+def test_a_radius_is_compared_exactly():
+    """0.1 as a double is more than 1/10: three points whose circle has exactly that radius tell them apart."""
+    family = alpha_complex([[0, 0], [4, 0], [0, 3]])
+    for step, reached in ((Fraction(-1, 10**40), 2), (Fraction(0), 3), (Fraction(1, 10**40), 3)):
+        assert family.reached(Fraction(5, 2) + step) == reached
+    edge = alpha_complex([[0, 0], [0.2, 0]])  # half of the double 0.2 is the double 0.1
+    assert edge.reached(0.1) == 1
+    assert edge.reached(Fraction(1, 10)) == 0
+    huge = alpha_complex([[-1e308, 0], [1e308, 0], [0, 1e308], [0, 1.7e308]])
+    assert huge.reached(np.inf) == len(huge.spectrum)
+    assert huge.reached(Fraction(10) ** 400) == len(huge.spectrum)
+    flat = alpha_complex([[0, 0], [1e300, 1], [2e300, 0]])  # its circle is beyond the largest double
+    assert flat.spectrum.tolist() == [5e299, np.inf]
+    assert isinstance(flat.radius_from(1), Fraction)
+    assert [flat.reached(flat.radius_from(k)) for k in range(2)] == [1, 2]
+    assert flat.reached(1e308) == 1
+
+
+def test_two_radii_in_one_double():
+    """By ulps: different exact radii that round to one double keep their order, and a decimal tells them apart."""
+    found = 0
+    for seed in range(25):
+        family = quietly(draw("by_ulps", 30, seed))
+        for k in np.flatnonzero(np.diff(family.spectrum) == 0):
+            r = family.radius_from(int(k))
+            found += isinstance(r, Fraction)
+            assert family.squared_radius(k) <= Fraction(r) ** 2 < family.squared_radius(k + 1)
+            assert family.reached(r) == k + 1
+    assert found
+
+
+def test_the_printed_rule_is_wrong_on_about_a_third_of_inner_edges():
+    points = draw("uniform", 5000, 0)
+    right, printed = alpha_complex(points), alpha_complex(points, rule="printed")
+    np.testing.assert_array_equal(right.edges, printed.edges)
+    inner = (right.sides >= 0).all(axis=1)
+    wrong = (right.r_min != printed.r_min)[inner].mean()
+    assert 0.31 < wrong < 0.37  # of a Poisson process a third of the edges are no Gabriel edges
+    np.testing.assert_array_equal(right.r_min[~inner], printed.r_min[~inner])
+
+
+def test_agreement_with_gudhi():
+    gudhi = pytest.importorskip("gudhi", reason="GUDHI is not installed: its alpha complex is not compared")
+    for seed in range(3):
+        points = draw("uniform", 2000, seed)
+        family = alpha_complex(points)
+        tree = gudhi.AlphaComplex(points=points, precision="exact").create_simplex_tree()
+        theirs = {tuple(simplex): value for simplex, value in tree.get_filtration()}
+        for (a, b), r in zip(family.edges.tolist(), family.r_min.tolist(), strict=True):
+            assert r * r == pytest.approx(theirs[a, b], rel=1e-12)
+        for corners, rank in zip(family.mesh.triangles.tolist(), family.triangle_rank, strict=True):
+            assert family.spectrum[rank] ** 2 == pytest.approx(theirs[tuple(sorted(corners))], rel=1e-12)
+
+
+def test_progress_can_stop_it():
+    def stop(fraction):
+        raise KeyboardInterrupt
+
+    mesh = vorotool.delaunay(draw("uniform", 300_000, 0))
+    with pytest.raises(KeyboardInterrupt):
+        alpha_complex(mesh, threads=1, progress=stop)

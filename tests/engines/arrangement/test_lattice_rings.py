@@ -1,0 +1,71 @@
+"""The rings of a planar graph, and what its sites are there."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+from support.families.skeleton_shapes import FAMILIES
+from vorotool.engines.arrangement.lattice_rings import placed_shapes
+from vorotool.engines.arrangement.planar_graph import planar_graph
+from vorotool.errors import VorotoolWarning
+from vorotool.geometry.skeleton.skeleton import EDGE, Skeleton
+
+
+def graph_of(shape):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", VorotoolWarning)
+        return planar_graph(shape)
+
+
+def site_ends(placed):
+    """The places of sites, as a skeleton without arcs has them."""
+    nothing = {name: np.empty(0) for name in ("radius", "arcs", "control", "sites", "polygon", "side")}
+    rest = {name: np.empty(0) for name in ("branch", "length", "error_bound")}
+    return Skeleton(np.empty((0, 2)), **nothing, **rest, site_table=placed.sites, polygons=placed.polygons).site_ends
+
+
+@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)
+def test_every_site_is_where_the_graph_has_it(family):
+    rng = np.random.default_rng(3)
+    for _ in range(30):
+        graph = graph_of(family(rng))
+        placed = placed_shapes(graph)
+        points = graph.coordinates()
+        ends = site_ends(placed)
+        assert np.array_equal(ends[: len(points), 0], points)
+        wanted = np.sort(points[graph.segments].view([("x", float), ("y", float)])[..., 0], axis=1)
+        found = np.sort(np.ascontiguousarray(ends[len(points) :]).view([("x", float), ("y", float)])[..., 0], axis=1)
+        assert np.array_equal(found, wanted)
+        assert (placed.sites.kind == EDGE).sum() == len(graph)
+
+
+@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)
+def test_sources_are_in_the_input(family):
+    rng = np.random.default_rng(4)
+    for _ in range(30):
+        graph = graph_of(family(rng))
+        sites, given = placed_shapes(graph).sites, graph.polygons
+        known = np.flatnonzero(sites.source_ring >= 0)
+        vertex = given.ring_start[sites.source_ring[known]] + sites.source_index[known]
+        assert (vertex < given.ring_start[sites.source_ring[known] + 1]).all()
+        assert (sites.source_ring < 0).sum() == (graph.point_vertex < 0).sum()
+
+
+@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)
+def test_faces_are_in_the_part_that_holds_them(family):
+    rng = np.random.default_rng(6)
+    for _ in range(30):
+        graph = graph_of(family(rng))
+        placed = placed_shapes(graph)
+        assert ((placed.face_polygon >= 0) == graph.is_inside).all()
+        again = graph_of(placed.polygons)
+        assert np.array_equal(np.sort(graph.coordinates()[:, 0]), np.sort(again.coordinates()[:, 0]))
+        assert len(again) == len(graph)
+
+
+def test_what_is_not_on_the_lattice_is_moved_there():
+    shape = np.array([[0.1, 0.2], [1e9, 0.3], [0.7, 1e9]])
+    graph = graph_of(shape)
+    placed = placed_shapes(graph)
+    assert 0 < np.abs(placed.polygons.xy - shape).max() <= graph.largest_move

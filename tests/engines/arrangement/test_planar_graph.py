@@ -1,0 +1,262 @@
+"""Planar graphs of polygons and lines as the library makes them."""
+
+import warnings
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+
+from vorotool import (
+    InputError,
+    LimitError,
+    PlanarGraph,
+    PolygonSet,
+    VerificationError,
+    VorotoolWarning,
+    planar_graph,
+    read,
+    verify_planar_graph,
+)
+from vorotool.engines.arrangement import planar_graph as engine
+from vorotool.geometry.polygons.conversion import as_polygons, to_shapely
+
+DATA = Path(__file__).parents[3] / "data"
+SQUARE = [[0, 0], [8, 0], [8, 8], [0, 8]]
+BOW = [[0, 0], [5, 4], [5, 0], [0, 3]]
+
+
+def quietly(polygons, **options):
+    """The graph, checked, and the warnings."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", VorotoolWarning)
+        graph = planar_graph(polygons, **options)
+    verify_planar_graph(graph)
+    return graph, [str(each.message) for each in caught]
+
+
+def area_of(graph, polygon):
+    """The area of one polygon: that of its borders, each with the polygon on one side only."""
+    inside = np.zeros(graph.faces, dtype=bool)
+    inside[np.repeat(np.arange(graph.faces), np.diff(graph.face_start))[graph.face_polygon == polygon]] = True
+    side = inside[graph.segment_faces].astype(int)
+    (ax, ay), (bx, by) = graph.points[graph.segments].astype(float).transpose(1, 2, 0)
+    return float(((side[:, 0] - side[:, 1]) * (ax * by - ay * bx)).sum() / 2 * graph.scale * graph.scale)
+
+
+def test_a_valid_polygon_is_only_placed():
+    shape = shapely.Polygon(SQUARE, [[[1, 1], [2, 1], [1, 2]], [[5, 5], [6, 5], [5, 6.5]]])
+    graph, said = quietly(shape)
+    assert said == []
+    assert graph.coordinates().tolist() == as_polygons(shape).xy.tolist()
+    assert graph.point_vertex.tolist() == list(range(10))
+    assert graph.largest_move == 0
+    assert (graph.faces, graph.is_inside.tolist()) == (4, [False, True, False, False])
+    assert graph.sources_of(3).tolist() == [3]
+    assert graph.polygons_of(1).tolist() == [0]
+    assert area_of(graph, 0) == shape.area
+
+
+def test_nothing():
+    for source in ([], shapely.Polygon()):
+        graph, said = quietly(source)
+        assert (len(graph), len(graph.points), graph.faces, said) == (0, 0, 1, [])
+    graph, said = quietly([{"line": [[3, 4]]}])
+    assert (graph.coordinates().tolist(), len(graph), said) == ([[3.0, 4.0]], 0, [])
+    graph, said = quietly([{"line": [[3, 4], [3, 4]]}])
+    assert len(graph.points) == 1
+    assert said == ["the polygons were repaired: 1 repeated vertex left out"]
+
+
+@pytest.mark.parametrize(
+    ("source", "message", "place"),
+    [
+        (
+            [[0, 0], [8, 0], [8, 0], [8, 8]],
+            "1 repeated vertex left out",
+            "polygon 1, shell, vertex 2 at (8.0, 0.0) is repeated by the next one (1 such places)",
+        ),
+        (
+            [SQUARE, [[8, 2], [12, 2], [12, 4]]],
+            "1 edge cut at a vertex on it",
+            "polygon 1, shell, edge 2 from (8.0, 0.0) to (8.0, 8.0) passes through polygon 2, shell, vertex 1 at (8.0, "
+            "2.0) (1 such places)",
+        ),
+        (
+            [SQUARE, [[4, 4], [12, 4], [12, 12], [4, 12]]],
+            "2 crossings of edges cut",
+            "polygon 1, shell, edge 2 from (8.0, 0.0) to (8.0, 8.0) crosses polygon 2, shell, edge 1 (2 such places)",
+        ),
+        (
+            BOW,
+            "1 crossing of edges cut, 2 edges bent by less than 3.7e-09",
+            "polygon 1, shell, edge 1 from (0.0, 0.0) to (5.0, 4.0) crosses polygon 1, shell, edge 3 (1 such places)",
+        ),
+        (
+            [[0, 0], [8, 0], [8, 8], [0, 8], [0, 12], [0, 8]],
+            "1 segment that bounds nothing left out",
+            "polygon 1, shell, edge 4 from (0.0, 8.0) to (0.0, 12.0) bounds nothing, or a part of it does not: a spike "
+            "or an overlap (1 such places)",
+        ),
+        (
+            [SQUARE, [[20, 20], [30, 30]]],
+            "1 segment that bounds nothing left out, 1 polygon has no inside",
+            "polygon 2, shell, edge 1 from (20.0, 20.0) to (30.0, 30.0) bounds nothing",
+        ),
+        (
+            [[[7, 7]]],
+            "1 polygon has no inside",
+            "polygon 1 at (7.0, 7.0) has no inside (1 such places): repair it, or leave out --strict",
+        ),
+    ],
+)
+def test_repairs(source, message, place):
+    _, said = quietly(source)
+    assert said == [f"the polygons were repaired: {message}"]
+    with pytest.raises(InputError) as caught:
+        planar_graph(source, strict=True)
+    assert str(caught.value).startswith(place)
+    assert str(caught.value).endswith("repair it, or leave out --strict")
+
+
+def test_strict_takes_what_needs_no_repair():
+    """Holes that touch at vertices, shared edges and placement are none."""
+    touching = {"shell": SQUARE, "holes": [[[0, 0], [2, 1], [1, 2]], [[2, 1], [4, 1], [4, 3]]]}
+    beside = [[8, 0], [16, 0.1], [16, 8], [8, 8]]
+    graph = planar_graph([touching, beside], strict=True)
+    verify_planar_graph(graph)
+    assert graph.source_count.max() == 2
+    assert 0 < graph.largest_move <= 0.71 * graph.scale
+
+
+def test_the_rule_of_insides():
+    """Twice covered by one ring is outside; overlapping holes are a hole, and reach not beyond their shell."""
+    twice = [[0, 0], [9, 0], [9, 9], [3, 9], [3, 3], [6, 3], [6, 12], [0, 12]]
+    graph, _ = quietly(twice)
+    assert area_of(graph, 0) == shapely.make_valid(shapely.Polygon(twice)).area
+    holes = {"shell": SQUARE, "holes": [[[1, 1], [5, 1], [5, 5], [1, 5]], [[3, 3], [12, 3], [12, 6], [3, 6]]]}
+    graph, _ = quietly([holes])
+    shell, *cut = (shapely.Polygon(ring) for ring in as_polygons([holes]).rings_of(0))
+    assert area_of(graph, 0) == shell.difference(shapely.union_all(cut)).area
+    graph, _ = quietly([SQUARE, [[4, 4], [12, 4], [12, 12], [4, 12]], SQUARE])
+    assert sorted(graph.polygons_of(f).tolist() for f in range(graph.faces)) == [[], [0, 1, 2], [0, 2], [1]]
+
+
+@pytest.mark.parametrize("scale", [1.0, 1e-300, 1e290])
+def test_areas_beside_geos(scale):
+    """Random rings: the even-odd rule is that of make_valid."""
+    for seed in range(30):
+        rng = np.random.default_rng(seed)
+        ring = rng.uniform(0, 1, (int(rng.integers(3, 15)), 2))
+        graph, _ = quietly(ring * scale)
+        found = area_of(replace(graph, scale=graph.scale / scale), 0)
+        assert found == pytest.approx(shapely.make_valid(shapely.Polygon(ring)).area, abs=1e-7)
+
+
+def test_lines_beside_geos():
+    """Noding of lines whose crossings are far from each other and from the ends."""
+    for seed in range(20):
+        rng = np.random.default_rng(seed)
+        lines = [shapely.LineString(rng.integers(0, 10**6, (3, 2))) for _ in range(6)]
+        graph, _ = quietly(lines)
+        noded = shapely.union_all(lines)
+        assert len(graph) == len(shapely.get_parts(shapely.get_parts(noded))) + sum(
+            shapely.get_num_coordinates(part) - 2 for part in shapely.get_parts(noded)
+        )
+        assert shapely.MultiLineString(list(graph.coordinates()[graph.segments])).length == pytest.approx(noded.length)
+
+
+@pytest.mark.parametrize("name", ["110m_lakes", "110m_land", "50m_lakes", "50m_land"])
+def test_natural_earth(name):
+    shapes = read(DATA / f"ne_{name}.geojson")
+    graph, said = quietly(shapes)
+    expected = {
+        "110m_lakes": ["5 repeated vertices left out"],
+        "110m_land": ["1 edge cut at a vertex on it, 2 segments that bound nothing left out"],
+        "50m_lakes": ["457 repeated vertices left out"],
+        "50m_land": [],
+    }[name]
+    assert said == [f"the polygons were repaired: {each}" for each in expected]
+    np.testing.assert_allclose(graph.coordinates(), shapes.xy[graph.point_vertex], atol=graph.largest_move, rtol=0)
+    assert graph.largest_move < 2e-7
+    assert (np.diff(graph.face_start) <= 1).all()
+    for polygon, shape in list(enumerate(to_shapely(shapes)))[:25]:
+        assert area_of(graph, polygon) == pytest.approx(shape.area, abs=2 * graph.largest_move * shape.length)
+
+
+def test_threads_change_nothing():
+    ring = np.random.default_rng(1).normal(size=(70_000, 2)).cumsum(axis=0)[::700]
+    one, three = (quietly(ring, threads=threads)[0] for threads in (1, 3))
+    for name in ("points", "segments", "segment_faces", "face_polygon", "source_edge"):
+        np.testing.assert_array_equal(getattr(one, name), getattr(three, name))
+
+
+def test_progress_and_interruption():
+    ring = np.random.default_rng(1).normal(size=(20_000, 2)).cumsum(axis=0)
+    seen = []
+    with pytest.warns(VorotoolWarning):
+        planar_graph(ring, progress=seen.append)
+    assert all(0 <= fraction <= 1 for fraction in seen)
+
+    def stop(_):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        planar_graph(np.tile(ring, (20, 1)), progress=stop)
+
+
+def test_limits(monkeypatch):
+    monkeypatch.setattr(engine, "MOST_VERTICES", 3)
+    with pytest.raises(LimitError, match="there are 4 vertices, more than 3"):
+        planar_graph(SQUARE)
+
+
+def nested_squares(count):
+    size = np.arange(1, count + 1)[:, None, None]
+    corners = (np.array([[[-1, -1], [1, -1], [1, 1], [-1, 1]]]) * size).reshape(-1, 2)
+    return PolygonSet(corners, 4 * np.arange(count + 1), np.zeros(count), np.arange(count))
+
+
+def test_polygons_that_nest_deep():
+    graph, said = quietly(nested_squares(300))
+    assert said == []
+    assert sorted(np.diff(graph.face_start).tolist()) == list(range(301))
+    with pytest.raises(LimitError, match="overlap or nest more than 67108864 times"):
+        planar_graph(nested_squares(12_000))
+
+
+def changed(graph, **arrays):
+    return replace(graph, **{name: np.array(values) for name, values in arrays.items()})
+
+
+def test_the_checker_finds_faults():
+    hole = {"shell": SQUARE, "holes": [[[1, 1], [3, 1], [1, 3]]]}
+    graph, _ = quietly([hole, {"line": [[20, 20], [30, 20]]}])
+    start = graph.face_start
+    for faulty, message in [
+        (changed(graph, segments=graph.segments[:, ::-1]), "what lies left of all segments is not face 0"),
+        (changed(graph, segment_faces=graph.segment_faces + 7), "a face that does not exist"),
+        (changed(graph, segment_faces=1 - graph.segment_faces), "one corner|left of all|does not exist"),
+        (changed(graph, face_start=start[:-1]), "a segment names a face|does not divide"),
+        (changed(graph, face_start=[0, 1, 1, 1]), "face 0, which is unbounded"),
+        (changed(graph, face_polygon=[1]), "segment 0 divides a polygon of which it is no edge"),
+        (changed(graph, face_start=[0, 0, 0, 0], face_polygon=[]), "segment 0 bounds nothing"),
+        (changed(graph, source_edge=graph.source_edge[[1, 0, *range(2, 8)]]), "segment 0 is not where edge 1 runs"),
+        (changed(graph, point_vertex=np.roll(graph.point_vertex, 1)), "a point is not where its vertex is"),
+        (replace(graph, scale=1.0), "this is not the lattice of the input"),
+        (changed(graph, face_start=[0, 0, 2, 2], face_polygon=[1, 0]), "are not ascending"),
+    ]:
+        with pytest.raises(VerificationError, match=message):
+            verify_planar_graph(faulty)
+
+
+def test_shapes_of_arrays():
+    graph, _ = quietly(SQUARE)
+    with pytest.raises(InputError, match="segments must have shape"):
+        replace(graph, segments=np.zeros((2, 3)))
+    with pytest.raises(InputError, match="do not go together"):
+        replace(graph, point_vertex=np.zeros(3))
+    assert isinstance(graph, PlanarGraph)
+    assert isinstance(graph.polygons, PolygonSet)
+    assert graph.coordinates([[0.5, 0.25]]).tolist() == [[4 + 0.5 * graph.scale, 4 + 0.25 * graph.scale]]

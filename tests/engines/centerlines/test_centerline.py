@@ -1,0 +1,338 @@
+"""Centerlines: along the middle to the middles of the ends, beside brute force, alone and together."""
+
+import warnings
+
+import numpy as np
+import pytest
+import shapely
+
+import vorotool
+from support.oracles.centerline_oracle import expected
+from vorotool.engines.centerlines.boundary_rays import first_hits
+from vorotool.errors import InputError, UsageError, VorotoolWarning
+
+RECTANGLE = [[0, 0], [10, 0], [10, 4], [0, 4]]
+T = [[0, 0], [2, 0], [2, 8], [6, 8], [6, 10], [-4, 10], [-4, 8], [0, 8]]
+PLUS = [[1, 0], [2, 0], [2, 1], [3, 1], [3, 2], [2, 2], [2, 3], [1, 3], [1, 2], [0, 2], [0, 1], [1, 1]]
+
+
+def places(polygon, **options):
+    return vorotool.centerline(vorotool.skeleton_exact(polygon), **options).flattened(0.01)[0].tolist()
+
+
+def ends(polygon, **options):
+    line = places(polygon, **options)
+    return [line[0], line[-1]]
+
+
+@pytest.mark.parametrize(
+    "criterion", [{}, {"scale": 1.3}, {"scale": 1.42}, {"angle": 100}, {"ratio": 2}, {"length": 1}]
+)
+def test_a_rectangle_is_gone_through_in_the_middle(criterion):
+    skeleton = vorotool.skeleton_exact(RECTANGLE)
+    line = vorotool.centerline(vorotool.prune(skeleton, **criterion) if criterion else skeleton)
+    assert line.flattened(1)[0].tolist() == [[0, 2], [10, 2]]
+    assert (line.length.tolist(), line.width_mean.tolist()) == ([10], [4])
+
+
+def test_an_approximate_skeleton_has_the_same_ends():
+    line = vorotool.centerline(vorotool.skeleton_approx(RECTANGLE, step=0.5)).flattened(1)[0]
+    assert line[[0, -1]].tolist() == [[0, 2], [10, 2]]
+
+
+@pytest.mark.parametrize(
+    ("kind", "line", "length"),
+    [
+        ("middle", [[0, 2], [10, 2]], 10),
+        ("corner", [[0, 0], [2, 2], [8, 2], [10, 0]], 6 + 4 * 2**0.5),
+        ("none", [[2, 2], [8, 2]], 6),
+    ],
+)
+def test_kinds_of_ends(kind, line, length):
+    made = vorotool.centerline(vorotool.skeleton_exact(RECTANGLE), ends=kind)
+    assert (made.flattened(1)[0].tolist(), made.length.tolist()) == (line, [pytest.approx(length, rel=1e-15)])
+
+
+@pytest.mark.parametrize(
+    ("start", "end", "line"),
+    [
+        ((0, 2), (10, 2), [[0, 2], [10, 2]]),
+        ((0, 0), (10, 4), [[0, 2], [10, 2]]),
+        ((-5, 2), (4, 3), [[0, 2], [4, 2]]),
+        ((0.5, 2), (1, 2), [[0.5, 2], [1, 2]]),
+        ((4, 0), None, [[4, 2], [10, 2]]),
+        (None, (4, 0), [[10, 2], [4, 2]]),
+    ],
+)
+def test_paths_between_places_go_up_no_corner(start, end, line):
+    found = vorotool.centerline(vorotool.skeleton_exact(RECTANGLE), start=start, end=end).flattened(1)[0]
+    assert found[[0, -1]].tolist() == line
+    assert (found[:, 1] == 2).all()
+
+
+@pytest.mark.parametrize(
+    ("name", "polygon", "line"),
+    [
+        ("square", [[3, 3], [5, 3], [5, 5], [3, 5]], [[4, 3], [4, 5]]),
+        ("from another corner", [[5, 3], [5, 5], [3, 5], [3, 3]], [[3, 4], [5, 4]]),
+        ("3-4-5", [[0, 0], [4, 0], [0, 3]], [[0, 1.5], [1, 1], [4, 0]]),
+        ("nearly a square", [[0, 0], [10, 0], [10, 9.5], [0, 9.5]], [[0, 4.75], [10, 4.75]]),
+        ("tall trapezoid", [[0, 0], [8, 0], [5, 5], [3, 5]], [[4, 0], [4, 5]]),
+        ("hexagon", [[0, 0], [2, -1], [4, -1], [6, 0], [4, 1], [2, 1]], [[0, 0], [6, 0]]),
+        ("tip and two edges", [[0, 0], [20, 2], [0, 4], [-0.25, 2]], [[-0.25, 2], [20, 2]]),
+        ("parallelogram", [[0, 0], [10, 0], [12, 2], [2, 2]], [[1, 1], [11, 1]]),
+        ("thin rhombus", [[0, 0], [5, 1], [10, 0], [5, -1]], [[0, 0], [10, 0]]),
+        ("pencil", [[0, 0], [8, 0], [10, 2], [8, 4], [0, 4]], [[0, 2], [10, 2]]),
+        ("end of two edges", [[0, 0], [10, 0], [10, 4], [0, 4], [-0.03125, 2]], [[-0.03125, 2], [10, 2]]),
+    ],
+)
+def test_shapes_by_hand(name, polygon, line):
+    found = np.array(places(polygon))
+    assert found[[0, -1]].tolist() == pytest.approx(np.array(line)[[0, -1]], abs=1e-12)
+    assert shapely.LineString(line).hausdorff_distance(shapely.LineString(found)) < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("polygon", "found"),
+    [
+        (T, [[1, 0], [6, 9]]),  # both arms are as long: the first edge
+        ([*T[4:], *T[:4]], [[1, 0], [-4, 9]]),
+        (PLUS, [[1.5, 0], [3, 1.5]]),
+        ([[-x, y] for x, y in T], [[-1, 0], [-6, 9]]),
+    ],
+)
+def test_of_equally_long_paths_the_first_edges_count(polygon, found):
+    assert sorted(ends(polygon)) == sorted(found)
+
+
+def arms(count, turn):
+    """As many equal arms around the origin, whose coordinates are rounded."""
+    step = 2 * np.pi / count
+    ring = []
+    for k in range(count):
+        way = np.array([np.cos(k * step + turn), np.sin(k * step + turn)])
+        across = np.array([-way[1], way[0]])
+        ring += [(12 * way - across).tolist(), (12 * way + across).tolist()]
+        ring.append((np.hypot(1, 1 / np.tan(step / 2)) * _middle(way, step)).tolist())
+    return ring
+
+
+def _middle(way, step):
+    c, s = np.cos(step / 2), np.sin(step / 2)
+    return np.array([c * way[0] - s * way[1], s * way[0] + c * way[1]])
+
+
+@pytest.mark.parametrize("count", [3, 4, 5])
+def test_ties_are_settled_by_edges_however_lengths_are_rounded(count):
+    for k in range(40):
+        ring = np.add(arms(count, 0.1 * k), [k * 100, k])
+        (ends_of,) = vorotool.centerline(vorotool.skeleton_exact(ring.tolist())).ends
+        middles = (ring[::3] + ring[1::3]) / 2
+        nearest = [int(np.hypot(*(middles - end).T).argmin()) for end in ends_of]
+        assert sorted(nearest) == [0, 1]
+        assert ends_of == pytest.approx(middles[nearest], abs=1e-6)
+
+
+def test_tips_are_led_into():
+    flat = [[0, 0], [20, 0], [10, 2]]  # both acute corners are tips
+    assert ends(flat) == [[0, 0], [20, 0]]
+    dart = [[0, 0], [-4, -4], [6, 0], [-4, 4]]
+    assert ends(dart) == [[-4, -4], [-4, 4]]
+    drop = [[0, 0], [6, 2], [9, 2], [9, -2], [6, -2]]
+    assert ends(drop) == [[0, 0], [9, 0]]
+
+
+def test_a_round_end_is_led_straight_on():
+    turns = np.linspace(-np.pi / 2, np.pi / 2, 33)
+    cap = np.round(np.stack([10 + 2 * np.cos(turns), 2 * np.sin(turns)], axis=1) * 1024) / 1024
+    for criterion in ({}, {"scale": 1.3}):
+        skeleton = vorotool.skeleton_exact([[0, -2], *cap.tolist(), [0, 2]])
+        line = vorotool.centerline(vorotool.prune(skeleton, **criterion) if criterion else skeleton).flattened(0.01)[0]
+        assert line[[0, -1]] == pytest.approx(np.array([[0, 0], [12, 0]]), abs=0.1)
+
+
+@pytest.mark.parametrize("shift", [0, 2**-20, -(2**-20), 0.05, -0.05])
+def test_ends_of_several_edges_stay_where_they_are_as_corners_move(shift):
+    for polygon in (
+        [[0, 0], [10, 0], [10, 4], [0, 4], [-0.03125, 2 + 4 * shift]],  # an end that is all but flat
+        [[0, 0], [10, 0], [10, 4], [0, 4 + shift], [-2, 2]],  # a gable
+        [[0, 0], [10, 0], [10, 4], [0, 4 + shift], [-1, 3], [-1, 1]],  # a bevelled end
+    ):
+        tip = min(x for x, _ in polygon)
+        line = sorted(places(polygon))
+        assert line[-1] == [10, 2]
+        assert line[0] == pytest.approx([tip, 2], abs=0.1)
+
+
+def test_a_wall_that_turns_outwards_near_an_end_changes_nothing():
+    road = [[0, 0], [1, 0.25], [10, 0], [10, 4], [9, 3.75], [0, 4]]
+    assert sorted(ends(road)) == [[0, 2], [10, 2]]
+
+
+def test_a_bent_wall_is_no_part_of_an_end():
+    assert sorted(ends([[0, 0], [10, 0], [10, 4], [2.5, 4], [0, 3.75]]))[0] == [0, 1.875]
+
+
+def test_an_oblique_end_is_met_in_the_middle_where_its_fork_is_pruned_too():
+    road = [[0, 0], [20, 0], [22, 4], [-2, 4]]
+    skeleton = vorotool.skeleton_exact(road)
+    for criterion in ({}, {"scale": 2.0}):
+        line = vorotool.centerline(vorotool.prune(skeleton, **criterion) if criterion else skeleton)
+        assert line.ends.tolist() == [[[-1, 2], [21, 2]]]
+
+
+def test_a_ring_is_gone_round_as_before():
+    ring = {"shell": [[0, 0], [10, 0], [10, 10], [0, 10]], "holes": [[[3, 3], [7, 3], [7, 7], [3, 7]]]}
+    skeleton = vorotool.prune(vorotool.skeleton_exact([ring]), scale=1.5)
+    middle, corner = (vorotool.centerline(skeleton, ends=kind) for kind in ("middle", "corner"))
+    assert np.isnan(middle.ends).all()
+    assert middle.path.vertices.tolist() == corner.path.vertices.tolist()
+
+
+def regular(count, turn):
+    """A polygon around the origin, whose coordinates are rounded."""
+    turns = turn + np.arange(count) * (2 * np.pi / count)
+    return np.stack([10 * np.cos(turns), 10 * np.sin(turns)], axis=1)
+
+
+@pytest.mark.parametrize("count", [5, 6, 8, 9, 24])
+def test_a_regular_polygon_is_gone_through_straight_however_it_is_turned(count):
+    found = []
+    for turn in np.arange(12) * 0.15:
+        line = np.array(places(regular(count, turn).tolist()))
+        corner, middle = sorted(line[[0, -1]], key=lambda place: -np.hypot(*place))
+        assert np.hypot(*corner) == pytest.approx(10)
+        assert np.hypot(*middle) == pytest.approx(10 * np.cos(np.pi / count) if count % 2 else 10)
+        assert np.abs(line[:, 0] * corner[1] - line[:, 1] * corner[0]).max() < 1e-5
+        found.append((np.degrees(np.arctan2(*corner[::-1]) - turn) + 1) % (360 if count % 2 else 180))
+    assert np.ptp(found) < 1e-5  # the same corner
+
+
+def test_a_round_polygon_is_gone_through_where_it_is_longest():
+    for stretch in (1.02, 1.1, 1.2, 1.3):
+        for turn in (0.1, 0.4, 2.0):
+            c, s = np.cos(turn), np.sin(turn)
+            ellipse = (regular(24, 0) * [stretch, 1]) @ [[c, s], [-s, c]]
+            line = ends(ellipse.tolist())
+            assert np.abs(np.subtract(*line)) == pytest.approx(20 * stretch * np.abs([c, s]), abs=1e-4)
+
+
+PLATES = [
+    ([[0, 0], [10, 0], [10, 10], [0, 10]], [(3, 3, 4, 4)]),
+    ([[0, 0], [20, 0], [20, 10], [0, 10]], [(3, 3, 4, 4), (13, 3, 4, 4)]),
+    ([[0, 0], [20, 0], [20, 10], [0, 10]], [(1, 1, 18, 8)]),
+    ([[0, 0], [20, 0], [20, 10], [0, 10]], [(9, 4, 2, 2)]),
+]
+
+
+@pytest.mark.parametrize(("shell", "holes"), PLATES)
+def test_a_plate_with_holes_has_no_end_in_its_corners(shell, holes):
+    rings = [[[x, y], [x, y + h], [x + w, y + h], [x + w, y]] for x, y, w, h in holes]
+    skeleton = vorotool.skeleton_exact([{"shell": shell, "holes": rings}])
+    whole, pruned = vorotool.centerline(skeleton), vorotool.centerline(vorotool.prune(skeleton, scale=1.5))
+    assert np.isnan(whole.ends).all()
+    assert whole.length == pytest.approx(pruned.length)
+    assert (whole.path.radius > 0).all()
+
+
+def test_a_plate_with_holes_is_led_into_its_tips():
+    hole = [[9, 4], [9, 6], [11, 6], [11, 4]]
+    tip = {"shell": [[0, 0], [16, 0], [40, 5], [16, 10], [0, 10]], "holes": [hole]}
+    assert [40, 5] in ends([tip])
+
+
+def random_polygon(random):
+    """Around the origin, with spikes or without."""
+    count = int(random.integers(4, 14))
+    angle = np.sort(random.random(count)) * 2 * np.pi
+    radius = random.choice([(900, 1000), (100, 1000)][int(random.integers(2))], count) + random.random(count)
+    return np.round(np.stack([3 * radius * np.cos(angle), radius * np.sin(angle)], axis=1) * 64) / 64
+
+
+def random_skeletons(count):
+    for seed in range(count):
+        polygon = random_polygon(np.random.default_rng(seed))
+        if shapely.Polygon(polygon).is_valid:
+            yield polygon, vorotool.skeleton_exact(polygon.tolist())
+
+
+def test_brute_force_agrees():
+    compared = 0
+    for polygon, skeleton in random_skeletons(300):
+        brute = expected(skeleton)
+        if brute is None:
+            continue
+        line = vorotool.centerline(skeleton)
+        found = line.flattened(1e-3)[0][[0, -1]]
+        for place in brute[0]:
+            assert place is None or np.abs(found - place).max(axis=1).min() < 1e-9
+        assert (
+            np.isnan(line.ends).any() or shapely.Polygon(polygon).boundary.distance(shapely.points(found)).max() < 1e-9
+        )
+        assert line.path.length.sum() == pytest.approx(brute[1], rel=1e-9)
+        compared += 1
+    assert compared > 150
+
+
+def test_centerlines_stay_inside():
+    for polygon, skeleton in random_skeletons(60):
+        shape = shapely.Polygon(polygon).buffer(1e-6)
+        for kind in ("middle", "corner", "none"):
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", VorotoolWarning)
+                line = vorotool.centerline(skeleton, ends=kind)
+            assert all(shape.contains(shapely.LineString(line.flattened(1e-9)[0])) for _ in range(len(line)))
+
+
+def test_lines_move_with_their_polygons():
+    turn = np.array([[0, 1], [-1, 0]])
+    for polygon, skeleton in random_skeletons(40):
+        expected_line = vorotool.centerline(skeleton).flattened(1e-3)[0]
+        for moved, back in (
+            (polygon @ turn, lambda line: line @ turn.T),
+            (polygon * [-1, 1], lambda line: line * [-1, 1]),
+            (polygon * 4, lambda line: line / 4),
+            (np.add(polygon, [64, -128]), lambda line: line - [64, -128]),
+        ):
+            line = back(vorotool.centerline(vorotool.skeleton_exact(moved.tolist())).flattened(1e-3)[0])
+            ends_of = sorted(line[[0, -1]].round(6).tolist())
+            assert ends_of == pytest.approx(np.array(sorted(expected_line[[0, -1]].round(6).tolist())), abs=2e-6)
+
+
+def test_no_feature_changes_the_line_of_another():
+    shapes = [polygon.tolist() for polygon, _ in random_skeletons(12)]
+    apart = [np.add(shape, [8192 * k, 0]).tolist() for k, shape in enumerate(shapes)]
+    together = vorotool.centerline(vorotool.skeleton_exact(apart))
+    points, start = together.flattened(1)
+    for k, shape in enumerate(apart):
+        alone = vorotool.centerline(vorotool.skeleton_exact([shape])).flattened(1)[0]
+        assert points[start[k] : start[k + 1]] == pytest.approx(alone, abs=1e-6)
+
+
+@pytest.mark.parametrize("count", [8, 32])
+def test_no_coordinate_is_rounding_alone(count):
+    turns = np.linspace(-np.pi / 2, np.pi / 2, count + 1)
+    half = np.round(np.stack([2 * np.cos(turns), 2 * np.sin(turns)], axis=1), 3)
+    slot = [*np.add(half, [10, 0]).tolist(), *(-half).tolist()]
+    assert sorted(places(slot)) == [[-2, 0], [12, 0]]
+    round_polygon = np.round(regular(count, 0) * [1.3, 1], 3)
+    values = np.abs(places(round_polygon.tolist()))
+    assert ((values == 0) | (values > 1e-6)).all()
+
+
+def test_lines_that_are_led_on_end_on_edges_exactly():
+    random = np.random.default_rng(3)
+    square = vorotool.skeleton_exact(RECTANGLE).polygons
+    ways = random.standard_normal((1000, 2))
+    found, _ = first_hits(square, np.zeros(1000, dtype=int), np.full((1000, 2), [3.1, 1.7]), ways)
+    assert (np.isin(found[:, 0], [0, 10]) | np.isin(found[:, 1], [0, 4])).all()
+
+
+def test_what_is_refused():
+    skeleton = vorotool.skeleton_exact(RECTANGLE)
+    with pytest.raises(UsageError, match="'round': use middle, corner, none"):
+        vorotool.centerline(skeleton, ends="round")
+    with pytest.raises(InputError, match="single place"):
+        vorotool.centerline(skeleton, start=(3, 2), end=(3, 2))
+    with pytest.warns(VorotoolWarning, match="gave no centerline"):
+        assert len(vorotool.centerline(vorotool.skeleton_exact([[0, 0], [2, 0], [2, 2], [0, 2]]), ends="none")) == 0

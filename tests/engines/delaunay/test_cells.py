@@ -1,0 +1,328 @@
+from __future__ import annotations
+
+import warnings
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import vorotool
+from support.families.point_families import FAMILIES, draw
+from support.oracles.cells_oracle import exact_cells, nearest_double
+from vorotool import Box, InputError, VerificationError, VorotoolWarning, _core, delaunay, verify_cells, voronoi_cells
+
+families = pytest.mark.parametrize("name", FAMILIES)
+
+
+def quietly(points, **options):
+    """The cells, checked; duplicates are expected."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", VorotoolWarning)
+        cells = voronoi_cells(points, **options)
+    if "clip" not in options:
+        verify_cells(cells, threads=1)
+    return cells
+
+
+def rings(cells):
+    return [[tuple(p) for p in part.tolist()] for part in np.split(cells.coordinates, cells.starts[1:-1])]
+
+
+def frames(points, seed):
+    """The default, one in the middle, one with a corner on a site, and one with sides through the outermost sites."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    reach = float(np.max(high / 2 - low / 2)) or 1.0
+    middle = low / 2 + high / 2
+    site = points[seed % len(points)]
+    boxes = [
+        (*(middle - reach / 2), *(middle + reach / 2)),
+        (*site, *(site + reach)),
+        (*low, *(low + np.where(high > low, high - low, reach))),
+    ]
+    ordered = [b for b in boxes if np.isfinite(b).all() and b[0] < b[2] and b[1] < b[3]]
+    return [None, *(Box(*box) for box in ordered)]
+
+
+def check_by_cutting(points, frame):
+    """Every corner of the exact cell, rounded, is there, in order; what lies between them is a vertex of neighbours."""
+    cells = quietly(points, frame=frame)
+    exact = exact_cells(cells.sites.tolist(), cells.frame.sides)
+    for ours, right in zip(rings(cells), exact, strict=True):
+        try:
+            rounded = [(nearest_double(x), nearest_double(y)) for x, y in right]
+        except OverflowError:
+            return
+        rounded = [p for k, p in enumerate(rounded) if p != rounded[k - 1]]
+        if not ours:  # a cell without area, as rounded if not before
+            assert all(_core.orient2d(np.array([[*rounded[0], *rounded[1], *p]]))[0] == 0 for p in rounded[2:])
+            continue
+        start = rounded.index(min(rounded))
+        assert [p for p in ours if p in rounded] == rounded[start:] + rounded[:start]
+
+
+@families
+def test_the_frame_cut_along_every_bisector_in_rationals(name):
+    for seed in range(6):
+        points = draw(name, 1 + seed, seed)
+        for frame in frames(points, seed):
+            check_by_cutting(points, frame)
+
+
+@families
+@pytest.mark.parametrize("n", [1, 2, 3, 4, 17, 200])
+def test_every_family_passes_the_checker(name, n):
+    for seed in range(2):
+        points = draw(name, n, seed)
+        for frame in frames(points, seed):
+            quietly(points, frame=frame)
+
+
+lattice = st.lists(st.tuples(st.integers(-3, 3), st.integers(-3, 3)), min_size=1, max_size=9)
+corner = st.tuples(st.integers(-4, 3), st.integers(-4, 3), st.integers(1, 6), st.integers(1, 6))
+floats = st.floats(allow_nan=False, allow_infinity=False, min_value=-1e200, max_value=1e200)
+
+
+@settings(max_examples=200, deadline=None)
+@given(lattice, corner)
+def test_any_lattice_points(points, frame):
+    """Frames through sites, vertices and edges; exact halves and quarters."""
+    check_by_cutting(points, (frame[0] / 2, frame[1] / 2, frame[2] / 2, frame[3] / 2))
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.lists(st.tuples(floats, floats), min_size=1, max_size=6))
+def test_any_doubles(points):
+    check_by_cutting(points, None)
+
+
+def test_against_shapely():
+    for name in ("uniform", "clustered", "offset_1e9"):
+        points = draw(name, 3000, 3)
+        cells = quietly(points)
+        frame = shapely.box(*cells.frame.sides)
+        peer = shapely.get_parts(shapely.voronoi_polygons(shapely.MultiPoint(points), extend_to=frame))
+        polygon, site = shapely.STRtree(shapely.points(points)).query(peer, predicate="contains")
+        areas = np.zeros(len(points))
+        areas[site] = shapely.area(shapely.intersection(peer[polygon], frame))
+        np.testing.assert_allclose(cells.areas(), areas, rtol=1e-4)  # GEOS merges close vertices
+
+
+@families
+def test_threads_change_nothing(name):
+    mesh = delaunay(np.unique(draw(name, 3000, 4), axis=0))
+    one = voronoi_cells(mesh, threads=1)
+    for threads in (2, 5):
+        other = voronoi_cells(mesh, threads=threads)
+        np.testing.assert_array_equal(one.coordinates, other.coordinates)
+        np.testing.assert_array_equal(one.starts, other.starts)
+
+
+def test_several_pieces_of_work():
+    for name in ("uniform", "small_lattice", "grid"):
+        quietly(draw(name, 30_000, 1), threads=2)
+
+
+@families
+def test_permuting_the_points_permutes_the_cells(name):
+    points = np.unique(draw(name, 300, 5), axis=0)
+    order = np.random.default_rng(6).permutation(len(points))
+    cells, other = rings(quietly(points)), rings(quietly(points[order]))
+    assert [cells[i] for i in order] == other
+
+
+@pytest.mark.parametrize(
+    "name", ["uniform", "small_lattice", "grid", "exact_circle", "kettner", "by_ulps", "collinear"]
+)
+def test_powers_of_two_and_quarter_turns(name):
+    points = np.unique(draw(name, 100, 8), axis=0)
+    cells = quietly(points, frame=Box(-30, -20, 31, 23))
+    for exponent in (-900, -300, 3, 900):
+        scaled = Box(*np.ldexp(cells.frame.sides, exponent))
+        other = quietly(np.ldexp(points, exponent), frame=scaled)
+        np.testing.assert_array_equal(other.coordinates, np.ldexp(cells.coordinates, exponent))
+        np.testing.assert_array_equal(other.starts, cells.starts)
+    turned = quietly(points[:, ::-1] * [-1, 1], frame=Box(-23, -30, 20, 31))
+    assert [{(-y, x) for x, y in ring} for ring in rings(cells)] == [set(ring) for ring in rings(turned)]
+
+
+def test_neighbours_share_vertices():
+    """Each side of a cell is the side of one neighbour, backwards, or lies on the frame."""
+    for name in ("uniform", "rotated_grid", "exact_circle", "small_lattice"):
+        cells = quietly(draw(name, 500, 2))
+        sides = {}
+        for i, ring in enumerate(rings(cells)):
+            for k, p in enumerate(ring):
+                sides[ring[k - 1], p] = i
+        for p, q in sides:
+            on_frame = any(p[k % 2] == q[k % 2] == cells.frame.sides[k] for k in range(4))
+            assert ((q, p) in sides) != on_frame
+
+
+def test_few_and_collinear_points():
+    assert rings(quietly([[5, 5]], frame=(0, 0, 2, 1))) == [[(0, 0), (2, 0), (2, 1), (0, 1)]]
+    assert rings(quietly([[1, 1], [3, 1]], frame=(0, 0, 4, 2))) == [
+        [(0, 0), (2, 0), (2, 2), (0, 2)],
+        [(2, 0), (4, 0), (4, 2), (2, 2)],
+    ]
+    strips = quietly([[0, 0], [2, 2], [1, 1], [0, 0]], frame=(0, 0, 2, 2))
+    assert strips.areas().tolist() == [0.5, 0.5, 3.0, 0.0]
+    assert len(quietly(np.empty((0, 2)))) == 0
+
+
+def test_sites_outside_the_frame():
+    """A frame in one cell alone; a cell that touches the frame along a side, or at a corner, is empty."""
+    cells = quietly([[0, 0], [10, 0], [0, 10]], frame=(0, 0, 1, 1))
+    assert cells.is_empty.tolist() == [False, True, True]
+    cells = quietly([[-1, 0.5], [1, 0.5]], frame=(0, 0, 1, 1))
+    assert cells.is_empty.tolist() == [True, False]
+    assert cells.areas().tolist() == [0.0, 1.0]
+    cells = quietly([[-1, -1], [1, 1]], frame=(0, 0, 1, 1))
+    assert cells.is_empty.tolist() == [True, False]
+
+
+def test_default_frame():
+    assert quietly([[0, 0], [20, 10]]).frame == Box(-2, -2, 22, 12)
+    assert quietly([[3, 4]]).frame == Box(2.5, 3.5, 3.5, 4.5)
+    assert quietly([[1e17, 0]]).frame.left < 1e17
+
+
+def test_what_the_points_bring_is_kept():
+    given = vorotool.PointSet([[0, 0], [1, 1]], labels=[7, 3], properties={"name": ["a", "b"]}, y_up=True, crs="x")
+    cells = voronoi_cells(given)
+    assert (cells.label_array.tolist(), cells.properties, cells.y_up, cells.crs) == (
+        [7, 3],
+        given.properties,
+        True,
+        "x",
+    )
+
+
+# ---- clipping to polygons ----
+
+
+def test_clip_cuts_cells_into_parts_with_holes():
+    """A frame of two strips, cut to a ring whose hole and outline both divide cells."""
+    outline = shapely.box(0, 0, 6, 6)
+    ring = outline.difference(shapely.box(1, 2, 5, 4))
+    points = [[3, 1], [3, 3], [3, 5], [100, 3]]
+    cells = quietly(points, clip=ring)
+    assert cells.frame == Box(0, 0, 6, 6)
+    shapes = cells.to_shapely()
+    assert [shape.geom_type for shape in shapes] == ["Polygon", "MultiPolygon", "Polygon", "Polygon"]
+    assert cells.is_empty.tolist() == [False, False, False, True]
+    np.testing.assert_allclose(cells.areas(), [12, 4, 12, 0])
+    np.testing.assert_allclose(cells.perimeters(), shapely.length(shapes))
+    holed = quietly([[3, 3]], clip=ring)
+    assert [len(shape.interiors) for shape in holed.to_shapely()] == [1]
+    assert holed.areas().tolist() == [28.0]
+    assert holed.perimeters().tolist() == [24.0 + 12.0]
+
+
+def test_clip_against_plain_intersection():
+    points = draw("uniform", 400, 1)
+    area = shapely.Point(0.5, 0.5).buffer(0.4).difference(shapely.Point(0.4, 0.5).buffer(0.15))
+    whole, cut = quietly(points), quietly(points, clip=area)
+    right = shapely.intersection(whole.to_shapely(), area)
+    np.testing.assert_allclose(cut.areas(), shapely.area(right), atol=1e-12)
+    assert (shapely.area(shapely.symmetric_difference(cut.to_shapely(), right)) < 1e-12).all()
+    assert shapely.is_valid(cut.to_shapely()).all()
+    inside = shapely.contains_properly(area, whole.to_shapely())
+    assert inside.sum() > 50
+    for i in np.flatnonzero(inside):
+        assert shapely.equals_exact(cut.to_shapely()[i], whole.to_shapely()[i])
+
+
+def test_clip_polygons_are_united_and_repaired():
+    bow = shapely.Polygon([(0, 0), (2, 2), (2, 0), (0, 2)])
+    with pytest.warns(VorotoolWarning, match=r"^1 of 2 polygons to clip to are not valid .*Self-intersection"):
+        cells = voronoi_cells([[1, 1]], clip=[bow, shapely.box(3, 0, 4, 2)])
+    assert cells.areas().tolist() == [4.0]
+    assert cells.to_shapely()[0].geom_type == "MultiPolygon"
+
+
+@pytest.mark.parametrize("clip", [shapely.Point(0, 0), [shapely.LineString([(0, 0), (1, 1)])], shapely.Polygon(), 5])
+def test_what_cannot_be_clipped_to(clip):
+    with pytest.raises(InputError, match="clip"):
+        voronoi_cells([[0, 0]], clip=clip)
+
+
+# ---- bad input ----
+
+
+@pytest.mark.parametrize("frame", [(0, 0, 0, 1), (0, 0, 1, -1), (1e17, 0, 1, 1), (0, 0, np.inf, 1), (0, 0, np.nan, 1)])
+def test_frames_without_area(frame):
+    with pytest.raises(InputError, match="frame"):
+        voronoi_cells([[0, 0]], frame=frame)
+
+
+@pytest.mark.parametrize("frame", [5, (1, 2, 3), "abcd", (0, 0, "w", 1)])
+def test_no_frames(frame):
+    with pytest.raises(InputError, match="give a Box"):
+        voronoi_cells([[0, 0]], frame=frame)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"triangles": [[0, 1, 9]]},
+        {"triangles": [[0, 2, 1]]},
+        {"neighbours": [[5, -1, -1]]},
+        {"first": [0, 1, 77]},
+        {"hull": [0, 1, 77]},
+        {"points": [[0, 0], [1, 0], [0, np.nan]]},
+    ],
+)
+def test_arrays_that_are_no_triangulation(change):
+    mesh = replace(delaunay([[0, 0], [1, 0], [0, 1]]), **change)
+    with pytest.raises(InputError, match="triangulation"):
+        voronoi_cells(mesh)
+
+
+# ---- the checker ----
+
+
+def moved(cells, row, by):
+    coordinates = cells.coordinates.copy()
+    coordinates[row] += by
+    return replace(cells, coordinates=coordinates)
+
+
+def test_the_checker_finds_faults():
+    cells = voronoi_cells(draw("uniform", 50, 0))
+    verify_cells(cells)
+    inner = np.flatnonzero((np.abs(cells.coordinates - 0.5) < 0.3).all(axis=1))
+    for row in inner[:40]:
+        for step in (1e-9, 1e-15):
+            with pytest.raises(VerificationError, match=r"nearer|convex|add up"):
+                verify_cells(moved(cells, row, [step, 0]))
+    with pytest.raises(VerificationError, match=r"of cell 0 is not in the frame"):
+        verify_cells(replace(cells, frame=Box(0.9, 0.9, 1, 1)))
+    with pytest.raises(VerificationError, match=r"add up to 0\."):
+        verify_cells(replace(cells, frame=Box(-1, -1, 2, 2)))
+    with pytest.raises(VerificationError, match="not finite"):
+        verify_cells(moved(cells, 0, [np.nan, 0]))
+    with pytest.raises(VerificationError, match="has only 1 vertices"):
+        verify_cells(vorotool.CellSet([[0, 0]], [[0, 0]], [0, 1], Box(0, 0, 1, 1)))
+    square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    with pytest.raises(VerificationError, match="point 1 lies on an earlier one"):
+        verify_cells(vorotool.CellSet([[0, 0], [0, 0]], square, [0, 0, 4], Box(0, 0, 1, 1)))
+    with pytest.raises(VerificationError, match="is repeated"):
+        verify_cells(vorotool.CellSet([[0, 0]], [*square, square[3]], [0, 5], Box(0, 0, 1, 1)))
+    with pytest.raises(VerificationError, match="not convex"):
+        verify_cells(vorotool.CellSet([[0, 0]], square[::-1], [0, 4], Box(0, 0, 1, 1)))
+    with pytest.raises(InputError, match="before they are clipped"):
+        verify_cells(quietly([[0, 0]], clip=shapely.box(0, 0, 1, 1)))
+
+
+def test_interrupts_reach_the_kernel():
+    """The monitor is asked every 50 ms."""
+    mesh = delaunay(draw("uniform", 500_000, 1))
+
+    def stop(_fraction):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        voronoi_cells(mesh, threads=1, progress=stop)

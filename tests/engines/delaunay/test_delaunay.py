@@ -1,0 +1,241 @@
+from __future__ import annotations
+
+import warnings
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial import Delaunay
+
+import vorotool
+from support.families.point_families import FAMILIES, draw
+from support.oracles.delaunay_oracle import delaunay_triangles
+from vorotool import InputError, PointSet, VorotoolWarning, delaunay, verify_triangulation
+
+ARRAYS = ("triangles", "neighbours", "edges", "hull", "first")
+families = pytest.mark.parametrize("name", FAMILIES)
+
+
+def quietly(points, **options):
+    """The triangulation, checked; duplicates are expected."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", VorotoolWarning)
+        mesh = delaunay(points, **options)
+    verify_triangulation(mesh)
+    return mesh
+
+
+def edge_set(edges):
+    return {tuple(sorted(edge)) for edge in edges.tolist()}
+
+
+def check_by_definition(points):
+    mesh = quietly(points)
+    triangles = [frozenset(map(tuple, t)) for t in mesh.points[mesh.triangles].tolist()]
+    right = {frozenset((float(x), float(y)) for x, y in t) for t in delaunay_triangles(mesh.points.tolist())}
+    assert set(triangles) == right
+    assert len(triangles) == len(right)
+
+
+@families
+@pytest.mark.parametrize("n", [0, 1, 2, 3, 4, 5, 17, 100, 1500])
+def test_every_family_passes_the_checker(name, n):
+    for seed in range(3):
+        quietly(draw(name, n, seed), threads=2)
+
+
+@families
+def test_the_definition_in_rationals(name):
+    for seed in range(8):
+        check_by_definition(draw(name, 4 + seed, seed))
+
+
+def test_a_large_mesh_over_threads():
+    """Enough points for several parts."""
+    for name in ("uniform", "grid", "small_lattice", "anisotropic"):
+        quietly(draw(name, 40_000, 1), threads=2)
+
+
+def test_against_scipy():
+    for seed in range(5):
+        points = draw("uniform", 3000, seed)
+        peer = Delaunay(points).simplices
+        assert edge_set(delaunay(points).edges) == edge_set(
+            np.concatenate([peer[:, [0, 1]], peer[:, 1:], peer[:, ::2]])
+        )
+
+
+@families
+def test_threads_change_nothing(name):
+    points = draw(name, 3000, 4)  # several parts of 1024 points
+    one = quietly(points, threads=1)
+    for threads in (2, 3, 4, 5):
+        other = quietly(points, threads=threads)
+        for array in ARRAYS:
+            np.testing.assert_array_equal(getattr(one, array), getattr(other, array))
+
+
+@families
+@pytest.mark.parametrize("n", [9, 500])
+def test_permuting_the_points_permutes_their_numbers_only(name, n):
+    points = draw(name, n, 5)
+    order = np.random.default_rng(6).permutation(len(points))
+    mesh, other = quietly(points), quietly(points[order])
+    np.testing.assert_array_equal(other.neighbours, mesh.neighbours)
+    for array in ("triangles", "hull"):
+        np.testing.assert_array_equal(other.points[getattr(other, array)], mesh.points[getattr(mesh, array)])
+    places = np.sort(mesh.first[order[other.edges]], axis=1)
+    np.testing.assert_array_equal(places, mesh.edges)
+
+
+def ties_kept(name):
+    """Families without cocircular points, whose edges are the same whichever corner fans begin with."""
+    return name in ("uniform", "clustered", "offset_1e9")
+
+
+@families
+def test_mirrors_and_quarter_turns(name):
+    points = draw(name, 300, 7)
+    mesh = quietly(points)
+    for turned in (points * [-1, 1], points[:, ::-1], points[:, ::-1] * [-1, 1], -points):
+        other = quietly(turned)
+        assert len(other) == len(mesh)
+        assert set(other.hull.tolist()) == set(mesh.hull.tolist())
+        if ties_kept(name):
+            assert edge_set(other.edges) == edge_set(mesh.edges)
+
+
+@pytest.mark.parametrize("name", ["uniform", "small_lattice", "grid", "exact_circle", "kettner", "by_ulps"])
+def test_powers_of_two(name):
+    points = draw(name, 300, 8)
+    mesh = quietly(points)
+    for exponent in (-900, -300, 3, 500, 990):
+        scaled = np.ldexp(points, exponent)
+        assert (np.ldexp(scaled, -exponent) == points).all()
+        other = quietly(scaled)
+        for array in ARRAYS:
+            np.testing.assert_array_equal(getattr(other, array), getattr(mesh, array))
+
+
+lattice = st.lists(st.tuples(st.integers(-4, 4), st.integers(-4, 4)), max_size=12)
+floats = st.floats(allow_nan=False, allow_infinity=False)
+tiny_steps = st.integers(0, 3).map(lambda k: 0.5 + k * 2.0**-53)
+near = st.lists(st.tuples(tiny_steps | st.integers(0, 2).map(float), tiny_steps | floats), max_size=9)
+
+
+@settings(max_examples=300, deadline=None)
+@given(lattice)
+def test_any_lattice_points(points):
+    check_by_definition(points)
+
+
+@settings(max_examples=300, deadline=None)
+@given(near | st.lists(st.tuples(floats, floats), max_size=7))
+def test_any_doubles(points):
+    check_by_definition(points)
+
+
+@settings(max_examples=100, deadline=None)
+@given(st.lists(st.tuples(st.integers(-3, 3), st.integers(-3, 3)), min_size=1, max_size=60))
+def test_duplicates_change_nothing_but_first(points):
+    mesh = quietly(points)
+    places: dict = {}
+    assert mesh.first.tolist() == [places.setdefault(p, i) for i, p in enumerate(points)]
+    chosen = sorted(places.values())
+    once = quietly([points[i] for i in chosen])
+    np.testing.assert_array_equal(np.array(chosen, np.int32)[once.triangles], mesh.triangles)
+
+
+@pytest.mark.parametrize(
+    ("points", "edges", "hull"),
+    [
+        ([], [], []),
+        ([[5, 5]], [], [0]),
+        ([[5, 5], [1, 2]], [[0, 1]], [1, 0]),
+        ([[2, 2], [0, 0], [1, 1], [3, 3]], [[1, 2], [0, 2], [0, 3]], [1, 2, 0, 3]),
+    ],
+)
+def test_chains(points, edges, hull):
+    mesh = delaunay(points)
+    verify_triangulation(mesh)
+    assert mesh.triangles.shape == mesh.neighbours.shape == (0, 3)
+    assert edge_set(mesh.edges) == set(map(tuple, edges))
+    assert mesh.edges.shape == (len(edges), 2)
+    assert mesh.hull.tolist() == hull
+    assert mesh.circumcentres().shape == (0, 2)
+    assert mesh.circumradii().shape == mesh.areas().shape == (0,)
+
+
+def test_arrays_and_their_types():
+    mesh = delaunay([[0, 0], [2, 0], [2, 1], [0, 1], [1, 3]])
+    for array in ARRAYS:
+        assert getattr(mesh, array).dtype == np.int32
+    assert (mesh.edges[:, 0] < mesh.edges[:, 1]).all()
+    assert edge_set(mesh.edges) == {(0, 1), (1, 2), (0, 2), (0, 3), (2, 3), (2, 4), (3, 4)}
+    assert mesh.hull.tolist() == [0, 1, 2, 4, 3]
+
+
+def test_what_is_accepted():
+    points = [(0.0, 0.0), (4.0, 1.0), (1.0, 3.0), (2.0, 7.0)]
+    mesh = delaunay(points)
+    shapes = [shapely.Point(p) for p in points]
+    fortran = np.asfortranarray(points)
+    for source in (
+        np.array(points, np.float32),
+        fortran,
+        shapes,
+        shapely.MultiPoint(points),
+        np.array(shapes),
+        iter(points),
+    ):
+        np.testing.assert_array_equal(delaunay(source).triangles, mesh.triangles)
+    given = PointSet(points, labels=[3, 1, 4, 2], properties={"name": list("abcd")}, y_up=True, crs="x")
+    told = delaunay(given)
+    assert (told.labels.tolist(), told.properties, told.y_up, told.crs) == ([3, 1, 4, 2], given.properties, True, "x")
+    assert told.label_array.tolist() == [3, 1, 4, 2]
+    assert mesh.label_array.tolist() == [1, 2, 3, 4]
+    seeds = vorotool.seeds_from_points(given)
+    assert delaunay(seeds).label_array.tolist() == [1, 2, 3, 4]
+    assert delaunay(seeds).points.tolist() == [list(points[i]) for i in (1, 3, 0, 2)]
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+def test_not_finite_is_refused_naming_the_row(bad):
+    with pytest.raises(InputError, match=r"^point 3 is \(1\.0, "):
+        delaunay([[0, 0], [1, 0], [1, bad]])
+
+
+@pytest.mark.parametrize("bad", [5, [[1, 2, 3]], [["a", "b"]], [1, 2, 3]])
+def test_no_points(bad):
+    with pytest.raises(InputError, match="points must"):
+        delaunay(bad)
+
+
+def test_duplicates_are_counted():
+    points = [[0, 0], [1, 0], [0, 0], [0, 1], [1, 0], [0.0, -0.0]]
+    with pytest.warns(VorotoolWarning, match="^3 of 6 points lie on an earlier point: the first one of each place"):
+        mesh = delaunay(points)
+    assert mesh.first.tolist() == [0, 1, 0, 3, 1, 0]
+    assert mesh.duplicates == 3
+    with pytest.raises(InputError, match="3 of 6 points lie on an earlier point: remove the duplicates"):
+        delaunay(points, strict=True)
+
+
+def test_progress_can_stop_it():
+    def stop(fraction):
+        raise KeyboardInterrupt
+
+    points = draw("uniform", 1_000_000, 0)
+    with pytest.raises(KeyboardInterrupt):
+        delaunay(points, threads=1, progress=stop)
+
+
+def test_a_mesh_is_not_changed_by_the_checker():
+    mesh = quietly(draw("grid", 200, 0))
+    copy = replace(mesh, **{array: getattr(mesh, array).copy() for array in ARRAYS})
+    verify_triangulation(mesh, threads=3)
+    for array in ARRAYS:
+        np.testing.assert_array_equal(getattr(mesh, array), getattr(copy, array))

@@ -1,0 +1,218 @@
+from __future__ import annotations
+
+import warnings
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from support.families.point_families import FAMILIES, draw
+from vorotool import InputError, PointSet, VorotoolWarning, _core, delaunay, insert_points, verify_triangulation
+from vorotool.engines.delaunay import insertion
+
+ARRAYS = ("triangles", "neighbours", "edges", "hull", "first")
+families = pytest.mark.parametrize("name", FAMILIES)
+
+
+@pytest.fixture(autouse=True)
+def duplicates_are_expected():
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", VorotoolWarning)
+        yield
+
+
+def check(points, count, **options):
+    """Insert all but the first `count` points; compare with the triangulation of all."""
+    points = np.ascontiguousarray(points, dtype=np.float64)
+    before = delaunay(points[:count])
+    made = insert_points(before, points[count:], **options)
+    verify_triangulation(made)
+    right = delaunay(points)
+    np.testing.assert_array_equal(made.points, right.points)
+    for array in ARRAYS:
+        np.testing.assert_array_equal(getattr(made, array), getattr(right, array), err_msg=array)
+    return before, made
+
+
+def outermost_first(points):
+    """The same points; those on the bounds come first, so that others are inserted within them."""
+    places = {int(each) for axis in (0, 1) for each in (points[:, axis].argmin(), points[:, axis].argmax())}
+    order = [*places, *(i for i in range(len(points)) if i not in places)]
+    return points[order]
+
+
+@pytest.fixture
+def always_local(monkeypatch):
+    """Insert however many points there are, and count how often that was done."""
+    done = []
+    kernel = _core.insert_points
+
+    def counted(*arguments):
+        result = kernel(*arguments)
+        done.append(result is not None)
+        return result
+
+    monkeypatch.setattr(insertion, "MANY", 1000.0)
+    monkeypatch.setattr(insertion._core, "insert_points", counted)
+    return done
+
+
+@families
+@pytest.mark.parametrize("n", [5, 12, 60, 300])
+def test_every_family_is_as_triangulated_at_once(name, n, always_local):
+    if name == "any_double":  # exact arithmetic of thousands of bits
+        n = min(n, 40)
+    for seed in range(2):
+        points = outermost_first(draw(name, n, seed))
+        for count in (0, 1, 4, n // 2, n - 1, n):
+            check(points, count)
+    if name in ("uniform", "grid", "circle", "offset_1e9") and n >= 60:
+        assert sum(always_local) >= 6
+
+
+@families
+def test_any_bounds(name):
+    for seed in range(4):
+        check(draw(name, 40, seed), 33)
+
+
+def test_outside_the_hull_and_within_the_bounds(always_local):
+    """A disc in a frame of four far points, then the corners of the frame are left out of the hull."""
+    rng = np.random.default_rng(3)
+    turn = np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])
+    for count in (4, 30, 300):
+        outside = rng.uniform(-1, 1, (60, 2))
+        points = np.concatenate([turn, 0.5 * rng.uniform(-1, 1, (count, 2)), outside])
+        check(points, 4 + count)
+    assert all(always_local)
+
+
+def test_on_sides_and_on_vertices(always_local):
+    """Points on edges, on the hull, at vertices, and at each other."""
+    grid = np.stack(np.meshgrid(np.arange(9.0), np.arange(9.0)), axis=-1).reshape(-1, 2)
+    further = [[0.5, 0], [0, 2.5], [8, 7.25], [3, 3], [4.5, 4.5], [4.5, 4.5], [2.5, 3], [0, 0], [7.5, 8], [1.25, 1.25]]
+    before, made = check(np.concatenate([grid, further]), 81)
+    assert made.duplicates == 3
+    assert before.duplicates == 0
+    assert all(always_local)
+
+
+def test_cocircular_polygons_are_fans_again(always_local):
+    for seed in range(20):
+        rng = np.random.default_rng(seed)
+        points = outermost_first(np.unique(draw("exact_circle", 60, seed), axis=0))
+        order = np.concatenate([np.arange(4), 4 + rng.permutation(len(points) - 4)])
+        check(points[order], 4 + len(points) // 2)
+    assert sum(always_local) > 10
+
+
+def test_one_after_the_other():
+    points = outermost_first(draw("small_lattice", 60, 9))
+    mesh = delaunay(points[:20])
+    for k in range(20, 60):
+        mesh = insert_points(mesh, points[k : k + 1])
+        verify_triangulation(mesh)
+    right = delaunay(points)
+    for array in ARRAYS:
+        np.testing.assert_array_equal(getattr(mesh, array), getattr(right, array))
+
+
+def test_hints_change_nothing(always_local):
+    points = outermost_first(draw("uniform", 500, 2))
+    rng = np.random.default_rng(0)
+    for hint in (0, 399, rng.integers(0, 400, 100), [3] * 100):
+        check(points, 400, hint=hint)
+    doubled = np.concatenate([points[:400], points[:1], points[400:]])
+    check(doubled, 401, hint=400)
+    assert all(always_local)
+
+
+def test_threads_change_nothing(always_local):
+    points = outermost_first(draw("uniform", 80_000, 2))
+    for threads in (1, 2, 5):
+        check(points, 79_000, threads=threads)
+    assert all(always_local)
+
+
+lattice = st.lists(st.tuples(st.integers(-4, 4), st.integers(-4, 4)), max_size=14)
+corners = [(-5, -5), (5, -5), (-5, 5), (5, 5)]
+
+
+@settings(max_examples=300, deadline=None)
+@given(lattice, lattice)
+def test_any_lattice_points(old, new):
+    check(np.array([*corners, *old, *new], dtype=float), 4 + len(old))
+
+
+floats = st.floats(-1e100, 1e100)
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.lists(st.tuples(floats, floats), min_size=4, max_size=9), st.integers(1, 8))
+def test_any_doubles(points, further):
+    points = outermost_first(np.array(points))
+    check(points, max(0, len(points) - further))
+
+
+def test_collinear_and_few_points():
+    check([[0, 0], [1, 1], [2, 2], [3, 3], [0.5, 0.5]], 4)
+    check([[0, 0], [1, 1], [2, 2], [3, 3], [1, 2]], 4)
+    check([[5, 5], [5, 5]], 1)
+    check([[0, 0], [4, 0], [0, 3], [1, 1]], 0)
+    check([[0, 0], [4, 0], [0, 3], [1, 1]], 4)
+
+
+def test_what_points_bring():
+    old = PointSet([[0, 0], [4, 0], [0, 3]], labels=[7, 3, 9], properties={"name": ["a", "b", "c"]}, y_up=True, crs="x")
+    mesh = insert_points(delaunay(old), PointSet([[1, 1], [2, 1]], properties={"size": [1, 2]}))
+    assert mesh.label_array.tolist() == [7, 3, 9, 10, 11]
+    assert mesh.properties == {"name": ["a", "b", "c", None, None], "size": [None, None, None, 1, 2]}
+    assert (mesh.y_up, mesh.crs) == (True, "x")
+    assert insert_points(delaunay(old.xy), [[1, 1]]).labels is None
+    own = insert_points(delaunay(old.xy), PointSet([[1, 1]], labels=[70]))
+    assert own.label_array.tolist() == [1, 2, 3, 70]
+
+
+def test_duplicates_are_counted_or_refused():
+    mesh = delaunay([[0, 0], [4, 0], [0, 3], [4, 3], [1, 1]])
+    with pytest.warns(VorotoolWarning, match=r"^1 of 6 points lie on an earlier point"):
+        insert_points(mesh, [[1, 1]])
+    with pytest.raises(InputError, match="1 of 6"):
+        insert_points(mesh, [[1, 1]], strict=True)
+
+
+@pytest.mark.parametrize(
+    ("hint", "message"),
+    [(5, "hint 1 is 5"), (-1, "hint 1 is -1"), ([0, 9], "hint 2 is 9"), ([0], "has shape"), (0.5, "integer")],
+)
+def test_bad_hints(hint, message):
+    mesh = delaunay([[0, 0], [4, 0], [0, 3], [4, 3], [1, 1]])
+    with pytest.raises(InputError, match=message):
+        insert_points(mesh, [[1, 2], [2, 2]], hint=hint)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"triangles": [[0, 1, 9], [1, 3, 2]]},
+        {"neighbours": [[0, -1, -1], [-1, -1, 0]]},
+        {"neighbours": [[7, -1, -1], [-1, -1, 0]]},
+        {"neighbours": [[-1, -1, -1], [-1, -1, -1]]},
+        {"hull": [0, 1, 77, 2]},
+        {"first": [0, 1, 2, 77]},
+        {"edges": [[0, 99]]},
+        {"triangles": [[0, 2, 1], [1, 2, 3]]},
+    ],
+)
+def test_arrays_that_are_no_triangulation(change, always_local):
+    mesh = replace(delaunay([[0, 0], [4, 0], [0, 3], [4, 3]]), **change)
+    with pytest.raises(InputError, match="triangulation"):
+        insert_points(mesh, [[1.5, 0.5]])
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+def test_not_finite_is_refused(bad):
+    with pytest.raises(InputError, match="point 1"):
+        insert_points(delaunay([[0, 0], [4, 0], [0, 3]]), [[bad, 0]])

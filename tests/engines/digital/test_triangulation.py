@@ -1,0 +1,327 @@
+from __future__ import annotations
+
+import subprocess
+import sys
+import warnings
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import vorotool
+from support.families.families import random_case
+from support.oracles.digital_oracle import paper_rule
+from vorotool import (
+    InputError,
+    LabelImage,
+    LimitError,
+    SeedSet,
+    UsageError,
+    VerificationError,
+    VorotoolWarning,
+    _core,
+    delaunay,
+    digital_delaunay,
+    digital_triangulation,
+    repair_digital,
+    verify_digital_triangulation,
+    verify_triangulation,
+)
+from vorotool.engines.digital import triangulation as engine
+from vorotool.engines.tessellation import frames as digital
+
+ARRAYS = ("points", "triangles", "neighbours", "edges", "hull", "first")
+small_images = st.tuples(st.integers(1, 9), st.integers(1, 9), st.integers(1, 9), st.integers(0, 2**32 - 1))
+
+
+def as_sets(found):
+    labels = found.labels
+    edges = {tuple(labels[e].tolist()) for e in found.edges}
+    return edges, {tuple(sorted(labels[t].tolist())) for t in found.triangles}
+
+
+def random_seeds(seed, m, n):
+    rng = np.random.default_rng(seed)
+    return np.stack(np.divmod(rng.choice(m * m, n, replace=False), m)[::-1], axis=1)
+
+
+def assert_same(mesh, expected):
+    for name in ARRAYS:
+        np.testing.assert_array_equal(getattr(mesh, name), getattr(expected, name), err_msg=name)
+
+
+# ---- the paper's rule -----------------------------------------------------------------------------------
+
+
+@given(small_images)
+def test_the_rule_pixel_by_pixel(case):
+    height, width, labels, seed = case
+    image = np.random.default_rng(seed).integers(0, labels + 1, (height, width)).astype(np.uint8)
+    assert as_sets(digital_triangulation(LabelImage(image))) == paper_rule(image)
+
+
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.uint32, np.int32])
+def test_types_of_labels(dtype):
+    image = np.array([[1, 1, 2], [3, 100, 100]], dtype=dtype)
+    assert as_sets(digital_triangulation(LabelImage(image))) == paper_rule(image)
+
+
+def test_four_labels_at_a_corner_are_four_triangles():
+    found = digital_triangulation(LabelImage(np.array([[1, 2], [3, 4]], dtype=np.uint8)))
+    assert found.triangles.tolist() == [[0, 1, 2], [0, 1, 3], [0, 3, 2], [1, 3, 2]]
+    assert found.at_four.all()
+    assert (found.three_label_corners, found.four_label_corners) == (0, 1)
+    assert found.edges.tolist() == [[0, 1], [0, 2], [1, 3], [2, 3]]
+    assert found.sides().tolist() == [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]]
+
+
+def test_a_fourth_label_of_background_is_none():
+    found = digital_triangulation(LabelImage(np.array([[1, 2], [0, 4]], dtype=np.uint8)))
+    assert as_sets(found) == ({(1, 2), (2, 4)}, {(1, 2, 4)})
+    assert not found.at_four.any()
+    assert (found.three_label_corners, found.four_label_corners) == (1, 0)
+
+
+def test_triangles_turn_counter_clockwise():
+    found = digital_triangulation(random_seeds(1, 200, 300), shape=(200, 200))
+    signs = _core.orient2d(np.ascontiguousarray(found.points[found.triangles]))
+    assert (signs >= 0).all()
+    assert (found.triangles[:, 0] == found.triangles.min(axis=1)).all()
+
+
+@pytest.mark.parametrize("pixels", [1, 700, 5000])
+def test_bands_and_threads_change_nothing(pixels, monkeypatch):
+    seeds = random_seeds(2, 150, 400)
+    whole = digital_triangulation(LabelImage(vorotool.tessellate(seeds, shape=(150, 150)).labels))
+    monkeypatch.setattr(digital, "BAND_PIXELS", pixels)
+    for threads in (1, 3):
+        found = digital_triangulation(seeds, shape=(150, 150), threads=threads)
+        for name in ("edges", "triangles", "at_four"):
+            np.testing.assert_array_equal(getattr(found, name), getattr(whole, name))
+        assert found.four_label_corners == whole.four_label_corners
+        assert found.three_label_corners == whole.three_label_corners
+
+
+def test_many_rows_in_pieces():
+    """More pixels than a piece of work, of labels at random."""
+    image = np.random.default_rng(3).integers(1, 40, (900, 900)).astype(np.uint8)
+    found = digital_triangulation(LabelImage(image), threads=2)
+    scan = _core.DigitalTriangulationScan()
+    for y in range(899):
+        scan.add_rows(image[y : y + 2], 1, None)
+    one_by_one = scan.finish()
+    np.testing.assert_array_equal(found.labels[found.edges[:, 0]], one_by_one["edge_a"])
+    assert found.four_label_corners == one_by_one["four_label_corners"]
+    corner = np.array([image[:-1, :-1], image[:-1, 1:], image[1:, 1:], image[1:, :-1]]).reshape(4, -1)
+    distinct = 1 + (np.diff(np.sort(corner, axis=0), axis=0) != 0).sum(axis=0)
+    assert found.four_label_corners == np.count_nonzero(distinct == 4)
+    assert found.three_label_corners == np.count_nonzero(distinct == 3)
+
+
+def test_objects_are_linked_at_their_centroids():
+    blobs = vorotool.read("data/blobs.png")
+    found = digital_triangulation(blobs)
+    seeds = vorotool.seeds_from_raster(blobs)
+    np.testing.assert_array_equal(found.points, seeds.sites)
+    table = vorotool.neighbour_table(vorotool.tessellate(seeds))
+    np.testing.assert_array_equal(found.labels[found.edges], np.stack([table["label_a"], table["label_b"]], axis=1))
+
+
+def test_labels_of_points_are_kept():
+    points = vorotool.PointSet([[6, 1], [1, 1], [2, 6]], labels=[30, 20, 10], properties={"name": ["a", "b", "c"]})
+    found = digital_triangulation(points, shape=(8, 8))
+    assert found.labels.tolist() == [10, 20, 30]
+    assert found.points.tolist() == [[2, 6], [1, 1], [6, 1]]
+    assert list(found.properties["name"]) == ["c", "b", "a"]
+
+
+def test_what_cannot_be_read():
+    with pytest.raises(UsageError, match="shape or window, not both"):
+        digital_triangulation([[0, 0]], shape=(2, 2), window=(0, 0, 2, 2))
+    with pytest.raises(InputError, match="use --window"):
+        digital_triangulation([[-1, 0]])
+    image = LabelImage(np.array([[1, 3]], dtype=np.uint8), seeds=SeedSet([0], [0], [1]))
+    with pytest.raises(InputError, match="label 3, none of the 1 sites"):
+        digital_triangulation(image)
+    with pytest.raises(InputError, match=r"triangles must have shape"):
+        vorotool.DigitalTriangulation([[0, 0]], [], [[0, 1]], [False], [1])
+    with pytest.raises(InputError, match="at_four must be as long as triangles"):
+        vorotool.DigitalTriangulation([[0, 0]], [], [[0, 0, 0]], [], [1])
+
+
+@pytest.mark.parametrize("case", range(40))
+def test_the_checker_agrees(case, monkeypatch):
+    _, x, y, labels, scale, window = random_case(np.random.default_rng(case), 40)
+    seeds = SeedSet(x, y, labels, scale=scale)
+    monkeypatch.setattr(digital, "BAND_PIXELS", 300)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", VorotoolWarning)
+        verify_digital_triangulation(digital_triangulation(seeds, window=window), seeds, window=window)
+
+
+def test_the_checker_sees_faults():
+    seeds = random_seeds(4, 60, 40)
+    found = digital_triangulation(seeds, shape=(60, 60))
+    a, b, c = np.sort(found.labels[found.triangles[3]]).tolist()
+    faults = {
+        f"triangle {a}-{b}-{c} is missing .1 such triangles": {
+            "triangles": np.delete(found.triangles, 3, 0),
+            "at_four": np.delete(found.at_four, 3),
+        },
+        "edge 1-.* is missing": {"edges": found.edges[1:]},
+        "edge 1-.* should not be there .1 such edges": {
+            "edges": np.concatenate([found.edges, [[0, far_label(found)]]])
+        },
+        "an edge is there twice": {"edges": np.concatenate([found.edges, found.edges[:1, ::-1]])},
+        r"edge .* is missing .\d+ such edges": {"labels": found.labels + 1},
+    }
+    for message, change in faults.items():
+        with pytest.raises(VerificationError, match=message):
+            verify_digital_triangulation(replace(found, **change), seeds, shape=(60, 60))
+
+
+def far_label(found):
+    """A region that does not touch the first."""
+    return next(i for i in range(1, len(found.points)) if [0, i] not in found.edges.tolist())
+
+
+# ---- the repair -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", range(25))
+def test_the_repair_is_the_exact_triangulation(seed):
+    m = (64, 64, 64, 128, 256)[seed % 5]
+    rng = np.random.default_rng(seed)
+    seeds = random_seeds(seed, m, int(rng.integers(3, m * m // 20 + 1)))
+    mesh, repair = repair_digital(seeds, shape=(m, m), threads=1)
+    verify_triangulation(mesh)
+    assert_same(mesh, delaunay(seeds))
+    assert repair.route == "repaired"
+    assert repair.fault is None
+
+
+@settings(max_examples=60)
+@given(st.integers(2, 14), st.integers(2, 14), st.integers(1, 196), st.integers(0, 2**32 - 1))
+def test_crowds_and_ties(width, height, n, seed):
+    """Up to a seed on every pixel: flat triangles, twins and four-label corners in plenty."""
+    pixels = np.random.default_rng(seed).permutation(width * height)[:n]
+    seeds = np.stack(np.divmod(pixels, width)[::-1], axis=1)
+    mesh, repair = repair_digital(seeds, shape=(height, width))
+    assert_same(mesh, delaunay(seeds))
+    assert repair.route != "rebuilt"
+
+
+@pytest.mark.parametrize("case", range(120))
+def test_any_seeds_have_the_exact_triangulation(case):
+    """Between pixels, outside the frame, duplicates, lines: the repair may have to insert them all, and says so."""
+    rng = np.random.default_rng(case)
+    _, x, y, _, scale, window = random_case(rng, 40)
+    seeds = SeedSet(x, y, np.arange(1, len(x) + 1), scale=scale)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", VorotoolWarning)
+        mesh, repair = repair_digital(seeds, window=window)
+        expected = delaunay(seeds)
+    verify_triangulation(mesh)
+    assert_same(mesh, expected)
+    assert any("could not be repaired" in str(w.message) for w in caught) == (repair.route == "rebuilt")
+
+
+def test_insertion_alone_is_exact():
+    for case in range(40):
+        _, x, y, _, scale, _ = random_case(np.random.default_rng(1000 + case), 60)
+        points = np.stack([x, y], axis=1) / scale
+        expected = _core.DelaunayMesh(points, 1, None)
+        core = _core.inserted_mesh(points, 1, None)
+        for one, other in zip(core.arrays(1, None), expected.arrays(1, None), strict=True):
+            np.testing.assert_array_equal(one, other)
+        np.testing.assert_array_equal(core.hull, expected.hull)
+
+
+def test_equal_codes_of_the_curve_get_equal_numbers():
+    """Points so close that the curve cannot tell them apart, beside a distant one."""
+    seeds = np.concatenate([np.array([[k % 7, k // 7] for k in range(49)]) + 0.25, [[300000.0, 0.0]]])
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", VorotoolWarning)
+        assert_same(digital_delaunay(seeds, shape=(9, 9)), delaunay(seeds))
+
+
+def test_threads_change_nothing():
+    seeds = random_seeds(5, 300, 2000)
+    assert_same(digital_delaunay(seeds, shape=(300, 300), threads=3), digital_delaunay(seeds, threads=1))
+
+
+@pytest.mark.parametrize(
+    "seeds", [[[3, 2]], [[3, 2], [0, 1]], [[0, 0], [2, 1], [4, 2]], [[1, 0], [1, 5], [1, 3], [1, 4]]]
+)
+def test_chains(seeds):
+    mesh, repair = repair_digital(seeds)
+    assert_same(mesh, delaunay(seeds))
+    assert (repair.route, len(mesh)) == ("chain", 0)
+
+
+def test_no_seeds():
+    assert len(digital_triangulation([]).points) == len(digital_triangulation([]).edges) == 0
+    mesh, repair = repair_digital([])
+    assert (len(mesh.points), len(mesh.edges), repair.route) == (0, 0, "chain")
+
+
+def test_each_step_is_needed():
+    """Seeds for each step of the repair; without it the result would not be this."""
+    needed = dict.fromkeys(("split_regions", "four_label_corners", "twins", "straightened", "filled", "flipped"), 0)
+    for seed in range(40):
+        _, repair = repair_digital(random_seeds(seed, 64, 204), shape=(64, 64))
+        for name in needed:
+            needed[name] += getattr(repair, name) > 0
+        assert repair.inserted == repair.twins
+    assert all(needed.values()), needed
+
+
+def test_a_failed_certificate_is_said(monkeypatch):
+    faults = iter(["triangle 0 is not counter-clockwise"])
+    monkeypatch.setattr(engine._core, "triangulation_fault", lambda *_: next(faults))
+    with pytest.warns(
+        VorotoolWarning, match=r"the certificate failed .triangle 0 is not .*: all 4 sites were inserted"
+    ):
+        mesh, repair = repair_digital([[0, 0], [5, 1], [2, 6], [3, 3]])
+    monkeypatch.undo()
+    assert (repair.route, repair.inserted) == ("rebuilt", 4)
+    assert_same(mesh, delaunay([[0, 0], [5, 1], [2, 6], [3, 3]]))
+
+
+def test_regions_that_are_no_points_are_refused():
+    blobs = vorotool.read("data/blobs.png")
+    with pytest.raises(InputError, match=r"label 1 has .* seeds: a triangulation of points needs one pixel a label"):
+        repair_digital(blobs)
+    with pytest.raises(LimitError, match="--max-pixels 10"):
+        repair_digital([[0, 0], [5, 5]], max_pixels=10)
+    with pytest.raises(InputError, match="lie on another seed"):
+        repair_digital([[0, 0], [5, 5], [5, 5]], strict=True)
+
+
+def test_the_long_comparison():
+    """A few sets of what `make fuzz` does with 500."""
+    script = Path(__file__).parents[2] / "fuzz" / "digital.py"
+    command = [sys.executable, script, "--sets", "12", "--seed", "3"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "0 failures" in done.stdout
+
+
+def test_labels_in_any_order():
+    points = vorotool.PointSet([[6, 1], [1, 1], [2, 6], [3, 3]], labels=[30, 20, 10, 40])
+    seeds = vorotool.seeds_from_points(points)
+    mesh = digital_delaunay(points)
+    assert_same(mesh, delaunay(seeds))
+    assert mesh.labels.tolist() == [10, 20, 30, 40]
+
+
+def test_an_interrupt_stops_the_repair():
+    def stop(_):
+        raise KeyboardInterrupt
+
+    seeds = random_seeds(6, 2048, 200_000)
+    with pytest.raises(KeyboardInterrupt):
+        repair_digital(seeds, shape=(2048, 2048), progress=stop)

@@ -1,0 +1,96 @@
+"""Shapes rebuilt from their skeletons, beside what these were made of and beside discs."""
+
+import warnings
+
+import numpy as np
+import pytest
+import shapely
+
+import vorotool
+from support.families.skeleton_shapes import FAMILIES, TOUCHING
+from support.oracles.offset_oracle import check_rebuilt
+from vorotool.geometry.polygons.conversion import to_shapely
+
+
+def skeleton_of(shape):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return vorotool.skeleton_exact(shape)
+
+
+@pytest.mark.parametrize("family", [*FAMILIES, *TOUCHING], ids=lambda family: family.__name__)
+def test_shapes_are_rebuilt(family):
+    for seed in range(5):
+        skeleton = skeleton_of(family(np.random.default_rng(seed)))
+        check_rebuilt(vorotool.rebuild(skeleton), skeleton.polygons)
+
+
+@pytest.mark.parametrize("angle", [0, 1, 2.5])
+def test_a_shape_with_a_hole_is_rebuilt_at_any_angle(angle):
+    around = np.sort(np.random.default_rng(3).random(17)) * 2 * np.pi
+    shell = shapely.Polygon(np.stack([900 * np.cos(around), 500 * np.sin(around)], axis=1))
+    shape = shapely.affinity.rotate(shell - shapely.box(-20, -30, 40, 25), angle, use_radians=True)
+    again = to_shapely(vorotool.rebuild(vorotool.skeleton_exact(shape)))
+    assert shapely.symmetric_difference(shapely.union_all(again), shape).area <= 1e-9 * shape.length * 1800
+
+
+def test_polygons_of_a_label_image_come_back_one_by_one():
+    image = [[0, 0, 2], [0, 1, 1], [2, 1, 1]]  # the first has straight vertices, where the others end
+    outlines = vorotool.outlines(image, mode="labels")
+    again = vorotool.rebuild(vorotool.skeleton_exact(outlines))
+    assert again.ids == outlines.ids
+    pairs = zip(to_shapely(again), to_shapely(outlines), strict=True)
+    assert all(one.equals(other) for one, other in pairs)
+
+
+def test_what_is_pruned_to_a_place_is_a_disc():
+    square = [[0, 0], [4, 0], [4, 4], [0, 4]]
+    pruned = vorotool.prune(vorotool.skeleton_exact(square), chord=4)
+    (disc,) = to_shapely(vorotool.rebuild(pruned, flatten=1e-5))
+    assert disc.area == pytest.approx(4 * np.pi, rel=1e-4)
+    assert shapely.hausdorff_distance(disc, shapely.Point(2, 2).buffer(2, quad_segs=512)) < 2e-5
+
+
+@pytest.mark.parametrize("criterion", ["angle", "chord", "length"])
+@pytest.mark.parametrize("family", TOUCHING, ids=lambda family: family.__name__)
+def test_pruned_shapes_are_what_their_discs_cover(family, criterion):
+    skeleton = skeleton_of(family(np.random.default_rng(1)))
+    middle = float(np.median(vorotool.critical_values(skeleton, criterion).ends))
+    pruned = vorotool.prune(skeleton, **{criterion: min(middle, 170)})
+    extent = float(np.ptp(skeleton.polygons.xy, axis=0).max())
+    found = shapely.union_all(to_shapely(vorotool.rebuild(pruned, flatten=extent * 1e-6)))
+    along = vorotool.points_along(pruned, every=extent / 300)
+    covered = shapely.union_all(shapely.buffer(shapely.points(along.xy), along.radius, quad_segs=32))
+    # between two discs a step apart there is at most a triangle of the step and its height, on both sides
+    assert shapely.difference(covered, found).area <= 1e-5 * extent * covered.length
+    assert shapely.difference(found, covered).area <= 2e-3 * extent * covered.length
+
+
+def test_approximate_skeletons_give_approximate_shapes():
+    shape = shapely.Polygon([(0, 0), (90, 10), (80, 60), (50, 40), (10, 70)], [[(30, 20), (45, 20), (40, 32)]])
+    for options in ({"tolerance": 0.05}, {"step": 1}):
+        again = shapely.union_all(to_shapely(vorotool.rebuild(vorotool.skeleton_approx(shape, **options))))
+        assert len(again.interiors) == 1
+        assert shapely.symmetric_difference(again, shape).area < 0.01 * shape.area
+        assert shapely.hausdorff_distance(again, shape) < 3
+
+
+FLAT = {
+    "a point": [[[5, 5]]],
+    "a segment": [[[3, 5], [6, 5]]],
+    "both": [[[2, 3]], [[3, 5], [6, 6]]],
+    "a segment given twice": [[[3, 5], [6, 5], [3, 5]]],
+}
+
+
+@pytest.mark.parametrize("holes", FLAT.values(), ids=FLAT)
+@pytest.mark.parametrize("side", ["interior", "both"])
+@pytest.mark.parametrize("chord", [None, 100])
+def test_points_and_segments_are_holes_again(holes, side, chord):
+    square = [[0, 0], [10, 0], [10, 10], [0, 10]]
+    skeleton = vorotool.skeleton_exact([{"shell": square, "holes": holes}, [[20, 0], [24, 0], [24, 4]]], side=side)
+    again = vorotool.rebuild(skeleton if chord is None else vorotool.prune(skeleton, chord=chord))
+    first = slice(1, int(again.polygon_start[1]))
+    assert again.ring_kind[first].tolist() == [1] * len(holes)
+    places = [{tuple(place) for place in ring} for ring in holes]
+    assert [{tuple(place) for place in again.ring(k + 1).tolist()} for k in range(len(holes))] == places

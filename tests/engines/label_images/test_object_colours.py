@@ -1,0 +1,43 @@
+"""Colours of objects with background between them."""
+
+import numpy as np
+import pytest
+
+import vorotool
+from vorotool.engines.label_images.object_colours import object_colours
+from vorotool.engines.label_images.regions import measure_regions, region_colours
+from vorotool.geometry.points.label_image import LabelImage
+
+
+def scattered(seed, largest=2**32 - 1):
+    rng = np.random.default_rng(seed)
+    image = np.zeros((60, 70), np.uint32)
+    for label in rng.integers(1, largest, 25):
+        x, y, w, h = rng.integers(0, 60), rng.integers(0, 50), rng.integers(1, 9), rng.integers(1, 9)
+        image[y : y + h, x : x + w] = label
+    return image
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_neighbours_differ_across_the_background(seed):
+    image = scattered(seed)
+    labels, colours = object_colours(LabelImage(image))
+    assert labels.tolist() == np.unique(image)[1:].tolist()
+    of = dict(zip(labels.tolist(), colours.tolist(), strict=True))
+    influence = vorotool.tessellate(vorotool.seeds_from_raster(image, mode="labels"))
+    measures = measure_regions(influence)
+    pairs = measures.labels[measures.borders]
+    assert len(pairs)
+    assert all(of[a] != of[b] for a, b in pairs.tolist())
+    assert len(set(colours.tolist())) > 1
+
+
+def test_without_background_colours_are_those_of_the_regions():
+    image = vorotool.tessellate([[3, 4], [20, 9], [7, 30], [25, 25]], shape=(40, 40))
+    for found, right in zip(object_colours(image), region_colours(image), strict=True):
+        np.testing.assert_array_equal(found, right)
+
+
+def test_one_object_and_none():
+    assert object_colours(LabelImage(np.array([[0, 7]])))[1].tolist() == [1]
+    assert len(object_colours(LabelImage(np.zeros((3, 3), np.uint8)))[0]) == 0

@@ -1,0 +1,297 @@
+"""Outlines of masks and label images against pixel sides one by one, scikit-image's contours, and areas."""
+
+import numpy as np
+import pytest
+import shapely
+from skimage.measure import find_contours
+
+import vorotool
+from support.oracles.outline_oracle import (
+    all_masks,
+    hole_count,
+    numbered_objects,
+    pixel_sides,
+    random_labels,
+    ring_areas,
+    unit_sides,
+)
+from vorotool.engines.label_images.marching_squares import grey_level
+from vorotool.engines.label_images.outlines import outlines
+from vorotool.errors import InputError, LimitError, UsageError, VorotoolWarning
+from vorotool.geometry.points.label_image import LabelImage
+from vorotool.geometry.points.raster import Raster
+from vorotool.geometry.polygons.conversion import to_shapely
+from vorotool.geometry.polygons.polygon_set import HOLE, SHELL
+
+RANDOM = [random_labels(np.random.default_rng(seed)) for seed in range(24)]
+IMAGES = [all_masks(3, 4), all_masks(4, 3), *(image for image in RANDOM if image.any())]
+
+
+def check_crack(made, labels, connectivity):
+    """Sides, areas and directions of rings, their first vertices; with 4-connectivity that they are valid polygons."""
+    objects, _ = numbered_objects(labels, connectivity)
+    assert np.array_equal(unit_sides(made), pixel_sides(objects))
+    rings, areas = ring_areas(made)
+    assert np.array_equal(areas, np.bincount(objects.ravel())[1:])
+    assert np.array_equal(rings < 0, made.ring_kind == HOLE)
+    place = made.xy[:, 1] * 1000 + made.xy[:, 0]
+    assert np.array_equal(place[made.ring_start[:-1]], np.minimum.reduceat(place, made.ring_start[:-1]))
+    if connectivity == 4:
+        assert shapely.is_valid(to_shapely(made)).all()
+
+
+@pytest.mark.parametrize("connectivity", [4, 8])
+@pytest.mark.parametrize("index", range(2, len(IMAGES)))
+def test_crack_outlines_of_labels(index, connectivity):
+    labels = IMAGES[index]
+    made = outlines(labels, mode="labels", connectivity=connectivity)
+    assert made.ids == numbered_objects(labels, connectivity)[1]
+    check_crack(made, labels, connectivity)
+    if connectivity == 8:
+        assert np.count_nonzero(made.ring_kind == HOLE) == hole_count(labels, 8)
+
+
+@pytest.mark.parametrize("connectivity", [4, 8])
+@pytest.mark.parametrize("index", [0, 1])
+def test_crack_outlines_of_all_small_masks(index, connectivity):
+    """All masks of 3 x 4 pixels and of 4 x 3, in one image."""
+    mask = IMAGES[index]
+    made = outlines(mask, mode="components", connectivity=connectivity)
+    assert made.ids == list(range(1, len(made) + 1))
+    check_crack(made, mask, connectivity)
+    if connectivity == 8:  # the background falls into holes and what is around all
+        outside, _ = numbered_objects(np.pad(1 - mask, 1, constant_values=1), 4)
+        assert np.count_nonzero(made.ring_kind == HOLE) == outside.max() - 1
+
+
+def test_collinear_runs_are_merged():
+    made = outlines(np.ones((3, 5), dtype=bool))
+    assert made.xy.tolist() == [[-0.5, -0.5], [4.5, -0.5], [4.5, 2.5], [-0.5, 2.5]]
+    assert (made.ring_kind.tolist(), made.ids, made.connectivity) == ([SHELL], [1], 8)
+
+
+def test_touching_labels_have_all_vertices_of_their_border():
+    image = np.array([[1, 1, 1], [2, 2, 3]], dtype=np.uint8)
+    made = outlines(image)
+    assert made.ids == [1, 2, 3]
+    assert [1.5, 0.5] in made.ring(0).tolist()  # where 2 and 3 meet on the straight side of 1
+    vorotool.planar_graph(made, strict=True)
+
+
+def test_components_of_a_label_are_polygons_of_one_feature():
+    made = outlines(np.array([[7, 0, 7], [0, 0, 0], [3, 0, 0]], dtype=np.uint8))
+    assert made.ids == [3, 7, 7]
+    assert made.feature.tolist() == [0, 1, 1]
+    assert made.part.tolist() == [1, 1, 2]
+    assert outlines(np.array([[7, 0, 7]]), mode="components").ids == [1, 2]
+
+
+def test_pixels_that_meet_at_a_corner():
+    pair = np.array([[1, 0], [0, 1]], dtype=bool)
+    one, two = (outlines(pair, connectivity=connectivity) for connectivity in (8, 4))
+    assert len(one), len(two) == (1, 2)
+    assert one.xy.tolist().count([0.5, 0.5]) == 2
+    assert [len(set(map(tuple, two.ring(k).tolist()))) for k in (0, 1)] == [4, 4]
+    around = np.array([[1, 1, 1], [1, 0, 1], [1, 1, 0]], dtype=bool)  # the hole meets the outside at a corner
+    assert [np.count_nonzero(outlines(around, connectivity=c).ring_kind == HOLE) for c in (8, 4)] == [1, 1]
+    assert [table(around, c)["cycles"].tolist() for c in (8, 4)] == [[1], [0]]
+
+
+def table(mask, connectivity):
+    return vorotool.polygon_table(vorotool.skeleton_exact(outlines(mask, connectivity=connectivity)))
+
+
+@pytest.mark.parametrize("dtype", [bool, np.uint8, np.uint16, np.uint32, np.int64, np.float32])
+def test_types_of_pixels(dtype):
+    made = outlines(np.array([[0, 1], [1, 1]], dtype=dtype))
+    assert ring_areas(made)[1].tolist() == [3]
+
+
+def test_a_view_with_strides():
+    image = np.zeros((6, 8), dtype=np.uint8)
+    image[::2, ::2] = 1
+    assert ring_areas(outlines(image[::2, ::2], mode="labels"))[1].tolist() == [12]
+
+
+def test_a_label_image_lies_in_its_frame():
+    labels = vorotool.tessellate([[10, 20], [14, 20]], window=(9, 19, 8, 4))
+    made = outlines(labels)
+    assert isinstance(labels, LabelImage)
+    assert made.ids == [1, 2]
+    assert made.xy.min(axis=0).tolist() == [8.5, 18.5]
+
+
+def test_one_pixel_full_and_empty():
+    assert ring_areas(outlines(np.ones((1, 1), dtype=bool)))[1].tolist() == [1]
+    assert outlines(np.full((2, 2), 9)).ids == [9]
+    for nothing in (np.zeros((3, 3), dtype=np.uint8), np.zeros((1, 1), dtype=bool)):
+        with pytest.warns(VorotoolWarning, match="no foreground"):
+            made = outlines(nothing)
+        assert len(made) == 0
+        with pytest.warns(VorotoolWarning, match="interior skeleton is empty"):
+            assert len(vorotool.skeleton_exact(made)) == 0
+        assert len(outlines(nothing, invert=True)) == 1
+
+
+# ---- contours ----
+
+
+def as_sets(rings):
+    """Rings as sets of vertices, each with its neighbours' mean: which way they run does not matter."""
+    return sorted(sorted(map(tuple, np.round(ring, 9).tolist())) for ring in rings)
+
+
+def skimage_rings(values, level, connectivity, fill):
+    padded = np.pad(values.astype(float), 1, constant_values=fill)
+    found = find_contours(padded, level, fully_connected="high" if connectivity == 8 else "low")
+    return [ring[:-1, ::-1] - 1 for ring in found]
+
+
+def straightened(ring):
+    before, after = ring - np.roll(ring, 1, axis=0), np.roll(ring, -1, axis=0) - ring
+    return ring[before[:, 0] * after[:, 1] != before[:, 1] * after[:, 0]]
+
+
+@pytest.mark.parametrize("connectivity", [4, 8])
+def test_contours_of_masks_are_those_of_scikit_image(connectivity):
+    for image in (all_masks(3, 3), *RANDOM):
+        mask = image == image.max()
+        made = outlines(mask, outline="contour", connectivity=connectivity)
+        expected = [straightened(ring) for ring in skimage_rings(mask, 0.5, connectivity, 0)]
+        assert as_sets(map(made.ring, range(len(made.ring_kind)))) == as_sets(expected)
+        assert made.connectivity is None
+        rings, areas = ring_areas(made)
+        assert np.array_equal(rings < 0, made.ring_kind == HOLE)
+        assert (areas > 0).all()
+
+
+@pytest.mark.parametrize("connectivity", [4, 8])
+@pytest.mark.parametrize("invert", [False, True])
+@pytest.mark.parametrize("dtype", [np.uint8, np.float64])
+def test_contours_of_grey_values_are_those_of_scikit_image(connectivity, invert, dtype):
+    """In a frame that is copied from the image's own border, so that both go straight to it."""
+    for seed in range(10):
+        random = np.random.default_rng(seed)
+        values = random.integers(0, 40, random.integers(2, 20, 2)).astype(dtype)
+        threshold = 20 if dtype == np.uint8 else 20.5
+        made = outlines(values, outline="contour", threshold=threshold, invert=invert, connectivity=connectivity)
+        level = grey_level(values, threshold).level
+        sign = -1 if invert else 1
+        found = find_contours(
+            sign * values.astype(float), sign * level, fully_connected="high" if connectivity == 8 else "low"
+        )
+        inner = sorted(tuple(v) for ring in found for v in np.round(ring[:, ::-1], 9).tolist())
+        mine = np.round(made.xy, 9)
+        border = ((mine == -0.5) | (mine == np.array(values.shape[::-1]) - 0.5)).any(axis=1)
+        assert sorted(map(tuple, mine[~border].tolist())) == sorted(set(inner))
+        vorotool.planar_graph(made, strict=True)
+        mask = values <= threshold if invert else values > threshold
+        assert len(made) == numbered_objects(mask.astype(np.uint8), connectivity)[0].max()
+
+
+@pytest.mark.parametrize("connectivity", [4, 8])
+def test_contours_of_labels_meet_without_crossing(connectivity):
+    for image in RANDOM:
+        if not image.any():
+            continue
+        made = outlines(image, mode="labels", outline="contour", connectivity=connectivity)
+        graph = vorotool.planar_graph(made, strict=True)
+        assert max(len(graph.polygons_of(face)) for face in range(graph.faces)) <= 1
+        assert set(made.ids) == set(np.unique(image[image > 0]).tolist())
+
+
+def test_only_the_smaller_of_two_labels_goes_through_a_corner():
+    image = np.array([[2, 5], [5, 2]], dtype=np.uint8)
+    assert outlines(image, outline="contour").ids == [2, 5, 5]
+    assert outlines(image).ids == [2, 5]
+
+
+# ---- fewer vertices ----
+
+
+@pytest.mark.parametrize("outline", ["crack", "contour"])
+@pytest.mark.parametrize("connectivity", [4, 8])
+def test_simplified_outlines_keep_faces_and_borders(outline, connectivity):
+    for image in RANDOM[::4]:
+        if not image.any():
+            continue
+        options = {"mode": "labels", "outline": outline, "connectivity": connectivity}
+        given = outlines(image, **options)
+        faces = faces_of(vorotool.planar_graph(given, strict=True))
+        for tolerance in (0.5, 0.8, 2, 10):
+            made = outlines(image, simplify=tolerance, **options)
+            assert faces_of(vorotool.planar_graph(made, strict=True)) == faces
+            assert (made.ids, made.connectivity) == (given.ids, given.connectivity)
+            assert len(made.xy) <= len(given.xy)
+            assert np.array_equal(np.sign(ring_areas(made)[0]), np.sign(ring_areas(given)[0]))
+            assert farthest(given, made) <= tolerance * (1 + 1e-12)
+
+
+def faces_of(graph):
+    return sorted(tuple(graph.polygons_of(face).tolist()) for face in range(graph.faces))
+
+
+def farthest(given, made):
+    """How far vertices of rings are from the simplified rings."""
+    most = 0.0
+    for ring in range(len(given.ring_kind)):
+        lines = shapely.linearrings(made.ring(ring))
+        most = max(most, float(shapely.distance(shapely.points(given.ring(ring)), lines).max()))
+    return most
+
+
+def test_lines_keep_their_ends():
+    line = vorotool.PolygonSet([[0, 0], [1, 0.1], [2, 0], [2, 0], [2, 5], [2.1, 6], [2, 9]], [0, 3, 7], [2, 2], [0, 1])
+    made = vorotool.engines.label_images.simplification.simplified_polygons(line, 0.5)
+    assert [ring.tolist() for ring in map(made.ring, (0, 1))] == [[[0, 0], [2, 0]], [[2, 0], [2, 9]]]
+    dot = vorotool.PolygonSet([[0, 0], [5, 5], [9, 9.1], [9, 13]], [0, 1, 4], [2, 2], [0, 1])
+    again = vorotool.engines.label_images.simplification.simplified_polygons(dot, 1)
+    assert [ring.tolist() for ring in map(again.ring, (0, 1))] == [[[0, 0]], [[5, 5], [9, 9.1], [9, 13]]]
+
+
+# ---- what is refused ----
+
+
+def test_options_that_are_none():
+    mask = np.eye(3, dtype=bool)
+    for options, words in (
+        ({"outline": "smooth"}, "crack, contour"),
+        ({"mode": "pixels"}, "components, labels"),
+        ({"connectivity": 6}, "4 or 8"),
+        ({"simplify": -1.0}, "0 or more"),
+    ):
+        with pytest.raises(UsageError, match=words):
+            outlines(mask, **options)
+
+
+def test_too_many_vertices_are_refused_before_they_are_made():
+    with pytest.raises(LimitError, match="14 vertices, more than --max-sites 10"):
+        outlines(np.eye(4, dtype=bool) | np.eye(4, k=1, dtype=bool), max_sites=10)
+
+
+def test_values_that_say_nothing():
+    with pytest.raises(InputError, match="--threshold T or --threshold otsu"):
+        outlines(Raster(np.zeros((4, 4, 3), dtype=np.uint8)))
+    with pytest.raises(InputError, match="NaN or infinite"):
+        outlines(np.array([[np.nan, 1.0]]))
+    with pytest.raises(InputError, match="contours need numbers"):
+        outlines(np.array([[np.nan, 1.0]]), threshold=0.5, outline="contour")
+    assert len(outlines(np.array([[np.nan, 1.0]]), threshold=0.5)) == 1
+    noise = np.random.default_rng(0).integers(0, 255, (64, 64))
+    with pytest.raises(InputError, match="a photograph"):
+        outlines(noise)
+
+
+@pytest.mark.parametrize("connectivity", [4, 8])
+def test_bands_of_lines_are_joined(connectivity):
+    """In a wide image each line is a band of its own; a narrow one is done at once."""
+    narrow = np.random.default_rng(connectivity).integers(0, 3, (40, 60)).astype(np.uint8)
+    narrow[:, -7:-5] = 1  # a crack through all bands, with holes beside it
+    wide = np.zeros((40, 1 << 19), dtype=np.uint8)
+    wide[:, :60] = narrow
+    expected = outlines(narrow, connectivity=connectivity, mode="labels")
+    for threads in (1, 2):
+        made = outlines(wide, connectivity=connectivity, mode="labels", threads=threads)
+        for name in ("xy", "ring_start", "ring_kind", "ring_polygon"):
+            assert np.array_equal(getattr(made, name), getattr(expected, name))
+        assert made.ids == expected.ids

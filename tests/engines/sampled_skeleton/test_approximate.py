@@ -1,0 +1,54 @@
+"""Approximate skeletons: their checker on broken shapes, and their bounds beside the exact skeleton."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+import vorotool
+from fuzz.skeleton_approx import failure
+from fuzz.skeleton_bounds import Shape, check_steps, check_tolerances, random_shapes
+from support.families.skeleton_shapes import FAMILIES, regular
+from vorotool.engines.sampled_skeleton.hausdorff import distances_to, places_on_arcs
+from vorotool.errors import UsageError
+
+SHAPES = random_shapes(np.random.default_rng(1))
+
+
+@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)
+def test_broken_shapes_pass_the_checker(family):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        rng = np.random.default_rng(5)
+        assert failure(family(rng), rng) is None
+
+
+@pytest.mark.parametrize("name", ["random 0", "random 1", "holes 0"])
+def test_bounds_hold_and_tolerances_are_met(name):
+    shape = Shape(name, SHAPES[name])
+    violations, ratio, orders = check_steps(shape, 20)
+    assert violations == 0
+    assert np.median(ratio) <= 3
+    assert 1.5 <= np.median(orders) <= 2.5
+    assert check_tolerances(shape) == 0
+
+
+def test_bounds_hold_and_are_small_where_shapes_are_round():
+    shape = Shape("round", regular(150))
+    skeleton = shape.sampled(10.0).skeleton
+    spots = places_on_arcs(skeleton, np.linspace(0, 1, 5)).reshape(-1, 2)
+    true = distances_to(shape.exact, spots).reshape(len(skeleton), 5)
+    assert (true <= skeleton.error_bound[:, None]).all()
+    assert skeleton.error_bound.max() < 1
+
+
+def test_results_do_not_depend_on_threads():
+    one, two = (vorotool.skeleton_approx(SHAPES["holes 1"], step=7.0, threads=threads) for threads in (1, 2))
+    for name in ("vertices", "radius", "arcs", "sites", "error_bound"):
+        np.testing.assert_array_equal(getattr(one, name), getattr(two, name))
+
+
+@pytest.mark.parametrize("options", [{}, {"step": 0}, {"step": -1.0}, {"tolerance": 0.0}, {"step": 1, "tolerance": 1}])
+def test_wrong_options_are_refused(options):
+    with pytest.raises(UsageError):
+        vorotool.skeleton_approx(SHAPES["random 0"], **options)

@@ -1,0 +1,255 @@
+"""The segment Voronoi diagram against brute force, the checker, and itself under symmetries."""
+
+import time
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from support.families.segment_families import (
+    BOOST_FAILURE,
+    FAMILIES,
+    JOINED,
+    LIMIT,
+    coarse,
+    draw,
+    polygon,
+    renumbered,
+    symmetries,
+)
+from support.oracles import boost_oracle
+from support.oracles.segment_oracle import differences, voronoi_diagram
+from vorotool import _core
+from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
+from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
+from vorotool.errors import InputError, LimitError
+
+ARRAYS = ("vertices", "radius", "vertex_start", "vertex_sites", "edges", "edge_sites")
+SMALL = 26
+"""Sites that brute force takes a fraction of a second for."""
+
+
+def assert_right(points, segments):
+    diagram = segment_voronoi(points, segments, threads=1)
+    assert not differences(diagram, voronoi_diagram(points, segments))
+    verify_segment_voronoi(diagram, threads=1)
+
+
+def rings(diagram):
+    return {tuple(diagram.sites_of(v).tolist()) for v in range(len(diagram))}
+
+
+@pytest.mark.parametrize("name", [name for name in FAMILIES if name not in ("contour", "partition")])
+def test_brute_force_agrees(name):
+    points, segments = next(
+        graph for n in range(9, 0, -1) for graph in [draw(name, n, 1)] if len(graph[0]) + len(graph[1]) <= SMALL
+    )
+    assert_right(points, segments)
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_boost_agrees_on_small_coordinates(name):
+    for seed in range(14):
+        points, segments = coarse(*draw(name, 40, seed), 2**12)
+        diagram = segment_voronoi(points, segments, threads=1)
+        assert not boost_oracle.differences(diagram, boost_oracle.boost_edges(points, segments))
+
+
+@pytest.mark.parametrize(
+    ("points", "segments"),
+    [
+        polygon(BOOST_FAILURE),
+        # Points beside a segment, small coordinates.
+        ([[-11, 29], [0, 28], [1, 27], [5, 26], [6, -25], [6, 1], [6, 27]], [[0, 3]]),
+        ([[-3802, 3390], [-3283, -1014], [-3236, -172], [-2901, -2183]], [[3, 0]]),
+    ],
+)
+def test_graphs_on_which_boost_is_wrong(points, segments):
+    """Not in every direction of its sweep."""
+    points, segments = np.array(points, np.int32), np.array(segments, np.int32)
+    assert_right(points, segments)
+    wrong = 0
+    for turned in symmetries(points):
+        diagram = segment_voronoi(turned, segments)
+        verify_segment_voronoi(diagram)
+        wrong += bool(boost_oracle.differences(diagram, boost_oracle.boost_edges(turned, segments)))
+    assert wrong, "Boost is right now: say so where the polygon is named"
+
+
+@pytest.mark.parametrize(
+    ("points", "segments"),
+    [
+        # A segment enters a disc so near to its end that doubles do not tell on which side of the end.
+        ([[1, -3], [2, -2], [0, -1000001], [0, -1000003]], [[2, 0], [1, 2], [2, 3], [1, 3]]),
+        (
+            [[0, 0], [LIMIT, 0], *([LIMIT - (k % 5 in (2, 4, 5)), -k] for k in range(1, 5)), [LIMIT // 2 + 1, -5]],
+            [[0, k] for k in range(1, 7)],
+        ),
+        # Two vertices on the normal of a segment at its end, on opposite sides.
+        ([[1, 1073741786], [1, 1073741785], [2, 1073741786], [0, 3]], [[0, 3], [1, 2]]),
+    ],
+)
+def test_graphs_that_were_wrong_once(points, segments):
+    for turned in symmetries(np.array(points, np.int32)):
+        assert_right(turned, np.array(segments, np.int32))
+
+
+@given(
+    st.sampled_from(["two_boxes", "fan", "clusters", "crowded", "scattered", "star_small", "jittered_grid"]),
+    st.integers(0, 2**32),
+)
+@settings(max_examples=25)
+def test_brute_force_agrees_on_graphs_of_any_kind(name, seed):
+    points, segments = draw(name, 8, seed)
+    if len(points) + len(segments) <= SMALL:
+        assert_right(points, segments)
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_the_checker_passes_under_the_symmetries_of_the_square(name):
+    points, segments = draw(name, 150, 1)
+    vertices = set()
+    for turned in symmetries(points):
+        diagram = segment_voronoi(turned, segments)
+        verify_segment_voronoi(diagram)
+        vertices.add((len(diagram), len(diagram.edges)))
+    assert len(vertices) == 1
+
+
+@pytest.mark.parametrize("name", ["clusters", "two_boxes", "fan"])
+@pytest.mark.parametrize("seed", range(40))
+def test_points_that_are_near_in_a_wide_extent(name, seed):
+    for k in range(4):
+        verify_segment_voronoi(segment_voronoi(*draw(name, 60, [seed, k])))
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_numbers_of_sites_change_nothing_else(name):
+    points, segments = draw(name, 80, 5)
+    diagram = segment_voronoi(points, segments)
+    other_points, other_segments, number = renumbered(points, segments, np.random.default_rng(5))
+    other = segment_voronoi(other_points, other_segments)
+    for array in ("vertices", "radius", "vertex_start", "edges"):
+        assert np.array_equal(getattr(diagram, array), getattr(other, array))
+    assert np.array_equal(number[diagram.edge_sites], other.edge_sites)
+
+
+def test_the_direction_of_a_long_segment_changes_nothing():
+    """An ordinate that cancels, on the side of a segment whose far end rounds more than its near one."""
+    points = np.array([[4, 0], [3, 1], [LIMIT - 38, 0], [2, 1]], dtype=np.int32)
+    segments = np.array([[1, 2], [3, 1]], dtype=np.int32)
+    one = segment_voronoi(points, segments)
+    other = segment_voronoi(points, np.ascontiguousarray(segments[:, ::-1]))
+    for array in ARRAYS:
+        assert np.array_equal(getattr(one, array), getattr(other, array))
+
+
+def test_a_closed_form_with_five_roundings_too_many_is_polished():
+    """The disc on the normal at a point that touches a segment: formulas in doubles err by 5 ulp here."""
+    points = np.array(
+        [[-96936238, -298339065], [-203354759, -279893813], [-313710510, 0], [-309901800, -100693199]], dtype=np.int32
+    )
+    diagram = segment_voronoi(points, np.array([[1, 0], [2, 3]], dtype=np.int32))
+    expected = 259239000.470605083663605  # in 60 digits
+    error = np.abs(diagram.radius - expected).min()
+    assert error <= np.spacing(expected)
+
+
+def test_what_is_far_away_changes_no_digit():
+    """Of three lines two are parallel: their disc is rounded from exact numbers, whichever line was inserted last."""
+    shape = [(148589473, -268454), (215698337, -268454), (215698337, -268119), (182143905, -268052)]
+    bounds = [(-618351521, -201595080), (618351521, 201595080)]
+    found = set()
+    for count in range(8):
+        far = [(1000 * k - 618351521, 100 * k * k - 201595080) for k in range(1, 2 * count + 1)]
+        points = np.array([*shape, (148589473, -268052), *bounds, *far], dtype=np.int32)
+        segments = np.array([*((k, (k + 1) % 5) for k in range(5)), *((k, k + 1) for k in range(7, len(points), 2))])
+        diagram = segment_voronoi(points, segments)
+        inside = (np.abs(diagram.radius - 201) < 1) & (diagram.vertices[:, 0] > shape[0][0])
+        found.add((diagram.vertices[inside].tobytes(), diagram.radius[inside].tobytes()))
+    assert len(found) == 1
+
+
+@pytest.mark.parametrize("name", ["star_smooth", "star_rough", "comb", "hilbert", "wheel"])
+def test_threads_change_nothing(name):
+    """Rounds long enough to be shared."""
+    points, segments = draw(name, 40_000, 2)
+    one, three = (segment_voronoi(points, segments, threads=threads) for threads in (1, 3))
+    for array in ARRAYS:
+        assert np.array_equal(getattr(one, array), getattr(three, array))
+
+
+@pytest.mark.parametrize("name", ["star_small", "wheel", "crowded", "squares"])
+def test_translation_and_scale(name):
+    points, segments = draw(name, 60, 3)
+    diagram = segment_voronoi(points, segments)
+    for scale, shift in ((1, [17, -5]), (2, [0, 0])):
+        moved = segment_voronoi(points * scale + np.array(shift, np.int32), segments)
+        assert rings(moved) == rings(diagram)
+        order = [sorted(range(len(d)), key=lambda v, d=d: tuple(d.sites_of(v))) for d in (diagram, moved)]
+        assert np.allclose(moved.radius[order[1]], scale * diagram.radius[order[0]], rtol=1e-13)
+
+
+@pytest.mark.parametrize("name", [name for name in FAMILIES if name not in JOINED])
+def test_visited_vertices_grow_as_log_n(name):
+    """Every doubling adds at most 4. Teeth see all the others: in a plain spatial order the work is quadratic."""
+    graphs = [draw(name, n, 2) for n in (256, 2_048, 16_384)]
+    visited = [_core.SegmentVoronoi(*graph, 1, None).counts["visited"] / len(graph[1]) for graph in graphs]
+    assert (np.diff(visited) < 4 * np.log2(8)).all()
+
+
+@pytest.mark.parametrize(
+    ("points", "segments", "vertices", "edges"),
+    [
+        ([], [], 0, 0),
+        ([[3, 4]], [], 0, 0),
+        ([[0, 0], [4, 0]], [], 0, 1),
+        ([[0, 0], [4, 0]], [[0, 1]], 0, 2),
+        ([[0, 0], [4, 0], [8, 0]], [[1, 0], [1, 2]], 0, 4),
+        ([[0, 0], [4, 0], [0, 3]], [], 1, 3),
+        ([[0, 0], [2, 0], [2, 2], [0, 2]], [], 1, 4),
+    ],
+)
+def test_few_sites(points, segments, vertices, edges):
+    diagram = segment_voronoi(points, segments)
+    assert (len(diagram), len(diagram.edges)) == (vertices, edges)
+    assert_right(np.array(points, np.int32).reshape(-1, 2), np.array(segments, np.int32).reshape(-1, 2))
+
+
+@pytest.mark.parametrize(
+    ("points", "segments", "message"),
+    [
+        ([[0, 0], [1, 1]], [[0, 2]], "segment 0 ends at point 2, but there are 2 points"),
+        ([[0, 0], [1, 1]], [[0, 1], [1, 1]], "both ends of segment 1 are the same point"),
+        ([[0, 0], [1, 1], [0, 0]], [], "points 0 and 2 are at one place"),
+        ([[0, 2**30]], [], "beyond 1073741823"),
+        ([[0.5, 1]], [], "must be integers"),
+        ([0, 1], [], "must have shape"),
+        ([[0, 0], [9, 9], [0, 9], [9, 0]], [[0, 1], [2, 3]], "segments 0 and 1 cross"),
+        ([[0, 0], [9, 0], [4, 0]], [[0, 1]], "point 2 lies inside segment 0"),
+    ],
+)
+def test_bad_input_is_named(points, segments, message):
+    with pytest.raises(InputError, match=message):
+        segment_voronoi(points, segments)
+
+
+def test_too_many_sites_are_refused_before_memory_is_taken():
+    points = np.broadcast_to(np.zeros((1, 2), np.int32), (2**28, 2))
+    with pytest.raises(LimitError, match="more than 268435455"):
+        segment_voronoi(points, [])
+
+
+def test_a_callback_that_raises_stops_the_work():
+    points, segments = draw("star_rough", 60_000, 1)
+    called = []
+
+    def stop(fraction):
+        called.append(time.perf_counter())
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        _core.SegmentVoronoi(points, segments, 1, stop)
+    assert len(called) == 1
+    assert time.perf_counter() - called[0] < 0.2

@@ -1,0 +1,96 @@
+"""Diagrams of which one side is left out: what is made of the other one is the same."""
+
+import warnings
+
+import numpy as np
+import pytest
+import shapely
+
+import vorotool
+from support.families.skeleton_shapes import FAMILIES, TOUCHING
+from vorotool import _core
+from vorotool.engines.arrangement.lattice_rings import placed_shapes
+from vorotool.engines.arrangement.planar_graph import planar_graph
+from vorotool.engines.segment_voronoi.segment_voronoi import NEITHER, idle_sides, segment_voronoi
+from vorotool.engines.skeleton.exact import ShapeDiagram, shape_diagram, skeleton_of
+
+ARRAYS = ("vertices", "radius", "arcs", "control", "sites", "polygon", "side", "branch", "length")
+
+
+def contours(random):
+    """Polygons with vertices inside straight edges, at which cells have no area."""
+    image = np.kron(random.integers(0, 2, (6, 8)), np.ones((3, 3), dtype=int))
+    return vorotool.outlines(image, outline="contour")
+
+
+SHAPES = (*FAMILIES, *TOUCHING, contours)
+
+
+def graphs(family):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        for seed in range(12):
+            graph = planar_graph(family(np.random.default_rng(seed)))
+            is_joined = np.isin(np.arange(len(graph.points)), graph.segments).all()
+            if graph.is_inside.any() and is_joined:
+                yield graph
+
+
+@pytest.mark.parametrize("family", SHAPES, ids=lambda family: family.__name__)
+def test_the_skeleton_inside_is_the_same(family):
+    saved = 0
+    for graph in graphs(family):
+        whole = segment_voronoi(graph.points, graph.segments, threads=1)
+        part = segment_voronoi(graph.points, graph.segments, idle=idle_sides(graph, graph.is_inside), threads=2)
+        placed = placed_shapes(graph)
+        expected, made = (skeleton_of(ShapeDiagram(graph, diagram, placed)) for diagram in (whole, part))
+        for name in ARRAYS:
+            assert getattr(made, name).tobytes() == getattr(expected, name).tobytes(), name
+        saved += len(whole.edges) - len(part.edges)
+    assert saved > 0
+
+
+@pytest.mark.parametrize("family", SHAPES, ids=lambda family: family.__name__)
+def test_what_is_left_is_of_the_whole_diagram_and_in_its_order(family):
+    for graph in graphs(family):
+        whole = segment_voronoi(graph.points, graph.segments)
+        part = segment_voronoi(graph.points, graph.segments, idle=idle_sides(graph, graph.is_inside))
+        known = {tuple(whole.sites_of(v).tolist()): v for v in range(len(whole))}
+        at = [known[tuple(part.sites_of(v).tolist())] for v in range(len(part))]
+        assert at == sorted(at)
+        assert np.array_equal(whole.vertices[at], part.vertices)
+        assert np.array_equal(whole.radius[at], part.radius)
+        assert (whole.radius[np.setdiff1d(np.arange(len(whole)), at)] > 0).all()
+        number = np.append(at, -1)
+        edges = {tuple(row): k for k, row in enumerate(np.hstack([whole.edges, whole.edge_sites]).tolist())}
+        own = np.hstack([number[part.edges], part.edge_sites]).tolist()
+        places = [edges[tuple(row)] for row in own]
+        assert places == sorted(places)
+
+
+def test_points_without_segments_are_outside():
+    graph = planar_graph([[0, 0], [8, 0], [8, 4], [0, 4]])
+    far = np.concatenate([graph.points, [[1 - 2**30, 0], [1 - 2**30, 9]]]).astype(np.int32)
+    idle = np.insert(idle_sides(graph, graph.is_inside), 4, [NEITHER, NEITHER])
+    beside = segment_voronoi(far, graph.segments, idle=idle)
+    alone = segment_voronoi(graph.points, graph.segments, idle=idle_sides(graph, graph.is_inside))
+    assert np.array_equal(beside.vertices, alone.vertices)
+    finite = [diagram.edges[(diagram.edges >= 0).all(axis=1)].tolist() for diagram in (beside, alone)]
+    assert finite[0] == finite[1] == [[0, 4], [1, 4], [2, 5], [3, 5], [4, 5]]
+
+
+def test_a_line_of_one_place_may_be_inside():
+    shape = shapely.GeometryCollection([shapely.box(0, 0, 8, 4), shapely.LineString([[3, 2], [3, 2]])])
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        made, whole = vorotool.skeleton_exact(shape), skeleton_of(shape_diagram(shape))
+    assert 0 < len(made) == len(whole)
+    assert made.vertices.tobytes() == whole.vertices.tobytes()
+
+
+def test_a_byte_for_each_site_is_needed():
+    graph = planar_graph([[0, 0], [8, 0], [8, 4]])
+    with pytest.raises(ValueError, match="idle sides"):
+        segment_voronoi(graph.points, graph.segments, idle=np.zeros(5, dtype=np.uint8))
+    with pytest.raises(ValueError, match="out of range"):
+        _core.idle_sides(graph.points, graph.segments, graph.segment_faces, np.ones(1, dtype=np.uint8))

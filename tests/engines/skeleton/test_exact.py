@@ -1,0 +1,341 @@
+"""Skeletons: known shapes, random ones through the checker, and what must not change them."""
+
+import warnings
+from math import asinh, sqrt
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+
+import vorotool
+from support.families.skeleton_shapes import FAMILIES, regular, under_symmetries
+from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
+from vorotool.engines.skeleton.exact import default_frame, shape_diagram, whole_diagram
+from vorotool.engines.skeleton.exact import skeleton_of as skeleton_of_shapes
+from vorotool.engines.skeleton.shortened_edges import element_diagram, exact_for, gap_deviation
+from vorotool.engines.skeleton.verify_skeleton import verify_exterior
+from vorotool.errors import InputError, UsageError, VorotoolWarning
+from vorotool.geometry.skeleton.skeleton import EXTERIOR, INTERIOR
+
+DATA = Path(__file__).parents[3] / "data"
+SIDES = ("interior", "exterior", "both")
+
+
+def skeleton_of(shape, **options):
+    """Compute a skeleton and check it; what is repaired is not told."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", VorotoolWarning)
+        made = vorotool.skeleton_exact(shape, **options)
+    vorotool.verify_skeleton(made)
+    return made
+
+
+def places(skeleton, digits=9):
+    return sorted((round(x, digits), round(y, digits), round(r, digits)) for (x, y), r in zip(
+        skeleton.vertices.tolist(), skeleton.radius.tolist(), strict=True))  # fmt: skip
+
+
+# ---- shapes whose skeletons are known ----
+
+
+def test_a_square_has_its_diagonals():
+    square = skeleton_of([[0, 0], [4, 0], [4, 4], [0, 4]])
+    assert places(square) == [(0, 0, 0), (0, 4, 0), (2, 2, 2), (4, 0, 0), (4, 4, 0)]
+    assert square.length.tolist() == [sqrt(8)] * 4
+    assert square.polygon.tolist() == [0] * 4
+    assert square.side.tolist() == [INTERIOR] * 4
+    assert len(np.unique(square.branch)) == 4
+
+
+def test_a_rectangle_has_a_ridge():
+    made = skeleton_of([[0, 0], [10, 0], [10, 4], [0, 4]])
+    assert places(made)[2:4] == [(2, 2, 2), (8, 2, 2)]
+    assert made.length.sum() == pytest.approx(6 + 4 * sqrt(8), rel=1e-15)
+
+
+def test_a_triangle_meets_in_the_incentre():
+    made = skeleton_of([[0, 0], [4, 0], [0, 3]])
+    assert places(made) == [(0, 0, 0), (0, 3, 0), (1, 1, 1), (4, 0, 0)]
+
+
+def test_an_l_has_a_parabola_around_its_reflex_corner():
+    made = skeleton_of([[0, 0], [4, 0], [4, 2], [2, 2], [2, 4], [0, 4]])
+    assert np.count_nonzero(made.is_parabola) == 2
+    # x^2 = ... about (2, 2) and the walls x = 0 and y = 0: from (1, 2) and (2, 1) to the diagonal
+    corner = 4 - 2 * sqrt(2)
+    assert (round(corner, 9),) * 3 in places(made)
+    s = (2 - corner) / 2  # along the directrix, in units of the distance of focus and directrix
+    expected = s * sqrt(1 + s * s) + asinh(s)
+    assert made.length[made.is_parabola].tolist() == pytest.approx([expected] * 2, rel=1e-14)
+
+
+@pytest.mark.parametrize("count", [3, 5, 8, 64])
+def test_a_regular_polygon_has_spokes(count):
+    made = skeleton_of(np.round(regular(count)) if count in (3, 8) else regular(count))
+    at_centre = np.abs(made.vertices).max(axis=1) < 2
+    assert np.count_nonzero(made.radius == 0) == count
+    assert made.length[(made.radius[made.arcs] == 0).any(axis=1)].min() > 990
+    assert at_centre.any()
+
+
+def test_an_annulus_has_one_cycle():
+    outer, inner = regular(16, 100).round(), regular(16, 50).round()
+    made = skeleton_of([{"shell": outer.tolist(), "holes": [inner.tolist()]}])
+    table = vorotool.polygon_table(made)
+    assert (table["cycles"].tolist(), table["ends"].tolist(), table["holes"].tolist()) == ([1], [16], [1])
+    on_ring = made.radius > 20
+    assert np.abs(np.hypot(*made.vertices[on_ring].T) - 75).max() < 3
+
+
+def test_polygons_that_share_an_edge_have_their_own_skeletons():
+    made = skeleton_of([[[0, 0], [2, 0], [2, 2], [0, 2]], [[2, 0], [4, 0], [4, 2], [2, 2]]])
+    assert np.bincount(made.polygon).tolist() == [4, 4]
+    assert len(made.vertices) == 10  # corners that both have are not merged
+
+
+def test_a_bow_tie_falls_in_two():
+    with pytest.warns(VorotoolWarning, match="1 crossing"):
+        made = vorotool.skeleton_exact([[0, 0], [4, 4], [4, 0], [0, 4]])
+    vorotool.verify_skeleton(made)
+    assert len(made.polygons) == 2
+    assert np.bincount(made.polygon).tolist() == [3, 3]
+    crossing = made.site_table.source_ring == -1
+    assert made.site_ends[crossing, 0].tolist() == [[2, 2]]
+
+
+def test_boost_is_wrong_on_this_one():
+    shape = "(0,1)(100000,1)(12501,37499)(37500,62500)(100001,100001)(25000,87499)(-1,100001)(0,50001)"
+    made = skeleton_of([tuple(map(int, pair.split(","))) for pair in shape.strip("()").split(")(")])
+    assert vorotool.polygon_table(made)["cycles"].tolist() == [0]
+
+
+# ---- outside, and open lines ----
+
+
+def test_a_convex_polygon_has_nothing_outside():
+    assert len(skeleton_of([[0, 0], [4, 0], [0, 3]], side="exterior")) == 0
+
+
+def test_outside_ends_on_the_frame():
+    two = [[[0, 0], [2, 0], [2, 2], [0, 2]], [[6, 0], [8, 0], [8, 2], [6, 2]]]
+    made = skeleton_of(two, side="exterior")
+    assert made.frame == pytest.approx((-0.8, -0.8, 9.6, 3.6))
+    assert np.count_nonzero(made.on_frame) == 2
+    assert (made.vertices[:, 0] == 4).all()
+    assert (made.side == EXTERIOR).all()
+    assert (made.polygon == -1).all()
+    cut = skeleton_of(two, side="exterior", frame=(3, 0.5, 2, 1))
+    assert places(cut) == [(4, 0.5, 2), (4, 1.5, 2)]
+    assert len(skeleton_of(two, side="exterior", frame=(100, 100, 1, 1))) == 0
+
+
+def test_both_sides_are_the_sum_of_each():
+    land = vorotool.read(DATA / "ne_110m_lakes.geojson")
+    inner, outer, both = (skeleton_of(land, side=side) for side in SIDES)
+    assert len(both) == len(inner) + len(outer)
+    assert np.array_equal(both.control[: len(inner)], inner.control, equal_nan=True)
+    assert sorted(both.length.tolist()) == sorted(inner.length.tolist() + outer.length.tolist())
+
+
+def test_a_parabola_is_cut_into_pieces():
+    made = skeleton_of([{"line": [[-10, 0], [10, 0]]}, {"line": [[0, 2]]}], side="exterior", frame=(-4, 0, 8, 1.25))
+    assert np.count_nonzero(made.is_parabola) == 1
+    x = sorted(made.vertices[:, 0].tolist())
+    assert x == pytest.approx([-1, 1], abs=1e-12)  # y = (x^2 + 4) / 4
+    cut = skeleton_of([{"line": [[-10, 0], [10, 0]]}, {"line": [[0, 2]]}], side="exterior", frame=(-4, 1.25, 8, 9))
+    assert len(cut) == 2
+
+
+def test_lines_have_no_inside():
+    with pytest.warns(VorotoolWarning, match="use --side exterior"):
+        assert len(vorotool.skeleton_exact({"line": [[0, 0], [3, 1], [5, 5]]})) == 0
+    made = skeleton_of({"line": [[0, 0], [4, 0], [4, 4]]}, side="exterior")
+    assert np.count_nonzero(made.radius == 0) == 1  # only in the corner
+
+
+def test_no_polygons_at_all():
+    with pytest.warns(VorotoolWarning, match="no polygons"):
+        assert len(vorotool.skeleton_exact([])) == 0
+
+
+# ---- random shapes ----
+
+
+@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)
+def test_random_shapes(family):
+    rng = np.random.default_rng(5)
+    for _ in range(25):
+        shape = family(rng)
+        for side in SIDES:
+            skeleton_of(shape, side=side)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", VorotoolWarning)
+            verify_exterior(shape_diagram(shape))
+
+
+@pytest.mark.parametrize("name", ["shape.json", "two-shapes.json", "ne_110m_lakes.geojson", "great-lakes.geojson"])
+def test_shapes_of_data_under_the_symmetries_of_the_square(name):
+    counts = set()
+    for turned in under_symmetries(vorotool.read(DATA / name)):
+        with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
+            shapes = shape_diagram(turned)
+        verify_segment_voronoi(shapes.diagram)
+        verify_exterior(shapes)
+        skeletons = [skeleton_of_shapes(shapes, side=side) for side in SIDES]
+        for made in skeletons:
+            vorotool.verify_skeleton(made)
+        counts.add((len(shapes.diagram), len(shapes.diagram.edges), *map(len, skeletons)))
+    assert len(counts) == 1
+
+
+def test_natural_earth():
+    for name in ("ne_110m_land", "ne_50m_lakes"):
+        skeleton_of(vorotool.read(DATA / f"{name}.geojson"), side="both")
+
+
+# ---- relations ----
+
+SHAPE = np.array([[0, 0], [60, 0], [60, 30], [31, 30], [30, 50], [7, 50], [-5, 20]], dtype=float)
+HOLE = np.array([[8, 8], [9, 18], [20, 14]], dtype=float)
+
+
+def holed(move):
+    return skeleton_of([{"shell": move(SHAPE).tolist(), "holes": [move(HOLE).tolist()]}], side="both")
+
+
+def described(skeleton, back=lambda xy: xy):
+    """What does not depend on the order of arcs."""
+    ends = np.sort(np.round(back(skeleton.vertices) + 0.0, 6)[skeleton.arcs].view([("x", float), ("y", float)]), axis=1)
+    bent = np.round(np.nan_to_num(back(skeleton.control), nan=-1e9), 5)
+    rows = zip(
+        ends[..., 0].tolist(), skeleton.length.round(6).tolist(), bent.tolist(), skeleton.side.tolist(), strict=True
+    )
+    return sorted((tuple(map(tuple, ends)), length, tuple(control), side) for ends, length, control, side in rows)
+
+
+@pytest.mark.parametrize("turns", range(4))
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_symmetries(turns, mirrored):
+    matrix = np.linalg.matrix_power(np.array([[0, -1], [1, 0]]), turns) @ np.diag([-1 if mirrored else 1, 1])
+    made = holed(lambda xy: xy @ matrix.T)
+    assert described(made, lambda xy: xy @ matrix) == described(holed(lambda xy: xy))
+
+
+@pytest.mark.parametrize("exponent", [-40, 7])
+def test_powers_of_two_scale_everything(exponent):
+    plain, scaled = holed(lambda xy: xy), holed(lambda xy: np.ldexp(xy, exponent))
+    for name in ("vertices", "radius", "control", "length"):
+        assert np.array_equal(np.ldexp(getattr(plain, name), exponent), getattr(scaled, name), equal_nan=True), name
+    for name in ("arcs", "sites", "branch", "polygon"):
+        assert np.array_equal(getattr(plain, name), getattr(scaled, name)), name
+
+
+def test_moving_moves_everything():
+    move = np.array([1024, -4096])
+    plain, moved = holed(lambda xy: xy), holed(lambda xy: xy + move)
+    assert np.array_equal(plain.arcs, moved.arcs)
+    assert np.abs(plain.vertices + move - moved.vertices).max() < 1e-11
+    assert np.array_equal(plain.length, moved.length)
+
+
+def test_direction_and_start_of_rings_change_nothing():
+    reversed_ring = holed(lambda xy: np.roll(xy[::-1], 2, axis=0))
+    assert described(reversed_ring) == described(holed(lambda xy: xy))
+
+
+@pytest.mark.parametrize("threads", [2, 3])
+def test_threads_change_nothing(threads):
+    land = vorotool.read(DATA / "great-lakes.geojson", properties=False)
+    land = vorotool.skeleton_exact(land.xy[: land.ring_start[1]]).polygons
+    one, other = (vorotool.skeleton_exact(land, side="both", threads=count) for count in (1, threads))
+    for name in ("vertices", "radius", "arcs", "control", "sites", "branch", "length"):
+        assert np.array_equal(getattr(one, name), getattr(other, name), equal_nan=name == "control"), name
+
+
+def test_distance_to_the_boundary_is_the_radius():
+    lake = vorotool.read(DATA / "great-lakes.geojson")
+    with pytest.warns(VorotoolWarning, match="repeated"):
+        made = vorotool.skeleton_exact(lake)
+    from vorotool.geometry.polygons.conversion import to_shapely
+
+    border = shapely.boundary(shapely.unary_union([shapely.make_valid(s) for s in to_shapely(made.polygons)]))
+    assert np.abs(shapely.distance(shapely.points(made.vertices), border) - made.radius).max() < 1e-12
+
+
+# ---- the whole diagram, and gaps ----
+
+
+def test_the_whole_diagram_holds_the_skeleton():
+    shapes = shape_diagram(vorotool.read(DATA / "two-shapes.json"))
+    verify_segment_voronoi(shapes.diagram)
+    verify_exterior(shapes)
+    whole = whole_diagram(shapes)
+    assert len(whole) > len(vorotool.skeleton_exact(vorotool.read(DATA / "two-shapes.json"), side="both"))
+    assert (whole.side == -1).all()
+    x, y, w, h = whole.frame
+    assert ((whole.vertices >= [x, y]) & (whole.vertices <= [x + w, y + h])).all()
+
+
+def test_a_gap_moves_a_bisector_by_its_square_over_16_r():
+    """The paper calls its skeleton exact; at a reflex corner it is off by s^2 / (16 r)."""
+    shape = [[0, 0], [80, 0], [80, 30], [50, 30], [50, 20], [30, 20], [30, 30], [0, 30]]
+    exact = skeleton_of(shape)
+    under_the_wall = (exact.vertices[:, 0] > 30) & (exact.vertices[:, 0] < 50)
+    assert (exact.vertices[under_the_wall, 1] == 10).all()
+    for gap in (0.5, 1.0, 2.0):
+        made = skeleton_of(shape, gap=gap)
+        in_the_gap = np.abs(made.vertices[:, 0] - (30 + gap / 2)) < 1e-6
+        shift = gap**2 / (16 * 10)
+        assert (made.vertices[in_the_gap, 1] - 10).tolist() == pytest.approx([shift], rel=1e-6)
+        assert gap_deviation(made, exact) > 0.99 * shift
+
+
+def test_a_gap_leaves_the_corners_out():
+    shape = vorotool.read(DATA / "two-shapes.json")
+    exact, complete = skeleton_of(shape), skeleton_of(shape, gap=4)
+    open_ends = skeleton_of(shape, gap=4, complete=False)
+    ends = [np.count_nonzero((made.radius == 0) & (made.degree == 1)) for made in (exact, complete, open_ends)]
+    assert ends[0] == ends[1] > 0
+    assert ends[2] == 0
+    assert len(complete) == len(open_ends) + ends[1]
+    assert np.isnan(complete.error_bound).all()
+
+
+def test_a_corner_of_nearly_180_degrees_is_joined_too():
+    shape = [[0, 0], [10, -0.5], [20, 0], [20, 10], [0, 10]]
+    for made in (skeleton_of(shape), skeleton_of(shape, gap=1)):
+        corners = made.vertices[made.radius == 0]
+        assert sorted(map(tuple, corners.tolist())) == sorted(map(tuple, shape))
+    assert len(skeleton_of([[0, 0], [9, 0], [9, 9], [0, 9]], gap=1, side="exterior")) == 0
+
+
+def test_an_edge_that_a_gap_would_remove_is_named():
+    with pytest.raises(InputError, match=r"polygon 1, shell, edge 2 from \(8\.0, 0\.0\) to \(8\.0, 3\.0\) is 3 long"):
+        vorotool.skeleton_exact([[0, 0], [8, 0], [8, 3], [0, 9]], gap=1.5)
+
+
+def test_the_exact_one_of_elements():
+    shape = vorotool.read(DATA / "two-shapes.json")
+    plain = vorotool.skeleton_exact(shape)
+    again = exact_for(element_diagram(shape, 4), "interior")
+    assert np.array_equal(plain.vertices, again.vertices)
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [({"side": "inner"}, "interior"), ({"gap": -1}, "0 or more"), ({"gap": np.nan}, "the gap is nan: give a number"),
+     ({"frame": (0, 0, 0, 1)}, "above 0")],
+)  # fmt: skip
+def test_options_that_are_none(options, words):
+    with pytest.raises(UsageError, match=words):
+        vorotool.skeleton_exact([[0, 0], [1, 0], [0, 1]], **options)
+
+
+def test_strict_refuses_repairs():
+    with pytest.raises(InputError, match="crosses"):
+        vorotool.skeleton_exact([[0, 0], [4, 4], [4, 0], [0, 4]], strict=True)
+
+
+def test_the_frame_of_nothing_and_of_a_place():
+    assert default_frame(vorotool.skeleton_exact({"line": [[3, 4]]}, side="exterior").polygons) == (2, 3, 2, 2)

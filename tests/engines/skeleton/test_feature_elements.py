@@ -1,0 +1,97 @@
+"""Skeletons with a gap inside features: each is what it would be if there were no others."""
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import vorotool
+from fuzz import features as fuzz
+from vorotool.engines.skeleton.feature_elements import feature_elements
+from vorotool.errors import InputError, VerificationError, VorotoolWarning
+
+ARRAYS = ("vertices", "radius", "arcs", "control", "sites", "side", "branch", "length")
+OUTER = [[0, 0], [20, 0], [20, 20], [0, 20]]
+INNER = [[6, 6], [14, 6], [14, 14], [6, 14]]
+ACROSS = [[-4, 8], [30, 8], [30, 11], [-4, 11]]
+
+
+def differing(made, expected):
+    return [name for name in ARRAYS if getattr(made, name).tobytes() != getattr(expected, name).tobytes()]
+
+
+@pytest.mark.parametrize("gap", [0.25, 1.0])
+@pytest.mark.parametrize("complete", [True, False])
+def test_an_outer_feature_is_what_it_is_without_the_inner_one(gap, complete):
+    made = vorotool.skeleton_exact([OUTER, INNER], gap=gap, complete=complete)
+    alone = vorotool.skeleton_exact([OUTER], gap=gap, complete=complete)
+    arcs = np.flatnonzero(made.polygon == 0)
+    assert np.array_equal(made.control[arcs], alone.control, equal_nan=True)
+    assert made.vertices[made.arcs[arcs]].tobytes() == alone.vertices[alone.arcs].tobytes()
+    assert set(made.polygon.tolist()) == {0, 1}
+    assert made.features == "separate"
+    together = vorotool.skeleton_exact([OUTER, INNER], gap=gap, complete=complete, features="together")
+    assert set(together.polygon.tolist()) == {0}
+
+
+@pytest.mark.parametrize("family", [fuzz.tiles, fuzz.nested, fuzz.parts, fuzz.scattered])
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.filterwarnings("ignore::vorotool.errors.VorotoolWarning")
+def test_features_of_any_family_are_what_they_are_alone(family, seed):
+    polygons = fuzz.as_set(family(np.random.default_rng(seed)))
+    count = int(polygons.feature.max())
+    gap = 2.0**-20 * float(np.ptp(polygons.xy))
+    made = feature_elements(polygons, gap, threads=2).skeleton
+    for feature in range(count):
+        given = fuzz.chosen(polygons, [feature, count])
+        alone = feature_elements(given, gap, threads=1).skeleton
+        assert fuzz.differing(fuzz.inside_of(made, feature, polygons), fuzz.inside_of(alone, 0, given)) is None
+
+
+@pytest.mark.parametrize("side", ["interior", "exterior", "both"])
+@pytest.mark.parametrize("complete", [True, False])
+def test_the_checker_passes_features_over_each_other(side, complete):
+    shapes = [OUTER, INNER, ACROSS]
+    made = vorotool.skeleton_exact(shapes, gap=0.25, side=side, complete=complete, strict=True)
+    vorotool.verify_skeleton(made)
+    assert set(made.polygon.tolist()) == {"interior": {0, 1, 2}, "exterior": {-1}, "both": {-1, 0, 1, 2}}[side]
+    with pytest.warns(VorotoolWarning, match="crossings"):
+        drawing = vorotool.skeleton_exact(shapes, gap=0.25, side=side, complete=complete, features="together")
+    vorotool.verify_skeleton(drawing)
+
+
+def test_the_checker_refuses_what_is_between_features():
+    made = vorotool.skeleton_exact([OUTER, INNER], gap=0.25, features="together")
+    with pytest.raises(VerificationError, match="another feature"):
+        vorotool.verify_skeleton(replace(made, features="separate"))
+
+
+def test_what_is_outside_is_of_all_features():
+    separate, drawing = (
+        vorotool.skeleton_exact([OUTER, INNER], gap=0.5, side="exterior", features=features)
+        for features in ("separate", "together")
+    )
+    assert differing(separate, drawing) == []
+
+
+def test_both_sides_of_features_far_apart_are_the_two_sides():
+    shapes = [OUTER, [[x + 40, y] for x, y in INNER]]
+    both, inside, outside = (
+        vorotool.skeleton_exact(shapes, gap=0.5, side=side) for side in ("both", "interior", "exterior")
+    )
+    assert len(both) == len(inside) + len(outside)
+    assert both.length.sum() == pytest.approx(inside.length.sum() + outside.length.sum())
+
+
+def test_the_first_short_edge_of_all_features_is_named():
+    shapes = [OUTER, [[0, 0], [9, 0], [9, 2]], [[0, 0], [9, 0], [9, 1]]]
+    message = "polygon 2, shell, edge 2 from (9.0, 0.0) to (9.0, 2.0) is 2 long, and a gap of 1 at both ends leaves "
+    with pytest.raises(InputError, match=re.escape(message) + r"nothing of it \(2 such edges\): use a gap below 0.5"):
+        vorotool.skeleton_exact(shapes, gap=1)
+
+
+def test_features_without_an_inside_are_said_to_have_none():
+    with pytest.warns(VorotoolWarning, match="interior skeleton is empty: open lines have no inside"):
+        made = vorotool.skeleton_exact({"line": [[0, 0], [9, 0], [9, 9]]}, gap=1)
+    assert len(made) == 0

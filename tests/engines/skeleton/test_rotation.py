@@ -1,0 +1,41 @@
+"""Rotating a shape moves its skeleton by no more than the placement lets it: see tests/support/oracles/rotation_oracle.py."""
+
+import warnings
+from dataclasses import replace
+
+import numpy as np
+
+from fuzz.rotation import failure
+from support.oracles.rotation_oracle import Pair, Rotation, fault
+from vorotool.geometry.polygons.conversion import as_polygons
+
+SHAPE = as_polygons(
+    [[0, 0], [30, 0], [30, 6], [26, 6], [26, 12], [24, 12], [24, 6], [6, 6], [6, 9], [4, 9], [4, 6], [0, 6]]
+)
+
+
+def test_random_shapes_by_random_angles():
+    worst = {}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        wrong = [failure(case, np.random.default_rng([1, case]), worst) for case in range(10)]
+    assert set(wrong) <= {None, "repaired"}
+    assert wrong.count(None) > 5
+    assert 0 < worst[90] < 6.9
+
+
+def test_larger_moves_and_other_radii_are_found():
+    pair = Pair(SHAPE, Rotation(10))
+    assert fault(pair, {}) is None
+    right = pair.second
+    away = np.array([100 * pair.move, 0])
+    for changed in ({"vertices": right.vertices + away}, {"radius": right.radius * (1 + 1e-6)}):
+        pair.second = replace(right, **changed)
+        assert fault(pair, {}) is not None
+
+
+def test_a_quarter_turn_moves_nothing():
+    """Whole numbers stay whole."""
+    pair = Pair(SHAPE, Rotation(90), step=1.0)
+    assert np.array_equal(np.sort(pair.first.radius), np.sort(pair.second.radius))
+    assert np.sort(pair.first.length).tolist() == np.sort(pair.second.length).tolist()

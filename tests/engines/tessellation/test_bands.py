@@ -1,0 +1,55 @@
+"""Bands that are computed apart give what the whole gives."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+from vorotool.engines.tessellation.bands import SeedBand, SeedBands
+from vorotool.engines.tessellation.seeding import seeds_from_points
+from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.geometry.pixel_frame import Frame
+from vorotool.geometry.points.point_set import PointSet
+
+FRAME = Frame(-3, 5, 60, 47)
+
+
+def point_sets():
+    rng = np.random.default_rng(3)
+    yield "random", PointSet(rng.integers(-10, 70, (200, 2)))
+    yield "lattice", PointSet(np.argwhere(np.ones((9, 9))) * 7)
+    yield "column", PointSet(np.stack([np.full(40, 20), np.arange(40)], axis=1))
+    yield "row", PointSet(np.stack([np.arange(40), np.full(40, 20)], axis=1))
+    yield "fine", PointSet(rng.integers(0, 60 * 8, (100, 2)) / 8)
+    yield "far", PointSet(rng.integers(-(10**6), 10**6, (50, 2)))
+    yield "one", PointSet([[5, 5]])
+    yield "labels", PointSet(rng.integers(0, 60, (60, 2)), rng.integers(1, 9, 60))
+
+
+@pytest.mark.parametrize(("name", "points"), list(point_sets()))
+@pytest.mark.parametrize("height", [1, 5, 47])
+@pytest.mark.filterwarnings("ignore::vorotool.errors.VorotoolWarning")
+def test_bands_are_those_of_the_whole(name, points, height):
+    seeds = seeds_from_points(points)
+    whole = Tessellator(seeds, FRAME, max_distance=20)
+    bands = SeedBands(seeds, FRAME)
+    expected = {
+        "labels": whole.labels(),
+        "distance": whole.distances(),
+        "distance2": whole.squared_distances(),
+    }
+    for first in range(0, FRAME.height, height):
+        rows = min(height, FRAME.height - first)
+        few = bands.seeds_of(first, rows)
+        for what, image in expected.items():
+            place = Frame(FRAME.x, FRAME.y + first, FRAME.width, rows)
+            band = pickle.loads(pickle.dumps(SeedBand(few, place, what, image.dtype, 20)))
+            np.testing.assert_array_equal(band.rows(threads=1), image[first : first + rows], f"{name}, {what}")
+
+
+def test_a_band_needs_few_seeds():
+    xy = np.random.default_rng(1).integers(0, 1000, (100_000, 2))
+    seeds = SeedBands(seeds_from_points(PointSet(xy)), Frame(0, 0, 1000, 1000)).seeds_of(500, 10)
+    assert len(seeds) < 3000
+    inside = (seeds.y >= 500) & (seeds.y < 510)
+    assert inside.sum() == len(np.unique(xy[(xy[:, 1] >= 500) & (xy[:, 1] < 510)], axis=0))

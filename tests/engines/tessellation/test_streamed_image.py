@@ -1,0 +1,177 @@
+"""Images that pass by give the tessellation of images that are held, whatever the bands."""
+
+import pickle
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy import ndimage
+
+from vorotool.engines.tessellation.seeding import seeds_from_raster
+from vorotool.engines.tessellation.streamed_image import ObjectRows, StreamedImage
+from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.errors import InputError, LimitError, VorotoolWarning
+
+rng = np.random.default_rng(7)
+
+
+@dataclass
+class Held:
+    """An image in memory that is asked for in rows."""
+
+    values: Any
+
+    @property
+    def shape(self):
+        return self.values.shape
+
+    def rows(self, first, count):
+        return self.values[first : first + count]
+
+
+def blobs(shape, share):
+    return ndimage.gaussian_filter(rng.random(shape), 2) > np.quantile(
+        ndimage.gaussian_filter(rng.random(shape), 2), share
+    )
+
+
+def images():
+    yield "noise", rng.random((61, 47)) < 0.3
+    yield "dense", rng.random((61, 47)) < 0.8
+    yield "sparse", rng.random((90, 70)) < 0.003
+    yield "blobs", blobs((120, 90), 0.7)
+    yield "one pixel", np.pad([[1]], ((40, 9), (3, 30)))
+    yield "a full row", np.pad(np.ones((1, 33), np.uint8), ((20, 20), (0, 0)))
+    yield "a column", np.pad(np.ones((50, 1), np.uint8), ((0, 0), (9, 9)))
+    yield "all", np.ones((9, 12), np.uint8)
+    yield "narrow", rng.random((200, 1)) < 0.1
+    yield "wide", rng.random((1, 200)) < 0.1
+    spiral = np.zeros((41, 41), bool)
+    for k in range(0, 20, 2):
+        spiral[k, k : 41 - k] = spiral[k : 41 - k, 40 - k] = spiral[40 - k, k : 41 - k] = spiral[k + 2 : 41 - k, k] = 1
+    yield "spiral", spiral
+
+
+IMAGES = list(images())
+
+
+def streamed(source, what, dtype, heights, limit=None, threads=1):
+    image = StreamedImage(source)
+    made, first = [], 0
+    while first < image.frame.height:
+        rows = min(heights[len(made) % len(heights)], image.frame.height - first)
+        band = pickle.loads(pickle.dumps(image.band(what, dtype, first, rows, limit)))
+        made.append(band.rows(threads=threads))
+        first += rows
+    return np.concatenate(made)
+
+
+@pytest.fixture(params=[(10**9, 10**9), (300, 130), (1, 1)], ids=["whole", "bands", "rows"])
+def bands(request, monkeypatch):
+    """Pixels of the bands that are read, and of the pieces that are labelled."""
+    read, labelled = request.param
+    monkeypatch.setattr("vorotool.engines.tessellation.streamed_image.BAND_PIXELS", read)
+    monkeypatch.setattr("vorotool.engines.tessellation.streamed_image.SWEEP_PIXELS", labelled)
+
+
+@pytest.mark.parametrize(("name", "mask"), IMAGES)
+@pytest.mark.parametrize(("mode", "connectivity"), [("components", 8), ("components", 4), ("pixels", 8)])
+def test_masks(name, mask, mode, connectivity, bands):
+    values = mask.astype(np.uint8)
+    seeds = seeds_from_raster(values, mode=mode, connectivity=connectivity)
+    whole = Tessellator(seeds, max_distance=8)
+    source = ObjectRows(Held(values), mode, connectivity)
+    for heights in ([1000], [7, 1, 16]):
+        for what, expected in (("labels", whole.labels()), ("distance", whole.distances())):
+            found = streamed(source, what, expected.dtype, heights, 8 if what == "labels" else None)
+            np.testing.assert_array_equal(found, expected, f"{name}, {what}")
+    squares = whole.squared_distances()
+    assert StreamedImage(source).square_dtype == squares.dtype
+    np.testing.assert_array_equal(streamed(source, "distance2", squares.dtype, [30]), squares)
+
+
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.int64, np.float32])
+def test_label_images(bands, dtype):
+    labels = ndimage.label(blobs((80, 60), 0.6))[0].astype(dtype)
+    labels[labels == 3] = 2  # one label of two pieces
+    whole = Tessellator(seeds_from_raster(labels))
+    source = ObjectRows(Held(labels))
+    assert source.with_mode().mode == "labels"
+    np.testing.assert_array_equal(streamed(source, "labels", np.dtype(np.uint16), [9]), whole.labels())
+
+
+def test_threshold_and_inversion(bands):
+    grey = rng.integers(0, 200, (50, 40)).astype(np.uint8)
+    for options in ({"threshold": 180}, {"threshold": 20, "invert": True}, {"invert": True}):
+        expected = Tessellator(seeds_from_raster(grey, **options)).labels()
+        found = streamed(ObjectRows(Held(grey), **options), "labels", expected.dtype, [11])
+        np.testing.assert_array_equal(found, expected)
+
+
+def test_what_shares_a_label_is_found_out():
+    def mode(values):
+        return ObjectRows(Held(np.array(values))).with_mode().mode
+
+    assert mode([[0, 1], [1, 0]]) == "components"
+    assert mode([[0, 0], [0, 0]]) == "components"
+    assert mode([[0, 7], [7, 0]]) == "labels"
+    assert mode([[0, 7], [8, 0]]) == "labels"
+    assert mode([[7, 7], [7, 7]]) == "labels"
+    assert mode([[7, 7], [8, 8]]) == "labels"
+    with pytest.raises(InputError, match="a photograph"):
+        ObjectRows(Held(rng.integers(0, 200, (90, 90)))).with_mode()
+
+
+@pytest.mark.parametrize("value", [1, 7, 255, 65535])
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.int32, np.float32])
+def test_one_value_is_a_mask_or_a_label_as_in_memory(bands, value, dtype):
+    if value > 255 and dtype == np.uint8:
+        value = 254
+    values = np.where(blobs((40, 30), 0.6), value, 0).astype(dtype)
+    told, heard = [], []
+    seeds = seeds_from_raster(values, note=heard.append)
+    source = ObjectRows(Held(values))
+    StreamedImage(source, note=told.append)
+    assert told == heard
+    np.testing.assert_array_equal(streamed(source, "labels", np.dtype(np.uint32), [9]), Tessellator(seeds).labels())
+
+
+def test_without_foreground_all_labels_are_0(bands):
+    source = ObjectRows(Held(np.zeros((30, 20), np.uint16)))
+    with pytest.warns(VorotoolWarning, match="no foreground"):
+        image = StreamedImage(source)
+    band = pickle.loads(pickle.dumps(image.band("labels", np.dtype(np.uint16), 3, 20, 5)))
+    assert band.rows().tolist() == np.zeros((20, 20)).tolist()
+    for refused in (lambda: image.band("distance", np.dtype(np.float32), 0, 30), lambda: image.square_dtype):
+        with pytest.raises(InputError, match="no foreground"):
+            refused()
+
+
+def test_what_is_refused(bands):
+    with pytest.raises(InputError, match="no foreground"):
+        StreamedImage(ObjectRows(Held(np.zeros((30, 20), np.uint8))), strict=True)
+    noise = Held((rng.random((40, 40)) < 0.3).astype(np.uint8))
+    for mode in ("pixels", "components"):
+        with pytest.raises(LimitError, match="more than --max-sites 5"):
+            StreamedImage(ObjectRows(noise, mode), max_sites=5)
+    bad = np.zeros((30, 20), np.int64)
+    bad[29, 3] = -1
+    with pytest.raises(InputError, match="the value -1 in row 29, column 3"):
+        StreamedImage(ObjectRows(Held(bad), "labels"))
+    with pytest.raises(InputError, match="NaN"):
+        StreamedImage(ObjectRows(Held(np.full((30, 20), np.nan))))
+
+
+def test_progress_is_told_and_stops():
+    told = []
+    mask = Held((rng.random((40, 40)) < 0.3).astype(np.uint8))
+    image = StreamedImage(ObjectRows(mask), progress=told.append)
+    image.band("labels", np.dtype(np.uint16), 10, 20).rows(progress=told.append)
+    assert told == [1.0, 1.0]
+
+    def stop(_):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        StreamedImage(ObjectRows(mask), progress=stop)

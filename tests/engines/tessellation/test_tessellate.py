@@ -1,0 +1,351 @@
+"""The exact engine against brute force, and the relations that any tessellation must satisfy."""
+
+import subprocess
+import sys
+import warnings
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import vorotool
+from support.families.families import FAMILIES, random_case
+from support.oracles.oracles import nearest_labels, nearest_squares
+from vorotool import _core
+from vorotool.engines.tessellation.frames import SIMD_LEVELS, as_seeds, default_frame
+from vorotool.engines.tessellation.tessellate import verify_rows
+from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.errors import InputError, LimitError, UsageError, VerificationError, VorotoolWarning
+from vorotool.geometry.pixel_frame import Frame
+from vorotool.geometry.points.seed_set import SeedSet
+
+LEVELS = SIMD_LEVELS[: SIMD_LEVELS.index(_core.widest_simd()) + 1]
+
+
+@pytest.fixture(params=LEVELS)
+def simd(request, monkeypatch):
+    monkeypatch.setenv("VOROTOOL_SIMD", request.param)
+    return request.param
+
+
+def sweep_of(x, y, labels, frame, scale=1, **options):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", VorotoolWarning)  # duplicates are part of the families
+        return Tessellator(SeedSet(x, y, labels, scale=scale), Frame(*frame), **options)
+
+
+# ---- against brute force ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_labels_are_those_of_brute_force(simd, seed):
+    rng = np.random.default_rng(seed)
+    for case in range(60):
+        name, x, y, labels, scale, frame = random_case(rng)
+        right = nearest_labels(x, y, labels, frame, scale)
+        sweep = sweep_of(x, y, labels, frame, scale, threads=1 + case % 5)
+        for dtype in (np.uint32, np.uint16):
+            np.testing.assert_array_equal(sweep.labels(dtype=dtype), right, err_msg=f"{name} {frame} {scale}")
+        verify_rows(sweep)
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_every_family_is_exact_with_128_bits(simd, name, monkeypatch):
+    rng = np.random.default_rng(5)
+    frame = (0, 0, 40, 30)
+    x, y = FAMILIES[name](rng, 40, 30, 60, 256)
+    far = 2**30  # one seed beyond the bound of doubles turns the whole sweep to 128-bit integers
+    x, y = np.append(x, far), np.append(y, far)
+    labels = rng.permutation(len(x)).astype(np.uint32) + 1
+    sweep = sweep_of(x, y, labels, frame, 256)
+    assert sweep.arithmetic == "int128"
+    np.testing.assert_array_equal(sweep.labels(), nearest_labels(x, y, labels, frame, 256))
+
+
+@pytest.mark.parametrize(
+    ("reach", "arithmetic"), [(2**16 - 64, "float64"), (2**24, "float64 with int128"), (2**31, "int128")]
+)
+def test_near_ties_of_far_seeds(simd, reach, arithmetic):
+    """Seeds at nearly equal distances of 2^16 … 2^31 from all pixels: only exact arithmetic tells them apart."""
+    rng = np.random.default_rng(reach)
+    frame = (-16, -16, 32, 32)
+    for _ in range(30):
+        angle = np.sort(rng.random(40)) * 2 * np.pi
+        x = np.rint(np.cos(angle) * reach).astype(np.int64)
+        y = np.rint(np.sin(angle) * reach).astype(np.int64)
+        labels = rng.permutation(40).astype(np.uint32) + 1
+        sweep = sweep_of(x, y, labels, frame)
+        assert sweep.arithmetic == arithmetic
+        np.testing.assert_array_equal(sweep.labels(), nearest_labels(x, y, labels, frame))
+
+
+@pytest.mark.parametrize("frame", [(0, 0, 300_001, 2), (0, 0, 2, 300_001), (-150_000, 5, 300_000, 1)])
+def test_frames_longer_than_two_to_the_seventeen(simd, frame):
+    rng = np.random.default_rng(1)
+    x = rng.integers(frame[0], frame[0] + frame[2], 30)
+    y = rng.integers(frame[1], frame[1] + frame[3], 30)
+    labels = np.arange(1, 31, dtype=np.uint32)
+    sweep = sweep_of(x, y, labels, frame)
+    np.testing.assert_array_equal(sweep.labels(), nearest_labels(x, y, labels, frame))
+
+
+@settings(max_examples=150, deadline=None)
+@given(
+    seeds=st.lists(st.tuples(st.integers(-3, 12), st.integers(-3, 12)), min_size=1, max_size=25),
+    width=st.integers(1, 12),
+    height=st.integers(1, 12),
+    most=st.none() | st.fractions(0, 12, max_denominator=7),
+)
+def test_small_integer_seeds_within_a_distance(seeds, width, height, most):
+    x, y = np.array(seeds).T
+    labels = np.arange(1, len(x) + 1, dtype=np.uint32)
+    frame = (0, 0, width, height)
+    sweep = sweep_of(x, y, labels, frame, max_distance=most)
+    limit = None if most is None else most**2
+    np.testing.assert_array_equal(sweep.labels(), nearest_labels(x, y, labels, frame, most_squared=limit))
+    verify_rows(sweep)
+
+
+@pytest.mark.parametrize("scale", [1, 256])
+@pytest.mark.parametrize("far", [0, 2**30])
+def test_distances(simd, scale, far):
+    rng = np.random.default_rng(scale)
+    frame = (-3, 2, 41, 23)
+    x, y = rng.integers(-10 * scale, 50 * scale, (2, 30))
+    x, y = np.append(x, far), np.append(y, far)
+    sweep = sweep_of(x, y, np.arange(1, 32, dtype=np.uint32), frame, scale)
+    squares = nearest_squares(x, y, frame, scale)
+    np.testing.assert_array_equal(sweep.squared_distances(), squares)
+    np.testing.assert_array_equal(sweep.distances(), (np.sqrt(squares.astype(float)) / scale).astype(np.float32))
+
+
+def test_max_distance_is_exact_at_the_rim(simd):
+    x, y, labels = np.array([0]), np.array([0]), np.array([1], dtype=np.uint32)
+    frame = (0, 0, 8, 8)
+    assert sweep_of(x, y, labels, frame, max_distance=5).labels()[4, 3] == 1
+    assert sweep_of(x, y, labels, frame, max_distance=Fraction(5) - Fraction(1, 10**9)).labels()[4, 3] == 0
+    assert sweep_of(x, y, labels, frame, max_distance=0).labels().sum() == 1
+
+
+# ---- bands, windows, threads, types ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("family", ["uniform", "lattice", "clustered", "dense", "outside"])
+def test_bands_windows_and_threads_agree_with_the_whole(simd, family):
+    rng = np.random.default_rng(3)
+    x, y = FAMILIES[family](rng, 211, 307, 900, 1)
+    labels = rng.permutation(len(x)).astype(np.uint32) + 1
+    whole = sweep_of(x, y, labels, (0, 0, 211, 307), threads=1).labels()
+    for threads in range(2, 6):
+        assert sweep_of(x, y, labels, (0, 0, 211, 307), threads=threads).labels().tobytes() == whole.tobytes()
+    sweep = sweep_of(x, y, labels, (0, 0, 211, 307))
+    for first, rows in [(0, 1), (1, 17), (150, 157), (306, 1)]:
+        assert sweep.labels(first, rows).tobytes() == whole[first : first + rows].tobytes()
+    for fx, fy, w, h in [(5, 9, 1, 1), (100, 0, 111, 13), (33, 44, 55, 66)]:
+        part = sweep_of(x, y, labels, (fx, fy, w, h)).labels()
+        assert part.tobytes() == whole[fy : fy + h, fx : fx + w].tobytes()
+
+
+def test_large_image_takes_many_bands_and_streams_past_the_cache(simd):
+    rng = np.random.default_rng(8)
+    x, y = rng.integers(0, 2500, (2, 3000))
+    labels = rng.permutation(3000).astype(np.uint32) + 1
+    sweep = sweep_of(x, y, labels, (0, 0, 2499, 2501))  # rows are not multiples of a vector
+    out = np.full((2501, 2499), 7, dtype=np.int32)
+    assert sweep.labels(out=out) is out
+    np.testing.assert_array_equal(out[1200:1230], nearest_labels(x, y, labels, (0, 1200, 2499, 30)))
+    verify_rows(sweep)
+
+
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.uint32, np.int32])
+def test_types(simd, dtype):
+    image = vorotool.tessellate([[0, 0], [2, 1]], shape=(2, 3), dtype=dtype)
+    assert image.labels.dtype == dtype
+    assert image.labels.tolist() == [[1, 1, 2], [1, 2, 2]]
+
+
+# ---- metamorphic relations -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_symmetries(simd, seed):
+    rng = np.random.default_rng(seed)
+    w, h = 57, 83
+    x, y = FAMILIES[["uniform", "lattice", "cocircular", "collinear", "clustered"][seed]](rng, w, h, 70, 1)
+    labels = rng.permutation(len(x)).astype(np.uint32) + 1
+    whole = sweep_of(x, y, labels, (0, 0, w, h)).labels()
+    np.testing.assert_array_equal(sweep_of(w - 1 - x, y, labels, (0, 0, w, h)).labels(), whole[:, ::-1])
+    np.testing.assert_array_equal(sweep_of(x, h - 1 - y, labels, (0, 0, w, h)).labels(), whole[::-1])
+    np.testing.assert_array_equal(sweep_of(y, x, labels, (0, 0, h, w)).labels(), whole.T)
+    np.testing.assert_array_equal(sweep_of(x + 10**6, y - 99, labels, (10**6, -99, w, h)).labels(), whole)
+    np.testing.assert_array_equal(sweep_of(x * 256, y * 256, labels, (0, 0, w, h), 256).labels(), whole)
+    order = rng.permutation(len(x))
+    np.testing.assert_array_equal(sweep_of(x[order], y[order], labels[order], (0, 0, w, h)).labels(), whole)
+    twice = [np.concatenate([v, v]) for v in (x, y)]
+    doubled = sweep_of(*twice, np.concatenate([labels, labels + 1000]), (0, 0, w, h))
+    np.testing.assert_array_equal(doubled.labels(), whole)
+    assert doubled.duplicates >= len(x)
+
+
+# ---- the public function and its errors ------------------------------------------------------------------------
+
+
+def test_inputs_of_every_kind():
+    from shapely import MultiPoint, Point
+
+    right = [[1, 1, 2], [1, 2, 2]]
+    for seeds in (
+        [[0, 0], [2, 1]],
+        [(0.0, 0.0), (2.0, 1.0)],
+        np.array([[0, 0], [2, 1]]),
+        [Point(0, 0), Point(2, 1)],
+        MultiPoint([(0, 0), (2, 1)]),
+        vorotool.PointSet([[0, 0], [2, 1]]),
+    ):
+        assert vorotool.tessellate(seeds, shape=(2, 3)).labels.tolist() == right
+    raster = vorotool.Raster(np.array([[5, 0, 0], [0, 0, 9]]))
+    assert vorotool.tessellate(raster).labels.tolist() == [[5, 5, 9], [5, 9, 9]]
+
+
+def test_default_frame_holds_the_points():
+    assert default_frame(vorotool.seeds_from_points(vorotool.PointSet([[2, 1], [7.5, 5.25]]))) == Frame(0, 0, 9, 6)
+    with pytest.raises(InputError, match=r"points span x -3\.\.12: use --window"):
+        vorotool.tessellate([[-3, 0], [12, 1]])
+
+
+def test_snapping_warns_or_is_refused():
+    with pytest.warns(VorotoolWarning, match="1 of 2 seeds moved to the nearest 1/256 pixel, by at most 0.00"):
+        seeds = vorotool.seeds_from_points(vorotool.PointSet([[0.1, 0], [2, 1]]))
+    assert (seeds.snapped, seeds.scale) == (1, 128)
+    assert 0 < seeds.largest_move <= 1 / 512
+    with pytest.raises(InputError, match=r"point 1 is \(0\.1, 0\.0\)"):
+        vorotool.seeds_from_points(vorotool.PointSet([[0.1, 0], [2, 1]]), strict=True)
+
+
+def test_duplicates_warn_or_are_refused():
+    seeds = SeedSet([3, 3, 5], [1, 1, 1], [2, 1, 3])
+    with pytest.warns(VorotoolWarning, match="1 of 3 seeds lie on another seed"):
+        assert set(Tessellator(seeds, Frame(0, 0, 9, 2)).labels().ravel()) == {1, 3}
+    with pytest.raises(InputError, match="remove the duplicates"):
+        Tessellator(seeds, Frame(0, 0, 9, 2), strict=True)
+
+
+@pytest.mark.parametrize(
+    ("call", "error", "message"),
+    [
+        (lambda: vorotool.tessellate(np.empty((0, 2)), shape=(4, 4)), InputError, "no seeds"),
+        (lambda: vorotool.tessellate([[0, np.nan]], shape=(4, 4)), InputError, r"point 1 is \(0\.0, nan\)"),
+        (lambda: vorotool.tessellate([[0, 0, 0]], shape=(4, 4)), InputError, r"shape \(n, 2\)"),
+        (lambda: vorotool.tessellate("abc", shape=(4, 4)), InputError, "must be an"),
+        (lambda: vorotool.tessellate([[1e300, 0]], shape=(4, 4)), InputError, r"at most 2\^44"),
+        (lambda: vorotool.tessellate([[2.0**43, 0]], shape=(4, 4)), InputError, "too far from the frame"),
+        (lambda: vorotool.tessellate([[0, 0]], shape=(0, 4)), InputError, "at least 1 x 1"),
+        (lambda: vorotool.tessellate([[0, 1 / 256]], window=(2**56, 0, 4, 4)), InputError, "nearer --window"),
+        (lambda: vorotool.tessellate([[0, 0]], window=(0, -(10**30), 4, 4)), InputError, "nearer --window"),
+        (lambda: vorotool.tessellate([[0, 0]], window=(0.5, 0, 4, 4)), UsageError, "four integers"),
+        (lambda: vorotool.tessellate([[0, 0]], shape=np.full(2, 60000, np.uint16)), LimitError, "3600000000 pixels"),
+        (lambda: vorotool.tessellate([[0, 0]], shape=(4, 4), window=(0, 0, 4, 4)), UsageError, "not both"),
+        (lambda: vorotool.tessellate([[0, 0]], shape=(10**6, 10**6)), LimitError, "--max-pixels"),
+        (lambda: vorotool.tessellate([[0, 0]], shape=(1, 2**31), max_pixels=2**40), LimitError, "a side has at most"),
+        (lambda: vorotool.tessellate([[0, 0]], shape=(4, 4), threads=-1), UsageError, "threads is -1"),
+        (lambda: vorotool.tessellate([[0, 0]], shape=(4, 4), dtype=float), UsageError, "cannot have type float64"),
+        (
+            lambda: vorotool.tessellate([[i, 0] for i in range(300)], shape=(4, 4), dtype="u1"),
+            LimitError,
+            "do not fit uint8",
+        ),
+        (lambda: vorotool.tessellate([[0, 0]], shape=(4, 4), max_distance=-1), UsageError, "0 or larger"),
+        (lambda: vorotool.tessellate([[0, 0]], shape=(4, 4), max_distance=np.nan), UsageError, "0 or larger"),
+        (lambda: vorotool.tessellate([[0, 0]], shape=(4, 4), method="fast"), UsageError, "must be 'exact' or"),
+        (lambda: vorotool.tessellate([[0, 0]], shape=(4, 4), out=np.empty((3, 3), np.int32)), UsageError, "shape"),
+    ],
+)
+def test_bad_input_is_named(call, error, message):
+    with pytest.raises(error, match=message):
+        call()
+
+
+def test_unknown_instruction_set_is_refused(monkeypatch):
+    monkeypatch.setenv("VOROTOOL_SIMD", "mmx")
+    with pytest.raises(UsageError, match="this machine has portable"):
+        vorotool.tessellate([[0, 0]], shape=(4, 4))
+
+
+def test_the_checker_finds_one_wrong_pixel():
+    image = vorotool.tessellate([[3, 3], [12, 9], [5, 14]], shape=(16, 16))
+    vorotool.verify_tessellation(image)
+    image.labels[7, 2] = 3
+    with pytest.raises(VerificationError, match="1"):
+        vorotool.verify_tessellation(image)
+
+
+def test_a_progress_callback_that_raises_stops_the_kernel():
+    class StopNowError(Exception):
+        pass
+
+    def progress(_fraction):
+        raise StopNowError
+
+    seeds = np.random.default_rng(0).integers(0, 20000, (100_000, 2))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", VorotoolWarning)
+        points = vorotool.seeds_from_points(vorotool.PointSet(seeds))
+        sweep = Tessellator(points, Frame(0, 0, 20000, 20000), threads=1, progress=progress)
+    with pytest.raises(StopNowError):
+        sweep.labels(0, 8000)
+
+
+def test_the_fuzzer_runs():
+    script = Path(__file__).parents[2] / "fuzz" / "tessellate.py"
+    done = subprocess.run(
+        [sys.executable, script, "--pixels", "400000", "--seed", "7"], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert ", 0 wrong, " in done.stdout
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_seeds_that_are_nearest_nowhere_change_nothing(simd, seed):
+    """Far seeds around the frame are left out unseen; those that tie at the rim are not."""
+    rng = np.random.default_rng(seed)
+    frame = (-5, 7, 33, 21)
+    x, y = rng.integers(-200, 200, (2, 500))
+    x, y = np.append(x, [-5 - 40, 27 + 40]), np.append(y, [7, 27])
+    labels = rng.permutation(len(x)).astype(np.uint32) + 1
+    np.testing.assert_array_equal(sweep_of(x, y, labels, frame).labels(), nearest_labels(x, y, labels, frame))
+    single = sweep_of([-5, -5], [7, 27], [2, 1], (-5, 7, 1, 11))  # both 10 away from the last pixel
+    assert single.labels()[:, 0].tolist() == [2] * 10 + [1]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_many_rows_of_many_columns(simd, seed):
+    """Long sweeps: entries come, wait, go and come back, with several seeds a column and between pixels."""
+    rng = np.random.default_rng(seed)
+    scale = (1, 4)[seed % 2]
+    x, y = rng.integers(0, 60 * scale, 4000), rng.integers(0, 900 * scale, 4000)
+    labels = rng.permutation(4000).astype(np.uint32) + 1
+    frame = (0, 0, 60, 900)
+    np.testing.assert_array_equal(
+        sweep_of(x, y, labels, frame, scale).labels(), nearest_labels(x, y, labels, frame, scale)
+    )
+
+
+def test_a_frame_that_nobody_gave_has_at_most_2_to_28_pixels():
+    side = 2**14
+    for far in ([side, side - 1], [704052.0, 663838.0]):
+        with pytest.raises(LimitError, match=r"more than 268435456: give shape=\(H, W\) or window=\(x, y, w, h\)"):
+            vorotool.tessellate([far], max_pixels=10**15)
+    assert default_frame(as_seeds([[side - 1, side - 1]])).pixels == 2**28
+    assert vorotool.tessellate([[side, side]], shape=(2, 2)).labels.tolist() == [[1, 1], [1, 1]]
+
+
+def test_a_frame_that_is_too_large_is_refused_before_seeds_are_told_of():
+    points = [[500000.123, 4649776.371], [500321.517, 4650012.29]]
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        with pytest.raises(LimitError, match="no frame is given"):
+            vorotool.tessellate(points)
+    assert not told

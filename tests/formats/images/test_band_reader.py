@@ -1,0 +1,128 @@
+"""Images are read band by band as they are read whole; what is damaged is refused by name."""
+
+import pickle
+import sys
+
+import numpy as np
+import pytest
+import tifffile
+
+import vorotool
+from vorotool.errors import InputError, LimitError, UsageError
+from vorotool.formats.images.band_reader import open_rows
+
+zarr = pytest.importorskip("zarr")
+IMAGE = np.random.default_rng(2).integers(0, 200, (70, 50))
+WORDS = IMAGE.astype(np.uint16)
+
+
+def make(path, image=WORDS, **options):
+    array = zarr.create_array(path, shape=image.shape, dtype=image.dtype, chunks=(32, 20)[: image.ndim], **options)
+    array[...] = image
+    return path
+
+
+def check(path, expected, page=None):
+    rows = pickle.loads(pickle.dumps(open_rows(path, page=page)))
+    assert rows.shape == expected.shape
+    for first, count in ((0, 70), (0, 1), (69, 1), (31, 2), (16, 40)):
+        found = rows.rows(first, count)
+        assert found.dtype == expected.dtype
+        np.testing.assert_array_equal(found, expected[first : first + count])
+
+
+@pytest.mark.parametrize("dtype", [bool, np.uint8, np.int16, ">u2", np.uint64, np.float32])
+@pytest.mark.parametrize("version", [2, 3])
+def test_zarr(tmp_path, dtype, version):
+    image = (IMAGE > 100 if dtype is bool else IMAGE).astype(dtype)
+    if version == 3:
+        image = image.astype(image.dtype.newbyteorder("="))
+    path = make(tmp_path / "a", image, zarr_format=version)
+    expected = vorotool.read(path).values
+    np.testing.assert_array_equal(expected, image)
+    check(path, expected)
+
+
+@pytest.mark.parametrize("dtype", [bool, np.uint8, np.int16, ">u2", np.uint32, np.float32])
+@pytest.mark.parametrize(
+    "layout", [{}, {"tile": (32, 16)}, {"rowsperstrip": 7}, {"compression": "zlib", "predictor": 2}]
+)
+def test_tiff(tmp_path, dtype, layout):
+    image = (IMAGE > 100 if dtype is bool else IMAGE).astype(dtype)
+    if "predictor" in layout and image.dtype.kind in "fb":
+        layout = {"compression": "zlib"}
+    tifffile.imwrite(tmp_path / "a.tif", image, byteorder=">" if dtype == ">u2" else "<", bigtiff=True, **layout)
+    check(tmp_path / "a.tif", vorotool.read(tmp_path / "a.tif").values)
+
+
+def test_pages(tmp_path):
+    tifffile.imwrite(tmp_path / "a.tif", np.stack([IMAGE, IMAGE + 1]).astype(np.uint8), photometric="minisblack")
+    check(tmp_path / "a.tif", (IMAGE + 1).astype(np.uint8), page=1)
+    with pytest.raises(InputError, match="2 pages"):
+        _ = open_rows(tmp_path / "a.tif").shape
+
+
+def test_what_is_written_is_read(tmp_path):
+    image = vorotool.tessellate([[3, 4], [30, 20]], shape=(40, 3000))
+    vorotool.write(image, tmp_path / "a.zarr")
+    np.testing.assert_array_equal(vorotool.read(tmp_path / "a.zarr").values, image.labels)
+
+
+def test_what_is_read_otherwise(tmp_path):
+    tifffile.imwrite(tmp_path / "colour.tif", np.zeros((5, 5, 3), np.uint8))
+    (tmp_path / "dots.csv").write_text("1,2\n")
+    for name in ("colour.tif", "dots.csv", "none.tif", "none.zarr"):
+        assert open_rows(tmp_path / name) is None
+
+
+def test_bad_stores(tmp_path):
+    (tmp_path / "empty.zarr").mkdir()
+    (tmp_path / "torn.zarr").mkdir()
+    (tmp_path / "torn.zarr/zarr.json").write_text('{"node_type": "array", "shape"')
+    (tmp_path / "odd.zarr").mkdir()
+    (tmp_path / "odd.zarr/zarr.json").write_text('{"node_type": "array", "shape": 7}')
+    zarr.create_group(tmp_path / "group.zarr")
+    make(tmp_path / "cube.zarr", np.zeros((3, 4, 5), np.uint8).reshape(12, 5))
+    zarr.create_array(tmp_path / "three.zarr", shape=(3, 4, 5), dtype=np.uint8)
+    zarr.create_array(tmp_path / "complex.zarr", shape=(3, 4), dtype=np.complex64)
+    zarr.create_array(tmp_path / "none.zarr", shape=(0, 4), dtype=np.uint8)
+    for name, words in {
+        "empty.zarr": "holds no Zarr array",
+        "torn.zarr": "holds no Zarr array",
+        "odd.zarr": "cannot be read as Zarr",
+        "group.zarr": r"is a Zarr group: name an array in it, such as .*group.zarr/0",
+        "three.zarr": r"has 3 axes, shape \(3, 4, 5\)",
+        "complex.zarr": "holds complex64: an image of numbers",
+        "none.zarr": "needs at least 1 x 1",
+    }.items():
+        with pytest.raises(InputError, match=words):
+            vorotool.read(tmp_path / name)
+
+
+def test_a_damaged_chunk_and_a_torn_file(tmp_path):
+    path = make(tmp_path / "a.zarr")
+    chunk = path / "c/1/1"
+    chunk.write_bytes(chunk.read_bytes()[:20])
+    rows = open_rows(path)
+    np.testing.assert_array_equal(rows.rows(0, 32), IMAGE[:32])
+    with pytest.raises(InputError, match=r"a\.zarr cannot be read as Zarr: .*damaged or cut off"):
+        rows.rows(30, 10)
+    tifffile.imwrite(tmp_path / "a.tif", IMAGE.astype(np.uint16), rowsperstrip=7)
+    data = (tmp_path / "a.tif").read_bytes()
+    (tmp_path / "a.tif").write_bytes(data[:-10])
+    with pytest.raises(InputError, match="cut off after"):
+        open_rows(tmp_path / "a.tif")
+
+
+def test_limits_and_options(tmp_path, monkeypatch):
+    path = make(tmp_path / "a.zarr")
+    with pytest.raises(LimitError, match="50 x 70 = 3500 pixels"):
+        vorotool.read(path, max_pixels=3499)
+    with pytest.raises(InputError, match="no --page 1"):
+        vorotool.read(path, page=1)
+    (tmp_path / "file.zarr").write_text("")
+    with pytest.raises(InputError, match="a Zarr store is a folder"):
+        vorotool.read(tmp_path / "file.zarr", input_format="zarr")
+    monkeypatch.setitem(sys.modules, "numcodecs.zstd", None)
+    with pytest.raises(UsageError, match="packed with zstd need the numcodecs package: pip install"):
+        vorotool.read(path)

@@ -1,0 +1,81 @@
+import io
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from vorotool.errors import InputError, LimitError, UsageError
+from vorotool.formats.images.label_images import read_label_image, write_label_image
+
+
+def written(values: np.ndarray, fmt: str, **options: object) -> bytes:
+    out = io.BytesIO()
+    settings = {"shape": values.shape, "dtype": values.dtype, "largest_label": int(values.max()), **options}
+    write_label_image(out, [values], fmt=fmt, **settings)
+    return out.getvalue()
+
+
+@pytest.mark.parametrize("fmt", ["png", "tiff", "npy"])
+@pytest.mark.parametrize("dtype", ["u1", "u2", "u4", "i4"])
+def test_round_trip(fmt: str, dtype: str) -> None:
+    labels = np.random.default_rng(1).integers(0, 200, (17, 13)).astype(dtype)
+    image = read_label_image(SimpleNamespace(name="-", data=written(labels, fmt)))
+    np.testing.assert_array_equal(image.labels, labels)
+
+
+def test_diagram_round_trip() -> None:
+    mask = np.random.default_rng(1).integers(0, 2, (17, 13)).astype(bool)
+    for fmt, options in (("png", {"bit_depth": 1}), ("tiff", {}), ("npy", {})):
+        data = written(mask, fmt, **options)
+        np.testing.assert_array_equal(read_label_image(SimpleNamespace(name="-", data=data)).labels, mask)
+
+
+def test_palette_indices_round_trip() -> None:
+    palette = np.arange(30, dtype=np.uint8).reshape(10, 3)
+    labels = np.random.default_rng(1).integers(0, 10, (17, 13)).astype(np.uint8)
+    for fmt in ("png", "tiff"):
+        data = written(labels, fmt, palette=palette)
+        np.testing.assert_array_equal(read_label_image(SimpleNamespace(name="-", data=data)).labels, labels)
+
+
+def test_labels_above_16_bits_are_no_png() -> None:
+    out = io.BytesIO()
+    with pytest.raises(LimitError, match=r"labels up to 100000 .*use -o labels.tif or labels.npy"):
+        write_label_image(out, [], shape=(1, 1), dtype=np.uint32, fmt="png", largest_label=100_000)
+    assert out.getvalue() == b""
+    write_label_image(out, [np.array([[65_535]])], shape=(1, 1), dtype="u4", fmt="png", largest_label=65_535)
+
+
+@pytest.mark.parametrize(("dtype", "fmt"), [("f4", "png"), ("f4", "text"), ("u8", "png")])
+def test_other_values_need_tiff_or_npy(dtype: str, fmt: str) -> None:
+    with pytest.raises(UsageError, match=r"use -o image.tif or image.npy"):
+        write_label_image(io.BytesIO(), [], shape=(1, 1), dtype=dtype, fmt=fmt, largest_label=1)
+
+
+def test_unknown_format() -> None:
+    with pytest.raises(UsageError, match="'bmp' is no format"):
+        write_label_image(io.BytesIO(), [], shape=(1, 1), dtype="u1", fmt="bmp", largest_label=1)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        (np.array([[0, 1], [2, -5]]), "-5 in row 1, column 1"),
+        (np.array([[0, 2**32]]), "4294967296 in row 0, column 1"),
+        (np.array([[0.5]]), "float64 values: labels need integers"),
+        (np.arange(12, dtype=np.uint8).reshape(2, 2, 3), "3 channels: labels need a single one"),
+    ],
+)
+def test_values_that_are_no_labels(values: np.ndarray, message: str) -> None:
+    out = io.BytesIO()
+    np.save(out, values)
+    with pytest.raises(InputError, match=message):
+        read_label_image(SimpleNamespace(name="a.npy", data=out.getvalue()))
+
+
+def test_other_integers_become_uint32() -> None:
+    out = io.BytesIO()
+    np.save(out, np.array([[0, 2**32 - 1, 7]]))
+    image = read_label_image(SimpleNamespace(name="a.npy", data=out.getvalue()))
+    assert image.labels.dtype == np.uint32
+    assert image.labels.tolist() == [[0, 2**32 - 1, 7]]

@@ -1,0 +1,159 @@
+import io
+import itertools
+import struct
+import tracemalloc
+import zlib
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from PIL import Image
+
+from vorotool.errors import LimitError
+from vorotool.formats.images.png_writer import joined_adler32, write_png
+
+SHAPES = [(1, 1), (1, 17), (13, 1), (3, 7), (5, 8), (4, 9), (31, 33)]
+
+
+def png(bands: object, shape: tuple[int, int], **options: object) -> bytes:
+    out = io.BytesIO()
+    write_png(out, bands, shape, **options)
+    return out.getvalue()
+
+
+def read_back(data: bytes) -> NDArray[np.generic]:
+    with Image.open(io.BytesIO(data)) as image:
+        image.verify()
+    with Image.open(io.BytesIO(data)) as image:
+        return np.asarray(image)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("bit_depth", [1, 2, 4, 8, 16])
+def test_grey_is_read_back_by_pillow(shape: tuple[int, int], bit_depth: int) -> None:
+    values = np.random.default_rng(3).integers(0, 1 << bit_depth, shape).astype(np.uint16)
+    found = read_back(png([values], shape, bit_depth=bit_depth)).astype(np.uint16)
+    step = {2: 85, 4: 17}.get(bit_depth, 1)  # Pillow spreads these over 0..255
+    np.testing.assert_array_equal(found, values * step)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize(("bit_depth", "colours"), [(1, 2), (2, 3), (4, 16), (8, 1), (8, 256)])
+def test_palette_is_read_back_by_pillow(shape: tuple[int, int], bit_depth: int, colours: int) -> None:
+    rng = np.random.default_rng(4)
+    palette = rng.integers(0, 256, (colours, 3), dtype=np.uint8)
+    values = rng.integers(0, colours, shape).astype(np.uint8)
+    data = png([values], shape, bit_depth=bit_depth, palette=palette)
+    with Image.open(io.BytesIO(data)) as image:
+        assert image.mode == "P"
+        np.testing.assert_array_equal(np.asarray(image), values)
+        np.testing.assert_array_equal(np.asarray(image.convert("RGB")), palette[values])
+
+
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.uint32, np.int32, np.int64, np.bool_])
+def test_every_integer_type_is_taken(dtype: type) -> None:
+    values = np.array([[0, 1], [1, 1], [1, 0]]).astype(dtype)
+    for bit_depth in (1, 2, 4, 8, 16):
+        assert (read_back(png([values], (3, 2), bit_depth=bit_depth)) != 0).tolist() == values.astype(bool).tolist()
+
+
+def test_bytes_depend_on_pixels_alone() -> None:
+    shape = (700, 2000)  # several blocks of 262 rows
+    values = np.random.default_rng(5).integers(0, 4, shape).astype(np.uint16)
+    expected = png([values], shape, threads=1)
+    np.testing.assert_array_equal(read_back(expected), values)
+    cuts = [[0, 700], list(range(701)), [0, 261, 263, 524, 700], [0, 0, 350, 350, 700]]
+    for cut, threads in itertools.product(cuts, (0, 1, 2, 5)):
+        bands = [values[a:b].astype(np.int32) for a, b in itertools.pairwise(cut)]
+        assert png(bands, shape, threads=threads) == expected
+
+
+def test_a_band_may_be_reused() -> None:
+    band = np.empty((100, 3000), np.uint16)
+
+    def bands() -> Iterator[NDArray[np.uint16]]:
+        for number in range(20):
+            band[...] = number
+            yield band
+
+    found = read_back(png(bands(), (2000, 3000), threads=3))
+    np.testing.assert_array_equal(found, np.repeat(np.arange(20), 100)[:, None].repeat(3000, axis=1))
+
+
+def test_the_container_is_sound() -> None:
+    values = np.random.default_rng(6).integers(0, 65536, (300, 5000)).astype(np.uint16)
+    data, at, stream, kinds = png([values], values.shape), 8, b"", []
+    while at < len(data):
+        length, kind = struct.unpack_from(">I4s", data, at)
+        body = data[at + 8 : at + 8 + length]
+        assert zlib.crc32(kind + body) == struct.unpack_from(">I", data, at + 8 + length)[0]
+        stream += body * (kind == b"IDAT")
+        kinds.append(kind)
+        at += 12 + length
+    assert kinds[0] == b"IHDR"
+    assert kinds[-1] == b"IEND"
+    assert len(zlib.decompress(stream)) == 300 * 10_001  # checks the joined checksum
+
+
+@pytest.mark.parametrize("sizes", [(0, 5), (5, 0), (1, 1), (70_000, 123), (200_000, 70_000)])
+def test_joined_adler32(sizes: tuple[int, int]) -> None:
+    for fill in (b"\xff", b"\x00", b"a"):
+        first, second = (fill * size for size in sizes)
+        assert joined_adler32(zlib.adler32(first), zlib.adler32(second), len(second)) == zlib.adler32(first + second)
+
+
+@pytest.mark.parametrize(
+    ("value", "options", "message"),
+    [
+        (65_536, {}, "the value 65536 does not fit in a 16-bit PNG"),
+        (-1, {}, "the value -1 does not fit"),
+        (2, {"bit_depth": 1}, "the value 2 does not fit in a 1-bit PNG"),
+        (16, {"bit_depth": 4}, "the value 16 does not fit"),
+        (3, {"bit_depth": 8, "palette": np.zeros((3, 3), np.uint8)}, "a palette of 3 colours"),
+    ],
+)
+def test_nothing_is_wrapped(value: int, options: dict[str, object], message: str) -> None:
+    with pytest.raises(LimitError, match=message):
+        png([np.array([[0, value]])], (1, 2), **options)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"bit_depth": 3},
+        {"bit_depth": 16, "palette": np.zeros((3, 3), np.uint8)},
+        {"bit_depth": 1, "palette": np.zeros((3, 3), np.uint8)},
+        {"bit_depth": 8, "palette": np.zeros((3, 4), np.uint8)},
+    ],
+)
+def test_impossible_kinds_are_refused(options: dict[str, object]) -> None:
+    with pytest.raises(ValueError, match=r"bit|palette"):
+        png([np.zeros((1, 1), np.uint8)], (1, 1), **options)
+
+
+def test_memory_stays_bounded() -> None:
+    shape = (8192, 8192)  # 128 MB of pixels
+    band = np.arange(64 * 8192, dtype=np.uint16).reshape(64, 8192) // 50
+
+    class Null(io.RawIOBase):
+        def write(self, data: object) -> int:
+            return len(data)  # type: ignore[arg-type]
+
+    tracemalloc.start()
+    try:
+        write_png(Null(), (band for _ in range(128)), shape, threads=2)
+        assert tracemalloc.get_traced_memory()[1] < 40e6
+    finally:
+        tracemalloc.stop()
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_red_green_and_blue(threads: int) -> None:
+    pixels = np.random.default_rng(1).integers(0, 256, (300, 17, 3)).astype(np.uint8)
+    bands = [pixels[:100].reshape(100, -1), pixels[100:].reshape(200, -1)]
+    image = Image.open(io.BytesIO(png(bands, (300, 17), rgb=True, threads=threads)))
+    assert image.mode == "RGB"
+    np.testing.assert_array_equal(np.asarray(image), pixels)
+    with pytest.raises(ValueError, match="shape"):
+        png([pixels[:, :, 0]], (300, 17), rgb=True)

@@ -1,0 +1,400 @@
+import io
+import struct
+import time
+import zlib
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import tifffile
+from numpy.typing import NDArray
+from PIL import Image
+
+from vorotool.errors import InputError, LimitError, UsageError
+from vorotool.formats.images.reader import image_format, image_size, is_image, read_image
+
+LIMIT = 10**7
+
+
+def source(name: str, data: bytes) -> SimpleNamespace:
+    return SimpleNamespace(name=name, data=data)
+
+
+def read(name: str, data: bytes, **options: object) -> NDArray[np.generic]:
+    return read_image(source(name, data), **{"max_pixels": LIMIT, **options}).values
+
+
+def chunk(kind: bytes, body: bytes) -> bytes:
+    return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+
+def plain_png(rows: NDArray[np.generic], depth: int, colour_type: int, width: int, filter_type: int = 0) -> bytes:
+    """A PNG from rows of packed bytes, unfiltered or with filter Sub."""
+    data = np.ascontiguousarray(rows).view(np.uint8).reshape(len(rows), -1)
+    if filter_type == 1:
+        step = max(1, depth // 8 * {0: 1, 2: 3, 4: 2, 6: 4}[colour_type])
+        data = np.concatenate([data[:, :step], data[:, step:] - data[:, :-step]], axis=1)
+    body = b"".join(bytes([filter_type]) + row.tobytes() for row in data)
+    header = struct.pack(">IIBBBBB", width, len(rows), depth, colour_type, 0, 0, 0)
+    parts = chunk(b"IHDR", header), chunk(b"IDAT", zlib.compress(body)), chunk(b"IEND", b"")
+    return b"\x89PNG\r\n\x1a\n" + b"".join(parts)
+
+
+def saved(image: Image.Image, fmt: str, **options: object) -> bytes:
+    out = io.BytesIO()
+    image.save(out, fmt, **options)
+    return out.getvalue()
+
+
+def tiff(*pages: NDArray[np.generic], **options: object) -> bytes:
+    out = io.BytesIO()
+    with tifffile.TiffWriter(out) as writer:
+        for page in pages:
+            writer.write(page, contiguous=False, **options)
+    return out.getvalue()
+
+
+GREY = np.random.default_rng(1).integers(0, 256, (6, 11), dtype=np.uint8)
+RGB = np.random.default_rng(2).integers(0, 256, (6, 11, 3), dtype=np.uint8)
+
+
+# ---- PNG
+
+
+@pytest.mark.parametrize("depth", [1, 2, 4])
+def test_png_small_grey_is_not_spread(depth: int) -> None:
+    values = np.random.default_rng(depth).integers(0, 1 << depth, (5, 8), dtype=np.uint8)
+    packed = np.zeros((5, depth), np.uint8)
+    for x in range(8):
+        packed[:, x * depth // 8] |= values[:, x] << np.uint8(8 - depth - x * depth % 8)
+    found = read("a.png", plain_png(packed, depth, 0, 8))
+    assert found.dtype == np.uint8
+    np.testing.assert_array_equal(found, values)
+
+
+def test_png_palette_indices_are_kept() -> None:
+    image = Image.fromarray(GREY % 7)
+    image.putpalette(list(range(255, 255 - 21, -1)))
+    for options in ({}, {"transparency": 0}):
+        np.testing.assert_array_equal(read("a.png", saved(image, "PNG", **options)), GREY % 7)
+
+
+@pytest.mark.parametrize("filter_type", [0, 1])
+def test_png_16_bit_is_exact(filter_type: int) -> None:
+    rng = np.random.default_rng(5)
+    for colour_type, channels in ((0, 1), (2, 3), (4, 2), (6, 4)):
+        values = rng.integers(0, 65536, (6, 11, channels)).astype(np.uint16)
+        data = plain_png(values.astype(">u2").reshape(6, -1), 16, colour_type, 11, filter_type)
+        found = read("a.png", data)
+        assert found.dtype == np.uint16
+        np.testing.assert_array_equal(found, values[:, :, 0] if channels == 1 else values)
+
+
+def test_png_colour_and_alpha() -> None:
+    np.testing.assert_array_equal(read("a.png", saved(Image.fromarray(RGB), "PNG")), RGB)
+    grey = Image.fromarray(GREY)
+    for mode in ("L", "RGB", "RGBA", "LA"):
+        np.testing.assert_array_equal(read("a.png", saved(grey.convert(mode), "PNG")), GREY)
+    opaque = Image.fromarray(RGB).convert("RGBA")
+    np.testing.assert_array_equal(read("a.png", saved(opaque, "PNG")), RGB)
+    opaque.putpixel((3, 2), (1, 2, 3, 4))
+    np.testing.assert_array_equal(read("a.png", saved(opaque, "PNG")), np.asarray(opaque))
+
+
+def test_png_16_bit_grey_as_rgb_is_reduced_exactly() -> None:
+    values = np.arange(66, dtype=np.uint16).reshape(6, 11) * 900
+    data = plain_png(np.repeat(values, 3, axis=1).astype(">u2"), 16, 2, 11)
+    np.testing.assert_array_equal(read("a.png", data), values)
+
+
+def test_png_bomb_is_a_limit_at_once() -> None:
+    header = chunk(b"IHDR", struct.pack(">IIBBBBB", 60_000, 60_000, 16, 2, 0, 0, 0))
+    begin = time.perf_counter()
+    with pytest.raises(LimitError, match=r"bomb.png is 60000 x 60000 = 3600000000 pixels.*--max-pixels 2147483648"):
+        read("bomb.png", b"\x89PNG\r\n\x1a\n" + header + chunk(b"IDAT", b"x"), max_pixels=2**31)
+    assert time.perf_counter() - begin < 0.5
+
+
+def test_png_that_cannot_hold_its_pixels_takes_no_memory() -> None:
+    header = chunk(b"IHDR", struct.pack(">IIBBBBB", 40_000, 40_000, 16, 2, 0, 0, 0))
+    data = b"\x89PNG\r\n\x1a\n" + header + chunk(b"IDAT", zlib.compress(b"0")) + chunk(b"IEND", b"")
+    with pytest.raises(InputError, match="cannot hold 40000 x 40000 pixels"):
+        read("a.png", data, max_pixels=2**31)
+
+
+def test_png_larger_than_pillow_likes_is_read() -> None:
+    data = plain_png(np.zeros((9600, 1200), np.uint8), 1, 0, 9600)  # it warns from 89 million pixels on
+    assert read("a.png", data, max_pixels=2**31).shape == (9600, 9600)
+
+
+def test_png_interlaced() -> None:
+    # Adam7 of a 1 x 1 image is its first pass
+    header = struct.pack(">IIBBBBB", 1, 1, 16, 2, 0, 0, 1)
+    body = zlib.compress(b"\x00" + bytes([1, 2, 3, 4, 5, 6]))
+    data = b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", body) + chunk(b"IEND", b"")
+    assert read("a.png", data).tolist() == [[[0x102, 0x304, 0x506]]]
+
+
+@pytest.mark.parametrize("depth", [8, 16])
+def test_png_truncated_anywhere(depth: int) -> None:
+    data = plain_png(GREY if depth == 8 else GREY.astype(">u2"), depth, 0, 11)
+    for end in range(len(data)):
+        with pytest.raises(InputError, match=r"a.png"):
+            read("a.png", data[:end])
+
+
+def test_png_damaged_anywhere() -> None:
+    data = plain_png(GREY, 8, 0, 11)
+    for at in range(16, len(data) - 12):
+        damaged = data[:at] + bytes([data[at] ^ 0x55]) + data[at + 1 :]
+        with pytest.raises((InputError, LimitError), match=r"a.png"):
+            read("a.png", damaged)
+
+
+def test_png_damaged_stream_with_right_checksums() -> None:
+    body = zlib.compress(b"".join(b"\x00" + row.tobytes() for row in GREY))
+    header = chunk(b"IHDR", struct.pack(">IIBBBBB", 11, 6, 8, 0, 0, 0, 0))
+    for stream in (body[:20], b"\x78\x9c" + b"\xff" * 40, body[:5] + b"\x00\x00" + body[7:]):
+        data = b"\x89PNG\r\n\x1a\n" + header + chunk(b"IDAT", stream) + chunk(b"IEND", b"")
+        with pytest.raises(InputError, match=r"a.png cannot be read as PNG"):
+            read("a.png", data)
+
+
+# ---- PBM, PGM, PPM
+
+
+@pytest.mark.parametrize(
+    ("data", "expected"),
+    [
+        (b"P1\n# ink is 1\n3 2\n1 0 1\n0 1 0\n", [[1, 0, 1], [0, 1, 0]]),
+        (b"P1 3 2 101010", [[1, 0, 1], [0, 1, 0]]),
+        (b"P4\n10 2\n\xff\x40\x01\x80", [[1] * 8 + [0, 1], [0] * 7 + [1, 1, 0]]),
+        (b"P2 2 2\n9 # largest\n1 2\n9 0\n", [[1, 2], [9, 0]]),
+        (b"P2 2 1 300 299 1", [[299, 1]]),
+        (b"P5 2 2 5\n\x00\x01\x05\x02", [[0, 1], [5, 2]]),
+        (b"P5#c\n2#c\n 1#c\n1000\n\x03\xe8\x00\x07", [[1000, 7]]),
+        (b"P3 1 1 255 1 2 3", [[[1, 2, 3]]]),
+        (b"P6 1 1 255\n\x01\x02\x03", [[[1, 2, 3]]]),
+        (b"P6 1 1 255\n\x07\x07\x07", [[7]]),
+    ],
+)
+def test_pnm_values_are_as_stored(data: bytes, expected: list[object]) -> None:
+    for name in ("-", "a.pgm"):
+        found = read(name, data)
+        assert found.tolist() == expected
+        assert found.dtype == (np.uint16 if found.max() > 255 else np.uint8)
+
+
+def test_pnm_agrees_with_pillow() -> None:
+    np.testing.assert_array_equal(read("a.pgm", saved(Image.fromarray(GREY), "PPM")), GREY)
+    mask = GREY > 128
+    found = read("a.pbm", saved(Image.fromarray(mask), "PPM"))
+    np.testing.assert_array_equal(found, ~mask)  # Pillow: True is white; PBM: 1 is black
+
+
+@pytest.mark.parametrize(
+    ("data", "message"),
+    [
+        (b"P5 2 2 255\n\x00\x01\x02", "cut off: its pixels need 4 bytes, it has 3"),
+        (b"P4 9 2\n\x00\x01\x02", "cut off"),
+        (b"P2 2 2 255 1 2 3", "cut off: it has 3 of 4 values"),
+        (b"P1 2 2 1 0 1", "cut off: it has 3 of 4 values"),
+        (b"P2 2 2 255 1 2 x 3", "'x' as value 3: it must be an integer"),
+        (b"P2 2 2 255 1 2 -3 3", "'-3' as value 3"),
+        (b"P2 2 2 9 1 2 10 3", "has 10 in row 1, column 0, above its largest value 9"),
+        (b"P1 2 2 1 0 2 0", "has 2 in row 1, column 0"),
+        (b"P5 2 2 70000\n\x00\x01\x02", "states 70000 as the largest value"),
+        (b"P5 2 2 0\n\x00\x01\x02", "states 0 as the largest value"),
+        (b"P5 2 ", "no complete PBM, PGM or PPM header"),
+        (b"P5 0 2 255\n", "is 0 x 2 pixels"),
+    ],
+)
+def test_pnm_damaged(data: bytes, message: str) -> None:
+    with pytest.raises(InputError, match=message) as caught:
+        read("a.pgm", data)
+    assert "a.pgm" in str(caught.value)
+
+
+def test_pnm_limit() -> None:
+    with pytest.raises(LimitError, match="60000 x 60000"):
+        read("a.pgm", b"P5 60000 60000 255\n", max_pixels=2**31)
+
+
+# ---- NPY
+
+
+@pytest.mark.parametrize("dtype", ["?", "u1", ">u2", "u4", "i8", "f4", "f8"])
+def test_npy(dtype: str) -> None:
+    values = np.arange(12).reshape(3, 4).astype(dtype)
+    out = io.BytesIO()
+    np.save(out, values)
+    np.testing.assert_array_equal(read("a.npy", out.getvalue()), values)
+
+
+@pytest.mark.parametrize(("shape", "message"), [((4,), r"\(4,\)"), ((2, 2, 5), "C from 1 to 4"), ((0, 3), "3 x 0")])
+def test_npy_of_other_shapes(shape: tuple[int, ...], message: str) -> None:
+    out = io.BytesIO()
+    np.save(out, np.zeros(shape))
+    with pytest.raises(InputError, match=message):
+        read("a.npy", out.getvalue())
+
+
+def test_npy_limit() -> None:
+    text = "{'descr': '<u2', 'fortran_order': False, 'shape': (100000000000, 20), }".ljust(117) + "\n"
+    data = b"\x93NUMPY\x01\x00" + len(text).to_bytes(2, "little") + text.encode()
+    with pytest.raises(LimitError, match=r"a.npy is 20 x 100000000000"):
+        read("a.npy", data)
+
+
+# ---- TIFF
+
+
+@pytest.mark.parametrize("dtype", ["u1", "u2", "u4", "i4", "f4", "u8", ">u2"])
+@pytest.mark.parametrize("options", [{}, {"compression": "zlib"}, {"tile": (16, 16)}])
+def test_tiff(dtype: str, options: dict[str, object]) -> None:
+    values = (np.arange(40 * 50).reshape(40, 50) % 251).astype(dtype)
+    np.testing.assert_array_equal(read("a.tif", tiff(values, **options)), values)
+
+
+def test_tiff_colour_alpha_planar_and_bilevel() -> None:
+    np.testing.assert_array_equal(read("a.tif", tiff(RGB, photometric="rgb")), RGB)
+    planar = tiff(np.moveaxis(RGB, 2, 0), photometric="rgb", planarconfig="separate")
+    np.testing.assert_array_equal(read("a.tif", planar), RGB)
+    rgba = np.dstack([RGB, np.full(GREY.shape, 255, np.uint8)])
+    np.testing.assert_array_equal(read("a.tif", tiff(rgba, photometric="rgb", extrasamples=[2])), RGB)
+    found = read("a.tif", tiff(GREY > 100))
+    assert found.dtype == np.uint8
+    np.testing.assert_array_equal(found, GREY > 100)
+
+
+def test_tiff_palette_indices_are_kept() -> None:
+    image = Image.fromarray(GREY % 7)
+    image.putpalette(list(range(21)))
+    np.testing.assert_array_equal(read("a.tif", saved(image, "TIFF")), GREY % 7)
+
+
+@pytest.mark.parametrize("compression", ["tiff_lzw", "packbits", "tiff_adobe_deflate"])
+@pytest.mark.parametrize("array", [GREY, RGB, GREY.astype(np.uint16) * 250])
+def test_tiff_compressions_of_others(compression: str, array: NDArray[np.generic]) -> None:
+    data = saved(Image.fromarray(array), "TIFF", compression=compression)
+    np.testing.assert_array_equal(read("a.tif", data), array)
+
+
+def test_tiff_pages() -> None:
+    pages = [GREY, GREY[::-1], GREY[:, :5]]
+    data = tiff(*pages)
+    for number, page in enumerate(pages):
+        np.testing.assert_array_equal(read("a.tif", data, page=number), page)
+        assert image_size(source("a.tif", data), page=number) == page.shape[::-1]
+    with pytest.raises(InputError, match=r"a.tif has 3 pages: choose one with --page 0 to --page 2"):
+        read("a.tif", data)
+    for number in (3, -1):
+        with pytest.raises(InputError, match=f"3 pages, counted from 0: there is no --page {number}"):
+            read("a.tif", data, page=number)
+    with pytest.raises(InputError, match="single page"):
+        read("a.pgm", b"P2 1 1 9 1", page=1)
+
+
+def test_tiff_resolution() -> None:
+    raster = read_image(source("a.tif", tiff(GREY, resolution=(300, 150), resolutionunit="INCH")), max_pixels=LIMIT)
+    assert raster.resolution == (300.0, 150.0, "inch")
+    out = io.BytesIO()
+    tifffile.imwrite(out, GREY, imagej=True, resolution=(4, 5), metadata={"unit": "um"})
+    assert read_image(source("a.tif", out.getvalue()), max_pixels=LIMIT).resolution == (4.0, 5.0, "um")
+    assert read_image(source("a.tif", tiff(GREY, metadata=None)), max_pixels=LIMIT).resolution is None
+
+
+def test_tiff_bigtiff() -> None:
+    out = io.BytesIO()
+    tifffile.imwrite(out, GREY, bigtiff=True)
+    np.testing.assert_array_equal(read("-", out.getvalue()), GREY)
+
+
+def test_tiff_limit() -> None:
+    with pytest.raises(LimitError, match=r"a.tif is 11 x 6 = 66 pixels, more than --max-pixels 65"):
+        read("a.tif", tiff(GREY), max_pixels=65)
+
+
+@pytest.mark.parametrize("options", [{}, {"compression": "zlib"}])
+def test_tiff_truncated_anywhere(options: dict[str, object]) -> None:
+    data = tiff(GREY, metadata=None, software=False, **options)
+    for end in range(len(data) - 2):
+        try:
+            found = read("a.tif", data[:end])
+        except InputError as error:
+            assert "a.tif" in str(error)  # noqa: PT017
+        else:  # only padding was cut
+            np.testing.assert_array_equal(found, GREY)
+
+
+def test_tiff_damaged_anywhere() -> None:
+    data = tiff(GREY, compression="zlib", metadata=None, software=False)
+    for at in range(4, len(data)):
+        damaged = data[:at] + bytes([data[at] ^ 0x55]) + data[at + 1 :]
+        try:
+            read("a.tif", damaged)
+        except (InputError, LimitError) as error:
+            assert "a.tif" in str(error)  # noqa: PT017
+
+
+# ---- which format
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "expected"),
+    [
+        ("-", b"\x89PNG\r\n\x1a\n", True),
+        ("-", b"II*\x00", True),
+        ("-", b"MM\x00*", True),
+        ("-", b"II+\x00", True),
+        ("-", b"P1 2 2 1 0 1 0", True),
+        ("-", b"P5\n# made by hand\n2 2 9 ", True),
+        ("-", b"P7 1 2", False),
+        ("-", b"P1,P2\n1,2\n", False),
+        ("a.PNG", b"", True),
+        ("a.jpg", b"", True),
+        ("a.csv", b"1,2\n", False),
+        ("-", b"", False),
+    ],
+)
+def test_is_image(name: str, data: bytes, expected: bool) -> None:
+    assert is_image(source(name, data)) is expected
+
+
+@pytest.mark.parametrize(("shape", "expected"), [((9, 2), False), ((9, 7), True), ((9, 7, 3), True), ((9,), False)])
+def test_is_image_of_npy(shape: tuple[int, ...], expected: bool) -> None:
+    out = io.BytesIO()
+    np.save(out, np.zeros(shape))
+    assert is_image(source("-", out.getvalue())) is expected
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "message"),
+    [
+        ("a.png", b"", "a.png is empty"),
+        ("a.png", b"II*\x00", "a.png is no png file, it begins as tiff: use --input-format tiff"),
+        ("a.jpg", b"\xff\xd8\xff\xe0", "a.jpg is a JPEG image, which is not read"),
+        ("-", b"GIF89a", "- is a GIF image"),
+        ("a.dat", b"hello", "a.dat is no image that is read"),
+    ],
+)
+def test_files_that_are_no_such_image(name: str, data: bytes, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        read(name, data)
+
+
+def test_input_format_overrides_the_extension() -> None:
+    data = saved(Image.fromarray(GREY), "PNG")
+    assert image_format(source("a.dat", data), "png") == "png"
+    np.testing.assert_array_equal(read("a.tif", data, input_format="png"), GREY)
+    with pytest.raises(UsageError, match="'bmp' is no format of images: use one of png, tiff, tif"):
+        read("a.tif", data, input_format="bmp")
+
+
+def test_sizes_come_from_the_header() -> None:
+    assert image_size(source("a.png", plain_png(GREY, 8, 0, 11)[:40])) == (11, 6)
+    assert image_size(source("a.pgm", b"P5 640 480 255\n")) == (640, 480)
+    assert image_size(source("a.tif", tiff(RGB, photometric="rgb"))) == (11, 6)
+    out = io.BytesIO()
+    np.save(out, RGB)
+    assert image_size(source("a.npy", out.getvalue())) == (11, 6)

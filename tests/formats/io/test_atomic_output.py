@@ -1,0 +1,305 @@
+"""Outputs appear whole or not at all, and never replace an input."""
+
+import errno
+import io
+import os
+import stat
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import pytest
+
+from vorotool.errors import OutputError, UsageError
+from vorotool.formats.io.atomic_output import check_output, open_output
+from vorotool.formats.zarr.store import check_store
+
+
+def write(path, data=b"new", **options):
+    with open_output(path, **options) as out:
+        out.write(data)
+
+
+def files_in(directory):
+    return sorted(path.name for path in directory.iterdir())
+
+
+def error_of(kind, path, **options):
+    with pytest.raises(kind) as caught:
+        write(path, **options)
+    return str(caught.value)
+
+
+@pytest.fixture
+def old(tmp_path):
+    path = tmp_path / "out.csv"
+    path.write_bytes(b"old")
+    return path
+
+
+def test_a_new_file_has_the_permissions_of_the_umask(tmp_path):
+    umask = os.umask(0o027)
+    try:
+        write(tmp_path / "out.csv")
+    finally:
+        os.umask(umask)
+    assert (tmp_path / "out.csv").read_bytes() == b"new"
+    assert stat.S_IMODE((tmp_path / "out.csv").stat().st_mode) == 0o640
+    assert files_in(tmp_path) == ["out.csv"]
+
+
+def test_a_replaced_file_keeps_its_permissions(old):
+    old.chmod(0o604)
+    write(old)
+    assert old.read_bytes() == b"new"
+    assert stat.S_IMODE(old.stat().st_mode) == 0o604
+
+
+def test_the_old_file_stays_until_the_end(old):
+    with open_output(old) as out:
+        out.write(b"new")
+        out.flush()
+        assert old.read_bytes() == b"old"
+    assert old.read_bytes() == b"new"
+
+
+def fail_halfway(path, failure):
+    with open_output(path) as out:
+        out.write(b"half")
+        raise failure
+
+
+@pytest.mark.parametrize("failure", [ValueError, KeyboardInterrupt, SystemExit, BrokenPipeError])
+def test_a_failure_leaves_nothing_behind(old, failure):
+    with pytest.raises(failure):
+        fail_halfway(old, failure)
+    assert old.read_bytes() == b"old"
+    assert files_in(old.parent) == ["out.csv"]
+
+
+def test_no_space(old):
+    with pytest.raises(OutputError) as caught, open_output(old):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+    reason = "No space left on device; free some space, or write elsewhere with -o"
+    assert str(caught.value) == f"{old} cannot be written: {reason}"
+    assert old.read_bytes() == b"old"
+    assert files_in(old.parent) == ["out.csv"]
+
+
+def test_a_file_that_can_be_written_at_any_position(tmp_path):
+    with open_output(tmp_path / "out.bin") as out:
+        out.write(b"....")
+        out.seek(1)
+        out.write(b"x")
+        out.seek(0)
+        assert out.read() == b".x.."
+
+
+def test_a_link_stays_a_link(old):
+    link = old.with_name("link.csv")
+    link.symlink_to(old)
+    write(link)
+    assert link.is_symlink()
+    assert old.read_bytes() == b"new"
+
+
+def test_a_missing_directory(tmp_path):
+    path = tmp_path / "gone" / "out.csv"
+    message = error_of(OutputError, path)
+    assert message == f"{path} cannot be written: the directory does not exist; create the directory first"
+    path = tmp_path / "file"
+    path.write_bytes(b"")
+    assert "a part of the path is a file, choose another folder" in error_of(OutputError, path / "out.csv")
+
+
+@pytest.mark.parametrize("name", [".", "sub/"])
+def test_a_directory(tmp_path, monkeypatch, name):
+    monkeypatch.chdir(tmp_path)
+    assert error_of(OutputError, name) == f"{name!r} is a directory: name a file in it"
+
+
+def test_an_impossible_name(tmp_path):
+    assert error_of(OutputError, "") == "'' is no name: name a file"
+    assert "cannot be written" in error_of(OutputError, tmp_path / ("x" * 300))
+    assert "cannot be written" in error_of(OutputError, "a\0b")
+    assert files_in(tmp_path) == []
+
+
+def test_an_unwritable_directory():
+    assert "cannot be written" in error_of(OutputError, "/proc/out.csv")
+
+
+def test_a_write_protected_file(old, monkeypatch):
+    monkeypatch.setattr(os, "access", lambda path, mode: False)
+    assert "write-protected" in error_of(OutputError, old)
+    assert old.read_bytes() == b"old"
+
+
+def test_no_clobber(old):
+    message = error_of(OutputError, old, no_clobber=True)
+    assert message == f"{old} exists already and --no-clobber is given: choose another name with -o"
+    write(old.with_name("other.csv"), no_clobber=True)
+    assert old.read_bytes() == b"old"
+
+
+def test_no_clobber_of_a_file_that_appears_meanwhile(tmp_path):
+    path = tmp_path / "out.csv"
+    with pytest.raises(OutputError, match="--no-clobber"), open_output(path, no_clobber=True):
+        path.write_bytes(b"other")
+    assert path.read_bytes() == b"other"
+    assert files_in(tmp_path) == ["out.csv"]
+
+
+def test_an_input_is_never_replaced(old, monkeypatch):
+    link = old.with_name("link.csv")
+    link.hardlink_to(old)
+    for name in (old, link, old.parent / "." / old.name):
+        message = error_of(UsageError, name, inputs=["-", old.with_name("gone"), old])
+        assert message == f"{name} is also an input, which is never replaced: choose another name with -o"
+    with old.open() as file:
+        monkeypatch.setattr(sys, "stdin", file)
+        assert "is also an input" in error_of(UsageError, old, inputs=["-"])
+    assert old.read_bytes() == b"old"
+
+
+def test_devices_are_written_directly(tmp_path):
+    write("/dev/null", inputs=["/dev/null"], no_clobber=True)
+    message = error_of(OutputError, "/dev/full")
+    assert message.startswith("/dev/full cannot be written: No space left on device")
+    assert stat.S_ISCHR(Path("/dev/null").stat().st_mode)
+
+
+def test_a_named_pipe(tmp_path):
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    received = []
+    reader = threading.Thread(target=lambda: received.append(pipe.read_bytes()))
+    reader.start()
+    write(pipe)
+    reader.join(10)
+    assert received == [b"new"]
+    assert files_in(tmp_path) == ["pipe"]
+
+
+class Terminal(io.TextIOWrapper):
+    def isatty(self):
+        return True
+
+
+def test_standard_output(monkeypatch):
+    buffer = io.BytesIO()
+    monkeypatch.setattr(sys, "stdout", Terminal(buffer, write_through=True))
+    write("-")
+    assert buffer.getvalue() == b"new"
+    assert "name a file with -o" in error_of(UsageError, "-", binary=True)
+    assert buffer.getvalue() == b"new"
+
+
+def test_what_is_open_already_is_gone_on_with(old):
+    for mode in ("ab", "r+b"):
+        old.write_bytes(b"old")
+        with old.open(mode) as file:
+            file.seek(0, os.SEEK_END)
+            name = f"/dev/fd/{file.fileno()}"
+            check_output(name, binary=True, no_clobber=True, inputs=[old])
+            write(name, no_clobber=True, inputs=[old])
+            write(f"/proc/self/fd/{file.fileno()}")
+            os.write(file.fileno(), b"end")
+        assert old.read_bytes() == b"oldnewnewend"
+    assert files_in(old.parent) == ["out.csv"]
+
+
+def test_a_descriptor_that_cannot_be_written(old):
+    with old.open("rb") as file:
+        numbers = [file.fileno(), 250]
+        messages = [error_of(OutputError, f"/dev/fd/{number}") for number in numbers]
+        for number in numbers:
+            with pytest.raises(OutputError, match="Bad file descriptor"):
+                check_output(f"/dev/fd/{number}")
+    for number, message in zip(numbers, messages, strict=True):
+        reason = "Bad file descriptor: it is closed, or open for reading only"
+        assert message == f"/dev/fd/{number} cannot be written: {reason}; write elsewhere with -o"
+    assert old.read_bytes() == b"old"
+
+
+def test_a_link_to_a_descriptor_stays_one(old):
+    with old.open("ab") as file:
+        link = old.with_name("link.csv")
+        link.symlink_to(f"/proc/self/fd/{file.fileno()}")
+        write(link)
+    assert link.is_symlink()
+    assert old.read_bytes() == b"oldnew"
+
+
+def test_a_descriptor_of_another_process(old):
+    with old.open("ab") as file:
+        child = subprocess.Popen(["sleep", "60"], stdout=file)
+    try:
+        message = error_of(OutputError, f"/proc/{child.pid}/fd/1")
+    finally:
+        child.kill()
+        child.wait()
+    assert message.endswith("is open in another process, which alone can go on with it: name a file with -o")
+    assert old.read_bytes() == b"old"
+
+
+def test_links_that_lead_back_to_themselves(tmp_path):
+    one, two = tmp_path / "one.csv", tmp_path / "two.csv"
+    one.symlink_to(two)
+    two.symlink_to(one)
+    message = f"{one} cannot be written: its links lead back to themselves; choose another name"
+    assert error_of(OutputError, one) == message
+    with pytest.raises(OutputError, match="lead back"):
+        check_output(one)
+    with pytest.raises(OutputError, match="lead back"):
+        check_store(one)
+    assert one.is_symlink()
+    link = tmp_path / "new.csv"
+    link.symlink_to(tmp_path / "there.csv")  # which is yet to be made
+    write(link)
+    assert (link.is_symlink(), (tmp_path / "there.csv").read_bytes()) == (True, b"new")
+
+
+def test_a_terminal_by_its_name_gets_no_binary_output():
+    import pty
+
+    master, slave = pty.openpty()
+    try:
+        for name in (os.ttyname(slave), f"/dev/fd/{slave}"):
+            assert "name a file with -o" in error_of(UsageError, name, binary=True)
+            write(name, b"text")
+            assert os.read(master, 10) == b"text"
+    finally:
+        os.close(slave)
+        os.close(master)
+
+
+def run(code, stdout):
+    script = f"from vorotool.formats.io.atomic_output import open_output\n{code}"
+    return subprocess.run(
+        [sys.executable, "-c", script],
+        stdout=stdout,
+        stderr=subprocess.PIPE,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+
+
+def test_full_standard_output():
+    code = "with open_output('-', binary=True) as out: out.write(b'x' * 100)"
+    with Path("/dev/full").open("w") as full:
+        done = run(code, full)
+    assert "standard output cannot be written: No space left on device; free" in done.stderr
+    assert "Exception ignored" not in done.stderr
+
+
+def test_a_broken_pipe_is_left_to_the_caller():
+    reading, writing = os.pipe()
+    os.close(reading)
+    try:
+        done = run("with open_output('-') as out: out.write(b'x' * 100)", writing)
+    finally:
+        os.close(writing)
+    assert "\nBrokenPipeError: " in done.stderr

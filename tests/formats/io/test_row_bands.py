@@ -1,0 +1,77 @@
+import itertools
+import threading
+
+import numpy as np
+import pytest
+
+from vorotool.errors import LimitError
+from vorotool.formats.io.row_bands import blocks, check_fits, checked, in_order
+from vorotool.geometry.checks import available_threads
+
+
+@pytest.mark.parametrize("threads", [0, 1, 2, 5])
+def test_in_order_keeps_the_order(threads: int) -> None:
+    assert list(in_order(lambda x: x * x, range(200), threads)) == [x * x for x in range(200)]
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+def test_in_order_takes_only_a_few_items_ahead(threads: int) -> None:
+    taken = itertools.count()
+    results = in_order(lambda x: x, (next(taken) for _ in range(1000)), threads)
+    next(results)
+    assert next(taken) <= 2 * threads + 2
+    results.close()
+
+
+def test_in_order_passes_errors_on_and_leaves_no_thread() -> None:
+    before = threading.active_count()  # other tests may have left a cluster's threads
+
+    def fail(x: int) -> int:
+        raise RuntimeError(f"item {x}")
+
+    with pytest.raises(RuntimeError, match="item 0"):
+        list(in_order(fail, range(50), 3))
+    assert threading.active_count() <= before
+
+
+def test_available_threads_is_positive() -> None:
+    assert available_threads() >= 1
+
+
+@pytest.mark.parametrize(
+    ("heights", "message"), [((2, 2), "4 rows, not 5"), ((3, 3), "more than 5 rows"), ((), "0 rows")]
+)
+def test_checked_counts_rows(heights: tuple[int, ...], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        list(checked([np.zeros((h, 3)) for h in heights], (5, 3)))
+
+
+def test_checked_refuses_another_width() -> None:
+    with pytest.raises(ValueError, match=r"must be \(rows, 3\)"):
+        list(checked([np.zeros((5, 4))], (5, 3)))
+
+
+def test_check_fits_names_the_value() -> None:
+    check_fits(np.array([0, 255], np.uint8), 255, "a byte")
+    check_fits(np.array([True]), 1, "a bit")
+    check_fits(np.empty(0, np.int64), 0, "nothing")
+    with pytest.raises(LimitError, match="the value 256 does not fit in a byte"):
+        check_fits(np.array([3, 256]), 255, "a byte")
+    with pytest.raises(LimitError, match="the value -1 does not fit"):
+        check_fits(np.array([-1, 3], np.int32), 255, "a byte")
+
+
+def test_blocks_carry_the_row_before() -> None:
+    width = 300_000
+    image = np.random.default_rng(1).integers(0, 256, (11, width), dtype=np.uint8)
+
+    def encode(rows: np.ndarray, out: np.ndarray) -> None:
+        out[...] = rows
+
+    bands = [image[:1], image[1:6], image[6:6], image[6:]]
+    found = list(blocks(bands, image.shape, columns=width, dtype=np.uint8, encode=encode))
+    assert [len(block) - 1 for block in found] == [3, 3, 3, 2]
+    assert not found[0][0].any()
+    np.testing.assert_array_equal(np.concatenate([block[1:] for block in found]), image)
+    for before, after in itertools.pairwise(found):
+        np.testing.assert_array_equal(before[-1], after[0])

@@ -1,0 +1,112 @@
+"""Reading inputs whole, and counting brackets before a parser sees them."""
+
+import io
+import json
+import os
+import sys
+
+import pytest
+
+from vorotool.batch.tasks import digest_of
+from vorotool.errors import InputError
+from vorotool.formats.images.band_reader import open_rows
+from vorotool.formats.io.sources import Source, check_nesting, read_source
+
+
+def error_of(function, *arguments, **options):
+    with pytest.raises(InputError) as caught:
+        function(*arguments, **options)
+    return str(caught.value)
+
+
+def test_a_file(tmp_path):
+    path = tmp_path / "seeds.CSV"
+    path.write_bytes(b"1,2\n")
+    assert read_source(path) == Source(str(path), b"1,2\n")
+    assert read_source(str(path)).suffix == ".csv"
+
+
+def test_standard_input(monkeypatch):
+    monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(b"1,2\n")))
+    assert read_source("-") == Source("standard input", b"1,2\n")
+    assert read_source("-").suffix == ""
+
+
+def test_closed_standard_input(monkeypatch):
+    monkeypatch.setattr(sys, "stdin", None)
+    assert error_of(read_source, "-") == "standard input is closed: name a file instead of -"
+
+
+def test_what_is_open_already_is_read_from_where_it_stands(tmp_path):
+    (tmp_path / "seeds.csv").write_bytes(b"x,y\n1,2\n")
+    with (tmp_path / "seeds.csv").open("rb", buffering=0) as file:
+        file.read(4)
+        name = f"/dev/fd/{file.fileno()}"
+        assert read_source(name) == Source(name, b"1,2\n")
+        assert read_source(name) == Source(name, b"")
+    message = f"{name} cannot be read: Bad file descriptor: it is closed, or open for writing only; name a file instead"
+    assert error_of(read_source, name) == f"{message} of {name}"
+
+
+def test_what_is_in_the_buffer_of_standard_input_is_read_too(tmp_path, monkeypatch):
+    (tmp_path / "seeds.csv").write_bytes(b"x,y\n1,2\n")
+    with (tmp_path / "seeds.csv").open() as file:
+        monkeypatch.setattr(sys, "stdin", file)
+        assert file.buffer.peek(4).startswith(b"x,y")
+        assert read_source(f"/dev/fd/{file.fileno()}").data == b"x,y\n1,2\n"
+
+
+@pytest.mark.parametrize("input_format", [None, "tiff"])
+def test_a_pipe_is_not_opened_to_look_at_it(tmp_path, input_format):
+    os.mkfifo(tmp_path / "image.tif")
+    assert open_rows(tmp_path / "image.tif", input_format=input_format) is None  # else it waits for a writer
+    assert digest_of(str(tmp_path / "image.tif")) == ""
+
+
+def test_a_missing_file(tmp_path):
+    name = str(tmp_path / "seeds.csv")
+    assert error_of(read_source, name) == f"{name}: there is no such file; check the path (looked in {tmp_path})"
+    name = str(tmp_path / "gone" / "seeds.csv")
+    assert f"nor is there a directory {tmp_path / 'gone'}" in error_of(read_source, name)
+
+
+def test_a_directory(tmp_path):
+    message = error_of(read_source, tmp_path)
+    assert message == f"{tmp_path} is a directory: name the files in it, for example {tmp_path}/*"
+
+
+@pytest.mark.parametrize("name", ["a\0b", "x" * 5000])
+def test_an_impossible_name(name):
+    assert "check the path" in error_of(read_source, name) or "is a directory" in error_of(read_source, name)
+
+
+def test_an_empty_name():
+    assert "name a file, or - for standard input" in error_of(read_source, "")
+
+
+def test_a_file_that_is_not_ours_to_read(tmp_path):
+    path = tmp_path / "seeds.csv"
+    path.write_bytes(b"1,2\n")
+    path.chmod(0)
+    try:
+        path.read_bytes()
+    except PermissionError:
+        assert "permission denied" in error_of(read_source, path)
+
+
+def test_lines_are_counted_from_one():
+    source = Source("a", b"x\ny\nz")
+    assert [source.line_at(offset) for offset in (0, 1, 2, 4)] == [1, 1, 2, 3]
+
+
+@pytest.mark.parametrize("text", ["[" * 100 + "]" * 100, json.dumps({"a": "[[" * 200}), "POINT (1 2)" * 500])
+def test_nesting_that_is_accepted(text):
+    check_nesting(text)
+    check_nesting(text.encode())
+
+
+@pytest.mark.parametrize("bracket", ["(", "[", "{", '[{"a":'])
+def test_nesting_that_is_refused(bracket):
+    message = error_of(check_nesting, "\n\n" + bracket * 100000, name="deep.json")
+    assert message == "deep.json, line 3: brackets are nested more than 100 deep; check the brackets"
+    assert "more than 5 deep" in error_of(check_nesting, b"[" * 6, 5)

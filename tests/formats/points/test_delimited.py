@@ -1,0 +1,217 @@
+"""Points from delimited text: which columns are read, and what each bad line is told."""
+
+import pytest
+
+from support.readers.point_reading import error_of, notes_of, read, rows
+from vorotool.errors import LimitError, UsageError
+from vorotool.formats.io.sources import STANDARD_INPUT
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "1,2\n3,4.5\n",
+        "1;2\r\n3;4.5\r\n",
+        "1\t2\n3\t4.5",
+        " 1   2 \n3 4.5\n",
+        "1, 2\r3, 4.5\r",
+        "\ufeff1,2\n3,4.5\n",
+        "\ufeffx,y\n1,2\n3,4.5\n",
+        "# made by hand\n\nX;Y\n1;2\n# more\n3;4.5\n",
+        '"x","y"\n"1","2"\n"3","4.5"\n',
+        "x y\n1 2\n3 4.5\n",
+        "y,x\n2,1\n4.5,3\n",
+    ],
+)
+def test_two_columns(text):
+    assert rows(text) == [[1, 2], [3, 4.5]]
+    assert rows(text, STANDARD_INPUT) == [[1, 2], [3, 4.5]]
+
+
+@pytest.mark.parametrize(
+    ("header", "used", "point"),
+    [
+        ("id,X,Y", "X, Y", [2, 3]),
+        ("x,y,lon,lat", "x, y", [1, 2]),
+        ("Lat,Lon,z", "Lon, Lat", [2, 1]),
+        ("latitude,longitude,z", "longitude, latitude", [2, 1]),
+        ("label,centroid-0,centroid-1", "centroid-1, centroid-0", [3, 2]),
+        ("index,axis-0,axis-1", "axis-1, axis-0", [3, 2]),
+    ],
+)
+def test_recognised_headers(header, used, point):
+    text = f"{header}\n" + ",".join(str(i + 1) for i in range(header.count(",") + 1))
+    assert rows(text) == [point]
+    notes = notes_of(text)
+    if used.lower() == "x, y":  # needs no word
+        assert notes == []
+        return
+    assert notes[0] == f"seeds.csv: columns {used} are read as x, y"
+    degrees = "seeds.csv: longitude and latitude are treated as planar, lengths are in degrees"
+    is_map = used.lower().startswith("lon")
+    assert notes[1:] == ([degrees] if is_map else [])
+    points = read(text)
+    assert points.y_up == is_map
+    assert points.crs == ({"type": "name", "properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}} if is_map else None)
+
+
+def test_labels():
+    points = read("label,x,y\n7,1,2\n9,3,4\n")
+    assert points.labels.tolist() == [7, 9]
+    assert points.properties == {}
+    assert notes_of("x,y,label\n1,2,7\n") == ["seeds.csv: columns x, y, label are read as x, y, label"]
+    points = read("x,y,label,name\n1,2,7,a\n")
+    assert points.labels is None
+    assert points.properties == {"label": ["7"], "name": ["a"]}
+    assert read("x,y,label,name\n1,2,7,a\n", columns="x,y,label").labels.tolist() == [7]
+    assert read("1,2,7\n", columns="1,2,3").labels.tolist() == [7]
+    assert read("x,y,label\n1,2,4294967295.0\n").labels.tolist() == [4294967295]
+
+
+@pytest.mark.parametrize(
+    ("columns", "point"),
+    [("1,2", [1, 2]), ("3,1", [3, 1]), ("b,a", [2, 1]), ("A,3", [1, 3]), (" c , 2 ", [3, 2])],
+)
+def test_chosen_columns(columns, point):
+    assert rows("a,b,c\n1,2,3\n", columns=columns) == [point]
+
+
+def test_chosen_columns_without_a_header():
+    assert rows("1,2,3\n4,5,6\n", columns="3,1") == [[3, 1], [6, 4]]
+    assert rows("n1,2,3\nn2,5,6\n", columns="2,3") == [[2, 3], [5, 6]]
+    assert notes_of("n,lon,lat\nn1,5,6\n", columns="lon,lat") == [
+        "seeds.csv: longitude and latitude are treated as planar, lengths are in degrees"
+    ]
+
+
+def test_names_that_differ_in_case_alone():
+    assert rows("a,A\n1,2\n", columns="A,a") == [[2, 1]]
+    assert "several columns are called 'v'" in error_of("v,v\n1,2\n", columns="v,2")
+
+
+def test_further_columns_stay_text():
+    text = '"id",x,,y,id\n007,1,é,2,"a, ""b"""\n008,3,,4,\n'
+    assert read(text).properties == {"id": ["007", "008"], "column_3": ["é", ""], "id_2": ['a, "b"', ""]}
+    assert read(text, properties=False).properties == {}
+
+
+@pytest.mark.parametrize("text", ["", "\n\n", "# nothing\n", "\ufeff", "x,y\n", "a,x,y"])
+def test_no_points(text):
+    assert len(read(text)) == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            "x,y\n1,2\n# c\n\n3,abc\n",
+            "line 5: 'abc' in column 2 (y) is not a number; correct it, or choose other columns with --columns",
+        ),
+        ("1,2\n3,\n", "line 2: column 2 is empty; fill in a number, or remove the line"),
+        ("1,2\nNaN,3\n", "line 2: 'NaN' in column 1 is not a finite number; correct it, or remove the line"),
+        ("inf,2\n", "line 1: 'inf' in column 1 is not a finite number; correct it, or remove the line"),
+        (
+            "x;y\r\n1;2\r\n1,5;2\r\n",
+            "line 3: '1,5' in column 1 (x) is not a number: decimal commas are not read, write 1.5",
+        ),
+        ("1,5;2,5\n", "line 1: '1,5' in column 1 is not a number: decimal commas are not read, write 1.5"),
+        (
+            "1,2\n3,4\n5,6,7\n",
+            "line 3: 3 fields, but the first row (line 1) has 2; give every line the same number of fields",
+        ),
+        (
+            "#\nx,y\n1\n",
+            "line 3: 1 field, but the header (line 2) has 2; give every line the same number of fields",
+        ),
+        (
+            '1,2\n3,"4\n5,6\n',
+            "line 2: the quote that opens column 2 is not closed before the next delimiter; close it, or remove it",
+        ),
+        (
+            "x,y,label\n1,2,3\n\n4,5,0\n",
+            "line 4: the label 0 is not a whole number from 1 to 4294967295; correct it, or "
+            "leave the label out of "
+            "--columns",
+        ),
+        (
+            "x,y,label\n1,2,1.5\n",
+            "line 2: the label 1.5 is not a whole number from 1 to 4294967295; correct it, or "
+            "leave the label out "
+            "of --columns",
+        ),
+        (
+            "x,y,label\n1,2,b\n",
+            "line 2: 'b' in column 3 (label) is not a number; correct it, or choose other columns with --columns",
+        ),
+    ],
+)
+def test_bad_lines(text, message):
+    assert error_of(text) == f"seeds.csv, {message}"
+    assert error_of(text, threads=1) == error_of(text, threads=3)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            "1,2,3\n",
+            "3 columns without a header; say which are x and y, for example --columns 1,2 (its "
+            "columns are 1 = 1, "
+            "2 = 2, 3 = 3)",
+        ),
+        (
+            "id,east,north\n1,2,3\n",
+            "the header names no known pair of coordinates; say which are x and y, for example "
+            "--columns east,north "
+            "(its columns are 1 = id, 2 = east, 3 = north)",
+        ),
+        (
+            "lng,lat\n1,2\n",
+            "the header names no known pair of coordinates; say which are x and y, for example "
+            "--columns lng,lat "
+            "(its columns are 1 = lng, 2 = lat)",
+        ),
+        (
+            "1|2\n",
+            "the first line has one column, '1|2'; give x and y, separated by a comma, a semicolon, a tab or blanks",
+        ),
+    ],
+)
+def test_unknown_columns(text, message):
+    assert error_of(text) == f"seeds.csv: {message}"
+
+
+def test_many_columns_are_not_all_listed():
+    message = error_of(",".join(f"c{i}" for i in range(500)) + "\n")
+    assert message.endswith("12 = c11, … 500 in all)")
+
+
+@pytest.mark.parametrize("columns", ["x", "x,y,label,more", "x,,y", "", "0,1", "x,x", "1,1"])
+def test_malformed_columns(columns):
+    message = error_of("x,y\n1,2\n", kind=UsageError, columns=columns)
+    assert message.startswith(f"--columns is {columns!r}: name two or three different columns")
+
+
+def test_columns_that_are_not_there():
+    assert (
+        error_of("x,y\n1,2\n", columns="x,z")
+        == "seeds.csv: there is no column 'z'; its columns are 1 = x, 2 = y; correct --columns"
+    )
+    message = "seeds.csv: --columns names column 3, but there are 2; its columns are 1 = x, 2 = y"
+    assert error_of("x,y\n1,2\n", columns="1,3") == message
+    assert "names one column twice" in error_of("x,y\n1,2\n", columns="x,1")
+
+
+def test_other_encodings():
+    assert "is UTF-16 text; save it as UTF-8" in error_of("1,2\n".encode("utf-16"))
+    assert "is binary, not points or polygons" in error_of(b"\x89PNG\r\n\0\0")
+    message = error_of("x,y,name\n1,2,a\n3,4,é\n".encode("latin-1"))
+    assert message == ("seeds.csv, line 3: the byte 0xe9 is not UTF-8; save the file as UTF-8, or use --no-properties")
+    assert len(read("x,y,name\n1,2,é\n".encode("latin-1"), properties=False)) == 1
+
+
+def test_the_limit_of_text():
+    text = "# c\nx,y\n\n1,2\n3,4\n5,6\n"
+    assert len(read(text, max_sites=3)) == 3
+    message = error_of(text, kind=LimitError, max_sites=2)
+    assert message == "seeds.csv holds 3 points, more than the limit of 2: raise --max-sites or split the file"

@@ -1,0 +1,171 @@
+"""Points from JSON and GeoJSON."""
+
+import json
+
+import pytest
+
+from support.readers.point_reading import error_of, notes_of, read, rows
+from vorotool.errors import LimitError
+from vorotool.formats.io.sources import STANDARD_INPUT
+
+
+def test_json():
+    points = read("[[1, 2], [3.5, -4]]", "a.json")
+    assert points.xy.tolist() == [[1, 2], [3.5, -4]]
+    assert not points.y_up
+    assert len(read("[]", "a.json")) == 0
+    assert rows(b"\xef\xbb\xbf[[1, 2]]", STANDARD_INPUT) == [[1, 2]]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("[[1, 2],\n [3, ]]", "a.json, line 2, column "),
+        ("[[1, 2], [3, NaN]]", "a.json, line 1, column "),
+        ('[[1, 2], ["3", 4]]', "a.json, point 2: ['3', 4] is not a pair of finite numbers; write [x, y]"),
+        ("[[1, 2], [true, 4]]", "a.json, point 2: [True, 4] is not a pair of finite numbers; write [x, y]"),
+        ("[[1, 2], [null, 4]]", "a.json, point 2: [None, 4] is not a pair of finite numbers; write [x, y]"),
+        ("[[1, 2], [3]]", "a.json, point 2: [3] is not a pair of finite numbers; write [x, y]"),
+        ("[1, 2]", "a.json, point 1: 1 is not a pair of finite numbers; write [x, y]"),
+        ("[[1, 2, 3]]", "a.json, point 1: [1, 2, 3] has 3 numbers; write [x, y]"),
+        ('"seeds"', "a.json: 'seeds' is no list of points; write [[x, y], …]"),
+        ("[" * 1000, "a.json, line 1: brackets are nested more than 100 deep; check the brackets"),
+        ('{"points": []}', "a.json: the object has no GeoJSON type; write GeoJSON, or [[x, y], …]"),
+    ],
+)
+def test_bad_json(text, message):
+    assert error_of(text, "a.json", input_format="json").startswith(message)
+
+
+def test_the_limit_of_json():
+    assert "holds 3 points" in error_of("[[1, 2], [3, 4], [5, 6]]", "a.json", LimitError, max_sites=2)
+    assert len(read("[[1, 2], [3, 4]]", "a.json", max_sites=2)) == 2
+
+
+def feature(coordinates, kind="Point", **members):
+    return {
+        "type": "Feature",
+        "geometry": {"type": kind, "coordinates": coordinates},
+        "properties": None,
+        **members,
+    }
+
+
+def collection(*features, **members):
+    return json.dumps({"type": "FeatureCollection", "features": features, **members})
+
+
+def test_geojson():
+    crs = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::2056"}}
+    text = collection(
+        feature([1, 2], id="a", properties={"name": "A", "n": 1}),
+        feature([3.5, 4], id=7, properties={"n": {"deep": [1]}, "id": "own"}),
+        crs=crs,
+    )
+    points = read(text, "a.geojson")
+    assert points.xy.tolist() == [[1, 2], [3.5, 4]]
+    assert points.y_up
+    assert points.crs == crs
+    assert points.properties == {
+        "id": ["a", 7],
+        "name": ["A", None],
+        "n": [1, {"deep": [1]}],
+        "property_id": [None, "own"],
+    }
+    assert read(text, "a.geojson", properties=False).properties == {}
+    assert notes_of(text, "a.geojson") == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '{"type": "MultiPoint", "coordinates": [[1, 2], [3, 4]]}',
+        json.dumps(feature([[1, 2], [3, 4]], "MultiPoint")),
+        json.dumps(
+            {
+                "type": "GeometryCollection",
+                "geometries": [
+                    {"type": "Point", "coordinates": [1, 2]},
+                    {"type": "Point", "coordinates": [3, 4]},
+                ],
+            }
+        ),
+    ],
+)
+def test_geojson_of_one_object(text):
+    points = read(text, STANDARD_INPUT)
+    assert points.xy.tolist() == [[1, 2], [3, 4]]
+    assert points.properties == {"part": [1, 2]}
+
+
+def test_geojson_parts_share_properties():
+    text = collection(
+        feature([[1, 2], [3, 4]], "MultiPoint", id=5, properties={"part": "p"}),
+        feature([5, 6], properties={}),
+    )
+    assert read(text, "a.geojson").properties == {
+        "id": [5, 5, None],
+        "part": ["p", "p", None],
+        "voro_part": [1, 2, 1],
+    }
+
+
+def test_geojson_notes():
+    empty = {"type": "Feature", "geometry": None, "properties": {}}
+    text = collection(feature([7.5, 46.9, 500]), empty, feature([]))
+    assert notes_of(text, "a.geojson") == [
+        "a.geojson: 2 features without a geometry are left out",
+        "a.geojson: only x and y are used, heights are left out",
+        "a.geojson names no coordinate reference system, and is taken for planar: if it is longitude and latitude, say "
+        "so with --input-crs OGC:CRS84",
+    ]
+    assert len(read(text, "a.geojson")) == 1
+    wgs84 = {"type": "name", "properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}}
+    assert notes_of(collection(feature([7, 46]), crs=wgs84), "a.geojson") == [
+        "a.geojson: longitude and latitude are treated as planar, lengths are in degrees"
+    ]
+    assert len(read(collection(), "a.geojson")) == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            collection(feature([1, 2]), feature([[[0, 0], [1, 0], [1, 1], [0, 0]]], "Polygon")),
+            "a.geojson, feature 2: 'Polygon' is not a point; replace it by its centroid or its vertices "
+            "(skeleton-exact reads polygons and lines)",
+        ),
+        (
+            collection(feature([1, 2]), feature([1, "2"])),
+            "a.geojson, feature 2: [1, '2'] is not a pair of finite numbers; write [x, y]",
+        ),
+        (collection(feature(None)), "a.geojson, feature 1: coordinates of the Point are None; write a list"),
+        (collection(5), 'a.geojson, feature 1: 5 is no Feature; give it "type": "Feature"'),
+        (
+            collection(feature([1, 2], properties=[])),
+            "a.geojson, feature 1: properties are []; write an object or null",
+        ),
+        (
+            collection({"type": "Feature", "geometry": "x"}),
+            "a.geojson, feature 1: the geometry is 'x'; write an object with type and coordinates",
+        ),
+        (
+            '{"type": "FeatureCollection"}',
+            'a.geojson: the FeatureCollection has no list of features; add "features": […]',
+        ),
+        ('{"type": "Circle"}', "a.geojson: 'Circle' is not a point; use Point or MultiPoint"),
+        ("[]", "a.geojson: GeoJSON is an object with a type; use --input-format json for [[x, y], …]"),
+        ('{"a":' * 1000, "a.geojson, line 1: brackets are nested more than 100 deep; check the brackets"),
+        ("", "a.geojson is empty: JSON was expected"),
+    ],
+)
+def test_bad_geojson(text, message):
+    assert error_of(text, "a.geojson").startswith(message)
+
+
+def test_the_limits_of_geojson():
+    text = collection(feature([[1, 2]] * 3, "MultiPoint"))
+    assert "holds 3 points, more than the limit of 2" in error_of(text, "a.geojson", LimitError, max_sites=2)
+    text = collection(*(feature([1, 2], properties={f"k{i}": i}) for i in range(10001)))
+    assert "has 10001 different properties on 10001 points" in error_of(text, "a.geojson", LimitError)
+    assert len(read(text, "a.geojson", properties=False)) == 10001

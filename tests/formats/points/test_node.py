@@ -1,0 +1,68 @@
+"""Points from Triangle's .node files."""
+
+import pytest
+
+from support.readers.point_reading import error_of, read, rows
+from vorotool.errors import LimitError
+
+
+@pytest.mark.parametrize("base", [0, 1])
+def test_node(base):
+    text = f"# box\n3 2 1 1 # header\n{base} 0 0 1.50 1\n{base + 1} 4 0.5 2 0\n\n{base + 2} -4 1e1 x 7 # last\n"
+    points = read(text, "box.node")
+    assert points.xy.tolist() == [[0, 0], [4, 0.5], [-4, 10]]
+    assert points.labels is None
+    assert points.properties == {"attribute_1": ["1.50", "2", "x"], "boundary_marker": ["1", "0", "7"]}
+    assert read(text, "box.node", properties=False).properties == {}
+
+
+def test_node_with_a_short_header():
+    assert rows("1\n1 2 3\n", "a.node") == [[2, 3]]
+    assert rows("0 2 0 0\n", "a.node") == []
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            "",
+            ": the file is empty; a .node file begins with <vertices> 2 <attributes> <0 or 1 boundary markers>",
+        ),
+        (
+            "1.5 2\n",
+            ", line 1: '1.5 2' is no header of a .node file; write <vertices> 2 <attributes> <0 or 1 boundary markers>",
+        ),
+        ("#\n1 3 0 0\n1 0 0 0\n", ", line 2: the vertices have 3 dimensions; only 2 are read"),
+        (
+            "2 2 0 0\n1 0 0\n",
+            ", line 1: 2 vertices are announced, but 1 follow; correct the header, or complete the file",
+        ),
+        (
+            "1 2 0 0\n1 0 0\n2 0 0\n",
+            ", line 1: 1 vertices are announced, but 2 follow; correct the header, or complete the file",
+        ),
+        (
+            "2 2 0 0\n1 0 0\n#\n3 0 0\n",
+            ", line 4: vertex 3 stands where 2 is due; number the vertices from 0 or 1 without gaps",
+        ),
+        ("1 2 0 0\n1 0 b\n", ", line 2: 'b' in column 3 is not a number; correct it, or remove the line"),
+        (
+            "1 2 1 0\n1 0 0\n",
+            ", line 2: 3 fields, but each vertex after the header (line 1) has 4; give every "
+            "line the same number of "
+            "fields",
+        ),
+        (
+            "1 2 0 2\n1 0 0 0 0\n",
+            ", line 1: 0 attributes and 2 boundary markers a vertex; write <vertices> 2 "
+            "<attributes> <0 or 1 boundary markers>",
+        ),
+    ],
+)
+def test_bad_node(text, message):
+    assert error_of(text, "a.node") == "a.node" + message
+
+
+def test_the_limit_of_node():
+    message = error_of("99999999999999 2 0 0\n", "a.node", LimitError)
+    assert message == "a.node holds 99999999999999 points, more than the limit of 4294967295: split the file"

@@ -1,0 +1,106 @@
+"""Which format points are in, and that all formats agree."""
+
+import io
+import json
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from support.readers.point_reading import error_of, npy, read
+from vorotool.errors import InputError, LimitError, UsageError
+from vorotool.formats.io.sources import STANDARD_INPUT, Source
+from vorotool.formats.points.reader import POINT_FORMATS, detect_point_format
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "expected"),
+    [
+        ("a.csv", "[", "csv"),
+        ("a.TSV", "", "csv"),
+        ("a.node", "", "node"),
+        ("a.npy", "", "npy"),
+        ("a.geojson", "", "geojson"),
+        ("a.wkt", "", "wkt"),
+        ("a.json", "[[1, 2]]", "json"),
+        ("a.json", '{"type": "Point"}', "geojson"),
+        ("a.txt", "1 2", "csv"),
+        (STANDARD_INPUT, "", "csv"),
+        (STANDARD_INPUT, "\ufeff\n [[1, 2]]", "json"),
+        (STANDARD_INPUT, "\n{", "geojson"),
+        (STANDARD_INPUT, "point(1 2)", "wkt"),
+        (STANDARD_INPUT, "SRID=4326;MULTIPOINT Z EMPTY", "wkt"),
+        (STANDARD_INPUT, "point x,point y\n1,2", "csv"),
+        (STANDARD_INPUT, npy(np.zeros((1, 2))), "npy"),
+    ],
+)
+def test_detection(name, content, expected):
+    assert detect_point_format(Source(name, content if isinstance(content, bytes) else content.encode())) == expected
+
+
+@pytest.mark.parametrize("suffix", [".shp", ".gpkg", ".dxf"])
+def test_files_to_convert(suffix):
+    message = error_of(b"", f"data/towns{suffix}")
+    assert message == (
+        f"data/towns{suffix}: {suffix} files are not read; convert it: "
+        f"ogr2ogr -f GeoJSON data/towns.geojson data/towns{suffix}"
+    )
+
+
+def test_options_that_do_not_fit():
+    assert "use one of csv, tsv, txt, node, npy" in error_of("", kind=UsageError, input_format="xyz")
+    for fmt in set(POINT_FORMATS) - {"csv", "json", "npz"}:
+        assert "--columns is for delimited text" in error_of("", kind=UsageError, input_format=fmt, columns="1,2")
+
+
+def npz(**columns):
+    out = io.BytesIO()
+    np.savez(out, **columns)
+    return out.getvalue()
+
+
+coordinates = st.floats(allow_nan=False, allow_infinity=False, min_value=-1e12, max_value=1e12)
+
+
+@settings(deadline=None, max_examples=50)
+@given(st.lists(st.tuples(coordinates, coordinates), min_size=1, max_size=8))
+def test_all_formats_agree(points):
+    pairs = [list(point) for point in points]
+    array = np.array(pairs)
+    node = "".join(f"{i} {x!r} {y!r}\n" for i, (x, y) in enumerate(points))
+    texts = {
+        "csv": "".join(f"{x!r};{y!r}\n" for x, y in points),
+        "node": f"{len(points)} 2 0 0\n{node}",
+        "npy": npy(array),
+        "npz": npz(x=array[:, 0], y=array[:, 1]),
+        "json": json.dumps(pairs),
+        "geojson": json.dumps({"type": "MultiPoint", "coordinates": pairs}),
+        "wkt": "".join(f"POINT ({x!r} {y!r})\n" for x, y in points),
+    }
+    assert set(texts) == set(POINT_FORMATS)
+    for fmt, text in texts.items():
+        np.testing.assert_array_equal(read(text, STANDARD_INPUT, input_format=fmt).xy, array)
+    whole = shapely.multipoints(array).wkt
+    assert len(read(whole, STANDARD_INPUT)) == len(points)
+
+
+def reason_against(data, fmt):
+    try:
+        read(data, "any", input_format=fmt)
+    except (InputError, LimitError) as error:
+        return str(error)
+    return "any points are good"
+
+
+@settings(deadline=None, max_examples=300)
+@given(st.sampled_from(POINT_FORMATS), st.binary(max_size=60))
+def test_any_bytes_give_points_or_a_reason(fmt, data):
+    assert reason_against(data, fmt).startswith("any")
+
+
+@settings(deadline=None, max_examples=300)
+@given(st.sampled_from(["csv", "node", "wkt", "json"]), st.text('0123.,;-e \n"#()[]{}POINTMUL:x\t', max_size=60))
+def test_any_text_gives_points_or_a_reason(fmt, text):
+    assert reason_against(text, fmt).startswith("any")

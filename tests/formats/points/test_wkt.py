@@ -1,0 +1,67 @@
+"""Points from well-known text."""
+
+import pytest
+
+from support.readers.point_reading import error_of, notes_of, read, rows
+from vorotool.errors import LimitError
+from vorotool.formats.io.sources import STANDARD_INPUT
+
+
+def test_wkt():
+    text = (
+        "POINT (1 2)\n# comment\n\nSRID=4326;MULTIPOINT ((3 4), (5 6.5))\n"
+        "GEOMETRYCOLLECTION (POINT (7 8), POINT EMPTY)\n"
+    )
+    points = read(text, "a.wkt")
+    assert points.xy.tolist() == [[1, 2], [3, 4], [5, 6.5], [7, 8]]
+    assert points.y_up
+    assert points.crs == {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::4326"}}
+    assert read("POINT (1 2)\nSRID=0;POINT (2 3)", "a.wkt").crs is None
+    degrees = "a.wkt: longitude and latitude are treated as planar, lengths are in degrees"
+    assert notes_of("SRID=4258;POINT (1 2)", "a.wkt") == [degrees]
+    assert notes_of("SRID=2056;POINT (1 2)", "a.wkt") == []
+    assert "line 3: the geometry is in EPSG:2" in error_of("SRID=1;POINT (1 2)\n\nSRID=2;POINT (1 2)", "a.wkt")
+    assert points.properties == {"part": [1, 1, 2, 1]}
+    assert read("POINT (1 2)", STANDARD_INPUT).properties == {}
+    assert rows("# (see below\nPOINT (1 2)", "a.wkt") == [[1, 2]]
+    assert rows("MULTIPOINT\n (\n 1 2,\n 3 4)\nPOINT(5 6)", "a.wkt") == [[1, 2], [3, 4], [5, 6]]
+    assert notes_of("POINT Z (1 2 3)", "a.wkt") == ["a.wkt: only x and y are used, heights are left out"]
+
+
+@pytest.mark.parametrize("text", ["", "\n", "POINT EMPTY", "MULTIPOINT EMPTY", "GEOMETRYCOLLECTION EMPTY"])
+def test_wkt_without_points(text):
+    assert len(read(text, "a.wkt")) == 0
+    assert read(text, "a.wkt").y_up
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            "POINT (1 2)\n\nPOINT (1 b)\n",
+            "a.wkt, line 3: 'POINT (1 b)' is not WKT; write for example POINT (3 4)",
+        ),
+        ("1,2\n", "a.wkt, line 1: '1,2' is not WKT; write for example POINT (3 4)"),
+        (
+            "POINT (1 2)\nLINESTRING (0 0, 1 1)\n",
+            "a.wkt, line 2: a LineString is not a point; replace it by its centroid or its "
+            "vertices (skeleton-exact "
+            "reads polygons and lines)",
+        ),
+        ("GEOMETRYCOLLECTION (POLYGON EMPTY)", "a.wkt, line 1: a Polygon is not a point"),
+        ("GEOMETRYCOLLECTION (" * 5000, "a.wkt, line 1: brackets are nested more than 100 deep"),
+        ("POINT (1 2)\nPOINT (1 inf)", "a.wkt, line 2: 'POINT (1 inf)' is not"),
+        ("POINT (nan 1)", "a.wkt, line 1: 'POINT (nan 1)' is not"),
+        ("POINT (1 1e999)", "a.wkt, line 1: 'POINT (1 1e999)' is not"),
+    ],
+)
+def test_bad_wkt(text, message):
+    assert error_of(text, "a.wkt").startswith(message)
+
+
+def test_the_limit_of_wkt():
+    assert "holds 2 points" in error_of("MULTIPOINT (1 2, 3 4)", "a.wkt", LimitError, max_sites=1)
+
+
+def test_brackets_in_a_comment_do_not_count():
+    assert read("# (a remark\nPOINT (3 4)\n", "a.wkt").xy.tolist() == [[3, 4]]

@@ -1,0 +1,130 @@
+"""Polygons and lines in GeoJSON."""
+
+import json
+
+import pytest
+
+from support.readers.polygon_reading import assert_same, error_of, notes_of, read, rings, written
+from vorotool.errors import LimitError
+
+SHELL = [[0, 0], [9, 0], [0, 9], [0, 0]]
+HOLE = [[1, 1], [2, 1], [1, 2], [1, 1]]
+CRS = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::2056"}}
+
+
+def feature(kind, coordinates, **members):
+    return {"type": "Feature", "geometry": {"type": kind, "coordinates": coordinates}, "properties": None, **members}
+
+
+def collection(*features, **members):
+    return json.dumps({"type": "FeatureCollection", "features": features, **members})
+
+
+def test_feature_collection():
+    both = {
+        "type": "GeometryCollection",
+        "geometries": [
+            {"type": "LineString", "coordinates": SHELL},
+            {"type": "GeometryCollection", "geometries": [{"type": "Polygon", "coordinates": [SHELL]}]},
+        ],
+    }
+    text = collection(
+        feature("MultiPolygon", [[SHELL, HOLE, []], [], [SHELL]], id="a", properties={"name": "A"}),
+        {"type": "Feature", "geometry": None, "properties": {}},
+        feature("LineString", SHELL, properties={"n": 1.5}),
+        feature("Polygon", [], id=3),
+        {**feature("", None, id=0), "geometry": both},
+        feature("MultiLineString", [SHELL, HOLE]),
+        crs=CRS,
+    )
+    shapes = read(text, "a.geojson")
+    assert [(kind, polygon, len(ring)) for kind, polygon, ring in rings(shapes)] == [
+        (0, 0, 3), (1, 0, 3), (0, 1, 3), (2, 2, 4), (2, 3, 4), (0, 4, 3), (2, 5, 4), (2, 6, 4),
+    ]  # fmt: skip
+    assert shapes.part.tolist() == [1, 2, 1, 1, 2, 1, 2]
+    assert shapes.ids == ["a", "a", None, 0, 0, None, None]
+    assert shapes.properties == {
+        "name": ["A", "A", None, None, None, None, None],
+        "n": [None, None, 1.5, None, None, None, None],
+    }
+    assert (shapes.y_up, shapes.crs) == (True, CRS)
+    assert notes_of(text, "a.geojson") == ["a.geojson: 2 features without a geometry are left out"]
+    back = written(shapes, "geojson")
+    assert_same(read(back, "a.geojson"), shapes)
+    kinds = [each["geometry"]["type"] for each in json.loads(back)["features"]]
+    assert kinds == ["MultiPolygon", "LineString", "GeometryCollection", "MultiLineString"]
+    bare = read(text, "a.geojson", properties=False)
+    assert (bare.ids, bare.properties, bare.crs) == (None, {}, CRS)
+
+
+def test_bare_geometry_and_feature():
+    polygon = {"type": "Polygon", "coordinates": [SHELL]}
+    for text in (polygon, feature("Polygon", [SHELL])):
+        assert rings(read(json.dumps(text), "standard input")) == [(0, 0, SHELL[:3])]
+    open_ring = {"type": "Polygon", "coordinates": [SHELL[:3]]}
+    assert rings(read(json.dumps(open_ring), "a.geojson")) == [(0, 0, SHELL[:3])]
+    assert len(read(collection(), "a.geojson")) == 0
+    assert written(read(collection(), "a.geojson"), "geojson") == '{"type":"FeatureCollection","features":[]}\n'
+
+
+UNNAMED = (
+    "a.geojson names no coordinate reference system, and is taken for planar: if it is longitude and latitude, say so "
+    "with --input-crs OGC:CRS84"
+)
+
+
+def test_degrees_are_told_by_the_reference_system_alone_and_heights_are_left_out():
+    degrees = "a.geojson: longitude and latitude are treated as planar, lengths are in degrees"
+    heights = "a.geojson: only x and y are used, heights are left out"
+    lake = [[7.5, 46.9, 400], [8, 46], [8, 47]]
+    assert notes_of(collection(feature("Polygon", [lake])), "a.geojson") == [heights, UNNAMED]
+    assert notes_of(collection(feature("Polygon", [[[750.5, 46], [8, 46], [8, 47]]])), "a.geojson") == []
+    assert notes_of(collection(feature("Polygon", [SHELL])), "a.geojson") == []
+    wgs84 = {"type": "name", "properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}}
+    assert notes_of(collection(feature("Polygon", [SHELL]), crs=wgs84), "a.geojson") == [degrees]
+    beyond = [[[180.00000000000014, 46], [8, 46], [8, 47]]]
+    assert notes_of(collection(feature("Polygon", beyond), crs=wgs84), "a.geojson") == [degrees]
+    assert notes_of(collection(feature("LineString", lake[1:]), crs=CRS), "a.geojson") == []
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            collection(feature("Polygon", [SHELL]), feature("Point", [1, 2])),
+            "a.geojson, feature 2: 'Point' is no polygon or line; put points into a file of their own",
+        ),
+        (collection(feature("Circle", [])), "a.geojson, feature 1: 'Circle' is no polygon or line; use (Multi)Polygon"),
+        (collection(feature(None, [])), "a.geojson, feature 1: None is no polygon or line"),
+        (collection(feature("Polygon", None)), "a.geojson, feature 1: coordinates of the Polygon are None; write a"),
+        (collection(feature("Polygon", [5])), "a.geojson, feature 1: the shell is 5; write [[x, y], …]"),
+        (collection(feature("Polygon", [[1, 2]])), "a.geojson, feature 1, vertex 1: 1 is not a pair of finite numbers"),
+        (collection(feature("MultiPolygon", [5])), "a.geojson, feature 1: the polygon is 5; write [[[x, y], …], …]"),
+        (
+            collection(feature("MultiPolygon", [SHELL])),
+            "a.geojson, feature 1, vertex 1: 0 is not a pair of finite numbers",
+        ),
+        (collection(feature("MultiLineString", [5])), "a.geojson, feature 1: the line is 5; write [[x, y], …]"),
+        (
+            collection(feature("LineString", SHELL), feature("MultiPolygon", [[SHELL], [SHELL, HOLE, [[1, 2], [1]]]])),
+            "a.geojson, feature 2, part 2, hole 2, vertex 2: [1] is not a pair of finite numbers; write [x, y]",
+        ),
+        (
+            collection({"type": "Feature", "geometry": {"type": "GeometryCollection", "geometries": [5]}}),
+            "a.geojson, feature 1: the geometry is 5; write an object with type and coordinates",
+        ),
+        (collection(5), "a.geojson, feature 1: 5 is no Feature"),
+        (collection(feature("Polygon", [SHELL], properties=[])), "a.geojson, feature 1: properties are []; write an"),
+        ("[]", "a.geojson: GeoJSON is an object with a type"),
+        ('{"a":' * 1000, "a.geojson, line 1: brackets are nested more than 100 deep"),
+    ],
+)
+def test_bad_geojson(text, message):
+    assert error_of(text, "a.geojson").startswith(message)
+
+
+def test_the_limits():
+    text = collection(feature("Polygon", [SHELL]))
+    assert "holds 4 vertices, more than the limit of 3" in error_of(text, "a.geojson", LimitError, max_sites=3)
+    text = collection(*(feature("Polygon", [SHELL], properties={f"k{i}": i}) for i in range(10001)))
+    assert "has 10001 different properties on 10001 polygons" in error_of(text, "a.geojson", LimitError)

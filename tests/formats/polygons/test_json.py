@@ -1,0 +1,90 @@
+"""Polygons and lines as plain JSON."""
+
+import json
+
+import pytest
+
+from support.readers.polygon_reading import assert_same, error_of, notes_of, read, rings, written
+from vorotool.errors import LimitError
+
+SHELL = [[0, 0], [9, 0], [0, 9]]
+HOLE = [[1, 1], [2, 1], [1, 2]]
+
+
+def test_one_shell():
+    for text in (SHELL, [*SHELL, [0, 0]], [SHELL], {"polygons": [SHELL]}, {"polygons": [{"shell": SHELL}]}):
+        shapes = read(json.dumps(text))
+        assert rings(shapes) == [(0, 0, SHELL)]
+        assert not shapes.y_up
+        assert shapes.ids is None
+    assert read(b"\xef\xbb\xbf[[0, 0], [9, 0], [0, 9]]").xy.tolist() == SHELL
+
+
+def test_many():
+    items = [
+        {"id": "a", "part": 1, "shell": SHELL, "holes": [HOLE, HOLE], "properties": {"n": 1}},
+        {"id": "a", "part": 2, "line": SHELL},
+        {"id": 7, "shell": SHELL, "holes": None, "properties": {"m": [1]}},
+        {"shell": []},
+        SHELL,
+    ]
+    shapes = read(json.dumps({"polygons": items}))
+    assert [kind for kind, _, _ in rings(shapes)] == [0, 1, 1, 2, 0, 0]
+    assert shapes.part.tolist() == [1, 2, 1, 1]
+    assert shapes.ids == ["a", "a", 7, None]
+    assert shapes.properties == {"n": [1, None, None, None], "m": [None, None, [1], None]}
+    assert notes_of(json.dumps({"polygons": items})) == ["shapes.json: 1 features without a geometry are left out"]
+    assert_same(read(written(shapes, "json")), shapes)
+    bare = read(json.dumps({"polygons": items}), properties=False)
+    assert (bare.ids, bare.properties) == (None, {})
+
+
+@pytest.mark.parametrize("text", ["[]", '{"polygons": []}', '{"polygons": [[]]}'])
+def test_nothing(text):
+    shapes = read(text)
+    assert len(shapes) == 0
+    assert written(shapes, "json") == '{"polygons":[]}\n'
+
+
+def test_writing():
+    shapes = read("[[0, 0.1], [1e-9, 1e300], [0.30000000000000004, 2]]")
+    assert written(shapes, "json") == (
+        '{"polygons":[\n{"shell":[[0.0,0.1],[1e-9,1e+300],[0.30000000000000004,2.0]],"holes":[]}\n]}\n'
+    )
+    assert "[0.3,2.0]" in written(shapes, "json", precision=3)
+    assert_same(read(written(shapes, "json")), shapes)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("[[0, 0], [1, ]]", "shapes.json, line 1, column "),
+        ("5", "shapes.json: 5 is no polygon; write [[x, y], …], or {"),
+        ("{}", "shapes.json: the object has no list of polygons; write {"),
+        ('{"polygons": 5}', "shapes.json: the object has no list of polygons"),
+        ("[[0, 0], [1, 0], [1]]", "shapes.json, polygon 1, vertex 3: [1] is not a pair of finite numbers"),
+        ("[[0, 0], [1, 0], 3]", "shapes.json, polygon 1, vertex 3: 3 is not a pair of finite numbers"),
+        ("[[0, 0], [1, true]]", "shapes.json, polygon 1, vertex 2: [1, True] is not a pair of finite numbers"),
+        ("[[0, 0], [1, 0, 7]]", "shapes.json, polygon 1, vertex 2: [1, 0, 7] has 3 numbers; write [x, y]"),
+        ("[[[0, 0]], 5]", "shapes.json, polygon 2: 5 is no polygon"),
+        ('{"polygons": [{"shell": [[0, 0]], "line": []}]}', "shapes.json, polygon 1: {'shell'"),
+        ('{"polygons": [{"holes": []}]}', "shapes.json, polygon 1: {'holes': []} is no polygon"),
+        ('{"polygons": [{"shell": 5}]}', "shapes.json, polygon 1: the shell is 5; write [[x, y], …]"),
+        ('{"polygons": [{"line": {}}]}', "shapes.json, polygon 1: the line is {}; write [[x, y], …]"),
+        ('{"polygons": [{"shell": [[0, 0]], "holes": 3}]}', "shapes.json, polygon 1: holes are 3; write"),
+        ('{"polygons": [{"shell": [[0, 0]], "holes": [3]}]}', "shapes.json, polygon 1: a hole is 3; write"),
+        (
+            '{"polygons": [{"shell": [[0, 0]], "holes": [[], [[1, 1], ["a", 2]]]}]}',
+            "shapes.json, polygon 1, hole 1, vertex 2: ['a', 2] is not a pair",
+        ),
+        ('{"polygons": [{"shell": [[0, 0]], "properties": 3}]}', "shapes.json, polygon 1: properties are 3; write"),
+        ('{"polygons": [{"shell": [[0, 0]], "part": 2}]}', "shapes.json, polygon 1: part is 2; number the parts"),
+        ("[" * 1000, "shapes.json, line 1: brackets are nested more than 100 deep"),
+    ],
+)
+def test_bad_json(text, message):
+    assert error_of(text).startswith(message)
+
+
+def test_the_limit():
+    assert "holds 3 vertices, more than the limit of 2" in error_of(json.dumps(SHELL), kind=LimitError, max_sites=2)

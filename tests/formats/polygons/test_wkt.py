@@ -1,0 +1,91 @@
+"""Polygons and lines in well-known text."""
+
+from dataclasses import replace
+
+import pytest
+
+from support.readers.polygon_reading import assert_same, error_of, notes_of, read, rings, written
+from vorotool.errors import LimitError
+from vorotool.geometry.polygons.conversion import as_polygons
+
+TEXT = """# shapes
+POLYGON ((0 0, 9 0, 0 9, 0 0), (1 1, 2 1, 1 2, 1 1))
+SRID=4326;MULTIPOLYGON (((0 0, 9 0, 0 9, 0 0)),
+  ((20 20, 30 20.5, 20 30, 20 20)))
+
+LINESTRING (0 0, 1e-7 1)
+MULTILINESTRING ((0 0, 1 1), (2 2, 3 3))
+GEOMETRYCOLLECTION (LINESTRING (0 0, 1 1), POLYGON ((0 0, 9 0, 0 9, 0 0)))
+"""
+
+
+def test_wkt():
+    shapes = read(TEXT, "a.wkt")
+    assert [(kind, polygon, len(ring)) for kind, polygon, ring in rings(shapes)] == [
+        (0, 0, 3), (1, 0, 3), (0, 1, 3), (0, 2, 3), (2, 3, 2), (2, 4, 2), (2, 5, 2), (2, 6, 2), (0, 7, 3),
+    ]  # fmt: skip
+    assert shapes.part.tolist() == [1, 1, 2, 1, 1, 2, 1, 2]
+    assert shapes.y_up
+    assert shapes.crs == {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::4326"}}
+    assert_same(read(written(shapes, "wkt"), "a.wkt"), replace(shapes, crs=None))
+    assert read("LINESTRING (0 0, 1 1)", "a.wkt").crs is None
+    assert "line 2: the geometry is in EPSG:3857, but that of line 1 in EPSG:4326" in error_of(
+        "SRID=4326;LINESTRING (0 0, 1 1)\nsrid = 3857 ; LINESTRING (0 0, 1 1)", "a.wkt"
+    )
+    assert written(shapes, "wkt").splitlines() == [
+        "POLYGON ((0 0, 9 0, 0 9, 0 0), (1 1, 2 1, 1 2, 1 1))",
+        "MULTIPOLYGON (((0 0, 9 0, 0 9, 0 0)), ((20 20, 30 20.5, 20 30, 20 20)))",
+        "LINESTRING (0 0, 1e-07 1)",
+        "MULTILINESTRING ((0 0, 1 1), (2 2, 3 3))",
+        "GEOMETRYCOLLECTION (LINESTRING (0 0, 1 1), POLYGON ((0 0, 9 0, 0 9, 0 0)))",
+    ]
+    assert (
+        written(shapes, "wkt", precision=1)
+        .splitlines()[1]
+        .endswith("(2e+01 2e+01, 3e+01 2e+01, 2e+01 3e+01, 2e+01 2e+01)))")
+    )
+
+
+def test_nothing_and_too_little():
+    assert len(read("", "a.wkt")) == 0
+    assert notes_of("POLYGON EMPTY\nLINESTRING Z (0 0 1, 1 1 2)", "a.wkt") == [
+        "a.wkt: only x and y are used, heights are left out",
+        "a.wkt: 1 features without a geometry are left out",
+    ]
+    small = as_polygons([{"shell": [[1, 2]]}, {"shell": [[1, 2], [3, 4]]}, {"line": [[5, 6]]}])
+    assert written(small, "wkt").splitlines() == [
+        "POLYGON ((1 2, 1 2, 1 2, 1 2))",
+        "POLYGON ((1 2, 3 4, 1 2, 1 2))",
+        "LINESTRING (5 6, 5 6)",
+    ]
+    assert len(read(written(small, "wkt"), "a.wkt")) == 3
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            "LINESTRING (0 0, 1 1)\n\nPOLYGON ((0 0, 1 0, 0 1))",
+            "a.wkt, line 3: 'POLYGON ((0 0, 1 0, 0 1))' is not WKT; write for example POLYGON ((0 0, 4 0, 0 3, 0 0)), "
+            "each ring closed",
+        ),
+        (
+            "LINESTRING (0 0, 1 1)\nPOINT (1 2)",
+            "a.wkt, line 2: a Point is no polygon or line; put points into a file of their own",
+        ),
+        ("GEOMETRYCOLLECTION (MULTIPOINT (1 2))", "a.wkt, line 1: a MultiPoint is no polygon or line"),
+        (
+            "LINESTRING (0 0, 1 1)\nLINESTRING (0 0, 1 inf)",
+            "a.wkt, line 2: vertex 2 of 'LINESTRING (0 0, 1 inf)' is (1",
+        ),
+        ("POLYGON ((0 0, nan 0, 1 1, 0 0))", "a.wkt, line 1: vertex 2 of"),
+        ("LINESTRING (0 0, 1 1e999)", "a.wkt, line 1: vertex 2 of"),
+        ("GEOMETRYCOLLECTION (" * 5000, "a.wkt, line 1: brackets are nested more than 100 deep"),
+    ],
+)
+def test_bad_wkt(text, message):
+    assert error_of(text, "a.wkt").startswith(message)
+
+
+def test_the_limit():
+    assert "holds 2 vertices" in error_of("LINESTRING (0 0, 1 1)", "a.wkt", LimitError, max_sites=1)

@@ -1,0 +1,74 @@
+"""GeoJSON and WKT of alpha shapes."""
+
+from __future__ import annotations
+
+import io
+import json
+
+import numpy as np
+import pytest
+import shapely
+
+from support.families.point_families import draw
+from vorotool import PointSet, UsageError, alpha_complex, alpha_hull, alpha_shape
+from vorotool.formats.results.alpha import write_general, write_hull_geojson, write_shape_edges
+
+FAMILY = alpha_complex(PointSet(draw("uniform", 120, 5), crs={"type": "name"}))
+SHAPE = alpha_shape(FAMILY, r=float(FAMILY.spectrum[len(FAMILY.spectrum) // 2]))
+
+
+def written(function, *arguments, **options):
+    out = io.BytesIO()
+    function(out, *arguments, **options)
+    return out.getvalue().decode()
+
+
+def test_edges_as_line_strings():
+    for interior in (False, True):
+        document = json.loads(written(write_shape_edges, SHAPE, interior=interior))
+        assert document["crs"] == {"type": "name"}
+        classes = SHAPE.edge_classes()
+        chosen = np.flatnonzero(classes) if interior else SHAPE.edge_index
+        places = [feature["geometry"]["coordinates"] for feature in document["features"]]
+        assert places == FAMILY.points[FAMILY.edges[chosen]].tolist()
+        properties = [feature["properties"] for feature in document["features"]]
+        assert [p["r_max"] is None for p in properties] == np.isinf(FAMILY.r_max[chosen]).tolist()
+        assert set(properties[0]) == {"label_a", "label_b", "length", "r_min", "r_max", "class"}
+
+
+def test_all_parts_of_a_shape():
+    document = json.loads(written(write_general, SHAPE, "geojson"))
+    parts = [shapely.geometry.shape(feature["geometry"]) for feature in document["features"]]
+    kinds = [part.geom_type for part in parts]
+    assert kinds.count("Polygon") == SHAPE.region_count
+    assert kinds.count("LineString") == int((SHAPE.kind == 1).sum())
+    assert kinds.count("Point") == len(SHAPE.isolated)
+    assert sum(part.area for part in parts) == pytest.approx(SHAPE.area)
+    lines = written(write_general, SHAPE, "wkt").splitlines()
+    assert [shapely.from_wkt(line) for line in lines] == parts
+    short = written(write_general, SHAPE, "wkt", precision=3)
+    assert len(short) < 0.5 * sum(map(len, lines))
+    with pytest.raises(UsageError, match="a whole shape cannot be written as 'csv': use one of geojson, wkt"):
+        write_general(io.BytesIO(), SHAPE, "csv")
+
+
+def test_a_hull_with_a_hole():
+    grid = np.stack(np.meshgrid(np.arange(9), np.arange(9)), axis=-1).reshape(-1, 2).astype(float)
+    points = np.concatenate([grid[abs(grid - 4).max(axis=1) > 1], [[20.0, 20]]])
+    hull = alpha_hull(alpha_shape(points, r=0.8))
+    features = json.loads(written(write_hull_geojson, hull))["features"]
+    (polygon,), (point,) = ([f for f in features if f["geometry"]["type"] == kind] for kind in ("Polygon", "Point"))
+    shape = shapely.geometry.shape(polygon["geometry"])
+    assert shape.is_valid
+    assert len(shape.interiors) == 1
+    assert shapely.is_ccw(shape.exterior)
+    # the corners of the gap are cut off by triangles of their own
+    right = 64 - 14 - 40 * segment(1, 0.8) - 4 * segment(2**0.5, 0.8)
+    assert shape.area == pytest.approx(right, rel=1e-3)
+    assert (point["geometry"]["coordinates"], point["properties"]["label"]) == ([20, 20], len(points))
+
+
+def segment(chord, radius):
+    """Area between a circle and a chord of it."""
+    half = np.arcsin(chord / 2 / radius)
+    return radius**2 * (half - np.sin(half) * np.cos(half))

@@ -1,0 +1,155 @@
+"""Cells in every format, read back by other libraries."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import re
+
+import numpy as np
+import pytest
+import shapely
+
+from support.families.point_families import draw
+from vorotool import PointSet, UsageError, voronoi_cells, write
+from vorotool.formats.io.sources import Source
+from vorotool.formats.polygons.reader import read_polygons
+from vorotool.formats.results.cells import CELL_FORMATS, write_cells
+
+pytestmark = pytest.mark.filterwarnings("ignore::vorotool.VorotoolWarning")
+RING = shapely.box(0, 0, 6, 6).difference(shapely.box(1, 2, 5, 4))
+
+
+def written(cells, fmt, **options):
+    out = io.BytesIO()
+    write_cells(out, cells, fmt, **options)
+    return out.getvalue()
+
+
+def cells_of(name):
+    if name == "clipped":  # parts, a hole, and an empty cell
+        return voronoi_cells([[3, 1], [3, 3], [3, 5], [100, 3], [3, 3]], clip=RING)
+    if name == "holed":
+        return voronoi_cells([[3, 3]], clip=RING)
+    points = draw(name, 60, 2)
+    labels = np.random.default_rng(1).permutation(len(points)) + 1000
+    names = [f'cell "{i}", so' for i in range(len(points))]
+    return voronoi_cells(PointSet(points, labels=labels, properties={"name": names}, crs={"type": "name"}))
+
+
+@pytest.fixture(params=["uniform", "duplicates", "collinear", "small_lattice", "tiny_y", "clipped", "holed"])
+def cells(request):
+    return cells_of(request.param)
+
+
+def same(found, cells):
+    """Whether geometries are the cells, vertex for vertex."""
+    right = cells.to_shapely()
+    assert len(found) == len(right)
+    for a, b in zip(found, right, strict=True):
+        assert (a is None or a.is_empty) == b.is_empty
+        assert b.is_empty or shapely.equals_exact(a, b)
+
+
+def test_wkt(cells):
+    lines = written(cells, "wkt").decode().splitlines()
+    same(shapely.from_wkt(lines), cells)
+
+
+def test_csv(cells):
+    rows = list(csv.DictReader(io.StringIO(written(cells, "csv").decode())))
+    same([shapely.from_wkt(row["wkt"] or None) for row in rows], cells)
+    assert [int(row["label"]) for row in rows] == cells.label_array.tolist()
+    assert [[float(row["x"]), float(row["y"])] for row in rows] == cells.sites.tolist()
+    assert [row["name"] for row in rows if "name" in row] == list(cells.properties.get("name", ()))
+
+
+def test_geojson(cells):
+    document = json.loads(written(cells, "geojson"))
+    features = document["features"]
+    same([f["geometry"] and shapely.from_geojson(json.dumps(f["geometry"])) for f in features], cells)
+    assert [f["id"] for f in features] == cells.label_array.tolist()
+    assert all(f["properties"]["label"] == f["id"] for f in features)
+    assert document.get("crs") == cells.crs
+
+
+def test_json_is_read_as_polygons(cells):
+    document = json.loads(written(cells, "json"))
+    parts = np.diff(cells.nesting.cells).clip(1)
+    assert len(document["polygons"]) == parts.sum()
+    assert sum(not item["shell"] for item in document["polygons"]) == cells.is_empty.sum()
+    polygons = read_polygons(Source("cells.json", written(cells, "json")))
+    rings, starts, _ = cells.nesting
+    np.testing.assert_array_equal(polygons.xy, cells.coordinates)
+    np.testing.assert_array_equal(polygons.ring_start, rings)
+    np.testing.assert_array_equal(polygons.polygon_start, starts)
+    assert list(dict.fromkeys(polygons.ids)) == cells.label_array[~cells.is_empty].tolist()
+
+
+def test_npz(cells):
+    with np.load(io.BytesIO(written(cells, "npz"))) as file:
+        np.testing.assert_array_equal(np.stack([file["vertex_x"], file["vertex_y"]], axis=1), cells.coordinates)
+        for name, right in zip(("ring_starts", "polygon_starts", "cell_starts"), cells.nesting, strict=True):
+            np.testing.assert_array_equal(file[name], right)
+        assert tuple(file["frame"]) == cells.frame.sides
+        np.testing.assert_array_equal(file["label"], cells.label_array)
+
+
+def test_further_columns_and_clashes():
+    given = PointSet([[1, 1], [3, 1]], properties={"label": ["a", None], "id": ["p", None], "wkt": [1.5, 2]})
+    cells = voronoi_cells(given, frame=(0, 0, 4, 2))
+    header, first, _ = written(cells, "csv").decode().splitlines()
+    assert header == "voro_label,x,y,voro_wkt,label,id,wkt"
+    assert first == '1,1,1,"POLYGON ((0 0, 2 0, 2 2, 0 2, 0 0))",a,p,1.5'
+    a, b = json.loads(written(cells, "geojson"))["features"]
+    assert a["id"] == "p"
+    assert "id" not in b
+    assert b["properties"] == {"voro_label": 2, "x": 3, "y": 1, "label": None, "wkt": 2}
+    items = json.loads(written(cells, "json"))["polygons"]
+    assert [item["id"] for item in items] == ["p", None]
+    assert items[0]["properties"]["label"] == "a"
+
+
+def test_parts_share_their_properties():
+    given = PointSet([[3, 1], [3, 3], [3, 5]], properties={"name": ["a", "b", "c"]})
+    items = json.loads(written(voronoi_cells(given, clip=RING), "json"))["polygons"]
+    assert [(i["id"], i["part"], i["properties"]["name"]) for i in items] == [
+        (1, 1, "a"),
+        (2, 1, "b"),
+        (2, 2, "b"),
+        (3, 1, "c"),
+    ]
+
+
+@pytest.mark.parametrize("fmt", ["csv", "wkt", "geojson", "json"])
+def test_precision(fmt):
+    cells = voronoi_cells([[0.123456, 0], [1, 1 / 3]], frame=(0, 0, 1, 1))
+    text = written(cells, fmt, precision=3).decode()
+    assert "0.123" in text or fmt == "wkt"
+    assert "0.1234" not in text
+    assert {len(part.split(".")[1]) for part in re.findall(r"\d+\.\d+", text)} == {3}
+
+
+@pytest.mark.parametrize("fmt", CELL_FORMATS)
+def test_threads_and_slices_change_nothing(fmt):
+    cells = voronoi_cells(draw("uniform", 40_000, 1))
+    assert written(cells, fmt, threads=1) == written(cells, fmt, threads=3)
+
+
+@pytest.mark.parametrize("fmt", CELL_FORMATS)
+def test_no_cells(fmt):
+    cells = voronoi_cells(np.empty((0, 2)))
+    data = written(cells, fmt)
+    if fmt == "geojson":
+        assert json.loads(data)["features"] == []
+    if fmt == "json":
+        assert json.loads(data)["polygons"] == []
+
+
+def test_the_library_writes_cells(tmp_path):
+    cells = voronoi_cells([[1, 1], [3, 1]])
+    write(cells, tmp_path / "a.wkt", precision=4)
+    assert (tmp_path / "a.wkt").read_bytes() == written(cells, "wkt", precision=4)
+    with pytest.raises(UsageError, match="cells cannot be written as 'obj': use one of geojson"):
+        write(cells, tmp_path / "a.obj")

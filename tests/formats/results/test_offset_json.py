@@ -1,0 +1,84 @@
+"""Offset curves as JSON: written, read, and refused."""
+
+import io
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import vorotool
+from vorotool.errors import InputError
+from vorotool.formats.io.sources import Source
+from vorotool.formats.results.offset_json import read_offsets, write_json
+
+SHAPES = vorotool.read(Path(__file__).parents[3] / "data" / "two-shapes.json")
+ARRAYS = ("start", "end", "centre", "site", "ring_start", "shape_start", "distance", "polygon")
+
+
+def text_of(offsets, **options):
+    out = io.BytesIO()
+    write_json(out, offsets, **options)
+    return out.getvalue()
+
+
+def read(data):
+    return read_offsets(Source("offsets.json", data))
+
+
+@pytest.mark.parametrize("distances", [[-20.0, -5.0, 3.0], [40.0], [-1000.0]])
+def test_what_is_written_is_read(distances):
+    made = vorotool.offset(SHAPES, distances)
+    again = read(text_of(made))
+    for name in ARRAYS:
+        assert np.array_equal(getattr(made, name), getattr(again, name), equal_nan=name == "centre"), name
+    assert again.polygons.ids == ["branch", "key"]
+    assert text_of(again) == text_of(made)
+    vorotool.verify_offsets(again)
+
+
+def test_the_library_reads_them_as_what_they_are(tmp_path):
+    made = vorotool.offset(SHAPES, 3)
+    vorotool.write(made, tmp_path / "offsets.json")
+    assert vorotool.read(tmp_path / "offsets.json").length.tolist() == made.length.tolist()
+    with pytest.raises(InputError, match=r"offsets.json holds offset curves, with arcs: write them as GeoJSON"):
+        vorotool.read(tmp_path / "offsets.json", geometry="polygons")
+    with pytest.raises(InputError, match=r"offsets.json holds polygons, or what was made of them, not points"):
+        vorotool.read(tmp_path / "offsets.json", geometry="points")
+
+
+def test_an_arc_shrunk_to_its_centre_is_a_line():
+    made = vorotool.offset([[1000, 1000], [4000, 1000], [4000, 4000]], 0.01)
+    again = read(text_of(made, precision=3))
+    assert not again.is_arc.any()
+    assert np.isfinite(again.flattened(0.001).xy).all()
+
+
+def changed(member, index, **fields):
+    document = json.loads(text_of(vorotool.offset(SHAPES, [-20.0, 3.0])))
+    document[member][index].update(fields)
+    return json.dumps(document).encode()
+
+
+BROKEN = {
+    "json": (b'{"type":"vorotool.offsets",', "not JSON"),
+    "type": (b'{"type":"vorotool.skeleton","version":1}', "holds no offset curves; its type should be"),
+    "version": (b'{"type":"vorotool.offsets","version":9}', "version 9 of vorotool.offsets is not known"),
+    "polygons": (b'{"type":"vorotool.offsets","version":1}', "polygons are None; write a list"),
+    "distance": (changed("shapes", 1, distance=0), "shapes 1: the distance is 0"),
+    "polygon": (changed("shapes", 0, polygon=2), "shapes 0: polygon is 2; write a whole number from 0 to 1"),
+    "first": (changed("rings", 1, first=0), "rings 1: the pieces of each follow those of the one before"),
+    "none": (changed("rings", 0, pieces=0), "rings 0: the pieces of each follow those of the one before"),
+    "fewer": (changed("shapes", -1, rings=1), r"shapes \d: the rings of each follow those of the one before; list all"),
+    "start": (changed("pieces", 3, start=[1, None]), r"pieces 3: start is .*; write \[number, number\]"),
+    "centre": (changed("pieces", 0, kind="arc", centre=None), r"pieces 0: the centre of an arc is \[x, y\]"),
+    "site": (changed("pieces", 2, site=-1), "pieces 2: site is -1"),
+}
+
+
+@pytest.mark.parametrize("name", BROKEN)
+def test_what_is_broken_is_refused(name):
+    data, words = BROKEN[name]
+    with pytest.raises(InputError, match=words) as refused:
+        read(data)
+    assert str(refused.value).startswith("offsets.json")

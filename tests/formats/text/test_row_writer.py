@@ -1,0 +1,65 @@
+"""Rows of text: streamed in bounded memory, with separators between slices too."""
+
+import io
+import json
+import tracemalloc
+
+import numpy as np
+import pytest
+
+from vorotool.errors import UsageError
+from vorotool.formats.text.row_writer import SLICE_ROWS, Column, RowShape, check_precision, write_rows
+from vorotool.geometry.table import Computed, Lookup
+
+
+class Count(io.RawIOBase):
+    """Counts bytes and forgets them."""
+
+    size = 0
+
+    def write(self, data):
+        self.size += len(data)
+        return len(data)
+
+
+@pytest.mark.parametrize("rows", [0, 1, SLICE_ROWS - 1, SLICE_ROWS, SLICE_ROWS + 1, 3 * SLICE_ROWS])
+@pytest.mark.parametrize("threads", [1, 2])
+def test_slices_join(rows, threads):
+    out = io.BytesIO()
+    columns = [Column.of("", np.arange(rows)), Column.of("", Computed(lambda part: np.arange(rows)[part] / 2, rows))]
+    write_rows(out, columns, RowShape(("[", ",", "]"), ","), threads=threads)
+    assert json.loads(b"[" + out.getvalue() + b"]") == [[k, k / 2] for k in range(rows)]
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_memory_stays_bounded(threads):
+    rows = 60 * SLICE_ROWS
+    values, index = np.random.default_rng(0).random(1000), np.zeros(rows, np.int32)
+    columns = [Column.of("", Lookup(values, index)) for _ in range(4)]
+    out = Count()
+    tracemalloc.start()
+    try:
+        write_rows(out, columns, threads=threads)
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert out.size > 60e6
+    assert peak < 20e6
+
+
+def test_a_failing_output_ends_the_work():
+    class Full(io.RawIOBase):
+        def write(self, _data):
+            raise OSError(28, "No space left on device")
+
+    with pytest.raises(OSError, match="No space"):
+        write_rows(Full(), [Column.of("", np.arange(10 * SLICE_ROWS))], threads=2)
+
+
+def test_no_columns_and_no_digits():
+    out = io.BytesIO()
+    write_rows(out, [])
+    assert out.getvalue() == b""
+    assert (check_precision(None), check_precision(17)) == (0, 17)
+    with pytest.raises(UsageError, match="--precision is 18"):
+        write_rows(out, [Column.of("", [1.5])], precision=18)

@@ -1,0 +1,62 @@
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from support.families.point_families import FAMILIES, draw
+from support.oracles.delaunay_oracle import circle, cross
+from vorotool import InputError, Triangulation, delaunay
+
+pytestmark = pytest.mark.filterwarnings("ignore::vorotool.VorotoolWarning")
+
+
+def square_root(value):
+    """To 120 bits."""
+    shift = 240 - value.numerator.bit_length() + value.denominator.bit_length()
+    shift += shift % 2
+    return Fraction(math.isqrt(int(value * Fraction(2) ** shift))) / Fraction(2) ** (shift // 2)
+
+
+def within(value, right, error):
+    """Whether a double is right up to the error, its own rounding, and overflow."""
+    if math.isinf(value):
+        return abs(right) * 2 > Fraction(np.finfo(float).max)
+    return abs(Fraction(value) - right) <= error + abs(right) * Fraction(2) ** -50 + Fraction(5e-324)
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+def test_circles_and_areas_against_rationals(name):
+    mesh = delaunay(draw(name, 60, 1))
+    centres, radii, areas = mesh.circumcentres(), mesh.circumradii(), mesh.areas()
+    for t, corners in enumerate(mesh.points[mesh.triangles].tolist()):
+        a, b, c = ((Fraction(x), Fraction(y)) for x, y in corners)
+        (x, y), square = circle(a, b, c)
+        radius = square_root(square)
+        assert within(radii[t], radius, radius / 10**9)
+        assert within(centres[t, 0], x, radius / 10**9)
+        assert within(centres[t, 1], y, radius / 10**9)
+        assert within(areas[t], cross(a, b, c) / 2, cross(a, b, c) / 10**9)
+        assert areas[t] >= 0
+
+
+def test_uniform_points_lose_few_digits():
+    mesh = delaunay(draw("uniform", 2000, 2))
+    distances = np.linalg.norm(mesh.points[mesh.triangles] - mesh.circumcentres()[:, None], axis=2)
+    np.testing.assert_allclose(distances, mesh.circumradii()[:, None] * [1, 1, 1], rtol=1e-10)
+    hull = mesh.points[mesh.hull]
+    around = np.roll(hull, -1, axis=0)
+    assert mesh.areas().sum() == pytest.approx((hull[:, 0] * around[:, 1] - hull[:, 1] * around[:, 0]).sum() / 2)
+
+
+def test_shapes_are_checked():
+    good = {"points": [[0, 0]], "triangles": [], "neighbours": [], "edges": [], "hull": [0], "first": [0]}
+    assert len(Triangulation(**good)) == 0
+    with pytest.raises(InputError, match=r"triangles must have shape"):
+        Triangulation(**{**good, "triangles": [[0, 0]]})
+    with pytest.raises(InputError, match=r"hull must have shape"):
+        Triangulation(**{**good, "hull": [[0, 0]]})
+    with pytest.raises(InputError, match="first must be as long as points, but they have 2 and 1 rows"):
+        Triangulation(**{**good, "first": [0, 1]})

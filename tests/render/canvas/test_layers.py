@@ -1,0 +1,227 @@
+"""Layers, their page, and both kinds of pictures of them."""
+
+from __future__ import annotations
+
+import io
+import re
+import xml.etree.ElementTree as ET
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from vorotool.errors import LimitError
+from vorotool.formats.images.png_writer import write_png
+from vorotool.render.canvas import svg as layers_svg
+from vorotool.render.canvas.layers import Lines, Page, Points, Polygons, Texts, bounds_of
+from vorotool.render.canvas.png import check_picture_size, layer_bands
+from vorotool.render.canvas.svg import write_layers_svg
+
+NS = "{http://www.w3.org/2000/svg}"
+SQUARES = np.array([[0, 0], [10, 0], [10, 8], [0, 8], [2, 2], [2, 6], [6, 6], [6, 2], [12, 0], [16, 4], [12, 8.0]])
+CORNERS = np.arange(11, dtype=np.int32)
+HOLED = Polygons(
+    "cells",
+    SQUARES,
+    CORNERS,
+    rings=np.array([0, 4, 8, 11]),
+    first_rings=np.array([0, 2, 3]),
+    colours=["#77aadd", "#ee8866"],
+    colour_of=np.array([0, 1]),
+    ids=["cell-1", "cell-<2"],
+    edge="#000000",
+    width=3,
+)
+
+
+def svg(*layers, width=600, y_up=False, bounds=None):
+    out = io.BytesIO()
+    write_layers_svg(out, layers, Page(bounds or bounds_of(layers), width=width, y_up=y_up))
+    return ET.fromstring(out.getvalue())
+
+
+def picture(*layers, width=160, y_up=False, bounds=None):
+    page = Page(bounds or bounds_of(layers), width=width, y_up=y_up)
+    rows = np.concatenate(list(layer_bands(layers, page)))
+    assert rows.dtype == np.uint8
+    return rows.reshape(page.height, page.width, 3)
+
+
+def rings_of(path):
+    """Corners of each ring of a path."""
+    parts = [part for part in path.attrib["d"].split("Z") if part]
+    return [np.array([list(map(float, xy.split())) for xy in re.split("[ML]", part)[1:]]) for part in parts]
+
+
+finite = st.floats(allow_nan=False, allow_infinity=False)
+
+
+@settings(deadline=None)
+@given(st.lists(st.tuples(finite, finite), min_size=1, max_size=20), st.booleans(), st.integers(16, 2000))
+def test_the_page_holds_all_points_whatever_their_size(points, y_up, width):
+    array = np.array(points)
+    page = Page(bounds_of([Points("p", array)]), width=width, y_up=y_up)
+    assert page.width == width
+    assert 1 <= page.height <= 4 * width + 1
+    placed = page.place(array)
+    assert (placed >= -0.51).all()  # the height is rounded to whole px
+    assert (placed <= np.array([page.width, page.height]) + 0.51).all()
+
+
+def test_the_page_keeps_proportions_and_turns_y():
+    points = np.array([[0, 0], [100, 0], [0, 50.0]])
+    down, up = (Page((0, 0, 100, 50), width=1040, y_up=y_up) for y_up in (False, True))
+    assert down.height == up.height == 540
+    np.testing.assert_allclose(down.place(points), [[20, 20], [1020, 20], [20, 520]])
+    np.testing.assert_allclose(up.place(points), [[20, 520], [1020, 520], [20, 20]])
+    assert bounds_of([Points("none", np.empty((0, 2)))]) == (0, 0, 1, 1)
+    assert bounds_of([Points("one", points), Texts("two", points - 7, "abc")]) == (-7, -7, 100, 50)
+
+
+def test_sides_close_every_ring():
+    assert HOLED.sides()[[3, 7, 10]].tolist() == [[3, 0], [7, 4], [10, 8]]
+    empty = Polygons("some", SQUARES, CORNERS[:3], rings=np.array([0, 0, 3, 3]))
+    assert empty.sides().tolist() == [[0, 1], [1, 2], [2, 0]]
+    assert Polygons("none", SQUARES, CORNERS[:0], rings=np.array([0])).sides().shape == (0, 2)
+
+
+def test_polygons_in_svg():
+    root = svg(HOLED, width=1000)
+    (group,) = root.iter(f"{NS}g")
+    assert (group.attrib["id"], group.attrib["fill-rule"], group.attrib["stroke-width"]) == ("cells", "evenodd", "3")
+    page = Page(bounds_of([HOLED]), width=1000, y_up=False)
+    for path, name, fill, corners in zip(
+        group, HOLED.ids, HOLED.colours, ([range(4), range(4, 8)], [range(8, 11)]), strict=True
+    ):
+        assert (path.attrib["id"], path.attrib["fill"]) == (name, fill)
+        assert path.attrib["vector-effect"] == "non-scaling-stroke"
+        for ring, expected in zip(rings_of(path), corners, strict=True):
+            np.testing.assert_allclose(ring, page.place(SQUARES[expected]), atol=0.0051)
+
+
+def test_polygons_without_ids_share_paths_of_their_colour(monkeypatch):
+    count = 10
+    points = np.random.default_rng(0).random((3 * count, 2))
+    corners, rings = np.arange(3 * count, dtype=np.int32), 3 * np.arange(count + 1)
+    colour_of = np.array([0, 0, 0, 1, 1, 0, 0, 0, 0, 0])
+    monkeypatch.setattr(layers_svg, "PATH_ROWS", 7)
+    for ids, most in ((None, 10**6), ([f"a{i}" for i in range(count)], 5)):
+        monkeypatch.setattr(layers_svg, "MOST_ELEMENTS", most)
+        layer = Polygons("t", points, corners, rings, colours=["#111111", "#222222"], colour_of=colour_of, ids=ids)
+        paths = list(svg(layer).iter(f"{NS}path"))
+        assert [(p.attrib["fill"], len(rings_of(p))) for p in paths] == [
+            ("#111111", 3), ("#222222", 2), ("#111111", 2), ("#111111", 3),
+        ]  # fmt: skip
+        assert all(len(ring) == 3 for p in paths for ring in rings_of(p))
+
+
+def test_lines_and_points_and_texts_in_svg(monkeypatch):
+    pairs = np.array([[0, 9], [3, 10], [4, 5]], np.int32)
+    texts = [str(k) if k else "a<b" for k in range(11)]
+    layers = (Lines("edges", SQUARES, pairs), Points("sites", SQUARES), Texts("labels", SQUARES, texts))
+    root = svg(*layers)
+    groups = {group.attrib["id"]: group for group in root.iter(f"{NS}g")}
+    assert list(groups) == ["edges", "sites", "labels"]
+    placed = np.round(Page(bounds_of(layers), width=600, y_up=False).place(SQUARES), 2)
+    (path,) = groups["edges"]
+    lines = [re.split("[L ]", part) for part in path.attrib["d"].split("M")[1:]]
+    np.testing.assert_allclose(np.array(lines, float).reshape(-1, 2, 2), placed[pairs])
+    circles = [(float(c.attrib["cx"]), float(c.attrib["cy"])) for c in groups["sites"]]
+    np.testing.assert_allclose(circles, placed)
+    assert [text.text for text in groups["labels"]] == texts
+    monkeypatch.setattr(layers_svg, "MOST_ELEMENTS", 5)
+    monkeypatch.setattr(layers_svg, "PATH_ROWS", 4)
+    paths = list(svg(*layers).iter(f"{NS}path"))
+    assert [path.attrib["d"].count("h0") for path in paths] == [0, 4, 4, 3]
+
+
+def test_filled_pixels_are_those_inside():
+    image = picture(HOLED, width=416, bounds=(0, 0, 16, 8))
+    page = Page((0, 0, 16, 8), width=416, y_up=False)
+    for (x, y), colour in {
+        (1, 1): (0x77, 0xAA, 0xDD),
+        (8, 7): (0x77, 0xAA, 0xDD),
+        (4, 4): (255, 255, 255),
+        (11, 4): (255, 255, 255),
+        (13, 4): (0xEE, 0x88, 0x66),
+    }.items():
+        across, down = page.place(np.array([[x, y]], float))[0].astype(int)
+        assert tuple(image[down, across]) == colour, (x, y)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_area_of_polygons(seed):
+    """The mean darkness of a polygon's picture is its area."""
+    rng = np.random.default_rng(seed)
+    angles = np.sort(rng.uniform(0, 2 * np.pi, 9))
+    points = 50 + 45 * np.stack([np.cos(angles), np.sin(angles)], axis=1) * rng.uniform(0.3, 1, (9, 1))
+    layer = Polygons("p", points, np.arange(9, dtype=np.int32), np.array([0, 9]), colours=["#000000"])
+    image = picture(layer, width=400, bounds=(0, 0, 100, 100))
+    following = np.roll(points, -1, axis=0)
+    area = abs((points[:, 0] * following[:, 1] - points[:, 1] * following[:, 0]).sum()) / 2
+    scale = Page((0, 0, 100, 100), width=400, y_up=False).scale / 128  # the page scales by a power of two first
+    assert (1 - image[:, :, 0] / 255).sum() == pytest.approx(area * scale**2, rel=0.01)
+
+
+@pytest.mark.parametrize("angle", [0, 0.3, np.pi / 4, 1.0, np.pi / 2, 2.5])
+def test_lines_are_as_thick_as_told(angle):
+    way = 40 * np.array([np.cos(angle), np.sin(angle)])
+    line = Lines("l", np.array([50 - way, 50 + way]), np.array([[0, 1]], np.int32), "#000000", 3.0)
+    image = picture(line, width=416, bounds=(0, 0, 100, 100))
+    dark = (1 - image[:, :, 0] / 255).sum()
+    assert dark == pytest.approx(80 * 4 * 3.0, rel=0.05)
+
+
+def test_discs_are_round():
+    image = picture(
+        Points("p", np.array([[5.0, 5.0], [50, 50]]), "#000000", radius=8.0), width=300, bounds=(0, 0, 100, 100)
+    )
+    dark = (1 - image[:, :, 0] / 255).sum()
+    assert dark == pytest.approx(2 * np.pi * 64, rel=0.02)
+
+
+def test_what_lies_outside_is_left_out():
+    far = np.array([[-500, 20], [700, 30], [50, -900], [60, 900.0]])
+    layers = (
+        Polygons("p", far, np.array([0, 2, 1, 3], np.int32), np.array([0, 4]), colours=["#aaaaaa"]),
+        Lines("l", far, np.array([[0, 1], [2, 3]], np.int32)),
+        Points("q", far),
+    )
+    image = picture(*layers, bounds=(0, 0, 100, 100))
+    assert image.shape == (160, 160, 3)
+    assert (image != 255).any()
+
+
+def test_y_up_mirrors_the_picture():
+    down, up = (picture(HOLED, width=320, y_up=y_up, bounds=(0, 0, 16, 16)) for y_up in (False, True))
+    difference = np.abs(down.astype(int) - up[::-1].astype(int))
+    assert (difference > 96).mean() < 0.001
+
+
+def test_both_kinds_of_pictures_are_one(tmp_path):
+    """Pixels of the PNG where the SVG has a fill, by the corners that the SVG tells."""
+    image = picture(HOLED, width=600)
+    for path in svg(HOLED).iter(f"{NS}path"):
+        outer = rings_of(path)[0]
+        centre = (outer[0] * 0.9 + outer.mean(axis=0) * 0.1).astype(int)
+        assert "#" + bytes(image[centre[1], centre[0]].tolist()).hex() == path.attrib["fill"]
+
+
+def test_limits():
+    page = Page((0, 0, 1, 1), width=1000, y_up=False)
+    check_picture_size(page, 16_000_000)
+    with pytest.raises(LimitError, match="--max-pixels 15999999: use a smaller --width, or -f svg"):
+        check_picture_size(page, 15_999_999)
+    many = Polygons("p", SQUARES, CORNERS, np.array([0, 11]), colours=[f"#0000{k:02x}" for k in range(256)])
+    with pytest.raises(LimitError, match="at most 255 colours: use -f svg"):
+        picture(many)
+
+
+def test_bands_make_a_png():
+    from PIL import Image
+
+    page = Page((0, 0, 16, 8), width=333, y_up=False)
+    out = io.BytesIO()
+    write_png(out, layer_bands([HOLED], page), (page.height, page.width), rgb=True)
+    np.testing.assert_array_equal(np.asarray(Image.open(out)), picture(HOLED, width=333, bounds=(0, 0, 16, 8)))

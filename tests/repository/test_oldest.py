@@ -1,0 +1,41 @@
+"""The lower bounds of pyproject.toml: how they are read, and what older libraries lack."""
+
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from oldest import oldest
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_the_oldest_versions_are_those_that_are_stated():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    found = dict(requirement.split("==") for requirement in oldest(project))
+    for requirement in project["project"]["dependencies"]:
+        name, version = requirement.split(">=")
+        assert found[name] == version
+    assert {"pytest", "zarr", "networkx", "dask", "nanobind"} < found.keys()
+
+
+@pytest.mark.parametrize("stated", [["numpy"], ["numpy>=2.0,<3"], ["numpy>=2.0", "numpy>=2.1"]])
+def test_a_requirement_has_one_lower_bound(stated):
+    with pytest.raises(SystemExit, match="numpy"):
+        oldest({"project": {"dependencies": stated, "optional-dependencies": {}}})
+
+
+def test_types_of_options_do_not_need_the_newest_click():
+    # before 8.4 click.ParamType could not say what it converts to
+    program = (
+        "import click\n"
+        "def refuse(cls, converted): raise TypeError(\"type 'ParamType' is not subscriptable\")\n"
+        "click.ParamType.__class_getitem__ = classmethod(refuse)\n"
+        "from vorotool.cli.main import main\n"
+        "main(['skeleton-exact', '--help'])\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.startswith("Usage: vorotool skeleton-exact")

@@ -1,0 +1,93 @@
+"""The brute force against what is known without it."""
+
+from __future__ import annotations
+
+import random
+
+import numpy as np
+import pytest
+from scipy.spatial import Voronoi
+
+from support.families import segment_cases
+from support.oracles.segment_oracle import differences, rings_of, voronoi_diagram
+
+SQUARE = [(0, 0), (4, 0), (4, 4), (0, 4)]
+RING = [(0, 1), (1, 2), (2, 3), (3, 0)]
+
+
+def test_a_square_by_hand():
+    diagram = voronoi_diagram(SQUARE, RING)
+    assert rings_of(diagram) == [(0, 4, 7), (1, 5, 4), (2, 6, 5), (3, 7, 6), (4, 5, 6, 7)]
+    np.testing.assert_array_equal(diagram.vertices, [*SQUARE, (2, 2)])
+    np.testing.assert_array_equal(diagram.radius, [0, 0, 0, 0, 2])
+    assert len(diagram.edges) == 12
+    assert (diagram.edges == -1).sum() == 8
+
+
+def test_points_on_a_line():
+    for points, segments in ([(0, 0), (1, 1)], []), ([(0, 0), (8, 0), (4, 0)], [(0, 2), (1, 2)]):
+        diagram = voronoi_diagram(points, segments)
+        assert len(diagram.vertices) == 0
+        assert diagram.edges.tolist() == [[-1, -1]] * (len(points) + len(segments) - 1)
+    assert len(voronoi_diagram([(3, 3)], []).edges) == 0
+
+
+def test_a_crossroads_has_no_cell_of_its_own():
+    """Gaps of 90 degrees leave the middle without a cell; a gap of 180 degrees leaves it a line."""
+    ends = [(0, 0), (4, 0), (0, 4), (-4, 0), (0, -4)]
+    cross = voronoi_diagram(ends, [(0, 1), (0, 2), (0, 3), (0, 4)])
+    assert (5, 6, 7, 8) in rings_of(cross)
+    assert not (cross.edge_sites == 0).any()
+    tee = voronoi_diagram(ends[:4], [(0, 1), (0, 2), (0, 3)])
+    assert (0, 4, 5, 6) in rings_of(tee)
+    assert (tee.edge_sites == 0).any(axis=1).sum() == 2
+
+
+def test_points_against_qhull():
+    rng = np.random.default_rng(3)
+    points = rng.integers(-1000, 1000, (20, 2))
+    diagram, peer = voronoi_diagram(points, []), Voronoi(points)
+    assert len(diagram.edges) == len(peer.ridge_points)
+    assert set(map(tuple, np.sort(diagram.edge_sites))) == set(map(tuple, np.sort(peer.ridge_points)))
+    for vertices in (diagram.vertices, peer.vertices):
+        vertices[:] = vertices[np.lexsort(vertices.T)]
+    np.testing.assert_allclose(diagram.vertices, peer.vertices, rtol=1e-9, atol=1e-6)
+
+
+@pytest.mark.parametrize("size", [3, 6, 100, 2**30 - 1])
+def test_euler(size):
+    """Vertices, one at infinity, edges and cells on a sphere; all are connected through infinity."""
+    rng = random.Random(size)
+    for _ in range(12):
+        points, segments = segment_cases.random_graph(rng, 7, 7, size)
+        diagram = voronoi_diagram(points, segments)
+        cells = len(np.unique(diagram.edge_sites))
+        without = sum((diagram.edge_sites == k).sum() == 0 for k in range(len(points)))
+        assert cells == len(points) + len(segments) - without
+        assert len(diagram.vertices) + 1 - len(diagram.edges) + cells == 2
+
+
+def test_no_vertex_is_nearer_to_anything_than_its_radius():
+    rng = random.Random(8)
+    for _ in range(10):
+        points, segments = segment_cases.random_graph(rng, 6, 6, 50)
+        diagram = voronoi_diagram(points, segments)
+        a = np.array(points)[[s[0] for s in segments]]
+        u = np.array(points)[[s[1] for s in segments]] - a
+        for centre, radius in zip(diagram.vertices, diagram.radius, strict=True):
+            t = np.clip(((centre - a) * u).sum(axis=1) / (u**2).sum(axis=1), 0, 1)
+            distances = np.hypot(*(a + t[:, None] * u - centre).T)
+            distances = np.append(distances, np.hypot(*(np.array(points) - centre).T))
+            assert distances.min() == pytest.approx(radius, rel=1e-9, abs=1e-9)
+
+
+def test_regular_polygons_have_one_centre_and_differences_are_named():
+    points = [(5, 0), (4, 3), (3, 4), (0, 5), (-3, 4), (-4, 3), (-5, 0), (0, -5)]
+    diagram = voronoi_diagram(points, [])
+    assert rings_of(diagram) == [tuple(range(8))]
+    assert differences(diagram, diagram) == []
+    other = voronoi_diagram(points[:-1], [])
+    assert len(differences(other, diagram)) > 8
+    moved = voronoi_diagram(points, [])
+    moved.vertices += 1e-9
+    assert "is at" in differences(moved, diagram)[0]

@@ -1,0 +1,42 @@
+"""What the tests of batches do with an input, in worker processes: what its text asks for."""
+
+import os
+import signal
+import time
+from pathlib import Path
+
+from vorotool.batch.tasks import Outcome, Task
+from vorotool.formats.io.atomic_output import open_output
+
+
+class Sleeper:
+    def __del__(self):
+        time.sleep(60)
+
+
+def obey(source, outputs):
+    """Copy a text, fail, die, or take long."""
+    text = Path(source).read_text()
+    if text == "fail":
+        return Outcome(code=3, message="bad text", warnings=("one",))
+    for path in outputs:
+        with open_output(path) as out:
+            out.write(text.encode())
+            out.flush()
+            if text == "die":
+                os.kill(os.getpid(), signal.SIGKILL)
+            if text == "deaf":
+                Sleeper()  # goes at once, and its method lets no exception out
+            if text in ("sleep", "deaf"):
+                time.sleep(60)
+    return Outcome(stats={"letters": len(text)}, seconds={"copy": 0.5})
+
+
+def written(folder, *texts):
+    """Tasks for texts that are written to files ``0.txt``, ``1.txt``, …; outputs go to ``out``."""
+    (folder / "out").mkdir(exist_ok=True)
+    tasks = []
+    for number, text in enumerate(texts):
+        (folder / f"{number}.txt").write_text(text)
+        tasks.append(Task(str(folder / f"{number}.txt"), (str(folder / f"out/{number}.txt"),)))
+    return tasks
