@@ -68,7 +68,8 @@ def test_a_worker_ends_quietly_where_exceptions_are_swallowed(tmp_path, capfd):
 def test_workers_end_with_a_parent_that_is_killed(tmp_path):
     written(tmp_path, "sleep")
     script = (
-        "import sys\nfrom pathlib import Path\nfrom batch_jobs import obey\nfrom vorotool.batch.tasks import Task\n"
+        "import sys\nfrom pathlib import Path\nfrom support.processes.batch_jobs import obey\n"
+        "from vorotool.batch.tasks import Task\n"
         "from vorotool.batch.process_pool import local_results\n"
         "list(local_results(obey, iter([(0, Task('0.txt', ('out/0.txt',)))]), jobs=1))"
     )

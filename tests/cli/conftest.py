@@ -54,8 +54,3 @@ def folder(tmp_path):
     (tmp_path / "dots.csv").write_text("x,y,name\n2,1,a\n7,5,b\n1,6,c\n")
     (tmp_path / "mask.pbm").write_text("P1\n8 4\n1 1 0 0 0 0 0 0\n0 0 0 0 0 0 1 0\n0 0 0 0 0 1 0 0\n0 0 0 0 0 0 0 0\n")
     return tmp_path
-
-
-def leftovers(folder):
-    """Names of temporary files that should not be there."""
-    return [path.name for path in folder.rglob("*") if path.name.startswith(".")]

@@ -13,8 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parent))
-from conftest import leftovers
+from support.processes.leftovers import leftovers
 
 
 def png_header(width, height, depth=16):

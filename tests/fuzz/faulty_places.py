@@ -11,7 +11,7 @@ from fuzz.write_events import WRITES, Steps, install
 from fuzz.writers import WRITERS, ended, leftovers, outputs, run
 
 PAGE = 4096
-MAKERS = ("temporaries", "outputs", "stores")
+MAKERS = ("io.temporaries", "io.atomic_output", "zarr.store")
 
 
 class Place:

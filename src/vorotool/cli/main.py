@@ -80,7 +80,7 @@ class LazyGroup(click.Group):
         """Import a command."""
         if cmd_name not in COMMANDS:
             return None
-        command: click.Command = import_module(f"vorotool.cli.{cmd_name.replace('-', '_')}").command
+        command: click.Command = import_module(f"vorotool.cli.commands.{cmd_name.replace('-', '_')}").command
         return command
 
     def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem[str]]:

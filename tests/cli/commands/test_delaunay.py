@@ -5,7 +5,6 @@ import io
 import json
 import signal
 import struct
-import sys
 import time
 from pathlib import Path
 
@@ -15,15 +14,13 @@ import shapely
 from PIL import Image
 
 import vorotool
+from support.processes.leftovers import leftovers
 from vorotool.cli.commands.delaunay import FORMATS
 from vorotool.jobs.digital_triangulation import DigitalProducts
 from vorotool.jobs.names import MESH_LAYERS
 from vorotool.jobs.triangulation import DEFAULT_LAYERS
 from vorotool.render.layers import cells as cell_layers
 from vorotool.render.layers import mesh as mesh_layers
-
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from conftest import leftovers
 
 DATA = Path(__file__).parents[3] / "data"
 DOTS = DATA / "dots.csv"

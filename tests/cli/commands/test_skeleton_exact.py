@@ -3,7 +3,6 @@
 import csv
 import io
 import json
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -11,15 +10,13 @@ import pytest
 from PIL import Image
 
 import vorotool
+from support.processes.leftovers import leftovers
 from vorotool.cli.options.skeleton import FORMATS
 from vorotool.jobs.names import DERIVED, SKELETON_LAYERS
 from vorotool.render.layers import offsets as offset_layers
 from vorotool.render.layers import points_along as skeleton_point_layers
 from vorotool.render.layers import polygons as polygon_layers
 from vorotool.render.layers import skeleton as skeleton_layers
-
-sys.path.insert(0, str(Path(__file__).parents[1]))
-from conftest import leftovers
 
 DATA = Path(__file__).parents[3] / "data"
 SHAPES = DATA / "two-shapes.json"

@@ -47,7 +47,7 @@ def write_inputs(folder, command, factor):
 
 def outputs(run, command, folder, options, *, r, more=()):
     """Bytes of all results in all formats with units, by their names."""
-    module = "skeleton_options" if command.startswith("skeleton") else command
+    module = "options.skeleton" if command.startswith("skeleton") else f"commands.{command}"
     formats = import_module(f"vorotool.cli.{module}").FORMATS
     wanted = [(what, fmt) for what in formats for fmt in formats[what] if fmt not in WITHOUT_UNITS]
     wanted = [(what, fmt) for what, fmt in wanted if what != "compare"]  # goes with nothing else

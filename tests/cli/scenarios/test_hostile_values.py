@@ -72,7 +72,7 @@ NEEDED = {
 
 def cases():
     for number, name in enumerate(COMMANDS):
-        command = import_module(f"vorotool.cli.{name.replace('-', '_')}").command
+        command = import_module(f"vorotool.cli.commands.{name.replace('-', '_')}").command
         for option in command.params:
             if isinstance(option, click.Option) and not option.is_flag and option.name not in LEFT_OUT:
                 values = VALUES[number % THIRDS :: THIRDS] if option.name in SHARED else VALUES

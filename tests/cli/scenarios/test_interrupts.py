@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from .conftest import leftovers
+from support.processes.leftovers import leftovers
 
 HERE = "import os; import vorotool.__main__ as entry; os.write(1, b'.'); entry.main()"
 """Says when the first line of ours is done; from there on nothing of Python's own is to be seen."""

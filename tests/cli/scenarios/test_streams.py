@@ -10,8 +10,7 @@ from pathlib import Path
 import pytest
 
 from support.families.stream_cases import CASES, INPUTS, OUTPUTS, Expected, fault
-
-from .conftest import leftovers
+from support.processes.leftovers import leftovers
 
 COMMANDS = sorted({case.command for case in CASES})
 

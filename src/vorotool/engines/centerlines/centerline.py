@@ -48,8 +48,8 @@ def centerline(
     on to the boundary, from the place of the path one radius before; a leaf between the edges on both sides of an edge
     ahead is led to the middle of that edge, as the fork there would be. A path leads into a tip: a corner of less than
     45 degrees, or sharper than the next one by more than 90; and into all other corners, but in outlines of pixels: see
-    `vorotool.engines.centerlines.oblique_ends`. Where a connected skeleton has no end, paths between its nodes are compared; where
-    it has one, paths from it.
+    `vorotool.engines.centerlines.oblique_ends`. Where a connected skeleton has no end, paths between its nodes are
+    compared; where it has one, paths from it.
 
     A triangle without tips has its end at the shortest edge, and a centerline from there to the corner opposite; a
     quadrilateral around a circle, such as a square, has two at opposite edges without tips; of equal ones the first.

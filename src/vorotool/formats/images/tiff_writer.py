@@ -1,7 +1,8 @@
 """Writing TIFF images row by row, through tifffile.
 
 Labels are stored with the horizontal predictor and zlib's run-length deflate: of 67 MB, 4096 x 4096 uint32
-labels of 15 000 seeds, 2.6 MB remain after 0.12 s in one thread. For its choice see `vorotool.formats.images.png_writer`.
+labels of 15 000 seeds, 2.6 MB remain after 0.12 s in one thread. For its choice see
+`vorotool.formats.images.png_writer`.
 Distances hold few runs (86 % remains; level 1 would leave 16 to 69 %), so they and 64-bit integers are stored
 as they are.
 """
