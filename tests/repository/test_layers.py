@@ -8,48 +8,148 @@ from pathlib import Path
 import pytest
 
 PACKAGE = Path(__file__).parents[2] / "src" / "vorotool"
-BELOW = {
-    "errors": set(),
-    "signals": set(),
-    "geometry": {"errors"},
-    "engines": {"errors", "geometry"},
-    "formats": {"errors", "geometry"},
-    "render": {"errors", "geometry"},
-    "pictures": {"errors", "geometry", "engines", "formats", "render"},
-    "writing": {"errors", "geometry", "engines", "formats", "render", "pictures"},
-    "batch": {"errors", "geometry", "engines", "formats", "render", "pictures", "writing", "signals"},
-    "cli": {"errors", "geometry", "engines", "formats", "render", "pictures", "writing", "batch", "signals"},
-}
+ARROWS = """
+formats/compression ->
+geometry ->
+formats/io -> geometry
+geometry/points -> geometry
+geometry/polygons -> geometry
+engines/common -> geometry, geometry/points, geometry/polygons
+formats/parsing -> formats/io, geometry, geometry/points, geometry/polygons
+formats/zarr -> formats/compression, formats/io
+geometry/curves -> geometry, geometry/polygons
+engines/tessellation -> engines/common, geometry, geometry/curves, geometry/points
+formats/images -> formats/compression, formats/io, formats/parsing, formats/zarr, geometry, geometry/points
+formats/points -> formats/io, formats/parsing, geometry, geometry/points
+geometry/mesh -> geometry, geometry/curves
+geometry/skeleton -> geometry, geometry/curves, geometry/polygons
+render/canvas -> geometry, geometry/curves
+engines/arrangement -> engines/common, geometry, geometry/polygons, geometry/skeleton
+engines/delaunay -> engines/common, geometry, geometry/curves, geometry/mesh, geometry/points
+engines/label_images -> engines/common, engines/tessellation, geometry, geometry/points, geometry/polygons
+engines/segment_voronoi -> engines/common, geometry, geometry/polygons, geometry/skeleton
+formats/text -> formats/io, geometry, geometry/skeleton
+geometry/alpha -> geometry, geometry/curves, geometry/mesh, geometry/polygons
+render/label_images -> geometry, geometry/points, render/canvas
+batch -> engines/tessellation, formats/io, formats/text, formats/zarr
+engines/alpha -> engines/common, engines/delaunay, geometry, geometry/alpha, geometry/curves, geometry/mesh,
+    geometry/points, geometry/polygons
+engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry,
+    geometry/curves, geometry/mesh, geometry/points
+engines/features -> engines/arrangement, engines/common, geometry, geometry/polygons, geometry/skeleton
+formats/polygons -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/polygons
+geometry/any -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton
+render/layers -> geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton, render/canvas,
+    render/label_images
+render/pages -> geometry, geometry/alpha, geometry/curves, geometry/skeleton, render/canvas
+engines/skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, geometry,
+    geometry/curves, geometry/polygons, geometry/skeleton
+formats/results -> formats/io, formats/parsing, formats/points, formats/polygons, formats/text, geometry,
+    geometry/alpha, geometry/curves, geometry/mesh, geometry/polygons, geometry/skeleton
+engines/from_skeleton -> engines/arrangement, engines/skeleton, geometry, geometry/curves, geometry/polygons,
+    geometry/skeleton
+engines/offsets -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, engines/skeleton,
+    geometry, geometry/curves, geometry/polygons, geometry/skeleton
+engines/pruning -> engines/common, engines/skeleton, geometry, geometry/curves, geometry/skeleton
+engines/sampled_skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi,
+    engines/skeleton, geometry, geometry/curves, geometry/polygons, geometry/skeleton
+formats -> formats/images, formats/io, formats/parsing, formats/points, formats/polygons, formats/results,
+    formats/text, formats/zarr, geometry, geometry/alpha, geometry/mesh, geometry/points, geometry/polygons,
+    geometry/skeleton
+engines -> engines/arrangement, engines/common, engines/sampled_skeleton, engines/skeleton, geometry,
+    geometry/polygons, geometry/skeleton
+engines/centerlines -> engines/common, engines/from_skeleton, engines/pruning, geometry, geometry/polygons,
+    geometry/skeleton
+jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
+    engines/features, engines/from_skeleton, engines/label_images, engines/offsets, engines/pruning,
+    engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, formats,
+    formats/images, formats/io, formats/parsing, formats/points, formats/polygons, formats/results, formats/text,
+    formats/zarr, geometry, geometry/alpha, geometry/any, geometry/mesh, geometry/points, geometry/polygons,
+    geometry/skeleton, render/canvas, render/label_images, render/layers, render/pages
+cli/options -> engines/offsets, engines/pruning, formats/parsing, geometry, jobs
+cli/batch -> batch, cli/options, formats/io, formats/parsing, jobs
+cli/commands -> cli/batch, cli/options, engines/alpha, engines/tessellation, formats/parsing, geometry/points,
+    geometry/polygons, jobs
+cli -> cli/commands, jobs
+"""
+"""Rooms of the package from below, and what each may import; `errors` and `signals` are for all."""
+
+FOR_ALL = {"errors", "signals"}
 MAY_IMPORT_CORE = {"engines", "formats", "render"}
 
 
+def allowed_arrows():
+    """The table: rooms in its order, each with those that it may import."""
+    lines = ARROWS.replace("\n    ", " ").strip().splitlines()
+    pairs = (line.split(" ->") for line in lines)
+    return {room: {name for name in names.replace(" ", "").split(",") if name} for room, names in pairs}
+
+
+ALLOWED = allowed_arrows()
+SOURCES = sorted(
+    path for path in PACKAGE.rglob("*.py") if path.name not in ("__init__.py", "__main__.py") or path.parent != PACKAGE
+)
+
+
+def room_of(path):
+    """A folder below the package, or a module that is beside the folders."""
+    inner = path.relative_to(PACKAGE)
+    return inner.stem if inner.parent == Path() else inner.parent.as_posix()
+
+
+def room_named(name):
+    """The room of what is imported by this name, module or package; None of what is not ours."""
+    parts = name.split(".")
+    if parts[0] != "vorotool" or len(parts) == 1:
+        return None
+    path = PACKAGE.joinpath(*parts[1:])
+    if path.is_dir():
+        return "/".join(parts[1:])
+    return "/".join(parts[1:-1]) or parts[1] if path.with_suffix(".py").exists() else None
+
+
 def imported_modules(path):
+    """Names of modules and packages, those that are imported within functions too."""
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
             assert node.level == 0, f"{path}: relative import"
-            yield node.module
-            if node.module == "vorotool":
-                yield from (f"vorotool.{alias.name}" for alias in node.names)
+            inner = [f"{node.module}.{alias.name}" for alias in node.names]
+            modules = [name for name in inner if room_named(name) or name == "vorotool._core"]
+            yield from modules
+            if len(modules) < len(inner):
+                yield node.module
 
 
-SOURCES = sorted(p for p in PACKAGE.rglob("*.py") if p.parent != PACKAGE or p.stem in BELOW)
+def test_no_room_is_above_another_that_is_above_it():
+    """Each imports from rooms that stand before it."""
+    seen = set()
+    for room, below in ALLOWED.items():
+        assert below <= seen, f"{room} must not import {below - seen}"
+        seen.add(room)
 
 
 @pytest.mark.parametrize("path", SOURCES, ids=lambda p: str(p.relative_to(PACKAGE)))
-def test_imports_run_downwards(path):
-    layer = path.relative_to(PACKAGE).parts[0].removesuffix(".py")
+def test_imports_follow_the_arrows(path):
+    room = room_of(path)
     for name in imported_modules(path):
         if name == "click" or name.startswith("click."):
-            assert layer == "cli", f"{path}: only the command line imports click"
-        if not name.startswith("vorotool."):
+            assert room.partition("/")[0] == "cli", f"{path}: only the command line imports click"
+        if name == "vorotool._core":
+            assert room.partition("/")[0] in MAY_IMPORT_CORE, f"{path}: {room} must not import the compiled core"
             continue
-        target = name.split(".")[1]
-        if target == "_core":
-            assert layer in MAY_IMPORT_CORE, f"{path}: {layer} must not import the compiled core"
-        elif target in BELOW:
-            assert target == layer or target in BELOW[layer], f"{path}: {layer} must not import {target}"
+        target = room_named(name)
+        if target not in {None, room, *FOR_ALL}:
+            assert target in ALLOWED[room], f"{path}: {room} must not import {name}"
+
+
+def test_each_arrow_is_used():
+    used = {room: set() for room in ALLOWED}
+    for path in SOURCES:
+        if (room := room_of(path)) in used:
+            used[room] |= {room_named(name) for name in imported_modules(path)} - {None, room, *FOR_ALL}
+    assert used == ALLOWED
 
 
 @pytest.mark.parametrize(

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, NoReturn, TextIO
 import click
 
 from vorotool import __version__
-from vorotool.cli.failures import explained
 from vorotool.errors import VorotoolError
+from vorotool.jobs.failures import explained
 from vorotool.signals import handle_termination, insist_on_the_end, received, settled
 
 if TYPE_CHECKING:

@@ -12,7 +12,6 @@ from math import inf
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from vorotool.cli.options.pixel_size import in_units, length_in_units, table_in_units
 from vorotool.engines.alpha.alpha_shape import alpha_complex, alpha_curves, alpha_edges, alpha_shape
 from vorotool.engines.alpha.few_points import unjoined
 from vorotool.errors import VorotoolWarning
@@ -28,6 +27,7 @@ from vorotool.jobs.names import OF_ONE_SHAPE
 from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
+from vorotool.jobs.units import in_units, length_in_units, table_in_units
 
 if TYPE_CHECKING:
     from vorotool.geometry.alpha.hull import AlphaHull

@@ -7,7 +7,6 @@ from functools import cached_property
 from types import SimpleNamespace
 from typing import Any, BinaryIO
 
-from vorotool.cli.options.pixel_size import table_in_units
 from vorotool.engines.digital.comparison import compare_digital
 from vorotool.engines.digital.triangulation import DigitalRepair, digital_triangulation, repair_digital
 from vorotool.engines.digital.verify_digital import verify_digital_triangulation
@@ -19,6 +18,7 @@ from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.jobs.inputs import window_of
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.triangulation import MeshProducts
+from vorotool.jobs.units import table_in_units
 
 
 class DigitalProducts(MeshProducts):

@@ -8,9 +8,7 @@ from functools import partial
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
-import click
-
-from vorotool.errors import InputError, Kind, Message
+from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.jobs.run_log import Run
 
 if TYPE_CHECKING:
@@ -29,7 +27,7 @@ def read_seed_input(run: Run, o: SimpleNamespace, source: str, *, properties: bo
 
     Raises
     ------
-    click.UsageError
+    UsageError
         If the input is a list of points and an option for images is given.
     """
     from vorotool.formats import read
@@ -75,13 +73,13 @@ def settle_threshold(run: Run, o: SimpleNamespace, image: Raster) -> None:
 def check_components(o: SimpleNamespace) -> None:
     """Refuse ``--connectivity`` where no components are made."""
     if o.connectivity is not None and o.seeds in ("pixels", "labels"):
-        raise click.UsageError(f"--connectivity is for components: leave it out with --seeds {o.seeds}")
+        raise UsageError(f"--connectivity is for components: leave it out with --seeds {o.seeds}")
 
 
 def check_frame_options(o: SimpleNamespace, *, is_digital: bool) -> None:
     """Refuse two frames, and any where nothing is tessellated."""
     if o.size is not None and o.window is not None:
-        raise click.UsageError("give --size or --window, not both")
+        raise UsageError("give --size or --window, not both")
     if not is_digital:
         refuse(o, ("size", "window"), "is the frame of a tessellation: use --method digital or digital-valid")
 
@@ -250,7 +248,7 @@ def refuse(o: SimpleNamespace, names: tuple[str, ...], reason: str) -> None:
     """Refuse options that are given although they mean nothing here."""
     for name in names:
         if getattr(o, name) is not None and getattr(o, name) is not False:  # 0 is given, too
-            raise click.UsageError(f"--{name} {reason}")
+            raise UsageError(f"--{name} {reason}")
 
 
 @contextmanager

@@ -8,10 +8,10 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, Protocol
 
-from vorotool.cli.options.pixel_size import unit_stats
 from vorotool.jobs.inputs import read_backdrop
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_targets
+from vorotool.jobs.units import unit_stats
 from vorotool.signals import end_by_exceptions
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import chain
+
 TABLES = ("csv", "json", "npz")
 """Formats of tables."""
 PICTURES = ("svg", "png")
@@ -21,3 +23,25 @@ DERIVED = {
     "transects": ("polygons", "skeleton", "transects", "points"),
 }
 """Results of the skeleton commands that follow from a skeleton or its diagram, with the layers of their pictures."""
+SKELETON_FORMATS = {
+    "skeleton": ("json", "csv", "geojson", "npz", "wkt", "graphml", *PICTURES, "html"),
+    "diagram": ("json", "csv", "geojson", "npz", "wkt", *PICTURES),
+    "elements": (*TABLES, *PICTURES),
+    "centerline": ("geojson", *TABLES, "wkt", *PICTURES),
+    "offset": ("json", "csv", "geojson", "npz", "wkt", *PICTURES),
+    "shape": ("json", "geojson", "wkt", "poly", *PICTURES),
+    "points": ("csv", "json", "npz", "geojson", "wkt", *PICTURES),
+    "transects": ("geojson", "wkt", *TABLES, *PICTURES),
+    "branches": TABLES,
+    "table": TABLES,
+}
+ALL_SKELETON_LAYERS = tuple(dict.fromkeys([*SKELETON_LAYERS, *chain.from_iterable(DERIVED.values())]))
+"""Layers of all pictures."""
+
+APPROXIMATE_LAYERS = (*ALL_SKELETON_LAYERS, "exact")
+"""Beside approximate skeletons pictures can show exact ones."""
+
+PICTURE_LAYERS = {
+    "svg": APPROXIMATE_LAYERS,
+    "png": APPROXIMATE_LAYERS,
+}

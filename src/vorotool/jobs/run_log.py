@@ -6,11 +6,9 @@ import sys
 import time
 import warnings
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import AbstractContextManager, ExitStack, contextmanager
 from types import TracebackType
-from typing import Any
-
-import click
+from typing import Any, Protocol
 
 from vorotool import __version__
 from vorotool.errors import Kind, Message, VorotoolWarning
@@ -18,6 +16,28 @@ from vorotool.signals import end_by_exceptions
 
 PROGRESS_AFTER = 1.0
 """Seconds before a progress bar appears on a terminal."""
+
+
+class Bar(Protocol):
+    """What shows how far the work is."""
+
+    pos: int
+
+    def update(self, n_steps: int) -> None:
+        """Go on by so many steps."""
+
+
+MakeBar = Callable[[str], AbstractContextManager[Bar]]
+"""Make a bar of `STEPS` steps with a label."""
+
+STEPS = 1000
+"""Steps of a bar."""
+
+
+def tell(message: str) -> None:
+    """Say something on standard error."""
+    sys.stderr.write(f"{message}\n")
+    sys.stderr.flush()
 
 
 class Run:
@@ -33,6 +53,8 @@ class Run:
         File for the statistics, ``-`` for standard output.
     no_clobber : bool
         Refuse to replace that file.
+    bar : callable, optional
+        Makes progress bars, which are shown on a terminal only.
 
     Attributes
     ----------
@@ -45,10 +67,18 @@ class Run:
     """
 
     def __init__(
-        self, command: str, *, quiet: bool, verbose: bool, stats: str | None, no_clobber: bool = False
+        self,
+        command: str,
+        *,
+        quiet: bool,
+        verbose: bool,
+        stats: str | None,
+        no_clobber: bool = False,
+        bar: MakeBar | None = None,
     ) -> None:
         self._quiet, self._verbose = quiet, verbose and not quiet
         self._target, self._no_clobber = stats, no_clobber
+        self._make_bar = None if quiet else bar
         self.warnings: list[Message] = []
         self.notes: list[Message] = []
         self.seconds: dict[str, float] = {}
@@ -70,7 +100,7 @@ class Run:
         self._stack.close()
         if self._verbose:
             for name, seconds in self.seconds.items():
-                click.echo(f"{name}: {seconds:.3f} s", err=True)
+                tell(f"{name}: {seconds:.3f} s")
         if kind is None and self._target is not None:
             self._write_stats(self._target)
 
@@ -81,7 +111,7 @@ class Run:
             return
         self.notes.append(Message.of(message))
         if not self._quiet:
-            click.echo(f"note: {message}", err=True)
+            tell(f"note: {message}")
 
     def warn(self, message: str) -> None:
         """Say what was repaired, snapped or guessed: on standard error and in the statistics, each once.
@@ -93,7 +123,7 @@ class Run:
             return
         self.warnings.append(Message.of(message))
         if not self._quiet:
-            click.echo(f"warning: {message}", err=True)
+            tell(f"warning: {message}")
 
     @contextmanager
     def phase(self, name: str) -> Iterator[None]:
@@ -110,18 +140,19 @@ class Run:
 
     def progress(self, label: str) -> Callable[[float], None] | None:
         """Make a callback that shows a bar on a terminal, once the work has taken a second."""
-        if self._quiet or not sys.stderr.isatty():
+        make_bar = self._make_bar
+        if make_bar is None or not sys.stderr.isatty():
             return None
         start = time.monotonic()
-        bar: list[Any] = []
+        bar: list[Bar] = []
 
         def show(fraction: float) -> None:
             if not bar:
                 if time.monotonic() - start < PROGRESS_AFTER:
                     return
                 end_by_exceptions()  # a bar that is left as it is hides the cursor
-                bar.append(self._stack.enter_context(click.progressbar(length=1000, label=label, file=sys.stderr)))
-            bar[0].update(int(1000 * fraction) - bar[0].pos)
+                bar.append(self._stack.enter_context(make_bar(label)))
+            bar[0].update(int(STEPS * fraction) - bar[0].pos)
 
         return show
 

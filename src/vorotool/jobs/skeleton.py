@@ -13,16 +13,16 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.cli.options.pixel_size import in_units, length_in_units
-from vorotool.cli.options.pruning import CRITERIA, Pruning, chosen_pruning
 from vorotool.errors import Kind, Message, RepairWarning, VorotoolWarning
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.skeleton.skeleton import EXTERIOR, Skeleton
 from vorotool.jobs.names import DERIVED
 from vorotool.jobs.pictures import write_layers
+from vorotool.jobs.pruning_choice import CRITERIA, Pruning, chosen_pruning
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeleton_extras import Derived
 from vorotool.jobs.targets import Target
+from vorotool.jobs.units import in_units, length_in_units
 
 if TYPE_CHECKING:
     from vorotool.engines.skeleton.exact import ShapeDiagram

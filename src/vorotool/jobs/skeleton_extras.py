@@ -7,7 +7,6 @@ from functools import cached_property
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from vorotool.cli.options.pixel_size import in_units, length_in_units
 from vorotool.errors import Kind, Message
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.offsets import Offsets
@@ -16,6 +15,7 @@ from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.jobs.pictures import Drawing, drawing_of, write_layers
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
+from vorotool.jobs.units import in_units, length_in_units
 
 if TYPE_CHECKING:
     from vorotool.engines.skeleton.exact import ShapeDiagram

@@ -8,13 +8,13 @@ from functools import cached_property, partial
 from types import SimpleNamespace
 from typing import Any
 
-import click
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.tessellation.bands import Quantity
 from vorotool.engines.tessellation.frames import label_dtype
 from vorotool.engines.tessellation.streamed_image import ObjectRows, StreamedImage
+from vorotool.errors import UsageError
 from vorotool.jobs.inputs import refuse
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.streamed_output import Stream, check_chunks, write_file, write_store
@@ -91,7 +91,7 @@ class StreamedProducts:
         from vorotool.formats.images.label_images import check_png
 
         if target.fmt == "svg":
-            raise click.UsageError("the image is too large for a picture: write a PNG, a TIFF or a Zarr store")
+            raise UsageError("the image is too large for a picture: write a PNG, a TIFF or a Zarr store")
         stream = self._stream(target.what)
         if target.fmt == "png":
             check_png(stream.dtype, stream.largest)

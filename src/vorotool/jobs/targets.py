@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import click
-
+from vorotool.errors import UsageError
 from vorotool.formats.io.atomic_output import is_same_file, spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
 
@@ -81,11 +80,11 @@ def plan_targets(
 
     Raises
     ------
-    click.UsageError
+    UsageError
         If a result cannot be written in a format, or would go unnamed.
     """
     if output is not None and out_dir is not None:
-        raise click.UsageError("give -o or --out-dir, not both")
+        raise UsageError("give -o or --out-dir, not both")
     fmt = _known_format(fmt, formats)
     several = len(what) > 1
     if out_dir is not None:
@@ -95,7 +94,7 @@ def plan_targets(
         return [Target(name, _named(stem, name if several else None, chosen[name]), chosen[name]) for name in what]
     if several:
         if output is None or stream_kind(output) is not None:
-            raise click.UsageError("several results need -o STEM (files STEM.<what>.<ext>) or --out-dir DIR")
+            raise UsageError("several results need -o STEM (files STEM.<what>.<ext>) or --out-dir DIR")
         given = EXTENSIONS.get(Path(output).suffix.lower())
         stem = Path(output).with_suffix("") if given else Path(output)
         chosen = {name: _several_format(formats, name, fmt, given) for name in what}
@@ -105,7 +104,7 @@ def plan_targets(
     chosen_format = _chosen(formats, name, fmt, None if path == "-" else Path(path).suffix.lower())
     target = Target(name, path, chosen_format)
     if output is None and fmt is None and target.is_binary:
-        raise click.UsageError(
+        raise UsageError(
             f"{name} output is binary: name a file with -o, or a text format with -f {_text(formats[name])}"
         )
     return [target]
@@ -144,7 +143,7 @@ def check_stats(stats: str | None, targets: Sequence[Target], source: str, furth
 
     Raises
     ------
-    click.UsageError
+    UsageError
         If they would.
     """
     if stats is None:
@@ -152,13 +151,13 @@ def check_stats(stats: str | None, targets: Sequence[Target], source: str, furth
     is_open = stats == STANDARD or descriptor_of(stats) is not None
     for role, path in () if is_open else (("the input", source), *further.items()):
         if is_same_file(Path(stats), path):
-            raise click.UsageError(f"--stats {stats} is also {role}, which is never replaced: choose another name")
+            raise UsageError(f"--stats {stats} is also {role}, which is never replaced: choose another name")
     for target in targets:
         if not is_same_output(stats, target.path):
             continue
         if is_open and (target.path == STANDARD or descriptor_of(target.path) is not None):
-            raise click.UsageError(f"--stats {stats} needs -o FILE: {spoken(target.path)} holds the result")
-        raise click.UsageError(f"--stats {stats} is also the output of {target.what}: choose another name")
+            raise UsageError(f"--stats {stats} needs -o FILE: {spoken(target.path)} holds the result")
+        raise UsageError(f"--stats {stats} is also the output of {target.what}: choose another name")
 
 
 def check_picture_options(
@@ -186,34 +185,32 @@ def check_picture_options(
 
     Raises
     ------
-    click.UsageError
+    UsageError
         If a layer is none of a picture's format, or the width is for SVG only.
     """
     if options.overlay is not None:
         _check_overlay(options, pictures)
     if options.y_up is not None and not pictures and not has_page:
-        raise click.UsageError("--y-up and --y-down are for pictures: use -f svg or -f png, or leave them out")
+        raise UsageError("--y-up and --y-down are for pictures: use -f svg or -f png, or leave them out")
     if options.width is not None and png_has_width and not pictures:
-        raise click.UsageError("--width is for pictures: use -f svg or -f png, or leave it out")
+        raise UsageError("--width is for pictures: use -f svg or -f png, or leave it out")
     if options.width is not None and not png_has_width and "svg" not in pictures:
-        raise click.UsageError(
-            "--width is for SVG pictures: a PNG has the size of the image; use -f svg, or leave it out"
-        )
+        raise UsageError("--width is for SVG pictures: a PNG has the size of the image; use -f svg, or leave it out")
     for fmt in pictures:
         for layer in options.layers or ():
             if layer not in layers[fmt]:
-                raise click.UsageError(
+                raise UsageError(
                     f"--layers {layer}: a picture in {fmt.upper()} has {', '.join(layers[fmt])}; choose of these"
                 )
 
 
 def _check_overlay(options: Any, pictures: Sequence[str]) -> None:
     if not pictures:
-        raise click.UsageError("--overlay is for pictures: use -f svg or -f png, or leave it out")
+        raise UsageError("--overlay is for pictures: use -f svg or -f png, or leave it out")
     if options.width is not None:
-        raise click.UsageError("a picture over an image has its size: leave out --width or --overlay")
+        raise UsageError("a picture over an image has its size: leave out --width or --overlay")
     if options.y_up is not None:
-        raise click.UsageError("a picture over an image has y downwards: leave out --y-up, --y-down or --overlay")
+        raise UsageError("a picture over an image has y downwards: leave out --y-up, --y-down or --overlay")
 
 
 def check_targets(options: Any, targets: Sequence[Target], source: str) -> None:
@@ -253,7 +250,7 @@ def _known_format(fmt: str | None, formats: Mapping[str, Sequence[str]]) -> str 
     known = {**{name: name for name in FORMATS}, **{ext[1:]: name for ext, name in EXTENSIONS.items()}}
     if fmt.lower() not in known:
         possible = dict.fromkeys(each for those in formats.values() for each in those)
-        raise click.UsageError(f"-f {fmt} is no format: use one of {', '.join(possible)}")
+        raise UsageError(f"-f {fmt} is no format: use one of {', '.join(possible)}")
     return known[fmt.lower()]
 
 
@@ -262,14 +259,12 @@ def _chosen(formats: Mapping[str, Sequence[str]], what: str, fmt: str | None, ex
     if chosen is None and extension:
         chosen = EXTENSIONS.get(extension)
         if chosen is None:
-            raise click.UsageError(
-                f"the extension {extension} names no format: use one of {', '.join(possible)}, or -f"
-            )
+            raise UsageError(f"the extension {extension} names no format: use one of {', '.join(possible)}, or -f")
     chosen = chosen or possible[0]
     if chosen not in possible:
         others = [name for name, those in formats.items() if chosen in those]
         instead = f"use --what {' or '.join(others)}, or " if others else "use "
-        raise click.UsageError(f"{what} cannot be written as {chosen}: {instead}one of {', '.join(possible)}")
+        raise UsageError(f"{what} cannot be written as {chosen}: {instead}one of {', '.join(possible)}")
     return chosen
 
 

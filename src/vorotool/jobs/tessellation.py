@@ -11,7 +11,6 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.cli.options.pixel_size import table_in_units
 from vorotool.engines.label_images.regions import (
     RegionMeasures,
     measure_regions,
@@ -30,6 +29,7 @@ from vorotool.geometry.points.label_image import LabelImage
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.streamed_output import RowsOf, Stream, check_chunks, write_file, write_store
 from vorotool.jobs.targets import Target
+from vorotool.jobs.units import table_in_units
 
 PICTURE = {"labels": ("cells", "seeds", "labels"), "diagram": ("diagram",), "colour": ("cells", "seeds")}
 """Layers of pictures, unless they are chosen."""

@@ -7,7 +7,6 @@ from functools import cached_property
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from vorotool.cli.options.pixel_size import in_units, table_in_units
 from vorotool.engines.delaunay.cells import cell_colours, verify_cells, voronoi_cells
 from vorotool.engines.delaunay.delaunay import delaunay, verify_triangulation
 from vorotool.engines.delaunay.site_table import site_table
@@ -20,6 +19,7 @@ from vorotool.jobs.names import MESH_LAYERS
 from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
+from vorotool.jobs.units import in_units, table_in_units
 
 if TYPE_CHECKING:
     from vorotool.geometry.mesh.cells import CellSet

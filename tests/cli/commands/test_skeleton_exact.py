@@ -11,8 +11,7 @@ from PIL import Image
 
 import vorotool
 from support.processes.leftovers import leftovers
-from vorotool.cli.options.skeleton import FORMATS
-from vorotool.jobs.names import DERIVED, SKELETON_LAYERS
+from vorotool.jobs.names import DERIVED, SKELETON_FORMATS, SKELETON_LAYERS
 from vorotool.render.layers import offsets as offset_layers
 from vorotool.render.layers import points_along as skeleton_point_layers
 from vorotool.render.layers import polygons as polygon_layers
@@ -37,9 +36,9 @@ def test_json_goes_to_standard_output(run, folder):
 NEEDED = {"offset": ["-d", "-20,5"], "points": ["--every", "20"], "transects": ["--every", "20"]}
 
 
-@pytest.mark.parametrize("what", FORMATS)
+@pytest.mark.parametrize("what", SKELETON_FORMATS)
 def test_every_format_is_written(run, folder, what):
-    for fmt in FORMATS[what]:
+    for fmt in SKELETON_FORMATS[what]:
         options = ["--what", what, *NEEDED.get(what, [])]
         assert run("skeleton-exact", SHAPES, *options, "-o", f"a.{fmt}").code == 0
         assert run("skeleton-exact", SHAPES, *options, "-f", fmt, "-o", "b").code == 0

@@ -1,4 +1,4 @@
-"""Rotating a shape moves its skeleton by no more than the placement lets it: see tests/support/oracles/rotation_oracle.py."""
+"""Rotating a shape moves its skeleton by no more than the placement lets it: see `support.oracles.rotation_oracle`."""
 
 import warnings
 from dataclasses import replace

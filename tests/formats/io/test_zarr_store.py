@@ -141,7 +141,8 @@ def test_the_older_store_comes_back_after_an_interrupt_between_the_moves(tmp_pat
 def test_the_older_store_comes_back_after_a_kill_between_the_moves(tmp_path):
     old = make(tmp_path / "a.zarr", "old")
     script = (
-        "import os, signal\nfrom vorotool.formats import stores, temporaries\n"
+        "import os, signal\nfrom vorotool.formats.io import temporaries\n"
+        "from vorotool.formats.zarr import store as stores\n"
         "stores._exchange = lambda one, other: False\n"
         "temporaries.Temporary.move_to = lambda self, target: os.kill(os.getpid(), signal.SIGKILL)\n"
         "with stores.open_store('a.zarr') as folder:\n    (folder / 'zarr.json').write_text('{}')\n"

@@ -152,7 +152,7 @@ def smoke() -> Iterator[str]:
 def whole() -> Iterator[str]:
     """Give each product of each command in each of its formats, and the options that calculate."""
     from vorotool.cli.commands import alphashape, delaunay, tessellate
-    from vorotool.cli.options import skeleton as skeleton_options
+    from vorotool.jobs.names import SKELETON_FORMATS
 
     yield from smoke()
     for source in ("points.csv", "cells.png"):
@@ -167,7 +167,7 @@ def whole() -> Iterator[str]:
             yield from _products(f"alphashape {source} {radius}", alphashape.FORMATS)
     yield from _products("delaunay points.csv --size 300x200", {"compare": delaunay.FORMATS["compare"]})
     for source in ("great-lakes.geojson", "two-shapes.json", "segments.wkt", "blobs.png", "cells.png"):
-        yield from _skeletons(source, skeleton_options.FORMATS)
+        yield from _skeletons(source, SKELETON_FORMATS)
     for source in ("cells.png", "great-lakes.geojson", "segments.wkt"):
         yield from (f"draw {source} -f {fmt}" for fmt in ("svg", "png"))
 

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Hashable
 from types import SimpleNamespace
 
-import click
-
 from vorotool.batch.inputs import is_several
-from vorotool.cli.options.pixel_size import check_units
+from vorotool.cli.batch.progress_bar import progress_bar
 from vorotool.cli.options.shared import BATCH_OPTIONS
+from vorotool.errors import UsageError
 from vorotool.formats.io.descriptors import input_identity
 from vorotool.jobs.job import Recipe, process_input
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import check_stats, files_read, plan_targets
+from vorotool.jobs.units import check_units
 
 STREAMED = ("files_from", "clip", "overlay")
 """Options that name what is read."""
@@ -31,7 +31,7 @@ def run_command(recipe: Recipe, o: SimpleNamespace) -> None:
 
     Raises
     ------
-    click.UsageError
+    UsageError
         If there is no input, or options do not go together.
     """
     _check_streams(o)
@@ -41,15 +41,17 @@ def run_command(recipe: Recipe, o: SimpleNamespace) -> None:
         run_many(recipe, o)
         return
     if not o.inputs:
-        raise click.UsageError("0 inputs are given: name files, a folder, or - for standard input")
+        raise UsageError("0 inputs are given: name files, a folder, or - for standard input")
     (source,) = o.inputs
     targets = plan_targets(recipe.formats, o.what, output=o.output, fmt=o.format, out_dir=o.out_dir, source=source)
     check_stats(o.stats, targets, source, files_read(o))
     if o.cluster is not None and any(target.fmt != "zarr" for target in targets):
-        raise click.UsageError("--cluster with -o writes a Zarr store: name it .zarr, or a folder with --out-dir")
+        raise UsageError("--cluster with -o writes a Zarr store: name it .zarr, or a folder with --out-dir")
     recipe.check_options(o, targets)
     check_units(o, targets)
-    with Run(recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber) as run:
+    with Run(
+        recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber, bar=progress_bar
+    ) as run:
         process_input(recipe, run, o, source, targets)
 
 
@@ -64,7 +66,7 @@ def _check_streams(o: SimpleNamespace) -> None:
             continue
         if identity in readers:
             other = readers[identity]
-            raise click.UsageError(
+            raise UsageError(
                 f"{reader} {name} and {other} are one stream, which is read once: name a file for one of the two"
             )
         readers[identity] = f"{reader} {name}"

@@ -16,12 +16,13 @@ from vorotool.batch.manifest import RECORD_ENDING, History, Manifest, digest_of_
 from vorotool.batch.plan import check_outputs, output_paths, share
 from vorotool.batch.tables import TABLE_FORMATS
 from vorotool.batch.tasks import Task, digest_of
-from vorotool.cli.options.pixel_size import check_units
 from vorotool.cli.options.shared import BATCH_OPTIONS
+from vorotool.errors import UsageError
 from vorotool.formats.io.atomic_output import spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.targets import EXTENSIONS, Target, files_read, plan_targets
+from vorotool.jobs.units import check_units
 
 WITHOUT_EFFECT = frozenset(
     {"inputs", "output", "out_dir", "threads", "quiet", "verbose", "stats", "no_clobber", *BATCH_OPTIONS}
@@ -69,7 +70,7 @@ def plan_batch(recipe: Recipe, o: SimpleNamespace) -> Plan:
 
     Raises
     ------
-    click.UsageError
+    UsageError
         If options do not go together.
     VorotoolError
         If there are no inputs, or outputs would replace something that they must not.
@@ -99,24 +100,24 @@ def _check_options(o: SimpleNamespace) -> None:
     table = getattr(o, "table", None)
     inputs = f"{len(o.inputs)} inputs are given" if len(o.inputs) > 1 else "many inputs are asked for"
     if o.output is not None:
-        raise click.UsageError(f"{inputs}, but -o names one output: name a folder for all with --out-dir")
+        raise UsageError(f"{inputs}, but -o names one output: name a folder for all with --out-dir")
     if o.out_dir is None and table is None:
-        raise click.UsageError(f"{inputs}: name a folder for their outputs with --out-dir")
+        raise UsageError(f"{inputs}: name a folder for their outputs with --out-dir")
     if o.out_dir is None and o.resume:
-        raise click.UsageError("--resume needs --out-dir DIR, where it is recorded what was done")
+        raise UsageError("--resume needs --out-dir DIR, where it is recorded what was done")
     for name in INPUT_FILES:
         given = getattr(o, name, None)
         if given is not None and (kind := stream_kind(given)) is not None:
             what = "standard input" if given == STANDARD else kind
-            raise click.UsageError(f"--{name} {given} is {what}, which not every input can read: name a file")
+            raise UsageError(f"--{name} {given} is {what}, which not every input can read: name a file")
     if o.null and o.files_from is None:
-        raise click.UsageError("-0 is about the list of --files-from: leave it out")
+        raise UsageError("-0 is about the list of --files-from: leave it out")
     if table is not None and o.stats is not None and is_same_output(table, o.stats):
         if descriptor_of(table) is None and table != STANDARD:
-            raise click.UsageError(f"--stats {o.stats} is also --table: choose another name")
-        raise click.UsageError(f"--stats {o.stats} needs --table FILE: {spoken(table)} holds the table")
+            raise UsageError(f"--stats {o.stats} is also --table: choose another name")
+        raise UsageError(f"--stats {o.stats} needs --table FILE: {spoken(table)} holds the table")
     if o.cluster not in (None, "local") and o.jobs is not None:
-        raise click.UsageError("-j is for this machine: a cluster has the workers that it has")
+        raise UsageError("-j is for this machine: a cluster has the workers that it has")
 
 
 def _name_files_of_shard(o: SimpleNamespace) -> list[str]:
@@ -148,7 +149,7 @@ def name_of_part(path: str, part: int, parts: int) -> str:
 def _check_table_only(o: SimpleNamespace) -> None:
     source = click.get_current_context().get_parameter_source("what")
     if source != ParameterSource.DEFAULT and o.what != ("table",):
-        raise click.UsageError(f"--what {','.join(o.what)} needs --out-dir DIR: --table is a file of tables alone")
+        raise UsageError(f"--what {','.join(o.what)} needs --out-dir DIR: --table is a file of tables alone")
 
 
 def _table_format(o: SimpleNamespace) -> str | None:
@@ -161,7 +162,7 @@ def _table_format(o: SimpleNamespace) -> str | None:
     else:
         fmt = EXTENSIONS.get(Path(path).suffix.lower(), "" if stream_kind(path) is None else "csv")
     if fmt not in TABLE_FORMATS:
-        raise click.UsageError(f"--table {path} is written as CSV or JSON: name it .csv or .json")
+        raise UsageError(f"--table {path} is written as CSV or JSON: name it .csv or .json")
     return str(fmt)
 
 
@@ -204,5 +205,5 @@ def _inputs(recipe: Recipe, o: SimpleNamespace, note: Callable[[str], None]) -> 
         advice = "name files, folders, or a list of them with --files-from"
         if o.files_from is not None:
             advice = f"--files-from {o.files_from} holds no names; write one on each line"
-        raise click.UsageError(f"0 inputs are given: {advice}")
+        raise UsageError(f"0 inputs are given: {advice}")
     return expand_inputs(names, extensions=known, without=o.out_dir, note=note)

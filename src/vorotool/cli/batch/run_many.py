@@ -20,16 +20,17 @@ from vorotool.batch.run import Results, run_batch
 from vorotool.batch.tables import join_tables, part_path
 from vorotool.batch.tasks import Outcome, Process, Task, digest_of, is_done
 from vorotool.cli.batch.plan import INPUT_FILES, Plan, plan_batch
+from vorotool.cli.batch.progress_bar import progress_bar
 from vorotool.cli.batch.report import Report
-from vorotool.cli.failures import explained
-from vorotool.cli.options.pixel_size import unit_stats
 from vorotool.errors import OutputError
 from vorotool.formats.io.atomic_output import check_output, open_output
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.temporaries import new_folder, temporary_beside
+from vorotool.jobs.failures import explained
 from vorotool.jobs.job import Recipe, process_input
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
+from vorotool.jobs.units import unit_stats
 from vorotool.signals import end_by_exceptions
 
 
@@ -88,7 +89,7 @@ def run_many(recipe: Recipe, o: SimpleNamespace) -> None:
         tasks = _with_parts(plan, _folder_of_parts(recipe, o, stack)) if plan.table else plan.tasks
         _check_records(plan, tasks)
         run = stack.enter_context(
-            Run(recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber)
+            Run(recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber, bar=progress_bar)
         )
         for text in plan.notes:
             run.note(text)

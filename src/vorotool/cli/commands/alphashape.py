@@ -17,6 +17,7 @@ from vorotool.cli.options.shared import (
     inputs_argument,
     output_options,
 )
+from vorotool.errors import UsageError
 from vorotool.formats.parsing.format_names import NAMES_WITH
 from vorotool.jobs.inputs import check_components, check_frame_options, naming, read_sites
 from vorotool.jobs.job import Recipe
@@ -111,21 +112,21 @@ def _default_what(o: SimpleNamespace) -> str:
 def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     check_components(o)
     if o.regions is not None and (o.r is not None or o.alpha is not None):
-        raise click.UsageError("--regions is for the automatic choice of r: leave out -r and --alpha")
+        raise UsageError("--regions is for the automatic choice of r: leave out -r and --alpha")
     _check_method(o, {target.fmt for target in targets})
     if "hull" in o.what and (o.hole_threshold is not None or o.region_threshold is not None):
-        raise click.UsageError("the hull has no thresholds: leave out --hole-threshold and --region-threshold")
+        raise UsageError("the hull has no thresholds: leave out --hole-threshold and --region-threshold")
     formats = {target.fmt for target in targets}
     if o.precision is not None and formats <= _WITHOUT_DIGITS:
-        raise click.UsageError("--precision is for numbers in text: use -f csv, json, geojson or wkt, or leave it out")
+        raise UsageError("--precision is for numbers in text: use -f csv, json, geojson or wkt, or leave it out")
     pictures = sorted({target.fmt for target in targets if target.what in _WITH_LAYERS} & set(PICTURES))
     if o.layers is not None and not pictures:
-        raise click.UsageError("--layers is for pictures of a shape: use -f svg or -f png, or leave it out")
+        raise UsageError("--layers is for pictures of a shape: use -f svg or -f png, or leave it out")
     if o.overlay is not None and not pictures:
-        raise click.UsageError("--overlay is for pictures of a shape: use -f svg or -f png, or leave it out")
+        raise UsageError("--overlay is for pictures of a shape: use -f svg or -f png, or leave it out")
     plots = ["svg"] if ("curves", "svg") in {(target.what, target.fmt) for target in targets} else []
     if o.y_up is not None and plots and not pictures and "html" not in formats:
-        raise click.UsageError("--y-up and --y-down are for pictures of a shape, but curves are a plot: leave them out")
+        raise UsageError("--y-up and --y-down are for pictures of a shape, but curves are a plot: leave them out")
     check_picture_options(o, pictures or plots, PICTURE_LAYERS, png_has_width=True, has_page="html" in formats)
 
 
@@ -135,26 +136,26 @@ def _check_method(o: SimpleNamespace, formats: set[str]) -> None:
     is_automatic = o.r is None and o.alpha is None
     needs_corrected = (is_automatic and set(o.what) & OF_ONE_SHAPE) or "curves" in o.what or "html" in formats
     if o.rule == "printed" and needs_corrected:
-        raise click.UsageError("curves, pages and the automatic r need --rule corrected: give -r, or leave out --rule")
+        raise UsageError("curves, pages and the automatic r need --rule corrected: give -r, or leave out --rule")
     if o.rule == "printed" and o.verify:
-        raise click.UsageError("the printed rule fails the check, as it should: leave out --verify or --rule")
+        raise UsageError("the printed rule fails the check, as it should: leave out --verify or --rule")
     if o.method == "digital":
         _check_digital_rule(o, formats)
 
 
 def _check_digital_rule(o: SimpleNamespace, formats: set[str]) -> None:
     if "html" in formats:
-        raise click.UsageError("--method digital has no curves for a page: use --method exact or digital-valid")
+        raise UsageError("--method digital has no curves for a page: use --method exact or digital-valid")
     for name in o.what:
         if name not in OF_DIGITAL_RULE:
-            raise click.UsageError(
+            raise UsageError(
                 "--method digital finds edges and triangles that need be no triangulation: "
                 f"{name} needs --method exact or digital-valid"
             )
     if set(o.what) & OF_ONE_SHAPE and o.r is None and o.alpha is None:
-        raise click.UsageError("--method digital has no regions to choose r by: give -r or --alpha")
+        raise UsageError("--method digital has no regions to choose r by: give -r or --alpha")
     if o.hole_threshold is not None or o.region_threshold is not None or o.verify:
-        raise click.UsageError("--method digital has no regions: leave out thresholds and --verify")
+        raise UsageError("--method digital has no regions: leave out thresholds and --verify")
 
 
 RECIPE = Recipe("alphashape", FORMATS, _check_options, _products, "points")

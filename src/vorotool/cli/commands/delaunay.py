@@ -16,6 +16,7 @@ from vorotool.cli.options.shared import (
     what_option,
 )
 from vorotool.cli.options.suggestions import files
+from vorotool.errors import UsageError
 from vorotool.formats.parsing.format_names import NAMES_WITH, POLYGON_NAMES
 from vorotool.jobs.inputs import check_components, check_frame_options, naming, read_clip, read_sites
 from vorotool.jobs.job import Recipe
@@ -115,12 +116,12 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     with_cells = {"cells", "diagram"} & set(o.layers or ()) or {"cells", "table"} & set(o.what)
     for name in ("frame", "clip"):
         if getattr(o, name) is not None and not with_cells:
-            raise click.UsageError(f"--{name} is for cells: use --what cells or table, or leave it out")
+            raise UsageError(f"--{name} is for cells: use --what cells or table, or leave it out")
     if o.precision is not None and formats <= _WITHOUT_DIGITS:
-        raise click.UsageError("--precision is for numbers in text: use -f csv, json, geojson or obj, or leave it out")
+        raise UsageError("--precision is for numbers in text: use -f csv, json, geojson or obj, or leave it out")
     pictures = sorted(formats & set(PICTURES))
     if o.layers is not None and not pictures:
-        raise click.UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
+        raise UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
     check_picture_options(o, pictures, PICTURE_LAYERS, png_has_width=True)
 
 
@@ -129,13 +130,13 @@ def _check_method(o: SimpleNamespace, targets: list[Target]) -> None:
     check_frame_options(o, is_digital=_is_digital(o))
     if "compare" in o.what:
         if o.method == "digital-valid" or (o.method == "exact" and len(o.what) > 1):
-            raise click.UsageError("--what compare is about the digital rule: use --method digital")
+            raise UsageError("--what compare is about the digital rule: use --method digital")
         o.method = "digital"
     if o.method == "digital" and {"cells", "diagram"} & set(o.layers or ()):
-        raise click.UsageError("--layers cells and diagram are of the exact cells: use --method exact or digital-valid")
+        raise UsageError("--layers cells and diagram are of the exact cells: use --method exact or digital-valid")
     for target in targets:
         if o.method == "digital" and (target.what, target.fmt) in OF_TRIANGULATIONS:
-            raise click.UsageError(
+            raise UsageError(
                 f"--method digital finds edges and triangles that need be no triangulation: {target.what} as "
                 f"{target.fmt} needs --method exact or digital-valid"
             )

@@ -7,7 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vorotool.cli.options.skeleton import APPROXIMATE_LAYERS, Length, run_skeletons, skeleton_options
+from vorotool.cli.commands.skeletons import run_skeletons
+from vorotool.cli.options.skeleton import Length, skeleton_options
+from vorotool.errors import UsageError
+from vorotool.jobs.names import APPROXIMATE_LAYERS
 
 if TYPE_CHECKING:
     from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -57,9 +60,9 @@ def command(**options: Any) -> None:
     """
     o = SimpleNamespace(**options)
     if (o.step is None) == (o.tolerance is None):
-        raise click.UsageError("use either --step H or --tolerance E")
+        raise UsageError("use either --step H or --tolerance E")
     if o.tolerance is not None and o.sampling == "paper":
-        raise click.UsageError("--sampling paper has one step everywhere: use it with --step, or leave it out")
+        raise UsageError("--sampling paper has one step everywhere: use it with --step, or leave it out")
     run_skeletons("skeleton-approx", o, _products)
 
 

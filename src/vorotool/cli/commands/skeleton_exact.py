@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vorotool.cli.options.skeleton import Length, run_skeletons, skeleton_options
+from vorotool.cli.commands.skeletons import run_skeletons
+from vorotool.cli.options.skeleton import Length, skeleton_options
+from vorotool.errors import UsageError
 
 if TYPE_CHECKING:
     from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -52,7 +54,7 @@ def command(**options: Any) -> None:
     """
     o = SimpleNamespace(**options)
     if o.complete is not None and not o.gap:
-        raise click.UsageError("nothing is missing without a gap: use --gap STEP, or leave --complete out")
+        raise UsageError("nothing is missing without a gap: use --gap STEP, or leave --complete out")
     run_skeletons("skeleton-exact", o, _products)
 
 

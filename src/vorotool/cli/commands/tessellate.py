@@ -16,6 +16,7 @@ from vorotool.cli.options.shared import (
     output_options,
     what_option,
 )
+from vorotool.errors import UsageError
 from vorotool.formats.parsing.format_names import NAMES_WITH
 from vorotool.jobs.inputs import (
     check_components,
@@ -91,28 +92,28 @@ def command(**options: Any) -> None:
 def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     check_frame_options(o, is_digital=True)
     if o.method == "propagation" and o.max_distance is not None:
-        raise click.UsageError("--max-distance needs --method exact")
+        raise UsageError("--max-distance needs --method exact")
     if o.method == "exact" and o.passes is not None:
-        raise click.UsageError("--passes needs --method propagation")
+        raise UsageError("--passes needs --method propagation")
     if o.method == "propagation" and {"distance", "distance2"} & {target.what for target in targets}:
-        raise click.UsageError("distances are those of the exact tessellation: leave out --method propagation")
+        raise UsageError("distances are those of the exact tessellation: leave out --method propagation")
     check_components(o)
     if o.method == "propagation" and o.cluster is not None and o.out_dir is None:
-        raise click.UsageError("a cluster computes bands of the exact tessellation: leave out --method propagation")
+        raise UsageError("a cluster computes bands of the exact tessellation: leave out --method propagation")
     _check_output_options(o, {(target.what, target.fmt) for target in targets})
 
 
 def _check_output_options(o: SimpleNamespace, outputs: set[tuple[str, str]]) -> None:
     """Refuse options that no output would show."""
     if o.dtype is not None and not outputs & {("labels", fmt) for fmt in ("tiff", "npy", "zarr")}:
-        raise click.UsageError("--dtype is for labels in TIFF, NPY and Zarr: use -f tiff or -f npy, or leave it out")
+        raise UsageError("--dtype is for labels in TIFF, NPY and Zarr: use -f tiff or -f npy, or leave it out")
     if o.chunk is not None and "zarr" not in {fmt for _, fmt in outputs}:
-        raise click.UsageError("--chunk is for Zarr stores: use -f zarr, or leave it out")
+        raise UsageError("--chunk is for Zarr stores: use -f zarr, or leave it out")
     tables = {(what, fmt) for what in ("table", "neighbours") for fmt in ("csv", "json")}
     if o.precision is not None and not outputs & tables:
-        raise click.UsageError("--precision is for tables in CSV and JSON: use --what table, or leave it out")
+        raise UsageError("--precision is for tables in CSV and JSON: use --what table, or leave it out")
     if o.layers is not None and not outputs & _PICTURES:
-        raise click.UsageError("--layers is for pictures: --what colour, labels as SVG, or the diagram as PNG")
+        raise UsageError("--layers is for pictures: --what colour, labels as SVG, or the diagram as PNG")
     pictures = sorted(outputs & _PICTURES - ({("diagram", "png")} if o.layers is None and o.overlay is None else set()))
     check_picture_options(o, [fmt for _, fmt in pictures])
 

@@ -3,32 +3,18 @@
 from __future__ import annotations
 
 from math import isfinite
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from vorotool.cli.options.parameter_types import ParameterType
 from vorotool.cli.options.suggestions import words
+from vorotool.jobs.pruning_choice import CRITERIA, Pruning
 
 if TYPE_CHECKING:
     from click.shell_completion import CompletionItem
 
-CRITERIA = ("angle", "chord", "scale", "length", "ratio")
-"""As `vorotool.geometry.skeleton.critical_values` has them, which ``--help`` does not import."""
-
 FORMS = "angle=DEG, chord=D, scale=S, length=D, ratio=Q, mask or none"
-
-
-class Pruning(NamedTuple):
-    """What is removed: a criterion and a threshold, or nothing; ``name`` is what was asked for."""
-
-    name: str
-    criterion: str | None = None
-    threshold: float = 0.0
-
-    def stats(self) -> dict[str, Any]:
-        """What statistics say of it."""
-        return {"name": self.name} | ({} if self.criterion is None else {self.criterion: self.threshold})
 
 
 class PruningType(ParameterType[Pruning]):
@@ -81,14 +67,3 @@ class Place(ParameterType[tuple[float, float]]):
         if not (isfinite(x) and isfinite(y)):
             self.fail(f"{value!r} is no place: both numbers must be finite", param, ctx)
         return (x, y)
-
-
-def chosen_pruning(asked: Pruning | None, *, is_mask: bool) -> Pruning:
-    """What to remove: masks are pruned by default, polygons are not."""
-    if asked is not None and asked.name != "mask":
-        return asked
-    if asked is None and not is_mask:
-        return Pruning("none")
-    from vorotool.engines.pruning.pruning import default_pruning_for_masks
-
-    return Pruning("mask", *default_pruning_for_masks())

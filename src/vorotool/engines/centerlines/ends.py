@@ -2,11 +2,11 @@
 
 Two twigs of one junction are *beside each other* if they have an edge in common, and neither of its corners is a tip
 (`vorotool.engines.centerlines.edge_comparisons.is_blunt`), which the skeleton leads into. Twigs beside each other make
-runs. A run of two is the *fork* of their edge; a run of more is a *round end*, also over several junctions near each other
-(`vorotool.engines.centerlines.round_ends`). Where all arcs of a junction are twigs, the polygon is around a circle: see
-`_forks_of_stars`. Where a run goes all around a polygon with more than four edges, all spokes are much the same and
-none is an end: the centerline is led from the farthest corner straight through the middle. A twig beside no other, at
-a junction between cycles, is no end if its corner is much like both beside it: one of a plate with holes.
+runs. A run of two is the *fork* of their edge; a run of more is a *round end*, also over several junctions near each
+other (`vorotool.engines.centerlines.round_ends`). Where all arcs of a junction are twigs, the polygon is around a
+circle: see `_forks_of_stars`. Where a run goes all around a polygon with more than four edges, all spokes are much the
+same and none is an end: the centerline is led from the farthest corner straight through the middle. A twig beside no
+other, at a junction between cycles, is no end if its corner is much like both beside it: one of a plate with holes.
 """
 
 from __future__ import annotations

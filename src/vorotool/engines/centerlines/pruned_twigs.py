@@ -2,10 +2,10 @@
 
 Around a node the site on the left of each arc is that on the right of the next one. Where these are different edges of
 one ring, and all corners from the one to the other are convex, what was pruned there is known exactly. It was a tree
-between the boundary from the one edge to the other and the disc of the node, as what is pruned leaves no cycle; and
-all sites that are nearest to a place there are edges of this chain, as it has no other. So it was a part of the medial
-axis of the intersection of the half-planes left of these edges, which `vorotool.engines.centerlines.convex_trees` makes again. No
-bound on distances is needed. If there is one corner the tree is the straight line to it.
+between the boundary from the one edge to the other and the disc of the node, as what is pruned leaves no cycle; and all
+sites that are nearest to a place there are edges of this chain, as it has no other. So it was a part of the medial axis
+of the intersection of the half-planes left of these edges, which `vorotool.engines.centerlines.convex_trees` makes
+again. No bound on distances is needed. If there is one corner the tree is the straight line to it.
 
 An arc whose end is inside hangs between the first and the last edge. It is led on along the same straight line to the
 root of its tree, or ends there already.

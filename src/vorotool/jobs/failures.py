@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import traceback
 
-import click
-
 from vorotool.errors import LimitError, Message, VorotoolError
 
 
@@ -19,8 +17,6 @@ def explained(error: Exception) -> tuple[Message, int]:
     """
     if isinstance(error, VorotoolError):
         return Message(str(error), source=error.source), error.exit_code
-    if isinstance(error, click.ClickException):
-        return Message(error.format_message()), error.exit_code
     if isinstance(error, MemoryError):
         text = "there is not enough memory: use a smaller frame, or an output that is streamed"
         return Message(text), LimitError.exit_code

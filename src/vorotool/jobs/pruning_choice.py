@@ -1,0 +1,31 @@
+"""What is pruned: what the user asks for, or what the input calls for."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+CRITERIA = ("angle", "chord", "scale", "length", "ratio")
+"""As `vorotool.geometry.skeleton.critical_values` has them, which ``--help`` does not import."""
+
+
+class Pruning(NamedTuple):
+    """What is removed: a criterion and a threshold, or nothing; ``name`` is what was asked for."""
+
+    name: str
+    criterion: str | None = None
+    threshold: float = 0.0
+
+    def stats(self) -> dict[str, Any]:
+        """What statistics say of it."""
+        return {"name": self.name} | ({} if self.criterion is None else {self.criterion: self.threshold})
+
+
+def chosen_pruning(asked: Pruning | None, *, is_mask: bool) -> Pruning:
+    """What to remove: masks are pruned by default, polygons are not."""
+    if asked is not None and asked.name != "mask":
+        return asked
+    if asked is None and not is_mask:
+        return Pruning("none")
+    from vorotool.engines.pruning.pruning import default_pruning_for_masks
+
+    return Pruning("mask", *default_pruning_for_masks())

@@ -1,0 +1,88 @@
+"""Which options of the commands that make skeletons go together, and with which results."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+from vorotool.errors import UsageError
+from vorotool.jobs.names import DERIVED, PICTURE_LAYERS, PICTURES, SKELETON_LAYERS
+from vorotool.jobs.targets import Target, check_picture_options
+
+_WITHOUT_DIGITS = frozenset({"npz", "html", *PICTURES})
+_WITHOUT_CURVES = frozenset({"geojson", "wkt", "graphml"})
+_CURVED = frozenset({"skeleton", "diagram", "centerline", "offset"})
+
+
+def check_options(o: SimpleNamespace, targets: list[Target]) -> None:
+    """Refuse what does not go together, or what no output would show."""
+    formats = {target.fmt for target in targets}
+    if o.precision is not None and formats <= _WITHOUT_DIGITS:
+        raise UsageError("--precision is for numbers in text: use -f json, csv, geojson or wkt, or leave it out")
+    curved = any(target.what in _CURVED and target.fmt in _WITHOUT_CURVES for target in targets)
+    if o.flatten is not None and not curved and "shape" not in o.what:
+        raise UsageError("--flatten is for what has no curves: use -f geojson, -f wkt or --what shape, or leave it out")
+    _check_measures(o)
+    _check_shapes(o)
+    if o.frame is not None and o.side == "interior" and "diagram" not in o.what:
+        raise UsageError("--frame cuts what is outside: use --side exterior or both, or leave it out")
+    if o.frame is not None:
+        _check_frame(o.frame)
+    _check_centerline(o)
+    pictures = sorted(formats & set(PICTURES))
+    if o.layers is not None and not pictures:
+        raise UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
+    _check_layers(o, targets)
+    check_picture_options(o, pictures, PICTURE_LAYERS, png_has_width=True, has_page="html" in formats)
+
+
+def _check_frame(frame: tuple[float, ...]) -> None:
+    from vorotool.geometry.magnitude import LARGEST
+
+    if max(map(abs, frame)) > LARGEST:
+        raise UsageError(f"--frame goes too far to compute with: use numbers of at most {LARGEST:g}")
+
+
+def _check_layers(o: SimpleNamespace, targets: list[Target]) -> None:
+    """Each picture has each of the layers."""
+    usual = (*SKELETON_LAYERS, "exact") if hasattr(o, "compare") else SKELETON_LAYERS
+    for target in (target for target in targets if target.fmt in PICTURES):
+        own = DERIVED.get(target.what, usual)
+        for layer in (layer for layer in o.layers or () if layer not in own):
+            raise UsageError(
+                f"--layers {layer}: a picture of {target.what} in {target.fmt.upper()} has {', '.join(own)}; "
+                "choose of these"
+            )
+
+
+def _check_centerline(o: SimpleNamespace) -> None:
+    if "centerline" in o.what and o.side == "exterior":
+        raise UsageError("centerlines are inside polygons: use --side interior or both")
+    if o.ends is not None and not {"centerline", "table"} & set(o.what):
+        raise UsageError(
+            "--ends is for centerlines, skeletons lead into corners: use --what centerline or table, or leave it out"
+        )
+    if (o.start is not None or o.end is not None) and "centerline" not in o.what:
+        raise UsageError("--from and --to are ends of centerlines: use --what centerline, or leave them out")
+
+
+def _check_measures(o: SimpleNamespace) -> None:
+    """Distances and steps are there where they are needed, and only there."""
+    for name, value, users in (("-d", o.distance, {"offset"}), ("--every", o.every, {"points", "transects"})):
+        wanted = users & set(o.what)
+        if wanted and value is None:
+            raise UsageError(f"--what {','.join(sorted(wanted))} needs a length: use {name} D")
+        if not wanted and value is not None:
+            what = " or ".join(f"--what {user}" for user in sorted(users))
+            raise UsageError(f"{name} is for other results: use {what}, or leave it out")
+
+
+def _check_shapes(o: SimpleNamespace) -> None:
+    """Shapes are rebuilt from what is inside them; offset curves are of the shapes, whatever the skeleton is."""
+    if "shape" in o.what and o.side == "exterior":
+        raise UsageError("shapes are rebuilt from inside: use --side interior or both")
+    has_gap = bool(getattr(o, "gap", None))
+    if "shape" in o.what and has_gap:
+        raise UsageError("a skeleton with a gap leaves the corners out: use --what shape without --gap")
+    given = {"--side": o.side != "interior", "--prune": o.prune is not None, "--gap": has_gap}
+    for name in (name for name, is_given in given.items() if is_given and set(o.what) == {"offset"}):
+        raise UsageError(f"{name} is for skeletons, but offset curves are of the shapes: leave it out")
