@@ -9,8 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parent))
-from conftest import leftovers
+from support.processes.leftovers import leftovers
 
 
 def test_outputs_that_cannot_be_written(run, folder):

@@ -8,7 +8,7 @@ import pytest
 
 from fuzz.runner import Cases, options
 
-FUZZ = Path(__file__).parent / "fuzz"
+FUZZ = Path(__file__).parents[1] / "fuzz"
 
 
 def ended(script, *arguments):
