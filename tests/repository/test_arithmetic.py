@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 SOURCES = Path(__file__).parents[2] / "src"
-CORE = sorted(path for folder in ("core", "bindings") for path in (SOURCES / folder).glob("*.[ch]pp"))
+CORE = sorted(path for folder in ("core", "bindings") for path in (SOURCES / folder).rglob("*.[ch]pp"))
 MODULES = sorted((SOURCES / "vorotool").rglob("*.py"))
 
 ALIKE = frozenset(
