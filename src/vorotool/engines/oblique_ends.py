@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +19,7 @@ Booleans = NDArray[np.bool_]
 WIDTH = 4.0
 """In radii of the place where the path comes to an edge: an end is no longer. A stroke cut at 30 degrees has 4."""
 
-STEEP = (1 - 0.5**0.5) / 2
+STEEP = (1 - sqrt(0.5)) / 2
 """Square of the sine of half of 45 degrees: by so much radii fall along the way into such a corner, which is no tip."""
 
 

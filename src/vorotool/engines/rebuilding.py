@@ -263,7 +263,7 @@ def _flat_holes(skeleton: Skeleton, contours: Contours) -> list[Ring]:
     is_around = np.minimum.reduceat(own, first) == np.maximum.reduceat(own, first) if len(first) else first > 0
     around = np.flatnonzero(is_around)
     around = around[flat_holes(polygons)[own[first[around]]]]
-    around = around[np.argsort(own[first[around]])]
+    around = around[np.argsort(own[first[around]], kind="stable")]
     return [
         Ring(polygons.ring(ring), polygon, part)
         for ring, polygon, part in zip(
