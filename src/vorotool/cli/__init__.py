@@ -1,1 +1,1 @@
-"""The command line: one file a command, one registry of shared options."""
+"""The command line: the program, its exit codes, and rooms for commands, options and batches."""

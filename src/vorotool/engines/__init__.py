@@ -1,1 +1,1 @@
-"""Engines: one module a subcommand, each turns a value of geometry into another."""
+"""Engines turn values of geometry into others: a room each, and what chooses between them."""

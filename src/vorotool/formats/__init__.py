@@ -1,4 +1,4 @@
-"""Reading and writing files."""
+"""Reading and writing files: one call for all formats."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Value types: arrays and what follows from them by indexing. They know no files, no pictures, no engines."""
+"""Values: arrays and what follows from them by indexing. They know no files, no pictures, no engines."""

@@ -1,1 +1,1 @@
-"""One job = options dataclass + read + compute + name products + write; no click."""
+"""A job reads an input, computes, and writes what was asked for. It knows no command line."""

@@ -1,1 +1,1 @@
-"""Pictures of results: SVG, PNG, palettes."""
+"""Pictures of results."""

@@ -1,1 +1,1 @@
-"""Many inputs: dispatch, plan, run, report."""
+"""Many inputs on the command line: a plan of what is done, the run, the report."""

@@ -1,1 +1,1 @@
-"""One module a command: its options and its call of a job."""
+"""One module a command: its options, and which job it calls."""

@@ -1,1 +1,1 @@
-"""Parameter types and option groups."""
+"""Types of parameters, and options that commands share."""

@@ -1,1 +1,1 @@
-"""Triangulation -> alpha complex, shape, hull."""
+"""Alpha complexes, alpha shapes and alpha hulls of triangulations, and their checks."""

@@ -1,1 +1,1 @@
-"""Segments or polygons -> lattice placement, planar graph, repaired polygons."""
+"""Segments and polygons on the lattice: placed, cut where they meet, repaired; their planar graph."""

@@ -1,1 +1,1 @@
-"""Skeleton -> centerlines, and where they end."""
+"""Centerlines of skeletons, and where they end."""

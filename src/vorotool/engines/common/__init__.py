@@ -1,1 +1,1 @@
-"""Label arrays, point input, progress, parallel parts."""
+"""What engines share: arrays of labels, input of points, parallel parts."""

@@ -1,1 +1,1 @@
-"""Points -> triangulation, cells, Voronoi edges."""
+"""Delaunay triangulations of points, their Voronoi cells and edges."""

@@ -1,1 +1,1 @@
-"""Label image -> digital triangulation; comparison with the exact one."""
+"""Triangulations that are read off a label image, and how they differ from the exact ones."""

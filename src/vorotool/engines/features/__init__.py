@@ -1,1 +1,1 @@
-"""Features of polygons taken one by one: batches of them, and their order."""
+"""Features of polygons one by one: batches that do not change each other, and the order of the input."""

@@ -1,1 +1,1 @@
-"""Nearest points, points along branches, reconstruction, contours."""
+"""What follows from a skeleton: nearest points, points along branches, rebuilt shapes."""

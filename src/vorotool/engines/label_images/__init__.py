@@ -1,1 +1,1 @@
-"""Label image -> regions, outlines, simplified rings."""
+"""Regions, outlines and colours of label images."""

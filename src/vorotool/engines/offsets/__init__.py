@@ -1,1 +1,1 @@
-"""Diagram + distance -> offset curves, and their check."""
+"""Offset curves of polygons, and their check."""

@@ -1,1 +1,1 @@
-"""Skeleton -> pruned skeleton, and its check."""
+"""Skeletons without the pieces that matter less than a threshold, and their check."""

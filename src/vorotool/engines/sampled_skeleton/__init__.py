@@ -1,1 +1,1 @@
-"""Boundary samples -> approximate skeleton with certified error; comparison."""
+"""Approximate skeletons from samples of the boundary, with certified bounds of the error."""

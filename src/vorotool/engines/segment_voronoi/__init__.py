@@ -1,1 +1,1 @@
-"""Planar graph -> segment Voronoi diagram, and its check."""
+"""Voronoi diagrams of segments, and their check."""

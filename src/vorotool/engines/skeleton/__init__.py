@@ -1,1 +1,1 @@
-"""Diagram -> skeleton; site distances; its check."""
+"""Exact skeletons as parts of segment Voronoi diagrams, and their check."""

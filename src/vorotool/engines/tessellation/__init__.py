@@ -1,1 +1,1 @@
-"""Image/seeds -> label image."""
+"""Label images of seeds: each pixel has the label of its nearest seed."""

@@ -1,1 +1,1 @@
-"""Undoing compressions, up to a limit."""
+"""Compressions are undone here, never beyond what is asked for."""

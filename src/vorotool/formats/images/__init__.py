@@ -1,1 +1,1 @@
-"""Image readers and writers, whole and by bands."""
+"""Images: readers and writers, whole and by bands of rows."""

@@ -1,1 +1,1 @@
-"""Sources, atomic outputs, stores, limits, disk space, row bands; knows no format."""
+"""Inputs, outputs that are whole or not there, limits, room on the disk; no format is known here."""

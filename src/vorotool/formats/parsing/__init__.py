@@ -1,1 +1,1 @@
-"""GeoJSON, WKT, format names and reader options: what readers share."""
+"""What readers share: GeoJSON, reference systems, names of formats, options."""

@@ -1,1 +1,1 @@
-"""Point readers, one module a format."""
+"""Readers of points, one module a format."""

@@ -1,1 +1,1 @@
-"""Polygon readers, one module a format."""
+"""Readers of polygons, one module a format."""

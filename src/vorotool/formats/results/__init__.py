@@ -1,1 +1,1 @@
-"""Writers (and the reader back) of result types."""
+"""Writers of results, one module a kind; a reader of those that are read back."""

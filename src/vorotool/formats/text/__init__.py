@@ -1,1 +1,1 @@
-"""Rows, tables, JSON lists, feature collections: what writers of text share."""
+"""What writers of text share: rows, tables, lists, feature collections."""

@@ -1,1 +1,1 @@
-"""Alpha complexes, shapes, hulls and their tables."""
+"""Alpha complexes, shapes and hulls, and their tables."""

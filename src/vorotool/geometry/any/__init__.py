@@ -1,1 +1,1 @@
-"""Functions over all result types (scaled, table)."""
+"""Functions of results of every kind: scaled, as tables."""

@@ -1,1 +1,1 @@
-"""Circular and parabolic arcs, flattening, bit-stable inverse functions."""
+"""Circular and parabolic arcs: flattening, and inverse functions that are the same on all machines."""

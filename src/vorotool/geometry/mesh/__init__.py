@@ -1,1 +1,1 @@
-"""Triangulations, cells, digital triangulations and their tables."""
+"""Triangulations, cells and digital triangulations, and their tables."""

@@ -1,1 +1,1 @@
-"""Point sets, seed sets, rasters, label images."""
+"""Sets of points and seeds, rasters, label images."""

@@ -1,1 +1,1 @@
-"""Polygon sets, repairs, conversion to shapely/GeoPandas, planar graphs."""
+"""Sets of polygons, their conversion, and planar graphs."""

@@ -1,1 +1,1 @@
-"""Segment diagrams, skeletons, arcs, branches, offsets and their tables."""
+"""Segment diagrams, skeletons, branches, centerlines, offsets, and their tables."""

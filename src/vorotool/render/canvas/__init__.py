@@ -1,1 +1,1 @@
-"""Layers, palettes, SVG and PNG back ends; knows no result type."""
+"""Layers, palettes, and what draws them as SVG and PNG; no result is known here."""

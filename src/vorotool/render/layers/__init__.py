@@ -1,1 +1,1 @@
-"""Result type -> layers, one module a result."""
+"""Layers of a picture from a result, one module a kind of result."""

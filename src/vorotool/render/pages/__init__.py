@@ -1,1 +1,1 @@
-"""HTML and plotted pages."""
+"""Pages that move: HTML, and plots."""
