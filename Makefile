@@ -30,8 +30,8 @@ build: $(BUILD)/.installed ## build the C++ core and install the package into .v
 include figures.mk
 
 .PHONY: test
-test: build lint ## lint, then run every test
-	$(RUN) -m pytest
+test: build lint ## lint, then run every test, on all cores
+	$(RUN) -m pytest -n auto --dist loadgroup
 
 .PHONY: lint
 lint: build ## ruff, mypy --strict, clang-format
