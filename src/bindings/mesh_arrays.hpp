@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "arrays.hpp"
-#include "core/verify_triangulation.hpp"
+#include "core/triangulation.hpp"
 
 namespace vorotool::bindings {
 

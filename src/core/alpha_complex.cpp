@@ -7,6 +7,7 @@
 
 #include "core/critical_radius.hpp"
 #include "core/parallel.hpp"
+#include "core/predicates.hpp"
 #include "core/spectrum.hpp"
 
 namespace vorotool::core {

@@ -15,7 +15,7 @@
 
 #include "core/large_array.hpp"
 #include "core/monitor.hpp"
-#include "core/predicates.hpp"
+#include "core/point.hpp"
 
 namespace vorotool::core {
 

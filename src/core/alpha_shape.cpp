@@ -8,6 +8,7 @@
 
 #include "core/disjoint_sets.hpp"
 #include "core/parallel.hpp"
+#include "core/predicates.hpp"
 
 namespace vorotool::core {
 namespace {

@@ -18,10 +18,9 @@
 
 #include <cstdint>
 
-namespace vorotool::core {
+#include "core/int128.hpp"
 
-__extension__ typedef __int128 int128;
-__extension__ typedef unsigned __int128 uint128;
+namespace vorotool::core {
 
 inline constexpr std::int64_t exact_product_bound = std::int64_t{1} << 16;
 inline constexpr std::int64_t narrow_bound = std::int64_t{1} << 25;

@@ -32,7 +32,7 @@
 
 #include "core/bisector_arc.hpp"
 #include "core/lattice.hpp"
-#include "core/predicates.hpp"
+#include "core/point.hpp"
 
 namespace vorotool::core {
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/arithmetic.hpp"
+#include "core/int128.hpp"
 
 namespace vorotool::core {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
-#include "core/arithmetic.hpp"
 #include "core/disjoint_sets.hpp"
+#include "core/int128.hpp"
 #include "core/lattice_crossing.hpp"
 
 namespace vorotool::core {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/monitor.hpp"
-#include "core/predicates.hpp"
+#include "core/point.hpp"
 #include "core/voronoi_cells.hpp"
 
 namespace vorotool::core {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/arithmetic.hpp"
+#include "core/int128.hpp"
 
 namespace vorotool::core {
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/arithmetic.hpp"
+#include "core/int128.hpp"
 #include "core/lattice_vector.hpp"
 
 namespace vorotool::core {

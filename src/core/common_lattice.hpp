@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/arithmetic.hpp"
+#include "core/int128.hpp"
 #include "core/wide_integer.hpp"
 
 namespace vorotool::core {

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/arithmetic.hpp"
+#include "core/int128.hpp"
 #include "core/label_runs.hpp"
 #include "core/region_scan.hpp"
 #include "core/regions.hpp"

@@ -10,7 +10,7 @@
 #include <span>
 
 #include "core/monitor.hpp"
-#include "core/verify_labels.hpp"
+#include "core/pixel_frame.hpp"
 
 namespace vorotool::core {
 

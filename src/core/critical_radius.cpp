@@ -7,11 +7,12 @@
 #include <cstdint>
 #include <utility>
 
-#include "core/arithmetic.hpp"
 #include "core/big_integer.hpp"
 #include "core/common_lattice.hpp"
 #include "core/double_double.hpp"
 #include "core/expansion.hpp"
+#include "core/int128.hpp"
+#include "core/predicates.hpp"
 
 namespace vorotool::core {
 namespace {

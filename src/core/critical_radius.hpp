@@ -6,7 +6,7 @@
 // that is a double itself, then the exact values compare as they do. Only equal doubles leave a doubt.
 #pragma once
 
-#include "core/predicates.hpp"
+#include "core/point.hpp"
 
 namespace vorotool::core {
 

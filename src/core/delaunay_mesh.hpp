@@ -14,8 +14,8 @@
 #include "core/divide_and_conquer.hpp"
 #include "core/large_array.hpp"
 #include "core/monitor.hpp"
+#include "core/point.hpp"
 #include "core/point_order.hpp"
-#include "core/predicates.hpp"
 
 namespace vorotool::core {
 

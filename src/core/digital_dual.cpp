@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "core/corner_scan.hpp"
+#include "core/predicates.hpp"
 
 namespace vorotool::core {
 namespace {

@@ -7,6 +7,8 @@
 
 #include "core/common_lattice.hpp"
 #include "core/parallel.hpp"
+#include "core/predicates.hpp"
+#include "core/sign.hpp"
 
 namespace vorotool::core {
 

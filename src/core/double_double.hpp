@@ -9,8 +9,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/arithmetic.hpp"
 #include "core/expansion.hpp"
+#include "core/int128.hpp"
 
 namespace vorotool::core {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/predicates.hpp"
+#include "core/sign.hpp"
 
 namespace vorotool::core {
 namespace {

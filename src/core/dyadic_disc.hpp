@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/arithmetic.hpp"
+#include "core/int128.hpp"
 #include "core/segment_sites.hpp"
 #include "core/voronoi_records.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "core/large_array.hpp"
 #include "core/monitor.hpp"
-#include "core/predicates.hpp"
+#include "core/point.hpp"
 #include "core/shape_graph.hpp"
 
 namespace vorotool::core {

@@ -11,7 +11,7 @@
 #include <span>
 #include <utility>
 
-#include "core/predicates.hpp"
+#include "core/sign.hpp"
 
 namespace vorotool::core {
 

@@ -12,7 +12,7 @@
 
 #include "core/large_array.hpp"
 #include "core/predicates.hpp"
-#include "core/verify_triangulation.hpp"
+#include "core/triangulation.hpp"
 
 namespace vorotool::core {
 

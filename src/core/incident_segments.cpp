@@ -7,7 +7,7 @@
 namespace vorotool::core {
 namespace {
 
-LatticeVector way_from(const SegmentVoronoiArrays& in, std::int32_t point, std::int32_t segment) {
+LatticeVector way_from(const SegmentDiagram& in, std::int32_t point, std::int32_t segment) {
   const auto& [a, b] = in.ends(segment);
   return in.point(a == point ? b : a) - in.point(point);
 }
@@ -20,8 +20,8 @@ bool earlier(const LatticeVector& v, const LatticeVector& w) {
 
 }  // namespace
 
-IncidentSegments::IncidentSegments(const SegmentVoronoiArrays& arrays)
-    : in_(arrays), start_(arrays.points.size() + 1), segments_(2 * arrays.segments.size()) {
+IncidentSegments::IncidentSegments(const SegmentDiagram& diagram)
+    : in_(diagram), start_(diagram.points.size() + 1), segments_(2 * diagram.segments.size()) {
   for (const auto& ends : in_.segments) {
     for (const std::int32_t end : ends) ++start_[static_cast<std::size_t>(end) + 1];
   }

@@ -6,13 +6,14 @@
 #include <span>
 #include <vector>
 
-#include "core/verify_segment_voronoi.hpp"
+#include "core/segment_diagram.hpp"
 
 namespace vorotool::core {
 
 class IncidentSegments {
  public:
-  explicit IncidentSegments(const SegmentVoronoiArrays& arrays);
+  // Of the diagram only points and segments are read.
+  explicit IncidentSegments(const SegmentDiagram& diagram);
 
   // Site numbers of the segments at a point, counter-clockwise from the positive x axis.
   std::span<const std::int32_t> at(std::int32_t point) const {
@@ -33,7 +34,7 @@ class IncidentSegments {
   // Where the gap after segment i at a point is 180 degrees or more.
   bool wide_gap_after(std::int32_t point, std::size_t i) const;
 
-  const SegmentVoronoiArrays& in_;
+  SegmentDiagram in_;
   std::vector<std::size_t> start_;
   std::vector<std::int32_t> segments_;
 };

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "core/int128.hpp"
+
 namespace vorotool::core {
 namespace {
 

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "core/arithmetic.hpp"
 #include "core/lattice.hpp"
+#include "core/sign.hpp"
 
 namespace vorotool::core {
 
@@ -18,8 +18,6 @@ inline std::int64_t turn(LatticePoint a, LatticePoint b, LatticePoint c) {
   const std::int64_t vx = std::int64_t{c.x} - a.x, vy = std::int64_t{c.y} - a.y;
   return ux * vy - uy * vx;
 }
-
-inline int sign_of(std::int64_t value) { return (value > 0) - (value < 0); }
 
 // By x, then by y: the order in which a line sweeps over the points.
 inline bool is_before(LatticePoint a, LatticePoint b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }

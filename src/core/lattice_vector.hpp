@@ -21,6 +21,5 @@ inline std::int64_t dot(const LatticeVector& v, const LatticeVector& w) { return
 inline std::int64_t norm2(const LatticeVector& v) { return dot(v, v); }
 // Turned by 90 degrees, counter-clockwise.
 inline LatticeVector left_of(const LatticeVector& v) { return {-v.y, v.x}; }
-inline int sign_of(std::int64_t value) { return (value > 0) - (value < 0); }
 
 }  // namespace vorotool::core

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/predicates.hpp"
+#include "core/point.hpp"
 
 namespace vorotool::core {
 

@@ -6,7 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "core/arithmetic.hpp"
+#include "core/int128.hpp"
+#include "core/sign.hpp"
 
 namespace vorotool::core {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "core/lattice.hpp"
 #include "core/monitor.hpp"
-#include "core/predicates.hpp"
+#include "core/point.hpp"
 
 namespace vorotool::core {
 

@@ -8,6 +8,7 @@
 
 #include "core/dyadic_disc.hpp"
 #include "core/segment_exact.hpp"
+#include "core/sign.hpp"
 #include "core/tangent_disc.hpp"
 
 namespace vorotool::core {

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "core/predicates.hpp"
+#include "core/point.hpp"
 
 namespace vorotool::core {
 

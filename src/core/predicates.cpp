@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/arithmetic.hpp"
 #include "core/common_lattice.hpp"
 #include "core/expansion.hpp"
+#include "core/int128.hpp"
 #include "core/predicate_levels.hpp"
 #include "core/wide_integer.hpp"
 

@@ -10,16 +10,12 @@
 #include <cmath>
 #include <limits>
 
+#include "core/point.hpp"
+#include "core/sign.hpp"
+
 namespace vorotool::core {
 
 static_assert(std::numeric_limits<double>::is_iec559 && FLT_EVAL_METHOD == 0);
-
-struct Point {
-  double x, y;
-};
-
-// What a level of the predicates gives where it cannot tell the sign.
-inline constexpr int undecided = 2;
 
 // The signs beyond the filters, for any finite points.
 int orient2d_beyond_filter(const Point& a, const Point& b, const Point& c);
@@ -37,12 +33,9 @@ int incircle_beyond_filter(const Point& a, const Point& b, const Point& c, const
 //   |det| > P (3 u + 14 u^2) + 2 h (1 + 6 u).
 // The bound as computed, fl(k fl(P + 2^-1020)), loses at most a factor (1 - u)^2 and h. With k = 3 u + 32 u^2
 // it is at least P (3 u + 25 u^2) + (12 (1 - 2 u) - 1) h, for 2^-1020 u = 4 h: enough for both terms.
-inline constexpr double unit_roundoff = 0x1p-53;
 inline constexpr double orient2d_bound = (3 + 32 * unit_roundoff) * unit_roundoff;
 
 inline constexpr double underflow_scale = 0x1p-1020;
-
-inline int sign_of(double value) { return (value > 0) - (value < 0); }
 
 inline int orient2d_filter(const Point& a, const Point& b, const Point& c) {
   const double left = (a.x - c.x) * (b.y - c.y);

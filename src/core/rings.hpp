@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/predicates.hpp"
+#include "core/point.hpp"
 
 namespace vorotool::core {
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/predicates.hpp"
+#include "core/sign.hpp"
 #include "core/wide_integer.hpp"
 
 namespace vorotool::core {

@@ -7,6 +7,7 @@
 #include "core/parallel.hpp"
 #include "core/rounded_quotient.hpp"
 #include "core/seed_vector.hpp"
+#include "core/sign.hpp"
 #include "core/wide_integer.hpp"
 
 namespace vorotool::core {

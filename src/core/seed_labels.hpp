@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/incident_segments.hpp"
-#include "core/predicates.hpp"
+#include "core/point.hpp"
 #include "core/shape_graph.hpp"
 
 namespace vorotool::core {
@@ -87,7 +87,6 @@ class SeedLabels {
   std::int32_t piece_at(std::int32_t segment, double share) const;
 
   ShapeGraph graph_;
-  SegmentVoronoiArrays arrays_;  // of which only the graph is there
   IncidentSegments incident_;
   std::span<const Point> seeds_;
   std::span<const std::int32_t> start_, segment_, first_;

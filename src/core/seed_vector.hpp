@@ -7,9 +7,10 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/arithmetic.hpp"
 #include "core/edge_samples.hpp"
-#include "core/predicates.hpp"
+#include "core/int128.hpp"
+#include "core/point.hpp"
+#include "core/sign.hpp"
 
 namespace vorotool::core {
 

@@ -24,9 +24,25 @@ struct SegmentDiagram {
   const std::array<std::int32_t, 2>& ends(std::int32_t segment) const {
     return segments[static_cast<std::size_t>(segment) - points.size()];
   }
+  bool is_end(std::int32_t site, std::int32_t segment) const {
+    return ends(segment)[0] == site || ends(segment)[1] == site;
+  }
   LatticeSite site(std::int32_t number) const {
     if (is_point(number)) return {point(number), point(number)};
     return {point(ends(number)[0]), point(ends(number)[1])};
+  }
+};
+
+// A diagram with the sites around each vertex.
+struct RingedDiagram : SegmentDiagram {
+  std::span<const std::int32_t> vertex_start;  // [v + 1] into vertex_sites
+  std::span<const std::int32_t> vertex_sites;  // [k] rings, counter-clockwise from the smallest
+
+  std::size_t vertex_count() const { return radius.size(); }
+  std::size_t site_count() const { return points.size() + segments.size(); }
+  std::span<const std::int32_t> ring(std::size_t vertex) const {
+    const auto start = static_cast<std::size_t>(vertex_start[vertex]);
+    return vertex_sites.subspan(start, static_cast<std::size_t>(vertex_start[vertex + 1]) - start);
   }
 };
 

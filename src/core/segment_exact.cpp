@@ -14,6 +14,7 @@
 
 #include "core/exact_contacts.hpp"
 #include "core/lattice_vector.hpp"
+#include "core/sign.hpp"
 
 namespace vorotool::core {
 namespace {

@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "core/double_double.hpp"
-#include "core/predicates.hpp"
 #include "core/segment_exact.hpp"
+#include "core/sign.hpp"
 #include "core/tangent_disc.hpp"
 
 namespace vorotool::core {

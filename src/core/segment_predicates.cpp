@@ -5,8 +5,8 @@
 
 #include "core/common_circle.hpp"
 #include "core/dyadic_disc.hpp"
-#include "core/predicates.hpp"
 #include "core/segment_exact.hpp"
+#include "core/sign.hpp"
 #include "core/touched_ends.hpp"
 
 namespace vorotool::core {

@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "core/arithmetic.hpp"
+#include "core/int128.hpp"
 #include "core/monitor.hpp"
 
 namespace vorotool::core {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/arithmetic.hpp"
+#include "core/int128.hpp"
 #include "core/radix_sort.hpp"
 
 namespace vorotool::core {

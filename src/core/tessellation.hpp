@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/arithmetic.hpp"
+#include "core/int128.hpp"
 #include "core/monitor.hpp"
 #include "core/simd.hpp"
 #include "core/sites.hpp"

@@ -1,6 +1,6 @@
 #include "core/touched_ends.hpp"
 
-#include "core/arithmetic.hpp"
+#include "core/int128.hpp"
 
 namespace vorotool::core {
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "core/verify_triangulation.hpp"
+#include "core/triangulation.hpp"
 
 namespace vorotool::core {
 

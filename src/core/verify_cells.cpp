@@ -13,6 +13,7 @@
 #include "core/elementary.hpp"
 #include "core/number_text.hpp"
 #include "core/parallel.hpp"
+#include "core/predicates.hpp"
 #include "core/site_tree.hpp"
 #include "core/voronoi_vertices.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/monitor.hpp"
-#include "core/predicates.hpp"
+#include "core/point.hpp"
 #include "core/voronoi_cells.hpp"
 
 namespace vorotool::core {

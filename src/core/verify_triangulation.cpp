@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/parallel.hpp"
+#include "core/predicates.hpp"
 #include "core/radix_sort.hpp"
 
 namespace vorotool::core {

@@ -1,24 +1,13 @@
 // An exact check of a Delaunay triangulation that knows its arrays only, not how they were made.
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <span>
 #include <string>
 
 #include "core/monitor.hpp"
-#include "core/predicates.hpp"
+#include "core/triangulation.hpp"
 
 namespace vorotool::core {
-
-struct TriangulationArrays {
-  std::span<const Point> points;             // [n] finite
-  std::span<const std::int32_t> triangles;   // [3 t] counter-clockwise
-  std::span<const std::int32_t> neighbours;  // [3 t] across the side opposite to each vertex; -1 on the hull
-  std::span<const std::int32_t> edges;       // [2 e] the smaller index first
-  std::span<const std::int32_t> hull;        // [h] counter-clockwise from the lexicographically smallest
-  std::span<const std::int32_t> first;       // [n] the smallest index at the same place
-};
 
 // What is wrong, in words: the first fault of the first check that fails. Nothing if the arrays are the
 // Delaunay triangulation of the points, cocircular polygons being fans from their lexicographically smallest

@@ -11,6 +11,7 @@
 #include "core/lattice_vector.hpp"
 #include "core/radix_sort.hpp"
 #include "core/segment_exact.hpp"
+#include "core/sign.hpp"
 
 namespace vorotool::core {
 namespace {
@@ -25,7 +26,7 @@ std::string edge_text(std::size_t edge) { return "edge " + std::to_string(edge);
 // The edges between the cells of two sites, each taken with the smaller number on its left.
 class Bisector {
  public:
-  Bisector(const SegmentVoronoiArrays& arrays, const IncidentSegments& incident, std::size_t edge)
+  Bisector(const RingedDiagram& arrays, const IncidentSegments& incident, std::size_t edge)
       : in_(arrays),
         incident_(incident),
         left_(std::min(arrays.edge_sites[edge][0], arrays.edge_sites[edge][1])),
@@ -73,7 +74,7 @@ class Bisector {
     double place[2], size = 0;
     for (int i = 0; i < 2; ++i) {
       const auto k = static_cast<std::size_t>(i == 0 ? v : w);
-      const double x = in_.vertices[2 * k], y = in_.vertices[2 * k + 1];
+      const double x = in_.vertices[k][0], y = in_.vertices[k][1];
       place[i] = ux * x + uy * y;
       size += std::abs(x) + std::abs(y) + in_.radius[k];
     }
@@ -98,10 +99,10 @@ class Bisector {
     const auto k = static_cast<std::size_t>(vertex);
     if (in_.radius[k] == 0) return side_at_corner(s);
     const LatticeVector u = s.b - s.a;
-    const double x = in_.vertices[2 * k] - s.a.x, y = in_.vertices[2 * k + 1] - s.a.y;
+    const double x = in_.vertices[k][0] - s.a.x, y = in_.vertices[k][1] - s.a.y;
     const double ux = static_cast<double>(u.x), uy = static_cast<double>(u.y);
     const double height = ux * y - uy * x;
-    const double size = std::abs(in_.vertices[2 * k]) + std::abs(in_.vertices[2 * k + 1]) + std::abs(x) +
+    const double size = std::abs(in_.vertices[k][0]) + std::abs(in_.vertices[k][1]) + std::abs(x) +
                         std::abs(y) + in_.radius[k];
     if (std::abs(height) > 0x1p-46 * size * (std::abs(ux) + std::abs(uy))) return height > 0 ? 1 : -1;
     const LatticeVector across = left_of(u);
@@ -128,14 +129,14 @@ class Bisector {
     return cross(u, left.a - right.a) > 0 ? u : -u;
   }
 
-  const SegmentVoronoiArrays& in_;
+  const RingedDiagram& in_;
   const IncidentSegments& incident_;
   Site left_, right_;
 };
 
 }  // namespace
 
-Fault find_order_fault(const SegmentVoronoiArrays& arrays, const IncidentSegments& incident) {
+Fault find_order_fault(const RingedDiagram& arrays, const IncidentSegments& incident) {
   const std::uint64_t sites = arrays.site_count();
   std::vector<Keyed> keys;
   keys.reserve(arrays.edges.size());
@@ -164,7 +165,7 @@ struct Place {
 
 class InnerPoints {
  public:
-  InnerPoints(const SegmentVoronoiArrays& arrays, const ClosedSites& index) : in_(arrays), index_(index) {
+  InnerPoints(const RingedDiagram& arrays, const ClosedSites& index) : in_(arrays), index_(index) {
     for (const LatticePoint& p : arrays.points) {
       extent_ = std::max({extent_, std::abs(static_cast<double>(p.x)), std::abs(static_cast<double>(p.y))});
     }
@@ -182,7 +183,7 @@ class InnerPoints {
  private:
   Place centre(Site vertex) const {
     const auto k = static_cast<std::size_t>(vertex);
-    return {in_.vertices[2 * k], in_.vertices[2 * k + 1]};
+    return {in_.vertices[k][0], in_.vertices[k][1]};
   }
 
   Place place_between(std::size_t edge, double part) const {
@@ -269,14 +270,14 @@ class InnerPoints {
            ": its inner point (" + std::to_string(place.x) + ", " + std::to_string(place.y) + ") " + what;
   }
 
-  const SegmentVoronoiArrays& in_;
+  const RingedDiagram& in_;
   const ClosedSites& index_;
   double extent_ = 1;
 };
 
 }  // namespace
 
-Fault find_inner_point_fault(const SegmentVoronoiArrays& arrays, const ClosedSites& index, unsigned threads,
+Fault find_inner_point_fault(const RingedDiagram& arrays, const ClosedSites& index, unsigned threads,
                              const Monitor& monitor) {
   const InnerPoints points(arrays, index);
   return first_fault(

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/arithmetic.hpp"
 #include "core/certified_disc.hpp"
 #include "core/exact_contacts.hpp"
+#include "core/int128.hpp"
 #include "core/lattice_vector.hpp"
 #include "core/segment_exact.hpp"
 
@@ -32,7 +32,7 @@ double diamond_angle(double x, double y) {
 
 class Vertex {
  public:
-  Vertex(const SegmentVoronoiArrays& arrays, const IncidentSegments& incident, const ClosedSites* index,
+  Vertex(const RingedDiagram& arrays, const IncidentSegments& incident, const ClosedSites* index,
          std::size_t vertex)
       : in_(arrays), incident_(incident), index_(index), vertex_(vertex), ring_(arrays.ring(vertex)) {
     if (ring_.size() > 16) {
@@ -106,7 +106,7 @@ class Vertex {
     if (!std::ranges::equal(ring_, right))
       return fault("has radius 0, but these are not the cells at one corner");
     const LatticePoint& p = in_.point(point);
-    if (in_.vertices[2 * vertex_] == p.x && in_.vertices[2 * vertex_ + 1] == p.y) return {};
+    if (in_.vertices[vertex_][0] == p.x && in_.vertices[vertex_][1] == p.y) return {};
     return fault("has radius 0, but is not at point " + std::to_string(point));
   }
 
@@ -148,7 +148,7 @@ class Vertex {
   // Which of the discs tangent to the base the certified one is, is settled by the order of its contacts and
   // by their feet; the exact one is right from the start.
   Fault locate() {
-    const double x = in_.vertices[2 * vertex_], y = in_.vertices[2 * vertex_ + 1], r = in_.radius[vertex_];
+    const double x = in_.vertices[vertex_][0], y = in_.vertices[vertex_][1], r = in_.radius[vertex_];
     const auto found = certify_disc({condition(base_[0]), condition(base_[1]), condition(base_[2])}, x, y, r);
     if (found) {
       disc_ = *found;
@@ -164,7 +164,7 @@ class Vertex {
   }
 
   Fault check_values() {
-    const double x = in_.vertices[2 * vertex_], y = in_.vertices[2 * vertex_ + 1], r = in_.radius[vertex_];
+    const double x = in_.vertices[vertex_][0], y = in_.vertices[vertex_][1], r = in_.radius[vertex_];
     const double r_bound = value_error_bound * disc_.radius.head;
     const double bound = std::max(
         {r_bound, value_error_bound * std::abs(disc_.x.head), value_error_bound * std::abs(disc_.y.head)});
@@ -312,7 +312,7 @@ class Vertex {
   // disc as given is the true one.
   bool touches_as_given(Site site) const {
     constexpr double unit = 0x1p10, limit = 0x1p31;
-    const std::array<double, 3> given{in_.vertices[2 * vertex_], in_.vertices[2 * vertex_ + 1],
+    const std::array<double, 3> given{in_.vertices[vertex_][0], in_.vertices[vertex_][1],
                                       in_.radius[vertex_]};
     std::array<std::int64_t, 3> whole;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -380,7 +380,7 @@ class Vertex {
     return check_exactly(site);
   }
 
-  const SegmentVoronoiArrays& in_;
+  const RingedDiagram& in_;
   const IncidentSegments& incident_;
   const ClosedSites* index_;  // null where others do not matter
   std::size_t vertex_;
@@ -394,7 +394,7 @@ class Vertex {
   std::optional<ExactDisc> exact_;
 };
 
-std::vector<Site> closed_site_numbers(const SegmentVoronoiArrays& arrays, const IncidentSegments& incident) {
+std::vector<Site> closed_site_numbers(const RingedDiagram& arrays, const IncidentSegments& incident) {
   std::vector<Site> numbers;
   for (std::size_t i = 0; i < arrays.site_count(); ++i) {
     const auto site = static_cast<Site>(i);
@@ -403,7 +403,7 @@ std::vector<Site> closed_site_numbers(const SegmentVoronoiArrays& arrays, const 
   return numbers;
 }
 
-std::vector<LatticeSite> places_of(const SegmentVoronoiArrays& arrays, std::span<const Site> numbers) {
+std::vector<LatticeSite> places_of(const RingedDiagram& arrays, std::span<const Site> numbers) {
   std::vector<LatticeSite> sites;
   for (const Site number : numbers) sites.push_back(arrays.site(number));
   return sites;
@@ -411,17 +411,16 @@ std::vector<LatticeSite> places_of(const SegmentVoronoiArrays& arrays, std::span
 
 }  // namespace
 
-ClosedSites::ClosedSites(const SegmentVoronoiArrays& arrays, const IncidentSegments& incident,
-                         unsigned threads, const Monitor& monitor)
+ClosedSites::ClosedSites(const RingedDiagram& arrays, const IncidentSegments& incident, unsigned threads,
+                         const Monitor& monitor)
     : numbers_(closed_site_numbers(arrays, incident)), tree_(places_of(arrays, numbers_), threads, monitor) {}
 
-Fault find_vertex_fault(const SegmentVoronoiArrays& arrays, const IncidentSegments& incident,
+Fault find_vertex_fault(const RingedDiagram& arrays, const IncidentSegments& incident,
                         const ClosedSites& index, std::size_t vertex) {
   return Vertex(arrays, incident, &index, vertex).check();
 }
 
-ExactDisc exact_disc_of(const SegmentVoronoiArrays& arrays, const IncidentSegments& incident,
-                        std::size_t vertex) {
+ExactDisc exact_disc_of(const RingedDiagram& arrays, const IncidentSegments& incident, std::size_t vertex) {
   return Vertex(arrays, incident, nullptr, vertex).exact_disc();
 }
 

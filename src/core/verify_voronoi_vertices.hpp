@@ -19,7 +19,7 @@ namespace vorotool::core {
 // All sites as closed sets: the segments, and the points where none ends.
 class ClosedSites {
  public:
-  ClosedSites(const SegmentVoronoiArrays& arrays, const IncidentSegments& incident, unsigned threads,
+  ClosedSites(const RingedDiagram& arrays, const IncidentSegments& incident, unsigned threads,
               const Monitor& monitor);
 
   // Calls visit(site number), see SiteHierarchy.
@@ -38,12 +38,10 @@ class ClosedSites {
 // its values are right to `value_error_bound`.
 //
 // Floating point with error bounds decides nearly everything; exact numbers decide the rest.
-std::optional<std::string> find_vertex_fault(const SegmentVoronoiArrays& arrays,
-                                             const IncidentSegments& incident, const ClosedSites& index,
-                                             std::size_t vertex);
+std::optional<std::string> find_vertex_fault(const RingedDiagram& arrays, const IncidentSegments& incident,
+                                             const ClosedSites& index, std::size_t vertex);
 
 // The disc of a vertex without faults.
-ExactDisc exact_disc_of(const SegmentVoronoiArrays& arrays, const IncidentSegments& incident,
-                        std::size_t vertex);
+ExactDisc exact_disc_of(const RingedDiagram& arrays, const IncidentSegments& incident, std::size_t vertex);
 
 }  // namespace vorotool::core

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/parallel.hpp"
+#include "core/predicates.hpp"
 #include "core/triangle_rings.hpp"
 #include "core/voronoi_vertices.hpp"
 

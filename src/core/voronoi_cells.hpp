@@ -8,8 +8,8 @@
 
 #include "core/large_array.hpp"
 #include "core/monitor.hpp"
-#include "core/predicates.hpp"
-#include "core/verify_triangulation.hpp"
+#include "core/point.hpp"
+#include "core/triangulation.hpp"
 
 namespace vorotool::core {
 

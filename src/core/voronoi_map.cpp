@@ -44,7 +44,7 @@ std::vector<Site> hull_of(std::span<const LatticePoint> points) {
 
 }  // namespace
 
-std::vector<Site> cells_at_infinity(const SegmentVoronoiArrays& arrays, const IncidentSegments& incident) {
+std::vector<Site> cells_at_infinity(const RingedDiagram& arrays, const IncidentSegments& incident) {
   const std::vector<Site> hull = hull_of(arrays.points);
   std::vector<Site> cells;
   for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -62,7 +62,7 @@ namespace {
 // Half-edge 2 k leaves the source of edge k, 2 k + 1 its target; the other half is its twin.
 class Map {
  public:
-  Map(const SegmentVoronoiArrays& arrays, const IncidentSegments& incident)
+  Map(const RingedDiagram& arrays, const IncidentSegments& incident)
       : in_(arrays),
         incident_(incident),
         at_infinity_(cells_at_infinity(arrays, incident)),
@@ -207,7 +207,7 @@ class Map {
            std::to_string(edges) + " edges, " + std::to_string(cells_) + " cells";
   }
 
-  const SegmentVoronoiArrays& in_;
+  const RingedDiagram& in_;
   const IncidentSegments& incident_;
   std::vector<Site> at_infinity_;
   std::vector<std::size_t> half_at_;  // [ring places] the half-edge that leaves after a site of a ring
@@ -219,7 +219,7 @@ class Map {
 
 }  // namespace
 
-Fault find_map_fault(const SegmentVoronoiArrays& arrays, const IncidentSegments& incident) {
+Fault find_map_fault(const RingedDiagram& arrays, const IncidentSegments& incident) {
   return Map(arrays, incident).check();
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/common_lattice.hpp"
 #include "core/double_double.hpp"
+#include "core/predicates.hpp"
 #include "core/wide_integer.hpp"
 
 namespace vorotool::core {

@@ -4,7 +4,7 @@
 // computed from, since each coordinate is the double nearest to the exact one.
 #pragma once
 
-#include "core/predicates.hpp"
+#include "core/point.hpp"
 #include "core/rounded_quotient.hpp"
 
 namespace vorotool::core {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/arithmetic.hpp"
+#include "core/int128.hpp"
 
 namespace vorotool::core {
 
