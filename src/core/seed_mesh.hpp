@@ -24,7 +24,7 @@ enum SideState : std::uint8_t {
 
 struct SeedMesh {
   std::span<const Point> seeds;
-  std::span<const std::int32_t> triangles, neighbours;  // [3 t] as of core/verify_triangulation.hpp
+  std::span<const std::int32_t> triangles, neighbours;  // [3 t] as of core/triangulation.hpp
 
   std::size_t size() const { return triangles.size() / 3; }
   std::size_t sides() const { return triangles.size(); }
