@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/large_array.hpp"
+#include "core/base/large_array.hpp"
 
 namespace vorotool::bindings {
 

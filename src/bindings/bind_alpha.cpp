@@ -6,10 +6,10 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/alpha_complex.hpp"
-#include "core/alpha_curves.hpp"
-#include "core/alpha_shape.hpp"
-#include "core/critical_radius.hpp"
+#include "core/alpha/alpha_complex.hpp"
+#include "core/alpha/alpha_curves.hpp"
+#include "core/alpha/alpha_shape.hpp"
+#include "core/alpha/critical_radius.hpp"
 #include "interrupts.hpp"
 #include "mesh_arrays.hpp"
 

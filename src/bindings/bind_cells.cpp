@@ -12,10 +12,10 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/cell_measures.hpp"
-#include "core/nearest_neighbours.hpp"
-#include "core/verify_cells.hpp"
-#include "core/voronoi_cells.hpp"
+#include "core/cells/cell_measures.hpp"
+#include "core/cells/verify_cells.hpp"
+#include "core/cells/voronoi_cells.hpp"
+#include "core/delaunay/nearest_neighbours.hpp"
 #include "interrupts.hpp"
 #include "mesh_arrays.hpp"
 

@@ -3,8 +3,8 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/components.hpp"
-#include "core/streaming_components.hpp"
+#include "core/label_images/connected_components.hpp"
+#include "core/label_images/streaming_components.hpp"
 #include "interrupts.hpp"
 
 namespace vorotool::bindings {

@@ -11,10 +11,10 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/delaunay_mesh.hpp"
-#include "core/large_array.hpp"
-#include "core/local_insertion.hpp"
-#include "core/verify_triangulation.hpp"
+#include "core/base/large_array.hpp"
+#include "core/delaunay/delaunay_triangulation.hpp"
+#include "core/delaunay/point_insertion.hpp"
+#include "core/delaunay/verify_triangulation.hpp"
 #include "interrupts.hpp"
 #include "mesh_arrays.hpp"
 

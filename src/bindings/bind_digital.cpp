@@ -6,9 +6,9 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/delaunay_mesh.hpp"
-#include "core/digital_delaunay.hpp"
-#include "core/digital_triangulation.hpp"
+#include "core/delaunay/delaunay_triangulation.hpp"
+#include "core/digital/digital_repair.hpp"
+#include "core/digital/digital_triangulation.hpp"
 #include "interrupts.hpp"
 
 namespace vorotool::bindings {

@@ -8,7 +8,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/offset_curves.hpp"
+#include "core/offsets/offset_curves.hpp"
 #include "diagram_arrays.hpp"
 #include "interrupts.hpp"
 

@@ -7,8 +7,8 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/crack_outlines.hpp"
-#include "core/parallel.hpp"
+#include "core/base/parallel.hpp"
+#include "core/label_images/crack_outlines.hpp"
 #include "interrupts.hpp"
 
 namespace vorotool::bindings {

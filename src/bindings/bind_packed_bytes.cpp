@@ -6,7 +6,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/packed_bytes.hpp"
+#include "core/compression/packed_bytes.hpp"
 #include "interrupts.hpp"
 
 namespace vorotool::bindings {

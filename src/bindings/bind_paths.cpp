@@ -9,7 +9,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/longest_paths.hpp"
+#include "core/graphs/longest_paths.hpp"
 #include "interrupts.hpp"
 
 namespace vorotool::bindings {

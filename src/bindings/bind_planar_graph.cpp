@@ -13,12 +13,12 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/border_rings.hpp"
-#include "core/disjoint_boxes.hpp"
-#include "core/placement.hpp"
-#include "core/planar_graph.hpp"
-#include "core/segment_set.hpp"
-#include "core/verify_planar_graph.hpp"
+#include "core/arrangement/boundary_rings.hpp"
+#include "core/arrangement/lattice_placement.hpp"
+#include "core/arrangement/planar_graph.hpp"
+#include "core/arrangement/segment_set.hpp"
+#include "core/arrangement/verify_planar_graph.hpp"
+#include "core/spatial/disjoint_boxes.hpp"
 #include "interrupts.hpp"
 
 namespace vorotool::bindings {

@@ -9,8 +9,8 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/predicate_levels.hpp"
-#include "core/predicates.hpp"
+#include "core/kernel/predicate_stages.hpp"
+#include "core/kernel/predicates.hpp"
 
 namespace vorotool::bindings {
 namespace {

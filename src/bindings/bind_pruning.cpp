@@ -8,9 +8,9 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/arc_profile.hpp"
-#include "core/critical_values.hpp"
-#include "core/skeleton_pruning.hpp"
+#include "core/pruning/arc_profile.hpp"
+#include "core/pruning/critical_values.hpp"
+#include "core/pruning/pruning.hpp"
 #include "interrupts.hpp"
 
 namespace vorotool::bindings {

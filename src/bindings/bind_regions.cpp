@@ -5,11 +5,11 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/colouring.hpp"
-#include "core/diagram.hpp"
-#include "core/nearest_sites.hpp"
-#include "core/regions.hpp"
-#include "core/verify_labels.hpp"
+#include "core/graphs/graph_colouring.hpp"
+#include "core/label_images/digital_diagram.hpp"
+#include "core/label_images/region_measures.hpp"
+#include "core/spatial/nearest_sites.hpp"
+#include "core/tessellation/verify_tessellation.hpp"
 #include "interrupts.hpp"
 
 namespace vorotool::bindings {

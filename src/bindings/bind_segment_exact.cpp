@@ -8,8 +8,8 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/lattice.hpp"
-#include "core/segment_exact.hpp"
+#include "core/kernel/lattice_point.hpp"
+#include "core/segment_voronoi/discs/exact_signs.hpp"
 
 namespace vorotool::bindings {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/coincident_vertices.hpp"
-#include "core/segment_exact.hpp"
-#include "core/segment_insertion.hpp"
-#include "core/segment_predicates.hpp"
+#include "core/segment_voronoi/build/coincident_vertices.hpp"
+#include "core/segment_voronoi/build/insertion_predicates.hpp"
+#include "core/segment_voronoi/build/segment_insertion.hpp"
+#include "core/segment_voronoi/discs/exact_signs.hpp"
 
 namespace vorotool::bindings {
 namespace {

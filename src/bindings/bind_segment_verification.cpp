@@ -10,7 +10,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/verify_segment_voronoi.hpp"
+#include "core/segment_voronoi/verify/verify_segment_voronoi.hpp"
 #include "interrupts.hpp"
 
 namespace vorotool::bindings {

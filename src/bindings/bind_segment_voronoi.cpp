@@ -14,8 +14,8 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/idle_sides.hpp"
-#include "core/segment_voronoi.hpp"
+#include "core/segment_voronoi/build/segment_voronoi.hpp"
+#include "core/segment_voronoi/build/wanted_faces.hpp"
 #include "interrupts.hpp"
 
 namespace vorotool::bindings {

@@ -11,10 +11,10 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/clearance.hpp"
-#include "core/parallel.hpp"
-#include "core/skeleton_edges.hpp"
-#include "core/skeleton_extraction.hpp"
+#include "core/base/parallel.hpp"
+#include "core/skeleton/edges.hpp"
+#include "core/skeleton/extraction.hpp"
+#include "core/spatial/clearance.hpp"
 #include "diagram_arrays.hpp"
 #include "interrupts.hpp"
 

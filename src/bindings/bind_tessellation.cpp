@@ -11,9 +11,9 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/propagation.hpp"
-#include "core/stream_fill.hpp"
-#include "core/tessellation.hpp"
+#include "core/tessellation/propagation.hpp"
+#include "core/tessellation/stream_fill.hpp"
+#include "core/tessellation/tessellation.hpp"
 #include "interrupts.hpp"
 
 namespace nb = nanobind;

@@ -14,9 +14,9 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/format_columns.hpp"
-#include "core/nesting.hpp"
-#include "core/text_columns.hpp"
+#include "core/text/csv_columns.hpp"
+#include "core/text/nesting_depth.hpp"
+#include "core/text/row_writer.hpp"
 #include "interrupts.hpp"
 #include "mesh_arrays.hpp"
 

@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "arrays.hpp"
-#include "core/bisector_arc.hpp"
-#include "core/segment_diagram.hpp"
+#include "core/segment_voronoi/build/diagram.hpp"
+#include "core/skeleton/bisector_arc.hpp"
 
 namespace vorotool::bindings {
 

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <utility>
 
-#include "core/monitor.hpp"
+#include "core/base/monitor.hpp"
 
 namespace vorotool::bindings {
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "arrays.hpp"
-#include "core/triangulation.hpp"
+#include "core/delaunay/triangulation.hpp"
 
 namespace vorotool::bindings {
 

@@ -1,0 +1,12 @@
+// Whether two neighbouring vertices of a segment Voronoi diagram are at one place: ties.
+#pragma once
+
+#include "core/segment_voronoi/discs/records.hpp"
+#include "core/segment_voronoi/discs/sites.hpp"
+
+namespace vorotool::core {
+
+// For vertices u and w at the ends of edge i of u, both finite.
+bool are_coincident(const SegmentSites& sites, const VoronoiRecord& u, int i, const VoronoiRecord& w);
+
+}  // namespace vorotool::core
