@@ -10,19 +10,24 @@
 #include "core/base/parallel.hpp"
 #include "core/kernel/predicates.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::alpha {
+
+using base::LargeArray;
+using base::Monitor;
+using kernel::Point;
+
 namespace {
 
 constexpr std::size_t piece_size = std::size_t{1} << 13;  // triangles or edges: about a millisecond of work
 constexpr std::size_t ahead = 16;                         // triangles or edges
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-std::size_t pieces_of(std::size_t count) { return piece_count(count, piece_size); }
+std::size_t pieces_of(std::size_t count) { return base::piece_count(count, piece_size); }
 
 // Calls body(piece, first, end) for every piece of the numbers below count.
 template <class Body>
 void for_pieces(std::size_t count, unsigned threads, const Monitor& monitor, Body body) {
-  parallel_for(
+  base::parallel_for(
       pieces_of(count), threads,
       [&](std::size_t piece) { body(piece, piece * piece_size, std::min(count, (piece + 1) * piece_size)); },
       monitor);
@@ -89,7 +94,7 @@ class AlphaBuilder {
         call_for(in_.triangles, 3 * (t + ahead), 3);
         const Point &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
         const TriangleMeasure found = measure_triangle(a, b, c);
-        const bool is_flat = found.radius == infinity && orient2d(a, b, c) == 0;
+        const bool is_flat = found.radius == infinity && kernel::orient2d(a, b, c) == 0;
         value_[t] = is_flat ? left_out : found.radius;
         obtuse_[t] = static_cast<std::uint8_t>(found.obtuse);
       }
@@ -196,4 +201,4 @@ AlphaArrays alpha_complex(const AlphaInput& input, AlphaRule rule, unsigned thre
   return AlphaBuilder(input, rule, threads, monitor).run();
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::alpha

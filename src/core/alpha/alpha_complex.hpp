@@ -17,21 +17,21 @@
 #include "core/base/monitor.hpp"
 #include "core/kernel/point.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::alpha {
 
 struct EdgeArrays {
-  LargeArray<std::int32_t> ends;   // [2 e] the smaller index first
-  LargeArray<std::int32_t> sides;  // [2 e] triangles with this edge, the second one -1 on the hull
+  base::LargeArray<std::int32_t> ends;   // [2 e] the smaller index first
+  base::LargeArray<std::int32_t> sides;  // [2 e] triangles with this edge, the second one -1 on the hull
 };
 
 // The edges of triangles whose neighbours are known, [3 t] each: in the order of the triangles, each edge
 // with the first triangle that has it.
 EdgeArrays edges_of_triangles(std::span<const std::int32_t> triangles,
                               std::span<const std::int32_t> neighbours, unsigned threads,
-                              const Monitor& monitor);
+                              const base::Monitor& monitor);
 
 struct AlphaInput {
-  std::span<const Point> points;            // finite
+  std::span<const kernel::Point> points;    // finite
   std::span<const std::int32_t> triangles;  // [3 t]
   std::span<const std::int32_t> edges;      // [2 e]
   std::span<const std::int32_t> sides;      // [2 e] triangles with the edge, or -1
@@ -46,12 +46,12 @@ enum class AlphaRule : std::uint8_t {
 // once, in increasing order; ranks are places in it, and compare as the exact radii do. An infinite radius
 // has the rank behind the last.
 struct AlphaArrays {
-  LargeArray<double> r_min, r_mid, r_max;                 // [e]
-  LargeArray<std::int32_t> rank_min, rank_mid, rank_max;  // [e]
-  LargeArray<std::int32_t> triangle_rank;                 // [t]
-  LargeArray<double> spectrum{0};                         // [m]
+  base::LargeArray<double> r_min, r_mid, r_max;                 // [e]
+  base::LargeArray<std::int32_t> rank_min, rank_mid, rank_max;  // [e]
+  base::LargeArray<std::int32_t> triangle_rank;                 // [t]
+  base::LargeArray<double> spectrum{0};                         // [m]
   // [m] a triangle with this circumradius, or t + an edge of twice this length
-  LargeArray<std::int32_t> witness{0};
+  base::LargeArray<std::int32_t> witness{0};
 
   AlphaArrays(std::size_t triangles, std::size_t edges)
       : r_min(edges),
@@ -63,6 +63,7 @@ struct AlphaArrays {
         triangle_rank(triangles) {}
 };
 
-AlphaArrays alpha_complex(const AlphaInput& input, AlphaRule rule, unsigned threads, const Monitor& monitor);
+AlphaArrays alpha_complex(const AlphaInput& input, AlphaRule rule, unsigned threads,
+                          const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::alpha

@@ -6,7 +6,13 @@
 #include "core/base/disjoint_sets.hpp"
 #include "core/numbers/expansion.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::alpha {
+
+using base::DisjointSets;
+using base::LargeArray;
+using base::Monitor;
+using numbers::TwoTerms;
+
 namespace {
 
 constexpr std::size_t poll_interval = std::size_t{1} << 16;  // edges
@@ -16,8 +22,9 @@ struct LongSum {
   TwoTerms value{0, 0};
 
   void add(double term) {
-    const TwoTerms sum = two_sum(value.head, term);
-    value = std::isfinite(sum.head) ? two_sum(sum.head, sum.tail + value.tail) : TwoTerms{sum.head, 0};
+    const TwoTerms sum = numbers::two_sum(value.head, term);
+    value =
+        std::isfinite(sum.head) ? numbers::two_sum(sum.head, sum.tail + value.tail) : TwoTerms{sum.head, 0};
   }
   void add(const LongSum& other) {
     add(other.value.head);
@@ -68,7 +75,7 @@ class Sweep {
 
   void poll(std::size_t done) {
     if (done % poll_interval != 0 || !monitor_) return;
-    if (!monitor_(static_cast<double>(done) / static_cast<double>(3 * m_))) throw Interrupted();
+    if (!monitor_(static_cast<double>(done) / static_cast<double>(3 * m_))) throw base::Interrupted();
   }
 
   void measure() {
@@ -144,4 +151,4 @@ class Sweep {
 
 Curves alpha_curves(const CurveInput& input, const Monitor& monitor) { return Sweep(input, monitor).run(); }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::alpha

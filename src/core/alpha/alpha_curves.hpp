@@ -8,7 +8,7 @@
 #include "core/base/large_array.hpp"
 #include "core/base/monitor.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::alpha {
 
 struct CurveInput {
   std::size_t spectrum;                         // m radii
@@ -21,13 +21,13 @@ struct CurveInput {
 // Of the shape from each radius of the spectrum on, until the next: m values each. Sums are carried in twice
 // the digits of a double.
 struct Curves {
-  LargeArray<double> area;            // of the triangles
-  LargeArray<double> perimeter;       // length of the boundary edges
-  LargeArray<std::int32_t> regions;   // triangles joined through edges
-  LargeArray<std::int32_t> cavities;  // bounded components of what the triangles leave
-  LargeArray<std::int32_t> edges;     // singular and boundary ones
+  base::LargeArray<double> area;            // of the triangles
+  base::LargeArray<double> perimeter;       // length of the boundary edges
+  base::LargeArray<std::int32_t> regions;   // triangles joined through edges
+  base::LargeArray<std::int32_t> cavities;  // bounded components of what the triangles leave
+  base::LargeArray<std::int32_t> edges;     // singular and boundary ones
 };
 
-Curves alpha_curves(const CurveInput& input, const Monitor& monitor);
+Curves alpha_curves(const CurveInput& input, const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::alpha

@@ -10,7 +10,12 @@
 #include "core/base/parallel.hpp"
 #include "core/kernel/predicates.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::alpha {
+
+using base::Monitor;
+using kernel::orient2d;
+using kernel::Point;
+
 namespace {
 
 constexpr std::size_t piece_size = std::size_t{1} << 16;  // edges: some tenths of a millisecond of work
@@ -18,7 +23,7 @@ constexpr std::size_t poll_interval = std::size_t{1} << 16;
 
 void poll(const Monitor& monitor, std::size_t done, std::size_t total) {
   if (done % poll_interval != 0 || !monitor) return;
-  if (!monitor(static_cast<double>(done) / static_cast<double>(total))) throw Interrupted();
+  if (!monitor(static_cast<double>(done) / static_cast<double>(total))) throw base::Interrupted();
 }
 
 // Boundary edges by the region on their left and the vertex that they leave.
@@ -112,8 +117,8 @@ class RingTracer {
 ShapeEdges shape_edges(const EdgeRanks& ranks, std::int32_t reached, std::int32_t entered, unsigned threads,
                        const Monitor& monitor) {
   const std::size_t size = ranks.min.size();
-  ShapeEdges out{LargeArray<std::int32_t>(size), LargeArray<std::uint8_t>(size), 0};
-  std::vector<std::size_t> counts(piece_count(size, piece_size));
+  ShapeEdges out{base::LargeArray<std::int32_t>(size), base::LargeArray<std::uint8_t>(size), 0};
+  std::vector<std::size_t> counts(base::piece_count(size, piece_size));
   const auto scan = [&](std::size_t piece) {
     const std::size_t begin = piece * piece_size, end = std::min(size, begin + piece_size);
     std::size_t next = begin;
@@ -125,7 +130,7 @@ ShapeEdges shape_edges(const EdgeRanks& ranks, std::int32_t reached, std::int32_
     }
     counts[piece] = next - begin;
   };
-  parallel_for(counts.size(), threads, scan, monitor);
+  base::parallel_for(counts.size(), threads, scan, monitor);
   for (std::size_t piece = 0; piece < counts.size(); ++piece) {
     const std::size_t begin = piece * piece_size, end = begin + counts[piece];
     std::copy(out.edge.data() + begin, out.edge.data() + end, out.edge.data() + out.count);
@@ -138,7 +143,7 @@ ShapeEdges shape_edges(const EdgeRanks& ranks, std::int32_t reached, std::int32_
 std::vector<std::int32_t> connected_triangles(std::span<const std::uint8_t> is_inside,
                                               std::span<const std::int32_t> sides, const Monitor& monitor) {
   const std::size_t count = is_inside.size();
-  DisjointSets sets(count + 1);  // 0 is the unbounded face, t + 1 a triangle
+  base::DisjointSets sets(count + 1);  // 0 is the unbounded face, t + 1 a triangle
   for (std::size_t k = 0; k < sides.size(); k += 2) {
     poll(monitor, k, sides.size());
     const std::int32_t t = sides[k], u = sides[k + 1];
@@ -163,4 +168,4 @@ Rings trace_rings(std::span<const Point> points, std::span<const std::int32_t> a
   return RingTracer(points, a, b, region).run(monitor);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::alpha

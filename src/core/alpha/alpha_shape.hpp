@@ -9,7 +9,7 @@
 #include "core/base/monitor.hpp"
 #include "core/kernel/point.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::alpha {
 
 // What an edge is in a shape: outside of it, alone in it, between a triangle of it and none, or between two.
 enum class EdgeClass : std::uint8_t { outside, singular, boundary, interior };
@@ -19,20 +19,21 @@ struct EdgeRanks {
 };
 
 struct ShapeEdges {
-  LargeArray<std::int32_t> edge;  // singular and boundary ones, increasing; `count` of them
-  LargeArray<std::uint8_t> kind;  // an EdgeClass each
+  base::LargeArray<std::int32_t> edge;  // singular and boundary ones, increasing; `count` of them
+  base::LargeArray<std::uint8_t> kind;  // an EdgeClass each
   std::size_t count;
 };
 
 // The edges of the shape in which ranks below `reached` have come; edges enter at ranks below `entered`,
 // which differs only where intervals are open.
 ShapeEdges shape_edges(const EdgeRanks& ranks, std::int32_t reached, std::int32_t entered, unsigned threads,
-                       const Monitor& monitor);
+                       const base::Monitor& monitor);
 
 // Components of the triangles inside and of those outside, joined through edges; the unbounded face, number
 // -1, takes part outside. Numbers count from 0 on each side, in the order of the first triangle.
 std::vector<std::int32_t> connected_triangles(std::span<const std::uint8_t> is_inside,
-                                              std::span<const std::int32_t> sides, const Monitor& monitor);
+                                              std::span<const std::int32_t> sides,
+                                              const base::Monitor& monitor);
 
 // Closed rings of directed boundary edges a[i] -> b[i] that have a region on their left.
 struct Rings {
@@ -45,8 +46,8 @@ struct Rings {
 // Where a region meets itself at a vertex, a ring goes on along the part outside that it came along: so no
 // ring visits a vertex twice, a region has one ring that is counter-clockwise, and holes touch it at most in
 // points.
-Rings trace_rings(std::span<const Point> points, std::span<const std::int32_t> a,
+Rings trace_rings(std::span<const kernel::Point> points, std::span<const std::int32_t> a,
                   std::span<const std::int32_t> b, std::span<const std::int32_t> region,
-                  const Monitor& monitor);
+                  const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::alpha

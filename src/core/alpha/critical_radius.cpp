@@ -14,10 +14,19 @@
 #include "core/numbers/expansion.hpp"
 #include "core/numbers/int128.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::alpha {
+
+using kernel::Point;
+using numbers::BigInteger;
+using numbers::DoubleDouble;
+using numbers::fast_two_sum;
+using numbers::int128;
+using numbers::two_difference;
+using numbers::TwoTerms;
+
 namespace {
 
-constexpr double u = unit_roundoff;
+constexpr double u = numbers::unit_roundoff;
 
 // ---- about 106 bits: sums of two doubles
 // -------------------------------------------------------
@@ -30,14 +39,14 @@ constexpr double u = unit_roundoff;
 
 DoubleDouble two_square(double a) {
   const double head = a * a;
-  const TwoTerms halves = split(a);
+  const TwoTerms halves = numbers::split(a);
   const double error = (head - halves.head * halves.head) - 2 * (halves.tail * halves.head);
   return {head, halves.tail * halves.tail - error};
 }
 
 DoubleDouble sum_of_squares(const DoubleDouble& x, const DoubleDouble& y) {
   const DoubleDouble p = two_square(x.head), q = two_square(y.head);
-  const TwoTerms sum = two_sum(p.head, q.head);
+  const TwoTerms sum = numbers::two_sum(p.head, q.head);
   return fast_two_sum(sum.head, sum.tail + ((p.tail + 2 * x.head * x.tail) + (q.tail + 2 * y.head * y.tail)));
 }
 
@@ -169,7 +178,7 @@ struct SquaredRadius {
 };
 
 BigInteger integer_of(double value, int exponent) {
-  const OddMantissa parts(value);
+  const numbers::OddMantissa parts(value);
   if (parts.mantissa == 0) return {};
   const BigInteger magnitude = BigInteger(parts.mantissa) << (parts.exponent - exponent);
   return parts.is_negative ? -magnitude : magnitude;
@@ -178,7 +187,7 @@ BigInteger integer_of(double value, int exponent) {
 SquaredRadius exact_square(const Support& s) {
   const Point& third = s.is_triangle ? s.c : s.a;
   const std::array<double, 6> values{s.a.x, s.b.x, third.x, s.a.y, s.b.y, third.y};
-  const int exponent = CommonLattice(values).exponent;
+  const int exponent = numbers::CommonLattice(values).exponent;
   std::array<BigInteger, 6> at;
   for (std::size_t i = 0; i < 6; ++i) at[i] = integer_of(values[i], exponent);
   const auto [ax, bx, cx, ay, by, cy] = at;
@@ -305,12 +314,12 @@ bool is_exact_product(double a, double b) {
   if (a == 0 || b == 0) return true;
   const double size = std::abs(a * b);
   return size > 0x1p-900 && size < 0x1p900 && std::abs(a) < longest && std::abs(b) < longest &&
-         two_product(a, b, split(b)).tail == 0;
+         numbers::two_product(a, b, numbers::split(b)).tail == 0;
 }
 
 bool is_obtuse_exactly(const Point& a, const Point& b, const Point& p) {
   const std::array<double, 6> values{a.x, a.y, b.x, b.y, p.x, p.y};
-  const int exponent = CommonLattice(values).exponent;
+  const int exponent = numbers::CommonLattice(values).exponent;
   std::array<BigInteger, 6> at;
   for (std::size_t i = 0; i < 6; ++i) at[i] = integer_of(values[i], exponent);
   return ((at[0] - at[4]) * (at[2] - at[4]) + (at[1] - at[5]) * (at[3] - at[5])).sign() < 0;
@@ -361,7 +370,7 @@ int compare_radii(const Support& p, const Support& q) {
   const double difference = (e.head - f.head) + (e.tail - f.tail);
   if (std::abs(difference) >
       2 * (e.error + f.error) + 4 * u * (std::abs(e.head - f.head) + std::abs(e.tail - f.tail))) {
-    return sign_of(difference);
+    return numbers::sign_of(difference);
   }
   return are_alike(p, q) ? 0 : compare_exactly(p, q);
 }
@@ -389,7 +398,7 @@ TriangleMeasure measure_triangle(const Point& a, const Point& b, const Point& c)
 bool is_inside_diametral_disc(const Point& a, const Point& b, const Point& p) {
   const Vector pa = from_to(p, a), pb = from_to(p, b);
   const double left = pa.x.head * pb.x.head, right = pa.y.head * pb.y.head;
-  const double bound = orient2d_bound * (std::abs(left) + std::abs(right) + underflow_scale);
+  const double bound = kernel::orient2d_bound * (std::abs(left) + std::abs(right) + kernel::underflow_scale);
   if (std::abs(left + right) > bound) return left + right < 0;
   // Lattice points: where differences and products are exact, the sign of a sum of two doubles is right.
   if (pa.is_short() && pb.is_short() && is_exact_product(pa.x.head, pb.x.head) &&
@@ -399,4 +408,4 @@ bool is_inside_diametral_disc(const Point& a, const Point& b, const Point& p) {
   return is_obtuse_exactly(a, b, p);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::alpha

@@ -8,11 +8,11 @@
 
 #include "core/kernel/point.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::alpha {
 
 // An edge a, b, or a triangle a, b, c; finite points.
 struct Support {
-  Point a, b, c;
+  kernel::Point a, b, c;
   bool is_triangle;
 };
 
@@ -29,9 +29,9 @@ struct TriangleMeasure {
   double radius;
   int obtuse;
 };
-TriangleMeasure measure_triangle(const Point& a, const Point& b, const Point& c);
+TriangleMeasure measure_triangle(const kernel::Point& a, const kernel::Point& b, const kernel::Point& c);
 
 // Whether p is strictly inside the disc with diameter a, b: whether the angle at p is more than 90 degrees.
-bool is_inside_diametral_disc(const Point& a, const Point& b, const Point& p);
+bool is_inside_diametral_disc(const kernel::Point& a, const kernel::Point& b, const kernel::Point& p);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::alpha

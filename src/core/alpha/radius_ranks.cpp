@@ -10,7 +10,12 @@
 #include "core/base/parallel.hpp"
 #include "core/base/radix_sort.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::alpha {
+
+using base::LargeArray;
+using base::Monitor;
+using base::parallel_for;
+
 namespace {
 
 constexpr std::size_t piece_size = std::size_t{1} << 16;  // items: about a millisecond of work
@@ -34,7 +39,7 @@ class Sorter {
         compare_(compare),
         threads_(threads),
         monitor_(monitor),
-        counts_(piece_count(values.size(), piece_size)),
+        counts_(base::piece_count(values.size(), piece_size)),
         distinct_(buckets) {}
 
   Spectrum run() {
@@ -116,7 +121,7 @@ class Sorter {
     const std::span<std::uint64_t> place(words.data() + start_[bucket], words.data() + start_[bucket + 1]);
     if (place.empty()) return;
     std::vector<std::uint64_t> chosen(place.begin(), place.end());
-    radix_sort(chosen, item_bits, item_bits + digit_bits);
+    base::radix_sort(chosen, item_bits, item_bits + digit_bits);
     std::copy(chosen.begin(), chosen.end(), place.begin());
     for (std::size_t i = 0; i < place.size();) {
       std::size_t end = i + 1;
@@ -178,7 +183,7 @@ class Sorter {
         const std::size_t end = std::min(words.size(), (piece + 1) * long_run);
         for (std::size_t i = piece * long_run; i < end; ++i) signs[i] = compared(words, i);
       };
-      parallel_for(piece_count(words.size(), long_run), threads_, compare_piece, monitor_);
+      parallel_for(base::piece_count(words.size(), long_run), threads_, compare_piece, monitor_);
       const auto [before, after] = part(words, signs);
       settle_equal(before);
       settle_equal(after);
@@ -264,4 +269,4 @@ Spectrum make_spectrum(std::span<const double> values, const CompareItems& compa
   return Sorter(values, compare, threads, monitor).run();
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::alpha

@@ -8,12 +8,12 @@
 #include "core/base/large_array.hpp"
 #include "core/base/monitor.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::alpha {
 
 struct Spectrum {
-  LargeArray<double> value;          // [m] increasing; equal where two exact values have one double
-  LargeArray<std::int32_t> witness;  // [m] an item with this value
-  LargeArray<std::int32_t> rank;     // [n] place of each item in the above; m of those left out
+  base::LargeArray<double> value;          // [m] increasing; equal where two exact values have one double
+  base::LargeArray<std::int32_t> witness;  // [m] an item with this value
+  base::LargeArray<std::int32_t> rank;     // [n] place of each item in the above; m of those left out
 };
 
 // Sign of the difference of the exact values of two items whose doubles are equal.
@@ -23,6 +23,6 @@ using CompareItems = std::function<int(std::uint32_t, std::uint32_t)>;
 // a NaN; items with negative values are left out. Time is linear for values spread like radii, n log n at
 // worst.
 Spectrum make_spectrum(std::span<const double> values, const CompareItems& compare, unsigned threads,
-                       const Monitor& monitor);
+                       const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::alpha

@@ -7,7 +7,10 @@
 #include "core/base/disjoint_sets.hpp"
 #include "core/numbers/int128.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::arrangement {
+
+using kernel::LatticePoint;
+
 namespace {
 
 // A side of a segment on which a polygon is, and across it is not; directed with the polygon on the left.
@@ -118,7 +121,7 @@ class Tracer {
     Ring ring{
         border(*begin).polygon, regions_.find(border(*begin).region), false, {begin, path_.end()}, -1, -1};
     path_.erase(begin, path_.end());
-    int128 area = 0;  // at most 2^31 terms below 2^63
+    numbers::int128 area = 0;  // at most 2^31 terms below 2^63
     for (const std::int32_t i : ring.borders) {
       const LatticePoint a = point(border(i).from), b = point(border(i).to);
       area += std::int64_t{a.x} * b.y - std::int64_t{a.y} * b.x;
@@ -133,7 +136,7 @@ class Tracer {
   }
 
   const BorderGraph& graph_;
-  DisjointSets<std::int32_t> regions_;
+  base::DisjointSets<std::int32_t> regions_;
   std::vector<Border> borders_;  // sorted by polygon and then by their first points
   std::vector<std::uint8_t> is_used_;
   std::vector<std::int32_t> place_;  // of each point in the path, or -1
@@ -175,4 +178,4 @@ BorderRings find_border_rings(const BorderGraph& graph) {
   return result;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::arrangement

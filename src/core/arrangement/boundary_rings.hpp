@@ -8,10 +8,10 @@
 #include "core/arrangement/face_polygons.hpp"
 #include "core/kernel/lattice_point.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::arrangement {
 
 struct BorderGraph {
-  std::span<const LatticePoint> points;
+  std::span<const kernel::LatticePoint> points;
   std::span<const std::int32_t> segments;       // [2 m]
   std::span<const std::int32_t> segment_faces;  // [2 m] left and right
   std::span<const std::int32_t> face_start, face_polygon;
@@ -32,4 +32,4 @@ struct BorderRings {
 
 BorderRings find_border_rings(const BorderGraph& graph);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::arrangement

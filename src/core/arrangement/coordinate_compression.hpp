@@ -10,17 +10,18 @@
 
 #include "core/kernel/lattice_point.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::arrangement {
 
 // Counted from the lowest one, in steps of the largest power of two that divides all differences.
 class CoordinateSteps {
  public:
-  CoordinateSteps(std::span<const LatticePoint> points, std::int32_t LatticePoint::* coordinate) {
+  CoordinateSteps(std::span<const kernel::LatticePoint> points,
+                  std::int32_t kernel::LatticePoint::* coordinate) {
     if (points.empty()) return;
     const std::int32_t first = points.front().*coordinate;
     std::int32_t low = first, high = first;
     std::uint32_t differing = 0;  // has the same lowest bit as the differences from the first one
-    for (const LatticePoint& point : points) {
+    for (const kernel::LatticePoint& point : points) {
       const std::int32_t c = point.*coordinate;
       low = std::min(low, c);
       high = std::max(high, c);
@@ -43,4 +44,4 @@ class CoordinateSteps {
   int shift_ = 0;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::arrangement

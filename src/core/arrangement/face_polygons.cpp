@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace vorotool::core {
+namespace vorotool::core::arrangement {
 namespace {
 
 constexpr std::size_t most_entries = std::size_t{1} << 26;  // 256 MB, and as much again at the end
@@ -117,7 +117,7 @@ class Walk {
 }  // namespace
 
 FacePolygons find_face_polygons(const SegmentSet& set, const PlanarFaces& faces, const Rings& rings,
-                                std::span<const std::int32_t> ring_of_edge, const Monitor& monitor) {
+                                std::span<const std::int32_t> ring_of_edge, const base::Monitor& monitor) {
   const std::size_t polygons = rings.polygon.empty() ? 0 : static_cast<std::size_t>(rings.polygon.back()) + 1;
   const auto count = static_cast<std::size_t>(faces.count);
   Position position(rings, polygons);
@@ -130,7 +130,7 @@ FacePolygons find_face_polygons(const SegmentSet& set, const PlanarFaces& faces,
     found.insert(found.end(), position.polygons().begin(), position.polygons().end());
     if (++reached % faces_between_polls == 0 && monitor &&
         !monitor(static_cast<double>(reached) / static_cast<double>(count))) {
-      throw Interrupted();
+      throw base::Interrupted();
     }
   });
   FacePolygons result;
@@ -143,4 +143,4 @@ FacePolygons find_face_polygons(const SegmentSet& set, const PlanarFaces& faces,
   return result;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::arrangement

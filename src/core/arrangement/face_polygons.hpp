@@ -10,7 +10,7 @@
 #include "core/arrangement/segment_set.hpp"
 #include "core/base/monitor.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::arrangement {
 
 // Polygons nest or overlap so deep that the lists of the faces would not fit.
 struct TooManyOverlaps : std::length_error {
@@ -44,6 +44,6 @@ struct FacePolygons {
 // rule: crossing a segment changes the side of every ring whose edges it comes from an odd number of times.
 // The sources of the segments are edges, `ring_of_edge` the ring of each.
 FacePolygons find_face_polygons(const SegmentSet& set, const PlanarFaces& faces, const Rings& rings,
-                                std::span<const std::int32_t> ring_of_edge, const Monitor& monitor);
+                                std::span<const std::int32_t> ring_of_edge, const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::arrangement

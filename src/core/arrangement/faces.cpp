@@ -4,7 +4,7 @@
 
 #include "core/base/disjoint_sets.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::arrangement {
 namespace {
 
 // Half-edge 2 s goes from the lower to the upper end of segment s, 2 s + 1 back.
@@ -83,7 +83,7 @@ PlanarFaces find_faces(const SortedSegments& segments, std::span<const std::int3
   const std::int32_t cycles = label_cycles(segments, cycle);
   // Face of the sets: 0 for outside, cycle + 1 else. Left of a point that nothing comes to from the left is
   // the face left of its highest segment, and the one above the segment next below.
-  DisjointSets<std::int32_t> faces(static_cast<std::size_t>(cycles) + 1);
+  base::DisjointSets<std::int32_t> faces(static_cast<std::size_t>(cycles) + 1);
   const auto left_of = [&](std::int32_t segment) { return cycle[2 * static_cast<std::size_t>(segment)] + 1; };
   std::vector<std::uint8_t> has_left(segments.points.size(), 0);
   for (const std::int32_t end : segments.upper_end) has_left[static_cast<std::size_t>(end)] = 1;
@@ -108,4 +108,4 @@ PlanarFaces find_faces(const SortedSegments& segments, std::span<const std::int3
   return result;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::arrangement

@@ -7,7 +7,7 @@
 
 #include "core/arrangement/segment_intersections.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::arrangement {
 
 struct PlanarFaces {
   std::vector<std::int32_t> left, right;  // [m] face on each side of a segment, seen from its lower end
@@ -17,4 +17,4 @@ struct PlanarFaces {
 // The segments must meet at common ends only, and `below` be that of their sweep.
 PlanarFaces find_faces(const SortedSegments& segments, std::span<const std::int32_t> below);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::arrangement

@@ -4,9 +4,11 @@
 
 #include "core/numbers/int128.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::arrangement {
 
-CellTree::CellTree(std::span<const LatticePoint> points) {
+using numbers::int128;
+
+CellTree::CellTree(std::span<const kernel::LatticePoint> points) {
   items_.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) items_.push_back({points[i], static_cast<std::int32_t>(i)});
   std::size_t widest = 1;  // nodes of a level; halving rounds up, so that a leaf holds at most leaf_size
@@ -18,7 +20,7 @@ CellTree::CellTree(std::span<const LatticePoint> points) {
 void CellTree::build(std::size_t node, std::size_t begin, std::size_t end) {
   Box box{items_[begin].point, items_[begin].point};
   for (std::size_t i = begin; i < end; ++i) {
-    const LatticePoint p = items_[i].point;
+    const kernel::LatticePoint p = items_[i].point;
     box = {{std::min(box.low.x, p.x), std::min(box.low.y, p.y)},
            {std::max(box.high.x, p.x), std::max(box.high.y, p.y)}};
   }
@@ -52,4 +54,4 @@ bool CellTree::may_meet(const Box& box, const LatticeSegment& s) {
   return (distance < 0 ? -distance : distance) <= reach;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::arrangement

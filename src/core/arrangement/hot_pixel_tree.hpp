@@ -8,11 +8,11 @@
 
 #include "core/arrangement/rational_point.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::arrangement {
 
 class CellTree {
  public:
-  explicit CellTree(std::span<const LatticePoint> points);
+  explicit CellTree(std::span<const kernel::LatticePoint> points);
 
   // Calls visit(i) for every point whose cell the segment meets (meets_cell), in no particular order, until
   // it returns false.
@@ -25,11 +25,11 @@ class CellTree {
   static constexpr std::size_t leaf_size = 8;
 
   struct Item {
-    LatticePoint point;
+    kernel::LatticePoint point;
     std::int32_t index;
   };
   struct Box {
-    LatticePoint low, high;
+    kernel::LatticePoint low, high;
   };
 
   void build(std::size_t node, std::size_t begin, std::size_t end);
@@ -54,4 +54,4 @@ class CellTree {
   std::vector<Box> boxes_;  // of the points under each node, a heap: children of k are 2 k + 1 and 2 k + 2
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::arrangement

@@ -6,7 +6,10 @@
 
 #include "core/base/parallel.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::arrangement {
+
+using kernel::Point;
+
 namespace {
 
 constexpr std::size_t points_per_piece = std::size_t{1} << 16;  // about a millisecond
@@ -87,8 +90,8 @@ class Axis {
 
 bool fits(const Axis& axis, const Range& range) {
   // rounding is monotone: what holds for the ends holds for all
-  return std::abs(axis.place(range.low).steps) <= lattice_limit &&
-         std::abs(axis.place(range.high).steps) <= lattice_limit;
+  return std::abs(axis.place(range.low).steps) <= kernel::lattice_limit &&
+         std::abs(axis.place(range.high).steps) <= kernel::lattice_limit;
 }
 
 // The length of a vector of non-negative components, rounded up. Its sum of squares has a relative error of
@@ -116,25 +119,25 @@ void choose_lattice(const Bounds& bounds, Placement& lattice) {
 
 }  // namespace
 
-Placement place_on_lattice(std::span<const Point> points, unsigned threads, const Monitor& monitor) {
+Placement place_on_lattice(std::span<const Point> points, unsigned threads, const base::Monitor& monitor) {
   Placement result;
   if (points.empty()) return result;
-  const std::size_t pieces = piece_count(points.size(), points_per_piece);
+  const std::size_t pieces = base::piece_count(points.size(), points_per_piece);
   const auto piece_of = [&](std::size_t piece) {
     const std::size_t begin = piece * points_per_piece;
     return points.subspan(begin, std::min(points_per_piece, points.size() - begin));
   };
   std::vector<Bounds> bounds(pieces);
-  parallel_for(pieces, threads, [&](std::size_t i) { bounds[i].include(piece_of(i)); }, monitor);
+  base::parallel_for(pieces, threads, [&](std::size_t i) { bounds[i].include(piece_of(i)); }, monitor);
   for (const Bounds& each : bounds) bounds[0].include(each);
   choose_lattice(bounds[0], result);
   const Axis along_x(result.origin_x, result.exponent), along_y(result.origin_y, result.exponent);
   result.points.resize(points.size());
   std::vector<double> most(pieces, 0);
-  parallel_for(
+  base::parallel_for(
       pieces, threads,
       [&](std::size_t i) {
-        LatticePoint* placed = result.points.data() + i * points_per_piece;
+        kernel::LatticePoint* placed = result.points.data() + i * points_per_piece;
         for (const Point& point : piece_of(i)) {
           const Placed px = along_x.place(point.x), py = along_y.place(point.y);
           *placed++ = {static_cast<std::int32_t>(px.steps), static_cast<std::int32_t>(py.steps)};
@@ -150,4 +153,4 @@ Placement place_on_lattice(std::span<const Point> points, unsigned threads, cons
   return result;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::arrangement

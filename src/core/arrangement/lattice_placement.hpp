@@ -8,7 +8,7 @@
 #include "core/kernel/lattice_point.hpp"
 #include "core/kernel/point.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::arrangement {
 
 // Lattice point c stands for (origin_x + c.x 2^exponent, origin_y + c.y 2^exponent), exactly.
 //
@@ -19,11 +19,12 @@ namespace vorotool::core {
 struct Placement {
   double origin_x = 0, origin_y = 0;
   int exponent = 0;
-  std::vector<LatticePoint> points;  // the nearest lattice point of each point
+  std::vector<kernel::LatticePoint> points;  // the nearest lattice point of each point
   double largest_move = 0;  // of a point, in input units: 0 where none moved, else rounded up by a few ulp
 };
 
 // The points must be finite. The result does not depend on the number of threads.
-Placement place_on_lattice(std::span<const Point> points, unsigned threads, const Monitor& monitor);
+Placement place_on_lattice(std::span<const kernel::Point> points, unsigned threads,
+                           const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::arrangement

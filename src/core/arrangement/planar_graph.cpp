@@ -12,7 +12,11 @@
 #include "core/arrangement/snap_rounding.hpp"
 #include "core/base/disjoint_sets.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::arrangement {
+
+using base::Monitor;
+using kernel::LatticePoint;
+
 namespace {
 
 // A part of the whole, for the monitor.
@@ -378,7 +382,7 @@ class Maker {
   void number_faces(const PlanarFaces& faces, const FacePolygons& inside) {
     std::vector<std::uint8_t> is_kept(set_.size(), 0);
     for (const Border& border : borders_) is_kept[static_cast<std::size_t>(border.segment)] = 1;
-    DisjointSets<std::int32_t> joined(static_cast<std::size_t>(faces.count));
+    base::DisjointSets<std::int32_t> joined(static_cast<std::size_t>(faces.count));
     for (std::size_t s = 0; s < set_.size(); ++s) {
       if (is_kept[s] == 0) joined.join(faces.left[s], faces.right[s]);
     }
@@ -445,4 +449,4 @@ PlanarGraph make_planar_graph(std::span<const LatticePoint> vertices, const Ring
   return Maker(vertices, rings, monitor).make();
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::arrangement

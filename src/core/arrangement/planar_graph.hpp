@@ -11,7 +11,7 @@
 #include "core/base/monitor.hpp"
 #include "core/kernel/lattice_point.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::arrangement {
 
 // What is done to rings that are no planar graph yet, or whose edges bound nothing.
 enum class Repair {
@@ -34,8 +34,8 @@ struct RepairCount {
 
 struct PlanarGraph {
   // Points in the order of the input vertices, then those that are none, sorted.
-  std::vector<LatticePoint> points;        // [n] distinct; every one is used, or the place of a line
-  std::vector<std::int32_t> point_vertex;  // [n] the first input vertex there, or -1
+  std::vector<kernel::LatticePoint> points;  // [n] distinct; every one is used, or the place of a line
+  std::vector<std::int32_t> point_vertex;    // [n] the first input vertex there, or -1
 
   // Segments in the order of the input edges, each directed as its first one runs. No two have both ends in
   // common, none passes through a point, no two cross.
@@ -57,7 +57,7 @@ struct PlanarGraph {
 
 // `vertices` are the vertices of all rings, at most 2^28; edge k goes from vertex k to the next one of its
 // ring.
-PlanarGraph make_planar_graph(std::span<const LatticePoint> vertices, const Rings& rings,
-                              const Monitor& monitor);
+PlanarGraph make_planar_graph(std::span<const kernel::LatticePoint> vertices, const Rings& rings,
+                              const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::arrangement

@@ -4,7 +4,11 @@
 
 #include "core/numbers/int128.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::arrangement {
+
+using numbers::int128;
+using numbers::uint128;
+
 namespace {
 
 int compare_fractions(std::uint64_t a, std::uint64_t a_denominator, std::uint64_t b,
@@ -87,7 +91,7 @@ int compare(const RationalPoint& p, const RationalPoint& q) {
   return compare_fractions(p.fraction_y, p.denominator, q.fraction_y, q.denominator);
 }
 
-int compare(const RationalPoint& p, LatticePoint q) {
+int compare(const RationalPoint& p, kernel::LatticePoint q) {
   if (p.x != q.x) return p.x < q.x ? -1 : 1;
   if (p.fraction_x != 0) return 1;
   if (p.y != q.y) return p.y < q.y ? -1 : 1;
@@ -119,7 +123,7 @@ int side_of(const LatticeSegment& s, const RationalPoint& p) {
   return (value > 0) - (value < 0);
 }
 
-bool meets_cell(const LatticeSegment& s, LatticePoint c) {
+bool meets_cell(const LatticeSegment& s, kernel::LatticePoint c) {
   // the line misses the closed cell if its distance from the centre is more than (|d.x| + |d.y|) / (2 |d|)
   const std::int64_t dx = std::int64_t{s.b.x} - s.a.x, dy = std::int64_t{s.b.y} - s.a.y;
   if (magnitude(turn(s.a, s.b, c)) > (magnitude(dx) + magnitude(dy)) / 2) return false;
@@ -129,4 +133,4 @@ bool meets_cell(const LatticeSegment& s, LatticePoint c) {
   return !range.is_empty();
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::arrangement

@@ -7,7 +7,7 @@
 #include "core/arrangement/coordinate_compression.hpp"
 #include "core/base/integer_set.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::arrangement {
 namespace {
 
 // The table of rows then takes no more memory than sorting the points did: 64 bytes a point.
@@ -30,7 +30,7 @@ class RectilinearSweep {
       cut_.erase(row);
     } else if (reached_ != point) {
       const std::size_t below = cut_.below(row);
-      if (below != IntegerSet::none) below_[point] = segment_in_[below];
+      if (below != base::IntegerSet::none) below_[point] = segment_in_[below];
     }
     for (std::int32_t s = segments_.start[point]; s < segments_.start[point + 1]; ++s) {
       if (!begin(s, point, row)) return false;
@@ -50,7 +50,7 @@ class RectilinearSweep {
   // column, and between them there must be no segment that is cut.
   bool begin(std::int32_t segment, std::size_t point, std::size_t row) {
     const std::size_t end = end_of(segment);
-    const LatticePoint a = segments_.points[point], b = segments_.points[end];
+    const kernel::LatticePoint a = segments_.points[point], b = segments_.points[end];
     if (a.y == b.y) {
       if (cut_.contains(row)) return false;
       cut_.insert(row);
@@ -64,7 +64,7 @@ class RectilinearSweep {
 
   const SortedSegments& segments_;
   const CoordinateSteps& rows_;
-  IntegerSet cut_;                              // rows of the segments that are cut here
+  base::IntegerSet cut_;                        // rows of the segments that are cut here
   std::unique_ptr<std::int32_t[]> segment_in_;  // these, by row
   std::size_t reached_ = SIZE_MAX;              // the end of the last segment upwards
   std::vector<std::int32_t> below_;
@@ -73,15 +73,15 @@ class RectilinearSweep {
 }  // namespace
 
 std::optional<std::vector<std::int32_t>> sweep_rectilinear(const SortedSegments& segments,
-                                                           const Monitor& monitor) {
-  const CoordinateSteps rows(segments.points, &LatticePoint::y);
+                                                           const base::Monitor& monitor) {
+  const CoordinateSteps rows(segments.points, &kernel::LatticePoint::y);
   if (rows.last() >= most_rows_per_point * segments.points.size()) return {};
   RectilinearSweep sweep(segments, rows);
   for (std::size_t point = 0; point < segments.points.size(); ++point) {
     if (!sweep.pass(point)) return {};
-    report_item(monitor, point);
+    base::report_item(monitor, point);
   }
   return sweep.take_below();
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::arrangement

@@ -5,7 +5,10 @@
 
 #include "core/arrangement/sweep_status.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::arrangement {
+
+using base::Monitor;
+
 namespace {
 
 constexpr std::int32_t none = SweepStatus::none;
@@ -53,10 +56,10 @@ class Sweep {
   void poll(std::size_t point) {
     if (++events_passed_ % events_between_polls != 0 || !monitor_) return;
     if (!monitor_(static_cast<double>(point) / static_cast<double>(segments_.points.size())))
-      throw Interrupted();
+      throw base::Interrupted();
   }
 
-  LatticePoint point(std::int32_t i) const { return segments_.points[static_cast<std::size_t>(i)]; }
+  kernel::LatticePoint point(std::int32_t i) const { return segments_.points[static_cast<std::size_t>(i)]; }
   std::int32_t end_of(std::int32_t segment) const {
     return segments_.upper_end[static_cast<std::size_t>(segment)];
   }
@@ -214,4 +217,4 @@ SweepResult sweep_segments(const SortedSegments& segments, const Monitor& monito
   return Sweep(segments, monitor).run();
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::arrangement

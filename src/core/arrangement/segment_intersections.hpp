@@ -9,7 +9,7 @@
 #include "core/arrangement/rational_point.hpp"
 #include "core/base/monitor.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::arrangement {
 
 // More meetings than their numbers, and memory, allow.
 struct TooManyCrossings : std::length_error {
@@ -20,10 +20,10 @@ struct TooManyCrossings : std::length_error {
 // have both ends in common. They are sorted by their lower end; those of one lower end by slope from the
 // lowest, of equal slope the shorter first.
 struct SortedSegments {
-  std::span<const LatticePoint> points;     // [n]
-  std::span<const std::int32_t> start;      // [n + 1] first segment with each point as its lower end
-  std::span<const std::int32_t> upper_end;  // [m]
-  std::span<const std::int32_t> lower_end;  // [m]
+  std::span<const kernel::LatticePoint> points;  // [n]
+  std::span<const std::int32_t> start;           // [n + 1] first segment with each point as its lower end
+  std::span<const std::int32_t> upper_end;       // [m]
+  std::span<const std::int32_t> lower_end;       // [m]
 
   LatticeSegment segment(std::int32_t s) const {
     const auto i = static_cast<std::size_t>(s);
@@ -49,6 +49,6 @@ struct SweepResult {
 // Sweeps as Bentley and Ottmann (1979), all segments through one place taken together. O((m + k) log m) for k
 // meetings. Segments that overlap meet at the ends of the shorter one; nothing is said of the stretch
 // between.
-SweepResult sweep_segments(const SortedSegments& segments, const Monitor& monitor);
+SweepResult sweep_segments(const SortedSegments& segments, const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::arrangement

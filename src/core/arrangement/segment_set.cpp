@@ -7,18 +7,21 @@
 #include "core/arrangement/coordinate_compression.hpp"
 #include "core/base/radix_sort.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::arrangement {
 
-SortedPoints sort_points(std::span<const LatticePoint> points, const Monitor& monitor) {
+using kernel::LatticePoint;
+
+SortedPoints sort_points(std::span<const LatticePoint> points, const base::Monitor& monitor) {
   const CoordinateSteps columns(points, &LatticePoint::x), rows(points, &LatticePoint::y);
-  std::vector<Keyed> keyed;
+  std::vector<base::Keyed> keyed;
   keyed.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::uint64_t column = columns.of(points[i].x);
     keyed.push_back({column << rows.bits() | rows.of(points[i].y), static_cast<std::uint32_t>(i)});
   }
-  radix_sort(keyed, columns.bits() + rows.bits());  // stable: of equal points the smallest index comes first
-  if (monitor && !monitor(0)) throw Interrupted();
+  base::radix_sort(keyed,
+                   columns.bits() + rows.bits());  // stable: of equal points the smallest index comes first
+  if (monitor && !monitor(0)) throw base::Interrupted();
   SortedPoints result;
   result.rank.resize(points.size());
   result.points.reserve(points.size());
@@ -33,7 +36,7 @@ SortedPoints sort_points(std::span<const LatticePoint> points, const Monitor& mo
   return result;
 }
 
-std::vector<std::int32_t> first_at_place(std::span<const LatticePoint> points, const Monitor& monitor) {
+std::vector<std::int32_t> first_at_place(std::span<const LatticePoint> points, const base::Monitor& monitor) {
   const CoordinateSteps columns(points, &LatticePoint::x), rows(points, &LatticePoint::y);
   const int index_bits = static_cast<int>(std::bit_width(points.size()));
   const int bits = index_bits + columns.bits() + rows.bits();
@@ -44,8 +47,8 @@ std::vector<std::int32_t> first_at_place(std::span<const LatticePoint> points, c
       const std::uint64_t column = columns.of(points[i].x);
       words.push_back((column << rows.bits() | rows.of(points[i].y)) << index_bits | i);
     }
-    radix_sort(words, index_bits, bits);
-    if (monitor && !monitor(0)) throw Interrupted();
+    base::radix_sort(words, index_bits, bits);
+    if (monitor && !monitor(0)) throw base::Interrupted();
     std::vector<std::int32_t> result(points.size());
     const std::uint64_t index_mask = (std::uint64_t{1} << index_bits) - 1;
     std::uint64_t first = words.empty() ? 0 : words.front();
@@ -111,4 +114,4 @@ SegmentSet join_links(std::vector<LatticePoint> points, std::vector<Link> links)
   return set;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::arrangement

@@ -9,19 +9,20 @@
 #include "core/base/monitor.hpp"
 #include "core/kernel/lattice_point.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::arrangement {
 
 // Points in the order of is_before.
 struct SortedPoints {
-  std::vector<LatticePoint> points;  // distinct
-  std::vector<std::int32_t> rank;    // of each point given, among these
-  std::vector<std::int32_t> first;   // of each of these, the smallest index of a point given
+  std::vector<kernel::LatticePoint> points;  // distinct
+  std::vector<std::int32_t> rank;            // of each point given, among these
+  std::vector<std::int32_t> first;           // of each of these, the smallest index of a point given
 };
 
-SortedPoints sort_points(std::span<const LatticePoint> points, const Monitor& monitor);
+SortedPoints sort_points(std::span<const kernel::LatticePoint> points, const base::Monitor& monitor);
 
 // For each point the smallest index of one at the same place.
-std::vector<std::int32_t> first_at_place(std::span<const LatticePoint> points, const Monitor& monitor);
+std::vector<std::int32_t> first_at_place(std::span<const kernel::LatticePoint> points,
+                                         const base::Monitor& monitor);
 
 // A segment between two different points, and the number of what it came from.
 struct Link {
@@ -29,8 +30,8 @@ struct Link {
 };
 
 struct SegmentSet {
-  std::vector<LatticePoint> points;  // sorted
-  std::vector<std::int32_t> start;   // as SortedSegments has them
+  std::vector<kernel::LatticePoint> points;  // sorted
+  std::vector<std::int32_t> start;           // as SortedSegments has them
   std::vector<std::int32_t> lower_end, upper_end;
   std::vector<std::int32_t> source_start,
       source;  // segment s came from source[source_start[s]] ...; ascending
@@ -45,6 +46,6 @@ struct SegmentSet {
 };
 
 // Links with the same ends become one segment. At most 2^31 - 1 links.
-SegmentSet join_links(std::vector<LatticePoint> points, std::vector<Link> links);
+SegmentSet join_links(std::vector<kernel::LatticePoint> points, std::vector<Link> links);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::arrangement

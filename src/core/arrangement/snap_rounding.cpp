@@ -7,7 +7,11 @@
 
 #include "core/arrangement/hot_pixel_tree.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::arrangement {
+
+using base::Monitor;
+using kernel::LatticePoint;
+
 namespace {
 
 // Disturbances reach farther than that only in inputs made for it, and each round looks at all segments.
@@ -56,7 +60,7 @@ class Snapping {
   void poll(std::size_t done, std::size_t all) const {
     if (done % segments_between_polls == 0 && monitor_ &&
         !monitor_(static_cast<double>(done) / static_cast<double>(all))) {
-      throw Interrupted();
+      throw base::Interrupted();
     }
   }
 
@@ -179,4 +183,4 @@ SnappedSegments snap_segments(const SortedSegments& segments, const SweepResult&
   return Snapping(segments, swept, monitor).run(swept);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::arrangement

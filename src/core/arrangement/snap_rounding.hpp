@@ -33,10 +33,11 @@
 #include "core/arrangement/segment_intersections.hpp"
 #include "core/base/monitor.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::arrangement {
 
 struct SnappedSegments {
-  std::vector<LatticePoint> new_points;  // nodes that are no points of the input, sorted; numbered from n on
+  std::vector<kernel::LatticePoint>
+      new_points;  // nodes that are no points of the input, sorted; numbered from n on
   // Segment s goes through chain[chain_start[s]] ... chain[chain_start[s + 1] - 1]: from its lower to its
   // upper end, both included.
   std::vector<std::int32_t> chain_start, chain;
@@ -44,6 +45,6 @@ struct SnappedSegments {
 };
 
 SnappedSegments snap_segments(const SortedSegments& segments, const SweepResult& swept,
-                              const Monitor& monitor);
+                              const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::arrangement

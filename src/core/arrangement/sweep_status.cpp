@@ -1,6 +1,6 @@
 #include "core/arrangement/sweep_status.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::arrangement {
 
 std::int32_t SweepStatus::new_place() {
   if (!free_.empty()) {
@@ -80,4 +80,4 @@ void SweepStatus::erase(std::int32_t place) {
   free_.push_back(place);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::arrangement

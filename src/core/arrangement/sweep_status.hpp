@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace vorotool::core {
+namespace vorotool::core::arrangement {
 
 // A treap whose priorities are a fixed hash of the place in memory, so that its shape, and with it the time,
 // repeats. Places are stable: a segment is found again, replaced or followed by another without a search.
@@ -60,4 +60,4 @@ class SweepStatus {
   std::int32_t root_ = none;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::arrangement

@@ -6,7 +6,11 @@
 #include <set>
 #include <vector>
 
-namespace vorotool::core {
+namespace vorotool::core::arrangement {
+
+using base::Monitor;
+using kernel::LatticePoint;
+
 namespace {
 
 using Fault = std::optional<std::string>;
@@ -39,7 +43,7 @@ class Sweep {
       if (Fault fault = pass(order[i])) return fault;
       if (i % 1024 == 0 && monitor_ &&
           !monitor_(static_cast<double>(i) / static_cast<double>(order.size()))) {
-        throw Interrupted();
+        throw base::Interrupted();
       }
     }
     return {};
@@ -145,7 +149,7 @@ class Sweep {
 Fault index_fault(const GraphArrays& graph) {
   for (std::size_t i = 0; i < graph.points.size(); ++i) {
     const LatticePoint p = graph.points[i];
-    if (std::max({p.x, p.y}) > lattice_limit || std::min({p.x, p.y}) < -lattice_limit) {
+    if (std::max({p.x, p.y}) > kernel::lattice_limit || std::min({p.x, p.y}) < -kernel::lattice_limit) {
       return "point " + std::to_string(i) + " at " + named(p) + " is beyond the lattice";
     }
   }
@@ -201,4 +205,4 @@ std::optional<std::string> find_fault(const GraphArrays& graph, const Monitor& m
   return graph.faces.empty() ? Fault{} : corner_fault(graph);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::arrangement

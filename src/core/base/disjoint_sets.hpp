@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-namespace vorotool::core {
+namespace vorotool::core::base {
 
 // Of numbers of an integer type.
 template <class Index = std::uint32_t>
@@ -38,4 +38,4 @@ class DisjointSets {
   std::vector<Index> parent_;  // never greater than the member itself
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::base

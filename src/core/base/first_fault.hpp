@@ -11,7 +11,7 @@
 #include "core/base/monitor.hpp"
 #include "core/base/parallel.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::base {
 
 // check(i) gives a fault of item i, or none.
 template <class Check>
@@ -33,4 +33,4 @@ std::optional<std::string> first_fault(std::size_t count, const Check& check, un
   return found == none ? std::nullopt : check(found);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::base

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace vorotool::core {
+namespace vorotool::core::base {
 
 // Open addressing with linear probing, at most half full. Keys are not 0, which marks an empty slot; a key
 // that was never seen has the value 0. The order of for_each depends on the history: sort what it gives.
@@ -68,4 +68,4 @@ class FlatMap {
   std::size_t used_ = 0;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::base

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace vorotool::core {
+namespace vorotool::core::base {
 
 // A bit for each integer below a bound; above, a bit for each word of 64 bits that has one, and so on up to a
 // single word. Every operation looks at two words a level at most: four levels reach 2^24.
@@ -73,4 +73,4 @@ class IntegerSet {
   std::vector<std::vector<std::uint64_t>> levels_;  // from that of the integers
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::base

@@ -10,7 +10,7 @@
 #include <sys/mman.h>
 #endif
 
-namespace vorotool::core {
+namespace vorotool::core::base {
 
 // An array of trivial items that are indeterminate until written. The thread that writes a page first pays
 // for it, so filling costs nothing twice and is shared by the threads. Large pages save most of that, and
@@ -54,4 +54,4 @@ class LargeArray {
   std::unique_ptr<T[], Free> data_;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::base

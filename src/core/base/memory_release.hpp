@@ -14,7 +14,7 @@
 #include <malloc.h>
 #endif
 
-namespace vorotool::core {
+namespace vorotool::core::base {
 
 // Less memory than this is soon used again, by the next of many small diagrams for one: to give it back and
 // to get it anew, page by page and filled with zeros, would take a third as long as the work on it.
@@ -63,4 +63,4 @@ LargeArray<T> with_small_pages(std::size_t size) {
   return array;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::base

@@ -5,7 +5,7 @@
 #include <functional>
 #include <stdexcept>
 
-namespace vorotool::core {
+namespace vorotool::core::base {
 
 // Called on the calling thread, every few milliseconds of work, with the fraction done in [0, 1].
 // Returns false to stop; the kernel then throws Interrupted. An empty Monitor never stops a kernel.
@@ -20,4 +20,4 @@ inline void report_item(const Monitor& monitor, std::size_t item) {
   if (item % (std::size_t{1} << 16) == 0 && monitor && !monitor(0)) throw Interrupted();
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::base

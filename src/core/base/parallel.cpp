@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-namespace vorotool::core {
+namespace vorotool::core::base {
 namespace {
 
 constexpr auto kPollInterval = std::chrono::milliseconds(20);
@@ -134,4 +134,4 @@ void parallel_for(std::size_t count, unsigned threads, const std::function<void(
   Crew(count, body, monitor).run(static_cast<unsigned>(useful));
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::base

@@ -6,7 +6,7 @@
 
 #include "core/base/monitor.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::base {
 
 // 0 means as many threads as this process may use; the result is at least 1.
 unsigned resolve_threads(unsigned threads);
@@ -28,4 +28,4 @@ constexpr std::size_t piece_count(std::size_t items, std::size_t grain) {
   return items == 0 ? 0 : 1 + (items - 1) / (grain == 0 ? 1 : grain);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::base

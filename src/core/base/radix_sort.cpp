@@ -4,7 +4,7 @@
 #include <array>
 #include <memory>
 
-namespace vorotool::core {
+namespace vorotool::core::base {
 
 namespace {
 
@@ -44,4 +44,4 @@ void radix_sort(std::vector<std::uint64_t>& words, int low, int high) {
   sort_by(words, low, high, [](std::uint64_t word) { return word; });
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::base

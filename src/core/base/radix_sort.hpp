@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace vorotool::core {
+namespace vorotool::core::base {
 
 // A key and a number that goes with it: an index, a label.
 struct Keyed {
@@ -20,4 +20,4 @@ void radix_sort(std::vector<Keyed>& items, int bits);
 // fits.
 void radix_sort(std::vector<std::uint64_t>& words, int low, int high);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::base

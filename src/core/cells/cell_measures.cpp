@@ -7,12 +7,15 @@
 #include "core/base/parallel.hpp"
 #include "core/numbers/elementary.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::cells {
+
+using kernel::Point;
+
 namespace {
 
 constexpr std::size_t cells_a_piece = std::size_t{1} << 13;
 
-double distance(const Point& p, const Point& q) { return hypotenuse(p.x - q.x, p.y - q.y); }
+double distance(const Point& p, const Point& q) { return numbers::hypotenuse(p.x - q.x, p.y - q.y); }
 
 // Twice the signed area, of coordinates times 2^scale relative to the first vertex: products do not overflow.
 double twice_area(std::span<const Point> ring, double factor) {
@@ -39,7 +42,7 @@ double length(std::span<const Point> ring) {
 }  // namespace
 
 CellMeasures measure_cells(const CellOutlines& cells, const Box& frame, unsigned threads,
-                           const Monitor& monitor) {
+                           const base::Monitor& monitor) {
   CellMeasures result(cells.sites.size());
   const double half = std::max(frame.right / 2 - frame.left / 2, frame.top / 2 - frame.bottom / 2);
   const int scale = std::clamp(-std::ilogb(half), -1000, 1000);
@@ -66,8 +69,8 @@ CellMeasures measure_cells(const CellOutlines& cells, const Box& frame, unsigned
       }
     }
   };
-  parallel_for(piece_count(cells.sites.size(), cells_a_piece), threads, measure, monitor);
+  base::parallel_for(base::piece_count(cells.sites.size(), cells_a_piece), threads, measure, monitor);
   return result;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::cells

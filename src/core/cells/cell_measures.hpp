@@ -9,11 +9,11 @@
 #include "core/cells/voronoi_cells.hpp"
 #include "core/kernel/point.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::cells {
 
 struct CellOutlines {
-  std::span<const Point> sites;              // [n]
-  std::span<const Point> vertices;           // ring after ring; outer ones counter-clockwise, holes clockwise
+  std::span<const kernel::Point> sites;      // [n]
+  std::span<const kernel::Point> vertices;   // ring after ring; outer ones counter-clockwise, holes clockwise
   std::span<const std::int64_t> rings;       // [r + 1] where each begins; none is empty
   std::span<const std::int64_t> cell_rings;  // [n + 1] the first ring of each cell
 };
@@ -30,6 +30,6 @@ struct CellMeasures {
 
 // The arrays must go together. Errors of areas are about 2^-50 times the square of a ring's diameter.
 CellMeasures measure_cells(const CellOutlines& cells, const Box& frame, unsigned threads,
-                           const Monitor& monitor);
+                           const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::cells

@@ -17,7 +17,15 @@
 #include "core/spatial/kd_tree.hpp"
 #include "core/text/number_text.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::cells {
+
+using base::Monitor;
+using kernel::Point;
+using numbers::DoubleDouble;
+using numbers::hypotenuse;
+using numbers::two_difference;
+using text::append_number;
+
 namespace {
 
 using Fault = std::optional<std::string>;
@@ -66,7 +74,7 @@ class Checker {
   }
 
  private:
-  using Tree = SiteTree<double, double>;
+  using Tree = spatial::SiteTree<double, double>;
 
   std::span<const Point> ring(std::size_t cell) const {
     const auto begin = static_cast<std::size_t>(in_.starts[cell]);
@@ -130,7 +138,7 @@ class Checker {
         return;
       }
     };
-    parallel_for(piece_count(in_.sites.size(), cells_a_piece), threads_, search, monitor_);
+    base::parallel_for(base::piece_count(in_.sites.size(), cells_a_piece), threads_, search, monitor_);
     return found;
   }
 
@@ -158,7 +166,7 @@ class Checker {
   // Places within d / 2 of p, q, r, for which the cross product of q - p and r - p is not negative, change it
   // by at most d (|q - p| + |r - p|) + d^2.
   static bool turns_right(const Point& p, const Point& q, const Point& r) {
-    if (orient2d(p, q, r) >= 0) return false;
+    if (kernel::orient2d(p, q, r) >= 0) return false;
     const int scale = scale_for({p.x - q.x, p.y - q.y, p.x - r.x, p.y - r.y});
     const auto scaled = [&](const Point& v) { return Point{std::ldexp(v.x, scale), std::ldexp(v.y, scale)}; };
     const Point a = scaled(p), b = scaled(q), c = scaled(r);
@@ -187,10 +195,10 @@ class Checker {
   // squared distances is then more than 2 d times the smaller one and d^2. It may cancel to any degree: its
   // sum is exact.
   static bool is_nearer(const Point& q, const Point& site, const Point& own) {
-    if (compare_distances(q, own, site) <= 0) return false;
+    if (kernel::compare_distances(q, own, site) <= 0) return false;
     const int scale = scale_for({q.x - own.x, q.y - own.y, q.x - site.x, q.y - site.y});
     const auto difference = [&](double to, double from) {
-      return Expansion<2>(two_difference(std::ldexp(to, scale), std::ldexp(from, scale)));
+      return numbers::Expansion<2>(two_difference(std::ldexp(to, scale), std::ldexp(from, scale)));
     };
     const auto product = [&](double at, double a, double b) {
       return difference(b, a) * (difference(at, a) + difference(at, b));
@@ -218,13 +226,13 @@ class Checker {
       }
       return sum;
     };
-    std::vector<DoubleDouble> sums(piece_count(in_.sites.size(), cells_a_piece), DoubleDouble{0, 0});
+    std::vector<DoubleDouble> sums(base::piece_count(in_.sites.size(), cells_a_piece), DoubleDouble{0, 0});
     const auto add = [&](std::size_t piece) {
       const std::size_t end = std::min(in_.sites.size(), (piece + 1) * cells_a_piece);
       for (std::size_t i = piece * cells_a_piece; i < end; ++i)
         sums[piece] = sums[piece] + twice_area(ring(i));
     };
-    parallel_for(sums.size(), threads_, add, monitor_);
+    base::parallel_for(sums.size(), threads_, add, monitor_);
     const DoubleDouble sum = std::accumulate(sums.begin(), sums.end(), DoubleDouble{0, 0});
     const std::array<Point, 4> corners{Point{frame_.left, frame_.bottom},
                                        {frame_.right, frame_.bottom},
@@ -254,4 +262,4 @@ std::optional<std::string> find_cell_fault(const CellRings& cells, const Box& fr
   return Checker(cells, frame, threads, monitor).run();
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::cells

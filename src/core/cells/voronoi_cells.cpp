@@ -11,7 +11,13 @@
 #include "core/kernel/circumcentre.hpp"
 #include "core/kernel/predicates.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::cells {
+
+using base::Monitor;
+using base::parallel_for;
+using delaunay::TriangulationArrays;
+using kernel::Point;
+
 namespace {
 
 using Index = std::int32_t;
@@ -49,7 +55,7 @@ class Frame {
   // The sides beyond which a place lies: only places beyond the frame are. `exact` gives the place with signs
   // of all its errors, which a coordinate on a side may need.
   template <class Exact>
-  SideSet beyond(RoundedPoint place, Exact exact) const {
+  SideSet beyond(kernel::RoundedPoint place, Exact exact) const {
     if (is_open(place.x, box_.left, box_.right) || is_open(place.y, box_.bottom, box_.top)) place = exact();
     return (place.y.compare(box_.bottom) < 0 ? side_bit(0) : 0) |
            (place.x.compare(box_.right) > 0 ? side_bit(1) : 0) |
@@ -68,7 +74,7 @@ class Frame {
   // Whether corner k is nearer to a than to b; as far out as it is taken to lie, the distances differ.
   bool is_nearer(int k, const Point& a, const Point& b) const {
     k %= sides;
-    if (const int order = compare_distances(corner(k), a, b); order != 0) return order < 0;
+    if (const int order = kernel::compare_distances(corner(k), a, b); order != 0) return order < 0;
     const bool is_right = k == 1 || k == 2, is_top = k >= 2;
     if (a.x != b.x) return (a.x > b.x) == is_right;
     return (a.y > b.y) == is_top;
@@ -77,13 +83,13 @@ class Frame {
   // Where the bisector of a and b crosses a side, if it does.
   Point crossing(int side, const Point& a, const Point& b) const {
     const Point& start = corner(side);
-    if (side % 2 == 1) return {start.x, bisector_at(start.x, a, b) + 0.0};
-    return {bisector_at(start.y, {a.y, a.x}, {b.y, b.x}) + 0.0, start.y};
+    if (side % 2 == 1) return {start.x, kernel::bisector_at(start.x, a, b) + 0.0};
+    return {kernel::bisector_at(start.y, {a.y, a.x}, {b.y, b.x}) + 0.0, start.y};
   }
 
  private:
-  static bool is_open(const Rounded& value, double low, double high) {
-    return value.error_sign == undecided && (value.value == low || value.value == high);
+  static bool is_open(const numbers::Rounded& value, double low, double high) {
+    return value.error_sign == numbers::undecided && (value.value == low || value.value == high);
   }
 
   Box box_;
@@ -184,7 +190,7 @@ void tidy(std::vector<Point>& ring) {
   ring.erase(std::unique(ring.begin(), ring.end(), same_place), ring.end());
   while (ring.size() > 1 && same_place(ring.front(), ring.back())) ring.pop_back();
   std::size_t k = 2;
-  while (k < ring.size() && orient2d(ring[0], ring[1], ring[k]) == 0) ++k;
+  while (k < ring.size() && kernel::orient2d(ring[0], ring[1], ring[k]) == 0) ++k;
   if (k >= ring.size()) ring.clear();
   std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end(), comes_before), ring.end());
 }
@@ -205,7 +211,7 @@ class CellMaker {
     const bool chain = stops_.size() == 0;
     place_stops();
     const std::span<const Index> order = chain ? mesh_.hull : rings_.order();
-    pieces_.resize(piece_count(order.size(), sites_a_piece));
+    pieces_.resize(base::piece_count(order.size(), sites_a_piece));
     starts_.assign(mesh_.points.size() + 1, 0);
     const auto trace = [&](std::size_t piece) { trace_piece(order, piece, chain); };
     parallel_for(pieces_.size(), threads_, trace, monitor_);
@@ -222,14 +228,14 @@ class CellMaker {
       for (std::size_t t = piece * triangles_a_piece; t < end; ++t)
         stops_[t] = stop_of(&mesh_.triangles[3 * t]);
     };
-    parallel_for(piece_count(stops_.size(), triangles_a_piece), threads_, place, monitor_);
+    parallel_for(base::piece_count(stops_.size(), triangles_a_piece), threads_, place, monitor_);
   }
 
   Stop stop_of(const Index* corners) const {
     const Point &a = at(corners[0]), &b = at(corners[1]), &c = at(corners[2]);
-    if (orient2d(a, b, c) <= 0) throw std::invalid_argument("a triangle is not counter-clockwise");
-    const RoundedPoint centre = circumcentre(a, b, c);
-    const SideSet beyond = frame_.beyond(centre, [&] { return circumcentre_exactly(a, b, c); });
+    if (kernel::orient2d(a, b, c) <= 0) throw std::invalid_argument("a triangle is not counter-clockwise");
+    const kernel::RoundedPoint centre = kernel::circumcentre(a, b, c);
+    const SideSet beyond = frame_.beyond(centre, [&] { return kernel::circumcentre_exactly(a, b, c); });
     return {beyond, {centre.x.value + 0.0, centre.y.value + 0.0}};  // no negative zeros
   }
 
@@ -304,7 +310,7 @@ class CellMaker {
   // Rings in the order of the points.
   VoronoiCells gather(std::span<const Index> order) {
     for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
-    VoronoiCells cells{LargeArray<Point>(static_cast<std::size_t>(starts_.back())), {}};
+    VoronoiCells cells{base::LargeArray<Point>(static_cast<std::size_t>(starts_.back())), {}};
     const auto copy = [&](std::size_t piece) {
       const std::vector<Point> vertices = std::move(pieces_[piece]);
       auto from = vertices.begin();
@@ -322,11 +328,11 @@ class CellMaker {
   }
 
   const TriangulationArrays& mesh_;
-  const TriangleRings rings_;
+  const delaunay::TriangleRings rings_;
   const Frame frame_;
   const unsigned threads_;
   const Monitor& monitor_;
-  LargeArray<Stop> stops_;                  // [triangles] their circumcentres
+  base::LargeArray<Stop> stops_;            // [triangles] their circumcentres
   std::vector<std::vector<Point>> pieces_;  // vertices of their cells, in the order of the sites
   std::vector<std::int64_t> starts_;        // [n + 1] first the sizes of the rings, each one place later
   std::atomic<bool> any_{false};            // whether any cell's boundary meets the frame
@@ -339,4 +345,4 @@ VoronoiCells voronoi_cells(const TriangulationArrays& mesh, const Box& frame, un
   return CellMaker(mesh, frame, threads, monitor).run();
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::cells

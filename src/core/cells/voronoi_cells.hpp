@@ -11,7 +11,7 @@
 #include "core/delaunay/triangulation.hpp"
 #include "core/kernel/point.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::cells {
 
 // left < right, bottom < top.
 struct Box {
@@ -19,7 +19,8 @@ struct Box {
 };
 
 struct VoronoiCells {
-  LargeArray<Point> vertices;        // ring after ring, counter-clockwise from the lexicographically smallest
+  base::LargeArray<kernel::Point>
+      vertices;                      // ring after ring, counter-clockwise from the lexicographically smallest
   std::vector<std::int64_t> starts;  // [n + 1] of the ring of each point in `vertices`; a ring may be empty
 };
 
@@ -29,7 +30,7 @@ struct VoronoiCells {
 // hold: cells that share a vertex have it bit for bit. A ring is empty where the cell has no area in the
 // frame or where, rounded, it has none, and of a point that lies on an earlier one. The triangulation must be
 // one (verify_triangulation); throws std::invalid_argument where it is found not to be.
-VoronoiCells voronoi_cells(const TriangulationArrays& mesh, const Box& frame, unsigned threads,
-                           const Monitor& monitor);
+VoronoiCells voronoi_cells(const delaunay::TriangulationArrays& mesh, const Box& frame, unsigned threads,
+                           const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::cells

@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-namespace vorotool::core {
+namespace vorotool::core::compression {
 namespace {
 
 constexpr unsigned kClear = 256, kEnd = 257, kFirst = 258, kCodes = 4096;
@@ -89,12 +89,12 @@ class LzwTexts {
 }  // namespace
 
 std::vector<std::uint8_t> unpack_lzw(std::span<const std::uint8_t> data, std::size_t limit,
-                                     const Monitor& monitor) {
+                                     const base::Monitor& monitor) {
   std::vector<std::uint8_t> out;
   LzwTexts texts(out, limit);
   CodeReader codes(data);
   for (std::size_t item = 1; out.size() < limit; ++item) {
-    report_item(monitor, item);
+    base::report_item(monitor, item);
     const unsigned code = codes.next(texts.width());
     if (code == kEnd) break;
     if (code == kClear) {
@@ -107,11 +107,11 @@ std::vector<std::uint8_t> unpack_lzw(std::span<const std::uint8_t> data, std::si
 }
 
 std::vector<std::uint8_t> unpack_packbits(std::span<const std::uint8_t> data, std::size_t limit,
-                                          const Monitor& monitor) {
+                                          const base::Monitor& monitor) {
   std::vector<std::uint8_t> out;
   std::size_t item = 0;
   for (std::size_t at = 0; at < data.size() && out.size() < limit;) {
-    report_item(monitor, ++item);
+    base::report_item(monitor, ++item);
     const std::size_t length = data[at++];
     const std::size_t room = limit - out.size(), left = data.size() - at;
     if (length < 128) {  // so many literals and one more
@@ -126,4 +126,4 @@ std::vector<std::uint8_t> unpack_packbits(std::span<const std::uint8_t> data, st
   return out;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::compression

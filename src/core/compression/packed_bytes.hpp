@@ -9,7 +9,7 @@
 
 #include "core/base/monitor.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::compression {
 
 // A code that stands for nothing.
 struct DamagedCode : std::runtime_error {
@@ -20,10 +20,10 @@ struct DamagedCode : std::runtime_error {
 // (section 13). It ends at the code that ends them, with the data, or after `limit` bytes, whichever is
 // first.
 std::vector<std::uint8_t> unpack_lzw(std::span<const std::uint8_t> data, std::size_t limit,
-                                     const Monitor& monitor);
+                                     const base::Monitor& monitor);
 
 // The bytes of runs and literals (TIFF 6.0, section 9); ends with the data, or after `limit` bytes.
 std::vector<std::uint8_t> unpack_packbits(std::span<const std::uint8_t> data, std::size_t limit,
-                                          const Monitor& monitor);
+                                          const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::compression

@@ -7,7 +7,10 @@
 #include "core/base/large_array.hpp"
 #include "core/base/parallel.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::delaunay {
+
+using base::Monitor;
+using base::parallel_for;
 
 namespace {
 
@@ -25,19 +28,20 @@ void for_all(std::size_t count, unsigned threads, const Monitor& monitor, Body b
     const std::size_t end = std::min(count, (piece + 1) << piece_bits);
     for (std::size_t i = piece << piece_bits; i < end; ++i) body(i);
   };
-  parallel_for(piece_count(count, piece_size), threads, run, monitor);
+  parallel_for(base::piece_count(count, piece_size), threads, run, monitor);
 }
 
 }  // namespace
 
-DelaunayMesh::DelaunayMesh(std::span<const Point> points, unsigned threads, const Monitor& monitor,
-                           const std::optional<Bounds>& within)
+DelaunayMesh::DelaunayMesh(std::span<const kernel::Point> points, unsigned threads, const Monitor& monitor,
+                           const std::optional<spatial::Bounds>& within)
     : DelaunayMesh(
           points, [&](const OrderedPoints& ordered) { return divide_and_conquer(ordered, threads, monitor); },
           threads, monitor, within) {}
 
-DelaunayMesh::DelaunayMesh(std::span<const Point> points, const Triangulate& triangulate, unsigned threads,
-                           const Monitor& monitor, const std::optional<Bounds>& within)
+DelaunayMesh::DelaunayMesh(std::span<const kernel::Point> points, const Triangulate& triangulate,
+                           unsigned threads, const Monitor& monitor,
+                           const std::optional<spatial::Bounds>& within)
     : first_(points.size()) {
   if (points.size() > most_points) throw std::length_error("more than 268435456 points");
   MortonOrder order = morton_order(points, first_, FineOrder::of_crowds, threads, monitor, within);
@@ -74,7 +78,7 @@ void DelaunayMesh::gather_rings(std::span<const RingVertex> vertices, unsigned t
                                 const Monitor& monitor) {
   ring_end_.resize(vertices.size());
   edge_start_.resize(vertices.size());
-  pieces_.resize(piece_count(vertices.size(), piece_size) + 1);
+  pieces_.resize(base::piece_count(vertices.size(), piece_size) + 1);
   const auto gather = [&](std::size_t piece) { pieces_[piece] = gather_piece(piece, vertices); };
   parallel_for(pieces_.size() - 1, threads, gather, monitor);
   std::size_t triangles = 0;
@@ -89,7 +93,7 @@ DelaunayMesh::Piece DelaunayMesh::gather_piece(std::size_t number, std::span<con
   const std::size_t end = std::min(vertices.size(), begin + piece_size);
   std::size_t entries = 0;
   for (std::size_t place = begin; place < end; ++place) entries += vertices[place].degree();
-  Piece piece{LargeArray<Vertex>(entries)};
+  Piece piece{base::LargeArray<Vertex>(entries)};
   Vertex* next = piece.rings.data();
   for (std::size_t place = begin; place < end; ++place) {
     const auto v = static_cast<Vertex>(place);
@@ -151,7 +155,7 @@ void DelaunayMesh::visit_spokes(std::size_t piece, Visit visit) const {
 void DelaunayMesh::write(const MeshArrays& out, unsigned threads, const Monitor& monitor) const {
   if (edge_count_ == 0) return;
   const bool link = out.neighbours != nullptr && triangle_count() > 0;
-  LargeArray<std::uint32_t> slots(link ? 2 * edge_count_ : 0);
+  base::LargeArray<std::uint32_t> slots(link ? 2 * edge_count_ : 0);
   const auto write = [&](std::size_t piece) { write_piece(piece, out, link ? slots.data() : nullptr); };
   parallel_for(pieces_.size() - 1, threads, write, monitor);
   if (!link) return;
@@ -229,4 +233,4 @@ std::size_t DelaunayMesh::edge_between(Vertex earlier, Vertex later) const {
   return edge;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::delaunay

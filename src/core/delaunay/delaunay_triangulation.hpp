@@ -17,7 +17,7 @@
 #include "core/delaunay/spatial_sort.hpp"
 #include "core/kernel/point.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::delaunay {
 
 // Where to write a mesh; null what is not wanted, neighbours only along with triangles.
 struct MeshArrays {
@@ -32,13 +32,13 @@ class DelaunayMesh {
  public:
   // Finite points. Throws std::length_error for more than 2^28 of them. Triangles and edges are in an order
   // along the curve through `within`, if it is there: it holds all points.
-  DelaunayMesh(std::span<const Point> points, unsigned threads, const Monitor& monitor,
-               const std::optional<Bounds>& within = {});
+  DelaunayMesh(std::span<const kernel::Point> points, unsigned threads, const base::Monitor& monitor,
+               const std::optional<spatial::Bounds>& within = {});
 
   // The same from the rings of divide_and_conquer that are made in another way, after permute_equal_codes.
   using Triangulate = std::function<Subdivision(const OrderedPoints&)>;
-  DelaunayMesh(std::span<const Point> points, const Triangulate& triangulate, unsigned threads,
-               const Monitor& monitor, const std::optional<Bounds>& within = {});
+  DelaunayMesh(std::span<const kernel::Point> points, const Triangulate& triangulate, unsigned threads,
+               const base::Monitor& monitor, const std::optional<spatial::Bounds>& within = {});
   DelaunayMesh(DelaunayMesh&&) = default;  // and no copy
 
   // [n] for each point the first one at the same place: itself if it is the only one.
@@ -50,20 +50,20 @@ class DelaunayMesh {
   // By Euler's relation for a connected planar graph.
   std::size_t triangle_count() const { return edge_count_ == 0 ? 0 : edge_count_ + 1 - index_.size(); }
 
-  void write(const MeshArrays& out, unsigned threads, const Monitor& monitor) const;
+  void write(const MeshArrays& out, unsigned threads, const base::Monitor& monitor) const;
 
  private:
   // Vertices are numbered along the curve, and a piece of them is worked on at a time. The neighbours of
   // each, its ring, go counter-clockwise from the earliest one; ~w instead of w where the unbounded face
   // follows.
   struct Piece {
-    LargeArray<Vertex> rings;
+    base::LargeArray<Vertex> rings;
     std::size_t edges = 0, triangles = 0;  // of the piece; once all are made, of those before it
   };
   struct Lead;
 
   void walk_hull(const Subdivision& mesh, std::span<RingVertex> vertices);
-  void gather_rings(std::span<const RingVertex> vertices, unsigned threads, const Monitor& monitor);
+  void gather_rings(std::span<const RingVertex> vertices, unsigned threads, const base::Monitor& monitor);
   Piece gather_piece(std::size_t piece, std::span<const RingVertex> vertices);
 
   std::int32_t given(Vertex v) const {
@@ -88,4 +88,4 @@ class DelaunayMesh {
   std::size_t edge_count_ = 0;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::delaunay

@@ -10,7 +10,9 @@
 #include "core/numbers/dyadic_grid.hpp"
 #include "core/numbers/sign.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::delaunay {
+
+using kernel::Point;
 
 namespace {
 
@@ -48,7 +50,7 @@ ExactLimits exact_limits(std::span<const RingVertex> vertices) {
   int least = 1024, above = -1074;
   for (const RingVertex& vertex : vertices) {
     for (const double value : {vertex.point.x, vertex.point.y}) {
-      const OddMantissa parts(value);
+      const numbers::OddMantissa parts(value);
       if (parts.mantissa == 0) continue;
       least = std::min(least, parts.exponent);
       above = std::max(above, parts.exponent + parts.width());
@@ -126,7 +128,7 @@ class Builder {
   // A neighbour of an end of the base that may make a triangle with it.
   struct Candidate {
     Vertex vertex;
-    Apex apex;
+    kernel::Apex apex;
     bool is_valid;
   };
 
@@ -206,12 +208,12 @@ class Builder {
   }
 
   // The signs of orient2d(l, r, v) and incircle(l, r, v, w), v and w being seen from l and r.
-  int side_of(Vertex l, Vertex r, Vertex v, const Apex& apex) const {
-    const int sign = side_filter(apex, exact_.cross);
-    return sign != undecided ? sign : orient2d(point(l), point(r), point(v));
+  int side_of(Vertex l, Vertex r, Vertex v, const kernel::Apex& apex) const {
+    const int sign = kernel::side_filter(apex, exact_.cross);
+    return sign != numbers::undecided ? sign : kernel::orient2d(point(l), point(r), point(v));
   }
   int side_of(Vertex l, Vertex r, Vertex v) const {
-    return side_of(l, r, v, seen_from(point(l), point(r), point(v)));
+    return side_of(l, r, v, kernel::seen_from(point(l), point(r), point(v)));
   }
 
   // Whether w is inside the circle through l, r and v. Cocircular points are told apart as if each were
@@ -219,9 +221,9 @@ class Builder {
   // fans from smallest vertices, whichever way they are come upon. Of four, the lift of the smallest decides:
   // w itself gets inside and v gets w outside; if l or r does, the determinant changes by its cofactor.
   bool is_inside(Vertex l, Vertex r, const Candidate& v, const Candidate& w) const {
-    int sign = incircle_filter(v.apex, w.apex, exact_.circle);
-    if (sign == undecided)
-      sign = incircle_beyond_filter(point(l), point(r), point(v.vertex), point(w.vertex));
+    int sign = kernel::incircle_filter(v.apex, w.apex, exact_.circle);
+    if (sign == numbers::undecided)
+      sign = kernel::incircle_beyond_filter(point(l), point(r), point(v.vertex), point(w.vertex));
     if (sign != 0) return sign > 0;
     const auto earlier = [&](Vertex a, Vertex b) { return less_by_x(point(b), point(a)) ? b : a; };
     const Vertex smallest = earlier(earlier(l, r), earlier(v.vertex, w.vertex));
@@ -315,7 +317,7 @@ class Builder {
   }
 
   Candidate seen(const Base& base, Vertex v) const {
-    return {v, seen_from(point(base.left), point(base.right), point(v)), true};
+    return {v, kernel::seen_from(point(base.left), point(base.right), point(v)), true};
   }
 
   Hull join_hulls(const Hull& left, const Hull& right, bool by_x) const {
@@ -382,18 +384,18 @@ void permute_equal_codes(const OrderedPoints& ordered) {
   }
 }
 
-Subdivision divide_and_conquer(const OrderedPoints& ordered, unsigned threads, const Monitor& monitor) {
+Subdivision divide_and_conquer(const OrderedPoints& ordered, unsigned threads, const base::Monitor& monitor) {
   const auto count = static_cast<std::int32_t>(ordered.vertices.size());
   Subdivision result;
   if (count == 0) return result;
   Builder builder(ordered);
-  std::vector<Part> parts = plan_parts(builder, count, resolve_threads(threads));
+  std::vector<Part> parts = plan_parts(builder, count, base::resolve_threads(threads));
   result.stores.resize(parts.size());
   std::vector<std::size_t> leaves;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (parts[i].left < 0) leaves.push_back(i);
   }
-  parallel_for(
+  base::parallel_for(
       leaves.size(), threads,
       [&](std::size_t k) {
         Part& part = parts[leaves[k]];
@@ -412,4 +414,4 @@ Subdivision divide_and_conquer(const OrderedPoints& ordered, unsigned threads, c
   return result;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::delaunay

@@ -8,7 +8,7 @@
 #include "core/base/monitor.hpp"
 #include "core/delaunay/vertex_links.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::delaunay {
 
 // Points in Morton order with the code of each; points of equal codes are together, in any order.
 struct OrderedPoints {
@@ -29,10 +29,10 @@ struct Subdivision {
 
 // Makes the rings of the Delaunay triangulation of the points, in which every cocircular polygon is a fan
 // from its lexicographically smallest vertex.
-Subdivision divide_and_conquer(const OrderedPoints& ordered, unsigned threads, const Monitor& monitor);
+Subdivision divide_and_conquer(const OrderedPoints& ordered, unsigned threads, const base::Monitor& monitor);
 
 // Permutes points of equal code as divide_and_conquer does, for triangulations made in another way: then
 // equal triangulations have equal numbers.
 void permute_equal_codes(const OrderedPoints& ordered);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::delaunay

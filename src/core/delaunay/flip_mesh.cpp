@@ -2,12 +2,14 @@
 
 #include <algorithm>
 
-namespace vorotool::core {
+namespace vorotool::core::delaunay {
 namespace {
 
 constexpr std::size_t steps_between_polls = std::size_t{1} << 14;
 
-bool comes_before(const Point& a, const Point& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
+bool comes_before(const kernel::Point& a, const kernel::Point& b) {
+  return a.x != b.x ? a.x < b.x : a.y < b.y;
+}
 
 }  // namespace
 
@@ -19,7 +21,7 @@ TriangleMesh::Side TriangleMesh::add_triangle(Vertex a, Vertex b, Vertex c) {
 }
 
 void TriangleMesh::start(Vertex a, Vertex b, Vertex c) {
-  if (orient2d(at(a), at(b), at(c)) < 0) std::swap(b, c);
+  if (kernel::orient2d(at(a), at(b), at(c)) < 0) std::swap(b, c);
   const Side inner = add_triangle(a, b, c);
   const Side ghosts[] = {add_triangle(b, a, infinity), add_triangle(c, b, infinity),
                          add_triangle(a, c, infinity)};
@@ -76,7 +78,7 @@ bool TriangleMesh::has_triangle() const {
 }
 
 void TriangleMesh::poll() {
-  if (++steps_ % steps_between_polls == 0 && monitor_ && !monitor_(0.9)) throw Interrupted();
+  if (++steps_ % steps_between_polls == 0 && monitor_ && !monitor_(0.9)) throw base::Interrupted();
 }
 
 // Of a side that ends at infinity: whether its other end is a reflex turn of the hull. Of a side of the hull:
@@ -86,9 +88,9 @@ void TriangleMesh::poll() {
 bool TriangleMesh::is_wrong(Side s) const {
   if (origin(s) == infinity) s = twin(s);
   const Vertex a = origin(s), b = target(s), c = apex(s), d = apex(twin(s));
-  if (b == infinity) return c != infinity && d != infinity && orient2d(at(d), at(a), at(c)) < 0;
+  if (b == infinity) return c != infinity && d != infinity && kernel::orient2d(at(d), at(a), at(c)) < 0;
   if (c == infinity || d == infinity) return false;
-  if (const int sign = incircle(at(a), at(b), at(c), at(d)); sign != 0) return sign > 0;
+  if (const int sign = kernel::incircle(at(a), at(b), at(c), at(d)); sign != 0) return sign > 0;
   const auto earlier = [&](Vertex v, Vertex w) { return std::min(at(v), at(w), comes_before); };
   return comes_before(earlier(c, d), earlier(a, b));
 }
@@ -214,4 +216,4 @@ std::optional<Subdivision> TriangleMesh::subdivision() {
   return result;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::delaunay

@@ -14,7 +14,7 @@
 #include "core/delaunay/vertex_links.hpp"
 #include "core/kernel/predicates.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::delaunay {
 
 class TriangleMesh {
  public:
@@ -22,7 +22,7 @@ class TriangleMesh {
   static constexpr Vertex infinity = -1;
 
   // Distinct points; none is in the mesh yet.
-  TriangleMesh(std::span<RingVertex> vertices, const Monitor& monitor)
+  TriangleMesh(std::span<RingVertex> vertices, const base::Monitor& monitor)
       : vertices_(vertices), monitor_(monitor) {}
 
   // Adds a triangle, ghosts included; its sides have no twins yet. Returns its first side.
@@ -64,8 +64,8 @@ class TriangleMesh {
   Vertex apex(Side s) const { return origin(preceding(s)); }
   Side& twin(Side s) { return twins_[static_cast<std::size_t>(s)]; }
   Side twin(Side s) const { return twins_[static_cast<std::size_t>(s)]; }
-  const Point& at(Vertex v) const { return vertices_[static_cast<std::size_t>(v)].point; }
-  int side_of(Side s, Vertex v) const { return orient2d(at(origin(s)), at(target(s)), at(v)); }
+  const kernel::Point& at(Vertex v) const { return vertices_[static_cast<std::size_t>(v)].point; }
+  int side_of(Side s, Vertex v) const { return kernel::orient2d(at(origin(s)), at(target(s)), at(v)); }
   bool is_ghost(Side s) const {
     return origin(s) == infinity || target(s) == infinity || apex(s) == infinity;
   }
@@ -81,7 +81,7 @@ class TriangleMesh {
   Side make_ring(Side start, RingStore& store);
 
   std::span<RingVertex> vertices_;
-  const Monitor& monitor_;
+  const base::Monitor& monitor_;
   std::vector<Vertex> origins_;
   std::vector<Side> twins_;
   std::vector<Side> doubtful_;  // sides to be looked at
@@ -90,4 +90,4 @@ class TriangleMesh {
   std::size_t steps_ = 0;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::delaunay

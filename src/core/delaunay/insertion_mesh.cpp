@@ -4,7 +4,10 @@
 #include <stdexcept>
 #include <utility>
 
-namespace vorotool::core {
+namespace vorotool::core::delaunay {
+
+using kernel::Point;
+
 namespace {
 
 bool comes_before(const Point& a, const Point& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
@@ -107,7 +110,7 @@ GhostMesh::Location GhostMesh::locate(const Point& p, Slot start) const {
     int out = -1, on = -1, zeros = 0;
     for (int k = 0; k < 3 && out < 0; ++k) {
       if (across(s, k) == before) continue;
-      const int side = orient2d(point(corner(s, (k + 1) % 3)), point(corner(s, (k + 2) % 3)), p);
+      const int side = kernel::orient2d(point(corner(s, (k + 1) % 3)), point(corner(s, (k + 2) % 3)), p);
       if (side < 0) out = k;
       if (side == 0) on = zeros++ == 0 ? k : 3 - on - k;  // with two sides, the corner where they meet
     }
@@ -191,7 +194,7 @@ bool GhostMesh::must_flip(Slot s, Vertex opposite) const {
   if (b == infinity) return turn(opposite, a, v) < 0;
   if (a == infinity) return turn(v, b, opposite) < 0;
   if (opposite == infinity) return false;
-  return incircle(point(a), point(b), point(v), point(opposite)) > 0;
+  return kernel::incircle(point(a), point(b), point(v), point(opposite)) > 0;
 }
 
 // The triangles a, b, v and b, a, d become a, d, v and d, b, v.
@@ -231,7 +234,7 @@ bool GhostMesh::is_diagonal(Slot s, int k) const {
   const Slot t = across(s, k);
   if (is_ghost(t)) return false;
   const Vertex d = corner(t, side_towards(t, s));
-  return incircle(point(corner(s, 0)), point(corner(s, 1)), point(corner(s, 2)), point(d)) == 0;
+  return kernel::incircle(point(corner(s, 0)), point(corner(s, 1)), point(corner(s, 2)), point(d)) == 0;
 }
 
 // The polygon's triangles are found and its sides walked along; then the same slots are filled anew.
@@ -278,4 +281,4 @@ void GhostMesh::make_fan(Slot within) {
   link(members.back(), 1, sides.back().outside, sides.back().k);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::delaunay

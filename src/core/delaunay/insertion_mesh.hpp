@@ -14,7 +14,7 @@
 #include "core/delaunay/triangulation.hpp"
 #include "core/kernel/predicates.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::delaunay {
 
 class GhostMesh {
  public:
@@ -25,7 +25,7 @@ class GhostMesh {
 
   // The triangulation as given, triangle t in slot t; there must be one. `more` points can be inserted.
   // Throws std::invalid_argument where the arrays are found not to be a triangulation.
-  GhostMesh(const TriangulationArrays& mesh, std::span<const Point> points, std::size_t more);
+  GhostMesh(const TriangulationArrays& mesh, std::span<const kernel::Point> points, std::size_t more);
 
   std::size_t slots() const { return slots_; }
   Vertex corner(Slot s, int k) const { return corners_[at(s, k)]; }
@@ -35,7 +35,7 @@ class GhostMesh {
     return corner(s, 0) == infinity || corner(s, 1) == infinity || corner(s, 2) == infinity;
   }
   int corner_of(Slot s, Vertex v) const;
-  const Point& point(Vertex v) const { return points_[static_cast<std::size_t>(v)]; }
+  const kernel::Point& point(Vertex v) const { return points_[static_cast<std::size_t>(v)]; }
 
   // Whether a triangle is not as it was given.
   bool is_changed(Slot s) const { return changed_[static_cast<std::size_t>(s)] != 0; }
@@ -78,9 +78,9 @@ class GhostMesh {
   void link(Slot s, int k, Slot t, int j);
   void mark(Slot s);
   int side_towards(Slot s, Slot t) const;
-  int turn(Vertex a, Vertex b, Vertex c) const { return orient2d(point(a), point(b), point(c)); }
+  int turn(Vertex a, Vertex b, Vertex c) const { return kernel::orient2d(point(a), point(b), point(c)); }
 
-  Location locate(const Point& p, Slot start) const;
+  Location locate(const kernel::Point& p, Slot start) const;
   void insert_in_face(Vertex v, Slot s);
   void insert_on_side(Vertex v, Slot s, int k);
   void legalize();
@@ -90,10 +90,10 @@ class GhostMesh {
   bool is_diagonal(Slot s, int k) const;
   void make_fan(Slot within);
 
-  std::span<const Point> points_;
-  std::size_t slots_;           // in use
-  LargeArray<Vertex> corners_;  // [3 slots] counter-clockwise; of ghosts, as seen from outside the hull
-  LargeArray<Slot> across_;     // [3 slots]
+  std::span<const kernel::Point> points_;
+  std::size_t slots_;                 // in use
+  base::LargeArray<Vertex> corners_;  // [3 slots] counter-clockwise; of ghosts, as seen from outside the hull
+  base::LargeArray<Slot> across_;     // [3 slots]
   std::vector<std::uint8_t> changed_;
   std::vector<Slot> changed_slots_;
   std::vector<Slot>
@@ -101,4 +101,4 @@ class GhostMesh {
   std::vector<std::uint8_t> fanned_;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::delaunay

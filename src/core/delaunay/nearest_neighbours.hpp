@@ -8,7 +8,7 @@
 #include "core/base/monitor.hpp"
 #include "core/kernel/point.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::delaunay {
 
 struct NearestNeighbours {
   std::vector<std::int32_t> nearest;  // [n] -1 of points without an edge
@@ -17,7 +17,8 @@ struct NearestNeighbours {
 
 // `edges` holds both ends of each edge of a Delaunay triangulation. Distances are compared exactly, ties go
 // to the smallest label. Throws std::invalid_argument for an end that is no point.
-NearestNeighbours nearest_neighbours(std::span<const Point> points, std::span<const std::int32_t> edges,
-                                     std::span<const std::int64_t> labels, const Monitor& monitor);
+NearestNeighbours nearest_neighbours(std::span<const kernel::Point> points,
+                                     std::span<const std::int32_t> edges,
+                                     std::span<const std::int64_t> labels, const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::delaunay

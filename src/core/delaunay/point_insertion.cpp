@@ -12,7 +12,15 @@
 #include "core/delaunay/vertex_triangles.hpp"
 #include "core/spatial/morton_grid.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::delaunay {
+
+using base::LargeArray;
+using base::Monitor;
+using base::parallel_for;
+using base::piece_count;
+using kernel::Point;
+using spatial::Bounds;
+
 namespace {
 
 using Slot = GhostMesh::Slot;
@@ -141,7 +149,7 @@ class Inserter {
   void insert_all(std::span<const std::int32_t> hints) {
     std::size_t done = 0, row = 0;
     for (const Vertex v : order_of_insertion()) {
-      if (done++ % poll_every == 0 && monitor_ && !monitor_(0.0)) throw Interrupted();
+      if (done++ % poll_every == 0 && monitor_ && !monitor_(0.0)) throw base::Interrupted();
       const auto i = static_cast<std::size_t>(v) - in_.points.size();
       if (!hints.empty()) row = 0;
       const Vertex aim = hints.empty() ? v : first_[static_cast<std::size_t>(hints[i])];
@@ -376,7 +384,7 @@ class Inserter {
   const TriangulationArrays& in_;
   const std::span<const Point> points_;
   const Bounds bounds_;
-  const MortonGrid grid_;
+  const spatial::MortonGrid grid_;
   const unsigned threads_;
   const Monitor& monitor_;
   LargeArray<std::uint32_t> codes_;  // [points] of their cells
@@ -398,4 +406,4 @@ std::optional<InsertedArrays> insert_points(const TriangulationArrays& mesh, std
   return Inserter(mesh, points, threads, monitor).run(hints);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::delaunay

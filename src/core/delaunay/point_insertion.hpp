@@ -12,11 +12,11 @@
 #include "core/delaunay/triangulation.hpp"
 #include "core/kernel/point.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::delaunay {
 
 // The arrays of a triangulation, as in TriangulationArrays.
 struct InsertedArrays {
-  LargeArray<std::int32_t> triangles, neighbours, edges;
+  base::LargeArray<std::int32_t> triangles, neighbours, edges;
   std::vector<std::int32_t> hull, first;
 };
 
@@ -30,8 +30,9 @@ struct InsertedArrays {
 // outside the bounds of `mesh`, or more than two points in one cell of the order's grid near a change; nor
 // where `mesh` has no triangles. Throws std::invalid_argument where `mesh` is found not to be a
 // triangulation.
-std::optional<InsertedArrays> insert_points(const TriangulationArrays& mesh, std::span<const Point> points,
+std::optional<InsertedArrays> insert_points(const TriangulationArrays& mesh,
+                                            std::span<const kernel::Point> points,
                                             std::span<const std::int32_t> hints, unsigned threads,
-                                            const Monitor& monitor);
+                                            const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::delaunay

@@ -9,7 +9,12 @@
 #include "core/base/radix_sort.hpp"
 #include "core/spatial/morton_grid.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::delaunay {
+
+using base::Monitor;
+using kernel::Point;
+using spatial::Bounds;
+using spatial::MortonGrid;
 
 namespace {
 
@@ -37,12 +42,13 @@ class Orderer {
       sort_by(words, [&grid](const Point& p) { return grid.code(p); });
       if (fine_ == FineOrder::of_places) whole_ = grid;
     }
-    order_.vertices = LargeArray<RingVertex>(count);
+    order_.vertices = base::LargeArray<RingVertex>(count);
     order_.index.resize(count);
     order_.code.resize(count);
     repeated_.resize(count);
-    crowds_.resize(piece_count(count, piece_size));
-    parallel_for(crowds_.size(), threads_, [&](std::size_t piece) { put_cells(words, piece); }, monitor_);
+    crowds_.resize(base::piece_count(count, piece_size));
+    base::parallel_for(
+        crowds_.size(), threads_, [&](std::size_t piece) { put_cells(words, piece); }, monitor_);
     put_crowds(words);
     if (any_repeated_) drop_repeated();
     return std::move(order_);
@@ -70,7 +76,7 @@ class Orderer {
     if (words.size() < 4096) {
       std::sort(words.begin(), words.end());
     } else {
-      radix_sort(words, 32, 32 + 2 * morton_cell_bits);
+      base::radix_sort(words, 32, 32 + 2 * spatial::morton_cell_bits);
     }
   }
 
@@ -94,7 +100,7 @@ class Orderer {
         __builtin_prefetch(&points_[index_of(words[cell.begin + ahead])]);
       std::fill(order_.code.begin() + offset(cell.begin), order_.code.begin() + offset(cell.end),
                 code_of(words[cell.begin]));
-      if (cell.end - cell.begin > (whole_ ? 1 : morton_crowd)) {
+      if (cell.end - cell.begin > (whole_ ? 1 : spatial::morton_crowd)) {
         crowds_[piece].push_back(cell);
       } else {
         put_cell(std::span(words).subspan(cell.begin, cell.end - cell.begin), cell.begin);
@@ -122,7 +128,7 @@ class Orderer {
         put_cell(std::span(finer).subspan(cell.begin, cell.end - cell.begin), begin + cell.begin);
       });
     };
-    parallel_for(crowds.size(), threads_, put, monitor_);
+    base::parallel_for(crowds.size(), threads_, put, monitor_);
   }
 
   // Puts the points of a cell in their places, from `place` on, sorted by (x, y) and then index.
@@ -185,4 +191,4 @@ MortonOrder morton_order(std::span<const Point> points, std::span<std::int32_t> 
   return Orderer(points, first, fine, threads, monitor, within).run();
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::delaunay

@@ -11,14 +11,14 @@
 #include "core/delaunay/vertex_links.hpp"
 #include "core/spatial/morton_grid.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::delaunay {
 
 // Distinct points along a Morton curve through the cells of a grid. In a cell with many points they follow a
 // finer curve; points that share a cell of that, or one with few points, are sorted by (x, y).
 struct MortonOrder {
-  LargeArray<RingVertex> vertices;   // with empty rings; as many as there are indices count
-  std::vector<std::uint32_t> index;  // of each point among those given; of equal points, the smallest
-  std::vector<std::uint32_t> code;   // not decreasing; bits of x and y in turn, x the higher of two
+  base::LargeArray<RingVertex> vertices;  // with empty rings; as many as there are indices count
+  std::vector<std::uint32_t> index;       // of each point among those given; of equal points, the smallest
+  std::vector<std::uint32_t> code;        // not decreasing; bits of x and y in turn, x the higher of two
   std::vector<std::uint32_t>
       fine;  // the same on the finer curve, 0 in cells without; empty if there are none
 };
@@ -31,7 +31,8 @@ enum class FineOrder {
 // `first` receives for each point given the smallest index at the same place. With the order of places, which
 // of two points comes first depends on where they are in the bounds of all, and on no other point. The grid
 // is over `within`, which holds all points, if there is one, or else over their bounds.
-MortonOrder morton_order(std::span<const Point> points, std::span<std::int32_t> first, FineOrder fine,
-                         unsigned threads, const Monitor& monitor, const std::optional<Bounds>& within = {});
+MortonOrder morton_order(std::span<const kernel::Point> points, std::span<std::int32_t> first, FineOrder fine,
+                         unsigned threads, const base::Monitor& monitor,
+                         const std::optional<spatial::Bounds>& within = {});
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::delaunay

@@ -6,10 +6,10 @@
 
 #include "core/kernel/point.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::delaunay {
 
 struct TriangulationArrays {
-  std::span<const Point> points;             // [n] finite
+  std::span<const kernel::Point> points;     // [n] finite
   std::span<const std::int32_t> triangles;   // [3 t] counter-clockwise
   std::span<const std::int32_t> neighbours;  // [3 t] across the side opposite to each vertex; -1 on the hull
   std::span<const std::int32_t> edges;       // [2 e] the smaller index first
@@ -17,4 +17,4 @@ struct TriangulationArrays {
   std::span<const std::int32_t> first;       // [n] the smallest index at the same place
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::delaunay

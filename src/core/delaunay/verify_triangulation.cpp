@@ -10,7 +10,12 @@
 #include "core/base/radix_sort.hpp"
 #include "core/kernel/predicates.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::delaunay {
+
+using base::Monitor;
+using kernel::orient2d;
+using kernel::Point;
+
 namespace {
 
 using Fault = std::optional<std::string>;
@@ -30,7 +35,7 @@ class EdgeSet {
   explicit EdgeSet(std::size_t vertices) : vertices_(vertices) {}
 
   void add(Index a, Index b) { keys_.push_back({key(a, b), static_cast<std::uint32_t>(keys_.size())}); }
-  void sort() { radix_sort(keys_, std::bit_width(vertices_ * vertices_)); }
+  void sort() { base::radix_sort(keys_, std::bit_width(vertices_ * vertices_)); }
 
   // Once sorted: the number, in the order in which they were added, of an edge that was added before; or
   // none.
@@ -44,7 +49,7 @@ class EdgeSet {
 
   bool holds(Index a, Index b) const {
     const std::uint64_t wanted = key(a, b);
-    const auto less = [](const Keyed& item, std::uint64_t value) { return item.key < value; };
+    const auto less = [](const base::Keyed& item, std::uint64_t value) { return item.key < value; };
     const auto place = std::lower_bound(keys_.begin(), keys_.end(), wanted, less);
     return place != keys_.end() && place->key == wanted;
   }
@@ -55,7 +60,7 @@ class EdgeSet {
   }
 
   std::size_t vertices_;
-  std::vector<Keyed> keys_;
+  std::vector<base::Keyed> keys_;
 };
 
 // Why the checks suffice: positive triangles whose sides cancel in pairs, but for one convex cycle gone round
@@ -106,7 +111,7 @@ class Checker {
         return;
       }
     };
-    parallel_for(piece_count(count, grain), threads_, search, monitor_);
+    base::parallel_for(base::piece_count(count, grain), threads_, search, monitor_);
     return found;
   }
 
@@ -282,7 +287,8 @@ class Checker {
   int circle_sign(std::size_t t, int k) const {
     if (across(t, k) < 0) return -1;
     const auto u = static_cast<std::size_t>(across(t, k));
-    return incircle(at(corner(t, 0)), at(corner(t, 1)), at(corner(t, 2)), at(corner(u, opposite(t, k, u))));
+    return kernel::incircle(at(corner(t, 0)), at(corner(t, 1)), at(corner(t, 2)),
+                            at(corner(u, opposite(t, k, u))));
   }
 
   Fault check_circles() {
@@ -344,4 +350,4 @@ std::optional<std::string> find_fault(const TriangulationArrays& arrays, unsigne
   return Checker(arrays, threads, monitor).run();
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::delaunay

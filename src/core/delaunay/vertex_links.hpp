@@ -16,7 +16,7 @@
 
 #include "core/kernel/point.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::delaunay {
 
 using Vertex = std::int32_t;
 
@@ -44,9 +44,9 @@ class RingStore {
 // has before `clear` has no meaning.
 class alignas(64) RingVertex {
  public:
-  Point point;
+  kernel::Point point;
 
-  void clear(const Point& place) {
+  void clear(const kernel::Point& place) {
     point = place;
     degree_ = 0;
     is_long_ = false;
@@ -139,4 +139,4 @@ class alignas(64) RingVertex {
 };
 static_assert(sizeof(RingVertex) == 64);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::delaunay

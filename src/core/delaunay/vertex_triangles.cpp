@@ -1,6 +1,6 @@
 #include "core/delaunay/vertex_triangles.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::delaunay {
 namespace {
 
 // Looks at all of them: without an early end several are compared at a time.
@@ -36,4 +36,4 @@ TriangleRings::TriangleRings(const TriangulationArrays& mesh)
   }
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::delaunay

@@ -9,7 +9,7 @@
 
 #include "core/delaunay/triangulation.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::delaunay {
 
 // Refuses indices that do not exist with std::invalid_argument.
 void check_indices(const TriangulationArrays& mesh);
@@ -57,4 +57,4 @@ class TriangleRings {
   std::vector<std::int32_t> order_;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::delaunay

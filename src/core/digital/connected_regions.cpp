@@ -12,11 +12,15 @@
 #include "core/label_images/region_scan.hpp"
 #include "core/numbers/int128.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::digital {
+
+using base::Monitor;
+using tessellation::PixelFrame;
+
 namespace {
 
 using Label = std::uint32_t;
-using Square = uint128;  // squared distances below 2^84: see kLatticeLimit
+using Square = numbers::uint128;  // squared distances below 2^84: see kLatticeLimit
 
 constexpr std::size_t steps_between_polls = std::size_t{1} << 14;
 
@@ -60,7 +64,7 @@ class Connector {
   };
 
   void poll() {
-    if (++steps_ % steps_between_polls == 0 && monitor_ && !monitor_(0.5)) throw Interrupted();
+    if (++steps_ % steps_between_polls == 0 && monitor_ && !monitor_(0.5)) throw base::Interrupted();
   }
 
   Square square(std::size_t column, std::size_t row, Label label) const {
@@ -76,8 +80,8 @@ class Connector {
 
   std::vector<bool> find_split(unsigned threads, Reconnection& done) const {
     std::vector<bool> split(x_.size() + 1, false);
-    const Regions found = measure_regions<Label>(std::span<const Label>(image_), frame_.width, frame_.height,
-                                                 threads, monitor_);
+    const label_images::Regions found = label_images::measure_regions<Label>(
+        std::span<const Label>(image_), frame_.width, frame_.height, threads, monitor_);
     for (std::size_t k = 0; k < found.labels.size(); ++k) {
       split[found.labels[k]] = found.regions[k].components > 1;
       done.regions += found.regions[k].components > 1;
@@ -87,7 +91,7 @@ class Connector {
 
   // Stretches of the split regions, row by row; those of one label that share columns are one component.
   void gather_runs(const std::vector<bool>& split) {
-    RunStarts starts(frame_.width);
+    label_images::RunStarts starts(frame_.width);
     std::size_t above = 0, above_end = 0;  // the stretches of the row above, but for those passed
     for (std::size_t row = 0; row < frame_.height; ++row) {
       const std::span<const Label> labels = image_.subspan(row * frame_.width, frame_.width);
@@ -176,7 +180,7 @@ class Connector {
   const Monitor& monitor_;
   std::size_t steps_ = 0;
   std::vector<Stretch> stretches_;
-  ComponentSets parts_;
+  label_images::ComponentSets parts_;
   std::vector<std::size_t> free_;  // pixels of the islands
 };
 
@@ -188,4 +192,4 @@ Reconnection connect_regions(std::span<std::uint32_t> image, const PixelFrame& f
   return Connector(image, frame, x, y, scale, monitor).run(threads);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::digital

@@ -12,7 +12,7 @@
 #include "core/base/monitor.hpp"
 #include "core/tessellation/pixel_frame.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::digital {
 
 struct Reconnection {
   std::uint64_t regions = 0;  // that were not connected
@@ -23,8 +23,8 @@ struct Reconnection {
 // with the pixel nearest to its site stays. The others are flooded from their 4-neighbours: a pixel goes to
 // the first label that reaches it if labels spread over the whole image at once, in order of (distance to the
 // site, label).
-Reconnection connect_regions(std::span<std::uint32_t> image, const PixelFrame& frame,
+Reconnection connect_regions(std::span<std::uint32_t> image, const tessellation::PixelFrame& frame,
                              std::span<const std::int64_t> x, std::span<const std::int64_t> y,
-                             std::int64_t scale, unsigned threads, const Monitor& monitor);
+                             std::int64_t scale, unsigned threads, const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::digital

@@ -6,7 +6,11 @@
 #include "core/kernel/predicates.hpp"
 #include "core/label_images/corner_scan.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::digital {
+
+using delaunay::RingVertex;
+using delaunay::Vertex;
+
 namespace {
 
 using Triangle = std::array<Vertex, 3>;
@@ -16,7 +20,7 @@ class DualReader {
   DualReader(std::span<const Vertex> vertex, std::span<const RingVertex> vertices)
       : vertex_(vertex), vertices_(vertices) {}
 
-  void add(const Corner& corner) {
+  void add(const label_images::Corner& corner) {
     const int labels = corner.labels();
     if (labels < 3) return;
     // Upper left, upper right, lower right, lower left: counter-clockwise, as y is stored.
@@ -39,8 +43,8 @@ class DualReader {
   DigitalDual dual;
 
  private:
-  const Point& at(Vertex v) const { return vertices_[static_cast<std::size_t>(v)].point; }
-  int sign(const Triangle& t) const { return orient2d(at(t[0]), at(t[1]), at(t[2])); }
+  const kernel::Point& at(Vertex v) const { return vertices_[static_cast<std::size_t>(v)].point; }
+  int sign(const Triangle& t) const { return kernel::orient2d(at(t[0]), at(t[1]), at(t[2])); }
 
   // The diagonal that leaves two counter-clockwise triangles; of two such, the Delaunay one.
   void divide(const std::array<Vertex, 4>& q) {
@@ -49,7 +53,7 @@ class DualReader {
     const int worst_one = std::min(sign(one[0]), sign(one[1]));
     const int worst_other = std::min(sign(other[0]), sign(other[1]));
     const bool swap = worst_one == 1 && worst_other == 1
-                          ? incircle(at(q[0]), at(q[1]), at(q[2]), at(q[3])) > 0
+                          ? kernel::incircle(at(q[0]), at(q[1]), at(q[2]), at(q[3])) > 0
                           : worst_other > worst_one;
     const auto& chosen = swap ? other : one;
     dual.triangles.insert(dual.triangles.end(), std::begin(chosen), std::end(chosen));
@@ -203,17 +207,17 @@ class TwinRemover {
 }  // namespace
 
 DigitalDual find_dual(std::span<const std::uint32_t> image, std::size_t width, std::span<const Vertex> vertex,
-                      std::span<const RingVertex> vertices, const Monitor& monitor) {
+                      std::span<const RingVertex> vertices, const base::Monitor& monitor) {
   DualReader reader(vertex, vertices);
-  RowPair pair(width);
+  label_images::RowPair pair(width);
   const std::size_t height = image.size() / width;
-  const std::size_t rows = rows_per_piece(width);
+  const std::size_t rows = label_images::rows_per_piece(width);
   for (std::size_t y = 1; y < height; ++y) {
     if (y % rows == 0 && monitor && !monitor(static_cast<double>(y) / static_cast<double>(height)))
-      throw Interrupted();
+      throw base::Interrupted();
     pair.walk(
         image.subspan((y - 1) * width, width), image.subspan(y * width, width), [](auto, auto) {},
-        [&](std::uint32_t, const Corner& corner) { reader.add(corner); });
+        [&](std::uint32_t, const label_images::Corner& corner) { reader.add(corner); });
   }
   reader.dual.ring = walk_frame(image, width, reader);
   return std::move(reader.dual);
@@ -223,4 +227,4 @@ std::uint64_t remove_twins(DigitalDual& dual, std::size_t vertices) {
   return TwinRemover(dual, vertices).run();
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::digital

@@ -8,7 +8,15 @@
 #include "core/delaunay/flip_mesh.hpp"
 #include "core/digital/digital_dual.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::digital {
+
+using base::Monitor;
+using delaunay::OrderedPoints;
+using delaunay::RingVertex;
+using delaunay::Subdivision;
+using delaunay::TriangleMesh;
+using delaunay::Vertex;
+
 namespace {
 
 constexpr TriangleMesh::Side sides_between_polls = 3 << 14;
@@ -18,8 +26,8 @@ Vertex as_vertex(std::size_t i) { return static_cast<Vertex>(i); }
 // Links every side of the dual with its twin, and the ring with ghosts. False if it is no closed surface.
 bool assemble(const DigitalDual& dual, TriangleMesh& mesh, const Monitor& monitor) {
   if (dual.ring.size() < 2) return false;
-  FlatMap waiting(2 *
-                  dual.triangles.size());  // by a, b: the side, plus 1, whose twin b, a is to come; then 0
+  base::FlatMap waiting(
+      2 * dual.triangles.size());  // by a, b: the side, plus 1, whose twin b, a is to come; then 0
   std::size_t open = 0;
   const auto close = [&](Vertex a, Vertex b, TriangleMesh::Side side) {
     const auto key = [](Vertex from, Vertex to) {
@@ -39,7 +47,7 @@ bool assemble(const DigitalDual& dual, TriangleMesh& mesh, const Monitor& monito
   };
   for (const auto& [a, b, c] : dual.triangles) {
     const TriangleMesh::Side s = mesh.add_triangle(a, b, c);
-    if (s % sides_between_polls == 0 && monitor && !monitor(0.5)) throw Interrupted();
+    if (s % sides_between_polls == 0 && monitor && !monitor(0.5)) throw base::Interrupted();
     if (!close(a, b, s) || !close(b, c, s + 1) || !close(c, a, s + 2)) return false;
   }
   const std::size_t count = dual.ring.size();
@@ -59,7 +67,7 @@ bool assemble(const DigitalDual& dual, TriangleMesh& mesh, const Monitor& monito
 
 bool are_collinear(std::span<const RingVertex> vertices) {
   for (std::size_t i = 2; i < vertices.size(); ++i) {
-    if (orient2d(vertices[0].point, vertices[1].point, vertices[i].point) != 0) return false;
+    if (kernel::orient2d(vertices[0].point, vertices[1].point, vertices[i].point) != 0) return false;
   }
   return true;
 }
@@ -104,10 +112,10 @@ std::optional<Subdivision> repaired(const DigitalDual& dual, std::span<RingVerte
 
 Subdivision delaunay_by_insertion(const OrderedPoints& ordered, const Monitor& monitor) {
   const std::span<RingVertex> vertices = ordered.vertices;
-  if (are_collinear(vertices)) return divide_and_conquer(ordered, 1, monitor);
-  permute_equal_codes(ordered);
+  if (are_collinear(vertices)) return delaunay::divide_and_conquer(ordered, 1, monitor);
+  delaunay::permute_equal_codes(ordered);
   std::size_t third = 2;
-  while (orient2d(vertices[0].point, vertices[1].point, vertices[third].point) == 0) ++third;
+  while (kernel::orient2d(vertices[0].point, vertices[1].point, vertices[third].point) == 0) ++third;
   TriangleMesh mesh(vertices, monitor);
   mesh.start(0, 1, as_vertex(third));
   std::vector<bool> used(vertices.size(), false);
@@ -118,11 +126,11 @@ Subdivision delaunay_by_insertion(const OrderedPoints& ordered, const Monitor& m
   return std::move(*result);
 }
 
-Subdivision digital_delaunay(std::span<std::uint32_t> image, const PixelFrame& frame,
+Subdivision digital_delaunay(std::span<std::uint32_t> image, const tessellation::PixelFrame& frame,
                              const DigitalSites& sites, const OrderedPoints& ordered, DigitalRepair& repair,
                              unsigned threads, const Monitor& monitor) {
-  if (are_collinear(ordered.vertices)) return divide_and_conquer(ordered, 1, monitor);
-  permute_equal_codes(ordered);
+  if (are_collinear(ordered.vertices)) return delaunay::divide_and_conquer(ordered, 1, monitor);
+  delaunay::permute_equal_codes(ordered);
   const Reconnection moved = connect_regions(image, frame, sites.x, sites.y, sites.scale, threads, monitor);
   repair.split_regions = moved.regions;
   repair.moved_pixels = moved.pixels;
@@ -140,4 +148,4 @@ Subdivision digital_delaunay(std::span<std::uint32_t> image, const PixelFrame& f
   return delaunay_by_insertion(ordered, monitor);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::digital

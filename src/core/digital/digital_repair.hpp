@@ -17,7 +17,7 @@
 #include "core/delaunay/divide_and_conquer.hpp"
 #include "core/digital/connected_regions.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::digital {
 
 // What the repair had to do.
 struct DigitalRepair {
@@ -40,11 +40,12 @@ struct DigitalSites {
 
 // `image` holds the exact tessellation of the sites, every pixel labelled; its regions are changed. `ordered`
 // holds the distinct ones of the same sites as points.
-Subdivision digital_delaunay(std::span<std::uint32_t> image, const PixelFrame& frame,
-                             const DigitalSites& sites, const OrderedPoints& ordered, DigitalRepair& repair,
-                             unsigned threads, const Monitor& monitor);
+delaunay::Subdivision digital_delaunay(std::span<std::uint32_t> image, const tessellation::PixelFrame& frame,
+                                       const DigitalSites& sites, const delaunay::OrderedPoints& ordered,
+                                       DigitalRepair& repair, unsigned threads, const base::Monitor& monitor);
 
 // The same by insertion of all points one by one.
-Subdivision delaunay_by_insertion(const OrderedPoints& ordered, const Monitor& monitor);
+delaunay::Subdivision delaunay_by_insertion(const delaunay::OrderedPoints& ordered,
+                                            const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::digital

@@ -8,7 +8,10 @@
 #include "core/base/parallel.hpp"
 #include "core/label_images/corner_scan.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::digital {
+
+using base::Monitor;
+
 namespace {
 
 enum : std::uint8_t { at_three = 1, at_four = 2 };
@@ -50,7 +53,7 @@ class Piece {
   void add_pair(std::span<const Label> above, std::span<const Label> below) {
     pair_.walk(
         above, below, [&](std::uint32_t upper, std::uint32_t lower) { link(upper, lower); },
-        [&](std::uint32_t, const Corner& corner) { add_corner(corner); });
+        [&](std::uint32_t, const label_images::Corner& corner) { add_corner(corner); });
   }
 
   DigitalTriangulation finish() {
@@ -68,7 +71,7 @@ class Piece {
   }
 
   // Each of the four pixels with its two 4-neighbours, which are 8-neighbours of each other.
-  void add_corner(const Corner& corner) {
+  void add_corner(const label_images::Corner& corner) {
     const int labels = corner.labels();
     if (labels < 3) return;
     const auto [a, b, c, d] = corner;
@@ -87,9 +90,9 @@ class Piece {
     return true;
   }
 
-  RowPair pair_;
-  RunStarts starts_;
-  FlatMap linked_;  // label pairs, the smaller in the upper half; their values mean nothing
+  label_images::RowPair pair_;
+  label_images::RunStarts starts_;
+  base::FlatMap linked_;  // label pairs, the smaller in the upper half; their values mean nothing
   DigitalTriangulation found_;
 };
 
@@ -105,8 +108,8 @@ void DigitalTriangulationScan::add_rows(std::span<const Label> rows, std::size_t
                                         const Monitor& monitor) {
   if (width == 0 || rows.size() % width != 0) throw std::length_error("a band is no number of whole rows");
   const std::size_t height = rows.size() / width;
-  const std::size_t step = rows_per_piece(width);
-  std::vector<DigitalTriangulation> parts(piece_count(height, step));
+  const std::size_t step = label_images::rows_per_piece(width);
+  std::vector<DigitalTriangulation> parts(base::piece_count(height, step));
   const auto read = [&](std::size_t number) {
     Piece piece(width);
     for (std::size_t y = number * step; y < std::min(height, (number + 1) * step); ++y) {
@@ -116,7 +119,7 @@ void DigitalTriangulationScan::add_rows(std::span<const Label> rows, std::size_t
     }
     parts[number] = piece.finish();
   };
-  parallel_for(parts.size(), threads, read, monitor);
+  base::parallel_for(parts.size(), threads, read, monitor);
   for (const DigitalTriangulation& part : parts) {
     append(found_.edges, part.edges);
     append(found_.triangles, part.triangles);
@@ -138,4 +141,4 @@ template void DigitalTriangulationScan::add_rows(std::span<const std::uint16_t>,
 template void DigitalTriangulationScan::add_rows(std::span<const std::uint32_t>, std::size_t, unsigned,
                                                  const Monitor&);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::digital

@@ -12,7 +12,7 @@
 
 #include "core/base/monitor.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::digital {
 
 struct LabelPair {
   std::uint32_t a, b;  // a < b
@@ -37,7 +37,8 @@ class DigitalTriangulationScan {
   // Consecutive rows (uint8_t, uint16_t or uint32_t labels, at least one row). The first row of every band
   // but the first is the last row of the band before, given again.
   template <class Label>
-  void add_rows(std::span<const Label> rows, std::size_t width, unsigned threads, const Monitor& monitor);
+  void add_rows(std::span<const Label> rows, std::size_t width, unsigned threads,
+                const base::Monitor& monitor);
 
   DigitalTriangulation finish();
 
@@ -45,4 +46,4 @@ class DigitalTriangulationScan {
   DigitalTriangulation found_;  // in no order, with repetitions
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::digital

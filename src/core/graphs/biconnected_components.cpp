@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace vorotool::core {
+namespace vorotool::core::graphs {
 namespace {
 
 using Index = std::int32_t;
@@ -105,4 +105,4 @@ std::vector<Index> biconnected_components(std::size_t nodes, std::span<const std
   return DepthFirst(nodes, edges).components();
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::graphs

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 
-namespace vorotool::core {
+namespace vorotool::core::graphs {
+
+using base::Monitor;
+
 namespace {
 
 constexpr std::size_t kPollEvery = std::size_t{1} << 16;
 
 void poll(const Monitor& monitor, std::size_t step) {
-  if (step % kPollEvery == 0 && monitor && !monitor(0.0)) throw Interrupted();
+  if (step % kPollEvery == 0 && monitor && !monitor(0.0)) throw base::Interrupted();
 }
 
 // Neighbours of vertex v: neighbours[start[v]] ... neighbours[start[v + 1] - 1].
@@ -139,4 +142,4 @@ std::vector<std::uint32_t> colour_graph(std::size_t vertices, std::span<const Ed
   return colours;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::graphs

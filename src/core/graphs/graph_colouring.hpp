@@ -8,7 +8,7 @@
 
 #include "core/base/monitor.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::graphs {
 
 struct Edge {
   std::uint32_t a;
@@ -24,6 +24,6 @@ struct Edge {
 // smallest; a new colour only when there is none. So there are at most d + 1 colours: at most 6 for a planar
 // graph, which connected regions give. Deterministic. Time O(vertices * colours + edges).
 std::vector<std::uint32_t> colour_graph(std::size_t vertices, std::span<const Edge> edges,
-                                        const Monitor& monitor);
+                                        const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::graphs

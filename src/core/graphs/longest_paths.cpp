@@ -7,7 +7,10 @@
 #include "core/graphs/pendant_trees.hpp"
 #include "core/graphs/two_core.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::graphs {
+
+using base::Monitor;
+
 namespace {
 
 std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
@@ -33,7 +36,7 @@ class PathFinder {
   }
 
   std::vector<GraphPath> find() {
-    if (monitor_ && !monitor_(0)) throw Interrupted();
+    if (monitor_ && !monitor_(0)) throw base::Interrupted();
     pairs_in_trees();
     if (forest_.hanging().size() < arcs_.size()) {
       for (const LeafPair& pair : farthest_pairs(arcs_, lengths_, core_, deepest_, monitor_)) consider(pair);
@@ -230,4 +233,4 @@ GraphPath path_from(std::span<const std::array<std::int32_t, 2>> arcs, std::span
   return paths.path_to(last);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::graphs

@@ -9,7 +9,7 @@
 #include "core/base/monitor.hpp"
 #include "core/graphs/shortest_paths.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::graphs {
 
 // For each group of arcs the longest among the shortest paths between two leaves of one component, between
 // two nodes of components without a leaf, and from a single leaf to a node; from the end with the smaller
@@ -22,11 +22,11 @@ namespace vorotool::core {
 std::vector<GraphPath> longest_paths(std::span<const std::array<std::int32_t, 2>> arcs,
                                      std::span<const std::int64_t> lengths,
                                      std::span<const std::int32_t> group, std::size_t groups,
-                                     std::size_t nodes, double tie, const Monitor& monitor);
+                                     std::size_t nodes, double tie, const base::Monitor& monitor);
 
 // The shortest path between two nodes, or, with last -1, the longest of the shortest paths from a node to the
 // leaves of its component (to its nodes, where it has no leaf but the first). No path between components.
 GraphPath path_from(std::span<const std::array<std::int32_t, 2>> arcs, std::span<const std::int64_t> lengths,
-                    std::size_t nodes, std::int32_t first, std::int32_t last, const Monitor& monitor);
+                    std::size_t nodes, std::int32_t first, std::int32_t last, const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::graphs

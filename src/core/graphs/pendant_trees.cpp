@@ -4,7 +4,7 @@
 #include <functional>
 #include <utility>
 
-namespace vorotool::core {
+namespace vorotool::core::graphs {
 namespace {
 
 std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
@@ -95,4 +95,4 @@ void SkeletonForest::set_roots(std::span<const std::int32_t> roots) {
   number_arcs();
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::graphs

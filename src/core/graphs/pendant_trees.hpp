@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace vorotool::core {
+namespace vorotool::core::graphs {
 
 // An arc that is a leaf once what hangs on its outer end is gone.
 struct HangingArc {
@@ -51,4 +51,4 @@ class SkeletonForest {
   std::vector<std::int32_t> above_, degree_, tree_, roots_, lone_ends_;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::graphs

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vorotool::core {
+namespace vorotool::core::graphs {
 namespace {
 
 std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
@@ -50,7 +50,7 @@ ShortestPaths::ShortestPaths(std::span<const std::array<std::int32_t, 2>> arcs,
                              std::size_t nodes)
     : arcs_(arcs), lengths_(lengths), incidence_(incidence), distance_(nodes, unreached), last_(nodes, -1) {}
 
-void ShortestPaths::find(std::span<const Start> starts, const Monitor& monitor) {
+void ShortestPaths::find(std::span<const Start> starts, const base::Monitor& monitor) {
   for (const std::int32_t node : reached_) distance_[at(node)] = unreached;
   reached_.clear();
   for (const auto& [node, distance] : starts) reach(node, distance, -1);
@@ -60,7 +60,7 @@ void ShortestPaths::find(std::span<const Start> starts, const Monitor& monitor) 
     const auto [node, distance] = queue_.back();
     queue_.pop_back();
     if (distance > distance_[at(node)]) continue;
-    if (++done % (1 << 14) == 0 && monitor && !monitor(0)) throw Interrupted();
+    if (++done % (1 << 14) == 0 && monitor && !monitor(0)) throw base::Interrupted();
     for (const std::int32_t arc : incidence_.arcs_at(node)) {
       const auto [a, b] = arcs_[at(arc)];
       reach(a == node ? b : a, distance + lengths_[at(arc)], arc);
@@ -99,4 +99,4 @@ GraphPath ShortestPaths::path_to(std::int32_t node) const {
   return path;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::graphs

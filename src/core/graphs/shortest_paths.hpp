@@ -8,7 +8,7 @@
 
 #include "core/base/monitor.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::graphs {
 
 // Lengths as whole numbers, in units of the power of two that brings the sum of a group between 2^60 and
 // 2^61: no order of addition changes a sum of them, and the sum of all and as many halves stays below 2^62.
@@ -50,7 +50,7 @@ class ShortestPaths {
   };
 
   // Forgets what was found before, in time that what it reached took.
-  void find(std::span<const Start> starts, const Monitor& monitor);
+  void find(std::span<const Start> starts, const base::Monitor& monitor);
 
   static constexpr std::int64_t unreached = -1;
   std::int64_t distance(std::int32_t node) const { return distance_[static_cast<std::size_t>(node)]; }
@@ -69,4 +69,4 @@ class ShortestPaths {
   std::vector<Start> queue_;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::graphs

@@ -6,7 +6,10 @@
 #include <tuple>
 #include <utility>
 
-namespace vorotool::core {
+namespace vorotool::core::graphs {
+
+using base::Monitor;
+
 namespace {
 
 std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
@@ -211,7 +214,7 @@ class FarthestPair {
 
   // All but the terminals of the source's own chain.
   void search(std::span<const ShortestPaths::Start> starts, const Chain* own) {
-    if (monitor_ && !monitor_(0)) throw Interrupted();
+    if (monitor_ && !monitor_(0)) throw base::Interrupted();
     paths_.find(starts, monitor_);
     farthest_ = 0;
     to_junctions();
@@ -335,4 +338,4 @@ std::vector<LeafPair> farthest_pairs(std::span<const std::array<std::int32_t, 2>
   return pairs;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::graphs

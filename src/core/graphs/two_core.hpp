@@ -10,7 +10,7 @@
 #include "core/base/monitor.hpp"
 #include "core/graphs/shortest_paths.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::graphs {
 
 // Two leaves, and the nodes at which the shortest path between them enters and leaves the core: one and the
 // same if it has no arc there.
@@ -36,6 +36,6 @@ LeafPair leaf_pair(const Hanging& a, std::int32_t a_node, const Hanging& b, std:
 // hangs each node is a leaf; a single leaf makes pairs with the nodes.
 std::vector<LeafPair> farthest_pairs(std::span<const std::array<std::int32_t, 2>> arcs,
                                      std::span<const std::int64_t> lengths, const GraphIncidence& core,
-                                     std::span<const Hanging> hanging, const Monitor& monitor);
+                                     std::span<const Hanging> hanging, const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::graphs

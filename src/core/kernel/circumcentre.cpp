@@ -12,7 +12,16 @@
 #include "core/numbers/dyadic_grid.hpp"
 #include "core/numbers/fixed_integer.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::kernel {
+
+using numbers::CommonLattice;
+using numbers::DoubleDouble;
+using numbers::Rounded;
+using numbers::rounded_quotient;
+using numbers::two_difference;
+using numbers::undecided;
+using numbers::unit_roundoff;
+
 namespace {
 
 // ---- numbers of 106 bits, with a bound of their error ----
@@ -58,7 +67,7 @@ std::optional<Rounded> rounded(const std::optional<Estimate>& estimate) {
   const double nearest = value.head + (value.tail - error);
   if (!(nearest == value.head + (value.tail + error))) return {};
   const double rest = (value.head - nearest) + value.tail;
-  return Rounded{nearest, std::abs(rest) > 2 * error ? sign_of(rest) : undecided};
+  return Rounded{nearest, std::abs(rest) > 2 * error ? numbers::sign_of(rest) : undecided};
 }
 
 std::optional<RoundedPoint> circumcentre_by_estimate(const Point& a, const Point& b, const Point& c) {
@@ -91,7 +100,7 @@ std::optional<Estimate> bisector_by_estimate(double x, const Point& a, const Poi
     if (!is_moderate(value)) return {};
   }
   const DoubleDouble quotient = across * offset / DoubleDouble{2 * along.head, 2 * along.tail};
-  const DoubleDouble twice = two_sum(a.y, b.y);
+  const DoubleDouble twice = numbers::two_sum(a.y, b.y);
   const DoubleDouble sum = DoubleDouble{twice.head / 2, twice.tail / 2} + quotient;
   return Estimate{sum, 40 * u2 * (std::abs(quotient.head) + std::abs(sum.head))};
 }
@@ -158,7 +167,8 @@ int order_by_filter(const Point& q, const Point& a, const Point& b) {
   const double difference = across * (to_ax + to_bx) + along * (to_ay + to_by);
   const double permanent = std::abs(across) * (std::abs(to_ax) + std::abs(to_bx)) +
                            std::abs(along) * (std::abs(to_ay) + std::abs(to_by));
-  return std::abs(difference) > bound * (permanent + underflow_scale) ? sign_of(difference) : undecided;
+  return std::abs(difference) > bound * (permanent + underflow_scale) ? numbers::sign_of(difference)
+                                                                      : undecided;
 }
 
 }  // namespace
@@ -186,4 +196,4 @@ int compare_distances(const Point& q, const Point& a, const Point& b) {
   return with_limbs(lattice.bits, [&](auto limbs) { return order_in_limbs<limbs>(lattice, q, a, b); });
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::kernel

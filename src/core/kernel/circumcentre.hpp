@@ -7,10 +7,10 @@
 #include "core/kernel/point.hpp"
 #include "core/numbers/rounded_quotient.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::kernel {
 
 struct RoundedPoint {
-  Rounded x, y;
+  numbers::Rounded x, y;
 };
 
 // The centre of the circle through three points that are not collinear. The first leaves the sign of an error
@@ -24,4 +24,4 @@ double bisector_at(double x, const Point& a, const Point& b);
 // The sign of |q - a| - |q - b|: -1 if a is nearer to q, 1 if b is, 0 if they are equally near.
 int compare_distances(const Point& q, const Point& a, const Point& b);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::kernel

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace vorotool::core {
+namespace vorotool::core::kernel {
 
 // |x| and |y| are at most this: differences of coordinates fit in 32 bits with their sign, and a sum of two
 // products of differences is at most 2 (2^31 - 2)^2 < 2^63, so that cross and dot products fit in 64.
@@ -24,4 +24,4 @@ struct LatticeSite {
   friend bool operator==(const LatticeSite&, const LatticeSite&) = default;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::kernel

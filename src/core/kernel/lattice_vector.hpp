@@ -5,7 +5,7 @@
 
 #include "core/kernel/lattice_point.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::kernel {
 
 struct LatticeVector {
   std::int64_t x, y;
@@ -22,4 +22,4 @@ inline std::int64_t norm2(const LatticeVector& v) { return dot(v, v); }
 // Turned by 90 degrees, counter-clockwise.
 inline LatticeVector left_of(const LatticeVector& v) { return {-v.y, v.x}; }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::kernel

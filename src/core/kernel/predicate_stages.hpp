@@ -5,7 +5,7 @@
 
 #include "core/kernel/predicates.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::kernel {
 
 // Coordinates that are integers of at most 61 bits, but for a common power of two (in orient2d one for x, one
 // for y).
@@ -21,4 +21,4 @@ int incircle_expansions(const Point& a, const Point& b, const Point& c, const Po
 int orient2d_wide(const Point& a, const Point& b, const Point& c);
 int incircle_wide(const Point& a, const Point& b, const Point& c, const Point& d);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::kernel

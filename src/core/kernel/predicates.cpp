@@ -12,7 +12,14 @@
 #include "core/numbers/fixed_integer.hpp"
 #include "core/numbers/int128.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::kernel {
+
+using numbers::CommonLattice;
+using numbers::Expansion;
+using numbers::int128;
+using numbers::undecided;
+using numbers::WideInteger;
+
 namespace {
 
 // The coordinates of a call and the lattices that hold them. In orient2d x and y have lattices of their own:
@@ -64,8 +71,8 @@ int short_sign(const Differences& x, const Differences& y) {
 }
 
 int long_sign(const Differences& x, const Differences& y) {
-  auto lift = [&](int i) { return widen(int128{x[i]} * x[i] + int128{y[i]} * y[i]); };
-  auto minor = [&](int i, int j) { return widen(int128{x[i]} * y[j] - int128{x[j]} * y[i]); };
+  auto lift = [&](int i) { return numbers::widen(int128{x[i]} * x[i] + int128{y[i]} * y[i]); };
+  auto minor = [&](int i, int j) { return numbers::widen(int128{x[i]} * y[j] - int128{x[j]} * y[i]); };
   return (lift(0) * minor(1, 2) + lift(1) * minor(2, 0) + lift(2) * minor(0, 1)).sign();
 }
 
@@ -161,7 +168,7 @@ template <std::size_t n>
 std::array<Expansion<2>, n - 1> exact_differences(const std::array<double, n>& values) {
   std::array<Expansion<2>, n - 1> result;
   for (std::size_t i = 0; i + 1 < n; ++i) {
-    result[i] = Expansion<2>(two_difference(values[i], values[n - 1]));
+    result[i] = Expansion<2>(numbers::two_difference(values[i], values[n - 1]));
   }
   return result;
 }
@@ -237,4 +244,4 @@ int incircle_wide(const Point& a, const Point& b, const Point& c, const Point& d
   return wide_sign(CircleCall(a, b, c, d));
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::kernel

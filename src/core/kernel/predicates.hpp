@@ -13,7 +13,7 @@
 #include "core/kernel/point.hpp"
 #include "core/numbers/sign.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::kernel {
 
 static_assert(std::numeric_limits<double>::is_iec559 && FLT_EVAL_METHOD == 0);
 
@@ -33,7 +33,7 @@ int incircle_beyond_filter(const Point& a, const Point& b, const Point& c, const
 //   |det| > P (3 u + 14 u^2) + 2 h (1 + 6 u).
 // The bound as computed, fl(k fl(P + 2^-1020)), loses at most a factor (1 - u)^2 and h. With k = 3 u + 32 u^2
 // it is at least P (3 u + 25 u^2) + (12 (1 - 2 u) - 1) h, for 2^-1020 u = 4 h: enough for both terms.
-inline constexpr double orient2d_bound = (3 + 32 * unit_roundoff) * unit_roundoff;
+inline constexpr double orient2d_bound = (3 + 32 * numbers::unit_roundoff) * numbers::unit_roundoff;
 
 inline constexpr double underflow_scale = 0x1p-1020;
 
@@ -43,7 +43,7 @@ inline int orient2d_filter(const Point& a, const Point& b, const Point& c) {
   const double determinant = left - right;
   const double permanent = std::abs(left) + std::abs(right);
   const double bound = orient2d_bound * (permanent + underflow_scale);
-  return std::abs(determinant) > bound ? sign_of(determinant) : undecided;
+  return std::abs(determinant) > bound ? numbers::sign_of(determinant) : numbers::undecided;
 }
 
 // A point as it is seen from the ends l and r of an edge: with L = l - p and R = r - p, the sine and the
@@ -70,8 +70,8 @@ struct Apex {
 // (e S + 2 e^2 + 2 h) (1 + 4 u). A factor k = 10 u + 256 u^2 leaves 60 u^2 P, and as permanents are at least
 // g, P >= g S / 2 and P >= 2 g^2: 30 u^2 P >= 15 u^2 g S > 2 e S, and 30 u^2 P >= 60 u^2 g^2 > 2^-1001 > 4 h.
 inline constexpr double underflow_guard = 0x1p-450;
-inline constexpr double cross_bound = (4 + 64 * unit_roundoff) * unit_roundoff;
-inline constexpr double incircle_bound = (10 + 256 * unit_roundoff) * unit_roundoff;
+inline constexpr double cross_bound = (4 + 64 * numbers::unit_roundoff) * numbers::unit_roundoff;
+inline constexpr double incircle_bound = (10 + 256 * numbers::unit_roundoff) * numbers::unit_roundoff;
 
 inline Apex seen_from(const Point& l, const Point& r, const Point& p) {
   const double lx = l.x - p.x, ly = l.y - p.y, rx = r.x - p.x, ry = r.y - p.y;
@@ -84,16 +84,17 @@ inline Apex seen_from(const Point& l, const Point& r, const Point& p) {
 // since the permanent is at most `exact`, zero is one as well.
 inline int side_filter(const Apex& p, double exact = 0) {
   if (std::abs(p.cross) > cross_bound * p.cross_permanent || p.cross_permanent <= exact)
-    return sign_of(p.cross);
-  return undecided;
+    return numbers::sign_of(p.cross);
+  return numbers::undecided;
 }
 
 // The sign of incircle(l, r, p, q) for points seen from l and r; likewise.
 inline int incircle_filter(const Apex& p, const Apex& q, double exact = 0) {
   const double determinant = p.dot * q.cross - p.cross * q.dot;
   const double permanent = p.dot_permanent * q.cross_permanent + p.cross_permanent * q.dot_permanent;
-  if (std::abs(determinant) > incircle_bound * permanent || permanent <= exact) return sign_of(determinant);
-  return undecided;
+  if (std::abs(determinant) > incircle_bound * permanent || permanent <= exact)
+    return numbers::sign_of(determinant);
+  return numbers::undecided;
 }
 
 inline int incircle_filter(const Point& a, const Point& b, const Point& c, const Point& d) {
@@ -104,14 +105,14 @@ inline int incircle_filter(const Point& a, const Point& b, const Point& c, const
 // the points are collinear.
 inline int orient2d(const Point& a, const Point& b, const Point& c) {
   const int sign = orient2d_filter(a, b, c);
-  return sign != undecided ? sign : orient2d_beyond_filter(a, b, c);
+  return sign != numbers::undecided ? sign : orient2d_beyond_filter(a, b, c);
 }
 
 // 1 if d is inside the circle through the counter-clockwise a, b, c, -1 outside, 0 on it; the opposite if a,
 // b, c are clockwise.
 inline int incircle(const Point& a, const Point& b, const Point& c, const Point& d) {
   const int sign = incircle_filter(a, b, c, d);
-  return sign != undecided ? sign : incircle_beyond_filter(a, b, c, d);
+  return sign != numbers::undecided ? sign : incircle_beyond_filter(a, b, c, d);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::kernel

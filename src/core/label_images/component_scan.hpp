@@ -10,7 +10,7 @@
 #include "core/label_images/connected_components.hpp"
 #include "core/label_images/label_runs.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::label_images {
 
 // Sets has add(), which gives the component of a run that no run above touches, and unite(one, other), for
 // those that a run joins.
@@ -73,4 +73,4 @@ class ComponentScan {
   std::vector<Stretch> above_, row_;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::label_images

@@ -5,11 +5,11 @@
 
 #include "core/label_images/streaming_components.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::label_images {
 
 std::uint32_t label_components(std::span<const std::uint8_t> mask, std::size_t width,
                                Connectivity connectivity, std::span<std::uint32_t> numbers,
-                               const Monitor& monitor) {
+                               const base::Monitor& monitor) {
   if (mask.empty()) return 0;
   StreamingComponents components(width, connectivity);
   components.add(mask, numbers, monitor);
@@ -17,11 +17,11 @@ std::uint32_t label_components(std::span<const std::uint8_t> mask, std::size_t w
   const std::uint32_t count = components.settle(number);
   const std::size_t piece = rows_per_piece(width) * width;
   for (std::size_t start = 0; start < mask.size(); start += piece) {
-    if (monitor && !monitor(1.0)) throw Interrupted();
+    if (monitor && !monitor(1.0)) throw base::Interrupted();
     for (std::uint32_t& each : numbers.subspan(start, std::min(piece, mask.size() - start)))
       each = number[each];
   }
   return count;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::label_images

@@ -7,7 +7,7 @@
 
 #include "core/base/monitor.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::label_images {
 
 enum class Connectivity { four, eight };  // pixels hang together by sides, or by corners, too
 
@@ -16,6 +16,6 @@ enum class Connectivity { four, eight };  // pixels hang together by sides, or b
 // ones.
 std::uint32_t label_components(std::span<const std::uint8_t> mask, std::size_t width,
                                Connectivity connectivity, std::span<std::uint32_t> numbers,
-                               const Monitor& monitor);
+                               const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::label_images

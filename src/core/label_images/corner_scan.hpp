@@ -8,7 +8,7 @@
 
 #include "core/label_images/label_runs.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::label_images {
 
 // The labels of the four pixels around a corner.
 struct Corner {
@@ -59,4 +59,4 @@ class RowPair {
   RunStarts above_, below_;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::label_images

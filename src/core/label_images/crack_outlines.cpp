@@ -10,7 +10,11 @@
 #include "core/label_images/corner_scan.hpp"
 #include "core/label_images/label_runs.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::label_images {
+
+using base::LargeArray;
+using base::Monitor;
+
 namespace {
 
 constexpr std::size_t kSteps = std::size_t{1} << 16;  // of work between two polls: a millisecond or so
@@ -107,7 +111,7 @@ class Pieces {
  public:
   Pieces(std::size_t width, std::size_t height) : lines_(height + 1), size_(rows_per_piece(width)) {}
 
-  std::size_t count() const { return piece_count(lines_, size_); }
+  std::size_t count() const { return base::piece_count(lines_, size_); }
   Lines operator[](std::size_t piece) const { return {piece * size_, std::min(lines_, (piece + 1) * size_)}; }
 
  private:
@@ -121,7 +125,7 @@ std::vector<std::size_t> vertices_of_pieces(std::span<const Label> image, std::s
   const Pieces pieces(width, image.size() / width);
   std::vector<std::size_t> found(pieces.count());
   using Row = std::span<const Label>;
-  parallel_for(
+  base::parallel_for(
       pieces.count(), threads,
       [&](std::size_t piece) {
         for_each_line(image, width, pieces[piece], [&](std::size_t, Row above, Row below) {
@@ -236,7 +240,7 @@ LargeArray<CrackVertex> crack_graph(std::span<const Label> image, std::size_t wi
   const Pieces pieces(width, image.size() / width);
   LargeArray<CrackVertex> vertices(start.back());
   std::vector<std::optional<CrackBand>> bands(pieces.count());
-  parallel_for(
+  base::parallel_for(
       pieces.count(), threads,
       [&](std::size_t piece) {
         CrackBand& band =
@@ -343,7 +347,7 @@ class RingWalk {
   }
 
   void poll() {
-    if (++polled_ % kSteps == 0 && monitor_ && !monitor_(0.75)) throw Interrupted();
+    if (++polled_ % kSteps == 0 && monitor_ && !monitor_(0.75)) throw base::Interrupted();
   }
 
   std::span<CrackVertex> vertices_;
@@ -421,4 +425,4 @@ template CrackOutlines trace_cracks(std::span<const std::uint16_t>, std::size_t,
 template CrackOutlines trace_cracks(std::span<const std::uint32_t>, std::size_t, CornerRule, unsigned,
                                     const Monitor&);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::label_images

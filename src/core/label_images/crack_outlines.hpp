@@ -9,7 +9,7 @@
 
 #include "core/base/monitor.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::label_images {
 
 // What happens where two pixels of a label meet at a corner only.
 enum class CornerRule : std::uint8_t {
@@ -41,11 +41,11 @@ struct CrackOutlines {
 // The number of vertices of all outlines, each place once.
 template <class Label>
 std::size_t count_crack_vertices(std::span<const Label> image, std::size_t width, unsigned threads,
-                                 const Monitor& monitor);
+                                 const base::Monitor& monitor);
 
 // There must be fewer than 2^31 vertices. The result does not depend on the threads.
 template <class Label>
 CrackOutlines trace_cracks(std::span<const Label> image, std::size_t width, CornerRule rule, unsigned threads,
-                           const Monitor& monitor);
+                           const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::label_images

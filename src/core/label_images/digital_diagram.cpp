@@ -6,7 +6,10 @@
 #include "core/base/parallel.hpp"
 #include "core/label_images/label_runs.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::label_images {
+
+using base::Monitor;
+
 namespace {
 
 // Plain comparisons without branches: the compiler makes vectors of them.
@@ -44,7 +47,7 @@ void mark_diagram(std::span<const Label> labels, std::size_t width, std::span<co
       mark_row(row, up, down, width, diagram.data() + y * width);
     }
   };
-  parallel_for(piece_count(height, rows), threads, mark_rows, monitor);
+  base::parallel_for(base::piece_count(height, rows), threads, mark_rows, monitor);
 }
 
 template void mark_diagram(std::span<const std::uint8_t>, std::size_t, std::span<const std::uint8_t>,
@@ -54,4 +57,4 @@ template void mark_diagram(std::span<const std::uint16_t>, std::size_t, std::spa
 template void mark_diagram(std::span<const std::uint32_t>, std::size_t, std::span<const std::uint32_t>,
                            std::span<const std::uint32_t>, std::span<std::uint8_t>, unsigned, const Monitor&);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::label_images

@@ -7,7 +7,7 @@
 
 #include "core/base/monitor.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::label_images {
 
 // Writes 1 for the pixels with a 4-neighbour of larger label, else 0. Label 0 is no site: its pixels are
 // never of the diagram, and as a neighbour it is never larger.
@@ -18,6 +18,6 @@ namespace vorotool::core {
 template <class Label>
 void mark_diagram(std::span<const Label> labels, std::size_t width, std::span<const Label> above,
                   std::span<const Label> below, std::span<std::uint8_t> diagram, unsigned threads,
-                  const Monitor& monitor);
+                  const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::label_images

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace vorotool::core {
+namespace vorotool::core::label_images {
 
 // Where the runs of one row start, then the width: run k covers the columns [starts[k], starts[k + 1]).
 // A row of 2^32 - 1 pixels is the longest.
@@ -57,4 +57,4 @@ constexpr std::size_t rows_per_piece(std::size_t width) {
   return std::max<std::size_t>(1, kPixels / std::max<std::size_t>(1, width));
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::label_images

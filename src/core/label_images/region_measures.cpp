@@ -8,7 +8,11 @@
 #include "core/base/parallel.hpp"
 #include "core/label_images/region_scan.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::label_images {
+
+using base::Monitor;
+using base::parallel_for;
+
 namespace {
 
 template <class Label>
@@ -82,7 +86,7 @@ class BandJoiner {
     steps_ += steps;
     if (steps_ < (1U << 16)) return;
     steps_ = 0;
-    if (monitor_ && !monitor_(1.0)) throw Interrupted();
+    if (monitor_ && !monitor_(1.0)) throw base::Interrupted();
   }
 
   void put(std::uint32_t one, std::uint32_t other, std::int64_t length) {
@@ -158,7 +162,7 @@ Regions measure_regions(std::span<const Label> image, std::size_t width, std::si
   if (std::max(width, height) >= UINT32_MAX) throw std::length_error("a side exceeds 2^32 - 2 pixels");
   if (image.empty()) return {};
   const std::size_t rows = rows_per_piece(width);
-  std::vector<std::unique_ptr<BandScan>> bands(piece_count(height, rows));
+  std::vector<std::unique_ptr<BandScan>> bands(base::piece_count(height, rows));
   parallel_for(
       bands.size(), threads,
       [&](std::size_t k) { bands[k] = scan_band(image, width, k * rows, std::min(height, (k + 1) * rows)); },
@@ -182,7 +186,7 @@ std::vector<std::uint64_t> max_by_label(std::span<const Label> image, std::span<
                                         unsigned threads, const Monitor& monitor) {
   if (values.size() != image.size()) throw std::length_error("the values have another size than the labels");
   if (image.empty()) return std::vector<std::uint64_t>(labels.size(), 0);
-  FlatMap numbers(labels.size());
+  base::FlatMap numbers(labels.size());
   for (std::size_t k = 0; k < labels.size(); ++k) numbers[labels[k]] = k + 1;
   std::vector<std::atomic<std::uint64_t>> largest(labels.size());  // shared: a maximum knows no order
   const std::size_t height = image.size() / width;
@@ -205,7 +209,7 @@ std::vector<std::uint64_t> max_by_label(std::span<const Label> image, std::span<
       }
     }
   };
-  parallel_for(piece_count(height, rows), threads, scan, monitor);
+  parallel_for(base::piece_count(height, rows), threads, scan, monitor);
   return {largest.begin(), largest.end()};
 }
 
@@ -223,4 +227,4 @@ VOROTOOL_INSTANTIATE(std::uint16_t)
 VOROTOOL_INSTANTIATE(std::uint32_t)
 #undef VOROTOOL_INSTANTIATE
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::label_images

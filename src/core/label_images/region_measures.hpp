@@ -7,7 +7,7 @@
 
 #include "core/base/monitor.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::label_images {
 
 // All pixels of one label, connected or not. Columns and rows are counted from the corner of the image.
 struct Region {
@@ -41,13 +41,13 @@ struct Regions {
 // result does not depend on `threads`. Throws std::length_error when a side has more than 2^32 - 2 pixels.
 template <class Label>
 Regions measure_regions(std::span<const Label> image, std::size_t width, std::size_t height, unsigned threads,
-                        const Monitor& monitor);
+                        const base::Monitor& monitor);
 
 // The largest of `values` (uint32_t or uint64_t, one a pixel) over the pixels of each label in `labels`
 // (increasing); 0 for a label without pixels. Labels of the image that are not in `labels` are passed over.
 template <class Label, class Value>
 std::vector<std::uint64_t> max_by_label(std::span<const Label> image, std::span<const Value> values,
                                         std::size_t width, std::span<const std::uint32_t> labels,
-                                        unsigned threads, const Monitor& monitor);
+                                        unsigned threads, const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::label_images

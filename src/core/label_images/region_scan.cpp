@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace vorotool::core {
+namespace vorotool::core::label_images {
 
 std::uint32_t ComponentSets::add() {
   if (parent_.size() >= kNoComponent) throw std::length_error("the image has more than 2^32 - 2 components");
@@ -147,4 +147,4 @@ template void BandScan::add_row(std::span<const std::uint8_t>);
 template void BandScan::add_row(std::span<const std::uint16_t>);
 template void BandScan::add_row(std::span<const std::uint32_t>);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::label_images

@@ -9,7 +9,7 @@
 #include "core/label_images/label_runs.hpp"
 #include "core/label_images/region_measures.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::label_images {
 
 // Disjoint sets of provisional components; the smallest number of a set stands for it.
 class ComponentSets {
@@ -63,7 +63,7 @@ class BandScan {
 
   std::vector<std::uint32_t> labels;
   std::vector<Region> regions;
-  FlatMap borders;  // border_key -> pixel sides
+  base::FlatMap borders;  // border_key -> pixel sides
   ComponentSets components;
   RunRow first_runs;
   RunRow last_runs;
@@ -79,8 +79,8 @@ class BandScan {
   RunStarts starts_;
   RunRow runs_;  // of the row at hand; last_runs is the row above
   std::vector<Overlap> overlaps_;
-  FlatMap numbers_;  // label -> region number
+  base::FlatMap numbers_;  // label -> region number
   std::uint32_t y_;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::label_images

@@ -2,7 +2,10 @@
 
 #include <stdexcept>
 
-namespace vorotool::core {
+namespace vorotool::core::label_images {
+
+using base::Monitor;
+
 namespace {
 
 // Components that are known: the ones that begin in a band come in order, and what joins has one number
@@ -30,7 +33,7 @@ void scan_rows(ComponentScan<Sets>& scan, std::size_t width, std::span<const std
   for (std::size_t row = 0; row < mask.size(); row += width) {
     if (row % piece == 0 && monitor &&
         !monitor(static_cast<double>(row) / static_cast<double>(mask.size()))) {
-      throw Interrupted();
+      throw base::Interrupted();
     }
     scan.add_row(mask.subspan(row, width), numbers.subspan(row, width));
   }
@@ -67,4 +70,4 @@ void number_band(std::span<const std::uint8_t> mask, Connectivity connectivity,
   if (!known.are_used()) throw std::invalid_argument("the mask has fewer components than numbers");
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::label_images

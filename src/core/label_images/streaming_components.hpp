@@ -13,7 +13,7 @@
 #include "core/label_images/connected_components.hpp"
 #include "core/label_images/region_scan.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::label_images {
 
 class StreamingComponents {
  public:
@@ -23,7 +23,8 @@ class StreamingComponents {
   // The next rows of a mask of zeros and ones, from the top. Ones get provisional numbers from 1, in the
   // order in which runs of ones begin that no run above touches. Throws std::length_error beyond 2^32 - 2 of
   // them.
-  void add(std::span<const std::uint8_t> mask, std::span<std::uint32_t> provisional, const Monitor& monitor);
+  void add(std::span<const std::uint8_t> mask, std::span<std::uint32_t> provisional,
+           const base::Monitor& monitor);
 
   std::size_t width() const { return width_; }
   // How many provisional components there are so far.
@@ -52,6 +53,6 @@ class StreamingComponents {
 // std::invalid_argument if those are not as many as the mask needs.
 void number_band(std::span<const std::uint8_t> mask, Connectivity connectivity,
                  std::span<const std::uint32_t> above, std::span<const std::uint32_t> fresh,
-                 std::span<std::uint32_t> numbers, const Monitor& monitor);
+                 std::span<std::uint32_t> numbers, const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::label_images

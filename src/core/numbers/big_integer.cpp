@@ -7,7 +7,7 @@
 
 #include "core/numbers/double_double.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::numbers {
 
 BigInteger::BigInteger(int128 value) : size_(2), negative_(value < 0) {
   const auto bits = static_cast<uint128>(value);
@@ -187,4 +187,4 @@ std::optional<BigInteger> integer_root(const BigInteger& a) {
   return std::nullopt;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::numbers

@@ -10,7 +10,7 @@
 
 #include "core/numbers/int128.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::numbers {
 
 class BigInteger {
  public:
@@ -70,4 +70,4 @@ inline BigInteger operator-(BigInteger a) {
 inline BigInteger operator+(BigInteger a, const BigInteger& b) { return std::move(a += b); }
 inline BigInteger operator-(BigInteger a, const BigInteger& b) { return std::move(a -= b); }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::numbers

@@ -12,7 +12,7 @@
 #include "core/numbers/expansion.hpp"
 #include "core/numbers/int128.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::numbers {
 
 struct DoubleDouble {
   double head = 0;  // the sum rounded to a double
@@ -75,4 +75,4 @@ inline bool operator>(const DoubleDouble& a, const DoubleDouble& b) { return b <
 
 inline DoubleDouble abs(const DoubleDouble& a) { return a.head < 0 ? -a : a; }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::numbers

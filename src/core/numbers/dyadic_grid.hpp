@@ -10,7 +10,7 @@
 #include "core/numbers/fixed_integer.hpp"
 #include "core/numbers/int128.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::numbers {
 
 // A double as mantissa 2^exponent, the mantissa odd or, for zero, zero.
 struct OddMantissa {
@@ -72,4 +72,4 @@ struct CommonLattice {
   }
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::numbers

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-namespace vorotool::core {
+namespace vorotool::core::numbers {
 namespace {
 
 // Of the power series: where z is at most 1/4 the terms from the next one on are below 2^-62 z.
@@ -64,4 +64,4 @@ double angle_of(double x, double y) {
   return x < 0 ? std::numbers::pi - angle : angle;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::numbers

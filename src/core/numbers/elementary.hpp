@@ -5,7 +5,7 @@
 // These are the functions of geometry/elementary.py, operation by operation.
 #pragma once
 
-namespace vorotool::core {
+namespace vorotool::core::numbers {
 
 // The length of (x, y), wrong by less than a unit in the last place; infinite where either is.
 //
@@ -18,4 +18,4 @@ double hypotenuse(double x, double y);
 // roundings.
 double angle_of(double x, double y);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::numbers

@@ -13,7 +13,7 @@
 
 #include "core/numbers/sign.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::numbers {
 
 // head + tail is the exact value, head the rounded one.
 struct TwoTerms {
@@ -137,4 +137,4 @@ Expansion<2 * m * n> operator*(const Expansion<m>& e, const Expansion<n>& f) {
   return sum;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::numbers

@@ -8,7 +8,7 @@
 
 #include "core/numbers/int128.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::numbers {
 
 template <std::size_t limbs>
 struct WideInteger {
@@ -78,4 +78,4 @@ inline WideInteger<2> widen(int128 value) {
   return {{static_cast<std::uint64_t>(bits), static_cast<std::uint64_t>(bits >> 64)}};
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::numbers

@@ -10,7 +10,7 @@
 #include "core/numbers/fixed_integer.hpp"
 #include "core/numbers/sign.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::numbers {
 
 // A number rounded to the nearest double, ties to even, and the side of it on which the number lies: rounding
 // is monotonic, so both together compare the number with any double exactly.
@@ -95,4 +95,4 @@ Rounded rounded_quotient(WideInteger<n> numerator, const WideInteger<m>& denomin
   return {sign * result.value, sign * result.error_sign};
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::numbers

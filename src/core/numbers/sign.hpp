@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace vorotool::core {
+namespace vorotool::core::numbers {
 
 inline int sign_of(double value) { return (value > 0) - (value < 0); }
 inline int sign_of(std::int64_t value) { return (value > 0) - (value < 0); }
@@ -14,4 +14,4 @@ inline constexpr int undecided = 2;
 // 2^-53 bounds the relative error of a rounding.
 inline constexpr double unit_roundoff = 0x1p-53;
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::numbers

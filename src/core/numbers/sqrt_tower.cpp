@@ -9,7 +9,7 @@
 #include "core/numbers/int128.hpp"
 #include "core/numbers/sign.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::numbers {
 namespace {
 
 using Terms = std::span<const BigInteger>;
@@ -197,4 +197,4 @@ RootMagnitude square_root(const RootMagnitude& a) {
   return normalized(root, (a.exponent - shift) / 2);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::numbers

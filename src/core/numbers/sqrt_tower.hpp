@@ -24,7 +24,7 @@
 
 #include "core/numbers/big_integer.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::numbers {
 
 class RootTower;
 
@@ -108,4 +108,4 @@ RootMagnitude operator/(const RootMagnitude& a, const RootMagnitude& b);
 RootMagnitude operator+(const RootMagnitude& a, const RootMagnitude& b);
 RootMagnitude square_root(const RootMagnitude& a);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::numbers

@@ -4,9 +4,10 @@
 #include <stdexcept>
 #include <string>
 
-namespace vorotool::core {
+namespace vorotool::core::offsets {
 
-CellBorders::CellBorders(const SegmentDiagram& diagram, std::span<const std::int32_t> vertex_start,
+CellBorders::CellBorders(const segment_voronoi::build::SegmentDiagram& diagram,
+                         std::span<const std::int32_t> vertex_start,
                          std::span<const std::int32_t> vertex_sites)
     : diagram_(diagram),
       vertex_start_(vertex_start),
@@ -46,15 +47,15 @@ HalfEdge CellBorders::from_infinity(HalfEdge h) const {
   const auto is_own = [&](auto entry) { return entry != infinite_.end() && entry->first == left(h); };
   if (!is_own(found)) throw std::invalid_argument("a cell is open at infinity");
   if (!is_own(found + 1)) return found->second;
-  const Place out = way(h), in = way(found->second);
+  const skeleton::Place out = way(h), in = way(found->second);
   return out[0] * in[0] + out[1] * in[1] < 0 ? found->second : (found + 1)->second;
 }
 
-Place CellBorders::way(HalfEdge h) const {
-  const LatticeSite a = diagram_.site(left(h)), b = diagram_.site(right(h));
+skeleton::Place CellBorders::way(HalfEdge h) const {
+  const kernel::LatticeSite a = diagram_.site(left(h)), b = diagram_.site(right(h));
   const auto sum = [](std::int32_t p, std::int32_t q) { return std::int64_t{p} + q; };
   return {static_cast<double>(sum(a.a.y, a.b.y) - sum(b.a.y, b.b.y)),
           static_cast<double>(sum(b.a.x, b.b.x) - sum(a.a.x, a.b.x))};
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::offsets

@@ -12,7 +12,7 @@
 #include "core/segment_voronoi/build/diagram.hpp"
 #include "core/skeleton/bisector_arc.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::offsets {
 
 using HalfEdge = std::int32_t;
 inline constexpr HalfEdge no_edge = -1;
@@ -23,10 +23,10 @@ class CellBorders {
  public:
   // `vertex_sites` are the sites around vertex v from vertex_start[v] on, counter-clockwise. Throws
   // std::invalid_argument if they do not fit the edges.
-  CellBorders(const SegmentDiagram& diagram, std::span<const std::int32_t> vertex_start,
-              std::span<const std::int32_t> vertex_sites);
+  CellBorders(const segment_voronoi::build::SegmentDiagram& diagram,
+              std::span<const std::int32_t> vertex_start, std::span<const std::int32_t> vertex_sites);
 
-  const SegmentDiagram& diagram() const { return diagram_; }
+  const segment_voronoi::build::SegmentDiagram& diagram() const { return diagram_; }
   HalfEdge size() const { return static_cast<HalfEdge>(2 * diagram_.edges.size()); }
 
   // Ends, -1 at infinity.
@@ -45,7 +45,7 @@ class CellBorders {
 
   // The way along the bisector of two points, or of a segment and its end, which alone are unbounded: across
   // the line between their middles, the left site to the left; twice as long as these are apart.
-  Place way(HalfEdge h) const;
+  skeleton::Place way(HalfEdge h) const;
 
  private:
   std::int32_t edge_end(HalfEdge h, int end) const {
@@ -58,10 +58,10 @@ class CellBorders {
   std::size_t slot(std::int32_t vertex, std::int32_t site) const;
   HalfEdge from_infinity(HalfEdge h) const;
 
-  SegmentDiagram diagram_;
+  segment_voronoi::build::SegmentDiagram diagram_;
   std::span<const std::int32_t> vertex_start_, vertex_sites_;
-  LargeArray<HalfEdge> leaving_;  // as vertex_sites: what leaves the vertex with this site on its left
+  base::LargeArray<HalfEdge> leaving_;  // as vertex_sites: what leaves the vertex with this site on its left
   std::vector<std::pair<std::int32_t, HalfEdge>> infinite_;  // what comes from infinity, by the left site
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::offsets

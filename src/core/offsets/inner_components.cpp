@@ -5,18 +5,18 @@
 #include <stdexcept>
 #include <tuple>
 
-namespace vorotool::core {
+namespace vorotool::core::offsets {
 
 NearRegions::NearRegions(const CellBorders& borders, const OffsetDomain& domain, const ClearanceLevel& level,
-                         const Descents& descents, const Monitor& monitor)
+                         const Descents& descents, const base::Monitor& monitor)
     : sets_(domain.site_polygon.size()) {
-  const SegmentDiagram& diagram = borders.diagram();
+  const segment_voronoi::build::SegmentDiagram& diagram = borders.diagram();
   for (std::size_t j = 0; j < diagram.segments.size(); ++j) {
     const auto segment = static_cast<std::int32_t>(diagram.points.size() + j);
     for (const std::int32_t end : diagram.segments[j]) sets_.join(segment, end);
   }
   for (HalfEdge h = 0; h < borders.size(); ++h) {
-    report_item(monitor, static_cast<std::size_t>(h));
+    base::report_item(monitor, static_cast<std::size_t>(h));
     if (descents.has(h)) {
       sets_.join(borders.left(h), borders.right(descents.onward(h)));
     } else if (!descents.has(h ^ 1) && (!domain.holds(borders, h) || !level.is_edge_above(h))) {
@@ -64,4 +64,4 @@ std::vector<bool> outer_rings(std::span<const RingSides> rings, std::int32_t reg
   return is_outer;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::offsets

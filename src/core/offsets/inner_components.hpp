@@ -8,19 +8,19 @@
 #include "core/base/disjoint_sets.hpp"
 #include "core/offsets/level_crossings.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::offsets {
 
 // What is near holds all sites, and what is on the other side of the shapes.
 class NearRegions {
  public:
   NearRegions(const CellBorders& borders, const OffsetDomain& domain, const ClearanceLevel& level,
-              const Descents& descents, const Monitor& monitor);
+              const Descents& descents, const base::Monitor& monitor);
 
   // The number of the region of a site.
   std::int32_t of(std::int32_t site) { return sets_.find(site); }
 
  private:
-  DisjointSets<std::int32_t> sets_;
+  base::DisjointSets<std::int32_t> sets_;
 };
 
 // A ring is between two regions.
@@ -34,4 +34,4 @@ struct RingSides {
 std::vector<bool> outer_rings(std::span<const RingSides> rings, std::int32_t region_at_infinity,
                               bool shapes_are_near);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::offsets

@@ -6,13 +6,13 @@
 
 #include "core/graphs/biconnected_components.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::offsets {
 
 Descents::Descents(const CellBorders& borders, const OffsetDomain& domain, const ClearanceLevel& level,
-                   FarRegions& far, const Monitor& monitor)
+                   FarRegions& far, const base::Monitor& monitor)
     : borders_(borders), number_(static_cast<std::size_t>(borders.size()), -1) {
   for (HalfEdge h = 0; h < borders.size(); ++h) {
-    report_item(monitor, static_cast<std::size_t>(h));
+    base::report_item(monitor, static_cast<std::size_t>(h));
     if (!level.descends(h) || !domain.holds(borders, h)) continue;
     number_[static_cast<std::size_t>(h)] = static_cast<std::int32_t>(all_.size());
     all_.push_back(h);
@@ -59,7 +59,7 @@ void group_by_cycles(std::vector<Corner>& corners) {
     pairs.push_back({static_cast<std::int32_t>(region), nodes});
   }
   const std::vector<std::int32_t> component =
-      biconnected_components(static_cast<std::size_t>(nodes) + 1, pairs);
+      graphs::biconnected_components(static_cast<std::size_t>(nodes) + 1, pairs);
   for (std::size_t k = 0; k < corners.size(); ++k) corners[k].group = component[k];
 }
 
@@ -97,4 +97,4 @@ void Descents::part_touching(const ClearanceLevel& level, FarRegions& far, bool 
   }
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::offsets

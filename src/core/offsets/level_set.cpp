@@ -6,14 +6,18 @@
 
 #include "core/kernel/lattice_vector.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::offsets {
+
+using kernel::LatticeSite;
+using skeleton::Place;
+
 namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity();
 
 double length_of(const Place& p) { return std::sqrt(p[0] * p[0] + p[1] * p[1]); }
 
-Place from(const LatticePoint& p, const Place& way, double distance) {
+Place from(const kernel::LatticePoint& p, const Place& way, double distance) {
   const double part = distance / length_of(way);
   return {p.x + part * way[0], p.y + part * way[1]};
 }
@@ -21,12 +25,12 @@ Place from(const LatticePoint& p, const Place& way, double distance) {
 }  // namespace
 
 double ClearanceLevel::minimum(HalfEdge h) const {
-  const SegmentDiagram& diagram = borders_.diagram();
+  const segment_voronoi::build::SegmentDiagram& diagram = borders_.diagram();
   const LatticeSite left = diagram.site(borders_.left(h)), right = diagram.site(borders_.right(h));
   if (left.is_point() && right.is_point()) return minimum_between_points(h, left, right);
   // the end itself is on the edge
   if (is_end_of(left, right) || is_end_of(right, left)) return 0;
-  const BisectorArc arc(left, right);
+  const skeleton::BisectorArc arc(left, right);
   if (!arc.is_parabola) return none;
   const double t0 = arc.parabola.parameter(end(borders_.tail(h)));
   const double t1 = arc.parabola.parameter(end(borders_.head(h)));
@@ -48,11 +52,11 @@ double ClearanceLevel::minimum_between_points(HalfEdge h, const LatticeSite& lef
 
 Place ClearanceLevel::descent(HalfEdge h) const {
   if (ends_at_head(h)) return end(borders_.head(h)).place;  // all that end there meet
-  const SegmentDiagram& diagram = borders_.diagram();
+  const segment_voronoi::build::SegmentDiagram& diagram = borders_.diagram();
   const LatticeSite left = diagram.site(borders_.left(h)), right = diagram.site(borders_.right(h));
   if (left.is_point() && right.is_point()) return descent_between_points(h, left, right);
   if (is_end_of(left, right) || is_end_of(right, left)) return beside_end(left, right);
-  const BisectorArc arc(left, right);
+  const skeleton::BisectorArc arc(left, right);
   if (!arc.is_parabola) return descent_between_segments(h);
   // the focus is to the left of growing parameters; towards the minimum, which is at 0
   const double h0 = arc.parabola.h, t = std::sqrt(h0) * std::sqrt(std::max(0.0, 2 * level_ - h0));
@@ -71,18 +75,18 @@ Place ClearanceLevel::descent_between_points(HalfEdge h, const LatticeSite& left
 
 // The clearance grows evenly; from the nearer end, since the other one may be far away.
 Place ClearanceLevel::descent_between_segments(HalfEdge h) const {
-  const ArcEnd low = end(borders_.head(h)), high = end(borders_.tail(h));
+  const skeleton::ArcEnd low = end(borders_.head(h)), high = end(borders_.tail(h));
   const double part = (level_ - low.radius) / (high.radius - low.radius);
   return {low.place[0] + part * (high.place[0] - low.place[0]),
           low.place[1] + part * (high.place[1] - low.place[1])};
 }
 
 Place ClearanceLevel::beside_end(const LatticeSite& left, const LatticeSite& right) const {
-  const LatticePoint& end = left.is_point() ? left.a : right.a;
+  const kernel::LatticePoint& end = left.is_point() ? left.a : right.a;
   const LatticeSite& segment = left.is_point() ? right : left;
-  const LatticeVector across = left_of(segment.b - segment.a);
+  const kernel::LatticeVector across = kernel::left_of(segment.b - segment.a);
   const Place normal{static_cast<double>(across.x), static_cast<double>(across.y)};
   return from(end, normal, begins_left(left, right) ? level_ : -level_);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::offsets

@@ -6,7 +6,7 @@
 
 #include "core/offsets/half_edges.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::offsets {
 
 // A vertex is above a level if its radius is larger, as it is computed: one decision a vertex, so that
 // whatever follows from several of them fits together even where radius and level are within a rounding of
@@ -31,7 +31,7 @@ class ClearanceLevel {
     return is_above(borders_.tail(h)) && (!is_above(borders_.head(h)) || dips(h));
   }
   // Where a half-edge that descends does so.
-  Place descent(HalfEdge h) const;
+  skeleton::Place descent(HalfEdge h) const;
   // Whether it does so at its head, which is just on the level.
   bool ends_at_head(HalfEdge h) const {
     const std::int32_t head = borders_.head(h);
@@ -44,11 +44,13 @@ class ClearanceLevel {
   bool dips(HalfEdge h) const { return minimum(h) <= level_; }
   // Inside an edge whose ends are above; infinite where there is none.
   double minimum(HalfEdge h) const;
-  double minimum_between_points(HalfEdge h, const LatticeSite& left, const LatticeSite& right) const;
-  Place descent_between_points(HalfEdge h, const LatticeSite& left, const LatticeSite& right) const;
-  Place descent_between_segments(HalfEdge h) const;
-  Place beside_end(const LatticeSite& left, const LatticeSite& right) const;
-  ArcEnd end(std::int32_t vertex) const {
+  double minimum_between_points(HalfEdge h, const kernel::LatticeSite& left,
+                                const kernel::LatticeSite& right) const;
+  skeleton::Place descent_between_points(HalfEdge h, const kernel::LatticeSite& left,
+                                         const kernel::LatticeSite& right) const;
+  skeleton::Place descent_between_segments(HalfEdge h) const;
+  skeleton::Place beside_end(const kernel::LatticeSite& left, const kernel::LatticeSite& right) const;
+  skeleton::ArcEnd end(std::int32_t vertex) const {
     const auto v = static_cast<std::size_t>(vertex);
     return {borders_.diagram().vertices[v], borders_.diagram().radius[v]};
   }
@@ -58,14 +60,14 @@ class ClearanceLevel {
 };
 
 // Whether a site is an end of another one.
-inline bool is_end_of(const LatticeSite& site, const LatticeSite& other) {
+inline bool is_end_of(const kernel::LatticeSite& site, const kernel::LatticeSite& other) {
   return site.is_point() && !other.is_point() && (other.a == site.a || other.b == site.a);
 }
 
 // Whether the half-edge between a segment and its end, which leads across the end, begins on the left of the
 // segment, as seen along it.
-inline bool begins_left(const LatticeSite& left, const LatticeSite& right) {
+inline bool begins_left(const kernel::LatticeSite& left, const kernel::LatticeSite& right) {
   return left.is_point() ? left.a == right.b : right.a == left.a;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::offsets

@@ -11,7 +11,12 @@
 #include "core/numbers/elementary.hpp"
 #include "core/offsets/inner_components.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::offsets {
+
+using base::Monitor;
+using skeleton::LatticeToInput;
+using skeleton::Place;
+
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -22,7 +27,7 @@ double dot(const Place& a, const Place& b) { return a[0] * b[0] + a[1] * b[1]; }
 
 // From one direction to another, counter-clockwise and by at most half a turn.
 double angle(const Place& a, const Place& b) {
-  if (cross(a, b) > 0) return angle_of(dot(a, b), cross(a, b));
+  if (cross(a, b) > 0) return numbers::angle_of(dot(a, b), cross(a, b));
   return dot(a, b) < 0 ? std::numbers::pi : 0;
 }
 
@@ -83,7 +88,7 @@ class CurveMaker {
     std::vector<bool> is_done(descents_.all().size());
     for (const HalfEdge first : descents_.all()) {
       if (is_done[descents_.number(first)]) continue;
-      if (monitor_ && !monitor_(0)) throw Interrupted();
+      if (monitor_ && !monitor_(0)) throw base::Interrupted();
       Ring ring;
       HalfEdge h = first;
       do {
@@ -223,9 +228,9 @@ class CurveMaker {
     if (!diagram_.is_point(site)) return false;
     if (domain_.is_own_end(first) && domain_.is_own_end(last) &&
         borders_.left(first) != borders_.right(last)) {
-      const LatticeSite one = diagram_.site(borders_.left(first)),
-                        other = diagram_.site(borders_.right(last));
-      if (core::cross(one.b - one.a, other.b - other.a) == 0) return true;
+      const kernel::LatticeSite one = diagram_.site(borders_.left(first)),
+                                other = diagram_.site(borders_.right(last));
+      if (core::kernel::cross(one.b - one.a, other.b - other.a) == 0) return true;
     }
     const Place a = descents_.place(first) - centre_of(site), b = descents_.place(last) - centre_of(site);
     return dot(a, b) > 0 && cross(a, b) <= 0 && !(is_lone(site) && turn(piece) > std::numbers::pi);
@@ -306,7 +311,7 @@ class CurveMaker {
   }
 
   const CellBorders& borders_;
-  const SegmentDiagram& diagram_;
+  const segment_voronoi::build::SegmentDiagram& diagram_;
   const OffsetDomain& domain_;
   double distance_;
   const LatticeToInput& place_;
@@ -329,4 +334,4 @@ OffsetCurves offset_curves(const CellBorders& borders, const OffsetDomain& domai
   return CurveMaker(borders, domain, distance, place, monitor).make();
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::offsets

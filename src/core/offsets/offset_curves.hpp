@@ -10,13 +10,13 @@
 #include "core/offsets/polygon_faces.hpp"
 #include "core/skeleton/extraction.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::offsets {
 
 // Pieces follow each other around their rings, rings in their shapes: the outer one first, then those of
 // holes. A piece begins where the one before it ends, to the bit. The shape is on the left.
 struct OffsetCurves {
-  std::vector<Place> start, end;            // [k] in input units
-  std::vector<Place> centre;                // [k] NaN on straight lines; an arc is at most half a circle
+  std::vector<skeleton::Place> start, end;  // [k] in input units
+  std::vector<skeleton::Place> centre;      // [k] NaN on straight lines; an arc is at most half a circle
   std::vector<std::int32_t> site;           // [k] what it is at that distance from
   std::vector<std::int64_t> ring_start;     // [q + 1]
   std::vector<std::int64_t> shape_start;    // [s + 1] among the rings
@@ -30,6 +30,6 @@ struct OffsetCurves {
 // the topology, whether a vertex is above and whether an edge dips between its ends, are made once: rings
 // are closed and properly nested whatever the rounding of radii.
 OffsetCurves offset_curves(const CellBorders& borders, const OffsetDomain& domain, double distance,
-                           const LatticeToInput& place, const Monitor& monitor);
+                           const skeleton::LatticeToInput& place, const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::offsets

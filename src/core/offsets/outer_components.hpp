@@ -8,13 +8,13 @@
 #include "core/offsets/level_set.hpp"
 #include "core/offsets/polygon_faces.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::offsets {
 
 // What is far is connected just as the edges of the diagram are that are above the level as a whole.
 class FarRegions {
  public:
   FarRegions(const CellBorders& borders, const OffsetDomain& domain, const ClearanceLevel& level,
-             const Monitor& monitor);
+             const base::Monitor& monitor);
 
   // The number of the region of a vertex of the diagram that is above (-1: infinity).
   std::int32_t of(std::int32_t vertex) { return sets_.find(vertex < 0 ? infinity_ : vertex); }
@@ -24,7 +24,7 @@ class FarRegions {
 
  private:
   std::int32_t infinity_;  // the number after those of the vertices
-  DisjointSets<std::int32_t> sets_;
+  base::DisjointSets<std::int32_t> sets_;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::offsets

@@ -7,7 +7,7 @@
 
 #include "core/offsets/level_set.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::offsets {
 
 struct OffsetDomain {
   std::span<const std::int32_t> edge_face;                     // [e] -1 between a segment and its own end
@@ -30,7 +30,7 @@ struct OffsetDomain {
  private:
   std::int32_t face_at(const CellBorders& borders, HalfEdge h) const {
     if (!is_own_end(h)) return edge_face[static_cast<std::size_t>(h >> 1)];
-    const SegmentDiagram& diagram = borders.diagram();
+    const segment_voronoi::build::SegmentDiagram& diagram = borders.diagram();
     const std::int32_t left = borders.left(h), right = borders.right(h);
     const bool is_left = begins_left(diagram.site(left), diagram.site(right));
     const auto segment = static_cast<std::size_t>(diagram.is_point(left) ? right : left);
@@ -38,4 +38,4 @@ struct OffsetDomain {
   }
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::offsets

@@ -6,7 +6,11 @@
 
 #include "core/numbers/double_double.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::pruning {
+
+using skeleton::ArcEnd;
+using skeleton::Place;
+
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -21,7 +25,9 @@ double cross(const Place& a, const Place& b, const Place& c) {
   const Place ab = minus(b, a), ac = minus(c, a);
   const double plus = ab[0] * ac[1], less = ab[1] * ac[0];
   if (std::abs(plus - less) > 0x1p-20 * (std::abs(plus) + std::abs(less))) return plus - less;
-  const auto difference = [](double p, double q) { return DoubleDouble(two_difference(p, q)); };
+  const auto difference = [](double p, double q) {
+    return numbers::DoubleDouble(numbers::two_difference(p, q));
+  };
   return (difference(b[0], a[0]) * difference(c[1], a[1]) - difference(b[1], a[1]) * difference(c[0], a[0]))
       .head;
 }
@@ -46,7 +52,7 @@ double side_of_other_foot(const std::array<Place, 2>& line, const std::array<Pla
 
 }  // namespace
 
-ArcProfile::ArcProfile(const SkeletonView& skeleton, std::size_t arc)
+ArcProfile::ArcProfile(const skeleton::SkeletonView& skeleton, std::size_t arc)
     : is_curved_(skeleton.is_curved(arc)),
       radius_{skeleton.source_radius(arc), skeleton.target_radius(arc)},
       length_(skeleton.length[arc]) {
@@ -110,7 +116,7 @@ void ArcProfile::from_focus(const Place& focus, const std::array<Place, 2>& line
     size = 0;
     return;
   }
-  const Parabola parabola{focus, along[0] / length, along[1] / length, height};
+  const skeleton::Parabola parabola{focus, along[0] / length, along[1] / length, height};
   size = height;
   from = parabola.parameter(source) / height;
   to = parabola.parameter(target) / height;
@@ -159,7 +165,7 @@ double ArcProfile::radius(double u) const {
 
 double ArcProfile::length(double u0, double u1) const {
   if (u0 == 0 && u1 == 1) return length_;
-  if (is_curved_ && kind == Kind::parabola) return arc_length(size, size * x(u0), size * x(u1));
+  if (is_curved_ && kind == Kind::parabola) return skeleton::arc_length(size, size * x(u0), size * x(u1));
   return (u1 - u0) * length_;
 }
 
@@ -176,4 +182,4 @@ double ArcProfile::at_length(double distance) const {
   }
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::pruning

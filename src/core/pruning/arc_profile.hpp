@@ -6,7 +6,7 @@
 
 #include "core/skeleton/skeleton_view.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::pruning {
 
 // Where u goes from 0 at the source to 1 at the target, the parameter of the Bezier curve that the arc is.
 //
@@ -17,7 +17,7 @@ namespace vorotool::core {
 // quotient the sine of half the angle, so that cot(angle / 2) = |x|; and x is linear in u.
 class ArcProfile {
  public:
-  ArcProfile(const SkeletonView& skeleton, std::size_t arc);
+  ArcProfile(const skeleton::SkeletonView& skeleton, std::size_t arc);
 
   // A quantity along the arc.
   struct Course {
@@ -44,11 +44,12 @@ class ArcProfile {
   double size;              // h; between two lines the tangent of half the angle
 
  private:
-  void between_lines(const std::array<Place, 2>& left, const std::array<Place, 2>& right,
-                     const Place& middle);
-  void between_points(const Place& left, const Place& right, const ArcEnd& source, const ArcEnd& target);
-  void from_focus(const Place& focus, const std::array<Place, 2>& line, const ArcEnd& source,
-                  const ArcEnd& target);
+  void between_lines(const std::array<skeleton::Place, 2>& left, const std::array<skeleton::Place, 2>& right,
+                     const skeleton::Place& middle);
+  void between_points(const skeleton::Place& left, const skeleton::Place& right,
+                      const skeleton::ArcEnd& source, const skeleton::ArcEnd& target);
+  void from_focus(const skeleton::Place& focus, const std::array<skeleton::Place, 2>& line,
+                  const skeleton::ArcEnd& source, const skeleton::ArcEnd& target);
   double x(double u) const { return from + u * (to - from); }
   double chord_at(double x, double radius) const;
   bool source_is_larger() const { return radius_[0] >= radius_[1]; }
@@ -58,4 +59,4 @@ class ArcProfile {
   double length_;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::pruning

@@ -8,7 +8,12 @@
 #include "core/pruning/arc_profile.hpp"
 #include "core/pruning/disc_enlargement.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::pruning {
+
+using base::Monitor;
+using graphs::HangingArc;
+using skeleton::SkeletonView;
+
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -16,7 +21,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 void poll(const Monitor& monitor, double done) {
-  if (monitor && !monitor(done)) throw Interrupted();
+  if (monitor && !monitor(done)) throw base::Interrupted();
 }
 
 // What the criteria have in common: the trees, and where the values go.
@@ -73,7 +78,7 @@ class Pruner {
 
   const SkeletonView& skeleton_;
   const Monitor& monitor_;
-  SkeletonForest forest_;
+  graphs::SkeletonForest forest_;
   CriticalValues values_;
 };
 
@@ -291,7 +296,7 @@ class EnlargedDiscs : public Pruner {
 
  private:
   Disc disc(std::int32_t node) const {
-    const Place& place = skeleton_.vertices[at(node)];
+    const skeleton::Place& place = skeleton_.vertices[at(node)];
     return {place[0], place[1], skeleton_.radius[at(node)]};
   }
 
@@ -379,4 +384,4 @@ CriticalValues critical_values(const SkeletonView& skeleton, Criterion criterion
   return pruner.take();
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::pruning

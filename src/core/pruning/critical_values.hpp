@@ -26,7 +26,7 @@
 #include "core/base/monitor.hpp"
 #include "core/skeleton/skeleton_view.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::pruning {
 
 enum class Criterion : std::int8_t { angle, chord, scale, length, ratio };
 
@@ -43,6 +43,7 @@ struct CriticalValues {
   std::vector<KeptPlace> kept;              // one for each component without a core; by arc
 };
 
-CriticalValues critical_values(const SkeletonView& skeleton, Criterion criterion, const Monitor& monitor);
+CriticalValues critical_values(const skeleton::SkeletonView& skeleton, Criterion criterion,
+                               const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::pruning

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-namespace vorotool::core {
+namespace vorotool::core::pruning {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -112,4 +112,4 @@ void DiscDomination::search(Search& task, std::size_t level, std::size_t number)
   }
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::pruning

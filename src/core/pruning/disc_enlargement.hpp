@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace vorotool::core {
+namespace vorotool::core::pruning {
 
 struct Disc {
   double x, y, radius;
@@ -45,4 +45,4 @@ class DiscDomination {
   std::vector<std::vector<Box>> levels_;  // [0] of leaf_size discs each, [k + 1] of 4 boxes of [k]
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::pruning

@@ -7,7 +7,13 @@
 #include "core/pruning/arc_profile.hpp"
 #include "core/skeleton/branches.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::pruning {
+
+using skeleton::ArcEnd;
+using skeleton::GraphArc;
+using skeleton::Place;
+using skeleton::SkeletonView;
+
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -89,7 +95,7 @@ class PartWriter {
   }
   std::size_t node_count() const { return skeleton_.vertices.size() + extra_.size(); }
 
-  PrunedSkeleton write(const SkeletonOrder& order) const {
+  PrunedSkeleton write(const skeleton::SkeletonOrder& order) const {
     PrunedSkeleton out = reserved(order);
     for (const std::int32_t node : order.nodes) {
       const bool is_old = at(node) < skeleton_.vertices.size();
@@ -98,7 +104,7 @@ class PartWriter {
       out.vertices.push_back(end.place);
       out.radius.push_back(end.radius);
     }
-    for (const OrderedArc& arc : order.arcs) {
+    for (const skeleton::OrderedArc& arc : order.arcs) {
       const ArcPart& part = parts_[at(arc.arc)];
       out.arcs.push_back({arc.source, arc.target});
       out.control.push_back(control_of(skeleton_, part));
@@ -111,7 +117,7 @@ class PartWriter {
   }
 
  private:
-  static PrunedSkeleton reserved(const SkeletonOrder& order) {
+  static PrunedSkeleton reserved(const skeleton::SkeletonOrder& order) {
     PrunedSkeleton out;
     out.vertices.reserve(order.nodes.size());
     out.radius.reserve(order.nodes.size());
@@ -179,10 +185,10 @@ std::vector<ArcPart> parts_left(const SkeletonView& skeleton, const CriticalValu
 }
 
 PrunedSkeleton pruned_skeleton(const SkeletonView& skeleton, std::span<const ArcPart> parts,
-                               std::span<const std::int32_t> group, const Monitor& monitor) {
+                               std::span<const std::int32_t> group, const base::Monitor& monitor) {
   PartWriter writer(skeleton, parts);
   const std::span<const GraphArc> arcs = writer.graph(group);
-  return writer.write(order_by_branches(arcs, writer.node_count(), monitor));
+  return writer.write(skeleton::order_by_branches(arcs, writer.node_count(), monitor));
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::pruning

@@ -10,7 +10,7 @@
 #include "core/pruning/critical_values.hpp"
 #include "core/skeleton/skeleton_view.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::pruning {
 
 // The part of an arc that is left: from one parameter to another, the same where it is a single place.
 struct ArcPart {
@@ -20,22 +20,22 @@ struct ArcPart {
 
 // Its ends, its control point (NaN where it is straight), and its length.
 struct PartGeometry {
-  ArcEnd first, last;
-  Place control;
+  skeleton::ArcEnd first, last;
+  skeleton::Place control;
   double length;
 };
-PartGeometry part_geometry(const SkeletonView& skeleton, const ArcPart& part);
+PartGeometry part_geometry(const skeleton::SkeletonView& skeleton, const ArcPart& part);
 
 // By arc: the places whose critical value is at least the threshold.
-std::vector<ArcPart> parts_left(const SkeletonView& skeleton, const CriticalValues& values,
+std::vector<ArcPart> parts_left(const skeleton::SkeletonView& skeleton, const CriticalValues& values,
                                 Criterion criterion, double threshold);
 
 // Arcs branch by branch, as of a whole skeleton.
 struct PrunedSkeleton {
-  std::vector<Place> vertices;                    // [v]
+  std::vector<skeleton::Place> vertices;          // [v]
   std::vector<double> radius;                     // [v]
   std::vector<std::array<std::int32_t, 2>> arcs;  // [a]
-  std::vector<Place> control;                     // [a] NaN on straight lines
+  std::vector<skeleton::Place> control;           // [a] NaN on straight lines
   std::vector<double> length;                     // [a]
   std::vector<std::int32_t> branch;               // [a]
   std::vector<std::int32_t> original;             // [a] the arc that each is a part of
@@ -43,7 +43,7 @@ struct PrunedSkeleton {
 };
 
 // Of parts with the groups of their arcs: groups stay together.
-PrunedSkeleton pruned_skeleton(const SkeletonView& skeleton, std::span<const ArcPart> parts,
-                               std::span<const std::int32_t> group, const Monitor& monitor);
+PrunedSkeleton pruned_skeleton(const skeleton::SkeletonView& skeleton, std::span<const ArcPart> parts,
+                               std::span<const std::int32_t> group, const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::pruning

@@ -6,7 +6,10 @@
 
 #include "core/kernel/lattice_vector.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::sampled_skeleton {
+
+using skeleton::Place;
+
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -118,10 +121,10 @@ void AxisBound::see(const Place& source, const Place& target, std::span<const Ne
   seen_.clear();
   for (const NearEdge& edge : near) {
     const auto [a, b] = edge.site;
-    const LatticeVector along = b - a;
+    const kernel::LatticeVector along = b - a;
     Seen seen{{static_cast<double>(a.x), static_cast<double>(a.y)},
               {static_cast<double>(along.x), static_cast<double>(along.y)},
-              std::sqrt(static_cast<double>(norm2(along))),
+              std::sqrt(static_cast<double>(kernel::norm2(along))),
               0,
               {},
               {},
@@ -228,4 +231,4 @@ double AxisBound::bound_by_seed(const Nearest& c, const Place& g) {
   return across < c.reach ? std::min(across, grown) : grown;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::sampled_skeleton

@@ -34,17 +34,17 @@
 #include "core/kernel/point.hpp"
 #include "core/skeleton/bisector_arc.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::sampled_skeleton {
 
 // A closed edge near an arc, or a point of the graph that is on none.
 struct NearEdge {
   std::int32_t segment;  // -1 of a point
-  LatticeSite site;
+  kernel::LatticeSite site;
 };
 
 // A seed of an arc.
 struct ArcSeed {
-  Point place;
+  kernel::Point place;
   std::span<const std::int32_t> labels;  // segments that it is on
 };
 
@@ -53,14 +53,16 @@ class AxisBound {
  public:
   // How far edges but one are from the places between two on this, or less; no matter where it is more than
   // the reach.
-  using Clearing = std::function<double(const Place&, const Place&, std::int32_t segment, double reach)>;
+  using Clearing = std::function<double(const skeleton::Place&, const skeleton::Place&, std::int32_t segment,
+                                        double reach)>;
 
   // `near` holds all edges that may be nearest to a point of the arc. All ends of edges, and points without,
   // are seeds, and none is nearer to a point of the arc than its own. An arc without seeds need not be
   // equally far from any. The errors of the second kind are proved up to `reach`. Infinite where nothing is
   // proved.
-  double operator()(const Place& source, const Place& target, std::span<const ArcSeed> seeds,
-                    std::span<const NearEdge> near, double reach, const Clearing& clearing);
+  double operator()(const skeleton::Place& source, const skeleton::Place& target,
+                    std::span<const ArcSeed> seeds, std::span<const NearEdge> near, double reach,
+                    const Clearing& clearing);
 
   // Of the distances of other edges among those given.
   static Clearing clearing_among(std::span<const NearEdge> near);
@@ -68,9 +70,9 @@ class AxisBound {
  private:
   // An edge as it is seen from the arc: distances of its line from the ends, and feet along it.
   struct Seen {
-    Place a, way;   // its first end, and the unit vector along it
-    double length;  // 0 of a point
-    double error;   // of distances and feet
+    skeleton::Place a, way;  // its first end, and the unit vector along it
+    double length;           // 0 of a point
+    double error;            // of distances and feet
     std::array<double, 2> height, foot;
     std::int32_t segment;
   };
@@ -81,13 +83,13 @@ class AxisBound {
 
   struct Nearest;
 
-  void see(const Place& source, const Place& target, std::span<const NearEdge> near);
+  void see(const skeleton::Place& source, const skeleton::Place& target, std::span<const NearEdge> near);
   bool stretch_of(const Seen& c, Stretch& part) const;
   double bound_by(const Nearest& c, const Stretch& part, std::span<const ArcSeed> seeds) const;
   static double bound_by_edge(const Nearest& c, const Seen& d, const Stretch& part);
-  static double bound_by_seed(const Nearest& c, const Place& g);
+  static double bound_by_seed(const Nearest& c, const skeleton::Place& g);
 
   std::vector<Seen> seen_;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::sampled_skeleton

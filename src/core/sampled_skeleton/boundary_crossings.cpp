@@ -10,21 +10,26 @@
 #include "core/numbers/sign.hpp"
 #include "core/sampled_skeleton/sample_vector.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::sampled_skeleton {
+
+using delaunay::TriangleRings;
+using kernel::Point;
+using numbers::widen;
+
 namespace {
 
 // A parameter t = numerator / (2 denominator) along a piece where a cell is left for that of a neighbour.
 // From core/sampled_skeleton/sample_vector.hpp: both are below 2^108.
 struct Exit {
-  int128 numerator, denominator;
+  numbers::int128 numerator, denominator;
 };
 
 // The sign of the difference of two parameters with positive denominators: products are below 2^216.
 int compare(const Exit& a, const Exit& b) {
   const double left = static_cast<double>(a.numerator) * static_cast<double>(b.denominator);
   const double right = static_cast<double>(b.numerator) * static_cast<double>(a.denominator);
-  if (std::abs(left - right) > 8 * unit_roundoff * (std::abs(left) + std::abs(right)))
-    return sign_of(left - right);
+  if (std::abs(left - right) > 8 * numbers::unit_roundoff * (std::abs(left) + std::abs(right)))
+    return numbers::sign_of(left - right);
   return (widen(a.numerator) * widen(b.denominator) - widen(b.numerator) * widen(a.denominator)).sign();
 }
 
@@ -130,10 +135,11 @@ void append(Items& all, const Items& more) {
 }  // namespace
 
 Crossings find_crossings(const SeedMesh& mesh, const TriangleRings& rings, const SeedLabels& labels,
-                         std::span<const std::int32_t> pieces, unsigned threads, const Monitor& monitor) {
+                         std::span<const std::int32_t> pieces, unsigned threads,
+                         const base::Monitor& monitor) {
   constexpr std::size_t grain = 1 << 8;
-  std::vector<Crossings> found(piece_count(pieces.size(), grain));
-  parallel_for(
+  std::vector<Crossings> found(base::piece_count(pieces.size(), grain));
+  base::parallel_for(
       found.size(), threads,
       [&](std::size_t part) {
         for (std::size_t i = part * grain; i < std::min(pieces.size(), (part + 1) * grain); ++i) {
@@ -155,7 +161,7 @@ Crossings find_crossings(const SeedMesh& mesh, const TriangleRings& rings, const
 // the numerator is below 2^217, the denominator below 2^109, and products of both below 2^326.
 int compare_crossings(const SeedMesh& mesh, const SeedLabels& labels, const Crossing& one,
                       const Crossing& other) {
-  using Long = WideInteger<6>;
+  using Long = numbers::WideInteger<6>;
   struct Place {
     Long numerator, denominator;
   };
@@ -166,13 +172,14 @@ int compare_crossings(const SeedMesh& mesh, const SeedLabels& labels, const Cros
     const Point& from = mesh.seed(piece.first);
     const SeedVector way = seed_difference(mesh.seed(piece.last), from);
     const SeedVector sum = seed_difference(q, from) + seed_difference(p, from);
-    int128 n = dot(step, sum), d = dot(way, step);
+    numbers::int128 n = dot(step, sum), d = dot(way, step);
     if (d < 0) n = -n, d = -d;
     const auto first = widen(2 * d) * widen(dot(along, seed_difference(from, p)));
-    return Place{resized<6>(first + widen(n) * widen(dot(along, way))), resized<6>(widen(2 * d))};
+    return Place{numbers::resized<6>(first + widen(n) * widen(dot(along, way))),
+                 numbers::resized<6>(widen(2 * d))};
   };
   const auto product = [](const Long& a, const Long& b) {
-    const WideInteger<12> whole = a * b;
+    const numbers::WideInteger<12> whole = a * b;
     Long low;
     std::copy_n(whole.limb.begin(), 6, low.limb.begin());
     return low;
@@ -181,4 +188,4 @@ int compare_crossings(const SeedMesh& mesh, const SeedLabels& labels, const Cros
   return (product(a.numerator, b.denominator) - product(b.numerator, a.denominator)).sign();
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::sampled_skeleton

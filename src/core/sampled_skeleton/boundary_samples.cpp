@@ -6,7 +6,13 @@
 
 #include "core/base/parallel.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::sampled_skeleton {
+
+using arrangement::ShapeGraph;
+using base::Monitor;
+using kernel::LatticeSite;
+using kernel::Point;
+
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -14,13 +20,16 @@ constexpr std::size_t grain = 1 << 10;  // segments a piece of work
 
 std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
-double length_of(const LatticeSite& site) { return std::sqrt(static_cast<double>(norm2(site.b - site.a))); }
+double length_of(const LatticeSite& site) {
+  return std::sqrt(static_cast<double>(kernel::norm2(site.b - site.a)));
+}
 
 double rounded(double value) { return std::nearbyint(value / seed_step) * seed_step; }
 
 // The place at a distance from one end of a segment.
-Point place_from(const LatticePoint& end, const LatticePoint& other, double length, double distance) {
-  const LatticeVector way = other - end;
+Point place_from(const kernel::LatticePoint& end, const kernel::LatticePoint& other, double length,
+                 double distance) {
+  const kernel::LatticeVector way = other - end;
   const double t = distance / length;
   return {rounded(end.x + t * static_cast<double>(way.x)), rounded(end.y + t * static_cast<double>(way.y))};
 }
@@ -44,14 +53,14 @@ EdgeSamples sample(const ShapeGraph& graph, std::size_t most, unsigned threads, 
   }
   check(total, most);
   made.start[segments] = static_cast<std::int32_t>(total);
-  made.seeds = LargeArray<Point>(static_cast<std::size_t>(total));
-  made.segment = LargeArray<std::int32_t>(static_cast<std::size_t>(total));
+  made.seeds = base::LargeArray<Point>(static_cast<std::size_t>(total));
+  made.segment = base::LargeArray<std::int32_t>(static_cast<std::size_t>(total));
   for (std::size_t i = 0; i < points; ++i) {
     made.seeds[i] = {static_cast<double>(graph.points[i].x), static_cast<double>(graph.points[i].y)};
     made.segment[i] = -1;
   }
-  parallel_for(
-      piece_count(segments, grain), threads,
+  base::parallel_for(
+      base::piece_count(segments, grain), threads,
       [&](std::size_t piece) {
         for (std::size_t j = piece * grain; j < std::min(segments, (piece + 1) * grain); ++j) {
           const std::size_t first = at(made.start[j]), size = at(made.start[j + 1]) - first;
@@ -219,4 +228,4 @@ CornerSteps refined_steps(const ShapeGraph& graph, const CornerSteps& steps,
   return refined;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::sampled_skeleton

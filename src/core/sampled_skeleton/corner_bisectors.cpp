@@ -9,7 +9,12 @@
 #include "core/numbers/fixed_integer.hpp"
 #include "core/sampled_skeleton/sample_vector.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::sampled_skeleton {
+
+using delaunay::TriangleRings;
+using kernel::LatticeVector;
+using numbers::widen;
+
 namespace {
 
 std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
@@ -25,9 +30,10 @@ Vector unit(const LatticeVector& v) {
 
 // Between two directions less than 180 degrees apart. Of an obtuse angle the normals are added: nothing
 // cancels.
-Point bisector_of(const LatticeVector& right, const LatticeVector& left) {
+kernel::Point bisector_of(const LatticeVector& right, const LatticeVector& left) {
   const Vector a = unit(right), b = unit(left);
-  const Vector sum = dot(right, left) > 0 ? Vector{a.x + b.x, a.y + b.y} : Vector{b.y - a.y, a.x - b.x};
+  const Vector sum =
+      kernel::dot(right, left) > 0 ? Vector{a.x + b.x, a.y + b.y} : Vector{b.y - a.y, a.x - b.x};
   const double length = std::sqrt(sum.x * sum.x + sum.y * sum.y);
   return {sum.x / length, sum.y / length};
 }
@@ -91,7 +97,7 @@ class Sector {
   // Along the unit vector w the place t w away is as far from the corner as from a seed at v for t = v v / (2
   // w v): exactly compared, the numerators being below 2^107 and the denominators below 2^108.
   struct Meeting {
-    int128 square, dot;
+    numbers::int128 square, dot;
   };
   Meeting meeting(std::size_t spoke) const {
     const SeedVector v = seed_difference(mesh_.seed(spokes_[spoke].seed), mesh_.seed(line_.corner));
@@ -117,7 +123,7 @@ class Sector {
     const Side side = spokes_[spoke].side;
     if (!diagram_.is_kept(side)) return false;
     line_.side = side;
-    const Point &seed = mesh_.seed(spokes_[spoke].seed), &corner = mesh_.seed(line_.corner);
+    const kernel::Point &seed = mesh_.seed(spokes_[spoke].seed), &corner = mesh_.seed(line_.corner);
     const double x = seed.x - corner.x, y = seed.y - corner.y;
     line_.along = (x * x + y * y) / (2 * (x * line_.direction.x + y * line_.direction.y));
     return true;
@@ -130,7 +136,7 @@ class Sector {
 };
 
 std::vector<CornerLine> corners_of(const SeedDiagram& diagram, std::span<const std::int32_t> face_group) {
-  const ShapeGraph& graph = diagram.labels().graph();
+  const arrangement::ShapeGraph& graph = diagram.labels().graph();
   const auto points = static_cast<std::int32_t>(graph.points.size());
   const auto way = [&](std::int32_t point, std::int32_t segment) {
     const auto& [a, b] = graph.ends(segment);
@@ -142,7 +148,7 @@ std::vector<CornerLine> corners_of(const SeedDiagram& diagram, std::span<const s
     for (std::size_t i = 0; i < sites.size(); ++i) {
       const std::int32_t right = sites[i] - points, left = sites[(i + 1) % sites.size()] - points;
       const LatticeVector a = way(point, right), b = way(point, left);
-      if (cross(a, b) <= 0) continue;
+      if (kernel::cross(a, b) <= 0) continue;
       const std::int32_t face = graph.faces[at(right)][graph.ends(right)[0] == point ? 0 : 1];
       if (face_group[at(face)] < 0) continue;
       corners.push_back({point, right, left, face});
@@ -155,16 +161,16 @@ std::vector<CornerLine> corners_of(const SeedDiagram& diagram, std::span<const s
 }  // namespace
 
 CornerLines corner_lines(const SeedDiagram& diagram, std::span<const std::int32_t> face_group,
-                         unsigned threads, const Monitor& monitor) {
+                         unsigned threads, const base::Monitor& monitor) {
   constexpr std::size_t grain = 1 << 10;
   CornerLines found{corners_of(diagram, face_group)};
   if (diagram.mesh().size() == 0) return {{}, found.lines.size()};
   const SeedMesh& mesh = diagram.mesh();
-  const TriangulationArrays arrays{mesh.seeds, mesh.triangles, mesh.neighbours, {}, {}, {}};
+  const delaunay::TriangulationArrays arrays{mesh.seeds, mesh.triangles, mesh.neighbours, {}, {}, {}};
   const TriangleRings rings(arrays);
   std::vector<std::uint8_t> is_met(found.lines.size());
-  parallel_for(
-      piece_count(is_met.size(), grain), threads,
+  base::parallel_for(
+      base::piece_count(is_met.size(), grain), threads,
       [&](std::size_t piece) {
         for (std::size_t i = piece * grain; i < std::min(is_met.size(), (piece + 1) * grain); ++i) {
           is_met[i] = Sector(diagram, rings, found.lines[i]).meet() ? 1 : 0;
@@ -180,4 +186,4 @@ CornerLines corner_lines(const SeedDiagram& diagram, std::span<const std::int32_
   return found;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::sampled_skeleton

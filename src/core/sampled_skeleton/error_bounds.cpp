@@ -11,7 +11,12 @@
 #include "core/spatial/clearance.hpp"
 #include "core/spatial/obb_tree.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::sampled_skeleton {
+
+using kernel::LatticeSite;
+using skeleton::Place;
+using spatial::SiteHierarchy;
+
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -24,7 +29,7 @@ double distance(const Place& p, const Place& q) {
   const double x = p[0] - q[0], y = p[1] - q[1];
   return std::sqrt(x * x + y * y);
 }
-Place place_of(const Point& p) { return {p.x, p.y}; }
+Place place_of(const kernel::Point& p) { return {p.x, p.y}; }
 
 // Of a place from the segment between two others.
 double closed_distance(const Place& a, const Place& b, const Place& p) {
@@ -88,11 +93,11 @@ class Bounder {
 
  private:
   const SeedMesh& mesh() const { return diagram_.mesh(); }
-  const Point& seed(std::int32_t s) const { return mesh().seed(s); }
+  const kernel::Point& seed(std::int32_t s) const { return mesh().seed(s); }
   // How far along a segment the foot of an end of the arc is, as a share of its length.
   double foot(std::int32_t segment, std::size_t end) const {
     const LatticeSite site = diagram_.labels().graph().site(segment);
-    const LatticeVector along = site.b - site.a;
+    const kernel::LatticeVector along = site.b - site.a;
     const double ux = static_cast<double>(along.x), uy = static_cast<double>(along.y);
     const double x = arc_->place[end][0] - site.a.x, y = arc_->place[end][1] - site.a.y;
     return (ux * x + uy * y) / (ux * ux + uy * uy);
@@ -156,7 +161,7 @@ class Bounder {
     for (const auto& labels : labels_) {
       for (const std::int32_t segment : labels) {
         const LatticeSite site = diagram_.labels().graph().site(segment);
-        const std::array<double, 2> own{closed_distance(site, a), closed_distance(site, b)};
+        const std::array<double, 2> own{spatial::closed_distance(site, a), spatial::closed_distance(site, b)};
         const double rest = std::min(own[0], own[1]) - length;
         const double more = length * length / (8 * rest) + node_error;
         if (rest > 0 && own[0] + own[1] + 2 * more < least[0] + least[1])
@@ -184,7 +189,7 @@ class Bounder {
     for (std::size_t i = 0; i < 2; ++i) {
       if (arc_->place[i] != (i == 0 ? a : b)) continue;
       for (const NearEdge& edge : near) {
-        found_.radius[i] = std::min(found_.radius[i], closed_distance(edge.site, arc_->place[i]));
+        found_.radius[i] = std::min(found_.radius[i], spatial::closed_distance(edge.site, arc_->place[i]));
       }
     }
   }
@@ -253,8 +258,9 @@ class Bounder {
   // Not more than the clearance, and hardly less.
   double clearance_of(const Place& place) const {
     const double share = reach_ / radius(place);
-    return hierarchy_.nearest(place[0], place[1], std::min(0x1p-10, share * share / 16),
-                              [&](std::uint32_t item) { return closed_distance(items_[item].site, place); });
+    return hierarchy_.nearest(
+        place[0], place[1], std::min(0x1p-10, share * share / 16),
+        [&](std::uint32_t item) { return spatial::closed_distance(items_[item].site, place); });
   }
 
   // Of the angle at which two places are seen from a and b and between, where directions turn by `turn` at
@@ -283,13 +289,13 @@ class Bounder {
 
   // Whether no edge is that near to the corner but those that end there.
   bool has_only_corner(double radius) const {
-    const ShapeGraph& graph = diagram_.labels().graph();
+    const arrangement::ShapeGraph& graph = diagram_.labels().graph();
     bool has_only = true;
     hierarchy_.near(origin_[0], origin_[1], radius, [&](std::uint32_t item) {
       const std::int32_t segment = items_[item].segment;
       const bool is_own =
           segment >= 0 && (graph.ends(segment)[0] == arc_->corner || graph.ends(segment)[1] == arc_->corner);
-      has_only = is_own || closed_distance(items_[item].site, origin_) > radius;
+      has_only = is_own || spatial::closed_distance(items_[item].site, origin_) > radius;
       return has_only;
     });
     return has_only;
@@ -318,7 +324,7 @@ std::vector<LatticeSite> sites_of(std::span<const NearEdge> items) {
 }  // namespace
 
 void bound_arcs(const SeedDiagram& diagram, const ArcsToBound& arcs, double tolerance,
-                std::span<std::int32_t> parts, unsigned threads, const Monitor& monitor) {
+                std::span<std::int32_t> parts, unsigned threads, const base::Monitor& monitor) {
   constexpr std::size_t grain = 1 << 11;
   const std::vector<std::vector<NearEdge>> items =
       NearEdges::items(diagram.labels().graph(), diagram.groups());
@@ -326,8 +332,8 @@ void bound_arcs(const SeedDiagram& diagram, const ArcsToBound& arcs, double tole
   for (const auto& own : items) {
     hierarchies.emplace_back(sites_of(own), own.size() < grain ? 1 : threads, monitor);
   }
-  parallel_for(
-      piece_count(arcs.count, grain), threads,
+  base::parallel_for(
+      base::piece_count(arcs.count, grain), threads,
       [&](std::size_t piece) {
         std::optional<Bounder> bounder;
         std::size_t group = items.size();  // of the bounder
@@ -345,4 +351,4 @@ void bound_arcs(const SeedDiagram& diagram, const ArcsToBound& arcs, double tole
       monitor);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::sampled_skeleton

@@ -11,11 +11,11 @@
 #include "core/sampled_skeleton/arc_error_bound.hpp"
 #include "core/sampled_skeleton/sample_diagram.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::sampled_skeleton {
 
 // A straight arc on the lattice: a part of the Voronoi edge of a side, or a line that completes the skeleton.
 struct BoundedArc {
-  std::array<Place, 2> place;  // source and target
+  std::array<skeleton::Place, 2> place;  // source and target
   Side side;          // of a line that completes: one whose triangles the disc about its target meets; -1: no
                       // triangles
   std::int32_t seed;  // on one side of it
@@ -37,6 +37,6 @@ struct ArcsToBound {
 // `parts`, if not empty, says for each piece of an edge how many parts it should have for errors of at most
 // `tolerance`: at least what stands there already.
 void bound_arcs(const SeedDiagram& diagram, const ArcsToBound& arcs, double tolerance,
-                std::span<std::int32_t> parts, unsigned threads, const Monitor& monitor);
+                std::span<std::int32_t> parts, unsigned threads, const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::sampled_skeleton

@@ -7,7 +7,10 @@
 #include "core/numbers/elementary.hpp"
 #include "core/spatial/clearance.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::sampled_skeleton {
+
+using skeleton::Place;
+
 namespace {
 
 constexpr double distance_error = 0x1p-18;  // of places and distances below 2^32 steps
@@ -15,7 +18,8 @@ constexpr double wider = 0x1p-5;            // part of its radius by which a dis
 
 }  // namespace
 
-std::vector<std::vector<NearEdge>> NearEdges::items(const ShapeGraph& graph, const SeedGroups& groups) {
+std::vector<std::vector<NearEdge>> NearEdges::items(const arrangement::ShapeGraph& graph,
+                                                    const SeedGroups& groups) {
   std::vector<std::vector<NearEdge>> all(static_cast<std::size_t>(groups.count));
   const auto of_point = [&](std::size_t i) {
     return groups.of_point.empty() ? 0 : static_cast<std::size_t>(groups.of_point[i]);
@@ -63,7 +67,7 @@ void NearEdges::search(const Place& centre, double radius, Found& found) {
   found.numbers.clear();
   const double reach = radius + distance_error;
   const auto visit = [&](std::uint32_t number) {
-    if (closed_distance(items_[number].site, centre) <= reach) found.numbers.push_back(number);
+    if (spatial::closed_distance(items_[number].site, centre) <= reach) found.numbers.push_back(number);
     return found.numbers.size() <= most_;
   };
   if (!is_surrounded(centre, reach)) {
@@ -76,7 +80,7 @@ void NearEdges::search(const Place& centre, double radius, Found& found) {
 }
 
 bool NearEdges::is_surrounded(const Place& centre, double reach) {
-  const auto away = [&](const Place& p) { return hypotenuse(p[0] - centre[0], p[1] - centre[1]); };
+  const auto away = [&](const Place& p) { return numbers::hypotenuse(p[0] - centre[0], p[1] - centre[1]); };
   const double moved = away(last_);
   last_ = centre;
   Found& found = surroundings_;
@@ -86,7 +90,7 @@ bool NearEdges::is_surrounded(const Place& centre, double reach) {
     found.radius = reach * (1 + wider);
     found.numbers.clear();
     hierarchy_.near(centre[0], centre[1], found.radius, [&](std::uint32_t number) {
-      if (closed_distance(items_[number].site, centre) <= found.radius + distance_error)
+      if (spatial::closed_distance(items_[number].site, centre) <= found.radius + distance_error)
         found.numbers.push_back(number);
       return found.numbers.size() <= 2 * most_;
     });
@@ -94,4 +98,4 @@ bool NearEdges::is_surrounded(const Place& centre, double reach) {
   return found.numbers.size() <= 2 * most_;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::sampled_skeleton

@@ -8,7 +8,13 @@
 #include "core/kernel/circumcentre.hpp"
 #include "core/skeleton/line_clip.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::sampled_skeleton {
+
+using skeleton::FrameSide;
+using skeleton::GraphArc;
+using skeleton::Line;
+using skeleton::Place;
+
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -97,18 +103,18 @@ void SeedArcs::add_arc(const GraphArc& arc, const ArcOrigin& origin) {
   origin_.push_back(origin);
 }
 
-void SeedArcs::place_nodes(unsigned threads, const Monitor& monitor) {
+void SeedArcs::place_nodes(unsigned threads, const base::Monitor& monitor) {
   constexpr std::size_t grain = 1 << 13;
   place_.resize(node_triangle_.size());
   side_.assign(node_triangle_.size(), FrameSide::none);
   const SeedMesh& mesh = diagram_.mesh();
-  parallel_for(
-      piece_count(place_.size(), grain), threads,
+  base::parallel_for(
+      base::piece_count(place_.size(), grain), threads,
       [&](std::size_t piece) {
         for (std::size_t i = piece * grain; i < std::min(place_.size(), (piece + 1) * grain); ++i) {
           const Triangle t = node_triangle_[i];
-          const RoundedPoint centre = circumcentre(mesh.seed(mesh.corner(t, 0)), mesh.seed(mesh.corner(t, 1)),
-                                                   mesh.seed(mesh.corner(t, 2)));
+          const kernel::RoundedPoint centre = kernel::circumcentre(
+              mesh.seed(mesh.corner(t, 0)), mesh.seed(mesh.corner(t, 1)), mesh.seed(mesh.corner(t, 2)));
           place_[i] = {centre.x.value, centre.y.value};
         }
       },
@@ -116,11 +122,11 @@ void SeedArcs::place_nodes(unsigned threads, const Monitor& monitor) {
 }
 
 std::size_t SeedArcs::add_lines(std::span<const CornerLine> lines, std::span<const std::int32_t> face_group,
-                                const JoinedGroups& joined) {
+                                const skeleton::JoinedGroups& joined) {
   std::vector<Division> divisions;
   std::size_t open = 0;
   for (const CornerLine& line : lines) {
-    const LatticePoint& p = diagram_.labels().graph().point(line.corner);
+    const kernel::LatticePoint& p = diagram_.labels().graph().point(line.corner);
     const Place corner{static_cast<double>(p.x), static_cast<double>(p.y)};
     std::int32_t target = -1;
     if (line.node >= 0) {
@@ -185,7 +191,7 @@ void SeedArcs::divide(std::vector<Division>& divisions) {
   }
 }
 
-void SeedArcs::clip(std::int32_t group, const Frame& frame) {
+void SeedArcs::clip(std::int32_t group, const skeleton::Frame& frame) {
   std::vector<GraphArc> arcs;
   std::vector<ArcOrigin> origins;
   arcs.swap(arcs_);
@@ -199,9 +205,9 @@ void SeedArcs::clip(std::int32_t group, const Frame& frame) {
       continue;
     }
     const Line line = line_of(arc);
-    const auto cuts = cut_line(line, frame);
+    const auto cuts = skeleton::cut_line(line, frame);
     if (!cuts) continue;
-    const auto node = [&](const Cut& cut, std::int32_t own) {
+    const auto node = [&](const skeleton::Cut& cut, std::int32_t own) {
       return cut.side == FrameSide::none ? own : add_node(line.place(cut.t), cut.side);
     };
     const std::int32_t first = node(cuts->first, arc.source), last = node(cuts->second, arc.target);
@@ -218,7 +224,7 @@ Line SeedArcs::line_of(const GraphArc& arc) const {
     const auto size = [](const Place& p) { return std::max(std::abs(p[0]), std::abs(p[1])); };
     return size(a) <= size(b) ? Line{a, way, 0, 1} : Line{b, way, -1, 0};
   }
-  const Point &left = diagram_.mesh().seed(arc.left), &right = diagram_.mesh().seed(arc.right);
+  const kernel::Point &left = diagram_.mesh().seed(arc.left), &right = diagram_.mesh().seed(arc.right);
   const Place way{left.y - right.y, right.x - left.x};
   const Place middle{(left.x + right.x) / 2, (left.y + right.y) / 2};
   double from = -infinity;
@@ -230,4 +236,4 @@ Line SeedArcs::line_of(const GraphArc& arc) const {
   return {middle, way, from, infinity};
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::sampled_skeleton

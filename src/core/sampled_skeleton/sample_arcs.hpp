@@ -15,7 +15,7 @@
 #include "core/skeleton/graph.hpp"
 #include "core/skeleton/line_clip.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::sampled_skeleton {
 
 // What an arc is a part of.
 struct ArcOrigin {
@@ -32,19 +32,21 @@ class SeedArcs {
   // All edges, in group 0.
   void add_all();
   // Computes where the nodes are.
-  void place_nodes(unsigned threads, const Monitor& monitor);
+  void place_nodes(unsigned threads, const base::Monitor& monitor);
   // Joins corners; arcs that are met in their inside are divided. Gives how many lines lead to no node. Lines
   // from one corner follow each other.
   std::size_t add_lines(std::span<const CornerLine> lines, std::span<const std::int32_t> face_group,
-                        const JoinedGroups& joined);
+                        const skeleton::JoinedGroups& joined);
   // Keeps what is in a frame of the arcs of a group.
-  void clip(std::int32_t group, const Frame& frame);
+  void clip(std::int32_t group, const skeleton::Frame& frame);
 
-  std::span<const GraphArc> arcs() const { return arcs_; }  // left and right are seeds, of lines segments
+  std::span<const skeleton::GraphArc> arcs() const {
+    return arcs_;
+  }  // left and right are seeds, of lines segments
   const ArcOrigin& origin(std::size_t arc) const { return origin_[arc]; }
   std::size_t node_count() const { return place_.size(); }
-  const Place& place(std::int32_t node) const { return place_[static_cast<std::size_t>(node)]; }
-  FrameSide side(std::int32_t node) const { return side_[static_cast<std::size_t>(node)]; }
+  const skeleton::Place& place(std::int32_t node) const { return place_[static_cast<std::size_t>(node)]; }
+  skeleton::FrameSide side(std::int32_t node) const { return side_[static_cast<std::size_t>(node)]; }
 
  private:
   struct Division;
@@ -53,20 +55,20 @@ class SeedArcs {
   void add_side(Side s, std::int32_t group);
   void add_chain_link(std::int32_t p, std::int32_t q, std::int32_t group);
   std::int32_t node_of(Triangle t);
-  std::int32_t add_node(const Place& place, FrameSide side);
+  std::int32_t add_node(const skeleton::Place& place, skeleton::FrameSide side);
   std::optional<std::int32_t> node_at_corner(std::int32_t corner, std::int32_t group) const;
-  void add_arc(const GraphArc& arc, const ArcOrigin& origin);
+  void add_arc(const skeleton::GraphArc& arc, const ArcOrigin& origin);
   std::optional<std::size_t> arc_of(Side s) const;
   void divide(std::vector<Division>& divisions);
-  Line line_of(const GraphArc& arc) const;
+  skeleton::Line line_of(const skeleton::GraphArc& arc) const;
 
   const SeedDiagram& diagram_;
-  std::vector<GraphArc> arcs_;
+  std::vector<skeleton::GraphArc> arcs_;
   std::vector<ArcOrigin> origin_;
   std::vector<std::int32_t> node_of_;    // [triangles] -1: none
   std::vector<Triangle> node_triangle_;  // [nodes that are circumcentres]
-  std::vector<Place> place_;
-  std::vector<FrameSide> side_;
+  std::vector<skeleton::Place> place_;
+  std::vector<skeleton::FrameSide> side_;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::sampled_skeleton

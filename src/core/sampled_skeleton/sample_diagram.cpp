@@ -11,7 +11,13 @@
 #include "core/sampled_skeleton/sample_faces.hpp"
 #include "core/sampled_skeleton/sample_vector.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::sampled_skeleton {
+
+using arrangement::ShapeGraph;
+using base::LargeArray;
+using base::Monitor;
+using kernel::Point;
+
 namespace {
 
 constexpr std::size_t grain = 1 << 14;  // triangles a piece of work: about a millisecond
@@ -21,8 +27,8 @@ std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 // Calls body(s) for the sides that are to be looked at once.
 template <class Body>
 void for_each_side(const SeedMesh& mesh, unsigned threads, const Monitor& monitor, const Body& body) {
-  parallel_for(
-      piece_count(mesh.size(), grain), threads,
+  base::parallel_for(
+      base::piece_count(mesh.size(), grain), threads,
       [&](std::size_t piece) {
         const std::size_t last = std::min(mesh.sides(), 3 * (piece + 1) * grain);
         for (std::size_t s = 3 * piece * grain; s < last; ++s) {
@@ -49,10 +55,10 @@ struct GroupMeshes {
   explicit GroupMeshes(std::size_t seeds) : first(seeds) {}
 
   void add(std::span<const Point> seeds, const std::vector<std::int32_t>& members,
-           const std::optional<Bounds>& within, unsigned threads, const Monitor& monitor) {
+           const std::optional<spatial::Bounds>& within, unsigned threads, const Monitor& monitor) {
     std::vector<Point> places;
     for (const std::int32_t seed : members) places.push_back(seeds[at(seed)]);
-    const DelaunayMesh mesh(places, places.size() < grain ? 1 : threads, monitor, within);
+    const delaunay::DelaunayMesh mesh(places, places.size() < grain ? 1 : threads, monitor, within);
     for (std::size_t i = 0; i < members.size(); ++i) first[at(members[i])] = members[at(mesh.first()[i])];
     const std::size_t begin = triangles.size(), size = 3 * mesh.triangle_count();
     if (size == 0) return;
@@ -87,7 +93,7 @@ SeedDiagram::Triangulation SeedDiagram::triangulate(const ShapeGraph& graph, std
     }
     return {copied(all.triangles), copied(all.neighbours), std::move(all.first), {}};
   }
-  const DelaunayMesh mesh(seeds, threads, monitor, groups.within);
+  const delaunay::DelaunayMesh mesh(seeds, threads, monitor, groups.within);
   const std::size_t size = 3 * mesh.triangle_count();
   Triangulation made{LargeArray<std::int32_t>(size), LargeArray<std::int32_t>(size), {}, {}};
   if (size > 0) mesh.write({made.triangles.data(), made.neighbours.data(), nullptr}, threads, monitor);
@@ -164,16 +170,16 @@ bool SeedDiagram::is_alone_on(Side s) const {
 }
 
 void SeedDiagram::join_centres(unsigned threads, const Monitor& monitor) {
-  std::vector<std::vector<Side>> found(piece_count(mesh_.size(), grain));
+  std::vector<std::vector<Side>> found(base::piece_count(mesh_.size(), grain));
   for_each_side(mesh_, threads, monitor, [&](std::size_t piece, Side s) {
     if (mesh_.across(s) < 0) return;
     const Point &p = mesh_.seed(mesh_.origin(s)), &q = mesh_.seed(mesh_.target(s));
-    if (incircle(p, q, mesh_.seed(mesh_.apex(s)), mesh_.seed(mesh_.apex(mesh_.twin(s)))) == 0) {
+    if (kernel::incircle(p, q, mesh_.seed(mesh_.apex(s)), mesh_.seed(mesh_.apex(mesh_.twin(s)))) == 0) {
       found[piece].push_back(s);
     }
   });
   if (std::all_of(found.begin(), found.end(), [](const auto& sides) { return sides.empty(); })) return;
-  DisjointSets<Triangle> sets(mesh_.size());
+  base::DisjointSets<Triangle> sets(mesh_.size());
   for (const auto& sides : found) {
     for (const Side s : sides) sets.join(SeedMesh::triangle_of(s), mesh_.across(s));
   }
@@ -186,8 +192,9 @@ void SeedDiagram::cross_out(unsigned threads, const Monitor& monitor) {
   Crossings found;
   std::vector<std::uint8_t> is_on_shape;
   if (!walked_.empty()) {
-    const TriangulationArrays arrays{mesh_.seeds, mesh_.triangles, mesh_.neighbours, {}, {}, first_};
-    found = find_crossings(mesh_, TriangleRings(arrays), labels_, walked_, threads, monitor);
+    const delaunay::TriangulationArrays arrays{mesh_.seeds, mesh_.triangles, mesh_.neighbours, {},
+                                               {},          first_};
+    found = find_crossings(mesh_, delaunay::TriangleRings(arrays), labels_, walked_, threads, monitor);
   }
   for (const Crossing& crossing : found.crossings) mark_crossed(crossing.side);
   for (const Side s : found.ridden) mark_crossed(s);
@@ -218,4 +225,4 @@ void SeedDiagram::count_deleted() {
   counts_.walked = walked_.size();
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::sampled_skeleton

@@ -13,7 +13,7 @@
 #include "core/sampled_skeleton/sample_mesh.hpp"
 #include "core/spatial/morton_grid.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::sampled_skeleton {
 
 struct SeedDiagramCounts {
   std::size_t shared = 0;   // Voronoi edges between seeds with a label in common
@@ -25,9 +25,10 @@ struct SeedDiagramCounts {
 struct SeedGroups {
   std::span<const std::int32_t> of_point;  // [points of the graph] from 0; empty: all are one group
   std::int32_t count = 1;
-  std::optional<Bounds> within;  // holds all seeds: triangles are in an order along the curve through it
+  std::optional<spatial::Bounds>
+      within;  // holds all seeds: triangles are in an order along the curve through it
 
-  std::int32_t of_segment(const ShapeGraph& graph, std::int32_t segment) const {
+  std::int32_t of_segment(const arrangement::ShapeGraph& graph, std::int32_t segment) const {
     return of_point.empty() ? 0 : of_point[static_cast<std::size_t>(graph.ends(segment)[0])];
   }
 };
@@ -40,9 +41,9 @@ class SeedDiagram {
   // What is given, as of core/sampled_skeleton/boundary_samples.hpp, must outlive the diagram. Throws
   // std::length_error for more than 2^28 seeds. The mesh holds the triangles of one group after the other; a
   // segment and its ends are in one group.
-  SeedDiagram(const ShapeGraph& graph, std::span<const Point> seeds, std::span<const std::int32_t> segment,
-              std::span<const std::int32_t> start, const SeedGroups& groups, unsigned threads,
-              const Monitor& monitor);
+  SeedDiagram(const arrangement::ShapeGraph& graph, std::span<const kernel::Point> seeds,
+              std::span<const std::int32_t> segment, std::span<const std::int32_t> start,
+              const SeedGroups& groups, unsigned threads, const base::Monitor& monitor);
   SeedDiagram(const SeedDiagram&) = delete;
   SeedDiagram& operator=(const SeedDiagram&) = delete;
 
@@ -72,35 +73,36 @@ class SeedDiagram {
 
  private:
   struct Triangulation {
-    LargeArray<std::int32_t> triangles, neighbours;
+    base::LargeArray<std::int32_t> triangles, neighbours;
     std::vector<std::int32_t> first, chain;
   };
-  static Triangulation triangulate(const ShapeGraph& graph, std::span<const Point> seeds,
+  static Triangulation triangulate(const arrangement::ShapeGraph& graph, std::span<const kernel::Point> seeds,
                                    std::span<const std::int32_t> segment, const SeedGroups& groups,
-                                   unsigned threads, const Monitor& monitor);
-  SeedDiagram(Triangulation&& made, const ShapeGraph& graph, std::span<const Point> seeds,
-              std::span<const std::int32_t> segment, std::span<const std::int32_t> start,
-              const SeedGroups& groups, unsigned threads, const Monitor& monitor);
+                                   unsigned threads, const base::Monitor& monitor);
+  SeedDiagram(Triangulation&& made, const arrangement::ShapeGraph& graph,
+              std::span<const kernel::Point> seeds, std::span<const std::int32_t> segment,
+              std::span<const std::int32_t> start, const SeedGroups& groups, unsigned threads,
+              const base::Monitor& monitor);
 
   void find_walked(const std::vector<std::uint8_t>& has_side);
-  void classify_sides(std::vector<std::uint8_t>& has_side, unsigned threads, const Monitor& monitor);
+  void classify_sides(std::vector<std::uint8_t>& has_side, unsigned threads, const base::Monitor& monitor);
   std::uint8_t state_of(Side s, std::vector<std::uint8_t>& has_side) const;
   bool is_alone_on(Side s) const;
-  void join_centres(unsigned threads, const Monitor& monitor);
-  void cross_out(unsigned threads, const Monitor& monitor);
+  void join_centres(unsigned threads, const base::Monitor& monitor);
+  void cross_out(unsigned threads, const base::Monitor& monitor);
   void mark_crossed(Side s);
   void count_deleted();
 
   SeedGroups groups_;
-  LargeArray<std::int32_t> triangles_, neighbours_;
+  base::LargeArray<std::int32_t> triangles_, neighbours_;
   std::vector<std::int32_t> first_, chain_;
   SeedMesh mesh_;
   SeedLabels labels_;
-  LargeArray<std::uint8_t> state_;  // [sides] of both sides of an edge
-  std::vector<Triangle> root_;      // empty while all centres differ
+  base::LargeArray<std::uint8_t> state_;  // [sides] of both sides of an edge
+  std::vector<Triangle> root_;            // empty while all centres differ
   std::vector<std::int32_t> walked_;
   std::vector<std::int32_t> face_;
   SeedDiagramCounts counts_;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::sampled_skeleton

@@ -5,7 +5,7 @@
 
 #include "core/base/parallel.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::sampled_skeleton {
 namespace {
 
 constexpr std::int32_t unknown = -1;
@@ -16,10 +16,10 @@ class FaceFinder {
  public:
   explicit FaceFinder(const SeedFaceInput& in) : in_(in), face_(in.mesh.size(), unknown) {}
 
-  std::vector<std::int32_t> run(unsigned threads, const Monitor& monitor) {
+  std::vector<std::int32_t> run(unsigned threads, const base::Monitor& monitor) {
     constexpr std::size_t grain = 1 << 15;
-    parallel_for(
-        piece_count(face_.size(), grain), threads,
+    base::parallel_for(
+        base::piece_count(face_.size(), grain), threads,
         [&](std::size_t piece) {
           for (std::size_t t = piece * grain; t < std::min(face_.size(), (piece + 1) * grain); ++t) {
             face_[t] = face_by_sides(static_cast<Triangle>(t));
@@ -126,8 +126,9 @@ class FaceFinder {
 
 }  // namespace
 
-std::vector<std::int32_t> seed_faces(const SeedFaceInput& input, unsigned threads, const Monitor& monitor) {
+std::vector<std::int32_t> seed_faces(const SeedFaceInput& input, unsigned threads,
+                                     const base::Monitor& monitor) {
   return FaceFinder(input).run(threads, monitor);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::sampled_skeleton

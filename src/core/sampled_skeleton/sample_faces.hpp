@@ -10,7 +10,7 @@
 #include "core/sampled_skeleton/sample_labels.hpp"
 #include "core/sampled_skeleton/sample_mesh.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::sampled_skeleton {
 
 struct SeedFaceInput {
   const SeedMesh& mesh;
@@ -23,6 +23,7 @@ struct SeedFaceInput {
 // [triangles] -1 on pieces. No coordinate is looked at but for the order in which several pieces cross one
 // edge: an edge that is crossed leads from the left of a piece to its right, one that is not stays in its
 // face, and unbounded ones end in face 0.
-std::vector<std::int32_t> seed_faces(const SeedFaceInput& input, unsigned threads, const Monitor& monitor);
+std::vector<std::int32_t> seed_faces(const SeedFaceInput& input, unsigned threads,
+                                     const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::sampled_skeleton

@@ -2,18 +2,18 @@
 
 #include <algorithm>
 
-namespace vorotool::core {
+namespace vorotool::core::sampled_skeleton {
 namespace {
 
 std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 
-SeedLabels::SeedLabels(const ShapeGraph& graph, std::span<const Point> seeds,
+SeedLabels::SeedLabels(const arrangement::ShapeGraph& graph, std::span<const kernel::Point> seeds,
                        std::span<const std::int32_t> start, std::span<const std::int32_t> segment,
                        std::span<const std::int32_t> first)
     : graph_(graph),
-      incident_(SegmentDiagram{graph.points, graph.segments, {}, {}, {}, {}}),
+      incident_(segment_voronoi::build::SegmentDiagram{graph.points, graph.segments, {}, {}, {}, {}}),
       seeds_(seeds),
       start_(start),
       segment_(segment),
@@ -84,14 +84,14 @@ EdgePiece SeedLabels::piece(std::int32_t number) const {
 }
 
 std::int32_t SeedLabels::piece_at(std::int32_t segment, double share) const {
-  const LatticeSite site = graph_.site(segment);
-  const LatticeVector along = site.b - site.a;
+  const kernel::LatticeSite site = graph_.site(segment);
+  const kernel::LatticeVector along = site.b - site.a;
   const double ux = static_cast<double>(along.x), uy = static_cast<double>(along.y);
   const double wanted = share * (ux * ux + uy * uy);
   const auto seeds =
       seeds_.subspan(at(start_[at(segment)]), at(start_[at(segment) + 1] - start_[at(segment)]));
   const auto after =
-      std::upper_bound(seeds.begin(), seeds.end(), wanted, [&](double value, const Point& seed) {
+      std::upper_bound(seeds.begin(), seeds.end(), wanted, [&](double value, const kernel::Point& seed) {
         return value < ux * (seed.x - site.a.x) + uy * (seed.y - site.a.y);
       });
   return first_piece(segment) + static_cast<std::int32_t>(after - seeds.begin());
@@ -104,4 +104,4 @@ std::int32_t SeedLabels::seed_beside(std::int32_t end, std::int32_t segment) con
   return first(end == a ? begin : stop - 1);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::sampled_skeleton

@@ -11,7 +11,7 @@
 #include "core/kernel/point.hpp"
 #include "core/segment_voronoi/build/incident_segments.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::sampled_skeleton {
 
 // A piece of an edge between seeds that follow each other.
 struct EdgePiece {
@@ -25,11 +25,12 @@ class SeedLabels {
   // `first` names for each of the seeds the first one at the same place. Nearly all are that themselves;
   // seeds on segments that meet at a very small angle may be rounded to one place, and the first then has all
   // labels.
-  SeedLabels(const ShapeGraph& graph, std::span<const Point> seeds, std::span<const std::int32_t> start,
-             std::span<const std::int32_t> segment, std::span<const std::int32_t> first);
+  SeedLabels(const arrangement::ShapeGraph& graph, std::span<const kernel::Point> seeds,
+             std::span<const std::int32_t> start, std::span<const std::int32_t> segment,
+             std::span<const std::int32_t> first);
 
-  const ShapeGraph& graph() const { return graph_; }
-  const IncidentSegments& incident() const { return incident_; }
+  const arrangement::ShapeGraph& graph() const { return graph_; }
+  const segment_voronoi::build::IncidentSegments& incident() const { return incident_; }
   std::size_t piece_count() const { return start_.size() - 1 + segment_.size() - graph_.points.size(); }
 
   bool is_point(std::int32_t seed) const { return static_cast<std::size_t>(seed) < graph_.points.size(); }
@@ -86,9 +87,9 @@ class SeedLabels {
   std::span<const ExtraLabel> extra(std::int32_t seed) const;
   std::int32_t piece_at(std::int32_t segment, double share) const;
 
-  ShapeGraph graph_;
-  IncidentSegments incident_;
-  std::span<const Point> seeds_;
+  arrangement::ShapeGraph graph_;
+  segment_voronoi::build::IncidentSegments incident_;
+  std::span<const kernel::Point> seeds_;
   std::span<const std::int32_t> start_, segment_, first_;
   std::vector<ExtraLabel> extra_;  // sorted
 };
@@ -125,4 +126,4 @@ void SeedLabels::visit_beside(std::int32_t seed, const Visit& visit) const {
   visit(seed == start_[segment + 1] - 1 ? b : seed + 1);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::sampled_skeleton

@@ -10,7 +10,7 @@
 
 #include "core/kernel/point.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::sampled_skeleton {
 
 using Side = std::int32_t;
 using Triangle = std::int32_t;
@@ -23,12 +23,12 @@ enum SideState : std::uint8_t {
 };
 
 struct SeedMesh {
-  std::span<const Point> seeds;
+  std::span<const kernel::Point> seeds;
   std::span<const std::int32_t> triangles, neighbours;  // [3 t] as of core/delaunay/triangulation.hpp
 
   std::size_t size() const { return triangles.size() / 3; }
   std::size_t sides() const { return triangles.size(); }
-  const Point& seed(std::int32_t i) const { return seeds[static_cast<std::size_t>(i)]; }
+  const kernel::Point& seed(std::int32_t i) const { return seeds[static_cast<std::size_t>(i)]; }
 
   static Triangle triangle_of(Side s) { return s / 3; }
   std::int32_t corner(Triangle t, int k) const { return triangles[static_cast<std::size_t>(3 * t + k % 3)]; }
@@ -54,4 +54,4 @@ struct SeedMesh {
   bool is_first(Side s) const { return across(s) < 0 || triangle_of(s) < across(s); }
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::sampled_skeleton

@@ -11,7 +11,15 @@
 #include "core/sampled_skeleton/sample_arcs.hpp"
 #include "core/skeleton/branches.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::sampled_skeleton {
+
+using base::Monitor;
+using skeleton::GraphArc;
+using skeleton::LatticeToInput;
+using skeleton::OrderedArc;
+using skeleton::Place;
+using skeleton::SkeletonArrays;
+
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -31,7 +39,7 @@ class Writer {
       : diagram_(diagram),
         arcs_(arcs),
         place_(place),
-        order_(order_by_branches(arcs.arcs(), arcs.node_count(), monitor)) {}
+        order_(skeleton::order_by_branches(arcs.arcs(), arcs.node_count(), monitor)) {}
 
   void write(SeedSkeleton& out, unsigned threads, const Monitor& monitor) const {
     constexpr std::size_t grain = 1 << 14;
@@ -46,8 +54,8 @@ class Writer {
     a.branch.resize(arcs);
     a.length.resize(arcs);
     out.seeds.resize(arcs);
-    parallel_for(
-        piece_count(std::max(nodes, arcs), grain), threads,
+    base::parallel_for(
+        base::piece_count(std::max(nodes, arcs), grain), threads,
         [&](std::size_t piece) {
           const std::size_t first = piece * grain, last = first + grain;
           for (std::size_t i = first; i < std::min(nodes, last); ++i) write_node(i, a);
@@ -85,7 +93,7 @@ class Writer {
     out.error.assign(order_.arcs.size(), nan);
     out.arrays.radius.resize(order_.nodes.size());
     for (const OrderedArc& ordered : order_.arcs) {
-      const Point& seed = diagram_.mesh().seed(graph_arc(ordered).left);
+      const kernel::Point& seed = diagram_.mesh().seed(graph_arc(ordered).left);
       for (const std::int32_t node : {ordered.source, ordered.target}) {
         const Place& place = arcs_.place(order_.nodes[static_cast<std::size_t>(node)]);
         const double x = place[0] - seed.x, y = place[1] - seed.y;
@@ -132,7 +140,7 @@ class Writer {
   const SeedDiagram& diagram_;
   const SeedArcs& arcs_;
   const LatticeToInput& place_;
-  SkeletonOrder order_;
+  skeleton::SkeletonOrder order_;
 };
 
 }  // namespace
@@ -163,4 +171,4 @@ SeedSkeleton extract_seed_skeleton(const SeedDiagram& diagram, const SeedSkeleto
   return made;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::sampled_skeleton

@@ -4,7 +4,10 @@
 
 #include "core/kernel/lattice_vector.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::skeleton {
+
+using kernel::LatticeSite;
+
 namespace {
 
 // log(z + sqrt(1 + z^2)) by basic operations only: they give the same bits on every machine, and a
@@ -27,14 +30,14 @@ double inverse_sinh(double z) {
   return factor * z * sum;
 }
 
-Parabola parabola_of(const LatticePoint& focus, const LatticeSite& segment) {
-  LatticeVector along = segment.b - segment.a;
-  std::int64_t height = cross(along, focus - segment.a);
+Parabola parabola_of(const kernel::LatticePoint& focus, const LatticeSite& segment) {
+  kernel::LatticeVector along = segment.b - segment.a;
+  std::int64_t height = kernel::cross(along, focus - segment.a);
   if (height < 0) {
     along = -along;
     height = -height;
   }
-  const double length = std::sqrt(static_cast<double>(norm2(along)));
+  const double length = std::sqrt(static_cast<double>(kernel::norm2(along)));
   return {{static_cast<double>(focus.x), static_cast<double>(focus.y)},
           static_cast<double>(along.x) / length,
           static_cast<double>(along.y) / length,
@@ -92,9 +95,9 @@ double arc_length(double h, double from, double to) {
 double distance_to(const LatticeSite& site, const Place& place) {
   const double x = place[0] - site.a.x, y = place[1] - site.a.y;
   if (site.is_point()) return std::sqrt(x * x + y * y);
-  const LatticeVector along = site.b - site.a;
+  const kernel::LatticeVector along = site.b - site.a;
   const double ux = static_cast<double>(along.x), uy = static_cast<double>(along.y);
-  return std::abs(ux * y - uy * x) / std::sqrt(static_cast<double>(norm2(along)));
+  return std::abs(ux * y - uy * x) / std::sqrt(static_cast<double>(kernel::norm2(along)));
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::skeleton

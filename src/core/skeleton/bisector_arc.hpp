@@ -6,7 +6,7 @@
 
 #include "core/kernel/lattice_point.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::skeleton {
 
 using Place = std::array<double, 2>;
 
@@ -31,7 +31,7 @@ struct Parabola {
 };
 
 struct BisectorArc {
-  BisectorArc(const LatticeSite& left, const LatticeSite& right);
+  BisectorArc(const kernel::LatticeSite& left, const kernel::LatticeSite& right);
 
   bool is_parabola;
   Parabola parabola;
@@ -46,6 +46,6 @@ double arc_length(const Parabola& parabola, const ArcEnd& source, const ArcEnd& 
 double arc_length(double h, double from, double to);
 
 // The distance of a place from a site whose closest point is within the segment.
-double distance_to(const LatticeSite& site, const Place& place);
+double distance_to(const kernel::LatticeSite& site, const Place& place);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::skeleton

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace vorotool::core {
+namespace vorotool::core::skeleton {
 namespace {
 
 std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
@@ -96,7 +96,8 @@ class BranchWalk {
 
 }  // namespace
 
-SkeletonOrder order_by_branches(std::span<const GraphArc> arcs, std::size_t nodes, const Monitor& monitor) {
+SkeletonOrder order_by_branches(std::span<const GraphArc> arcs, std::size_t nodes,
+                                const base::Monitor& monitor) {
   const std::vector<std::int32_t> order = by_group(arcs);
   BranchWalk walk(arcs, nodes);
   for (std::size_t begin = 0, end; begin < order.size(); begin = end) {
@@ -105,9 +106,9 @@ SkeletonOrder order_by_branches(std::span<const GraphArc> arcs, std::size_t node
     while (end < order.size() && arcs[at(order[end])].group == group) ++end;
     walk.walk_all(std::span(order).subspan(begin, end - begin));
     if (monitor && !monitor(static_cast<double>(end) / static_cast<double>(order.size())))
-      throw Interrupted();
+      throw base::Interrupted();
   }
   return walk.take();
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::skeleton

@@ -8,7 +8,7 @@
 #include "core/base/monitor.hpp"
 #include "core/skeleton/graph.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::skeleton {
 
 struct OrderedArc {
   std::int32_t arc;             // of the graph
@@ -26,6 +26,7 @@ struct SkeletonOrder {
 // direction. Groups follow each other by number. In each, branches with ends come before closed ones,
 // otherwise in the order of their first arcs among those given; a branch begins at its end which that arc's
 // source is nearest to.
-SkeletonOrder order_by_branches(std::span<const GraphArc> arcs, std::size_t nodes, const Monitor& monitor);
+SkeletonOrder order_by_branches(std::span<const GraphArc> arcs, std::size_t nodes,
+                                const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::skeleton

@@ -10,7 +10,10 @@
 #include "core/base/parallel.hpp"
 #include "core/segment_voronoi/build/wanted_faces.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::skeleton {
+
+using segment_voronoi::build::SegmentDiagram;
+
 namespace {
 
 using Pair = std::array<std::int32_t, 2>;
@@ -22,7 +25,9 @@ std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 class FaceFinder {
  public:
   FaceFinder(const SegmentDiagram& diagram, std::span<const Pair> faces)
-      : diagram_(diagram), faces_(faces), point_face_(point_faces(diagram.points, diagram.segments, faces)) {}
+      : diagram_(diagram),
+        faces_(faces),
+        point_face_(segment_voronoi::build::point_faces(diagram.points, diagram.segments, faces)) {}
 
   // The face of an edge as far as its own sites and ends tell.
   std::int32_t face(std::size_t edge) const {
@@ -62,7 +67,7 @@ class FaceFinder {
 
 // Edges between segments, and between points without segments, are in the face of the edges that they meet at
 // vertices which are no corners: a path inside a face leads to each of them.
-void spread_faces(const SegmentDiagram& diagram, LargeArray<std::int32_t>& face) {
+void spread_faces(const SegmentDiagram& diagram, base::LargeArray<std::int32_t>& face) {
   std::vector<std::int32_t> of_vertex(diagram.radius.size(), unknown);
   std::vector<std::size_t> left_over;
   for (std::size_t e = 0; e < face.size(); ++e) {
@@ -72,7 +77,7 @@ void spread_faces(const SegmentDiagram& diagram, LargeArray<std::int32_t>& face)
       if (v >= 0 && diagram.radius[at(v)] > 0) of_vertex[at(v)] = face[e];
     }
   }
-  DisjointSets<std::int32_t> together(diagram.radius.size());
+  base::DisjointSets<std::int32_t> together(diagram.radius.size());
   for (const std::size_t e : left_over) together.join(diagram.edges[e][0], diagram.edges[e][1]);
   for (std::size_t v = 0; v < of_vertex.size(); ++v) {
     if (of_vertex[v] != unknown) of_vertex[at(together.find(static_cast<std::int32_t>(v)))] = of_vertex[v];
@@ -88,12 +93,12 @@ void spread_faces(const SegmentDiagram& diagram, LargeArray<std::int32_t>& face)
 }  // namespace
 
 SkeletonEdges skeleton_edges(const SegmentDiagram& diagram, std::span<const Pair> segment_faces,
-                             unsigned threads, const Monitor& monitor) {
+                             unsigned threads, const base::Monitor& monitor) {
   const std::size_t count = diagram.edges.size();
   const FaceFinder finder(diagram, segment_faces);
-  LargeArray<std::int32_t> face(count);
-  parallel_for(
-      piece_count(count, grain), threads,
+  base::LargeArray<std::int32_t> face(count);
+  base::parallel_for(
+      base::piece_count(count, grain), threads,
       [&](std::size_t piece) {
         const std::size_t last = std::min(count, (piece + 1) * grain);
         for (std::size_t e = piece * grain; e < last; ++e) face[e] = finder.face(e);
@@ -112,4 +117,4 @@ SkeletonEdges skeleton_edges(const SegmentDiagram& diagram, std::span<const Pair
   return kept;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::skeleton

@@ -9,7 +9,7 @@
 #include "core/base/monitor.hpp"
 #include "core/segment_voronoi/build/diagram.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::skeleton {
 
 struct SkeletonEdges {
   std::vector<std::int32_t> edge;  // of the diagram, ascending
@@ -22,8 +22,8 @@ struct SkeletonEdges {
 //
 // No coordinate of a vertex is looked at: a point's cell is in its sector over 180 degrees, an edge from a
 // corner between two segments, an unbounded edge in face 0; the rest is in the faces of its neighbours.
-SkeletonEdges skeleton_edges(const SegmentDiagram& diagram,
+SkeletonEdges skeleton_edges(const segment_voronoi::build::SegmentDiagram& diagram,
                              std::span<const std::array<std::int32_t, 2>> segment_faces, unsigned threads,
-                             const Monitor& monitor);
+                             const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::skeleton

@@ -8,7 +8,7 @@
 #include "core/skeleton/branches.hpp"
 #include "core/skeleton/graph.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::skeleton {
 namespace {
 
 constexpr std::size_t grain = 1 << 14;  // arcs a piece: a millisecond or so
@@ -71,9 +71,9 @@ class ArrayWriter {
 };
 
 template <class Body>
-void for_each(std::size_t count, unsigned threads, const Monitor& monitor, const Body& body) {
-  parallel_for(
-      piece_count(count, grain), threads,
+void for_each(std::size_t count, unsigned threads, const base::Monitor& monitor, const Body& body) {
+  base::parallel_for(
+      base::piece_count(count, grain), threads,
       [&](std::size_t piece) {
         const std::size_t last = std::min(count, (piece + 1) * grain);
         for (std::size_t i = piece * grain; i < last; ++i) body(i);
@@ -83,10 +83,10 @@ void for_each(std::size_t count, unsigned threads, const Monitor& monitor, const
 
 }  // namespace
 
-SkeletonArrays extract_skeleton(const SegmentDiagram& diagram, std::span<const std::int32_t> edges,
-                                std::span<const std::int32_t> groups,
+SkeletonArrays extract_skeleton(const segment_voronoi::build::SegmentDiagram& diagram,
+                                std::span<const std::int32_t> edges, std::span<const std::int32_t> groups,
                                 const std::optional<ClippedGroup>& clipped, const JoinedGroups& joined,
-                                const LatticeToInput& place, unsigned threads, const Monitor& monitor) {
+                                const LatticeToInput& place, unsigned threads, const base::Monitor& monitor) {
   SkeletonGraph graph(diagram, edges, groups);
   graph.join_corners(joined.first, joined.last);
   if (clipped) clip_to_frame(graph, clipped->group, clipped->frame, monitor);
@@ -97,4 +97,4 @@ SkeletonArrays extract_skeleton(const SegmentDiagram& diagram, std::span<const s
   return writer.take();
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::skeleton

@@ -12,7 +12,7 @@
 #include "core/segment_voronoi/build/diagram.hpp"
 #include "core/skeleton/frame_clip.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::skeleton {
 
 // Lattice place (x, y) stands for (origin_x + scale x, origin_y + scale y); the scale is a power of two.
 struct LatticeToInput {
@@ -44,9 +44,9 @@ struct SkeletonArrays {
 
 // `edges` and the group of each: arcs are grouped by it, and those of one group may be clipped. Without a
 // frame none may be unbounded.
-SkeletonArrays extract_skeleton(const SegmentDiagram& diagram, std::span<const std::int32_t> edges,
-                                std::span<const std::int32_t> groups,
+SkeletonArrays extract_skeleton(const segment_voronoi::build::SegmentDiagram& diagram,
+                                std::span<const std::int32_t> edges, std::span<const std::int32_t> groups,
                                 const std::optional<ClippedGroup>& clipped, const JoinedGroups& joined,
-                                const LatticeToInput& place, unsigned threads, const Monitor& monitor);
+                                const LatticeToInput& place, unsigned threads, const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::skeleton

@@ -9,7 +9,7 @@
 #include "core/kernel/lattice_vector.hpp"
 #include "core/skeleton/line_clip.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::skeleton {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -53,13 +53,15 @@ class Clipper {
       const auto size = [](const Place& p) { return std::max(std::abs(p[0]), std::abs(p[1])); };
       return size(a) <= size(b) ? Line{a, way, 0, 1} : Line{b, way, -1, 0};
     }
-    const LatticeSite left = graph_.diagram().site(arc.left), right = graph_.diagram().site(arc.right);
-    const LatticePoint p = left.is_point() ? left.a : right.a, q = right.is_point() ? right.a : left.a;
-    const auto middle_of = [](const LatticeSite& s) {
-      return LatticeVector{std::int64_t{s.a.x} + s.b.x, std::int64_t{s.a.y} + s.b.y};
+    const kernel::LatticeSite left = graph_.diagram().site(arc.left),
+                              right = graph_.diagram().site(arc.right);
+    const kernel::LatticePoint p = left.is_point() ? left.a : right.a,
+                               q = right.is_point() ? right.a : left.a;
+    const auto middle_of = [](const kernel::LatticeSite& s) {
+      return kernel::LatticeVector{std::int64_t{s.a.x} + s.b.x, std::int64_t{s.a.y} + s.b.y};
     };
-    const LatticeVector across{middle_of(left).x - middle_of(right).x,
-                               middle_of(left).y - middle_of(right).y};
+    const kernel::LatticeVector across{middle_of(left).x - middle_of(right).x,
+                                       middle_of(left).y - middle_of(right).y};
     const Place way{static_cast<double>(across.y), -static_cast<double>(across.x)};
     const Place middle{(static_cast<double>(p.x) + q.x) / 2, (static_cast<double>(p.y) + q.y) / 2};
     const auto parameter = [&](std::int32_t node) {
@@ -130,13 +132,14 @@ class Clipper {
 
 }  // namespace
 
-void clip_to_frame(SkeletonGraph& graph, std::int32_t group, const Frame& frame, const Monitor& monitor) {
+void clip_to_frame(SkeletonGraph& graph, std::int32_t group, const Frame& frame,
+                   const base::Monitor& monitor) {
   constexpr std::size_t often = 1 << 16;  // arcs between two looks at the monitor: some milliseconds
   std::vector<GraphArc> kept;
   kept.reserve(graph.arcs.size());
   Clipper clipper(graph, frame, kept);
   for (std::size_t k = 0; k < graph.arcs.size(); ++k) {
-    if (k % often == 0 && monitor && !monitor(0)) throw Interrupted();
+    if (k % often == 0 && monitor && !monitor(0)) throw base::Interrupted();
     if (graph.arcs[k].group == group) {
       clipper.clip(graph.arcs[k]);
     } else {
@@ -146,4 +149,4 @@ void clip_to_frame(SkeletonGraph& graph, std::int32_t group, const Frame& frame,
   graph.arcs = std::move(kept);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::skeleton

@@ -6,7 +6,7 @@
 #include "core/base/monitor.hpp"
 #include "core/skeleton/graph.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::skeleton {
 
 struct Frame {
   double least_x, most_x, least_y, most_y;
@@ -18,6 +18,7 @@ struct Frame {
 
 // Of the arcs of one group, keeps what lies in the frame: an arc may be cut into several, or end on the frame
 // instead of at infinity.
-void clip_to_frame(SkeletonGraph& graph, std::int32_t group, const Frame& frame, const Monitor& monitor);
+void clip_to_frame(SkeletonGraph& graph, std::int32_t group, const Frame& frame,
+                   const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::skeleton

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <tuple>
 
-namespace vorotool::core {
+namespace vorotool::core::skeleton {
 
-SkeletonGraph::SkeletonGraph(const SegmentDiagram& diagram, std::span<const std::int32_t> edges,
-                             std::span<const std::int32_t> groups)
+SkeletonGraph::SkeletonGraph(const segment_voronoi::build::SegmentDiagram& diagram,
+                             std::span<const std::int32_t> edges, std::span<const std::int32_t> groups)
     : diagram_(diagram) {
   arcs.reserve(edges.size());
   for (std::size_t k = 0; k < edges.size(); ++k) {
@@ -49,4 +49,4 @@ std::int32_t SkeletonGraph::add_node(const ArcEnd& end, FrameSide side) {
   return static_cast<std::int32_t>(node_count() - 1);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::skeleton

@@ -8,7 +8,7 @@
 #include "core/segment_voronoi/build/diagram.hpp"
 #include "core/skeleton/bisector_arc.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::skeleton {
 
 // Sides of a frame, in the order in which cuts name them.
 enum class FrameSide : std::int8_t { none = -1, least_x, most_x, least_y, most_y };
@@ -23,10 +23,10 @@ struct GraphArc {
 // ends there, and ends on a frame.
 class SkeletonGraph {
  public:
-  SkeletonGraph(const SegmentDiagram& diagram, std::span<const std::int32_t> edges,
+  SkeletonGraph(const segment_voronoi::build::SegmentDiagram& diagram, std::span<const std::int32_t> edges,
                 std::span<const std::int32_t> groups);
 
-  const SegmentDiagram& diagram() const { return diagram_; }
+  const segment_voronoi::build::SegmentDiagram& diagram() const { return diagram_; }
   std::size_t node_count() const { return diagram_.radius.size() + extra_.size(); }
 
   ArcEnd end(std::int32_t node) const {
@@ -59,8 +59,8 @@ class SkeletonGraph {
   // Different sectors of a corner have nothing in common but the corner: each arc gets its own node there.
   std::int32_t node_at(std::int32_t vertex);
 
-  const SegmentDiagram& diagram_;
+  const segment_voronoi::build::SegmentDiagram& diagram_;
   std::vector<ExtraNode> extra_;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::skeleton

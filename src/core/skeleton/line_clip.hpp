@@ -7,7 +7,7 @@
 
 #include "core/skeleton/frame_clip.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::skeleton {
 
 // A place on an arc by its parameter, and the side of the frame that cuts it there.
 struct Cut {
@@ -43,4 +43,4 @@ inline std::optional<std::pair<Cut, Cut>> cut_line(const Line& line, const Frame
   return std::pair{first, last};
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::skeleton

@@ -7,7 +7,7 @@
 
 #include "core/skeleton/bisector_arc.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::skeleton {
 
 struct SkeletonView {
   std::span<const Place> vertices;                     // [v]
@@ -29,4 +29,4 @@ struct SkeletonView {
   bool is_curved(std::size_t arc) const { return control[arc][0] == control[arc][0]; }
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::skeleton

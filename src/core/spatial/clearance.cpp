@@ -8,14 +8,14 @@
 #include "core/kernel/lattice_vector.hpp"
 #include "core/spatial/obb_tree.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::spatial {
 
-double closed_distance(const LatticeSite& site, const std::array<double, 2>& place) {
+double closed_distance(const kernel::LatticeSite& site, const std::array<double, 2>& place) {
   double x = place[0] - site.a.x, y = place[1] - site.a.y;
   if (!site.is_point()) {
-    const LatticeVector along = site.b - site.a;
+    const kernel::LatticeVector along = site.b - site.a;
     const double ux = static_cast<double>(along.x), uy = static_cast<double>(along.y);
-    const double square = static_cast<double>(norm2(along));
+    const double square = static_cast<double>(kernel::norm2(along));
     const double t = ux * x + uy * y;
     if (t >= square) {
       x = place[0] - site.b.x;
@@ -27,14 +27,14 @@ double closed_distance(const LatticeSite& site, const std::array<double, 2>& pla
   return std::sqrt(x * x + y * y);
 }
 
-std::vector<double> clearances(std::span<const LatticeSite> sites,
+std::vector<double> clearances(std::span<const kernel::LatticeSite> sites,
                                std::span<const std::array<double, 2>> places, std::span<const double> reach,
-                               unsigned threads, const Monitor& monitor) {
+                               unsigned threads, const base::Monitor& monitor) {
   constexpr std::size_t grain = 1 << 12;  // places a piece: some milliseconds
   std::vector<double> found(places.size(), std::numeric_limits<double>::infinity());
   const SiteHierarchy hierarchy(sites, threads, monitor);
-  parallel_for(
-      piece_count(places.size(), grain), threads,
+  base::parallel_for(
+      base::piece_count(places.size(), grain), threads,
       [&](std::size_t piece) {
         const std::size_t last = std::min(places.size(), (piece + 1) * grain);
         for (std::size_t i = piece * grain; i < last; ++i) {
@@ -48,4 +48,4 @@ std::vector<double> clearances(std::span<const LatticeSite> sites,
   return found;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::spatial

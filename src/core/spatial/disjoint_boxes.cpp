@@ -10,7 +10,10 @@
 #include <tuple>
 #include <utility>
 
-namespace vorotool::core {
+namespace vorotool::core::spatial {
+
+using base::Monitor;
+
 namespace {
 
 constexpr std::size_t tried_sheets = 32;  // boxes of maps and images mostly fit into fewer
@@ -71,7 +74,7 @@ class Divider {
     std::vector<Sheet> sheets;
     std::vector<std::int32_t> left_over;
     for (std::size_t i = 0; i < order.size(); ++i) {
-      report_item(monitor_, i);
+      base::report_item(monitor_, i);
       const auto fits = [&](Sheet& sheet) { return sheet.add(box(order[i])); };
       const auto found = std::find_if(sheets.begin(), sheets.end(), fits);
       if (found != sheets.end()) {
@@ -136,4 +139,4 @@ std::vector<std::int32_t> disjoint_sheets(std::span<const ClosedBox> boxes, cons
   return Divider(boxes, monitor).run();
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::spatial

@@ -7,7 +7,7 @@
 
 #include "core/base/monitor.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::spatial {
 
 // Closed: both corners belong to it.
 struct ClosedBox {
@@ -20,6 +20,6 @@ struct ClosedBox {
 // sheets as intervals of columns do, as few as may be; those with different multiples of one power never
 // meet. There are at most a constant and 64 times as many sheets as boxes have a point in common; time
 // O(n log n).
-std::vector<std::int32_t> disjoint_sheets(std::span<const ClosedBox> boxes, const Monitor& monitor);
+std::vector<std::int32_t> disjoint_sheets(std::span<const ClosedBox> boxes, const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::spatial

@@ -13,7 +13,7 @@
 #include "core/base/monitor.hpp"
 #include "core/numbers/int128.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::spatial {
 
 // Coordinates and squared distances of a SiteTree, with their bounds:
 // - std::int64_t, std::uint64_t: exact while coordinates differ by at most 2^31: 2 * (2^31)^2 < 2^64;
@@ -46,7 +46,7 @@ class SiteTree {
 
   // Polls the monitor; sorting a million points takes some tenths of a second. At most 2^32 - 1 points.
   SiteTree(std::span<const Coordinate> x, std::span<const Coordinate> y,
-           std::span<const std::uint32_t> labels, const Monitor& monitor) {
+           std::span<const std::uint32_t> labels, const base::Monitor& monitor) {
     sites_.resize(labels.size());
     for (std::size_t i = 0; i < sites_.size(); ++i) {
       sites_[i] = {x[i], y[i], labels[i], static_cast<std::uint32_t>(i)};
@@ -106,8 +106,8 @@ class SiteTree {
            square(gap(y, std::clamp(y, box.top, box.bottom)));
   }
 
-  void build(std::size_t node, std::size_t first, std::size_t last, const Monitor& monitor) {
-    if (last - first > 4096 && monitor && !monitor(0.0)) throw Interrupted();
+  void build(std::size_t node, std::size_t first, std::size_t last, const base::Monitor& monitor) {
+    if (last - first > 4096 && monitor && !monitor(0.0)) throw base::Interrupted();
     Box box{sites_[first].x, sites_[first].x, sites_[first].y, sites_[first].y, UINT32_MAX};
     for (std::size_t i = first; i < last; ++i) {
       box.left = std::min(box.left, sites_[i].x);
@@ -176,4 +176,4 @@ class SiteTree {
   std::size_t first_leaf_;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::spatial

@@ -7,21 +7,21 @@
 
 #include "core/kernel/point.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::spatial {
 
 // The smallest box around points, at least one.
 struct Bounds {
-  explicit Bounds(const Point& p) : least(p), most(p) {}
+  explicit Bounds(const kernel::Point& p) : least(p), most(p) {}
 
-  void add(const Point& p) {
+  void add(const kernel::Point& p) {
     least = {std::min(least.x, p.x), std::min(least.y, p.y)};
     most = {std::max(most.x, p.x), std::max(most.y, p.y)};
   }
-  bool holds(const Point& p) const {
+  bool holds(const kernel::Point& p) const {
     return p.x >= least.x && p.y >= least.y && p.x <= most.x && p.y <= most.y;
   }
 
-  Point least, most;
+  kernel::Point least, most;
 };
 
 // 16 bits of each coordinate: enough to tell most points apart, and three passes of a radix sort.
@@ -43,11 +43,11 @@ class MortonGrid {
   }
 
   // Bits of column and row in turn, those of the column the higher of two.
-  std::uint32_t code(const Point& p) const {
+  std::uint32_t code(const kernel::Point& p) const {
     return spread(cell(p.x, half_least_.x)) << 1 | spread(cell(p.y, half_least_.y));
   }
   // The same of a grid as fine again in the point's own cell.
-  std::uint32_t fine_code(const Point& p) const {
+  std::uint32_t fine_code(const kernel::Point& p) const {
     return spread(part(p.x, half_least_.x)) << 1 | spread(part(p.y, half_least_.y));
   }
 
@@ -73,8 +73,8 @@ class MortonGrid {
     return (v | v << 1) & 0x55555555U;
   }
 
-  Point half_least_;
+  kernel::Point half_least_;
   double blow_up_, factor_;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::spatial

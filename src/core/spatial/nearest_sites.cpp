@@ -6,11 +6,11 @@
 #include "core/base/parallel.hpp"
 #include "core/spatial/kd_tree.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::spatial {
 
 std::vector<NearestOther> nearest_other_sites(std::span<const double> x, std::span<const double> y,
                                               std::span<const std::uint32_t> labels, unsigned threads,
-                                              const Monitor& monitor) {
+                                              const base::Monitor& monitor) {
   using Tree = SiteTree<double, double>;
   constexpr std::size_t kPiece = 4096;
   const Tree tree(x, y, labels, monitor);
@@ -28,8 +28,8 @@ std::vector<NearestOther> nearest_other_sites(std::span<const double> x, std::sp
       }
     }
   };
-  parallel_for(piece_count(tree.size(), kPiece), threads, query, monitor);
+  base::parallel_for(base::piece_count(tree.size(), kPiece), threads, query, monitor);
   return result;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::spatial

@@ -7,7 +7,7 @@
 
 #include "core/base/monitor.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::spatial {
 
 struct NearestOther {
   std::int64_t index;  // in the input; -1 when there is no other site
@@ -19,6 +19,6 @@ struct NearestOther {
 // in magnitude.
 std::vector<NearestOther> nearest_other_sites(std::span<const double> x, std::span<const double> y,
                                               std::span<const std::uint32_t> labels, unsigned threads,
-                                              const Monitor& monitor);
+                                              const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::spatial

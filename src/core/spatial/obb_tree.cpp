@@ -5,7 +5,10 @@
 
 #include "core/base/parallel.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::spatial {
+
+using kernel::LatticeSite;
+
 namespace {
 
 struct Way {
@@ -58,7 +61,7 @@ class Bundle {
       y += (static_cast<double>(items_[i].a.y) + items_[i].b.y) / count;
     }
     for (const std::uint32_t i : numbers_) {
-      for (const LatticePoint& p : {items_[i].a, items_[i].b}) {
+      for (const kernel::LatticePoint& p : {items_[i].a, items_[i].b}) {
         xx += (p.x - x) * (p.x - x);
         xy += (p.x - x) * (p.y - y);
         yy += (p.y - y) * (p.y - y);
@@ -77,7 +80,7 @@ class Bundle {
       box.uy = way.y / size;
     }
     for (const std::uint32_t i : numbers_) {
-      for (const LatticePoint& p : {items_[i].a, items_[i].b}) {
+      for (const kernel::LatticePoint& p : {items_[i].a, items_[i].b}) {
         const double t = box.ux * p.x + box.uy * p.y, n = box.ux * p.y - box.uy * p.x;
         box.t_least = std::min(box.t_least, t);
         box.t_most = std::max(box.t_most, t);
@@ -95,14 +98,15 @@ class Bundle {
 
 }  // namespace
 
-SiteHierarchy::SiteHierarchy(std::span<const LatticeSite> items, unsigned threads, const Monitor& monitor)
+SiteHierarchy::SiteHierarchy(std::span<const LatticeSite> items, unsigned threads,
+                             const base::Monitor& monitor)
     : index_(items.size()) {
   std::iota(index_.begin(), index_.end(), 0U);
   std::size_t levels = 1;
   while (leaf_size << (levels - 1) < items.size()) ++levels;
   levels_.resize(items.empty() ? 0 : levels);
   for (std::size_t level = levels_.size(); level-- > 0;) {
-    const std::size_t size = leaf_size << level, nodes = piece_count(items.size(), size);
+    const std::size_t size = leaf_size << level, nodes = base::piece_count(items.size(), size);
     levels_[level].resize(nodes);
     constexpr std::size_t grain = 1 << 14;  // items of a piece
     const std::size_t a_piece = std::max<std::size_t>(1, grain / size);
@@ -115,8 +119,8 @@ SiteHierarchy::SiteHierarchy(std::span<const LatticeSite> items, unsigned thread
         if (level > 0 && count > size / 2) bundle.split(levels_[level][node], size / 2);
       }
     };
-    parallel_for(piece_count(nodes, a_piece), threads, build, monitor);
+    base::parallel_for(base::piece_count(nodes, a_piece), threads, build, monitor);
   }
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::spatial

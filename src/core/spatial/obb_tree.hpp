@@ -18,7 +18,7 @@
 #include "core/base/monitor.hpp"
 #include "core/kernel/lattice_point.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::spatial {
 
 struct OrientedBox {
   double ux, uy;                            // about a unit vector
@@ -27,7 +27,7 @@ struct OrientedBox {
 
 class SiteHierarchy {
  public:
-  SiteHierarchy(std::span<const LatticeSite> items, unsigned threads, const Monitor& monitor);
+  SiteHierarchy(std::span<const kernel::LatticeSite> items, unsigned threads, const base::Monitor& monitor);
 
   // Calls visit(item) for every item not farther than reach from (x, y), and for some others. It stops where
   // visit gives false.
@@ -102,4 +102,4 @@ class SiteHierarchy {
   std::vector<std::vector<OrientedBox>> levels_;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::spatial

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace vorotool::core {
+namespace vorotool::core::tessellation {
 
 namespace {
 
@@ -190,4 +190,4 @@ void LiveList<Arithmetic>::compact() {
 template class LiveList<Narrow>;
 template class LiveList<Wide>;
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::tessellation

@@ -8,7 +8,7 @@
 #include "core/tessellation/row_kernel.hpp"
 #include "core/tessellation/sorted_seeds.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::tessellation {
 
 template <class Arithmetic>
 class LiveList {
@@ -69,4 +69,4 @@ class LiveList {
 extern template class LiveList<Narrow>;
 extern template class LiveList<Wide>;
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::tessellation

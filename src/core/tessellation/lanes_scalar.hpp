@@ -5,7 +5,7 @@
 
 #include "core/tessellation/row_kernel.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::tessellation {
 
 // floor(numerator / denominator) and whether it is exact, for doubles that hold integers of at most 2^53.
 // The rounded quotient is off by less than one, and the remainder tells in which direction.
@@ -25,9 +25,9 @@ inline std::int64_t floor_divide(double numerator, double denominator, bool& exa
   return quotient;
 }
 
-inline int128 floor_divide(int128 numerator, int128 denominator, bool& exact) {
-  const int128 quotient = numerator / denominator;
-  const int128 remainder = numerator % denominator;
+inline numbers::int128 floor_divide(numbers::int128 numerator, numbers::int128 denominator, bool& exact) {
+  const numbers::int128 quotient = numerator / denominator;
+  const numbers::int128 remainder = numerator % denominator;
   exact = remainder == 0;
   return remainder < 0 ? quotient - 1 : quotient;
 }
@@ -82,4 +82,4 @@ struct ScalarLanes {
   static void fence() {}
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::tessellation

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-namespace vorotool::core {
+namespace vorotool::core::tessellation {
 
 // Coordinates of seeds and pixels on the lattice may have this magnitude.
 constexpr std::int64_t kLatticeLimit = std::int64_t{1} << 40;
@@ -26,4 +26,4 @@ struct PixelFrame {
   std::size_t height;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::tessellation

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace vorotool::core {
+namespace vorotool::core::tessellation {
 
 namespace {
 
@@ -73,11 +73,11 @@ class PropagationImage {
 
 void propagate(std::span<const std::int64_t> x, std::span<const std::int64_t> y,
                std::span<const std::uint32_t> label, std::int32_t width, std::int32_t height, int passes,
-               std::uint32_t* out, const Monitor& monitor) {
+               std::uint32_t* out, const base::Monitor& monitor) {
   PropagationImage image(x, y, label, width, height);
   const double rows = static_cast<double>(height) * passes;
   const auto check = [&](std::int32_t done) {
-    if (monitor && !monitor(done / rows)) throw Interrupted();
+    if (monitor && !monitor(done / rows)) throw base::Interrupted();
   };
   for (std::int32_t j = 0; j < height; ++j) {
     image.sweep_row(j, -1);
@@ -90,4 +90,4 @@ void propagate(std::span<const std::int64_t> x, std::span<const std::int64_t> y,
   image.write_labels(out);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::tessellation

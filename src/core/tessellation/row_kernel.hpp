@@ -11,7 +11,7 @@
 #include "core/tessellation/simd_level.hpp"
 #include "core/tessellation/sweep_arithmetic.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::tessellation {
 
 // Arrays that the kernels read in whole vectors have this many spare elements behind their end.
 inline constexpr std::int32_t kernel_padding = 256;
@@ -91,4 +91,4 @@ RowKernel<Narrow> avx2();
 RowKernel<Narrow> avx512();
 }  // namespace kernels
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::tessellation

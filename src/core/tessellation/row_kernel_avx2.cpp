@@ -5,7 +5,7 @@
 
 #include "core/tessellation/row_kernel_impl.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::tessellation {
 namespace {
 
 // Byte shuffles that move the chosen 32-bit elements of 128 bits to the front; for doubles, the same on
@@ -131,6 +131,6 @@ struct Avx2Lanes {
 
 RowKernel<Narrow> kernels::avx2() { return RowKernelOn<Avx2Lanes>::table(); }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::tessellation
 
 #endif

@@ -5,7 +5,7 @@
 
 #include "core/tessellation/row_kernel_impl.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::tessellation {
 namespace {
 
 struct Avx512Lanes {
@@ -101,6 +101,6 @@ struct Avx512Lanes {
 
 RowKernel<Narrow> kernels::avx512() { return RowKernelOn<Avx512Lanes>::table(); }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::tessellation
 
 #endif

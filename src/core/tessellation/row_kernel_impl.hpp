@@ -5,7 +5,7 @@
 
 #include "core/tessellation/row_kernel.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::tessellation {
 
 template <class Lanes>
 struct RowKernelOn {
@@ -60,7 +60,7 @@ struct RowKernelOn {
   // nearest, when its boundary with b lies left of its boundary with a. A tie keeps it: its label may be the
   // smallest.
   static bool hidden_exactly(const Candidates<Arithmetic> c, std::int32_t a, std::int32_t i, std::int32_t b) {
-    const auto whole = [](Value v) { return static_cast<int128>(v); };
+    const auto whole = [](Value v) { return static_cast<numbers::int128>(v); };
     return (whole(c.value[b]) - whole(c.value[i])) * (whole(c.x[i]) - whole(c.x[a])) <
            (whole(c.value[i]) - whole(c.value[a])) * (whole(c.x[b]) - whole(c.x[i]));
   }
@@ -220,4 +220,4 @@ struct RowKernelOn {
   }
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::tessellation

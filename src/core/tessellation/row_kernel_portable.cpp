@@ -2,7 +2,7 @@
 #include "core/tessellation/lanes_scalar.hpp"
 #include "core/tessellation/row_kernel_impl.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::tessellation {
 
 RowKernel<Narrow> kernels::portable() { return RowKernelOn<ScalarLanes<Narrow>>::table(); }
 
@@ -17,4 +17,4 @@ RowKernel<Narrow> narrow_kernel(Simd level) {
   return kernels::portable();
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::tessellation

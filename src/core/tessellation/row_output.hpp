@@ -7,7 +7,7 @@
 
 #include "core/tessellation/row_kernel.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::tessellation {
 
 template <class Arithmetic>
 void fill_labels(const RowKernel<Arithmetic>& kernel, const Envelope<Arithmetic>& envelope,
@@ -100,4 +100,4 @@ void for_each_square(const Envelope<Arithmetic>& envelope, const PixelRow& pixel
   });
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::tessellation

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace vorotool::core {
+namespace vorotool::core::tessellation {
 
 namespace {
 
@@ -158,4 +158,4 @@ const Envelope<Arithmetic>& Sweep<Arithmetic>::next_row() {
 template class Sweep<Narrow>;
 template class Sweep<Wide>;
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::tessellation

@@ -15,7 +15,7 @@
 #include "core/tessellation/row_kernel.hpp"
 #include "core/tessellation/sorted_seeds.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::tessellation {
 
 template <class Arithmetic>
 class Sweep {
@@ -76,4 +76,4 @@ class Sweep {
 extern template class Sweep<Narrow>;
 extern template class Sweep<Wide>;
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::tessellation

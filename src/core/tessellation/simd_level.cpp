@@ -1,6 +1,6 @@
 #include "core/tessellation/simd_level.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::tessellation {
 
 bool supports(Simd level) {
   if (level == Simd::portable) return true;
@@ -32,4 +32,4 @@ std::string_view name_of(Simd level) {
   }
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::tessellation

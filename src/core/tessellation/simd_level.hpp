@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace vorotool::core {
+namespace vorotool::core::tessellation {
 
 enum class Simd { portable, avx2, avx512 };
 
@@ -15,4 +15,4 @@ Simd widest_simd();
 
 std::string_view name_of(Simd level);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::tessellation

@@ -9,7 +9,11 @@
 #include "core/numbers/int128.hpp"
 #include "core/tessellation/sweep_arithmetic.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::tessellation {
+
+using base::Keyed;
+using base::radix_sort;
+using numbers::int128;
 
 SeedTooFar::SeedTooFar(std::size_t index_, std::int64_t bound_)
     : std::range_error("seed " + std::to_string(index_) + " is too far from the frame"),
@@ -225,4 +229,4 @@ Sites prepare_sites(std::span<const std::int64_t> x, std::span<const std::int64_
   return sites;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::tessellation

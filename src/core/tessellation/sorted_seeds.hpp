@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace vorotool::core {
+namespace vorotool::core::tessellation {
 
 // Pixel (c, r) of the frame has its centre at lattice point (steps * (x + c), steps * (y + r)).
 struct FrameOnLattice {
@@ -52,4 +52,4 @@ struct Sites {
 Sites prepare_sites(std::span<const std::int64_t> x, std::span<const std::int64_t> y,
                     std::span<const std::uint32_t> label, const FrameOnLattice& frame);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::tessellation

@@ -3,9 +3,9 @@
 
 #include <cstddef>
 
-namespace vorotool::core {
+namespace vorotool::core::tessellation {
 
 // Writes ones over `bytes` bytes with non-temporal stores (plain ones where a machine has none).
 void stream_fill(char* out, std::size_t bytes, unsigned threads);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::tessellation

@@ -20,7 +20,7 @@
 
 #include "core/numbers/int128.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::tessellation {
 
 inline constexpr std::int64_t exact_product_bound = std::int64_t{1} << 16;
 inline constexpr std::int64_t narrow_bound = std::int64_t{1} << 25;
@@ -36,8 +36,8 @@ struct Narrow {
 struct Wide {
   using Coordinate = std::int64_t;
   static constexpr Coordinate far = Coordinate{1} << 61;
-  using Value = int128;
-  using Integer = int128;
+  using Value = numbers::int128;
+  using Integer = numbers::int128;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::tessellation

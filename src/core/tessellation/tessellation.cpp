@@ -10,7 +10,10 @@
 #include "core/tessellation/row_output.hpp"
 #include "core/tessellation/row_sweep.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::tessellation {
+
+using base::Monitor;
+using numbers::uint128;
 
 namespace {
 
@@ -76,8 +79,8 @@ class Watch {
 
   void after_row(std::int32_t row) {
     if (!monitor_ || row % rows_between != 0) return;
-    if (stopped_.load(std::memory_order_relaxed)) throw Interrupted();
-    if (std::this_thread::get_id() == caller_ && !ask(fraction_)) throw Interrupted();
+    if (stopped_.load(std::memory_order_relaxed)) throw base::Interrupted();
+    if (std::this_thread::get_id() == caller_ && !ask(fraction_)) throw base::Interrupted();
   }
 
  private:
@@ -103,7 +106,8 @@ void write_rows(const Sites& sites, const FrameOnLattice& frame, const RowKernel
   const auto width = static_cast<std::size_t>(frame.width);
   const std::size_t row_bytes = width * sizeof(Pixel);
   const bool stream = row_bytes * static_cast<std::size_t>(rows) > streamed_bytes;
-  const std::int64_t height = rows_of_band(frame, sites.column_x.size(), rows, resolve_threads(threads));
+  const std::int64_t height =
+      rows_of_band(frame, sites.column_x.size(), rows, base::resolve_threads(threads));
   SweepPool<Arithmetic> pool(sites, frame, kernel);
   Watch watch(monitor);
   const auto write_band = [&](std::size_t band) {
@@ -126,7 +130,7 @@ void write_rows(const Sites& sites, const FrameOnLattice& frame, const RowKernel
     pool.give_back(std::move(sweep));
   };
   const auto bands = static_cast<std::size_t>((rows + height - 1) / height);
-  parallel_for(bands, threads, write_band, watch.monitor());
+  base::parallel_for(bands, threads, write_band, watch.monitor());
 }
 
 // Calls body(kernel) with the kernel of the arithmetic that these sites need.
@@ -205,4 +209,4 @@ template void Tessellation::squared_distances(std::int32_t, std::int32_t, std::u
 template void Tessellation::squared_distances(std::int32_t, std::int32_t, std::uint64_t*, unsigned,
                                               const Monitor&) const;
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::tessellation

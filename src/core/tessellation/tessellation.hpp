@@ -12,7 +12,7 @@
 #include "core/tessellation/sorted_seeds.hpp"
 #include "core/tessellation/sweep_arithmetic.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::tessellation {
 
 class Tessellation {
  public:
@@ -30,17 +30,17 @@ class Tessellation {
   // Rows first ... first + rows - 1 into `out`, row after row. Label: uint8, uint16 or uint32, and large
   // enough. Pixels farther than the root of `most_squared` lattice steps from all seeds get 0.
   template <class Label>
-  void labels(std::int32_t first, std::int32_t rows, Label* out, std::optional<uint128> most_squared,
-              unsigned threads, const Monitor& monitor) const;
+  void labels(std::int32_t first, std::int32_t rows, Label* out, std::optional<numbers::uint128> most_squared,
+              unsigned threads, const base::Monitor& monitor) const;
 
   // Squared distances to the nearest seed in lattice steps. Square: uint32 or uint64, and large enough.
   template <class Square>
   void squared_distances(std::int32_t first, std::int32_t rows, Square* out, unsigned threads,
-                         const Monitor& monitor) const;
+                         const base::Monitor& monitor) const;
 
   // Distances to the nearest seed in pixels: the float nearest to the root in double precision.
   void distances(std::int32_t first, std::int32_t rows, float* out, unsigned threads,
-                 const Monitor& monitor) const;
+                 const base::Monitor& monitor) const;
 
  private:
   FrameOnLattice frame_;
@@ -48,4 +48,4 @@ class Tessellation {
   Sites sites_;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::tessellation

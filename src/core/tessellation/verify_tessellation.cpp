@@ -6,14 +6,18 @@
 
 #include "core/base/parallel.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::tessellation {
+
+using base::Monitor;
+using numbers::uint128;
+
 namespace {
 
 // The right labels of one row after the other, from a tree of the seeds.
 template <class Distance>
 class RightRow {
  public:
-  using Tree = SiteTree<std::int64_t, Distance>;
+  using Tree = spatial::SiteTree<std::int64_t, Distance>;
   using Nearest = typename Tree::Nearest;
 
   RightRow(const Tree& tree, const PixelFrame& frame, std::int64_t scale, std::optional<uint128> limit)
@@ -85,17 +89,17 @@ void compare_row(std::span<const Label> row, std::span<const std::uint32_t> righ
 template <class Distance, class Label>
 WrongPixels verify(std::span<const Label> image, const PixelFrame& frame, const LatticeSeeds& seeds,
                    std::optional<uint128> limit, unsigned threads, const Monitor& monitor) {
-  const SiteTree<std::int64_t, Distance> tree(seeds.x, seeds.y, seeds.labels, monitor);
+  const spatial::SiteTree<std::int64_t, Distance> tree(seeds.x, seeds.y, seeds.labels, monitor);
   // At a query a pixel, 2^14 pixels are a few milliseconds.
   const std::size_t rows = std::max<std::size_t>(1, (std::size_t{1} << 14) / frame.width);
-  std::vector<WrongPixels> wrong(piece_count(frame.height, rows));
+  std::vector<WrongPixels> wrong(base::piece_count(frame.height, rows));
   auto check = [&](std::size_t piece) {
     RightRow<Distance> right(tree, frame, seeds.scale, limit);
     for (std::size_t y = piece * rows; y < std::min(frame.height, (piece + 1) * rows); ++y) {
       compare_row(image.subspan(y * frame.width, frame.width), std::span(right.compute(y)), y, wrong[piece]);
     }
   };
-  parallel_for(wrong.size(), threads, check, monitor);
+  base::parallel_for(wrong.size(), threads, check, monitor);
   WrongPixels all;
   for (const WrongPixels& piece : wrong) {
     const std::uint64_t count = all.count + piece.count;
@@ -151,4 +155,4 @@ VOROTOOL_INSTANTIATE(std::uint16_t)
 VOROTOOL_INSTANTIATE(std::uint32_t)
 #undef VOROTOOL_INSTANTIATE
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::tessellation

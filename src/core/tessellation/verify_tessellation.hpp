@@ -9,7 +9,7 @@
 #include "core/spatial/kd_tree.hpp"
 #include "core/tessellation/pixel_frame.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::tessellation {
 
 struct WrongPixels {
   std::uint64_t count = 0;
@@ -25,6 +25,7 @@ struct WrongPixels {
 // Throws std::out_of_range beyond kLatticeLimit.
 template <class Label>
 WrongPixels verify_labels(std::span<const Label> image, const PixelFrame& frame, const LatticeSeeds& seeds,
-                          std::optional<uint128> limit, unsigned threads, const Monitor& monitor);
+                          std::optional<numbers::uint128> limit, unsigned threads,
+                          const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::tessellation

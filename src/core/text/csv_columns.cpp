@@ -8,7 +8,10 @@
 #include "core/base/parallel.hpp"
 #include "core/text/number_text.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::text {
+
+using base::Monitor;
+
 namespace {
 
 constexpr std::size_t kPieceBytes = std::size_t{1} << 18;  // about a millisecond of parsing
@@ -38,7 +41,7 @@ Plan make_plan(std::string_view text, const TextLayout& layout, unsigned threads
   Plan plan;
   plan.pieces = split_records(text.substr(reader.position()), layout.delimiter, reader.line(), kPieceBytes);
   std::vector<std::size_t> counts(plan.pieces.size() + 1);
-  parallel_for(
+  base::parallel_for(
       plan.pieces.size(), threads,
       [&](std::size_t i) { counts[i] = count_records(plan.pieces[i], layout.delimiter); }, monitor);
   plan.first_row.resize(counts.size());
@@ -93,7 +96,7 @@ void read_rows(const Plan& plan, const TextLayout& layout, unsigned threads, con
                const Take& take) {
   if (plan.rows() == 0) return;
   const std::vector<std::size_t> places = places_of_fields(layout, plan.fields);
-  parallel_for(
+  base::parallel_for(
       plan.pieces.size(), threads,
       [&](std::size_t i) { read_piece(plan.pieces[i], layout.delimiter, places, plan.first_row[i], take); },
       monitor);
@@ -156,4 +159,4 @@ std::size_t line_of_row(std::string_view text, const TextLayout& layout, std::si
   return record.first_line;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::text

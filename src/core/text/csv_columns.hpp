@@ -14,7 +14,7 @@
 #include "core/base/monitor.hpp"
 #include "core/text/csv_records.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::text {
 
 // How to read a text: its separator, the records before the data, and the columns that are wanted.
 struct TextLayout {
@@ -60,17 +60,17 @@ struct FieldTable {
 
 // The wanted columns as finite numbers. Throws TextError.
 NumberTable parse_numbers(std::string_view text, const TextLayout& layout, unsigned threads,
-                          const Monitor& monitor = {});
+                          const base::Monitor& monitor = {});
 
 // The wanted columns as text. Throws TextError (not for values).
 FieldTable parse_fields(std::string_view text, const TextLayout& layout, unsigned threads,
-                        const Monitor& monitor = {});
+                        const base::Monitor& monitor = {});
 
 // Number of data records, without reading their fields and without memory for them.
 std::size_t count_rows(std::string_view text, const TextLayout& layout, unsigned threads,
-                       const Monitor& monitor = {});
+                       const base::Monitor& monitor = {});
 
 // Physical line on which data record `row` (0-based) begins; 0 when there is none.
 std::size_t line_of_row(std::string_view text, const TextLayout& layout, std::size_t row);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::text

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace vorotool::core {
+namespace vorotool::core::text {
 namespace {
 
 constexpr auto kNone = std::string_view::npos;
@@ -170,4 +170,4 @@ std::vector<TextPiece> split_records(std::string_view text, Delimiter delimiter,
   return pieces;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::text

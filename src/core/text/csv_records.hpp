@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace vorotool::core {
+namespace vorotool::core::text {
 
 enum class Delimiter { comma, semicolon, tab, whitespace };
 
@@ -79,4 +79,4 @@ struct TextPiece {
 std::vector<TextPiece> split_records(std::string_view text, Delimiter delimiter, std::size_t first_line,
                                      std::size_t grain);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::text

@@ -1,6 +1,6 @@
 #include "core/text/nesting_depth.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::text {
 namespace {
 
 constexpr auto kNone = std::string_view::npos;
@@ -29,4 +29,4 @@ std::size_t find_too_deep(std::string_view text, std::size_t limit) {
   return kNone;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::text

@@ -13,7 +13,7 @@
 #define VOROTOOL_EXACT_CHARS
 #endif
 
-namespace vorotool::core {
+namespace vorotool::core::text {
 namespace {
 
 // Plain notation needs at most 5 zeros and 17 digits, or 16 digits and a sign; an exponent needs 24
@@ -117,4 +117,4 @@ void append_number(std::string& out, std::uint64_t value) {
   out.append(buffer, std::to_chars(buffer, buffer + kNumberSize, value).ptr);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::text

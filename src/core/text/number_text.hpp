@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace vorotool::core {
+namespace vorotool::core::text {
 
 enum class NumberStatus {
   good,
@@ -23,4 +23,4 @@ void append_number(std::string& out, double value, int precision = 0);
 void append_number(std::string& out, std::int64_t value);
 void append_number(std::string& out, std::uint64_t value);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::text

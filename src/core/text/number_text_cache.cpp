@@ -6,12 +6,12 @@
 #include "core/base/parallel.hpp"
 #include "core/text/number_text.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::text {
 
 NumberTexts::NumberTexts(std::span<const double> values, int precision, unsigned threads,
-                         const Monitor& monitor)
-    : blocks_(piece_count(values.size(), kBlock)), ends_(values.size()) {
-  parallel_for(
+                         const base::Monitor& monitor)
+    : blocks_(base::piece_count(values.size(), kBlock)), ends_(values.size()) {
+  base::parallel_for(
       blocks_.size(), threads,
       [&](std::size_t block) {
         std::string text;
@@ -26,4 +26,4 @@ NumberTexts::NumberTexts(std::span<const double> values, int precision, unsigned
       monitor);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::text

@@ -10,12 +10,13 @@
 
 #include "core/base/monitor.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::text {
 
 // About 20 bytes a number. What is not finite has an empty text.
 class NumberTexts {
  public:
-  NumberTexts(std::span<const double> values, int precision, unsigned threads, const Monitor& monitor = {});
+  NumberTexts(std::span<const double> values, int precision, unsigned threads,
+              const base::Monitor& monitor = {});
 
   std::size_t size() const { return ends_.size(); }
 
@@ -31,4 +32,4 @@ class NumberTexts {
   std::vector<std::uint32_t> ends_;  // of each text in its block
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::text

@@ -2,7 +2,7 @@
 
 #include "core/text/number_text.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::text {
 namespace {
 
 // What stands around and between the parts of a text.
@@ -54,7 +54,7 @@ class Writer {
   }
 
  private:
-  void point(const Point& p) {
+  void point(const kernel::Point& p) {
     out_ += marks_.point_opens;
     append_number(out_, p.x, precision_);
     out_ += marks_.between_numbers;
@@ -103,4 +103,4 @@ bool PolygonTexts::append(std::string& out, std::size_t row, int precision) cons
   return true;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::text

@@ -8,7 +8,7 @@
 
 #include "core/kernel/point.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::text {
 
 enum class PolygonStyle {
   wkt,      // POLYGON ((0 0, 4 0, 0 3, 0 0)), or MULTIPOLYGON
@@ -19,10 +19,10 @@ enum class PolygonStyle {
 // The polygons of rows. Arrays of beginnings have one entry more than there are, for the end; they must go
 // together.
 struct PolygonTexts {
-  std::span<const Point> vertices;         // ring after ring, the first of a ring not repeated; finite
-  std::span<const std::int64_t> rings;     // where each begins in `vertices`; none is empty
-  std::span<const std::int64_t> polygons;  // the first ring, its shell, of each polygon
-  std::span<const std::int64_t> rows;      // the first polygon of each row
+  std::span<const kernel::Point> vertices;  // ring after ring, the first of a ring not repeated; finite
+  std::span<const std::int64_t> rings;      // where each begins in `vertices`; none is empty
+  std::span<const std::int64_t> polygons;   // the first ring, its shell, of each polygon
+  std::span<const std::int64_t> rows;       // the first polygon of each row
   PolygonStyle style;
 
   std::size_t size() const { return rows.size() - 1; }
@@ -32,4 +32,4 @@ struct PolygonTexts {
   bool append(std::string& out, std::size_t row, int precision) const;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::text

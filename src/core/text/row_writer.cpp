@@ -6,7 +6,7 @@
 #include "core/base/parallel.hpp"
 #include "core/text/number_text.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::text {
 namespace {
 
 constexpr std::size_t kBlockRows = std::size_t{1} << 13;
@@ -110,10 +110,10 @@ RowShape csv_shape(std::size_t columns) {
 }
 
 std::vector<std::string> format_columns(std::span<const TextColumn> columns, const RowShape& shape,
-                                        int precision, unsigned threads, const Monitor& monitor) {
+                                        int precision, unsigned threads, const base::Monitor& monitor) {
   const std::size_t rows = columns.empty() ? 0 : row_count(columns.front());
-  std::vector<std::string> blocks(piece_count(rows, kBlockRows));
-  parallel_for(
+  std::vector<std::string> blocks(base::piece_count(rows, kBlockRows));
+  base::parallel_for(
       blocks.size(), threads,
       [&](std::size_t block) {
         const std::size_t end = std::min(rows, (block + 1) * kBlockRows);
@@ -139,4 +139,4 @@ void append_csv_field(std::string& out, std::string_view value) {
   out += '"';
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::text

@@ -14,7 +14,7 @@
 #include "core/text/number_text_cache.hpp"
 #include "core/text/polygon_text.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::text {
 
 // Values read at a distance: `data[i * stride]`, as the columns of a matrix lie in memory.
 struct StridedIndices {
@@ -55,9 +55,9 @@ RowShape csv_shape(std::size_t columns);
 // have `precision` significant digits, or with 0 the shortest text that reads back the same. The text does
 // not depend on the number of threads.
 std::vector<std::string> format_columns(std::span<const TextColumn> columns, const RowShape& shape,
-                                        int precision, unsigned threads, const Monitor& monitor = {});
+                                        int precision, unsigned threads, const base::Monitor& monitor = {});
 
 // A field as it stands in comma-separated text: in quotes where a reader would otherwise misread it.
 void append_csv_field(std::string& out, std::string_view value);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::text

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <numeric>
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::build {
 namespace {
 
 constexpr int rounds = 16;  // 4^16 = 2^32 items leave one to the first round
@@ -36,4 +36,4 @@ InsertionOrder insertion_order(std::size_t count) {
   return order;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::build

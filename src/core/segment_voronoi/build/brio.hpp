@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::build {
 
 // Round r goes from items[begin[r]] to items[begin[r + 1]].
 struct InsertionOrder {
@@ -17,4 +17,4 @@ struct InsertionOrder {
 // is a fixed hash of the number: it repeats.
 InsertionOrder insertion_order(std::size_t count);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::build

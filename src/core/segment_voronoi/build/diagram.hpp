@@ -8,11 +8,11 @@
 
 #include "core/kernel/lattice_point.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::build {
 
 // Site i < n is point i, site n + j the open segment j. Coordinates are those of the lattice.
 struct SegmentDiagram {
-  std::span<const LatticePoint> points;                     // [n] distinct
+  std::span<const kernel::LatticePoint> points;             // [n] distinct
   std::span<const std::array<std::int32_t, 2>> segments;    // [m] ends; segments meet at ends only
   std::span<const std::array<double, 2>> vertices;          // [v]
   std::span<const double> radius;                           // [v] 0 at a corner of segments, and only there
@@ -20,14 +20,16 @@ struct SegmentDiagram {
   std::span<const std::array<std::int32_t, 2>> edge_sites;  // [e] left and right, from source to target
 
   bool is_point(std::int32_t site) const { return static_cast<std::size_t>(site) < points.size(); }
-  const LatticePoint& point(std::int32_t site) const { return points[static_cast<std::size_t>(site)]; }
+  const kernel::LatticePoint& point(std::int32_t site) const {
+    return points[static_cast<std::size_t>(site)];
+  }
   const std::array<std::int32_t, 2>& ends(std::int32_t segment) const {
     return segments[static_cast<std::size_t>(segment) - points.size()];
   }
   bool is_end(std::int32_t site, std::int32_t segment) const {
     return ends(segment)[0] == site || ends(segment)[1] == site;
   }
-  LatticeSite site(std::int32_t number) const {
+  kernel::LatticeSite site(std::int32_t number) const {
     if (is_point(number)) return {point(number), point(number)};
     return {point(ends(number)[0]), point(ends(number)[1])};
   }
@@ -46,4 +48,4 @@ struct RingedDiagram : SegmentDiagram {
   }
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::build

@@ -11,7 +11,16 @@
 #include "core/segment_voronoi/build/vertex_merging.hpp"
 #include "core/segment_voronoi/discs/records.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::build {
+
+using base::LargeArray;
+using base::Monitor;
+using base::piece_count;
+using base::with_small_pages;
+using discs::SegmentSites;
+using discs::SiteIndex;
+using discs::VoronoiRecord;
+
 namespace {
 
 constexpr std::size_t piece_size = std::size_t{1} << 13;  // items of a piece of work, some ms
@@ -19,7 +28,7 @@ constexpr std::size_t piece_size = std::size_t{1} << 13;  // items of a piece of
 // Calls body(piece, begin, end) for pieces of the items.
 template <class Body>
 void for_pieces(std::size_t count, unsigned threads, const Monitor& monitor, Body body) {
-  parallel_for(
+  base::parallel_for(
       piece_count(count, piece_size), threads,
       [&](std::size_t piece) { body(piece, piece * piece_size, std::min(count, (piece + 1) * piece_size)); },
       monitor);
@@ -51,8 +60,8 @@ struct SingleRing {
     int i = static_cast<int>(std::min_element(v.sites.begin(), v.sites.end()) - v.sites.begin());
     for (std::size_t k = 0; k < 3; ++k) {
       contacts[k] = {v.sites[static_cast<std::size_t>(i)], v.is_left(i)};
-      i = following(i);  // the site is on the left of this edge
-      across[k] = record_of(v.twins[static_cast<std::size_t>(i)]);
+      i = discs::following(i);  // the site is on the left of this edge
+      across[k] = discs::record_of(v.twins[static_cast<std::size_t>(i)]);
     }
   }
   std::array<Contact, 3> contacts;
@@ -107,7 +116,7 @@ class VertexWriter {
 // together: what is written, in the order of the vertices, is near in memory too.
 void VertexWriter::run(unsigned threads, const Monitor& monitor) {
   const std::size_t pieces = piece_count(records_.all.size(), piece_size);
-  parallel_for(
+  base::parallel_for(
       pieces, threads,
       [&](std::size_t piece) {
         write_stretch(0, records_.of_points, piece, pieces);
@@ -141,7 +150,7 @@ void VertexWriter::write_stretch(std::size_t first, std::size_t count, std::size
           put(place++, static_cast<SiteIndex>(spoke.site), spoke.across);
         }
       });
-  discard(records_.all, begin, end);
+  base::discard(records_.all, begin, end);
 }
 
 void VertexWriter::write_disc(std::size_t vertex, const VoronoiRecord& v) {
@@ -163,8 +172,8 @@ std::vector<Edge> edges_without_vertex(const VoronoiRecords& records, const Vert
   for (const std::int32_t record : numbers.infinite()) {
     const VoronoiRecord& v = records[record];
     const int i = v.find(infinite);
-    const auto [right, left] = sites_of_edge(v, i);
-    const std::int32_t across = numbers.of(record_of(v.twins[static_cast<std::size_t>(i)]));
+    const auto [right, left] = discs::sites_of_edge(v, i);
+    const std::int32_t across = numbers.of(discs::record_of(v.twins[static_cast<std::size_t>(i)]));
     if (across == VertexNumbers::at_infinity && left < right) edges.push_back({-1, -1, left, right});
   }
   std::ranges::sort(edges, [](const Edge& a, const Edge& b) {
@@ -211,7 +220,7 @@ void EdgeWriter::run(const std::vector<Edge>& without_vertex, unsigned threads, 
   for (std::size_t k = 0; k < without_vertex.size(); ++k) put(k, without_vertex[k]);
   for_pieces(vertices, threads, monitor, [&](std::size_t piece, std::size_t begin, std::size_t end) {
     write(begin, end, first[piece]);
-    discard(targets_, start(begin), start(end));
+    base::discard(targets_, start(begin), start(end));
   });
 }
 
@@ -258,9 +267,9 @@ DiagramArrays extract_diagram(SegmentSites sites, VoronoiRecords records, std::s
     own_idle.resize(given.size());
     for (std::size_t i = 0; i < given.size(); ++i) own_idle[i] = idle[static_cast<std::size_t>(given[i])];
   }
-  records.corner_of_point = std::vector<Corner>();
+  records.corner_of_point = std::vector<discs::Corner>();
   const std::size_t in_use = records.all.size() * sizeof(VoronoiRecord);
-  return_freed_memory(in_use);
+  base::return_freed_memory(in_use);
   DiagramArrays out;
   LargeArray<std::int32_t> targets;  // [sites around vertices] where the edge before each leads
   std::vector<Edge> without_vertex;
@@ -278,7 +287,7 @@ DiagramArrays extract_diagram(SegmentSites sites, VoronoiRecords records, std::s
     out.radius = with_small_pages<double>(vertices);
     out.vertex_sites = with_small_pages<std::int32_t>(ring);
     targets = with_small_pages<std::int32_t>(ring);
-    return_freed_memory(in_use);
+    base::return_freed_memory(in_use);
     VertexWriter(records, numbers, out, targets).run(threads, monitor);
   }
   records.all = {};
@@ -286,4 +295,4 @@ DiagramArrays extract_diagram(SegmentSites sites, VoronoiRecords records, std::s
   return out;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::build

@@ -4,7 +4,10 @@
 
 #include "core/kernel/lattice_vector.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::build {
+
+using kernel::LatticeVector;
+
 namespace {
 
 LatticeVector way_from(const SegmentDiagram& in, std::int32_t point, std::int32_t segment) {
@@ -15,7 +18,7 @@ LatticeVector way_from(const SegmentDiagram& in, std::int32_t point, std::int32_
 bool is_lower(const LatticeVector& v) { return v.y < 0 || (v.y == 0 && v.x < 0); }
 
 bool earlier(const LatticeVector& v, const LatticeVector& w) {
-  return is_lower(v) != is_lower(w) ? is_lower(w) : cross(v, w) > 0;
+  return is_lower(v) != is_lower(w) ? is_lower(w) : kernel::cross(v, w) > 0;
 }
 
 }  // namespace
@@ -53,7 +56,7 @@ std::int32_t IncidentSegments::between(std::int32_t p, std::int32_t q) const {
 bool IncidentSegments::wide_gap_after(std::int32_t point, std::size_t i) const {
   const auto segments = at(point);
   const std::int32_t following = segments[(i + 1) % segments.size()];
-  return cross(way_from(in_, point, segments[i]), way_from(in_, point, following)) <= 0;
+  return kernel::cross(way_from(in_, point, segments[i]), way_from(in_, point, following)) <= 0;
 }
 
 bool IncidentSegments::has_no_cell(std::int32_t point) const {
@@ -79,4 +82,4 @@ std::vector<std::int32_t> IncidentSegments::corner_ring(std::int32_t point) cons
   return ring;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::build

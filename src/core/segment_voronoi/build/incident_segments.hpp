@@ -8,7 +8,7 @@
 
 #include "core/segment_voronoi/build/diagram.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::build {
 
 class IncidentSegments {
  public:
@@ -39,4 +39,4 @@ class IncidentSegments {
   std::vector<std::int32_t> segments_;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::build

@@ -9,7 +9,20 @@
 #include "core/segment_voronoi/discs/exact_signs.hpp"
 #include "core/segment_voronoi/discs/four_segment_ties.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::build {
+
+using discs::SegmentSite;
+using discs::SiteIndex;
+using discs::VoronoiRecord;
+using kernel::cross;
+using kernel::dot;
+using kernel::LatticePoint;
+using kernel::LatticeVector;
+using numbers::DoubleDouble;
+using numbers::int128;
+using numbers::undecided;
+using numbers::unit_roundoff;
+
 namespace {
 
 // The centre of a disc seen from a lattice point, along and to the left of a direction d: (c - p) . d and
@@ -20,7 +33,7 @@ struct Offset {
   double error;
 };
 
-Offset offset_of(const TangentDisc<DoubleDouble>& disc, const LatticePoint& p, const LatticeVector& d,
+Offset offset_of(const discs::TangentDisc<DoubleDouble>& disc, const LatticePoint& p, const LatticeVector& d,
                  double length) {
   const auto real = [](std::int64_t value) { return DoubleDouble(int128{value}); };
   const LatticeVector w = disc.anchor - p;
@@ -28,7 +41,7 @@ Offset offset_of(const TangentDisc<DoubleDouble>& disc, const LatticePoint& p, c
   const double size = std::abs(disc.x.head) + std::abs(disc.y.head) + std::abs(static_cast<double>(w.x)) +
                       std::abs(static_cast<double>(w.y));
   return {disc.x * dx + disc.y * dy + real(dot(d, w)), disc.y * dx - disc.x * dy + real(cross(d, w)),
-          length * (disc.position_error + 8 * roundoff<DoubleDouble> * size)};
+          length * (disc.position_error + 8 * discs::roundoff<DoubleDouble> * size)};
 }
 
 int sign_beyond(const DoubleDouble& value, double error) {
@@ -37,13 +50,14 @@ int sign_beyond(const DoubleDouble& value, double error) {
 }
 
 // As SegmentPredicates::sign, for a disc that does not touch the ends of the query.
-int clearance_sign(const TangentDisc<DoubleDouble>& disc, const SegmentSite& s) {
+int clearance_sign(const discs::TangentDisc<DoubleDouble>& disc, const SegmentSite& s) {
   const LatticeVector d = s.direction();
   const Offset offset = offset_of(disc, s.a, d, s.length);
-  const DoubleDouble length = sqrt(DoubleDouble(int128{dot(d, d)}));
+  const DoubleDouble length = numbers::sqrt(DoubleDouble(int128{dot(d, d)}));
   const DoubleDouble reach = disc.radius * length;
-  const double error = offset.error + s.length * disc.radius_error + 16 * roundoff<DoubleDouble> * reach.head;
-  const int sign = sign_beyond(abs(offset.across) - reach, error);
+  const double error =
+      offset.error + s.length * disc.radius_error + 16 * discs::roundoff<DoubleDouble> * reach.head;
+  const int sign = sign_beyond(numbers::abs(offset.across) - reach, error);
   if (sign != -1) return sign;
   // The line enters the disc, along a chord that holds neither end; half of it is longer than the error of
   // the foot: (reach - |across|) (reach + |across|) > error reach > error^2. Doubles would not do: the foot
@@ -108,8 +122,8 @@ int SegmentPredicates::sign(const VoronoiRecord& v, const SegmentQuery& query) {
 int SegmentPredicates::corner_sign(const VoronoiRecord& v, int i, const SegmentQuery& query) const {
   const SiteIndex end = v.sites[static_cast<std::size_t>(i)];
   const LatticeVector d = sites_.direction_from(end, query.site);
-  const LatticeVector x = sites_.direction_from(end, v.sites[static_cast<std::size_t>(following(i))]);
-  const LatticeVector y = sites_.direction_from(end, v.sites[static_cast<std::size_t>(preceding(i))]);
+  const LatticeVector x = sites_.direction_from(end, v.sites[static_cast<std::size_t>(discs::following(i))]);
+  const LatticeVector y = sites_.direction_from(end, v.sites[static_cast<std::size_t>(discs::preceding(i))]);
   return cross(x, d) > 0 && cross(d, y) > 0 ? -1 : 0;
 }
 
@@ -117,7 +131,7 @@ int SegmentPredicates::corner_sign(const VoronoiRecord& v, int i, const SegmentQ
 int SegmentPredicates::end_sign(const VoronoiRecord& v, int i, const SegmentQuery& query) {
   if (v.radius == 0) return corner_sign(v, i, query);
   const SiteIndex end = v.sites[static_cast<std::size_t>(i)];
-  for (const int k : {following(i), preceding(i)}) {
+  for (const int k : {discs::following(i), discs::preceding(i)}) {
     const SiteIndex own = v.sites[static_cast<std::size_t>(k)];
     if (!sites_.is_end(own, end)) continue;
     // The centre lies on the normal of another segment of the same end.
@@ -132,7 +146,7 @@ int SegmentPredicates::end_sign(const VoronoiRecord& v, int i, const SegmentQuer
   const double error =
       static_cast<double>(v.position_error) + 7 * unit_roundoff * (std::abs(dx) + std::abs(dy));
   if (std::abs(along) > error) return along > 0 ? -1 : 0;
-  if (const std::optional<int> forward = sign_along_from_end(sites_, v, end, query.site)) {
+  if (const std::optional<int> forward = discs::sign_along_from_end(sites_, v, end, query.site)) {
     ++counts_.integer;
     return *forward > 0 ? -1 : 0;
   }
@@ -140,7 +154,7 @@ int SegmentPredicates::end_sign(const VoronoiRecord& v, int i, const SegmentQuer
 }
 
 int SegmentPredicates::sign_in_double_double(const VoronoiRecord& v, const SegmentQuery& query) const {
-  const auto disc = tangent_disc<DoubleDouble>(sites_, v.sites, v.left);
+  const auto disc = discs::tangent_disc<DoubleDouble>(sites_, v.sites, v.left);
   if (!disc.known_within(1)) return undecided;
   const int at_p = v.find(query.p), at_q = v.find(query.q);
   if (at_p < 0 && at_q < 0) return clearance_sign(disc, query.segment);
@@ -153,7 +167,7 @@ int SegmentPredicates::sign_in_double_double(const VoronoiRecord& v, const Segme
 
 // Whether the line of a segment that nearly touches the disc of three segments does touch it.
 bool SegmentPredicates::is_touched_as_fourth(const VoronoiRecord& v, const SegmentQuery& query) const {
-  std::array<LatticeSite, 4> lines;
+  std::array<kernel::LatticeSite, 4> lines;
   for (int i = 0; i < 3; ++i) {
     const SiteIndex site = v.sites[static_cast<std::size_t>(i)];
     if (!sites_.is_segment(site)) return false;
@@ -161,11 +175,11 @@ bool SegmentPredicates::is_touched_as_fourth(const VoronoiRecord& v, const Segme
   }
   const SegmentSite& s = query.segment;
   lines[3] = sites_.turned(query.site, s.ux * (v.y - s.a.y) > s.uy * (v.x - s.a.x));
-  return is_one_circle(lines);
+  return discs::is_one_circle(lines);
 }
 
 int SegmentPredicates::sign_beyond_filter(const VoronoiRecord& v, const SegmentQuery& query) {
-  if (const std::optional<DyadicDisc> disc = dyadic_disc(sites_, v)) {
+  if (const std::optional<discs::DyadicDisc> disc = dyadic_disc(sites_, v)) {
     const int sign = disc->sign(query.segment);
     if (sign != undecided) {
       ++counts_.integer;
@@ -182,7 +196,7 @@ int SegmentPredicates::sign_beyond_filter(const VoronoiRecord& v, const SegmentQ
     return 0;
   }
   ++counts_.exact;
-  return exact_clearance_sign(sites_.triple(v.sites), sites_.lattice_site(query.site));
+  return discs::exact_clearance_sign(sites_.triple(v.sites), sites_.lattice_site(query.site));
 }
 
 // Where the edge passes from u to w, `point` being one of its sites: the shadow of the point is the ray from
@@ -193,7 +207,7 @@ int SegmentPredicates::sign_beyond_filter(const VoronoiRecord& v, const SegmentQ
 // its shadow.
 bool SegmentPredicates::survives(const VoronoiRecord& u, int i, const VoronoiRecord& w,
                                  const SegmentQuery& query) {
-  const auto [right, left] = sites_of_edge(u, i);
+  const auto [right, left] = discs::sites_of_edge(u, i);
   if (right == sites_.infinite() || left == sites_.infinite()) return true;
   return (sites_.is_point(left) && has_shadow_on(u, i, w, true, query)) ||
          (sites_.is_point(right) && has_shadow_on(u, i, w, false, query));
@@ -203,7 +217,7 @@ bool SegmentPredicates::survives(const VoronoiRecord& u, int i, const VoronoiRec
 // the edge turns counter-clockwise, from u to w or from w to u.
 bool SegmentPredicates::has_shadow_on(const VoronoiRecord& u, int i, const VoronoiRecord& w, bool of_left,
                                       const SegmentQuery& query) {
-  const auto [right, left] = sites_of_edge(u, i);
+  const auto [right, left] = discs::sites_of_edge(u, i);
   const SiteIndex point = of_left ? left : right, other = of_left ? right : left;
   const bool at_end = point == query.p || point == query.q;
   if (sites_.is_end(other, point)) {
@@ -217,9 +231,9 @@ bool SegmentPredicates::has_shadow_on(const VoronoiRecord& u, int i, const Voron
                                              : shadow_on_parabola(arc, query);
   if (crossed != undecided) return crossed > 0;
   ++counts_.exact;
-  return exact_edge_clearance_sign(sites_.lattice_site(left), sites_.lattice_site(right),
-                                   sites_.triple(u.sites), sites_.triple(w.sites),
-                                   sites_.lattice_site(query.site)) > 0;
+  return discs::exact_edge_clearance_sign(sites_.lattice_site(left), sites_.lattice_site(right),
+                                          sites_.triple(u.sites), sites_.triple(w.sites),
+                                          sites_.lattice_site(query.site)) > 0;
 }
 
 // The bisector of two points, seen from one of them over less than 180 degrees: along the segment, it goes
@@ -278,4 +292,4 @@ int SegmentPredicates::end_shadow_on_parabola(const Arc& arc, const SegmentQuery
   return crosses(beyond(from.along, 0, from.error), beyond(to.along, 0, to.error));
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::build

@@ -13,7 +13,7 @@
 #include "core/segment_voronoi/discs/sites.hpp"
 #include "core/segment_voronoi/discs/tangent_disc.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::build {
 
 // How many decisions needed more than a filter in floating point.
 struct EscalationCounts {
@@ -31,51 +31,54 @@ struct EscalationCounts {
 
 // A segment that is inserted, or tested.
 struct SegmentQuery {
-  SegmentQuery(const SegmentSites& sites, SiteIndex segment)
+  SegmentQuery(const discs::SegmentSites& sites, discs::SiteIndex segment)
       : site(segment), segment(sites.segment(segment)), p(this->segment.ends[0]), q(this->segment.ends[1]) {}
 
-  SiteIndex site;
-  const SegmentSite& segment;
-  SiteIndex p, q;  // its ends
+  discs::SiteIndex site;
+  const discs::SegmentSite& segment;
+  discs::SiteIndex p, q;  // its ends
 };
 
 class SegmentPredicates {
  public:
-  explicit SegmentPredicates(const SegmentSites& sites) : sites_(sites) {}
+  explicit SegmentPredicates(const discs::SegmentSites& sites) : sites_(sites) {}
 
   // Whether the open segment enters the open disc of a vertex. At infinity: whether it is an edge of the
   // hull.
-  bool in_conflict(const VoronoiRecord& vertex, const SegmentQuery& query) { return sign(vertex, query) < 0; }
+  bool in_conflict(const discs::VoronoiRecord& vertex, const SegmentQuery& query) {
+    return sign(vertex, query) < 0;
+  }
 
   // The sign of the distance of the open segment from the vertex less its radius, where that is negative;
   // 0 if the closed segment touches the disc, else positive.
-  int sign(const VoronoiRecord& vertex, const SegmentQuery& query);
+  int sign(const discs::VoronoiRecord& vertex, const SegmentQuery& query);
 
   // Whether edge i of vertex u, whose ends u and w are both in conflict, has points that are not.
-  bool survives(const VoronoiRecord& u, int i, const VoronoiRecord& w, const SegmentQuery& query);
+  bool survives(const discs::VoronoiRecord& u, int i, const discs::VoronoiRecord& w,
+                const SegmentQuery& query);
 
   const EscalationCounts& counts() const { return counts_; }
 
  private:
-  int corner_sign(const VoronoiRecord& vertex, int i, const SegmentQuery& query) const;
-  int end_sign(const VoronoiRecord& vertex, int i, const SegmentQuery& query);
-  int sign_in_double_double(const VoronoiRecord& vertex, const SegmentQuery& query) const;
-  bool is_touched_as_fourth(const VoronoiRecord& vertex, const SegmentQuery& query) const;
-  int sign_beyond_filter(const VoronoiRecord& vertex, const SegmentQuery& query);
+  int corner_sign(const discs::VoronoiRecord& vertex, int i, const SegmentQuery& query) const;
+  int end_sign(const discs::VoronoiRecord& vertex, int i, const SegmentQuery& query);
+  int sign_in_double_double(const discs::VoronoiRecord& vertex, const SegmentQuery& query) const;
+  bool is_touched_as_fourth(const discs::VoronoiRecord& vertex, const SegmentQuery& query) const;
+  int sign_beyond_filter(const discs::VoronoiRecord& vertex, const SegmentQuery& query);
 
   // An edge between a point and another site; seen from the point it turns counter-clockwise.
   struct Arc {
-    const VoronoiRecord &from, &to;
-    SiteIndex point, other;
+    const discs::VoronoiRecord &from, &to;
+    discs::SiteIndex point, other;
   };
-  bool has_shadow_on(const VoronoiRecord& u, int i, const VoronoiRecord& w, bool of_left,
+  bool has_shadow_on(const discs::VoronoiRecord& u, int i, const discs::VoronoiRecord& w, bool of_left,
                      const SegmentQuery& query);
   int shadow_on_line(const Arc& arc, const SegmentQuery& query) const;
   int shadow_on_parabola(const Arc& arc, const SegmentQuery& query) const;
   int end_shadow_on_parabola(const Arc& arc, const SegmentQuery& query) const;
 
-  const SegmentSites& sites_;
+  const discs::SegmentSites& sites_;
   EscalationCounts counts_;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::build

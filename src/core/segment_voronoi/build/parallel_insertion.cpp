@@ -5,7 +5,10 @@
 
 #include "core/base/parallel.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::build {
+
+using base::Monitor;
+
 namespace {
 
 constexpr std::size_t piece_size = 512;  // insertions of a piece of work, some ms
@@ -15,10 +18,10 @@ constexpr std::int32_t ahead = 3;  // insertions: how early memory is called for
 
 }  // namespace
 
-InsertionRounds::InsertionRounds(const SegmentSites& sites, VoronoiRecords& records, unsigned threads)
+InsertionRounds::InsertionRounds(const discs::SegmentSites& sites, VoronoiRecords& records, unsigned threads)
     : sites_(sites),
       records_(records),
-      threads_(resolve_threads(threads)),
+      threads_(base::resolve_threads(threads)),
       order_(insertion_order(sites.segment_count())),
       alone_(sites, records) {}
 
@@ -37,7 +40,7 @@ void InsertionRounds::run(const Monitor& monitor) {
 
 // There are at most two attempts for each place: their numbers, and the stamps made of them, fit in 31 bits.
 bool InsertionRounds::insert(SegmentInsertion& worker, std::int32_t place) const {
-  const auto first_segment = static_cast<SiteIndex>(sites_.point_count());
+  const auto first_segment = static_cast<discs::SiteIndex>(sites_.point_count());
   const auto count = static_cast<std::int32_t>(order_.items.size());
   const auto item = [&](std::int32_t k) { return order_.items[static_cast<std::size_t>(k)]; };
   if (place + ahead < count) worker.prefetch(first_segment + item(place + ahead));
@@ -49,14 +52,14 @@ bool InsertionRounds::insert(SegmentInsertion& worker, std::int32_t place) const
 void InsertionRounds::insert_alone(const Places& places, const Monitor& monitor) {
   for (std::size_t k = 0; k < places.size(); ++k) {
     const double done = static_cast<double>(places[k]) / static_cast<double>(order_.items.size());
-    if (k % (piece_size / 2) == 0 && monitor && !monitor(done)) throw Interrupted();
+    if (k % (piece_size / 2) == 0 && monitor && !monitor(done)) throw base::Interrupted();
     insert(alone_, places[k]);
   }
 }
 
 // A piece is a stretch of the curve. Segments that are in the way of another thread are left to the end.
 void InsertionRounds::insert_together(std::size_t begin, std::size_t end, const Monitor& monitor) {
-  std::vector<Places> left(piece_count(end - begin, piece_size));
+  std::vector<Places> left(base::piece_count(end - begin, piece_size));
   const auto insert_piece = [&](std::size_t piece) {
     SegmentInsertion& worker = take_worker();
     const std::size_t first = begin + piece * piece_size;
@@ -67,7 +70,7 @@ void InsertionRounds::insert_together(std::size_t begin, std::size_t end, const 
     const std::lock_guard lock(mutex_);
     idle_.push_back(&worker);
   };
-  parallel_for(left.size(), threads_, insert_piece, monitor);
+  base::parallel_for(left.size(), threads_, insert_piece, monitor);
   for (const Places& places : left) insert_alone(places, monitor);
 }
 
@@ -95,4 +98,4 @@ SegmentVoronoiCounts InsertionRounds::counts() const {
   return sum;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::build

@@ -11,7 +11,7 @@
 #include "core/segment_voronoi/build/segment_insertion.hpp"
 #include "core/segment_voronoi/discs/sites.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::build {
 
 // What was done; with several threads it depends on how they met.
 struct SegmentVoronoiCounts {
@@ -22,20 +22,20 @@ struct SegmentVoronoiCounts {
 
 class InsertionRounds {
  public:
-  InsertionRounds(const SegmentSites& sites, VoronoiRecords& records, unsigned threads);
+  InsertionRounds(const discs::SegmentSites& sites, VoronoiRecords& records, unsigned threads);
 
-  void run(const Monitor& monitor);
+  void run(const base::Monitor& monitor);
   SegmentVoronoiCounts counts() const;
 
  private:
   using Places = std::vector<std::int32_t>;
 
   bool insert(SegmentInsertion& worker, std::int32_t place) const;
-  void insert_alone(const Places& places, const Monitor& monitor);
-  void insert_together(std::size_t begin, std::size_t end, const Monitor& monitor);
+  void insert_alone(const Places& places, const base::Monitor& monitor);
+  void insert_together(std::size_t begin, std::size_t end, const base::Monitor& monitor);
   SegmentInsertion& take_worker();
 
-  const SegmentSites& sites_;
+  const discs::SegmentSites& sites_;
   VoronoiRecords& records_;
   unsigned threads_;
   InsertionOrder order_;
@@ -45,4 +45,4 @@ class InsertionRounds {
   std::vector<SegmentInsertion*> idle_;
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::build

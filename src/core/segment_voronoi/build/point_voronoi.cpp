@@ -6,7 +6,15 @@
 
 #include "core/base/parallel.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::build {
+
+using base::Monitor;
+using delaunay::RingVertex;
+using delaunay::Vertex;
+using discs::Corner;
+using discs::corner_of;
+using discs::SegmentSites;
+
 namespace {
 
 constexpr std::size_t piece_size = std::size_t{1} << 13;  // points of a piece, some ms of work
@@ -15,8 +23,8 @@ constexpr std::size_t long_ring = 64;
 
 // The site at infinity becomes a neighbour of the vertices on the hull. In a chain the unbounded face is on
 // both sides.
-void join_infinity(Subdivision& mesh, std::span<RingVertex> vertices, Vertex infinite) {
-  RingStore& store = mesh.stores.emplace_back();
+void join_infinity(delaunay::Subdivision& mesh, std::span<RingVertex> vertices, Vertex infinite) {
+  delaunay::RingStore& store = mesh.stores.emplace_back();
   Vertex from = -1;
   for (Vertex v = vertices.size() < 2 ? -1 : mesh.start; v >= 0;) {
     RingVertex& vertex = vertices[static_cast<std::size_t>(v)];
@@ -63,7 +71,7 @@ class Dual {
       const std::size_t end = std::min(vertices_.size(), (piece + 1) * piece_size);
       for (std::size_t i = piece * piece_size; i < end; ++i) body(static_cast<Vertex>(i));
     };
-    parallel_for(piece_count(vertices_.size(), piece_size), threads, run_piece, monitor);
+    base::parallel_for(base::piece_count(vertices_.size(), piece_size), threads, run_piece, monitor);
   }
 
   static std::size_t at(Vertex v) { return static_cast<std::size_t>(v); }
@@ -79,7 +87,7 @@ class Dual {
   std::int32_t record_from(Vertex v, Vertex neighbour) const;
   std::int32_t record_before(Vertex v, Vertex neighbour) const;
   void write(Vertex v);
-  void start(std::int32_t record, const std::array<SiteIndex, 3>& sites);
+  void start(std::int32_t record, const std::array<discs::SiteIndex, 3>& sites);
   Corner first_corner(Vertex v) const;
   void link(Corner a, Corner b);
 
@@ -142,8 +150,8 @@ void Dual::write(Vertex v) {
   if (!ring.empty()) records_.corner_of_point[at(v)] = first_corner(v);
 }
 
-void Dual::start(std::int32_t record, const std::array<SiteIndex, 3>& sites) {
-  VoronoiRecord& v = records_[record];
+void Dual::start(std::int32_t record, const std::array<discs::SiteIndex, 3>& sites) {
+  discs::VoronoiRecord& v = records_[record];
   v.sites = sites;
   v.stamp = 0;
   v.left = 0;
@@ -160,18 +168,18 @@ Corner Dual::first_corner(Vertex v) const {
 }
 
 void Dual::link(Corner a, Corner b) {
-  records_[record_of(a)].twins[static_cast<std::size_t>(place_of(a))] = b;
-  records_[record_of(b)].twins[static_cast<std::size_t>(place_of(b))] = a;
+  records_[discs::record_of(a)].twins[static_cast<std::size_t>(discs::place_of(a))] = b;
+  records_[discs::record_of(b)].twins[static_cast<std::size_t>(discs::place_of(b))] = a;
 }
 
 }  // namespace
 
-VoronoiRecords point_voronoi(const SegmentSites& sites, Subdivision& mesh, std::span<RingVertex> vertices,
-                             unsigned threads, const Monitor& monitor) {
+VoronoiRecords point_voronoi(const SegmentSites& sites, delaunay::Subdivision& mesh,
+                             std::span<RingVertex> vertices, unsigned threads, const Monitor& monitor) {
   VoronoiRecords records(sites.point_count(), sites.segment_count());
   join_infinity(mesh, vertices, sites.infinite());
   Dual(sites, vertices, records).run(threads, monitor);
   return records;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::build

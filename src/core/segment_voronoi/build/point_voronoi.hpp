@@ -9,13 +9,14 @@
 #include "core/segment_voronoi/build/segment_insertion.hpp"
 #include "core/segment_voronoi/discs/sites.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::build {
 
 // The vertices are the points of the sites, with the rings of their Delaunay triangulation, to which the site
 // at infinity is added. Each triangle gives a vertex, in the order of the earliest corners, and so does each
 // side of the hull, at infinity: 2 n - 2 of n >= 2 points, by Euler's relation on the sphere. There is room
 // for two more for each segment.
-VoronoiRecords point_voronoi(const SegmentSites& sites, Subdivision& mesh, std::span<RingVertex> vertices,
-                             unsigned threads, const Monitor& monitor);
+VoronoiRecords point_voronoi(const discs::SegmentSites& sites, delaunay::Subdivision& mesh,
+                             std::span<delaunay::RingVertex> vertices, unsigned threads,
+                             const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::build

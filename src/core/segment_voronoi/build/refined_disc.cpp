@@ -11,14 +11,21 @@
 #include "core/segment_voronoi/discs/exact_signs.hpp"
 #include "core/segment_voronoi/discs/tangent_disc.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::build {
+
+using discs::SegmentSites;
+using discs::SiteIndex;
+using discs::VoronoiRecord;
+using kernel::LatticePoint;
+using numbers::DoubleDouble;
+
 namespace {
 
 // Closed forms of at most so many roundings of the radius are good enough
 // (core/segment_voronoi/discs/tangent_disc.cpp).
-constexpr double sharp = 10 * unit_roundoff;
+constexpr double sharp = 10 * numbers::unit_roundoff;
 // A centre far from the origin is rounded there, which put_disc() counts with 2 roundings of the coordinates.
-constexpr double rounded = 4 * unit_roundoff;
+constexpr double rounded = 4 * numbers::unit_roundoff;
 // Numbers of 106 bits that are known as well as this round as if they were exact, but for one in 2^7.
 constexpr double nearly_exact = 0x1p-60;
 
@@ -30,7 +37,7 @@ bool is_sharp(const VoronoiRecord& v) {
 
 // The end of a segment that is nearer to the centre: what is measured from it is rounded least. Whichever way
 // the segment is given, the ends are looked at in one order.
-const LatticePoint& nearer_end(const SegmentSite& s, const VoronoiRecord& v, bool is_left) {
+const LatticePoint& nearer_end(const discs::SegmentSite& s, const VoronoiRecord& v, bool is_left) {
   const LatticePoint &start = is_left ? s.a : s.b, &end = is_left ? s.b : s.a;
   const auto reach = [&](const LatticePoint& p) { return std::abs(v.x - p.x) + std::abs(v.y - p.y); };
   return reach(end) < reach(start) ? end : start;
@@ -47,7 +54,7 @@ Excess excess_of(const SegmentSites& sites, const VoronoiRecord& v, const Contac
   const bool is_point = sites.is_point(contact.site);
   const LatticePoint& from =
       is_point ? sites.point(contact.site) : nearer_end(sites.segment(contact.site), v, contact.is_left);
-  const DoubleDouble dx = two_difference(v.x, from.x), dy = two_difference(v.y, from.y);
+  const DoubleDouble dx = numbers::two_difference(v.x, from.x), dy = numbers::two_difference(v.y, from.y);
   const double reach = std::abs(dx.head) + std::abs(dy.head);
   const DoubleDouble radius(v.radius), square = radius * radius;
   if (is_point) {
@@ -55,12 +62,12 @@ Excess excess_of(const SegmentSites& sites, const VoronoiRecord& v, const Contac
     return {value, dx.head / v.radius, dy.head / v.radius, reach};
   }
   // The distance is K / L: K^2 - (r L)^2 = (K - r L) (K + r L).
-  const SegmentSite& s = sites.segment(contact.site);
-  const LatticeVector d = s.direction();
+  const discs::SegmentSite& s = sites.segment(contact.site);
+  const kernel::LatticeVector d = s.direction();
   const double side = contact.is_left ? 1 : -1;
   const DoubleDouble K =
       dy * DoubleDouble(side * static_cast<double>(d.x)) - dx * DoubleDouble(side * static_cast<double>(d.y));
-  const DoubleDouble difference = K * K - square * DoubleDouble(int128{dot(d, d)});
+  const DoubleDouble difference = K * K - square * DoubleDouble(numbers::int128{kernel::dot(d, d)});
   const double value = difference.head / (s.length * (K.head + v.radius * s.length));
   return {value, -side * s.uy, side * s.ux, reach};
 }
@@ -98,7 +105,7 @@ bool determines(const SegmentSites& sites, const std::array<SiteIndex, 3>& tripl
 
 std::optional<PolishedDisc> by_double_double(const SegmentSites& sites,
                                              const std::array<SiteIndex, 3>& triple, std::uint8_t left) {
-  const TangentDisc<DoubleDouble> disc = tangent_disc<DoubleDouble>(sites, triple, left);
+  const discs::TangentDisc<DoubleDouble> disc = discs::tangent_disc<DoubleDouble>(sites, triple, left);
   const DoubleDouble x = DoubleDouble(static_cast<double>(disc.anchor.x)) + disc.x;
   const DoubleDouble y = DoubleDouble(static_cast<double>(disc.anchor.y)) + disc.y;
   const double radius = disc.radius.head;
@@ -128,9 +135,9 @@ std::optional<PolishedDisc> first_of_triples(const SegmentSites& sites, std::spa
 std::optional<PolishedDisc> by_exact_level(const SegmentSites& sites,
                                            const std::array<SiteIndex, 3>& triple) {
   try {
-    const RoundedDisc disc = exact_disc_rounded(sites.triple(triple));
+    const discs::RoundedDisc disc = discs::exact_disc_rounded(sites.triple(triple));
     return PolishedDisc{disc.x, disc.y, disc.radius};
-  } catch (const NoDisc&) {
+  } catch (const discs::NoDisc&) {
     return std::nullopt;  // two collinear segments
   }
 }
@@ -155,4 +162,4 @@ PolishedDisc polished_disc(const SegmentSites& sites, const VoronoiRecord& v,
   return *disc;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::build

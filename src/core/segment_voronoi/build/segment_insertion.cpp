@@ -11,14 +11,24 @@
 #include "core/segment_voronoi/discs/exact_signs.hpp"
 #include "core/segment_voronoi/discs/tangent_disc.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::build {
+
+using discs::Corner;
+using discs::corner_of;
+using discs::following;
+using discs::place_of;
+using discs::record_of;
+using discs::SiteIndex;
+using discs::VoronoiRecord;
+using numbers::unit_roundoff;
+
 namespace {
 
 // A float that is not less than a bound.
 float rounded_up(double bound) { return static_cast<float>(bound * (1 + 0x1p-22)); }
 
 template <class Real>
-void put_disc(const TangentDisc<Real>& disc, VoronoiRecord& record) {
+void put_disc(const discs::TangentDisc<Real>& disc, VoronoiRecord& record) {
   record.x = static_cast<double>(Real(static_cast<double>(disc.anchor.x)) + disc.x);
   record.y = static_cast<double>(Real(static_cast<double>(disc.anchor.y)) + disc.y);
   record.radius = static_cast<double>(disc.radius);
@@ -29,7 +39,7 @@ void put_disc(const TangentDisc<Real>& disc, VoronoiRecord& record) {
 }
 
 // Each number errs by at most 2^-52 of itself.
-void put_disc(const RoundedDisc& disc, VoronoiRecord& record) {
+void put_disc(const discs::RoundedDisc& disc, VoronoiRecord& record) {
   record.x = disc.x;
   record.y = disc.y;
   record.radius = disc.radius;
@@ -50,17 +60,17 @@ std::array<SiteIndex, 3> from_least(std::array<SiteIndex, 3> sites) {
 
 }  // namespace
 
-void compute_disc(const SegmentSites& sites, VoronoiRecord& record) {
+void compute_disc(const discs::SegmentSites& sites, VoronoiRecord& record) {
   for (const SiteIndex site : record.sites) {
     if (site != sites.infinite()) continue;
     record.radius = std::numeric_limits<double>::infinity();
     return;
   }
-  const auto disc = tangent_disc<double>(sites, record.sites, record.left);
+  const auto disc = discs::tangent_disc<double>(sites, record.sites, record.left);
   if (disc.radius == 0 || disc.known_within(coarse)) return put_disc(disc, record);
-  const auto finer = tangent_disc<DoubleDouble>(sites, record.sites, record.left);
+  const auto finer = discs::tangent_disc<numbers::DoubleDouble>(sites, record.sites, record.left);
   if (finer.known_within(coarse)) return put_disc(finer, record);
-  put_disc(exact_disc_rounded(sites.triple(from_least(record.sites))), record);
+  put_disc(discs::exact_disc_rounded(sites.triple(from_least(record.sites))), record);
 }
 
 // Whether this thread may look at a record. What others did to it before is visible then.
@@ -181,7 +191,7 @@ void SegmentInsertion::gather_cuts() {
   std::size_t steps = 3 * conflicts_.size();
   for (; steps > 0; --steps) {
     VoronoiRecord& u = records_[record_of(corner)];
-    const int i = place_of(corner), r = following(i), l = preceding(i);
+    const int i = place_of(corner), r = following(i), l = discs::preceding(i);
     const Corner twin = u.twins[static_cast<std::size_t>(i)];
     const bool inner = has_conflict(record_of(twin));
     if (inner && (u.survives >> i & 1) == 0) {
@@ -277,4 +287,4 @@ bool SegmentInsertion::insert(SiteIndex segment, std::int32_t number, std::int32
   return !hindered_;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::build

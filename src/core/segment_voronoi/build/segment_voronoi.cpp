@@ -12,7 +12,12 @@
 #include "core/segment_voronoi/build/point_voronoi.hpp"
 #include "core/segment_voronoi/discs/exact_signs.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::build {
+
+using base::Monitor;
+using delaunay::MortonOrder;
+using kernel::LatticePoint;
+
 namespace {
 
 // Of n sites there are at most 2 n - 2 vertices, each with four corner numbers in 31 bits.
@@ -38,11 +43,12 @@ void check(const SegmentGraph& graph) {
 
 MortonOrder ordered(const SegmentGraph& graph, unsigned threads, const Monitor& monitor) {
   const std::span<const LatticePoint> points = graph.points;
-  std::vector<Point> places;
+  std::vector<kernel::Point> places;
   places.reserve(points.size());
   for (const LatticePoint& p : points) places.push_back({static_cast<double>(p.x), static_cast<double>(p.y)});
   std::vector<std::int32_t> first(points.size());
-  MortonOrder order = morton_order(places, first, FineOrder::of_places, threads, monitor, graph.within);
+  MortonOrder order =
+      delaunay::morton_order(places, first, delaunay::FineOrder::of_places, threads, monitor, graph.within);
   for (std::size_t i = 0; i < first.size(); ++i) {
     if (static_cast<std::size_t>(first[i]) == i) continue;
     throw std::invalid_argument("points " + std::to_string(first[i]) + " and " + std::to_string(i) +
@@ -77,11 +83,11 @@ std::vector<std::uint32_t> along_points(std::span<const Segment> segments,
 SegmentVoronoi::SegmentVoronoi(const SegmentGraph& graph, unsigned threads, const Monitor& monitor) {
   check(graph);
   make_point_diagram(graph, threads, monitor);
-  return_freed_memory(records_->all.size() * sizeof(VoronoiRecord));
+  base::return_freed_memory(records_->all.size() * sizeof(discs::VoronoiRecord));
   InsertionRounds rounds(sites_, *records_, threads);
   try {
     rounds.run(monitor);
-  } catch (const NoDisc& error) {
+  } catch (const discs::NoDisc& error) {
     throw std::logic_error(error.what());
   }
   counts_ = rounds.counts();
@@ -100,8 +106,9 @@ DiagramArrays SegmentVoronoi::take_arrays(std::span<const std::uint8_t> idle, un
 // The triangulation is gone when segments are inserted.
 void SegmentVoronoi::make_point_diagram(const SegmentGraph& graph, unsigned threads, const Monitor& monitor) {
   MortonOrder order = ordered(graph, threads, monitor);
-  const std::span<RingVertex> vertices{order.vertices.data(), order.index.size()};
-  Subdivision mesh = divide_and_conquer({vertices, order.index, order.code, order.fine}, threads, monitor);
+  const std::span<delaunay::RingVertex> vertices{order.vertices.data(), order.index.size()};
+  delaunay::Subdivision mesh =
+      delaunay::divide_and_conquer({vertices, order.index, order.code, order.fine}, threads, monitor);
   order.code = std::vector<std::uint32_t>();
   order.fine = std::vector<std::uint32_t>();
   number_sites(graph, order.index);
@@ -126,7 +133,7 @@ void SegmentVoronoi::number_sites(const SegmentGraph& graph, std::span<const std
     ends[j] = {rank[static_cast<std::size_t>(s[0])], rank[static_cast<std::size_t>(s[1])]};
     given_[points + j] = static_cast<std::int32_t>(points + along[j]);
   }
-  sites_ = SegmentSites(std::move(places), ends);
+  sites_ = discs::SegmentSites(std::move(places), ends);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::build

@@ -7,7 +7,17 @@
 #include "core/segment_voronoi/build/coincident_vertices.hpp"
 #include "core/segment_voronoi/build/wanted_faces.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::build {
+
+using base::Monitor;
+using base::piece_count;
+using discs::Corner;
+using discs::corner_of;
+using discs::place_of;
+using discs::record_of;
+using discs::SiteIndex;
+using discs::VoronoiRecord;
+
 namespace {
 
 constexpr std::size_t piece_size = std::size_t{1} << 13;  // items of a piece of work, some ms
@@ -16,7 +26,7 @@ constexpr std::size_t ahead = 8;                          // items: how early ot
 // Calls body(piece, begin, end) for pieces of the items.
 template <class Body>
 void for_pieces(std::size_t count, unsigned threads, const Monitor& monitor, Body body) {
-  parallel_for(
+  base::parallel_for(
       piece_count(count, piece_size), threads,
       [&](std::size_t piece) {
         body(piece, static_cast<std::int32_t>(piece * piece_size),
@@ -35,7 +45,7 @@ void prefetch_neighbours(const VoronoiRecords& records, std::int32_t record) {
 
 }  // namespace
 
-VertexNumbers::VertexNumbers(const SegmentSites& sites, const VoronoiRecords& records,
+VertexNumbers::VertexNumbers(const discs::SegmentSites& sites, const VoronoiRecords& records,
                              std::span<const std::uint8_t> idle, unsigned threads, const Monitor& monitor)
     : records_(records),
       code_(records.all.size()),
@@ -71,8 +81,8 @@ bool VertexNumbers::is_idle(const VoronoiRecord& v, std::span<const std::uint8_t
 
 // As if it were alone at its place. Where points have cells without area, a record of these alone may be not
 // idle while others at its place are: then it stays alone, outside.
-void VertexNumbers::look_at(const SegmentSites& sites, std::span<const std::uint8_t> idle, std::int32_t u,
-                            Found& found) {
+void VertexNumbers::look_at(const discs::SegmentSites& sites, std::span<const std::uint8_t> idle,
+                            std::int32_t u, Found& found) {
   if (static_cast<std::size_t>(u) + ahead < code_.size()) {
     prefetch_neighbours(records_, u + static_cast<std::int32_t>(ahead));
   }
@@ -138,7 +148,7 @@ void VertexNumbers::gather_ring(std::int32_t record, std::vector<Spoke>& spokes)
     spokes.push_back(spoke_at(corner));
     for (;;) {
       const std::int32_t here = record_of(corner);
-      corner = corner_of(here, following(place_of(corner)));
+      corner = corner_of(here, discs::following(place_of(corner)));
       if (is_border(corner)) break;
       corner = records_[here].twins[static_cast<std::size_t>(place_of(corner))];
     }
@@ -151,7 +161,7 @@ void VertexNumbers::gather_ring(std::int32_t record, std::vector<Spoke>& spokes)
 // The edge opposite to a corner, and the site on its left.
 VertexNumbers::Spoke VertexNumbers::spoke_at(Corner corner) const {
   const VoronoiRecord& v = records_[record_of(corner)];
-  const int left = preceding(place_of(corner));
+  const int left = discs::preceding(place_of(corner));
   return {static_cast<std::uint32_t>(v.sites[static_cast<std::size_t>(left)]), v.is_left(left),
           record_of(v.twins[static_cast<std::size_t>(place_of(corner))])};
 }
@@ -195,7 +205,7 @@ void VertexNumbers::gather_rings(unsigned threads, const Monitor& monitor) {
 // sites first, in the same order. Keys of several records are named by the complements of their numbers.
 void VertexNumbers::sort_by_first_site(unsigned threads, const Monitor& monitor) {
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-  leads_ = LargeArray<std::int32_t>(begin_.back() + 1);
+  leads_ = base::LargeArray<std::int32_t>(begin_.back() + 1);
   const auto put = [&](std::int32_t name, SiteIndex first) {
     leads_[add(begin_[static_cast<std::size_t>(first) + 1], 1)] = name;
   };
@@ -221,8 +231,8 @@ VertexNumbers::Key VertexNumbers::key_of(std::int32_t name) const {
   }
   const std::array<SiteIndex, 3>& sites = records_[name].sites;
   const auto i = static_cast<int>(std::min_element(sites.begin(), sites.end()) - sites.begin());
-  return {sites[static_cast<std::size_t>(i)], sites[static_cast<std::size_t>(following(i))],
-          sites[static_cast<std::size_t>(preceding(i))], name};
+  return {sites[static_cast<std::size_t>(i)], sites[static_cast<std::size_t>(discs::following(i))],
+          sites[static_cast<std::size_t>(discs::preceding(i))], name};
 }
 
 // Vertices whose first sites are first ... last - 1. Their records are far apart in memory: they are called
@@ -268,4 +278,4 @@ void VertexNumbers::make_starts() {
   std::exclusive_scan(leads_.data(), leads_.data() + leads_.size(), leads_.data(), 0);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::build

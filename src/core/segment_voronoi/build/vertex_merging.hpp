@@ -16,7 +16,7 @@
 #include "core/segment_voronoi/discs/records.hpp"
 #include "core/segment_voronoi/discs/sites.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::build {
 
 class VertexNumbers {
  public:
@@ -31,14 +31,14 @@ class VertexNumbers {
 
   // Finds the places of the records. Those are left out that are no corners and where a site is idle; `idle`
   // tells its sides (core/segment_voronoi/build/wanted_faces.hpp), or is empty if there is none.
-  VertexNumbers(const SegmentSites& sites, const VoronoiRecords& records, std::span<const std::uint8_t> idle,
-                unsigned threads, const Monitor& monitor);
+  VertexNumbers(const discs::SegmentSites& sites, const VoronoiRecords& records,
+                std::span<const std::uint8_t> idle, unsigned threads, const base::Monitor& monitor);
   // Numbers them, sorted by the lists of their sites, each in the engine's order from its first one.
-  void assign(unsigned threads, const Monitor& monitor);
+  void assign(unsigned threads, const base::Monitor& monitor);
 
   // Once they have numbers:
   // [vertices + 1] where the sites of each vertex begin: the array is given away.
-  LargeArray<std::int32_t> take_starts() { return std::move(leads_); }
+  base::LargeArray<std::int32_t> take_starts() { return std::move(leads_); }
   // The number of a record's vertex, or at_infinity, or left_out.
   std::int32_t of(std::int32_t record) const { return ~code_[static_cast<std::size_t>(record)]; }
   // Tells the processor that of() will be asked soon.
@@ -57,7 +57,7 @@ class VertexNumbers {
  private:
   // The sites around a vertex that come first, and the record that stands for it.
   struct Key {
-    SiteIndex first, second, third;
+    discs::SiteIndex first, second, third;
     std::int32_t record;
     auto operator<=>(const Key&) const = default;
   };
@@ -68,41 +68,41 @@ class VertexNumbers {
   };
 
   std::int32_t& code(std::int32_t record) { return code_[static_cast<std::size_t>(record)]; }
-  std::uint32_t& count_at(SiteIndex first) { return begin_[static_cast<std::size_t>(first) + 2]; }
+  std::uint32_t& count_at(discs::SiteIndex first) { return begin_[static_cast<std::size_t>(first) + 2]; }
 
-  bool is_idle(const VoronoiRecord& v, std::span<const std::uint8_t> idle) const;
-  void look_at(const SegmentSites& sites, std::span<const std::uint8_t> idle, std::int32_t record,
+  bool is_idle(const discs::VoronoiRecord& v, std::span<const std::uint8_t> idle) const;
+  void look_at(const discs::SegmentSites& sites, std::span<const std::uint8_t> idle, std::int32_t record,
                Found& found);
   void merge(const std::vector<Found>& found);
   std::int32_t root(std::int32_t record);
   void choose_leads();
-  void gather_rings(unsigned threads, const Monitor& monitor);
+  void gather_rings(unsigned threads, const base::Monitor& monitor);
   void gather_ring(std::int32_t record, std::vector<Spoke>& spokes) const;
-  Spoke spoke_at(Corner corner) const;
-  void sort_by_first_site(unsigned threads, const Monitor& monitor);
-  void sort_buckets(SiteIndex first, SiteIndex last);
+  Spoke spoke_at(discs::Corner corner) const;
+  void sort_by_first_site(unsigned threads, const base::Monitor& monitor);
+  void sort_buckets(discs::SiteIndex first, discs::SiteIndex last);
   Key key_of(std::int32_t name) const;
-  void number(unsigned threads, const Monitor& monitor);
+  void number(unsigned threads, const base::Monitor& monitor);
   void make_starts();
 
   // Whether an edge leaves the place of its vertex, which shares it with others.
-  bool is_border(Corner corner) const {
-    const std::int32_t record = record_of(corner);
-    const Corner twin = records_[record].twins[static_cast<std::size_t>(place_of(corner))];
-    return code_[static_cast<std::size_t>(record_of(twin))] != code_[static_cast<std::size_t>(record)];
+  bool is_border(discs::Corner corner) const {
+    const std::int32_t record = discs::record_of(corner);
+    const discs::Corner twin = records_[record].twins[static_cast<std::size_t>(discs::place_of(corner))];
+    return code_[static_cast<std::size_t>(discs::record_of(twin))] != code_[static_cast<std::size_t>(record)];
   }
 
   const VoronoiRecords& records_;
   // [records] In the end the complement of the number of the vertex. Before, that of the first site; at a
   // place with several records, one of these, not negative, is the same for all.
-  LargeArray<std::int32_t> code_;
+  base::LargeArray<std::int32_t> code_;
   std::vector<bool> is_merged_;       // [records]
   std::vector<std::uint32_t> begin_;  // [sites + 2] where vertices begin, by their first sites
   // [vertices + 1] The record that stands for each vertex; in the end where its sites begin.
-  LargeArray<std::int32_t> leads_;
+  base::LargeArray<std::int32_t> leads_;
   std::vector<std::int32_t> merged_leads_, infinite_;
   std::vector<std::uint32_t> ring_begin_;  // [merged_leads] among the rings of a piece of them
   std::vector<std::vector<Spoke>> rings_;  // [pieces of merged_leads]
 };
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::build

@@ -4,7 +4,10 @@
 
 #include "core/kernel/lattice_vector.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::build {
+
+using kernel::LatticePoint;
+
 namespace {
 
 std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
@@ -13,8 +16,8 @@ constexpr std::int32_t unknown = -1;
 
 using Pairs = std::span<const std::array<std::int32_t, 2>>;
 
-LatticeVector way_from(std::span<const LatticePoint> points, Pairs segments, std::int32_t end,
-                       std::int32_t segment) {
+kernel::LatticeVector way_from(std::span<const LatticePoint> points, Pairs segments, std::int32_t end,
+                               std::int32_t segment) {
   const auto& ends = segments[at(segment)];
   return points[at(ends[0] == end ? ends[1] : ends[0])] - points[at(end)];
 }
@@ -26,8 +29,8 @@ std::vector<std::int32_t> sector_borders(std::span<const LatticePoint> points, P
     const auto segment = static_cast<std::int32_t>(j);
     for (const std::int32_t end : segments[j]) {
       std::int32_t& so_far = border[at(end)];
-      if (so_far == unknown ||
-          cross(way_from(points, segments, end, so_far), way_from(points, segments, end, segment)) > 0) {
+      if (so_far == unknown || kernel::cross(way_from(points, segments, end, so_far),
+                                             way_from(points, segments, end, segment)) > 0) {
         so_far = segment;
       }
     }
@@ -66,8 +69,8 @@ std::vector<std::uint8_t> idle_sides(std::span<const LatticePoint> points, Pairs
     for (const std::int32_t end : segments[j]) {
       const std::int32_t first = border[at(end)];
       if (first == segment) continue;
-      const LatticeVector way = way_from(points, segments, end, segment);
-      if (cross(way_from(points, segments, end, first), way) >= 0) idle[at(end)] = 0;
+      const kernel::LatticeVector way = way_from(points, segments, end, segment);
+      if (kernel::cross(way_from(points, segments, end, first), way) >= 0) idle[at(end)] = 0;
     }
   }
   for (const auto& [left, right] : segment_faces) {
@@ -77,4 +80,4 @@ std::vector<std::uint8_t> idle_sides(std::span<const LatticePoint> points, Pairs
   return idle;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::build

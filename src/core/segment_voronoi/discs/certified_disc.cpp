@@ -8,7 +8,10 @@
 #include "core/kernel/lattice_vector.hpp"
 #include "core/numbers/int128.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::discs {
+
+using numbers::DoubleDouble;
+
 namespace {
 
 // One equation linearized: value + (nx, ny, nr) * (step) = 0.
@@ -27,28 +30,29 @@ DoubleDouble whole(std::int32_t value) { return DoubleDouble(static_cast<double>
 
 Row point_row(const DiscCondition& condition, const CertifiedDisc& disc) {
   const DoubleDouble dx = disc.x - whole(condition.a.x), dy = disc.y - whole(condition.a.y);
-  const DoubleDouble distance = sqrt(dx * dx + dy * dy);
+  const DoubleDouble distance = numbers::sqrt(dx * dx + dy * dy);
   const double d = distance.head;
   return {dx.head / d, dy.head / d, -1, (distance - disc.radius).head, value_error * (d + disc.radius.head)};
 }
 
 Row line_row(const DiscCondition& condition, const CertifiedDisc& disc) {
   // seen from the nearer end, so that little is lost in a long segment
-  auto apart = [&](const LatticePoint& p) {
+  auto apart = [&](const kernel::LatticePoint& p) {
     return std::abs(disc.x.head - p.x) + std::abs(disc.y.head - p.y);
   };
   const bool across = condition.kind == DiscCondition::Kind::across;
-  const LatticePoint& end = across || apart(condition.a) <= apart(condition.b) ? condition.a : condition.b;
-  const LatticeVector u = condition.b - condition.a;
+  const kernel::LatticePoint& end =
+      across || apart(condition.a) <= apart(condition.b) ? condition.a : condition.b;
+  const kernel::LatticeVector u = condition.b - condition.a;
   const DoubleDouble ux(static_cast<double>(u.x)), uy(static_cast<double>(u.y));
   const DoubleDouble dx = disc.x - whole(end.x), dy = disc.y - whole(end.y);
-  const DoubleDouble length = sqrt(DoubleDouble(int128{norm2(u)}));
+  const DoubleDouble length = numbers::sqrt(DoubleDouble(numbers::int128{kernel::norm2(u)}));
   const double unit_x = ux.head / length.head, unit_y = uy.head / length.head;
   const double error = value_error * (std::abs(dx.head) + std::abs(dy.head) + disc.radius.head);
   if (across) return {unit_x, unit_y, 0, ((ux * dx + uy * dy) / length).head, error};
   const DoubleDouble height = (ux * dy - uy * dx) / length;
   const double side = height.head < 0 ? -1 : 1;
-  return {-side * unit_y, side * unit_x, -1, (abs(height) - disc.radius).head, error};
+  return {-side * unit_y, side * unit_x, -1, (numbers::abs(height) - disc.radius).head, error};
 }
 
 Row row_of(const DiscCondition& condition, const CertifiedDisc& disc) {
@@ -132,4 +136,4 @@ std::optional<CertifiedDisc> certify_disc(const std::array<DiscCondition, 3>& co
   return std::nullopt;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::discs

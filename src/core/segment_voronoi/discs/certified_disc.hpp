@@ -7,18 +7,18 @@
 #include "core/kernel/lattice_point.hpp"
 #include "core/numbers/double_double.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::discs {
 
 // What a disc (x, y, r) has to meet: it touches the point a; or it is tangent to the line through a and b; or
 // its centre is across the segment from a to b at a, where a is a site that the disc touches too.
 struct DiscCondition {
   enum class Kind { point, tangent, across };
   Kind kind;
-  LatticePoint a, b;
+  kernel::LatticePoint a, b;
 };
 
 struct CertifiedDisc {
-  DoubleDouble x, y, radius;
+  numbers::DoubleDouble x, y, radius;
   double error;  // bounds the errors of x, y and radius
 };
 
@@ -27,4 +27,4 @@ struct CertifiedDisc {
 std::optional<CertifiedDisc> certify_disc(const std::array<DiscCondition, 3>& conditions, double x, double y,
                                           double radius);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::discs

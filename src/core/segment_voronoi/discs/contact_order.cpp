@@ -6,7 +6,11 @@
 
 #include "core/kernel/lattice_vector.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::discs {
+
+using kernel::LatticeVector;
+using numbers::RootNumber;
+
 namespace {
 
 RootNumber big(std::int64_t value) { return RootNumber(value); }
@@ -18,16 +22,18 @@ struct Contact {
   int turn;
 };
 
-Contact contact_of(const ExactDisc& disc, const LatticeSite& site) {
+Contact contact_of(const ExactDisc& disc, const kernel::LatticeSite& site) {
   const LatticeVector shift = disc.origin - site.a;
   const RootNumber x = disc.x + disc.w * big(shift.x), y = disc.y + disc.w * big(shift.y);
   if (site.is_point()) return {-x, -y, 0};
-  const LatticeVector u = site.b - site.a, n = left_of(u);
+  const LatticeVector u = site.b - site.a, n = kernel::left_of(u);
   const RootNumber along = x * big(u.x) + y * big(u.y);
   const int side = (x * big(n.x) + y * big(n.y)).sign();  // of the line, where the centre is
   const LatticeVector way = side > 0 ? -n : n;
   // the foot turns counter-clockwise along u if the centre is to the left
-  const int turn = along.sign() == 0 ? side : (along - disc.w * big(norm2(u))).sign() == 0 ? -side : 0;
+  const int turn = along.sign() == 0                                      ? side
+                   : (along - disc.w * big(kernel::norm2(u))).sign() == 0 ? -side
+                                                                          : 0;
   return {big(way.x), big(way.y), turn};
 }
 
@@ -44,7 +50,7 @@ int quarter(const Contact& first, const Contact& contact) {
 
 }  // namespace
 
-bool contacts_in_order(const ExactDisc& disc, std::span<const LatticeSite> sites) {
+bool contacts_in_order(const ExactDisc& disc, std::span<const kernel::LatticeSite> sites) {
   const Contact first = contact_of(disc, sites[0]);
   Contact before = first;
   int last = 0;
@@ -62,4 +68,4 @@ bool contacts_in_order(const ExactDisc& disc, std::span<const LatticeSite> sites
   return true;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::discs

@@ -4,7 +4,11 @@
 
 #include "core/numbers/sign.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::discs {
+
+using kernel::LatticeVector;
+using numbers::int128;
+
 namespace {
 
 constexpr std::int64_t scale = 4;
@@ -24,7 +28,7 @@ struct Sight {
     across = int128{direction.x} * dy - int128{direction.y} * dx;
     along = int128{direction.x} * dx + int128{direction.y} * dy;
   }
-  int128 square_length() const { return dot(direction, direction); }
+  int128 square_length() const { return kernel::dot(direction, direction); }
   bool is_between() const { return along > 0 && along < scale * square_length(); }
 
   LatticeVector direction;
@@ -37,7 +41,7 @@ double DyadicDisc::x() const { return static_cast<double>(x_) / scale; }
 double DyadicDisc::y() const { return static_cast<double>(y_) / scale; }
 double DyadicDisc::radius() const { return std::sqrt(static_cast<double>(square_)) / scale; }
 
-int128 DyadicDisc::square_distance(const LatticePoint& p) const {
+int128 DyadicDisc::square_distance(const kernel::LatticePoint& p) const {
   const int128 dx = x_ - scale * p.x, dy = y_ - scale * p.y;
   return dx * dx + dy * dy;
 }
@@ -65,10 +69,10 @@ bool DyadicDisc::touches(const SegmentSites& sites, SiteIndex site, bool is_left
 // The way from the centre to where the disc touches a site, times a positive number: below 2^35.
 LatticeVector DyadicDisc::contact(const SegmentSites& sites, SiteIndex site, bool is_left) const {
   if (sites.is_point(site)) {
-    const LatticePoint& p = sites.point(site);
+    const kernel::LatticePoint& p = sites.point(site);
     return {scale * p.x - x_, scale * p.y - y_};
   }
-  const LatticeVector normal = left_of(sites.segment(site).direction());
+  const LatticeVector normal = kernel::left_of(sites.segment(site).direction());
   return is_left ? -normal : normal;
 }
 
@@ -94,7 +98,7 @@ bool DyadicDisc::is_in_order(const SegmentSites& sites, const VoronoiRecord& v) 
 int DyadicDisc::sign(const SegmentSite& query) const {
   const Sight sight(x_, y_, query);
   if (!sight.is_between()) return 1;  // its ends are not inside; touching one of them is as good as clear
-  if (magnitude(sight.across) >= most_product) return undecided;
+  if (magnitude(sight.across) >= most_product) return numbers::undecided;
   const int128 difference = sight.across * sight.across - square_ * sight.square_length();
   return (difference > 0) - (difference < 0);
 }
@@ -115,4 +119,4 @@ std::optional<DyadicDisc> dyadic_disc(const SegmentSites& sites, const VoronoiRe
   return disc;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::discs

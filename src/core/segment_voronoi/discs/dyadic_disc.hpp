@@ -9,7 +9,7 @@
 #include "core/segment_voronoi/discs/records.hpp"
 #include "core/segment_voronoi/discs/sites.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::discs {
 
 class DyadicDisc {
  public:
@@ -28,12 +28,12 @@ class DyadicDisc {
 
   bool take_radius(const SegmentSites& sites, SiteIndex site);
   bool touches(const SegmentSites& sites, SiteIndex site, bool is_left) const;
-  LatticeVector contact(const SegmentSites& sites, SiteIndex site, bool is_left) const;
+  kernel::LatticeVector contact(const SegmentSites& sites, SiteIndex site, bool is_left) const;
   bool is_in_order(const SegmentSites& sites, const VoronoiRecord& vertex) const;
-  int128 square_distance(const LatticePoint& p) const;
+  numbers::int128 square_distance(const kernel::LatticePoint& p) const;
 
-  std::int64_t x_, y_;  // the centre, times `scale`
-  int128 square_;       // of the radius, times the square of `scale`
+  std::int64_t x_, y_;      // the centre, times `scale`
+  numbers::int128 square_;  // of the radius, times the square of `scale`
 };
 
 // The disc of a vertex if it is one of these: it is that of the vertex because it touches the sites exactly,
@@ -41,4 +41,4 @@ class DyadicDisc {
 // to look.
 std::optional<DyadicDisc> dyadic_disc(const SegmentSites& sites, const VoronoiRecord& vertex);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::discs

@@ -12,7 +12,19 @@
 
 #include "core/kernel/lattice_vector.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::discs {
+
+using kernel::cross;
+using kernel::dot;
+using kernel::LatticePoint;
+using kernel::LatticeSite;
+using kernel::LatticeVector;
+using kernel::left_of;
+using kernel::norm2;
+using numbers::RootNumber;
+using numbers::RootTower;
+using numbers::square;
+
 namespace {
 
 using Found = std::optional<ExactDisc>;
@@ -323,4 +335,4 @@ bool touches(const ExactDisc& disc, const LatticeSite& site) {
          (square(across) - disc.z * big(norm2(u))).sign() == 0;
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::discs

@@ -8,7 +8,7 @@
 #include "core/kernel/lattice_point.hpp"
 #include "core/numbers/sqrt_tower.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::discs {
 
 // Three sites in counter-clockwise order of contact around a disc.
 //
@@ -16,13 +16,13 @@ namespace vorotool::core {
 // closed segment. Sites that touch at one place are in the order of contact that a slightly smaller disc
 // tells: around the disc to the left of p -> q a segment p q comes after its end p, and a segment q' p before
 // p.
-using SiteTriple = std::span<const LatticeSite, 3>;
+using SiteTriple = std::span<const kernel::LatticeSite, 3>;
 
 // centre = origin + (x, y) / w, radius^2 = z / w^2, w > 0.
 struct ExactDisc {
-  std::shared_ptr<const RootTower> tower;  // of x, y, w and z
-  LatticePoint origin;
-  RootNumber x, y, w, z;
+  std::shared_ptr<const numbers::RootTower> tower;  // of x, y, w and z
+  kernel::LatticePoint origin;
+  numbers::RootNumber x, y, w, z;
 };
 
 // The disc, or nothing if none touches the sites in this order, or infinitely many do (two collinear segments
@@ -32,6 +32,6 @@ struct ExactDisc {
 std::optional<ExactDisc> find_exact_disc(SiteTriple sites);
 
 // Whether the disc touches the site: at the point, or at a foot on the closed segment.
-bool touches(const ExactDisc& disc, const LatticeSite& site);
+bool touches(const ExactDisc& disc, const kernel::LatticeSite& site);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::discs

@@ -16,7 +16,19 @@
 #include "core/numbers/sign.hpp"
 #include "core/segment_voronoi/discs/contact_order.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::discs {
+
+using kernel::cross;
+using kernel::dot;
+using kernel::LatticePoint;
+using kernel::LatticeSite;
+using kernel::LatticeVector;
+using kernel::left_of;
+using kernel::norm2;
+using numbers::magnitude;
+using numbers::RootNumber;
+using numbers::square;
+
 namespace {
 
 RootNumber big(std::int64_t value) { return RootNumber(value); }
@@ -62,7 +74,8 @@ bool between(int first, int second) { return first * second < 0; }
 int middle_of_points(const LatticePoint& p, const LatticePoint& q, const ExactDisc& first,
                      const ExactDisc& second, const LatticeSite& query) {
   const LatticeVector u = query.b - query.a, e = left_of(q - p);
-  const int p_side = sign_of(cross(u, p - query.a)), q_side = sign_of(cross(u, q - query.a));
+  const int p_side = numbers::sign_of(cross(u, p - query.a)),
+            q_side = numbers::sign_of(cross(u, q - query.a));
   if (p_side == 0 || p_side != q_side) return -1;
   const LatticeVector n = p_side > 0 ? left_of(u) : -left_of(u);
   const std::int64_t turn = cross(n, e) < 0 ? -cross(n, e) : cross(n, e);
@@ -90,7 +103,7 @@ int middle_of_parabola(const LatticePoint& p, const LatticeSite& segment, const 
   if (cross(n1, n2) == 0 && dot(n1, n2) > 0) return -1;
   const std::int64_t h1 = dot(n1, p - segment.a);
   auto side = [&](const ExactDisc& disc) {
-    RootTower tower;
+    numbers::RootTower tower;
     const std::vector<RootNumber> lifted = tower.adjoin_all(*disc.tower);
     const RootNumber m = tower.adjoin_root(big(norm2(n1)) * big(norm2(n2))) - big(dot(n1, n2));
     const RootNumber along = tower.lift(CentreSeen(disc, p).along(left_of(n1)), lifted);
@@ -135,7 +148,7 @@ int middle_of_point_and_segment(const LatticePoint& p, const LatticeSite& segmen
   return middle_behind_end(p, segment, first, second, u);
 }
 
-double quotient(const RootNumber& number, const RootMagnitude& divisor) {
+double quotient(const RootNumber& number, const numbers::RootMagnitude& divisor) {
   const int sign = number.sign();
   return sign == 0 ? 0 : sign * (magnitude(number) / divisor).rounded();
 }
@@ -152,7 +165,7 @@ int clearance_sign(const ExactDisc& disc, const LatticeSite& query) {
 }
 
 int compare_along(const ExactDisc& first, const ExactDisc& second, const LatticeVector& direction) {
-  RootTower tower;
+  numbers::RootTower tower;
   const std::vector<RootNumber> lifted_first = tower.adjoin_all(*first.tower),
                                 lifted_second = tower.adjoin_all(*second.tower);
   const RootNumber a = tower.lift(CentreSeen(first, first.origin).along(direction), lifted_first);
@@ -161,9 +174,9 @@ int compare_along(const ExactDisc& first, const ExactDisc& second, const Lattice
 }
 
 RoundedDisc rounded(const ExactDisc& disc) {
-  const RootMagnitude w = magnitude(disc.w);
+  const numbers::RootMagnitude w = magnitude(disc.w);
   const CentreSeen centre(disc, {0, 0});
-  const double radius = disc.z.sign() == 0 ? 0 : (square_root(magnitude(disc.z)) / w).rounded();
+  const double radius = disc.z.sign() == 0 ? 0 : (numbers::square_root(magnitude(disc.z)) / w).rounded();
   return {quotient(centre.x, w), quotient(centre.y, w), radius};
 }
 
@@ -199,4 +212,4 @@ int exact_edge_clearance_sign(const LatticeSite& left, const LatticeSite& right,
 
 RoundedDisc exact_disc_rounded(SiteTriple sites) { return rounded(disc_of(sites)); }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::discs

@@ -11,7 +11,7 @@
 #include "core/kernel/lattice_vector.hpp"
 #include "core/segment_voronoi/discs/exact_disc.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::discs {
 
 struct NoDisc : std::invalid_argument {
   NoDisc() : std::invalid_argument("no single disc touches the three sites in the order given") {}
@@ -20,9 +20,9 @@ struct NoDisc : std::invalid_argument {
 // ---- of a disc that is at hand ----
 
 // See exact_clearance_sign.
-int clearance_sign(const ExactDisc& disc, const LatticeSite& query);
+int clearance_sign(const ExactDisc& disc, const kernel::LatticeSite& query);
 // The sign of (centre of first - centre of second) * direction.
-int compare_along(const ExactDisc& first, const ExactDisc& second, const LatticeVector& direction);
+int compare_along(const ExactDisc& first, const ExactDisc& second, const kernel::LatticeVector& direction);
 
 // The disc's centre on the lattice and its radius: each with a relative error of at most 2^-52.
 struct RoundedDisc {
@@ -34,7 +34,7 @@ RoundedDisc rounded(const ExactDisc& disc);
 
 // The sign of the distance from the disc's centre to the query, as a closed set, less the radius: -1 if the
 // query enters the disc, 0 if it only touches, 1 if it stays clear.
-int exact_clearance_sign(SiteTriple sites, const LatticeSite& query);
+int exact_clearance_sign(SiteTriple sites, const kernel::LatticeSite& query);
 
 // Whether the discs, of positive radius, are one: do two Voronoi vertices coincide?
 bool exact_same_disc(SiteTriple first, SiteTriple second);
@@ -47,9 +47,9 @@ bool exact_same_disc(SiteTriple first, SiteTriple second);
 // enters every disc; it is never 0, as then a point site would be inside the query. Where an end p of the
 // query is one of the two sites, the clearance is 0 all the way behind p: there the sign of the largest of
 // (p - centre) * direction counts.
-int exact_edge_clearance_sign(const LatticeSite& left, const LatticeSite& right, SiteTriple first,
-                              SiteTriple second, const LatticeSite& query);
+int exact_edge_clearance_sign(const kernel::LatticeSite& left, const kernel::LatticeSite& right,
+                              SiteTriple first, SiteTriple second, const kernel::LatticeSite& query);
 
 RoundedDisc exact_disc_rounded(SiteTriple sites);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::discs

@@ -5,11 +5,11 @@
 
 #include "core/kernel/lattice_point.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::discs {
 
 // Four segments, each with a circle to its left from a to b. A circle touches the lines of the first three,
 // and one those of the last three: whether it is one and the same. False also where two of the lines that one
 // circle touches are one.
-bool is_one_circle(const std::array<LatticeSite, 4>& segments);
+bool is_one_circle(const std::array<kernel::LatticeSite, 4>& segments);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::discs

@@ -8,7 +8,7 @@
 
 #include "core/segment_voronoi/discs/sites.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::discs {
 
 // Corner i of record v has the number 4 v + i. It also stands for the half of an edge opposite to the site at
 // the corner.
@@ -51,4 +51,4 @@ inline EdgeSites sites_of_edge(const VoronoiRecord& v, int i) {
   return {v.sites[static_cast<std::size_t>(following(i))], v.sites[static_cast<std::size_t>(preceding(i))]};
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::discs

@@ -14,7 +14,15 @@
 // first order; products of errors are covered by rounding the counts up. Basic values: an integer converted
 // (1), a length (1.5), a component of u (3), a product of two lengths (4), K / length (4).
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::discs {
+
+using kernel::cross;
+using kernel::dot;
+using kernel::LatticePoint;
+using kernel::LatticeVector;
+using numbers::DoubleDouble;
+using numbers::int128;
+
 namespace {
 
 template <class Real>
@@ -55,7 +63,7 @@ Line<double> directed(const SegmentSite& s, double) { return {s.ends, s.a, s.b, 
 
 Line<DoubleDouble> directed(const SegmentSite& s, DoubleDouble) {
   const LatticeVector d = s.direction();
-  const DoubleDouble length = sqrt(real<DoubleDouble>(dot(d, d)));
+  const DoubleDouble length = numbers::sqrt(real<DoubleDouble>(dot(d, d)));
   return {s.ends, s.a, s.b, real<DoubleDouble>(d.x) / length, real<DoubleDouble>(d.y) / length, length};
 }
 
@@ -365,4 +373,4 @@ TangentDisc<Real> tangent_disc(const SegmentSites& sites, std::array<SiteIndex, 
 template TangentDisc<double> tangent_disc(const SegmentSites&, std::array<SiteIndex, 3>, std::uint8_t);
 template TangentDisc<DoubleDouble> tangent_disc(const SegmentSites&, std::array<SiteIndex, 3>, std::uint8_t);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::discs

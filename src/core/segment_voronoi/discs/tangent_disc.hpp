@@ -7,19 +7,19 @@
 #include "core/numbers/double_double.hpp"
 #include "core/segment_voronoi/discs/sites.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::discs {
 
 // A bound of the relative error of one operation.
 template <class Real>
 inline constexpr double roundoff = 0x1p-53;
 // The largest of the bounds in core/numbers/double_double.hpp is 15 u^2 + 56 u^3 < 2^-102.
 template <>
-inline constexpr double roundoff<DoubleDouble> = 0x1p-102;
+inline constexpr double roundoff<numbers::DoubleDouble> = 0x1p-102;
 
 // The numbers relative to a lattice point keep their accuracy however far that is from the origin.
 template <class Real>
 struct TangentDisc {
-  LatticePoint anchor;
+  kernel::LatticePoint anchor;
   Real x, y;  // the centre less the anchor
   Real radius;
   double position_error, radius_error;  // bounds, if known_within()
@@ -38,4 +38,4 @@ struct TangentDisc {
 template <class Real>
 TangentDisc<Real> tangent_disc(const SegmentSites& sites, std::array<SiteIndex, 3> triple, std::uint8_t left);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::discs

@@ -7,7 +7,12 @@
 
 #include "core/kernel/lattice_vector.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::verify {
+
+using build::IncidentSegments;
+using build::RingedDiagram;
+using kernel::LatticePoint;
+
 namespace {
 
 using Fault = std::optional<std::string>;
@@ -29,7 +34,7 @@ std::vector<Site> hull_of(std::span<const LatticePoint> points) {
     const std::size_t start = hull.size();
     for (auto i = first; i != last; ++i) {
       while (hull.size() >= start + 2 &&
-             cross(at(hull.back()) - at(hull[hull.size() - 2]), at(*i) - at(hull.back())) < 0) {
+             kernel::cross(at(hull.back()) - at(hull[hull.size() - 2]), at(*i) - at(hull.back())) < 0) {
         hull.pop_back();
       }
       hull.push_back(*i);
@@ -223,4 +228,4 @@ Fault find_map_fault(const RingedDiagram& arrays, const IncidentSegments& incide
   return Map(arrays, incident).check();
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::verify

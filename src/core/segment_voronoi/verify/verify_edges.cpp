@@ -13,7 +13,17 @@
 #include "core/numbers/sign.hpp"
 #include "core/segment_voronoi/discs/exact_signs.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::verify {
+
+using base::Keyed;
+using build::IncidentSegments;
+using build::RingedDiagram;
+using kernel::cross;
+using kernel::LatticePoint;
+using kernel::LatticeSite;
+using kernel::LatticeVector;
+using kernel::left_of;
+
 namespace {
 
 using Fault = std::optional<std::string>;
@@ -80,10 +90,10 @@ class Bisector {
     }
     const double difference = place[0] - place[1];
     if (std::abs(difference) > 0x1p-46 * size * (std::abs(ux) + std::abs(uy))) return difference > 0 ? 1 : -1;
-    return compare_along(disc(v), disc(w), u);
+    return discs::compare_along(disc(v), disc(w), u);
   }
 
-  ExactDisc disc(Site vertex) const {
+  discs::ExactDisc disc(Site vertex) const {
     return exact_disc_of(in_, incident_, static_cast<std::size_t>(vertex));
   }
 
@@ -106,8 +116,8 @@ class Bisector {
                         std::abs(y) + in_.radius[k];
     if (std::abs(height) > 0x1p-46 * size * (std::abs(ux) + std::abs(uy))) return height > 0 ? 1 : -1;
     const LatticeVector across = left_of(u);
-    const ExactDisc end{std::make_shared<RootTower>(), s.a, 0, 0, 1, 0};
-    return compare_along(disc(vertex), end, across);
+    const discs::ExactDisc end{std::make_shared<numbers::RootTower>(), s.a, 0, 0, 1, 0};
+    return discs::compare_along(disc(vertex), end, across);
   }
 
   // Two segments meet in a corner: their bisector runs inside their sector.
@@ -117,7 +127,7 @@ class Bisector {
     auto way = [&](const LatticeSite& t) { return corner == t.a ? t.b - t.a : t.a - t.b; };
     const LatticeVector ways[] = {way(a), way(b)};
     // a point inside the sector is corner + ways[0] + ways[1], and s goes through the corner
-    return sign_of(cross(s.b - s.a, ways[0])) + sign_of(cross(s.b - s.a, ways[1]));
+    return numbers::sign_of(cross(s.b - s.a, ways[0])) + numbers::sign_of(cross(s.b - s.a, ways[1]));
   }
 
   LatticeVector direction(int branch) const {
@@ -145,7 +155,7 @@ Fault find_order_fault(const RingedDiagram& arrays, const IncidentSegments& inci
     keys.push_back({static_cast<std::uint64_t>(smaller) * sites + static_cast<std::uint64_t>(larger),
                     static_cast<std::uint32_t>(i)});
   }
-  radix_sort(keys, std::bit_width(sites * sites));
+  base::radix_sort(keys, std::bit_width(sites * sites));
   for (std::size_t i = 0, end = 0; i < keys.size(); i = end) {
     while (end < keys.size() && keys[end].key == keys[i].key) ++end;
     if (end == i + 1) continue;
@@ -201,7 +211,7 @@ class InnerPoints {
     const LatticeSite s = in_.site(segment);
     const LatticePoint& p = in_.point(point);
     const LatticeVector u = s.b - s.a;
-    const double length = std::sqrt(static_cast<double>(norm2(u)));
+    const double length = std::sqrt(static_cast<double>(kernel::norm2(u)));
     const double ux = static_cast<double>(u.x) / length, uy = static_cast<double>(u.y) / length;
     const double h = static_cast<double>(cross(u, p - s.a)) / length;
     auto along = [&](const Place& c) { return ux * (c.x - p.x) + uy * (c.y - p.y); };
@@ -278,10 +288,10 @@ class InnerPoints {
 }  // namespace
 
 Fault find_inner_point_fault(const RingedDiagram& arrays, const ClosedSites& index, unsigned threads,
-                             const Monitor& monitor) {
+                             const base::Monitor& monitor) {
   const InnerPoints points(arrays, index);
-  return first_fault(
+  return base::first_fault(
       arrays.edges.size(), [&](std::size_t edge) { return points.check(edge); }, threads, monitor);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::verify

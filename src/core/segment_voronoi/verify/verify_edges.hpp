@@ -9,15 +9,17 @@
 #include "core/segment_voronoi/verify/verify_segment_voronoi.hpp"
 #include "core/segment_voronoi/verify/verify_vertices.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::verify {
 
 // Edges of the same two cells follow each other along their bisector, each from a vertex where it leaves to
 // the next one. Vertices must be without faults. Exact.
-std::optional<std::string> find_order_fault(const RingedDiagram& arrays, const IncidentSegments& incident);
+std::optional<std::string> find_order_fault(const build::RingedDiagram& arrays,
+                                            const build::IncidentSegments& incident);
 
 // Points inside every edge: as far from both sites, and no site is nearer. In floating point, up to its
 // errors. The vertices' discs must be those of their sites.
-std::optional<std::string> find_inner_point_fault(const RingedDiagram& arrays, const ClosedSites& index,
-                                                  unsigned threads, const Monitor& monitor);
+std::optional<std::string> find_inner_point_fault(const build::RingedDiagram& arrays,
+                                                  const ClosedSites& index, unsigned threads,
+                                                  const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::verify

@@ -11,7 +11,10 @@
 #include "core/segment_voronoi/verify/verify_edges.hpp"
 #include "core/segment_voronoi/verify/verify_vertices.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::verify {
+
+using build::RingedDiagram;
+
 namespace {
 
 using Fault = std::optional<std::string>;
@@ -24,7 +27,8 @@ bool in_range(Site value, std::size_t count) { return value >= 0 && static_cast<
 Fault check_sites(const RingedDiagram& in) {
   for (std::size_t i = 0; i < in.points.size(); ++i) {
     const auto& [x, y] = in.points[i];
-    if (std::abs(std::int64_t{x}) > lattice_limit || std::abs(std::int64_t{y}) > lattice_limit) {
+    if (std::abs(std::int64_t{x}) > kernel::lattice_limit ||
+        std::abs(std::int64_t{y}) > kernel::lattice_limit) {
       return text("a coordinate is beyond the lattice at point ", i);
     }
   }
@@ -61,7 +65,7 @@ Fault check_ring(const RingedDiagram& in, std::size_t vertex) {
   return finite ? Fault() : text("a value is not finite at vertex ", vertex);
 }
 
-Fault check_indices(const RingedDiagram& in, unsigned threads, const Monitor& monitor) {
+Fault check_indices(const RingedDiagram& in, unsigned threads, const base::Monitor& monitor) {
   const auto& start = in.vertex_start;
   if (start.front() != 0 || static_cast<std::size_t>(start.back()) != in.vertex_sites.size()) {
     return "vertex_start does not span vertex_sites";
@@ -70,7 +74,7 @@ Fault check_indices(const RingedDiagram& in, unsigned threads, const Monitor& mo
     if (start[v + 1] < start[v]) return text("vertex_start decreases after vertex ", v);
   }
   auto check = [&](std::size_t v) { return check_ring(in, v); };
-  if (Fault fault = first_fault(in.vertex_count(), check, threads, monitor)) return fault;
+  if (Fault fault = base::first_fault(in.vertex_count(), check, threads, monitor)) return fault;
   for (std::size_t k = 0; k < in.edges.size(); ++k) {
     for (const Site v : in.edges[k]) {
       if (v != -1 && !in_range(v, in.vertex_count())) return text("a vertex is out of range of edge ", k);
@@ -106,17 +110,17 @@ Fault check_distinct(const RingedDiagram& in) {
 // and every vertex adds at least 1: none is missing. Then along each bisector the places where edges leave
 // and where they arrive are the true ones, and the edges that follow each other without overlap join them as
 // the true ones do. The points inside edges are looked at in spite of that.
-Fault find_fault(const RingedDiagram& arrays, unsigned threads, const Monitor& monitor) {
+Fault find_fault(const RingedDiagram& arrays, unsigned threads, const base::Monitor& monitor) {
   if (Fault fault = check_sites(arrays)) return fault;
   if (Fault fault = check_indices(arrays, threads, monitor)) return fault;
   if (Fault fault = check_distinct(arrays)) return fault;
-  const IncidentSegments incident(arrays);
+  const build::IncidentSegments incident(arrays);
   if (Fault fault = find_map_fault(arrays, incident)) return fault;
   const ClosedSites index(arrays, incident, threads, monitor);
   auto check = [&](std::size_t v) { return find_vertex_fault(arrays, incident, index, v); };
-  if (Fault fault = first_fault(arrays.vertex_count(), check, threads, monitor)) return fault;
+  if (Fault fault = base::first_fault(arrays.vertex_count(), check, threads, monitor)) return fault;
   if (Fault fault = find_order_fault(arrays, incident)) return fault;
   return find_inner_point_fault(arrays, index, threads, monitor);
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::verify

@@ -7,7 +7,7 @@
 #include "core/base/monitor.hpp"
 #include "core/segment_voronoi/build/diagram.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::verify {
 
 // The relative errors that values may have: of radii, and of coordinates by the largest of both and the
 // radius. That is what the engine proves of its values (core/segment_voronoi/build/refined_disc.hpp); none
@@ -19,6 +19,7 @@ inline constexpr double value_error_bound = 0x1p-48;
 //
 // That points are distinct is checked; that segments do not cross and hold no point inside is taken for
 // granted.
-std::optional<std::string> find_fault(const RingedDiagram& arrays, unsigned threads, const Monitor& monitor);
+std::optional<std::string> find_fault(const build::RingedDiagram& arrays, unsigned threads,
+                                      const base::Monitor& monitor);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::verify

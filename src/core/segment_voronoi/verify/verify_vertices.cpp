@@ -11,7 +11,20 @@
 #include "core/segment_voronoi/discs/contact_order.hpp"
 #include "core/segment_voronoi/discs/exact_signs.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::verify {
+
+using build::IncidentSegments;
+using build::RingedDiagram;
+using discs::DiscCondition;
+using discs::ExactDisc;
+using discs::touches;
+using kernel::LatticePoint;
+using kernel::LatticeSite;
+using kernel::LatticeVector;
+using kernel::norm2;
+using numbers::DoubleDouble;
+using numbers::int128;
+
 namespace {
 
 using Fault = std::optional<std::string>;
@@ -42,7 +55,8 @@ class Vertex {
   }
 
   ExactDisc exact_disc() {
-    if (in_.radius[vertex_] == 0) return {std::make_shared<RootTower>(), in_.point(corner()), 0, 0, 1, 0};
+    if (in_.radius[vertex_] == 0)
+      return {std::make_shared<numbers::RootTower>(), in_.point(corner()), 0, 0, 1, 0};
     choose_base();
     return *exact();
   }
@@ -140,7 +154,7 @@ class Vertex {
   }
 
   const ExactDisc* exact() {
-    if (!exact_tried_) exact_ = find_exact_disc(base_sites_);
+    if (!exact_tried_) exact_ = discs::find_exact_disc(base_sites_);
     exact_tried_ = true;
     return exact_ ? &*exact_ : nullptr;
   }
@@ -149,7 +163,8 @@ class Vertex {
   // by their feet; the exact one is right from the start.
   Fault locate() {
     const double x = in_.vertices[vertex_][0], y = in_.vertices[vertex_][1], r = in_.radius[vertex_];
-    const auto found = certify_disc({condition(base_[0]), condition(base_[1]), condition(base_[2])}, x, y, r);
+    const auto found =
+        discs::certify_disc({condition(base_[0]), condition(base_[1]), condition(base_[2])}, x, y, r);
     if (found) {
       disc_ = *found;
       return {};
@@ -157,7 +172,7 @@ class Vertex {
     if (exact() == nullptr || exact()->z.sign() == 0) {
       return fault("is no centre of a disc: none touches three of the sites in this order");
     }
-    const RoundedDisc rounded_disc = rounded(*exact());
+    const discs::RoundedDisc rounded_disc = discs::rounded(*exact());
     disc_ = {rounded_disc.x, rounded_disc.y, rounded_disc.radius,
              0x1p-51 * std::max({std::abs(rounded_disc.x), std::abs(rounded_disc.y), rounded_disc.radius})};
     return {};
@@ -281,7 +296,7 @@ class Vertex {
     for (const LatticeSite& site : sites) {
       if (!touches(*exact(), site)) return false;
     }
-    return contacts_in_order(*exact(), sites);
+    return discs::contacts_in_order(*exact(), sites);
   }
 
   Fault check_further_sites() {
@@ -303,7 +318,7 @@ class Vertex {
     for (std::size_t i = 0; i < 3; ++i) {
       const Site other = ring_[base_[i]];
       if (in_.is_point(other) || end_in_ring(other) != end) continue;
-      if (cross(s.b - s.a, base_sites_[i].b - base_sites_[i].a) == 0) return true;
+      if (kernel::cross(s.b - s.a, base_sites_[i].b - base_sites_[i].a) == 0) return true;
     }
     return false;
   }
@@ -359,7 +374,7 @@ class Vertex {
 
   Fault check_exactly(Site site) {
     if (exact() == nullptr) return fault("is no centre of a disc");
-    const int sign = clearance_sign(*exact(), in_.site(site));
+    const int sign = discs::clearance_sign(*exact(), in_.site(site));
     if (sign < 0) return fault("is nearer to site " + std::to_string(site) + " than its radius");
     if (sign > 0 || !touches(*exact(), in_.site(site))) return {};
     return fault("touches site " + std::to_string(site) + " too");
@@ -389,7 +404,7 @@ class Vertex {
 
   std::array<std::size_t, 3> base_{};
   std::array<LatticeSite, 3> base_sites_{};
-  CertifiedDisc disc_{};
+  discs::CertifiedDisc disc_{};
   bool exact_tried_ = false;
   std::optional<ExactDisc> exact_;
 };
@@ -412,7 +427,7 @@ std::vector<LatticeSite> places_of(const RingedDiagram& arrays, std::span<const 
 }  // namespace
 
 ClosedSites::ClosedSites(const RingedDiagram& arrays, const IncidentSegments& incident, unsigned threads,
-                         const Monitor& monitor)
+                         const base::Monitor& monitor)
     : numbers_(closed_site_numbers(arrays, incident)), tree_(places_of(arrays, numbers_), threads, monitor) {}
 
 Fault find_vertex_fault(const RingedDiagram& arrays, const IncidentSegments& incident,
@@ -424,4 +439,4 @@ ExactDisc exact_disc_of(const RingedDiagram& arrays, const IncidentSegments& inc
   return Vertex(arrays, incident, nullptr, vertex).exact_disc();
 }
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::verify

@@ -14,13 +14,13 @@
 #include "core/segment_voronoi/verify/verify_segment_voronoi.hpp"
 #include "core/spatial/obb_tree.hpp"
 
-namespace vorotool::core {
+namespace vorotool::core::segment_voronoi::verify {
 
 // All sites as closed sets: the segments, and the points where none ends.
 class ClosedSites {
  public:
-  ClosedSites(const RingedDiagram& arrays, const IncidentSegments& incident, unsigned threads,
-              const Monitor& monitor);
+  ClosedSites(const build::RingedDiagram& arrays, const build::IncidentSegments& incident, unsigned threads,
+              const base::Monitor& monitor);
 
   // Calls visit(site number), see SiteHierarchy.
   template <class Visit>
@@ -30,7 +30,7 @@ class ClosedSites {
 
  private:
   std::vector<std::int32_t> numbers_;
-  SiteHierarchy tree_;
+  spatial::SiteHierarchy tree_;
 };
 
 // What is wrong with a vertex whose ring of sites has at least three, all distinct. Nothing if it is the
@@ -38,10 +38,12 @@ class ClosedSites {
 // its values are right to `value_error_bound`.
 //
 // Floating point with error bounds decides nearly everything; exact numbers decide the rest.
-std::optional<std::string> find_vertex_fault(const RingedDiagram& arrays, const IncidentSegments& incident,
+std::optional<std::string> find_vertex_fault(const build::RingedDiagram& arrays,
+                                             const build::IncidentSegments& incident,
                                              const ClosedSites& index, std::size_t vertex);
 
 // The disc of a vertex without faults.
-ExactDisc exact_disc_of(const RingedDiagram& arrays, const IncidentSegments& incident, std::size_t vertex);
+discs::ExactDisc exact_disc_of(const build::RingedDiagram& arrays, const build::IncidentSegments& incident,
+                               std::size_t vertex);
 
-}  // namespace vorotool::core
+}  // namespace vorotool::core::segment_voronoi::verify
