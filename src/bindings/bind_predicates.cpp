@@ -9,7 +9,6 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/kernel/predicate_stages.hpp"
 #include "core/kernel/predicates.hpp"
 
 namespace vorotool::bindings {

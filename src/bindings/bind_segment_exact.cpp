@@ -8,7 +8,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/kernel/lattice_point.hpp"
+#include "core/kernel/lattice.hpp"
 #include "core/segment_voronoi/discs/exact_signs.hpp"
 
 namespace vorotool::bindings {

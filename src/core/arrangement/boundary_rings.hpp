@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/arrangement/face_polygons.hpp"
-#include "core/kernel/lattice_point.hpp"
+#include "core/kernel/lattice.hpp"
 
 namespace vorotool::core::arrangement {
 

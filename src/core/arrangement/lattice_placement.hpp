@@ -1,11 +1,11 @@
-// Doubles onto the integer lattice of core/kernel/lattice_point.hpp by an exact power of two.
+// Doubles onto the integer lattice of core/kernel/lattice.hpp by an exact power of two.
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "core/base/monitor.hpp"
-#include "core/kernel/lattice_point.hpp"
+#include "core/kernel/lattice.hpp"
 #include "core/kernel/point.hpp"
 
 namespace vorotool::core::arrangement {

@@ -9,7 +9,7 @@
 
 #include "core/arrangement/face_polygons.hpp"
 #include "core/base/monitor.hpp"
-#include "core/kernel/lattice_point.hpp"
+#include "core/kernel/lattice.hpp"
 
 namespace vorotool::core::arrangement {
 

@@ -6,8 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/kernel/lattice_point.hpp"
-#include "core/kernel/lattice_vector.hpp"
+#include "core/kernel/lattice.hpp"
 
 namespace vorotool::core::arrangement {
 

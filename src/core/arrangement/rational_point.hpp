@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/kernel/lattice_point.hpp"
+#include "core/kernel/lattice.hpp"
 #include "core/numbers/sign.hpp"
 
 namespace vorotool::core::arrangement {

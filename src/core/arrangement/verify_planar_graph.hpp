@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/base/monitor.hpp"
-#include "core/kernel/lattice_point.hpp"
+#include "core/kernel/lattice.hpp"
 
 namespace vorotool::core::arrangement {
 

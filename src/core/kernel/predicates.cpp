@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/kernel/predicate_stages.hpp"
 #include "core/numbers/dyadic_grid.hpp"
 #include "core/numbers/expansion.hpp"
 #include "core/numbers/fixed_integer.hpp"

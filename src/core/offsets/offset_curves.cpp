@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "core/kernel/lattice_vector.hpp"
+#include "core/kernel/lattice.hpp"
 #include "core/numbers/elementary.hpp"
 #include "core/offsets/inner_components.hpp"
 

@@ -30,7 +30,7 @@
 #include <span>
 #include <vector>
 
-#include "core/kernel/lattice_point.hpp"
+#include "core/kernel/lattice.hpp"
 #include "core/kernel/point.hpp"
 #include "core/skeleton/bisector_arc.hpp"
 

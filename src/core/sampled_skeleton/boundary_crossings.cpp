@@ -8,7 +8,7 @@
 #include "core/numbers/fixed_integer.hpp"
 #include "core/numbers/rounded_quotient.hpp"
 #include "core/numbers/sign.hpp"
-#include "core/sampled_skeleton/sample_vector.hpp"
+#include "core/sampled_skeleton/sample_mesh.hpp"
 
 namespace vorotool::core::sampled_skeleton {
 
@@ -19,7 +19,7 @@ using numbers::widen;
 namespace {
 
 // A parameter t = numerator / (2 denominator) along a piece where a cell is left for that of a neighbour.
-// From core/sampled_skeleton/sample_vector.hpp: both are below 2^108.
+// From core/sampled_skeleton/sample_mesh.hpp: both are below 2^108.
 struct Exit {
   numbers::int128 numerator, denominator;
 };

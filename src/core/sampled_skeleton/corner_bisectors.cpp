@@ -7,7 +7,7 @@
 #include "core/base/parallel.hpp"
 #include "core/delaunay/vertex_triangles.hpp"
 #include "core/numbers/fixed_integer.hpp"
-#include "core/sampled_skeleton/sample_vector.hpp"
+#include "core/sampled_skeleton/sample_mesh.hpp"
 
 namespace vorotool::core::sampled_skeleton {
 

@@ -6,7 +6,7 @@
 
 #include "core/base/parallel.hpp"
 #include "core/kernel/circumcentre.hpp"
-#include "core/skeleton/line_clip.hpp"
+#include "core/skeleton/frame_clip.hpp"
 
 namespace vorotool::core::sampled_skeleton {
 

@@ -13,7 +13,6 @@
 #include "core/skeleton/extraction.hpp"
 #include "core/skeleton/frame_clip.hpp"
 #include "core/skeleton/graph.hpp"
-#include "core/skeleton/line_clip.hpp"
 
 namespace vorotool::core::sampled_skeleton {
 

@@ -9,7 +9,7 @@
 #include "core/kernel/predicates.hpp"
 #include "core/sampled_skeleton/boundary_crossings.hpp"
 #include "core/sampled_skeleton/sample_faces.hpp"
-#include "core/sampled_skeleton/sample_vector.hpp"
+#include "core/sampled_skeleton/sample_mesh.hpp"
 
 namespace vorotool::core::sampled_skeleton {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/kernel/lattice_vector.hpp"
+#include "core/kernel/lattice.hpp"
 
 namespace vorotool::core::skeleton {
 

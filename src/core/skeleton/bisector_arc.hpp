@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "core/kernel/lattice_point.hpp"
+#include "core/kernel/lattice.hpp"
 
 namespace vorotool::core::skeleton {
 

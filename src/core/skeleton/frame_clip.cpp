@@ -6,8 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/kernel/lattice_vector.hpp"
-#include "core/skeleton/line_clip.hpp"
+#include "core/kernel/lattice.hpp"
 
 namespace vorotool::core::skeleton {
 namespace {

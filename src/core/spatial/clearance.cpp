@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/base/parallel.hpp"
-#include "core/kernel/lattice_vector.hpp"
+#include "core/kernel/lattice.hpp"
 #include "core/spatial/obb_tree.hpp"
 
 namespace vorotool::core::spatial {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "core/base/monitor.hpp"
-#include "core/kernel/lattice_point.hpp"
+#include "core/kernel/lattice.hpp"
 
 namespace vorotool::core::spatial {
 

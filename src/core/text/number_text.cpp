@@ -8,6 +8,8 @@
 #include <sstream>
 #include <version>
 
+#include "core/base/parallel.hpp"
+
 // Some libraries lack the conversions of doubles; slower ones by streams then give the same texts and values.
 #if defined(__cpp_lib_to_chars) && !defined(VOROTOOL_STREAM_NUMBERS)
 #define VOROTOOL_EXACT_CHARS
@@ -115,6 +117,24 @@ void append_number(std::string& out, std::int64_t value) {
 void append_number(std::string& out, std::uint64_t value) {
   char buffer[kNumberSize];
   out.append(buffer, std::to_chars(buffer, buffer + kNumberSize, value).ptr);
+}
+
+NumberTexts::NumberTexts(std::span<const double> values, int precision, unsigned threads,
+                         const base::Monitor& monitor)
+    : blocks_(base::piece_count(values.size(), kBlock)), ends_(values.size()) {
+  base::parallel_for(
+      blocks_.size(), threads,
+      [&](std::size_t block) {
+        std::string text;
+        const std::size_t end = std::min(values.size(), (block + 1) * kBlock);
+        for (std::size_t i = block * kBlock; i < end; ++i) {
+          if (std::isfinite(values[i])) append_number(text, values[i], precision);
+          ends_[i] = static_cast<std::uint32_t>(text.size());  // at most kBlock texts of 48 bytes
+        }
+        text.shrink_to_fit();
+        blocks_[block] = std::move(text);
+      },
+      monitor);
 }
 
 }  // namespace vorotool::core::text

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/monitor.hpp"
-#include "core/text/number_text_cache.hpp"
+#include "core/text/number_text.hpp"
 #include "core/text/polygon_text.hpp"
 
 namespace vorotool::core::text {

@@ -5,10 +5,9 @@
 #include <optional>
 
 #include "core/segment_voronoi/discs/dyadic_disc.hpp"
-#include "core/segment_voronoi/discs/endpoint_ties.hpp"
 #include "core/segment_voronoi/discs/exact_signs.hpp"
-#include "core/segment_voronoi/discs/four_segment_ties.hpp"
 #include "core/segment_voronoi/discs/tangent_disc.hpp"
+#include "core/segment_voronoi/discs/ties.hpp"
 
 namespace vorotool::core::segment_voronoi::build {
 

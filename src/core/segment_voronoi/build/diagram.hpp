@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/kernel/lattice_point.hpp"
+#include "core/kernel/lattice.hpp"
 
 namespace vorotool::core::segment_voronoi::build {
 

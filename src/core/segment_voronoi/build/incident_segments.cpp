@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/kernel/lattice_vector.hpp"
+#include "core/kernel/lattice.hpp"
 
 namespace vorotool::core::segment_voronoi::build {
 

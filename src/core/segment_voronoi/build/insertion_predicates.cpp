@@ -5,9 +5,8 @@
 
 #include "core/numbers/sign.hpp"
 #include "core/segment_voronoi/discs/dyadic_disc.hpp"
-#include "core/segment_voronoi/discs/endpoint_ties.hpp"
 #include "core/segment_voronoi/discs/exact_signs.hpp"
-#include "core/segment_voronoi/discs/four_segment_ties.hpp"
+#include "core/segment_voronoi/discs/ties.hpp"
 
 namespace vorotool::core::segment_voronoi::build {
 

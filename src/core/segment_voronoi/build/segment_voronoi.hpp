@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/monitor.hpp"
-#include "core/kernel/lattice_point.hpp"
+#include "core/kernel/lattice.hpp"
 #include "core/segment_voronoi/build/extraction.hpp"
 #include "core/segment_voronoi/build/parallel_insertion.hpp"
 #include "core/segment_voronoi/build/segment_insertion.hpp"

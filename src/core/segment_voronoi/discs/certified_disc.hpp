@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "core/kernel/lattice_point.hpp"
+#include "core/kernel/lattice.hpp"
 #include "core/numbers/double_double.hpp"
 
 namespace vorotool::core::segment_voronoi::discs {

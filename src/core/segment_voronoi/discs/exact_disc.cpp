@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/kernel/lattice_vector.hpp"
+#include "core/kernel/lattice.hpp"
 
 namespace vorotool::core::segment_voronoi::discs {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "core/kernel/lattice_point.hpp"
+#include "core/kernel/lattice.hpp"
 #include "core/numbers/sqrt_tower.hpp"
 
 namespace vorotool::core::segment_voronoi::discs {

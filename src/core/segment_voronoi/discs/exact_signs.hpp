@@ -8,7 +8,7 @@
 
 #include <stdexcept>
 
-#include "core/kernel/lattice_vector.hpp"
+#include "core/kernel/lattice.hpp"
 #include "core/segment_voronoi/discs/exact_disc.hpp"
 
 namespace vorotool::core::segment_voronoi::discs {

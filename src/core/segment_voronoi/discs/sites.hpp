@@ -7,8 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/kernel/lattice_point.hpp"
-#include "core/kernel/lattice_vector.hpp"
+#include "core/kernel/lattice.hpp"
 
 namespace vorotool::core::segment_voronoi::discs {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/kernel/lattice_vector.hpp"
+#include "core/kernel/lattice.hpp"
 
 // Lines carry the direction that has the disc on its left: u along the line, n = u turned left. Distances of
 // lattice points from lines and the sines and cosines between lines come from exact integers K = d x w,

@@ -5,7 +5,7 @@
 #include <span>
 #include <unordered_map>
 
-#include "core/kernel/lattice_vector.hpp"
+#include "core/kernel/lattice.hpp"
 
 namespace vorotool::core::segment_voronoi::verify {
 

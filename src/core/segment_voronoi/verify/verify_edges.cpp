@@ -9,7 +9,7 @@
 
 #include "core/base/first_fault.hpp"
 #include "core/base/radix_sort.hpp"
-#include "core/kernel/lattice_vector.hpp"
+#include "core/kernel/lattice.hpp"
 #include "core/numbers/sign.hpp"
 #include "core/segment_voronoi/discs/exact_signs.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/kernel/lattice_vector.hpp"
+#include "core/kernel/lattice.hpp"
 #include "core/numbers/int128.hpp"
 #include "core/segment_voronoi/discs/certified_disc.hpp"
 #include "core/segment_voronoi/discs/contact_order.hpp"
