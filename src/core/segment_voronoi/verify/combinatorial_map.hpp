@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/segment_voronoi/build/diagram.hpp"
 #include "core/segment_voronoi/build/incident_segments.hpp"
-#include "core/segment_voronoi/verify/verify_segment_voronoi.hpp"
 
 namespace vorotool::core::segment_voronoi::verify {
 

@@ -12,6 +12,8 @@
 #include "core/kernel/lattice.hpp"
 #include "core/numbers/sign.hpp"
 #include "core/segment_voronoi/discs/exact_signs.hpp"
+#include "core/segment_voronoi/verify/verify_segment_voronoi.hpp"
+#include "core/segment_voronoi/verify/verify_vertices.hpp"
 
 namespace vorotool::core::segment_voronoi::verify {
 

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "core/base/monitor.hpp"
+#include "core/segment_voronoi/build/diagram.hpp"
 #include "core/segment_voronoi/build/incident_segments.hpp"
-#include "core/segment_voronoi/verify/verify_segment_voronoi.hpp"
-#include "core/segment_voronoi/verify/verify_vertices.hpp"
+#include "core/segment_voronoi/verify/closed_sites.hpp"
 
 namespace vorotool::core::segment_voronoi::verify {
 

@@ -3,13 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <span>
+#include <vector>
 
 #include "core/kernel/lattice.hpp"
 #include "core/numbers/int128.hpp"
 #include "core/segment_voronoi/discs/certified_disc.hpp"
 #include "core/segment_voronoi/discs/contact_order.hpp"
 #include "core/segment_voronoi/discs/exact_signs.hpp"
+#include "core/segment_voronoi/verify/verify_segment_voronoi.hpp"
 
 namespace vorotool::core::segment_voronoi::verify {
 
@@ -409,26 +413,7 @@ class Vertex {
   std::optional<ExactDisc> exact_;
 };
 
-std::vector<Site> closed_site_numbers(const RingedDiagram& arrays, const IncidentSegments& incident) {
-  std::vector<Site> numbers;
-  for (std::size_t i = 0; i < arrays.site_count(); ++i) {
-    const auto site = static_cast<Site>(i);
-    if (!arrays.is_point(site) || incident.at(site).empty()) numbers.push_back(site);
-  }
-  return numbers;
-}
-
-std::vector<LatticeSite> places_of(const RingedDiagram& arrays, std::span<const Site> numbers) {
-  std::vector<LatticeSite> sites;
-  for (const Site number : numbers) sites.push_back(arrays.site(number));
-  return sites;
-}
-
 }  // namespace
-
-ClosedSites::ClosedSites(const RingedDiagram& arrays, const IncidentSegments& incident, unsigned threads,
-                         const base::Monitor& monitor)
-    : numbers_(closed_site_numbers(arrays, incident)), tree_(places_of(arrays, numbers_), threads, monitor) {}
 
 Fault find_vertex_fault(const RingedDiagram& arrays, const IncidentSegments& incident,
                         const ClosedSites& index, std::size_t vertex) {
