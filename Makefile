@@ -9,7 +9,7 @@ BUILD   := build
 .DELETE_ON_ERROR:
 
 # ---- environment and build ------------------------------------------------------------------------------------
-CORE_SOURCES := $(wildcard src/core/*.cpp src/core/*.hpp src/bindings/*.cpp src/bindings/*.hpp) \
+CORE_SOURCES := $(shell find src/core src/bindings -name '*.[ch]pp') \
                 src/CMakeLists.txt src/core/CMakeLists.txt src/bindings/CMakeLists.txt
 
 $(BUILD)/.venv: pyproject.toml

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/large_array.hpp"
+#include "core/base/large_array.hpp"
 
 namespace vorotool::bindings {
 
@@ -69,10 +69,10 @@ nanobind::object two_columns(std::vector<std::array<Value, 2>>&& values) {
 
 // A NumPy array of the given shape that takes over the values.
 template <class T>
-nanobind::object to_numpy(core::LargeArray<T>&& values, std::initializer_list<std::size_t> shape) {
+nanobind::object to_numpy(core::base::LargeArray<T>&& values, std::initializer_list<std::size_t> shape) {
   T* data = values.release();
-  const nanobind::capsule owner(data,
-                                [](void* p) noexcept { core::LargeArray<T>::free(static_cast<T*>(p)); });
+  const nanobind::capsule owner(
+      data, [](void* p) noexcept { core::base::LargeArray<T>::free(static_cast<T*>(p)); });
   return nanobind::cast(nanobind::ndarray<nanobind::numpy, T>(data, shape, owner));
 }
 

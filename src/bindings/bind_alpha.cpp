@@ -6,10 +6,10 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/alpha_complex.hpp"
-#include "core/alpha_curves.hpp"
-#include "core/alpha_shape.hpp"
-#include "core/critical_radius.hpp"
+#include "core/alpha/alpha_complex.hpp"
+#include "core/alpha/alpha_curves.hpp"
+#include "core/alpha/alpha_shape.hpp"
+#include "core/alpha/critical_radius.hpp"
 #include "interrupts.hpp"
 #include "mesh_arrays.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using core::Monitor;
+using core::base::Monitor;
 using Values = Vector<const double>;
 
 // The binding trusts nobody with indices: a wrong one would read elsewhere.
@@ -34,8 +34,8 @@ nb::tuple edges_of_triangles(const IndexRows& triangles, const IndexRows& neighb
   if (triangles.shape(0) != neighbours.shape(0))
     throw std::invalid_argument("each triangle must have neighbours");
   check_indices(rows_of(neighbours, 3), -1, neighbours.shape(0));
-  core::EdgeArrays found = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::edges_of_triangles(rows_of(triangles, 3), rows_of(neighbours, 3), threads, monitor);
+  core::alpha::EdgeArrays found = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::alpha::edges_of_triangles(rows_of(triangles, 3), rows_of(neighbours, 3), threads, monitor);
   });
   const std::size_t rows = found.ends.size() / 2;
   return nb::make_tuple(to_numpy(std::move(found.ends), {rows, 2}),
@@ -44,15 +44,16 @@ nb::tuple edges_of_triangles(const IndexRows& triangles, const IndexRows& neighb
 
 nb::dict alpha_complex(const Matrix<const double>& points, const IndexRows& triangles, const IndexRows& edges,
                        const IndexRows& sides, bool printed, unsigned threads, nb::handle progress) {
-  const core::AlphaInput input{as_points(points), rows_of(triangles, 3), rows_of(edges, 2),
-                               rows_of(sides, 2)};
+  const core::alpha::AlphaInput input{as_points(points), rows_of(triangles, 3), rows_of(edges, 2),
+                                      rows_of(sides, 2)};
   if (edges.shape(0) != sides.shape(0)) throw std::invalid_argument("each edge must have sides");
   check_indices(input.triangles, 0, input.points.size());
   check_indices(input.edges, 0, input.points.size());
   check_indices(input.sides, -1, triangles.shape(0));
-  const auto rule = printed ? core::AlphaRule::printed : core::AlphaRule::corrected;
-  core::AlphaArrays found = run_interruptible(
-      progress, [&](const Monitor& monitor) { return core::alpha_complex(input, rule, threads, monitor); });
+  const auto rule = printed ? core::alpha::AlphaRule::printed : core::alpha::AlphaRule::corrected;
+  core::alpha::AlphaArrays found = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::alpha::alpha_complex(input, rule, threads, monitor);
+  });
   nb::dict out;
   const auto put = [&](const char* name, auto& values) {
     const std::size_t size = values.size();
@@ -70,7 +71,7 @@ nb::dict alpha_complex(const Matrix<const double>& points, const IndexRows& tria
   return out;
 }
 
-core::EdgeRanks ranks_of(const Indices& min, const Indices& mid, const Indices& max) {
+core::alpha::EdgeRanks ranks_of(const Indices& min, const Indices& mid, const Indices& max) {
   if (min.size() != mid.size() || min.size() != max.size())
     throw std::invalid_argument("ranks differ in length");
   return {view(min), view(mid), view(max)};
@@ -78,9 +79,9 @@ core::EdgeRanks ranks_of(const Indices& min, const Indices& mid, const Indices& 
 
 nb::tuple shape_edges(const Indices& min, const Indices& mid, const Indices& max, std::int32_t reached,
                       std::int32_t entered, unsigned threads, nb::handle progress) {
-  const core::EdgeRanks ranks = ranks_of(min, mid, max);
-  core::ShapeEdges found = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::shape_edges(ranks, reached, entered, threads, monitor);
+  const core::alpha::EdgeRanks ranks = ranks_of(min, mid, max);
+  core::alpha::ShapeEdges found = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::alpha::shape_edges(ranks, reached, entered, threads, monitor);
   });
   return nb::make_tuple(to_numpy(std::move(found.edge), {found.count}),
                         to_numpy(std::move(found.kind), {found.count}));
@@ -90,7 +91,7 @@ nb::object connected_triangles(const Vector<const std::uint8_t>& inside, const I
                                nb::handle progress) {
   check_indices(rows_of(sides, 2), -1, inside.size());
   return to_numpy(run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::connected_triangles(view(inside), rows_of(sides, 2), monitor);
+    return core::alpha::connected_triangles(view(inside), rows_of(sides, 2), monitor);
   }));
 }
 
@@ -100,8 +101,8 @@ nb::tuple trace_rings(const Matrix<const double>& points, const Indices& a, cons
     throw std::invalid_argument("columns differ in length");
   check_indices(view(a), 0, points.shape(0));
   check_indices(view(b), 0, points.shape(0));
-  core::Rings rings = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::trace_rings(as_points(points), view(a), view(b), view(region), monitor);
+  core::alpha::Rings rings = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::alpha::trace_rings(as_points(points), view(a), view(b), view(region), monitor);
   });
   return nb::make_tuple(to_numpy(std::move(rings.vertex)), to_numpy(std::move(rings.start)),
                         to_numpy(std::move(rings.region)), to_numpy(std::move(rings.is_hole)));
@@ -110,8 +111,8 @@ nb::tuple trace_rings(const Matrix<const double>& points, const Indices& a, cons
 nb::dict alpha_curves(std::size_t spectrum, const Indices& triangle_rank, const Indices& min,
                       const Indices& mid, const Indices& max, const IndexRows& sides, const Values& area,
                       const Values& length, nb::handle progress) {
-  const core::CurveInput input{spectrum,          view(triangle_rank), ranks_of(min, mid, max),
-                               rows_of(sides, 2), view(area),          view(length)};
+  const core::alpha::CurveInput input{spectrum,          view(triangle_rank), ranks_of(min, mid, max),
+                                      rows_of(sides, 2), view(area),          view(length)};
   if (area.size() != triangle_rank.size() || length.size() != min.size() || sides.shape(0) != min.size()) {
     throw std::invalid_argument("columns differ in length");
   }
@@ -119,8 +120,8 @@ nb::dict alpha_curves(std::size_t spectrum, const Indices& triangle_rank, const 
     check_indices(ranks, 0, spectrum + 1);
   }
   check_indices(input.sides, -1, triangle_rank.size());
-  core::Curves found =
-      run_interruptible(progress, [&](const Monitor& monitor) { return core::alpha_curves(input, monitor); });
+  core::alpha::Curves found = run_interruptible(
+      progress, [&](const Monitor& monitor) { return core::alpha::alpha_curves(input, monitor); });
   nb::dict out;
   out["area"] = to_numpy(std::move(found.area), {spectrum});
   out["perimeter"] = to_numpy(std::move(found.perimeter), {spectrum});
@@ -131,7 +132,7 @@ nb::dict alpha_curves(std::size_t spectrum, const Indices& triangle_rank, const 
 }
 
 // Supports are rows of three points, or of two with the first one repeated.
-core::Support support_of(const double* p) {
+core::alpha::Support support_of(const double* p) {
   const bool is_edge = p[0] == p[4] && p[1] == p[5];
   return {{p[0], p[1]}, {p[2], p[3]}, {p[4], p[5]}, !is_edge};
 }
@@ -140,7 +141,7 @@ nb::object critical_radii(const Matrix<const double>& supports) {
   if (supports.shape(1) != 6) throw std::invalid_argument("supports must have six columns");
   std::vector<double> radii(supports.shape(0));
   for (std::size_t i = 0; i < radii.size(); ++i)
-    radii[i] = core::critical_radius(support_of(supports.data() + 6 * i));
+    radii[i] = core::alpha::critical_radius(support_of(supports.data() + 6 * i));
   return to_numpy(std::move(radii));
 }
 
@@ -151,7 +152,7 @@ nb::object compare_radii(const Matrix<const double>& p, const Matrix<const doubl
   std::vector<std::int8_t> signs(p.shape(0));
   for (std::size_t i = 0; i < signs.size(); ++i) {
     signs[i] = static_cast<std::int8_t>(
-        core::compare_radii(support_of(p.data() + 6 * i), support_of(q.data() + 6 * i)));
+        core::alpha::compare_radii(support_of(p.data() + 6 * i), support_of(q.data() + 6 * i)));
   }
   return to_numpy(std::move(signs));
 }

@@ -12,10 +12,10 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/cell_measures.hpp"
-#include "core/nearest_neighbours.hpp"
-#include "core/verify_cells.hpp"
-#include "core/voronoi_cells.hpp"
+#include "core/cells/cell_measures.hpp"
+#include "core/cells/verify_cells.hpp"
+#include "core/cells/voronoi_cells.hpp"
+#include "core/delaunay/nearest_neighbours.hpp"
 #include "interrupts.hpp"
 #include "mesh_arrays.hpp"
 
@@ -24,17 +24,18 @@ namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using core::Monitor;
+using core::base::Monitor;
 
 // Vertices of the rings, and where each ring starts.
 nb::tuple voronoi_cells(const Matrix<const double>& points, const IndexRows& triangles,
                         const IndexRows& neighbours, const Indices& hull, const Indices& first,
                         const std::array<double, 4>& frame, unsigned threads, nb::handle progress) {
-  const core::TriangulationArrays mesh =
+  const core::delaunay::TriangulationArrays mesh =
       mesh_arrays(points, triangles, neighbours, {}, view(hull), view(first));
-  const core::Box box{frame[0], frame[1], frame[2], frame[3]};
-  core::VoronoiCells cells = run_interruptible(
-      progress, [&](const Monitor& monitor) { return core::voronoi_cells(mesh, box, threads, monitor); });
+  const core::cells::Box box{frame[0], frame[1], frame[2], frame[3]};
+  core::cells::VoronoiCells cells = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::cells::voronoi_cells(mesh, box, threads, monitor);
+  });
   return nb::make_tuple(points_to_numpy(std::move(cells.vertices)), to_numpy(std::move(cells.starts)));
 }
 
@@ -42,22 +43,23 @@ std::optional<std::string> cell_fault(const Matrix<const double>& sites, const M
                                       const Vector<const std::int64_t>& starts,
                                       const std::array<double, 4>& frame, unsigned threads,
                                       nb::handle progress) {
-  const core::CellRings cells{as_points(sites), as_points(vertices), view(starts)};
+  const core::cells::CellRings cells{as_points(sites), as_points(vertices), view(starts)};
   if (cells.starts.size() != cells.sites.size() + 1)
     throw std::invalid_argument("there must be one ring a site");
-  const core::Box box{frame[0], frame[1], frame[2], frame[3]};
-  return run_interruptible(
-      progress, [&](const Monitor& monitor) { return core::find_cell_fault(cells, box, threads, monitor); });
+  const core::cells::Box box{frame[0], frame[1], frame[2], frame[3]};
+  return run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::cells::find_cell_fault(cells, box, threads, monitor);
+  });
 }
 
 // The nearest point of each, and its number of neighbours.
 nb::tuple nearest_neighbours(const Matrix<const double>& points, const IndexRows& edges,
                              const Vector<const std::int64_t>& labels, nb::handle progress) {
-  const std::span<const core::Point> sites = as_points(points);
+  const std::span<const core::kernel::Point> sites = as_points(points);
   const std::span<const std::int32_t> ends = rows_of(edges, 2);
   if (labels.size() != sites.size()) throw std::invalid_argument("there must be one label a point");
-  core::NearestNeighbours found = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::nearest_neighbours(sites, ends, view(labels), monitor);
+  core::delaunay::NearestNeighbours found = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::delaunay::nearest_neighbours(sites, ends, view(labels), monitor);
   });
   return nb::make_tuple(to_numpy(std::move(found.nearest)), to_numpy(std::move(found.count)));
 }
@@ -66,12 +68,13 @@ nb::tuple nearest_neighbours(const Matrix<const double>& points, const IndexRows
 nb::tuple measure_cells(const Matrix<const double>& sites, const Matrix<const double>& vertices,
                         const Vector<const std::int64_t>& rings, const Vector<const std::int64_t>& cell_rings,
                         const std::array<double, 4>& frame, unsigned threads, nb::handle progress) {
-  const core::CellOutlines cells{as_points(sites), as_points(vertices), view(rings), view(cell_rings)};
+  const core::cells::CellOutlines cells{as_points(sites), as_points(vertices), view(rings), view(cell_rings)};
   if (cells.cell_rings.size() != cells.sites.size() + 1)
     throw std::invalid_argument("there must be one cell a site");
-  const core::Box box{frame[0], frame[1], frame[2], frame[3]};
-  core::CellMeasures measures = run_interruptible(
-      progress, [&](const Monitor& monitor) { return core::measure_cells(cells, box, threads, monitor); });
+  const core::cells::Box box{frame[0], frame[1], frame[2], frame[3]};
+  core::cells::CellMeasures measures = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::cells::measure_cells(cells, box, threads, monitor);
+  });
   return nb::make_tuple(to_numpy(std::move(measures.area)), to_numpy(std::move(measures.perimeter)),
                         to_numpy(std::move(measures.reach)), to_numpy(std::move(measures.touches_frame)));
 }

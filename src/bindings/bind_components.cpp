@@ -3,8 +3,8 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/components.hpp"
-#include "core/streaming_components.hpp"
+#include "core/label_images/connected_components.hpp"
+#include "core/label_images/streaming_components.hpp"
 #include "interrupts.hpp"
 
 namespace vorotool::bindings {
@@ -12,9 +12,9 @@ namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using core::Connectivity;
-using core::Monitor;
-using core::StreamingComponents;
+using core::base::Monitor;
+using core::label_images::Connectivity;
+using core::label_images::StreamingComponents;
 
 Connectivity connectivity_of(bool corners) { return corners ? Connectivity::eight : Connectivity::four; }
 
@@ -26,7 +26,8 @@ void require(bool fits) {
 std::uint32_t label_components(Matrix<const std::uint8_t> mask, bool corners, Matrix<std::uint32_t> out,
                                nb::object progress) {
   return run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::label_components(view(mask), mask.shape(1), connectivity_of(corners), view(out), monitor);
+    return core::label_images::label_components(view(mask), mask.shape(1), connectivity_of(corners),
+                                                view(out), monitor);
   });
 }
 
@@ -47,7 +48,8 @@ void number_band(Matrix<const std::uint8_t> mask, bool corners, Vector<const std
                  Vector<const std::uint32_t> fresh, Matrix<std::uint32_t> out, nb::object progress) {
   require(mask.shape(1) == above.size() && mask.size() == out.size());
   run_interruptible(progress, [&](const Monitor& monitor) {
-    core::number_band(view(mask), connectivity_of(corners), view(above), view(fresh), view(out), monitor);
+    core::label_images::number_band(view(mask), connectivity_of(corners), view(above), view(fresh), view(out),
+                                    monitor);
   });
 }
 

@@ -11,10 +11,10 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/delaunay_mesh.hpp"
-#include "core/large_array.hpp"
-#include "core/local_insertion.hpp"
-#include "core/verify_triangulation.hpp"
+#include "core/base/large_array.hpp"
+#include "core/delaunay/delaunay_triangulation.hpp"
+#include "core/delaunay/point_insertion.hpp"
+#include "core/delaunay/verify_triangulation.hpp"
 #include "interrupts.hpp"
 #include "mesh_arrays.hpp"
 
@@ -23,12 +23,12 @@ namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using core::DelaunayMesh;
-using core::Monitor;
-using core::Point;
+using core::base::Monitor;
+using core::delaunay::DelaunayMesh;
+using core::kernel::Point;
 
 nb::object copied(std::span<const std::int32_t> values) {
-  core::LargeArray<std::int32_t> kept(values.size());
+  core::base::LargeArray<std::int32_t> kept(values.size());
   std::copy(values.begin(), values.end(), kept.data());
   return to_numpy(std::move(kept), {values.size()});
 }
@@ -42,7 +42,8 @@ void make_mesh(DelaunayMesh* self, const Matrix<const double>& array, unsigned t
 // Triangles, their neighbours, and edges.
 nb::tuple arrays_of(const DelaunayMesh& mesh, unsigned threads, nb::handle progress) {
   const std::size_t rows = mesh.triangle_count();
-  core::LargeArray<std::int32_t> triangles(3 * rows), neighbours(3 * rows), edges(2 * mesh.edge_count());
+  core::base::LargeArray<std::int32_t> triangles(3 * rows), neighbours(3 * rows),
+      edges(2 * mesh.edge_count());
   run_interruptible(progress, [&](const Monitor& monitor) {
     mesh.write({triangles.data(), neighbours.data(), edges.data()}, threads, monitor);
   });
@@ -56,19 +57,20 @@ nb::object insert_points(const Matrix<const double>& points, const IndexRows& tr
                          const IndexRows& neighbours, const IndexRows& edges, const Indices& hull,
                          const Indices& first, const Indices& hints, unsigned threads, nb::handle progress) {
   const std::span<const Point> all = as_points(points);
-  const core::TriangulationArrays mesh{all.first(std::min(first.size(), all.size())),
-                                       rows_of(triangles, 3),
-                                       rows_of(neighbours, 3),
-                                       rows_of(edges, 2),
-                                       view(hull),
-                                       view(first)};
+  const core::delaunay::TriangulationArrays mesh{all.first(std::min(first.size(), all.size())),
+                                                 rows_of(triangles, 3),
+                                                 rows_of(neighbours, 3),
+                                                 rows_of(edges, 2),
+                                                 view(hull),
+                                                 view(first)};
   if (first.size() > all.size() || neighbours.size() != triangles.size() ||
       (hints.size() != 0 && hints.size() != all.size() - first.size())) {
     throw std::invalid_argument("the arrays of a triangulation have lengths that do not go together");
   }
-  std::optional<core::InsertedArrays> made = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::insert_points(mesh, all, view(hints), threads, monitor);
-  });
+  std::optional<core::delaunay::InsertedArrays> made =
+      run_interruptible(progress, [&](const Monitor& monitor) {
+        return core::delaunay::insert_points(mesh, all, view(hints), threads, monitor);
+      });
   if (!made) return nb::none();
   const std::size_t rows = made->triangles.size() / 3, links = made->edges.size() / 2;
   return nb::make_tuple(to_numpy(std::move(made->triangles), {rows, 3}),
@@ -81,10 +83,10 @@ std::optional<std::string> triangulation_fault(const Matrix<const double>& point
                                                const IndexRows& neighbours, const IndexRows& edges,
                                                const Indices& hull, const Indices& first, unsigned threads,
                                                nb::handle progress) {
-  const core::TriangulationArrays arrays =
+  const core::delaunay::TriangulationArrays arrays =
       mesh_arrays(points, triangles, neighbours, rows_of(edges, 2), view(hull), view(first));
   return run_interruptible(
-      progress, [&](const Monitor& monitor) { return core::find_fault(arrays, threads, monitor); });
+      progress, [&](const Monitor& monitor) { return core::delaunay::find_fault(arrays, threads, monitor); });
 }
 
 }  // namespace

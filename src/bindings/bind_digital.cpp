@@ -6,9 +6,9 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/delaunay_mesh.hpp"
-#include "core/digital_delaunay.hpp"
-#include "core/digital_triangulation.hpp"
+#include "core/delaunay/delaunay_triangulation.hpp"
+#include "core/digital/digital_repair.hpp"
+#include "core/digital/digital_triangulation.hpp"
 #include "interrupts.hpp"
 
 namespace vorotool::bindings {
@@ -16,14 +16,14 @@ namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using core::DelaunayMesh;
-using core::DigitalRepair;
-using core::DigitalTriangulationScan;
-using core::LabelPair;
-using core::LabelTriple;
-using core::Monitor;
-using core::OrderedPoints;
-using core::Point;
+using core::base::Monitor;
+using core::delaunay::DelaunayMesh;
+using core::delaunay::OrderedPoints;
+using core::digital::DigitalRepair;
+using core::digital::DigitalTriangulationScan;
+using core::digital::LabelPair;
+using core::digital::LabelTriple;
+using core::kernel::Point;
 using Coordinates = Vector<const std::int64_t>;
 
 template <class Label>
@@ -75,12 +75,12 @@ nb::tuple digital_mesh(const Matrix<const double>& points, const Coordinates& x,
                        std::int64_t frame_y, unsigned threads, nb::handle progress) {
   if (x.size() != points.shape(0) || y.size() != points.shape(0))
     throw std::invalid_argument("sites and points differ in number");
-  const core::PixelFrame frame{frame_x, frame_y, image.shape(1), image.shape(0)};
+  const core::tessellation::PixelFrame frame{frame_x, frame_y, image.shape(1), image.shape(0)};
   DigitalRepair repair;
   DelaunayMesh mesh = run_interruptible(progress, [&](const Monitor& monitor) {
     const auto triangulate = [&](const OrderedPoints& ordered) {
-      return core::digital_delaunay(view(image), frame, {view(x), view(y), scale}, ordered, repair, threads,
-                                    monitor);
+      return core::digital::digital_delaunay(view(image), frame, {view(x), view(y), scale}, ordered, repair,
+                                             threads, monitor);
     };
     return DelaunayMesh(as_points(points), triangulate, threads, monitor);
   });
@@ -90,7 +90,7 @@ nb::tuple digital_mesh(const Matrix<const double>& points, const Coordinates& x,
 DelaunayMesh inserted_mesh(const Matrix<const double>& points, unsigned threads, nb::handle progress) {
   return run_interruptible(progress, [&](const Monitor& monitor) {
     const auto triangulate = [&](const OrderedPoints& ordered) {
-      return core::delaunay_by_insertion(ordered, monitor);
+      return core::digital::delaunay_by_insertion(ordered, monitor);
     };
     return DelaunayMesh(as_points(points), triangulate, threads, monitor);
   });

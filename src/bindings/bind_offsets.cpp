@@ -8,7 +8,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/offset_curves.hpp"
+#include "core/offsets/offset_curves.hpp"
 #include "diagram_arrays.hpp"
 #include "interrupts.hpp"
 
@@ -17,13 +17,14 @@ namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using core::Monitor;
-using core::OffsetCurves;
+using core::base::Monitor;
+using core::offsets::OffsetCurves;
 using Indices = Vector<const std::int32_t>;
 
 // What the sites around vertices and the polygons of all parts must be for the core to index by them.
-void check(const core::SegmentDiagram& diagram, const Indices& vertex_start, const Indices& edge_face,
-           std::span<const Pair> segment_faces, const Indices& face_polygon, const Indices& site_polygon) {
+void check(const core::segment_voronoi::build::SegmentDiagram& diagram, const Indices& vertex_start,
+           const Indices& edge_face, std::span<const Pair> segment_faces, const Indices& face_polygon,
+           const Indices& site_polygon) {
   const std::span<const std::int32_t> starts = view(vertex_start);
   if (starts.size() != diagram.radius.size() + 1 || edge_face.size() != diagram.edges.size() ||
       segment_faces.size() != diagram.segments.size() ||
@@ -72,20 +73,20 @@ nb::list offset_curves(const IndexRows& points, const IndexRows& segments, const
                        const std::vector<double>& distances, double origin_x, double origin_y, double scale,
                        nb::handle progress) {
   const DiagramArrays arrays{points, segments, vertices, radius, edges, edge_sites};
-  const core::SegmentDiagram diagram = arrays.diagram();
+  const core::segment_voronoi::build::SegmentDiagram diagram = arrays.diagram();
   const std::span<const Pair> faces = rows<Pair>(segment_faces);
   check(diagram, vertex_start, edge_face, faces, face_polygon, site_polygon);
   if (site_feature.size() != site_polygon.size())
     throw std::invalid_argument("each site must have a feature");
   check_rings(vertex_start, vertex_sites);
   std::vector<OffsetCurves> made = run_interruptible(progress, [&](const Monitor& monitor) {
-    const core::CellBorders borders(diagram, view(vertex_start), view(vertex_sites));
+    const core::offsets::CellBorders borders(diagram, view(vertex_start), view(vertex_sites));
     std::vector<OffsetCurves> all;
     for (const double distance : distances) {
-      const core::OffsetDomain domain{view(edge_face),    faces,       view(face_polygon), view(site_polygon),
-                                      view(site_feature), distance > 0};
-      all.push_back(
-          core::offset_curves(borders, domain, std::abs(distance), {origin_x, origin_y, scale}, monitor));
+      const core::offsets::OffsetDomain domain{
+          view(edge_face), faces, view(face_polygon), view(site_polygon), view(site_feature), distance > 0};
+      all.push_back(core::offsets::offset_curves(borders, domain, std::abs(distance),
+                                                 {origin_x, origin_y, scale}, monitor));
     }
     return all;
   });

@@ -7,8 +7,8 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/crack_outlines.hpp"
-#include "core/parallel.hpp"
+#include "core/base/parallel.hpp"
+#include "core/label_images/crack_outlines.hpp"
 #include "interrupts.hpp"
 
 namespace vorotool::bindings {
@@ -16,30 +16,30 @@ namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using core::Monitor;
+using core::base::Monitor;
 
 template <class Label>
 std::size_t count_crack_vertices(const Matrix<const Label>& labels, unsigned threads, nb::object progress) {
   return run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::count_crack_vertices<Label>(view(labels), labels.shape(1), core::resolve_threads(threads),
-                                             monitor);
+    return core::label_images::count_crack_vertices<Label>(view(labels), labels.shape(1),
+                                                           core::base::resolve_threads(threads), monitor);
   });
 }
 
-core::CornerRule corner_rule(const std::string& name) {
-  if (name == "apart") return core::CornerRule::apart;
-  if (name == "divided") return core::CornerRule::divided;
-  if (name == "joined") return core::CornerRule::joined;
-  if (name == "yielding") return core::CornerRule::yielding;
+core::label_images::CornerRule corner_rule(const std::string& name) {
+  if (name == "apart") return core::label_images::CornerRule::apart;
+  if (name == "divided") return core::label_images::CornerRule::divided;
+  if (name == "joined") return core::label_images::CornerRule::joined;
+  if (name == "yielding") return core::label_images::CornerRule::yielding;
   throw std::invalid_argument("a corner rule is apart, divided, joined or yielding");
 }
 
 template <class Label>
 nb::dict trace_cracks(const Matrix<const Label>& labels, const std::string& rule, unsigned threads,
                       nb::object progress) {
-  core::CrackOutlines made = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::trace_cracks<Label>(view(labels), labels.shape(1), corner_rule(rule),
-                                     core::resolve_threads(threads), monitor);
+  core::label_images::CrackOutlines made = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::label_images::trace_cracks<Label>(view(labels), labels.shape(1), corner_rule(rule),
+                                                   core::base::resolve_threads(threads), monitor);
   });
   nb::dict result;
   result["corners"] = two_columns(std::move(made.corners));

@@ -6,7 +6,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/packed_bytes.hpp"
+#include "core/compression/packed_bytes.hpp"
 #include "interrupts.hpp"
 
 namespace vorotool::bindings {
@@ -21,17 +21,18 @@ std::span<const std::uint8_t> bytes_of(const nb::bytes& data) {
 nb::object unpack_lzw(const nb::bytes& data, std::size_t limit) {
   const std::span<const std::uint8_t> packed = bytes_of(data);
   try {
-    return to_numpy(run_interruptible(
-        nb::none(), [&](const core::Monitor& monitor) { return core::unpack_lzw(packed, limit, monitor); }));
-  } catch (const core::DamagedCode& error) {
+    return to_numpy(run_interruptible(nb::none(), [&](const core::base::Monitor& monitor) {
+      return core::compression::unpack_lzw(packed, limit, monitor);
+    }));
+  } catch (const core::compression::DamagedCode& error) {
     throw nb::value_error(error.what());
   }
 }
 
 nb::object unpack_packbits(const nb::bytes& data, std::size_t limit) {
   const std::span<const std::uint8_t> packed = bytes_of(data);
-  return to_numpy(run_interruptible(nb::none(), [&](const core::Monitor& monitor) {
-    return core::unpack_packbits(packed, limit, monitor);
+  return to_numpy(run_interruptible(nb::none(), [&](const core::base::Monitor& monitor) {
+    return core::compression::unpack_packbits(packed, limit, monitor);
   }));
 }
 

@@ -9,7 +9,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/longest_paths.hpp"
+#include "core/graphs/longest_paths.hpp"
 #include "interrupts.hpp"
 
 namespace vorotool::bindings {
@@ -17,8 +17,8 @@ namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using core::GraphPath;
-using core::Monitor;
+using core::base::Monitor;
+using core::graphs::GraphPath;
 using Pair = std::array<std::int32_t, 2>;
 
 std::span<const Pair> checked(const Matrix<const std::int32_t>& arcs, const Vector<const double>& length,
@@ -44,8 +44,8 @@ nb::tuple longest_paths(const Matrix<const std::int32_t>& arcs, const Vector<con
       throw std::invalid_argument("a group is out of range");
   }
   std::vector<GraphPath> paths = run_interruptible(progress, [&](const Monitor& monitor) {
-    const std::vector<std::int64_t> whole = core::whole_lengths(view(length), view(group), groups);
-    return core::longest_paths(pairs, whole, view(group), groups, nodes, tie, monitor);
+    const std::vector<std::int64_t> whole = core::graphs::whole_lengths(view(length), view(group), groups);
+    return core::graphs::longest_paths(pairs, whole, view(group), groups, nodes, tie, monitor);
   });
   std::vector<std::int64_t> start{0};
   std::vector<std::int32_t> path_arcs, path_nodes;
@@ -67,7 +67,8 @@ nb::object path_from(const Matrix<const std::int32_t>& arcs, const Vector<const 
   }
   GraphPath path = run_interruptible(progress, [&](const Monitor& monitor) {
     const std::vector<std::int32_t> group(pairs.size());
-    return core::path_from(pairs, core::whole_lengths(view(length), group, 1), nodes, first, last, monitor);
+    return core::graphs::path_from(pairs, core::graphs::whole_lengths(view(length), group, 1), nodes, first,
+                                   last, monitor);
   });
   if (path.nodes.empty()) return nb::none();
   path.nodes.erase(path.nodes.begin());

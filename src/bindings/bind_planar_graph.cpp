@@ -13,12 +13,12 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/border_rings.hpp"
-#include "core/disjoint_boxes.hpp"
-#include "core/placement.hpp"
-#include "core/planar_graph.hpp"
-#include "core/segment_set.hpp"
-#include "core/verify_planar_graph.hpp"
+#include "core/arrangement/boundary_rings.hpp"
+#include "core/arrangement/lattice_placement.hpp"
+#include "core/arrangement/planar_graph.hpp"
+#include "core/arrangement/segment_set.hpp"
+#include "core/arrangement/verify_planar_graph.hpp"
+#include "core/spatial/disjoint_boxes.hpp"
 #include "interrupts.hpp"
 
 namespace vorotool::bindings {
@@ -26,8 +26,8 @@ namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using core::LatticePoint;
-using core::Monitor;
+using core::base::Monitor;
+using core::kernel::LatticePoint;
 using IndexRows = Matrix<const std::int32_t>;
 
 static_assert(sizeof(LatticePoint) == 2 * sizeof(std::int32_t));
@@ -39,7 +39,7 @@ std::span<const LatticePoint> as_lattice_points(const IndexRows& array) {
 
 // An (n, 2) array of the values, which come in pairs.
 nb::object pairs(std::span<const std::int32_t> values) {
-  core::LargeArray<std::int32_t> kept(values.size());
+  core::base::LargeArray<std::int32_t> kept(values.size());
   std::copy(values.begin(), values.end(), kept.data());
   return to_numpy(std::move(kept), {values.size() / 2, 2});
 }
@@ -51,38 +51,41 @@ nb::object pairs(const std::vector<LatticePoint>& points) {
 // Lattice points, origin, exponent and the largest move.
 nb::tuple place_on_lattice(const Matrix<const double>& array, unsigned threads, nb::handle progress) {
   if (array.shape(1) != 2) throw std::invalid_argument("points must have two columns");
-  const std::span<const core::Point> points{reinterpret_cast<const core::Point*>(array.data()),
-                                            array.shape(0)};
-  const core::Placement placed = run_interruptible(
-      progress, [&](const Monitor& monitor) { return core::place_on_lattice(points, threads, monitor); });
+  const std::span<const core::kernel::Point> points{
+      reinterpret_cast<const core::kernel::Point*>(array.data()), array.shape(0)};
+  const core::arrangement::Placement placed = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::arrangement::place_on_lattice(points, threads, monitor);
+  });
   return nb::make_tuple(pairs(placed.points), nb::make_tuple(placed.origin_x, placed.origin_y),
                         placed.exponent, placed.largest_move);
 }
 
 nb::object first_at_place(const IndexRows& points, nb::handle progress) {
   const std::span<const LatticePoint> vertices = as_lattice_points(points);
-  return to_numpy(run_interruptible(
-      progress, [&](const Monitor& monitor) { return core::first_at_place(vertices, monitor); }));
+  return to_numpy(run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::arrangement::first_at_place(vertices, monitor);
+  }));
 }
 
 // The sheet of each box, with the columns least x, least y, most x, most y.
 nb::object disjoint_sheets(const Matrix<const std::int64_t>& boxes, nb::handle progress) {
-  const std::span<const core::ClosedBox> closed = rows<core::ClosedBox, 4>(boxes);
+  const std::span<const core::spatial::ClosedBox> closed = rows<core::spatial::ClosedBox, 4>(boxes);
   return to_numpy(run_interruptible(
-      progress, [&](const Monitor& monitor) { return core::disjoint_sheets(closed, monitor); }));
+      progress, [&](const Monitor& monitor) { return core::spatial::disjoint_sheets(closed, monitor); }));
 }
 
 nb::dict make_planar_graph(const IndexRows& array, const Vector<const std::int64_t>& ring_start,
                            const Vector<const std::int8_t>& ring_kind,
                            const Vector<const std::int32_t>& ring_polygon, nb::handle progress) {
   const std::span<const LatticePoint> vertices = as_lattice_points(array);
-  const core::Rings rings{view(ring_start), view(ring_kind), view(ring_polygon)};
+  const core::arrangement::Rings rings{view(ring_start), view(ring_kind), view(ring_polygon)};
   if (rings.start.size() != rings.kind.size() + 1 || rings.kind.size() != rings.polygon.size() ||
       static_cast<std::size_t>(rings.start.back()) != vertices.size()) {
     throw std::invalid_argument("the arrays of rings have lengths that do not go together");
   }
-  core::PlanarGraph graph = run_interruptible(
-      progress, [&](const Monitor& monitor) { return core::make_planar_graph(vertices, rings, monitor); });
+  core::arrangement::PlanarGraph graph = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::arrangement::make_planar_graph(vertices, rings, monitor);
+  });
   nb::dict result;
   result["points"] = pairs(graph.points);
   result["point_vertex"] = to_numpy(std::move(graph.point_vertex));
@@ -94,7 +97,7 @@ nb::dict make_planar_graph(const IndexRows& array, const Vector<const std::int64
   result["face_polygon"] = to_numpy(std::move(graph.face_polygons.polygon));
   result["point_holes"] = to_numpy(std::move(graph.point_holes));
   nb::list repairs;
-  for (const core::RepairCount& repair : graph.repairs) {
+  for (const core::arrangement::RepairCount& repair : graph.repairs) {
     repairs.append(nb::make_tuple(repair.count, repair.edge, repair.other));
   }
   result["repairs"] = repairs;
@@ -105,13 +108,13 @@ nb::dict make_planar_graph(const IndexRows& array, const Vector<const std::int64
 nb::dict border_rings(const IndexRows& points, const IndexRows& segments, const IndexRows& segment_faces,
                       const Vector<const std::int32_t>& face_start,
                       const Vector<const std::int32_t>& face_polygon, nb::handle progress) {
-  const core::BorderGraph graph{as_lattice_points(points), view(segments), view(segment_faces),
-                                view(face_start), view(face_polygon)};
+  const core::arrangement::BorderGraph graph{as_lattice_points(points), view(segments), view(segment_faces),
+                                             view(face_start), view(face_polygon)};
   if (graph.segment_faces.size() != graph.segments.size() || graph.face_start.empty()) {
     throw std::invalid_argument("the arrays of a planar graph have lengths that do not go together");
   }
-  core::BorderRings rings =
-      run_interruptible(progress, [&](const Monitor&) { return core::find_border_rings(graph); });
+  core::arrangement::BorderRings rings = run_interruptible(
+      progress, [&](const Monitor&) { return core::arrangement::find_border_rings(graph); });
   nb::dict result;
   result["start"] = to_numpy(std::move(rings.start));
   result["point"] = to_numpy(std::move(rings.point));
@@ -127,17 +130,17 @@ std::optional<std::string> planar_graph_fault(const IndexRows& points, const Ind
   if (segments.shape(1) != 2 || (faces && (faces->shape(1) != 2 || faces->size() != segments.size()))) {
     throw std::invalid_argument("segments and their faces must have two columns and as many rows");
   }
-  const core::GraphArrays graph{as_lattice_points(points), view(segments),
-                                faces ? view(*faces) : std::span<const std::int32_t>{}};
-  return run_interruptible(progress,
-                           [&](const Monitor& monitor) { return core::find_fault(graph, monitor); });
+  const core::arrangement::GraphArrays graph{as_lattice_points(points), view(segments),
+                                             faces ? view(*faces) : std::span<const std::int32_t>{}};
+  return run_interruptible(
+      progress, [&](const Monitor& monitor) { return core::arrangement::find_fault(graph, monitor); });
 }
 
 }  // namespace
 
 void bind_planar_graph(nb::module_& module) {
-  nb::exception<core::TooManyCrossings>(module, "TooManyCrossingsError", PyExc_ValueError);
-  nb::exception<core::TooManyOverlaps>(module, "TooManyOverlapsError", PyExc_ValueError);
+  nb::exception<core::arrangement::TooManyCrossings>(module, "TooManyCrossingsError", PyExc_ValueError);
+  nb::exception<core::arrangement::TooManyOverlaps>(module, "TooManyOverlapsError", PyExc_ValueError);
   module.def("place_on_lattice", &place_on_lattice, "points"_a.noconvert(), "threads"_a, "progress"_a.none());
   module.def("first_at_place", &first_at_place, "points"_a.noconvert(), "progress"_a.none());
   module.def("disjoint_sheets", &disjoint_sheets, "boxes"_a.noconvert(), "progress"_a.none());

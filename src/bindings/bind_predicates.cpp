@@ -9,15 +9,14 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/predicate_levels.hpp"
-#include "core/predicates.hpp"
+#include "core/kernel/predicates.hpp"
 
 namespace vorotool::bindings {
 namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using core::Point;
+using core::kernel::Point;
 
 template <std::size_t n>
 using PointTuples = Aligned<const double, nb::shape<-1, n, 2>, nb::c_contig, nb::device::cpu>;
@@ -54,29 +53,29 @@ nb::object signs(const PointTuples<n>& tuples, Sign sign) {
 
 // The filter of orient2d that the triangulation uses.
 int seen_side(const Point& a, const Point& b, const Point& c) {
-  return core::side_filter(core::seen_from(a, b, c));
+  return core::kernel::side_filter(core::kernel::seen_from(a, b, c));
 }
 
 nb::object orient2d(PointTuples<3> points, const std::string& name) {
   using Predicate = int (*)(const Point&, const Point&, const Point&);
-  static constexpr Level<Predicate> levels[] = {{"auto", core::orient2d},
-                                                {"filter", core::orient2d_filter},
+  static constexpr Level<Predicate> levels[] = {{"auto", core::kernel::orient2d},
+                                                {"filter", core::kernel::orient2d_filter},
                                                 {"seen", seen_side},
-                                                {"integers", core::orient2d_integers},
-                                                {"expansions", core::orient2d_expansions},
-                                                {"wide", core::orient2d_wide}};
+                                                {"integers", core::kernel::orient2d_integers},
+                                                {"expansions", core::kernel::orient2d_expansions},
+                                                {"wide", core::kernel::orient2d_wide}};
   const Predicate predicate = find_level(levels, name);
   return signs<3>(points, [&](const std::vector<Point>& p) { return predicate(p[0], p[1], p[2]); });
 }
 
 nb::object incircle(PointTuples<4> points, const std::string& name) {
   using Predicate = int (*)(const Point&, const Point&, const Point&, const Point&);
-  static constexpr Level<Predicate> levels[] = {{"auto", core::incircle},
-                                                {"filter", core::incircle_filter},
-                                                {"seen", core::incircle_filter},
-                                                {"integers", core::incircle_integers},
-                                                {"expansions", core::incircle_expansions},
-                                                {"wide", core::incircle_wide}};
+  static constexpr Level<Predicate> levels[] = {{"auto", core::kernel::incircle},
+                                                {"filter", core::kernel::incircle_filter},
+                                                {"seen", core::kernel::incircle_filter},
+                                                {"integers", core::kernel::incircle_integers},
+                                                {"expansions", core::kernel::incircle_expansions},
+                                                {"wide", core::kernel::incircle_wide}};
   const Predicate predicate = find_level(levels, name);
   return signs<4>(points, [&](const std::vector<Point>& p) { return predicate(p[0], p[1], p[2], p[3]); });
 }

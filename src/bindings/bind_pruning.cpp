@@ -8,9 +8,9 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/arc_profile.hpp"
-#include "core/critical_values.hpp"
-#include "core/skeleton_pruning.hpp"
+#include "core/pruning/arc_profile.hpp"
+#include "core/pruning/critical_values.hpp"
+#include "core/pruning/pruning.hpp"
 #include "interrupts.hpp"
 
 namespace vorotool::bindings {
@@ -18,8 +18,8 @@ namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using core::Monitor;
-using core::Place;
+using core::base::Monitor;
+using core::skeleton::Place;
 using Pair = std::array<std::int32_t, 2>;
 
 // The arrays of a skeleton, kept while the core works on views of them.
@@ -48,17 +48,17 @@ struct SkeletonInput {
         reach(nb::cast<double>(arrays[9])) {}
 
   // Without the ends of sites only for what looks at none.
-  core::SkeletonView skeleton(bool needs_sites = true) const {
-    const core::SkeletonView s{rows<Place>(vertices),
-                               view(radius),
-                               rows<Pair>(arcs),
-                               rows<Place>(control),
-                               rows<Pair>(sites),
-                               view(length),
-                               rows<std::array<Place, 2>, 4>(site_ends),
-                               view(is_anchored),
-                               has_gap,
-                               reach};
+  core::skeleton::SkeletonView skeleton(bool needs_sites = true) const {
+    const core::skeleton::SkeletonView s{rows<Place>(vertices),
+                                         view(radius),
+                                         rows<Pair>(arcs),
+                                         rows<Place>(control),
+                                         rows<Pair>(sites),
+                                         view(length),
+                                         rows<std::array<Place, 2>, 4>(site_ends),
+                                         view(is_anchored),
+                                         has_gap,
+                                         reach};
     const std::size_t nodes = s.vertices.size(), count = s.arcs.size();
     if (s.radius.size() != nodes || s.is_anchored.size() != nodes || s.control.size() != count ||
         s.sites.size() != count || s.length.size() != count) {
@@ -85,17 +85,18 @@ struct SkeletonInput {
   }
 };
 
-core::Criterion criterion_of(int number) {
+core::pruning::Criterion criterion_of(int number) {
   if (number < 0 || number > 4) throw std::invalid_argument("there are five criteria");
-  return static_cast<core::Criterion>(number);
+  return static_cast<core::pruning::Criterion>(number);
 }
 
 nb::tuple critical_values(const nb::tuple& arrays, int criterion, nb::handle progress) {
   const SkeletonInput input(arrays);
-  const core::Criterion wanted = criterion_of(criterion);
-  const core::SkeletonView skeleton = input.skeleton(wanted != core::Criterion::scale);
-  core::CriticalValues values = run_interruptible(
-      progress, [&](const Monitor& monitor) { return core::critical_values(skeleton, wanted, monitor); });
+  const core::pruning::Criterion wanted = criterion_of(criterion);
+  const core::skeleton::SkeletonView skeleton = input.skeleton(wanted != core::pruning::Criterion::scale);
+  core::pruning::CriticalValues values = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::pruning::critical_values(skeleton, wanted, monitor);
+  });
   return nb::make_tuple(two_columns(std::move(values.ends)), to_numpy(std::move(values.most)),
                         column<std::int32_t>(values.kept, [](const auto& place) { return place.arc; }),
                         column<double>(values.kept, [](const auto& place) { return place.parameter; }));
@@ -104,13 +105,13 @@ nb::tuple critical_values(const nb::tuple& arrays, int criterion, nb::handle pro
 nb::dict prune_skeleton(const nb::tuple& arrays, int criterion, double threshold,
                         const Vector<const std::int32_t>& group, nb::handle progress) {
   const SkeletonInput input(arrays);
-  const core::Criterion wanted = criterion_of(criterion);
-  const core::SkeletonView skeleton = input.skeleton(wanted != core::Criterion::scale);
+  const core::pruning::Criterion wanted = criterion_of(criterion);
+  const core::skeleton::SkeletonView skeleton = input.skeleton(wanted != core::pruning::Criterion::scale);
   if (group.size() != skeleton.arcs.size()) throw std::invalid_argument("each arc must have a group");
-  core::PrunedSkeleton left = run_interruptible(progress, [&](const Monitor& monitor) {
-    const core::CriticalValues values = core::critical_values(skeleton, wanted, monitor);
-    const auto parts = core::parts_left(skeleton, values, wanted, threshold);
-    return core::pruned_skeleton(skeleton, parts, view(group), monitor);
+  core::pruning::PrunedSkeleton left = run_interruptible(progress, [&](const Monitor& monitor) {
+    const core::pruning::CriticalValues values = core::pruning::critical_values(skeleton, wanted, monitor);
+    const auto parts = core::pruning::parts_left(skeleton, values, wanted, threshold);
+    return core::pruning::pruned_skeleton(skeleton, parts, view(group), monitor);
   });
   nb::dict result;
   result["vertices"] = two_columns(std::move(left.vertices));
@@ -126,13 +127,13 @@ nb::dict prune_skeleton(const nb::tuple& arrays, int criterion, double threshold
 
 nb::tuple arc_profiles(const nb::tuple& arrays) {
   const SkeletonInput input(arrays);
-  const core::SkeletonView skeleton = input.skeleton();
+  const core::skeleton::SkeletonView skeleton = input.skeleton();
   const std::size_t count = skeleton.arcs.size();
   std::vector<std::int8_t> kind(count);
   std::vector<std::array<double, 2>> ends(count);
   std::vector<double> size(count);
   for (std::size_t k = 0; k < count; ++k) {
-    const core::ArcProfile profile(skeleton, k);
+    const core::pruning::ArcProfile profile(skeleton, k);
     kind[k] = static_cast<std::int8_t>(profile.kind);
     ends[k] = {profile.from, profile.to};
     size[k] = profile.size;
@@ -143,16 +144,16 @@ nb::tuple arc_profiles(const nb::tuple& arrays) {
 nb::dict part_geometry(const nb::tuple& arrays, const Vector<const std::int32_t>& arc,
                        const Vector<const double>& first, const Vector<const double>& last) {
   const SkeletonInput input(arrays);
-  const core::SkeletonView skeleton = input.skeleton();
+  const core::skeleton::SkeletonView skeleton = input.skeleton();
   if (first.size() != arc.size() || last.size() != arc.size())
     throw std::invalid_argument("each part must have an arc and two ends");
   std::vector<Place> from, to, control;
   std::vector<double> from_radius, to_radius, length;
   for (std::size_t k = 0; k < arc.size(); ++k) {
-    const core::ArcPart part{view(arc)[k], view(first)[k], view(last)[k]};
+    const core::pruning::ArcPart part{view(arc)[k], view(first)[k], view(last)[k]};
     if (part.arc < 0 || static_cast<std::size_t>(part.arc) >= skeleton.arcs.size())
       throw std::invalid_argument("an arc is out of range");
-    const core::PartGeometry geometry = core::part_geometry(skeleton, part);
+    const core::pruning::PartGeometry geometry = core::pruning::part_geometry(skeleton, part);
     from.push_back(geometry.first.place);
     to.push_back(geometry.last.place);
     control.push_back(geometry.control);

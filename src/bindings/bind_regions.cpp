@@ -5,11 +5,11 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/colouring.hpp"
-#include "core/diagram.hpp"
-#include "core/nearest_sites.hpp"
-#include "core/regions.hpp"
-#include "core/verify_labels.hpp"
+#include "core/graphs/graph_colouring.hpp"
+#include "core/label_images/digital_diagram.hpp"
+#include "core/label_images/region_measures.hpp"
+#include "core/spatial/nearest_sites.hpp"
+#include "core/tessellation/verify_tessellation.hpp"
 #include "interrupts.hpp"
 
 namespace vorotool::bindings {
@@ -17,12 +17,12 @@ namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using core::Border;
-using core::Monitor;
-using core::NearestOther;
-using core::Region;
+using core::base::Monitor;
+using core::label_images::Border;
+using core::label_images::Region;
+using core::spatial::NearestOther;
 
-nb::dict regions_to_dict(core::Regions&& found) {
+nb::dict regions_to_dict(core::label_images::Regions&& found) {
   nb::dict columns;
   auto put = [&](const char* name, auto field) {
     columns[name] = column<std::int64_t>(found.regions, field);
@@ -46,7 +46,8 @@ nb::dict regions_to_dict(core::Regions&& found) {
 template <class Label>
 nb::dict measure_regions(Matrix<const Label> labels, unsigned threads, nb::object progress) {
   return regions_to_dict(run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::measure_regions<Label>(view(labels), labels.shape(1), labels.shape(0), threads, monitor);
+    return core::label_images::measure_regions<Label>(view(labels), labels.shape(1), labels.shape(0), threads,
+                                                      monitor);
   }));
 }
 
@@ -54,8 +55,8 @@ template <class Label, class Value>
 nb::object max_by_label(Matrix<const Label> labels, Matrix<const Value> values,
                         Vector<const std::uint32_t> wanted, unsigned threads, nb::object progress) {
   return to_numpy(run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::max_by_label<Label, Value>(view(labels), view(values), labels.shape(1), view(wanted),
-                                            threads, monitor);
+    return core::label_images::max_by_label<Label, Value>(view(labels), view(values), labels.shape(1),
+                                                          view(wanted), threads, monitor);
   }));
 }
 
@@ -67,8 +68,8 @@ void mark_diagram(Matrix<const Label> labels, std::optional<Vector<const Label>>
     return given ? view(*given) : std::span<const Label>();
   };
   run_interruptible(progress, [&](const Monitor& monitor) {
-    core::mark_diagram<Label>(view(labels), labels.shape(1), row(above), row(below), view(out), threads,
-                              monitor);
+    core::label_images::mark_diagram<Label>(view(labels), labels.shape(1), row(above), row(below), view(out),
+                                            threads, monitor);
   });
 }
 
@@ -79,12 +80,12 @@ nb::tuple verify_labels(Matrix<const Label> labels, std::int64_t x, std::int64_t
                         Vector<const std::uint32_t> seed_labels, std::int64_t scale,
                         std::optional<std::uint64_t> limit_high, std::uint64_t limit_low, unsigned threads,
                         nb::object progress) {
-  const core::PixelFrame frame{x, y, labels.shape(1), labels.shape(0)};
-  const core::LatticeSeeds seeds{view(seed_x), view(seed_y), view(seed_labels), scale};
-  std::optional<core::uint128> limit;
-  if (limit_high) limit = core::uint128{*limit_high} << 64 | limit_low;
-  const core::WrongPixels wrong = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::verify_labels<Label>(view(labels), frame, seeds, limit, threads, monitor);
+  const core::tessellation::PixelFrame frame{x, y, labels.shape(1), labels.shape(0)};
+  const core::tessellation::LatticeSeeds seeds{view(seed_x), view(seed_y), view(seed_labels), scale};
+  std::optional<core::numbers::uint128> limit;
+  if (limit_high) limit = core::numbers::uint128{*limit_high} << 64 | limit_low;
+  const core::tessellation::WrongPixels wrong = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::tessellation::verify_labels<Label>(view(labels), frame, seeds, limit, threads, monitor);
   });
   return nb::make_tuple(wrong.count, wrong.column, wrong.row, wrong.found, wrong.right);
 }
@@ -92,7 +93,7 @@ nb::tuple verify_labels(Matrix<const Label> labels, std::int64_t x, std::int64_t
 nb::tuple nearest_other_sites(Vector<const double> x, Vector<const double> y,
                               Vector<const std::uint32_t> labels, unsigned threads, nb::object progress) {
   const auto found = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::nearest_other_sites(view(x), view(y), view(labels), threads, monitor);
+    return core::spatial::nearest_other_sites(view(x), view(y), view(labels), threads, monitor);
   });
   return nb::make_tuple(column<std::int64_t>(found, [](const NearestOther& n) { return n.index; }),
                         column<double>(found, [](const NearestOther& n) { return n.distance; }));
@@ -100,10 +101,11 @@ nb::tuple nearest_other_sites(Vector<const double> x, Vector<const double> y,
 
 nb::object colour_graph(std::size_t vertices, Vector<const std::uint32_t> a, Vector<const std::uint32_t> b,
                         nb::object progress) {
-  std::vector<core::Edge> edges(a.size());
+  std::vector<core::graphs::Edge> edges(a.size());
   for (std::size_t k = 0; k < edges.size(); ++k) edges[k] = {a.data()[k], b.data()[k]};
-  return to_numpy(run_interruptible(
-      progress, [&](const Monitor& monitor) { return core::colour_graph(vertices, edges, monitor); }));
+  return to_numpy(run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::graphs::colour_graph(vertices, edges, monitor);
+  }));
 }
 
 template <class Label>

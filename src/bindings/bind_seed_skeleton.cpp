@@ -13,10 +13,10 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/edge_samples.hpp"
-#include "core/parallel.hpp"
-#include "core/seed_diagram.hpp"
-#include "core/seed_skeleton.hpp"
+#include "core/base/parallel.hpp"
+#include "core/sampled_skeleton/boundary_samples.hpp"
+#include "core/sampled_skeleton/sample_diagram.hpp"
+#include "core/sampled_skeleton/sampled_skeleton.hpp"
 #include "diagram_arrays.hpp"
 #include "interrupts.hpp"
 #include "mesh_arrays.hpp"
@@ -26,14 +26,15 @@ namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using core::Monitor;
+using core::base::Monitor;
 
 // The arrays of a graph, kept while the core works on views of them.
 struct GraphArrays {
   IndexRows points, segments, faces;
 
-  core::ShapeGraph graph() const {
-    const core::ShapeGraph g{rows<LatticePoint>(points), rows<Pair>(segments), rows<Pair>(faces)};
+  core::arrangement::ShapeGraph graph() const {
+    const core::arrangement::ShapeGraph g{rows<LatticePoint>(points), rows<Pair>(segments),
+                                          rows<Pair>(faces)};
     if (g.faces.size() != g.segments.size()) throw std::invalid_argument("each segment must have two faces");
     for (const Pair& ends : g.segments) {
       for (const std::int32_t end : ends) {
@@ -47,7 +48,7 @@ struct GraphArrays {
 };
 
 // Seeds, the segment that each is inside of, and where those of each segment begin.
-nb::tuple to_tuple(core::EdgeSamples&& samples) {
+nb::tuple to_tuple(core::sampled_skeleton::EdgeSamples&& samples) {
   const std::size_t count = samples.segment.size();
   return nb::make_tuple(points_to_numpy(std::move(samples.seeds)),
                         to_numpy(std::move(samples.segment), {count}), to_numpy(std::move(samples.start)));
@@ -55,53 +56,57 @@ nb::tuple to_tuple(core::EdgeSamples&& samples) {
 
 nb::tuple sample_by_step(const IndexRows& points, const IndexRows& segments, const IndexRows& faces,
                          double step, std::size_t most, unsigned threads, nb::handle progress) {
-  const core::ShapeGraph graph = GraphArrays{points, segments, faces}.graph();
+  const core::arrangement::ShapeGraph graph = GraphArrays{points, segments, faces}.graph();
   return to_tuple(run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::sample_by_step(graph, step, most, core::resolve_threads(threads), monitor);
+    return core::sampled_skeleton::sample_by_step(graph, step, most, core::base::resolve_threads(threads),
+                                                  monitor);
   }));
 }
 
 using Steps = std::pair<Vector<const std::uint64_t>, Vector<const double>>;
 
-core::CornerSteps steps_of(const Steps& steps, const core::ShapeGraph& graph) {
+core::sampled_skeleton::CornerSteps steps_of(const Steps& steps, const core::arrangement::ShapeGraph& graph) {
   const auto start = view(steps.first);
   const auto distance = view(steps.second);
-  core::CornerSteps made{{start.begin(), start.end()}, {distance.begin(), distance.end()}};
+  core::sampled_skeleton::CornerSteps made{{start.begin(), start.end()}, {distance.begin(), distance.end()}};
   if (made.start.size() != graph.points.size() + 1 || made.start.back() != made.distance.size()) {
     throw std::invalid_argument("the distances of seeds do not go with the points");
   }
   return made;
 }
 
-nb::tuple to_tuple(core::CornerSteps&& steps) {
+nb::tuple to_tuple(core::sampled_skeleton::CornerSteps&& steps) {
   return nb::make_tuple(to_numpy(std::vector<std::uint64_t>(steps.start.begin(), steps.start.end())),
                         to_numpy(std::move(steps.distance)));
 }
 
 nb::tuple sample_from_corners(const IndexRows& points, const IndexRows& segments, const IndexRows& faces,
                               const Steps& steps, std::size_t most, unsigned threads, nb::handle progress) {
-  const core::ShapeGraph graph = GraphArrays{points, segments, faces}.graph();
-  const core::CornerSteps wanted = steps_of(steps, graph);
+  const core::arrangement::ShapeGraph graph = GraphArrays{points, segments, faces}.graph();
+  const core::sampled_skeleton::CornerSteps wanted = steps_of(steps, graph);
   return to_tuple(run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::sample_from_corners(graph, wanted, most, core::resolve_threads(threads), monitor);
+    return core::sampled_skeleton::sample_from_corners(graph, wanted, most,
+                                                       core::base::resolve_threads(threads), monitor);
   }));
 }
 
 nb::tuple corner_steps(const IndexRows& points, const IndexRows& segments, const IndexRows& faces,
                        double step, bool is_even, std::size_t most) {
-  const core::ShapeGraph graph = GraphArrays{points, segments, faces}.graph();
-  return to_tuple(is_even ? core::even_steps(graph, step, most) : core::doubled_steps(graph, step, most));
+  const core::arrangement::ShapeGraph graph = GraphArrays{points, segments, faces}.graph();
+  return to_tuple(is_even ? core::sampled_skeleton::even_steps(graph, step, most)
+                          : core::sampled_skeleton::doubled_steps(graph, step, most));
 }
 
 nb::tuple refined_steps(const IndexRows& points, const IndexRows& segments, const IndexRows& faces,
                         const Steps& steps, const Indices& start, const Indices& parts, std::size_t most) {
-  const core::ShapeGraph graph = GraphArrays{points, segments, faces}.graph();
+  const core::arrangement::ShapeGraph graph = GraphArrays{points, segments, faces}.graph();
   if (start.size() != graph.segments.size() + 1 ||
       parts.size() !=
           graph.segments.size() + static_cast<std::size_t>(view(start).back()) - graph.points.size()) {
     throw std::invalid_argument("the parts do not go with the pieces");
   }
-  return to_tuple(core::refined_steps(graph, steps_of(steps, graph), view(start), view(parts), most));
+  return to_tuple(
+      core::sampled_skeleton::refined_steps(graph, steps_of(steps, graph), view(start), view(parts), most));
 }
 
 using Box = std::tuple<double, double, double, double>;  // least and most x, then y
@@ -113,19 +118,20 @@ class SampledDiagram {
                  const Indices& start, const Indices& group, const std::optional<Box>& within,
                  unsigned threads, nb::handle progress)
       : arrays_(arrays), seeds_(seeds), segment_(segment), start_(start), group_(group) {
-    const core::ShapeGraph graph = arrays_.graph();
+    const core::arrangement::ShapeGraph graph = arrays_.graph();
     check(graph);
-    const core::SeedGroups groups = groups_of(graph, within);
+    const core::sampled_skeleton::SeedGroups groups = groups_of(graph, within);
     made_ = run_interruptible(progress, [&](const Monitor& monitor) {
-      return std::make_unique<core::SeedDiagram>(graph, as_points(seeds_), view(segment_), view(start_),
-                                                 groups, core::resolve_threads(threads), monitor);
+      return std::make_unique<core::sampled_skeleton::SeedDiagram>(
+          graph, as_points(seeds_), view(segment_), view(start_), groups,
+          core::base::resolve_threads(threads), monitor);
     });
   }
 
-  const core::SeedDiagram& operator*() const { return *made_; }
+  const core::sampled_skeleton::SeedDiagram& operator*() const { return *made_; }
 
  private:
-  void check(const core::ShapeGraph& graph) const {
+  void check(const core::arrangement::ShapeGraph& graph) const {
     const std::span<const std::int32_t> start = view(start_), segment = view(segment_);
     bool fits = start.size() == graph.segments.size() + 1 && segment.size() == as_points(seeds_).size() &&
                 static_cast<std::size_t>(start.front()) == graph.points.size() &&
@@ -137,11 +143,12 @@ class SampledDiagram {
     if (!fits) throw std::invalid_argument("the seeds do not go with the segments");
   }
 
-  core::SeedGroups groups_of(const core::ShapeGraph& graph, const std::optional<Box>& within) const {
-    core::SeedGroups groups{view(group_), 1, {}};
+  core::sampled_skeleton::SeedGroups groups_of(const core::arrangement::ShapeGraph& graph,
+                                               const std::optional<Box>& within) const {
+    core::sampled_skeleton::SeedGroups groups{view(group_), 1, {}};
     if (within) {
       const auto [least_x, most_x, least_y, most_y] = *within;
-      groups.within = core::Bounds({least_x, least_y});
+      groups.within = core::spatial::Bounds({least_x, least_y});
       groups.within->add({most_x, most_y});
     }
     if (groups.of_point.empty()) return groups;
@@ -161,7 +168,7 @@ class SampledDiagram {
   GraphArrays arrays_;
   Matrix<const double> seeds_;
   Indices segment_, start_, group_;
-  std::unique_ptr<core::SeedDiagram> made_;
+  std::unique_ptr<core::sampled_skeleton::SeedDiagram> made_;
 };
 
 nb::dict counts_of(const SampledDiagram& diagram) {
@@ -183,11 +190,11 @@ nb::dict skeleton_of(const SampledDiagram& diagram, const Indices& face_group,
                      const std::optional<std::pair<std::int32_t, Box>>& clipped, bool whole, bool complete,
                      double tolerance, const std::pair<std::int32_t, std::int32_t>& joined, double origin_x,
                      double origin_y, double scale, unsigned threads, nb::handle progress) {
-  core::SeedSkeletonOptions options{view(face_group), {},        whole,
-                                    complete,         tolerance, {joined.first, joined.second}};
+  core::sampled_skeleton::SeedSkeletonOptions options{
+      view(face_group), {}, whole, complete, tolerance, {joined.first, joined.second}};
   if (clipped) {
     const auto [least_x, most_x, least_y, most_y] = clipped->second;
-    options.clipped = core::ClippedGroup{clipped->first, {least_x, most_x, least_y, most_y}};
+    options.clipped = core::skeleton::ClippedGroup{clipped->first, {least_x, most_x, least_y, most_y}};
   }
   for (const Pair& pair : (*diagram).labels().graph().faces) {
     for (const std::int32_t face : pair) {
@@ -200,9 +207,9 @@ nb::dict skeleton_of(const SampledDiagram& diagram, const Indices& face_group,
   if (unbounded >= 0 && !(options.clipped && options.clipped->group == unbounded)) {
     throw std::invalid_argument("unbounded edges are in no frame");
   }
-  core::SeedSkeleton made = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::extract_seed_skeleton(*diagram, options, {origin_x, origin_y, scale},
-                                       core::resolve_threads(threads), monitor);
+  core::sampled_skeleton::SeedSkeleton made = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::sampled_skeleton::extract_seed_skeleton(*diagram, options, {origin_x, origin_y, scale},
+                                                         core::base::resolve_threads(threads), monitor);
   });
   nb::dict result;
   result["vertices"] = two_columns(std::move(made.arrays.vertices));
@@ -224,7 +231,7 @@ nb::dict skeleton_of(const SampledDiagram& diagram, const Indices& face_group,
 }  // namespace
 
 void bind_seed_skeleton(nb::module_& module) {
-  nb::exception<core::TooManySeeds>(module, "TooManySeedsError");
+  nb::exception<core::sampled_skeleton::TooManySeeds>(module, "TooManySeedsError");
   module.def("sample_by_step", &sample_by_step, "points"_a.noconvert(), "segments"_a.noconvert(),
              "faces"_a.noconvert(), "step"_a, "most"_a, "threads"_a, "progress"_a.none());
   module.def("sample_from_corners", &sample_from_corners, "points"_a.noconvert(), "segments"_a.noconvert(),

@@ -8,17 +8,17 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/lattice.hpp"
-#include "core/segment_exact.hpp"
+#include "core/kernel/lattice.hpp"
+#include "core/segment_voronoi/discs/exact_signs.hpp"
 
 namespace vorotool::bindings {
 namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using core::LatticePoint;
-using core::LatticeSite;
-using core::SiteTriple;
+using core::kernel::LatticePoint;
+using core::kernel::LatticeSite;
+using core::segment_voronoi::discs::SiteTriple;
 
 // What stands for a sign where no disc touches the sites.
 constexpr std::int8_t no_disc = 2;
@@ -29,7 +29,8 @@ using SiteRows = Aligned<const std::int32_t, nb::shape<-1, n, 4>, nb::c_contig, 
 
 LatticePoint lattice_point(const std::int32_t* values) {
   for (int i = 0; i < 2; ++i) {
-    if (std::abs(std::int64_t{values[i]}) > core::lattice_limit) throw nb::index_error("beyond the lattice");
+    if (std::abs(std::int64_t{values[i]}) > core::kernel::lattice_limit)
+      throw nb::index_error("beyond the lattice");
   }
   return {values[0], values[1]};
 }
@@ -55,7 +56,7 @@ nb::object signs(const SiteRows<n>& rows, Sign sign) {
     for (std::size_t k = 0; k < result.size(); ++k) {
       try {
         result[k] = static_cast<std::int8_t>(sign(sites.data() + n * k));
-      } catch (const core::NoDisc&) {
+      } catch (const core::segment_voronoi::discs::NoDisc&) {
         result[k] = no_disc;
       }
     }
@@ -67,31 +68,35 @@ SiteTriple triple(const LatticeSite* first) { return SiteTriple(first, 3); }
 
 // Three sites of a disc, then the query.
 nb::object clearance_signs(SiteRows<4> rows) {
-  return signs<4>(rows, [](const LatticeSite* s) { return core::exact_clearance_sign(triple(s), s[3]); });
+  return signs<4>(rows, [](const LatticeSite* s) {
+    return core::segment_voronoi::discs::exact_clearance_sign(triple(s), s[3]);
+  });
 }
 
 // Three sites each of two discs.
 nb::object same_disc(SiteRows<6> rows) {
-  return signs<6>(
-      rows, [](const LatticeSite* s) { return core::exact_same_disc(triple(s), triple(s + 3)) ? 1 : 0; });
+  return signs<6>(rows, [](const LatticeSite* s) {
+    return core::segment_voronoi::discs::exact_same_disc(triple(s), triple(s + 3)) ? 1 : 0;
+  });
 }
 
 // The edge's two sites, three sites each of two discs, then the query.
 nb::object edge_clearance_signs(SiteRows<9> rows) {
   return signs<9>(rows, [](const LatticeSite* s) {
-    return core::exact_edge_clearance_sign(s[0], s[1], triple(s + 2), triple(s + 5), s[8]);
+    return core::segment_voronoi::discs::exact_edge_clearance_sign(s[0], s[1], triple(s + 2), triple(s + 5),
+                                                                   s[8]);
   });
 }
 
 // (k, 3) x, y and radius; NaN where there is no disc.
 nb::object rounded_discs(SiteRows<3> rows) {
   const std::vector<LatticeSite> sites = sites_of<3>(rows);
-  core::LargeArray<double> result(3 * rows.shape(0));
+  core::base::LargeArray<double> result(3 * rows.shape(0));
   for (std::size_t k = 0; k < rows.shape(0); ++k) {
-    core::RoundedDisc disc{NAN, NAN, NAN};
+    core::segment_voronoi::discs::RoundedDisc disc{NAN, NAN, NAN};
     try {
-      disc = core::exact_disc_rounded(triple(sites.data() + 3 * k));
-    } catch (const core::NoDisc&) {
+      disc = core::segment_voronoi::discs::exact_disc_rounded(triple(sites.data() + 3 * k));
+    } catch (const core::segment_voronoi::discs::NoDisc&) {
     }
     double* row = result.data() + 3 * k;
     row[0] = disc.x, row[1] = disc.y, row[2] = disc.radius;

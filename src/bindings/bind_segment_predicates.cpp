@@ -7,20 +7,20 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/coincident_vertices.hpp"
-#include "core/segment_exact.hpp"
-#include "core/segment_insertion.hpp"
-#include "core/segment_predicates.hpp"
+#include "core/segment_voronoi/build/coincident_vertices.hpp"
+#include "core/segment_voronoi/build/insertion_predicates.hpp"
+#include "core/segment_voronoi/build/segment_insertion.hpp"
+#include "core/segment_voronoi/discs/exact_signs.hpp"
 
 namespace vorotool::bindings {
 namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using core::LatticePoint;
-using core::LatticeSite;
-using core::SiteIndex;
-using core::VoronoiRecord;
+using core::kernel::LatticePoint;
+using core::kernel::LatticeSite;
+using core::segment_voronoi::discs::SiteIndex;
+using core::segment_voronoi::discs::VoronoiRecord;
 
 template <std::size_t n>
 using SiteRows = Aligned<const std::int32_t, nb::shape<-1, n, 4>, nb::c_contig, nb::device::cpu>;
@@ -47,43 +47,44 @@ class FewSites {
       number_.push_back(site.is_point() ? pair[0] : static_cast<SiteIndex>(points.size()) + place);
       if (!site.is_point() && known == ends.end()) ends.push_back(pair);
     }
-    all_ = core::SegmentSites(std::move(points), ends);
+    all_ = core::segment_voronoi::discs::SegmentSites(std::move(points), ends);
   }
 
-  const core::SegmentSites& all() const { return all_; }
+  const core::segment_voronoi::discs::SegmentSites& all() const { return all_; }
   SiteIndex number(std::size_t i) const { return number_[i]; }
 
   // The vertex of three of the sites; throws NoDisc.
   VoronoiRecord vertex(std::size_t first) const {
     VoronoiRecord v{};
-    const core::RoundedDisc disc = core::exact_disc_rounded(core::SiteTriple(sites_.data() + first, 3));
+    const core::segment_voronoi::discs::RoundedDisc disc = core::segment_voronoi::discs::exact_disc_rounded(
+        core::segment_voronoi::discs::SiteTriple(sites_.data() + first, 3));
     for (std::size_t i = 0; i < 3; ++i) {
       v.sites[i] = number_[first + i];
       if (!all_.is_segment(v.sites[i])) continue;
-      const core::SegmentSite& s = all_.segment(v.sites[i]);
+      const core::segment_voronoi::discs::SegmentSite& s = all_.segment(v.sites[i]);
       const bool is_left = s.ux * (disc.y - s.a.y) > s.uy * (disc.x - s.a.x);
       v.left = static_cast<std::uint8_t>(v.left | is_left << i);
     }
-    core::compute_disc(all_, v);
+    core::segment_voronoi::build::compute_disc(all_, v);
     return v;
   }
 
  private:
   std::vector<LatticeSite> sites_;
   std::vector<SiteIndex> number_;
-  core::SegmentSites all_;
+  core::segment_voronoi::discs::SegmentSites all_;
 };
 
 // (k, 2): whether the fourth site, a segment, is in conflict with the vertex of the three others, and the
 // level that tells: 0 doubles, 1 integers, 2 double-double, 3 multiprecision.
 nb::object conflicts(SiteRows<4> rows) {
-  core::LargeArray<std::int8_t> result(2 * rows.shape(0));
+  core::base::LargeArray<std::int8_t> result(2 * rows.shape(0));
   for (std::size_t k = 0; k < rows.shape(0); ++k) {
     const FewSites sites(rows.data() + 16 * k, 4);
-    core::SegmentPredicates predicates(sites.all());
-    const core::SegmentQuery query(sites.all(), sites.number(3));
+    core::segment_voronoi::build::SegmentPredicates predicates(sites.all());
+    const core::segment_voronoi::build::SegmentQuery query(sites.all(), sites.number(3));
     result.data()[2 * k] = predicates.in_conflict(sites.vertex(0), query);
-    const core::EscalationCounts& counts = predicates.counts();
+    const core::segment_voronoi::build::EscalationCounts& counts = predicates.counts();
     result.data()[2 * k + 1] =
         static_cast<std::int8_t>(counts.integer + 2 * counts.double_double + 3 * counts.exact);
   }
@@ -92,14 +93,14 @@ nb::object conflicts(SiteRows<4> rows) {
 
 // Whether the vertices of the first and last three sites coincide, which share two sites.
 nb::object coincidences(SiteRows<6> rows) {
-  core::LargeArray<std::int8_t> result(rows.shape(0));
+  core::base::LargeArray<std::int8_t> result(rows.shape(0));
   for (std::size_t k = 0; k < rows.shape(0); ++k) {
     const FewSites sites(rows.data() + 24 * k, 6);
     const VoronoiRecord u = sites.vertex(0), w = sites.vertex(3);
     int i = 0;
     while (i < 3 && w.find(u.sites[static_cast<std::size_t>(i)]) >= 0) ++i;
     if (i == 3) throw std::invalid_argument("the vertices share three sites");
-    result.data()[k] = core::are_coincident(sites.all(), u, i, w);
+    result.data()[k] = core::segment_voronoi::build::are_coincident(sites.all(), u, i, w);
   }
   return to_numpy(std::move(result), {rows.shape(0)});
 }

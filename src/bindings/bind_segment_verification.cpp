@@ -10,7 +10,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/verify_segment_voronoi.hpp"
+#include "core/segment_voronoi/verify/verify_segment_voronoi.hpp"
 #include "interrupts.hpp"
 
 namespace vorotool::bindings {
@@ -18,8 +18,9 @@ namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using core::Monitor;
+using core::base::Monitor;
 using IndexPairs = Aligned<const std::int32_t, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
+using Centres = Aligned<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
 using Pair = std::array<std::int32_t, 2>;
 
 std::span<const Pair> pairs(const IndexPairs& array) {
@@ -27,26 +28,35 @@ std::span<const Pair> pairs(const IndexPairs& array) {
   return {reinterpret_cast<const Pair*>(array.data()), array.shape(0)};
 }
 
-std::span<const core::LatticePoint> lattice_points(const IndexPairs& array) {
-  static_assert(sizeof(core::LatticePoint) == 2 * sizeof(std::int32_t));
-  return {reinterpret_cast<const core::LatticePoint*>(array.data()), array.shape(0)};
+std::span<const std::array<double, 2>> centres(const Centres& array) {
+  static_assert(sizeof(std::array<double, 2>) == 2 * sizeof(double));
+  return {reinterpret_cast<const std::array<double, 2>*>(array.data()), array.shape(0)};
 }
 
-std::optional<std::string> segment_voronoi_fault(
-    const IndexPairs& points, const IndexPairs& segments,
-    const Aligned<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>& vertices,
-    const Vector<const double>& radius, const Vector<const std::int32_t>& vertex_start,
-    const Vector<const std::int32_t>& vertex_sites, const IndexPairs& edges, const IndexPairs& edge_sites,
-    unsigned threads, nb::handle progress) {
-  const core::SegmentVoronoiArrays arrays{lattice_points(points), pairs(segments),    view(vertices),
-                                          view(radius),           view(vertex_start), view(vertex_sites),
-                                          pairs(edges),           pairs(edge_sites)};
-  if (vertices.shape(0) != arrays.radius.size() || arrays.vertex_start.size() != arrays.radius.size() + 1 ||
+std::span<const core::kernel::LatticePoint> lattice_points(const IndexPairs& array) {
+  static_assert(sizeof(core::kernel::LatticePoint) == 2 * sizeof(std::int32_t));
+  return {reinterpret_cast<const core::kernel::LatticePoint*>(array.data()), array.shape(0)};
+}
+
+std::optional<std::string> segment_voronoi_fault(const IndexPairs& points, const IndexPairs& segments,
+                                                 const Centres& vertices, const Vector<const double>& radius,
+                                                 const Vector<const std::int32_t>& vertex_start,
+                                                 const Vector<const std::int32_t>& vertex_sites,
+                                                 const IndexPairs& edges, const IndexPairs& edge_sites,
+                                                 unsigned threads, nb::handle progress) {
+  const core::segment_voronoi::build::RingedDiagram arrays{
+      {lattice_points(points), pairs(segments), centres(vertices), view(radius), pairs(edges),
+       pairs(edge_sites)},
+      view(vertex_start),
+      view(vertex_sites)};
+  if (arrays.vertices.size() != arrays.radius.size() ||
+      arrays.vertex_start.size() != arrays.radius.size() + 1 ||
       arrays.edge_sites.size() != arrays.edges.size()) {
     throw std::invalid_argument("the arrays of a diagram have lengths that do not go together");
   }
-  return run_interruptible(
-      progress, [&](const Monitor& monitor) { return core::find_fault(arrays, threads, monitor); });
+  return run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::segment_voronoi::verify::find_fault(arrays, threads, monitor);
+  });
 }
 
 }  // namespace

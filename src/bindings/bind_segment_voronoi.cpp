@@ -14,8 +14,8 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/idle_sides.hpp"
-#include "core/segment_voronoi.hpp"
+#include "core/segment_voronoi/build/segment_voronoi.hpp"
+#include "core/segment_voronoi/build/wanted_faces.hpp"
 #include "interrupts.hpp"
 
 namespace vorotool::bindings {
@@ -23,15 +23,15 @@ namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using core::LatticePoint;
-using core::Monitor;
-using core::SegmentVoronoi;
+using core::base::Monitor;
+using core::kernel::LatticePoint;
+using core::segment_voronoi::build::SegmentVoronoi;
 using Rows = Matrix<const std::int32_t>;
 
 std::span<const LatticePoint> as_points(const Rows& array) {
   if (array.shape(1) != 2) throw std::invalid_argument("points must have two columns");
   for (const std::int32_t value : view(array)) {
-    if (std::abs(std::int64_t{value}) > core::lattice_limit) {
+    if (std::abs(std::int64_t{value}) > core::kernel::lattice_limit) {
       throw std::invalid_argument("coordinate " + std::to_string(value) + " is beyond the lattice");
     }
   }
@@ -55,9 +55,10 @@ void check_range(std::span<const std::array<std::int32_t, 2>> pairs, std::size_t
 }
 
 // Least and most x, then least and most y.
-core::Bounds bounds_of(const std::array<std::int32_t, 4>& within, std::span<const LatticePoint> points) {
+core::spatial::Bounds bounds_of(const std::array<std::int32_t, 4>& within,
+                                std::span<const LatticePoint> points) {
   const auto [least_x, most_x, least_y, most_y] = within;
-  core::Bounds bounds({static_cast<double>(least_x), static_cast<double>(least_y)});
+  core::spatial::Bounds bounds({static_cast<double>(least_x), static_cast<double>(least_y)});
   bounds.add({static_cast<double>(most_x), static_cast<double>(most_y)});
   for (const LatticePoint& p : points) {
     if (bounds.holds({static_cast<double>(p.x), static_cast<double>(p.y)})) continue;
@@ -68,7 +69,7 @@ core::Bounds bounds_of(const std::array<std::int32_t, 4>& within, std::span<cons
 
 void make_diagram(SegmentVoronoi* self, const Rows& points, const Rows& segments, unsigned threads,
                   nb::handle progress, const std::optional<std::array<std::int32_t, 4>>& within) {
-  core::SegmentGraph graph{as_points(points), as_segments(segments), {}};
+  core::segment_voronoi::build::SegmentGraph graph{as_points(points), as_segments(segments), {}};
   if (within) graph.within = bounds_of(*within, graph.points);
   run_interruptible(progress,
                     [&](const Monitor& monitor) { new (self) SegmentVoronoi(graph, threads, monitor); });
@@ -78,7 +79,7 @@ void make_diagram(SegmentVoronoi* self, const Rows& points, const Rows& segments
 nb::tuple take_arrays(SegmentVoronoi& diagram, const std::optional<Vector<const std::uint8_t>>& idle,
                       unsigned threads, nb::handle progress) {
   const std::span<const std::uint8_t> sides = idle ? view(*idle) : std::span<const std::uint8_t>();
-  core::DiagramArrays made = run_interruptible(
+  core::segment_voronoi::build::DiagramArrays made = run_interruptible(
       progress, [&](const Monitor& monitor) { return diagram.take_arrays(sides, threads, monitor); });
   const std::size_t vertices = made.radius.size(), ring = made.vertex_sites.size(),
                     edges = made.edges.size() / 2;
@@ -95,11 +96,12 @@ nb::object idle_sides(const Rows& points, const Rows& segments, const Rows& segm
   if (faces.size() != segments.shape(0)) throw std::invalid_argument("each segment must have two faces");
   check_range(as_segments(segments), points.shape(0));
   check_range(faces, is_wanted.size());
-  return to_numpy(core::idle_sides(as_points(points), as_segments(segments), faces, view(is_wanted)));
+  return to_numpy(core::segment_voronoi::build::idle_sides(as_points(points), as_segments(segments), faces,
+                                                           view(is_wanted)));
 }
 
 nb::dict counts_of(const SegmentVoronoi& diagram) {
-  const core::SegmentVoronoiCounts& counts = diagram.counts();
+  const core::segment_voronoi::build::SegmentVoronoiCounts& counts = diagram.counts();
   nb::dict result;
   result["visited"] = counts.visited;
   result["cyclic"] = counts.cyclic;

@@ -11,10 +11,10 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/clearance.hpp"
-#include "core/parallel.hpp"
-#include "core/skeleton_edges.hpp"
-#include "core/skeleton_extraction.hpp"
+#include "core/base/parallel.hpp"
+#include "core/skeleton/edges.hpp"
+#include "core/skeleton/extraction.hpp"
+#include "core/spatial/clearance.hpp"
 #include "diagram_arrays.hpp"
 #include "interrupts.hpp"
 
@@ -23,19 +23,19 @@ namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using core::Monitor;
+using core::base::Monitor;
 
 nb::tuple skeleton_edges(const IndexRows& points, const IndexRows& segments, const Places& vertices,
                          const Vector<const double>& radius, const IndexRows& edges,
                          const IndexRows& edge_sites, const IndexRows& segment_faces, unsigned threads,
                          nb::handle progress) {
   const DiagramArrays arrays{points, segments, vertices, radius, edges, edge_sites};
-  const core::SegmentDiagram diagram = arrays.diagram();
+  const core::segment_voronoi::build::SegmentDiagram diagram = arrays.diagram();
   const std::span<const Pair> faces = rows<Pair>(segment_faces);
   if (faces.size() != diagram.segments.size())
     throw std::invalid_argument("each segment must have two faces");
-  core::SkeletonEdges kept = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::skeleton_edges(diagram, faces, core::resolve_threads(threads), monitor);
+  core::skeleton::SkeletonEdges kept = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::skeleton::skeleton_edges(diagram, faces, core::base::resolve_threads(threads), monitor);
   });
   return nb::make_tuple(to_numpy(std::move(kept.edge)), to_numpy(std::move(kept.face)));
 }
@@ -50,12 +50,12 @@ nb::dict extract_skeleton(const IndexRows& points, const IndexRows& segments, co
                           const std::pair<std::int32_t, std::int32_t>& joined, double origin_x,
                           double origin_y, double scale, unsigned threads, nb::handle progress) {
   const DiagramArrays arrays{points, segments, vertices, radius, edges, edge_sites};
-  const core::SegmentDiagram diagram = arrays.diagram();
+  const core::segment_voronoi::build::SegmentDiagram diagram = arrays.diagram();
   if (kept.size() != groups.size()) throw std::invalid_argument("each edge must have one group");
-  std::optional<core::ClippedGroup> frame;
+  std::optional<core::skeleton::ClippedGroup> frame;
   if (clipped) {
     const auto [least_x, most_x, least_y, most_y] = clipped->second;
-    frame = core::ClippedGroup{clipped->first, {least_x, most_x, least_y, most_y}};
+    frame = core::skeleton::ClippedGroup{clipped->first, {least_x, most_x, least_y, most_y}};
   }
   for (std::size_t k = 0; k < kept.size(); ++k) {
     const std::int32_t edge = view(kept)[k], group = view(groups)[k];
@@ -67,9 +67,10 @@ nb::dict extract_skeleton(const IndexRows& points, const IndexRows& segments, co
       throw std::invalid_argument("an unbounded edge is in no frame");
     }
   }
-  core::SkeletonArrays made = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::extract_skeleton(diagram, view(kept), view(groups), frame, {joined.first, joined.second},
-                                  {origin_x, origin_y, scale}, core::resolve_threads(threads), monitor);
+  core::skeleton::SkeletonArrays made = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::skeleton::extract_skeleton(diagram, view(kept), view(groups), frame,
+                                            {joined.first, joined.second}, {origin_x, origin_y, scale},
+                                            core::base::resolve_threads(threads), monitor);
   });
   nb::dict result;
   result["vertices"] = two_columns(std::move(made.vertices));
@@ -98,13 +99,14 @@ nb::object clearances(const IndexRows& points, const IndexRows& segments, const 
     }
   }
   std::vector<double> found = run_interruptible(progress, [&](const Monitor& monitor) {
-    std::vector<core::LatticeSite> sites;
+    std::vector<core::kernel::LatticeSite> sites;
     sites.reserve(all.size() + ends.size());
     for (const LatticePoint& point : all) sites.push_back({point, point});
     for (const auto& [a, b] : ends) {
       sites.push_back({all[static_cast<std::size_t>(a)], all[static_cast<std::size_t>(b)]});
     }
-    return core::clearances(sites, rows<Place>(places), view(reach), core::resolve_threads(threads), monitor);
+    return core::spatial::clearances(sites, rows<Place>(places), view(reach),
+                                     core::base::resolve_threads(threads), monitor);
   });
   return to_numpy(std::move(found));
 }

@@ -11,9 +11,9 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/propagation.hpp"
-#include "core/stream_fill.hpp"
-#include "core/tessellation.hpp"
+#include "core/tessellation/propagation.hpp"
+#include "core/tessellation/stream_fill.hpp"
+#include "core/tessellation/tessellation.hpp"
 #include "interrupts.hpp"
 
 namespace nb = nanobind;
@@ -22,10 +22,10 @@ namespace vorotool::bindings {
 
 namespace {
 
-using core::FrameOnLattice;
-using core::Monitor;
-using core::Simd;
-using core::Tessellation;
+using core::base::Monitor;
+using core::tessellation::FrameOnLattice;
+using core::tessellation::Simd;
+using core::tessellation::Tessellation;
 using Integers = Aligned<const std::int64_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Labels = Aligned<const std::uint32_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Image = Aligned<nb::ndim<2>, nb::c_contig, nb::device::cpu>;
@@ -34,8 +34,8 @@ using Halves = std::pair<std::uint64_t, std::uint64_t>;  // upper and lower 64 b
 
 Simd simd_level(std::string_view name) {
   for (const Simd level : {Simd::portable, Simd::avx2, Simd::avx512}) {
-    if (name == core::name_of(level)) {
-      if (core::supports(level)) return level;
+    if (name == core::tessellation::name_of(level)) {
+      if (core::tessellation::supports(level)) return level;
       throw std::invalid_argument(std::string(name) + " is not supported by this machine");
     }
   }
@@ -72,8 +72,8 @@ void with_type(const Image& out, Body body) {
 void write_labels(const Tessellation& tessellation, const Image& out, std::int32_t first,
                   std::optional<Halves> most_squared, unsigned threads, nb::handle progress) {
   const std::int32_t rows = rows_of(tessellation, out, first);
-  std::optional<core::uint128> limit;
-  if (most_squared) limit = core::uint128{most_squared->first} << 64 | most_squared->second;
+  std::optional<core::numbers::uint128> limit;
+  if (most_squared) limit = core::numbers::uint128{most_squared->first} << 64 | most_squared->second;
   const auto write = [&](auto* pixels) {
     run_interruptible(progress, [&](const Monitor& monitor) {
       tessellation.labels(first, rows, pixels, limit, threads, monitor);
@@ -109,14 +109,14 @@ void write_distances(const Tessellation& tessellation, const Image& out, std::in
 void propagate(const Integers& x, const Integers& y, const Labels& labels, int passes,
                const Label32Image& out, nb::handle progress) {
   run_interruptible(progress, [&](const Monitor& monitor) {
-    core::propagate(view(x), view(y), view(labels), static_cast<std::int32_t>(out.shape(1)),
-                    static_cast<std::int32_t>(out.shape(0)), passes, out.data(), monitor);
+    core::tessellation::propagate(view(x), view(y), view(labels), static_cast<std::int32_t>(out.shape(1)),
+                                  static_cast<std::int32_t>(out.shape(0)), passes, out.data(), monitor);
   });
 }
 
 // Fills an array past the caches: the floor of `make bench`.
 void stream_fill(const Image& out, unsigned threads) {
-  core::stream_fill(static_cast<char*>(out.data()), out.nbytes(), threads);
+  core::tessellation::stream_fill(static_cast<char*>(out.data()), out.nbytes(), threads);
 }
 
 // core::SeedTooFar as _core.SeedTooFarError(index).
@@ -127,7 +127,7 @@ void bind_seed_too_far(nb::module_& module) {
       [](const std::exception_ptr& failure, void* payload) {
         try {
           std::rethrow_exception(failure);
-        } catch (const core::SeedTooFar& e) {
+        } catch (const core::tessellation::SeedTooFar& e) {
           PyErr_SetObject(static_cast<PyObject*>(payload), nb::make_tuple(e.index).ptr());
         }
       },
@@ -159,7 +159,8 @@ void bind_tessellation(nb::module_& module) {
   module.def("propagate", &propagate, nb::arg("x"), nb::arg("y"), nb::arg("labels"), nb::arg("passes"),
              nb::arg("out"), nb::arg("progress").none());
   module.def("stream_fill", &stream_fill, nb::arg("out"), nb::arg("threads"));
-  module.def("widest_simd", [] { return std::string(core::name_of(core::widest_simd())); });
+  module.def("widest_simd",
+             [] { return std::string(core::tessellation::name_of(core::tessellation::widest_simd())); });
 }
 
 }  // namespace vorotool::bindings

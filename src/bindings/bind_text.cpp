@@ -14,9 +14,9 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "core/format_columns.hpp"
-#include "core/nesting.hpp"
-#include "core/text_columns.hpp"
+#include "core/text/csv_columns.hpp"
+#include "core/text/nesting_depth.hpp"
+#include "core/text/row_writer.hpp"
 #include "interrupts.hpp"
 #include "mesh_arrays.hpp"
 
@@ -30,11 +30,11 @@ using InputArray = Aligned<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
 std::string_view view_of(const nb::bytes& text) { return {text.c_str(), text.size()}; }
 
-core::Delimiter delimiter_of(const std::string& name) {
-  if (name == ",") return core::Delimiter::comma;
-  if (name == ";") return core::Delimiter::semicolon;
-  if (name == "\t") return core::Delimiter::tab;
-  if (name == " ") return core::Delimiter::whitespace;
+core::text::Delimiter delimiter_of(const std::string& name) {
+  if (name == ",") return core::text::Delimiter::comma;
+  if (name == ";") return core::text::Delimiter::semicolon;
+  if (name == "\t") return core::text::Delimiter::tab;
+  if (name == " ") return core::text::Delimiter::whitespace;
   throw nb::value_error("the delimiter must be one of ',' ';' '\\t' ' '");
 }
 
@@ -43,15 +43,15 @@ nb::object decoded(std::string_view text) {
   return nb::steal(PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace"));
 }
 
-const char* name_of(core::TextError::Kind kind) {
+const char* name_of(core::text::TextError::Kind kind) {
   switch (kind) {
-    case core::TextError::Kind::not_number:
+    case core::text::TextError::Kind::not_number:
       return "not_number";
-    case core::TextError::Kind::not_finite:
+    case core::text::TextError::Kind::not_finite:
       return "not_finite";
-    case core::TextError::Kind::field_count:
+    case core::text::TextError::Kind::field_count:
       return "field_count";
-    case core::TextError::Kind::open_quote:
+    case core::text::TextError::Kind::open_quote:
       break;
   }
   return "open_quote";
@@ -65,7 +65,7 @@ void bind_text_error(nb::module_& module) {
       [](const std::exception_ptr& failure, void* payload) {
         try {
           std::rethrow_exception(failure);
-        } catch (const core::TextError& e) {
+        } catch (const core::text::TextError& e) {
           const nb::tuple arguments =
               nb::make_tuple(name_of(e.kind), e.line, e.column, decoded(e.text), e.found, e.expected);
           PyErr_SetObject(static_cast<PyObject*>(payload), arguments.ptr());
@@ -77,9 +77,9 @@ void bind_text_error(nb::module_& module) {
 auto parse_numbers(const nb::bytes& text, const std::string& delimiter, std::vector<std::size_t> columns,
                    std::size_t header_records, std::size_t fields, unsigned threads) {
   const std::string_view view = view_of(text);
-  const core::TextLayout layout{delimiter_of(delimiter), header_records, std::move(columns), fields};
-  core::NumberTable table = run_interruptible(nb::none(), [&](const core::Monitor& monitor) {
-    return core::parse_numbers(view, layout, threads, monitor);
+  const core::text::TextLayout layout{delimiter_of(delimiter), header_records, std::move(columns), fields};
+  core::text::NumberTable table = run_interruptible(nb::none(), [&](const core::base::Monitor& monitor) {
+    return core::text::parse_numbers(view, layout, threads, monitor);
   });
   double* const values = table.values.release();
   const nb::capsule owner(values, [](void* p) noexcept { delete[] static_cast<double*>(p); });
@@ -89,16 +89,16 @@ auto parse_numbers(const nb::bytes& text, const std::string& delimiter, std::vec
 nb::list parse_fields(const nb::bytes& text, const std::string& delimiter, std::vector<std::size_t> columns,
                       std::size_t header_records, std::size_t fields, unsigned threads) {
   const std::string_view view = view_of(text);
-  const core::TextLayout layout{delimiter_of(delimiter), header_records, std::move(columns), fields};
-  const core::FieldTable table = run_interruptible(nb::none(), [&](const core::Monitor& monitor) {
-    return core::parse_fields(view, layout, threads, monitor);
+  const core::text::TextLayout layout{delimiter_of(delimiter), header_records, std::move(columns), fields};
+  const core::text::FieldTable table = run_interruptible(nb::none(), [&](const core::base::Monitor& monitor) {
+    return core::text::parse_fields(view, layout, threads, monitor);
   });
   nb::list result;
   for (std::size_t column = 0; column < table.columns; ++column) {
     const nb::object values = nb::steal(PyList_New(static_cast<Py_ssize_t>(table.rows)));
     for (std::size_t row = 0; row < table.rows; ++row) {
-      const core::Field& field = table.fields[row * table.columns + column];
-      nb::object value = decoded(field.quoted ? core::field_value(field) : field.text);
+      const core::text::Field& field = table.fields[row * table.columns + column];
+      nb::object value = decoded(field.quoted ? core::text::field_value(field) : field.text);
       PyList_SET_ITEM(values.ptr(), static_cast<Py_ssize_t>(row), value.release().ptr());
     }
     result.append(values);
@@ -109,27 +109,27 @@ nb::list parse_fields(const nb::bytes& text, const std::string& delimiter, std::
 std::size_t count_rows(const nb::bytes& text, const std::string& delimiter, std::size_t header_records,
                        unsigned threads) {
   const std::string_view view = view_of(text);
-  const core::TextLayout layout{delimiter_of(delimiter), header_records, {}, 0};
-  return run_interruptible(nb::none(), [&](const core::Monitor& monitor) {
-    return core::count_rows(view, layout, threads, monitor);
+  const core::text::TextLayout layout{delimiter_of(delimiter), header_records, {}, 0};
+  return run_interruptible(nb::none(), [&](const core::base::Monitor& monitor) {
+    return core::text::count_rows(view, layout, threads, monitor);
   });
 }
 
 std::size_t line_of_row(const nb::bytes& text, const std::string& delimiter, std::size_t header_records,
                         std::size_t row) {
   const std::string_view view = view_of(text);
-  const core::TextLayout layout{delimiter_of(delimiter), header_records, {}, 0};
+  const core::text::TextLayout layout{delimiter_of(delimiter), header_records, {}, 0};
   const nb::gil_scoped_release no_gil;
-  return core::line_of_row(view, layout, row);
+  return core::text::line_of_row(view, layout, row);
 }
 
 nb::object first_record(const nb::bytes& text, const std::string& delimiter) {
-  core::RecordReader reader(view_of(text), delimiter_of(delimiter));
-  core::Record record;
+  core::text::RecordReader reader(view_of(text), delimiter_of(delimiter));
+  core::text::Record record;
   if (!reader.next(record)) return nb::none();
   nb::list fields;
-  for (const core::Field& field : core::split_fields(record.text, delimiter_of(delimiter))) {
-    fields.append(decoded(core::field_value(field)));
+  for (const core::text::Field& field : core::text::split_fields(record.text, delimiter_of(delimiter))) {
+    fields.append(decoded(core::text::field_value(field)));
   }
   return nb::make_tuple(record.first_line, decoded(record.text), fields);
 }
@@ -139,7 +139,7 @@ nb::object find_too_deep(const nb::bytes& text, std::size_t limit) {
   std::size_t found = 0;
   {
     const nb::gil_scoped_release no_gil;
-    found = core::find_too_deep(view, limit);
+    found = core::text::find_too_deep(view, limit);
   }
   if (found == std::string_view::npos) return nb::none();
   return nb::int_(found);
@@ -161,7 +161,7 @@ class PolygonRows {
         texts_{as_points(vertices), checked(rings, vertices.shape(0)), checked(polygons, rings.size() - 1),
                checked(rows, polygons.size() - 1), style_of(style)} {}
 
-  const core::PolygonTexts& texts() const { return texts_; }
+  const core::text::PolygonTexts& texts() const { return texts_; }
 
  private:
   // What begins somewhere among so many; the core reads without looking.
@@ -173,21 +173,21 @@ class PolygonRows {
     return values;
   }
 
-  static core::PolygonStyle style_of(const std::string& name) {
-    if (name == "wkt") return core::PolygonStyle::wkt;
-    if (name == "geojson") return core::PolygonStyle::geojson;
-    if (name == "json") return core::PolygonStyle::json;
+  static core::text::PolygonStyle style_of(const std::string& name) {
+    if (name == "wkt") return core::text::PolygonStyle::wkt;
+    if (name == "geojson") return core::text::PolygonStyle::geojson;
+    if (name == "json") return core::text::PolygonStyle::json;
     throw nb::value_error("the style must be wkt, geojson or json");
   }
 
   Matrix<const double> vertices_;
   Starts rings_, polygons_, rows_;
-  core::PolygonTexts texts_;
+  core::text::PolygonTexts texts_;
 };
 
 // Holds what the columns of one call point into.
 struct ColumnStore {
-  std::vector<core::TextColumn> columns;
+  std::vector<core::text::TextColumn> columns;
   std::vector<std::vector<std::string_view>> texts;
   std::vector<std::any> owners;  // objects of Python, and arrays that may be copies of what came
 
@@ -213,7 +213,7 @@ struct ColumnStore {
   }
 
   bool add_numbers(nb::handle values) {
-    const core::NumberTexts* numbers = nullptr;
+    const core::text::NumberTexts* numbers = nullptr;
     if (!nb::try_cast(values, numbers, false) || numbers == nullptr) return false;
     columns.push_back({numbers, {}});
     owners.emplace_back(nb::object(nb::borrow(values)));
@@ -250,8 +250,8 @@ struct ColumnStore {
   // Every index is checked here: the core reads without looking.
   void add_index(nb::handle values, std::size_t limit) {
     const auto array = nb::cast<IndexArray>(values, false);
-    const core::StridedIndices index{array.data(), array.size(),
-                                     static_cast<std::ptrdiff_t>(array.stride(0))};
+    const core::text::StridedIndices index{array.data(), array.size(),
+                                           static_cast<std::ptrdiff_t>(array.stride(0))};
     for (std::size_t row = 0; row < index.size; ++row) {
       if (index[row] >= limit) throw nb::index_error("an index of a column is out of range");
     }
@@ -263,10 +263,10 @@ struct ColumnStore {
   void add(nb::handle column, const std::optional<InputArray<bool>>& missing) {
     const bool looks_up = nb::isinstance<nb::tuple>(column);
     add_values(looks_up ? nb::handle(column[0]) : column);
-    const std::size_t values = core::value_count(columns.back());
+    const std::size_t values = core::text::value_count(columns.back());
     if (missing && missing->size() != values) throw nb::value_error("columns and masks must have one length");
     if (looks_up) add_index(column[1], values);
-    if (core::row_count(columns.back()) != core::row_count(columns.front())) {
+    if (core::text::row_count(columns.back()) != core::text::row_count(columns.front())) {
       throw nb::value_error("columns and masks must have one length");
     }
     if (missing) {
@@ -276,9 +276,10 @@ struct ColumnStore {
 };
 
 // (around, separator, missing), all str; None is CSV.
-core::RowShape shape_of(const std::optional<nb::tuple>& shape, std::size_t columns, ColumnStore& store) {
-  if (!shape) return core::csv_shape(columns);
-  core::RowShape result;
+core::text::RowShape shape_of(const std::optional<nb::tuple>& shape, std::size_t columns,
+                              ColumnStore& store) {
+  if (!shape) return core::text::csv_shape(columns);
+  core::text::RowShape result;
   for (const nb::handle text : nb::cast<nb::tuple>((*shape)[0])) result.around.push_back(store.utf8(text));
   if (result.around.size() != columns + 1) throw nb::value_error("a row has one text more than columns");
   result.separator = store.utf8((*shape)[1]);
@@ -291,19 +292,20 @@ nb::list format_columns(const nb::list& values, const std::vector<std::optional<
   if (values.size() != missing.size()) throw nb::value_error("one mask, or None, a column");
   ColumnStore store;
   for (std::size_t i = 0; i < missing.size(); ++i) store.add(values[i], missing[i]);
-  const core::RowShape row = shape_of(shape, missing.size(), store);
-  const std::vector<std::string> blocks = run_interruptible(nb::none(), [&](const core::Monitor& monitor) {
-    return core::format_columns(store.columns, row, precision, threads, monitor);
-  });
+  const core::text::RowShape row = shape_of(shape, missing.size(), store);
+  const std::vector<std::string> blocks =
+      run_interruptible(nb::none(), [&](const core::base::Monitor& monitor) {
+        return core::text::format_columns(store.columns, row, precision, threads, monitor);
+      });
   nb::list result;
   for (const std::string& block : blocks) result.append(nb::bytes(block.data(), block.size()));
   return result;
 }
 
-void make_number_texts(core::NumberTexts* self, const InputArray<double>& values, int precision,
+void make_number_texts(core::text::NumberTexts* self, const InputArray<double>& values, int precision,
                        unsigned threads) {
-  run_interruptible(nb::none(), [&](const core::Monitor& monitor) {
-    new (self) core::NumberTexts({values.data(), values.size()}, precision, threads, monitor);
+  run_interruptible(nb::none(), [&](const core::base::Monitor& monitor) {
+    new (self) core::text::NumberTexts({values.data(), values.size()}, precision, threads, monitor);
   });
 }
 
@@ -322,9 +324,9 @@ void bind_text(nb::module_& module) {
   module.def("find_too_deep", &find_too_deep, "text"_a, "limit"_a);
   module.def("format_columns", &format_columns, "values"_a, "missing"_a, "precision"_a = 0, "threads"_a = 0,
              "shape"_a = nb::none());
-  nb::class_<core::NumberTexts>(module, "NumberTexts")
+  nb::class_<core::text::NumberTexts>(module, "NumberTexts")
       .def("__init__", &make_number_texts, "values"_a.noconvert(), "precision"_a = 0, "threads"_a = 0)
-      .def("__len__", &core::NumberTexts::size);
+      .def("__len__", &core::text::NumberTexts::size);
   nb::class_<PolygonRows>(module, "PolygonTexts")
       .def(nb::init<const Matrix<const double>&, const PolygonRows::Starts&, const PolygonRows::Starts&,
                     const PolygonRows::Starts&, const std::string&>(),

@@ -8,13 +8,13 @@
 #include <stdexcept>
 
 #include "arrays.hpp"
-#include "core/bisector_arc.hpp"
-#include "core/segment_diagram.hpp"
+#include "core/segment_voronoi/build/diagram.hpp"
+#include "core/skeleton/bisector_arc.hpp"
 
 namespace vorotool::bindings {
 
-using core::LatticePoint;
-using core::Place;
+using core::kernel::LatticePoint;
+using core::skeleton::Place;
 using Pair = std::array<std::int32_t, 2>;
 using IndexRows = Matrix<const std::int32_t>;
 using Places = Matrix<const double>;
@@ -28,16 +28,16 @@ struct DiagramArrays {
   Vector<const double> radius;
   IndexRows edges, edge_sites;
 
-  core::SegmentDiagram diagram() const {
-    const core::SegmentDiagram d{rows<LatticePoint>(points), rows<Pair>(segments),
-                                 rows<Place>(vertices),      view(radius),
-                                 rows<Pair>(edges),          rows<Pair>(edge_sites)};
+  core::segment_voronoi::build::SegmentDiagram diagram() const {
+    const core::segment_voronoi::build::SegmentDiagram d{rows<LatticePoint>(points), rows<Pair>(segments),
+                                                         rows<Place>(vertices),      view(radius),
+                                                         rows<Pair>(edges),          rows<Pair>(edge_sites)};
     check(d);
     return d;
   }
 
  private:
-  static void check(const core::SegmentDiagram& d) {
+  static void check(const core::segment_voronoi::build::SegmentDiagram& d) {
     if (d.vertices.size() != d.radius.size() || d.edges.size() != d.edge_sites.size()) {
       throw std::invalid_argument("the arrays of a diagram have lengths that do not go together");
     }

@@ -6,14 +6,14 @@
 #include <chrono>
 #include <utility>
 
-#include "core/monitor.hpp"
+#include "core/base/monitor.hpp"
 
 namespace vorotool::bindings {
 
 // A Monitor that at most every 50 ms takes the GIL, lets Python handle signals, and calls `progress` (a
 // callable, or None) with the fraction done. It returns false when a Python error is set. `progress` is
 // borrowed: it must outlive the monitor.
-inline core::Monitor python_monitor(nanobind::handle progress) {
+inline core::base::Monitor python_monitor(nanobind::handle progress) {
   using Clock = std::chrono::steady_clock;
   static constexpr auto kInterval = std::chrono::milliseconds(50);
   return [progress, next = Clock::now() + kInterval](double fraction) mutable {
@@ -38,11 +38,11 @@ inline core::Monitor python_monitor(nanobind::handle progress) {
 // it. The kernel must touch no Python object, and its result must be no Python object either.
 template <class Kernel>
 auto run_interruptible(nanobind::handle progress, Kernel&& kernel) {
-  const core::Monitor monitor = python_monitor(progress);
+  const core::base::Monitor monitor = python_monitor(progress);
   try {
     const nanobind::gil_scoped_release no_gil;
     return std::forward<Kernel>(kernel)(monitor);
-  } catch (const core::Interrupted&) {
+  } catch (const core::base::Interrupted&) {
     throw nanobind::python_error();
   }
 }

@@ -6,17 +6,17 @@
 #include <stdexcept>
 
 #include "arrays.hpp"
-#include "core/verify_triangulation.hpp"
+#include "core/delaunay/triangulation.hpp"
 
 namespace vorotool::bindings {
 
 using Indices = Vector<const std::int32_t>;
 using IndexRows = Matrix<const std::int32_t>;
 
-inline std::span<const core::Point> as_points(const Matrix<const double>& array) {
+inline std::span<const core::kernel::Point> as_points(const Matrix<const double>& array) {
   if (array.shape(1) != 2) throw std::invalid_argument("points must have two columns");
-  static_assert(sizeof(core::Point) == 2 * sizeof(double));
-  return {reinterpret_cast<const core::Point*>(array.data()), array.shape(0)};
+  static_assert(sizeof(core::kernel::Point) == 2 * sizeof(double));
+  return {reinterpret_cast<const core::kernel::Point*>(array.data()), array.shape(0)};
 }
 
 inline std::span<const std::int32_t> rows_of(const IndexRows& array, std::size_t columns) {
@@ -25,11 +25,13 @@ inline std::span<const std::int32_t> rows_of(const IndexRows& array, std::size_t
   return view(array);
 }
 
-inline core::TriangulationArrays mesh_arrays(const Matrix<const double>& points, const IndexRows& triangles,
-                                             const IndexRows& neighbours, std::span<const std::int32_t> edges,
-                                             std::span<const std::int32_t> hull,
-                                             std::span<const std::int32_t> first) {
-  const core::TriangulationArrays arrays{
+inline core::delaunay::TriangulationArrays mesh_arrays(const Matrix<const double>& points,
+                                                       const IndexRows& triangles,
+                                                       const IndexRows& neighbours,
+                                                       std::span<const std::int32_t> edges,
+                                                       std::span<const std::int32_t> hull,
+                                                       std::span<const std::int32_t> first) {
+  const core::delaunay::TriangulationArrays arrays{
       as_points(points), rows_of(triangles, 3), rows_of(neighbours, 3), edges, hull, first};
   if (arrays.first.size() != arrays.points.size() || arrays.neighbours.size() != arrays.triangles.size()) {
     throw std::invalid_argument("the arrays of a triangulation have lengths that do not go together");
@@ -38,11 +40,12 @@ inline core::TriangulationArrays mesh_arrays(const Matrix<const double>& points,
 }
 
 // (n, 2) doubles that take over the points.
-inline nanobind::object points_to_numpy(core::LargeArray<core::Point>&& points) {
+inline nanobind::object points_to_numpy(core::base::LargeArray<core::kernel::Point>&& points) {
   const std::size_t rows = points.size();
-  core::Point* data = points.release();
-  const nanobind::capsule owner(
-      data, [](void* p) noexcept { core::LargeArray<core::Point>::free(static_cast<core::Point*>(p)); });
+  core::kernel::Point* data = points.release();
+  const nanobind::capsule owner(data, [](void* p) noexcept {
+    core::base::LargeArray<core::kernel::Point>::free(static_cast<core::kernel::Point*>(p));
+  });
   return nanobind::cast(
       nanobind::ndarray<nanobind::numpy, double>(reinterpret_cast<double*>(data), {rows, 2}, owner));
 }

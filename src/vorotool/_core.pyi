@@ -386,7 +386,7 @@ def offset_curves(
     scale: float,
     progress: _Progress,
 ) -> list[dict[str, NDArray[Any]]]:
-    """For each distance (> 0 outwards) the arrays of core/offset_curves.hpp by their names there (bind_offsets.cpp)."""
+    """For each distance (> 0 outwards) the arrays of core/offsets/offset_curves.hpp by their names there."""
 
 # ---- pruning (bind_pruning.cpp): a skeleton is its vertices, radii, arcs, control points, sites, lengths, the ends of
 # ---- sites as (s, 4), which nodes are anchored (uint8), and whether sites are closed; criteria are numbered ----------
@@ -475,7 +475,7 @@ def border_rings(
     face_polygon: NDArray[np.int32],
     progress: _Progress,
 ) -> dict[str, NDArray[Any]]:
-    """Arrays of core/border_rings.hpp by their names there; the indices must be in range."""
+    """Arrays of core/arrangement/boundary_rings.hpp by their names there; the indices must be in range."""
 
 def planar_graph_fault(
     points: NDArray[np.int32], segments: NDArray[np.int32], faces: NDArray[np.int32] | None, progress: _Progress

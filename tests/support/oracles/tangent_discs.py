@@ -4,10 +4,10 @@ The equations are solved by another way than the core's: planes and a cone in th
 
 How many digits are enough: let c = (x, y) / w be the centre of a disc, r its radius, and d the distance of a site from
 it. F = (d² - r²) w² L², L the site's length, is an algebraic integer. Its four conjugates at most are below 2^516, as
-src/core/segment_exact.cpp derives, and their product is an integer: F is 0 or at least 2^-1548. As w² L² < 2^446,
-d² - r² is 0 or at least 2^-1994 > 10^-601. A disc's equations divide by a few numbers of that kind, of
-which each may cost some 200 digits. So `SURE` digits settle what `FIRST` digits leave open, which is taken to be
-anything below 10^-60: a tie, or the foot of a centre at the end of a segment.
+src/core/segment_voronoi/discs/exact_signs.cpp derives, and their product is an integer: F is 0 or at least 2^-1548.
+As w² L² < 2^446, d² - r² is 0 or at least 2^-1994 > 10^-601. A disc's equations divide by a few numbers of that
+kind, of which each may cost some 200 digits. So `SURE` digits settle what `FIRST` digits leave open, which is taken
+to be anything below 10^-60: a tie, or the foot of a centre at the end of a segment.
 """
 
 from __future__ import annotations

@@ -1,0 +1,204 @@
+#include "core/alpha/alpha_complex.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/alpha/critical_radius.hpp"
+#include "core/alpha/radius_ranks.hpp"
+#include "core/base/parallel.hpp"
+#include "core/kernel/predicates.hpp"
+
+namespace vorotool::core::alpha {
+
+using base::LargeArray;
+using base::Monitor;
+using kernel::Point;
+
+namespace {
+
+constexpr std::size_t piece_size = std::size_t{1} << 13;  // triangles or edges: about a millisecond of work
+constexpr std::size_t ahead = 16;                         // triangles or edges
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::size_t pieces_of(std::size_t count) { return base::piece_count(count, piece_size); }
+
+// Calls body(piece, first, end) for every piece of the numbers below count.
+template <class Body>
+void for_pieces(std::size_t count, unsigned threads, const Monitor& monitor, Body body) {
+  base::parallel_for(
+      pieces_of(count), threads,
+      [&](std::size_t piece) { body(piece, piece * piece_size, std::min(count, (piece + 1) * piece_size)); },
+      monitor);
+}
+
+// Calls visit(side number) for the sides of triangles first ... end - 1 at which an edge is written.
+template <class Visit>
+void visit_edges(std::span<const std::int32_t> neighbours, std::size_t first, std::size_t end, Visit visit) {
+  for (std::size_t t = first; t < end; ++t) {
+    for (std::size_t k = 3 * t; k < 3 * t + 3; ++k) {
+      if (neighbours[k] < 0 || neighbours[k] > static_cast<std::int32_t>(t)) visit(k);
+    }
+  }
+}
+
+class AlphaBuilder {
+ public:
+  AlphaBuilder(const AlphaInput& input, AlphaRule rule, unsigned threads, const Monitor& monitor)
+      : in_(input),
+        rule_(rule),
+        threads_(threads),
+        monitor_(monitor),
+        triangles_(input.triangles.size() / 3),
+        edges_(input.edges.size() / 2),
+        value_(triangles_ + edges_),
+        obtuse_(triangles_) {}
+
+  AlphaArrays run() {
+    measure_triangles();
+    measure_edges();
+    const auto compare = [&](std::uint32_t p, std::uint32_t q) {
+      return compare_radii(support_of(p), support_of(q));
+    };
+    const std::span values(value_.data(), value_.size());
+    return write(make_spectrum(values, compare, threads_, monitor_));
+  }
+
+ private:
+  static constexpr double left_out = -1;
+
+  const Point& at(std::int32_t v) const { return in_.points[static_cast<std::size_t>(v)]; }
+  const Point& corner(std::size_t t, std::size_t k) const { return at(in_.triangles[3 * t + k]); }
+  std::size_t side(std::size_t edge, std::size_t k) const {
+    return static_cast<std::size_t>(in_.sides[2 * edge + k]);
+  }
+  bool has_side(std::size_t edge, std::size_t k) const { return in_.sides[2 * edge + k] >= 0; }
+
+  Support support_of(std::uint32_t item) const {
+    if (item < triangles_) return {corner(item, 0), corner(item, 1), corner(item, 2), true};
+    const std::size_t edge = item - triangles_;
+    const Point& a = at(in_.edges[2 * edge]);
+    return {a, at(in_.edges[2 * edge + 1]), a, false};
+  }
+
+  // Points may be anywhere in memory: they are called for before they are needed.
+  void call_for(std::span<const std::int32_t> corners, std::size_t first, std::size_t count) const {
+    for (std::size_t i = first; i < std::min(first + count, corners.size()); ++i)
+      __builtin_prefetch(&at(corners[i]));
+  }
+
+  void measure_triangles() {
+    for_pieces(triangles_, threads_, monitor_, [&](std::size_t, std::size_t first, std::size_t end) {
+      for (std::size_t t = first; t < end; ++t) {
+        call_for(in_.triangles, 3 * (t + ahead), 3);
+        const Point &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
+        const TriangleMeasure found = measure_triangle(a, b, c);
+        const bool is_flat = found.radius == infinity && kernel::orient2d(a, b, c) == 0;
+        value_[t] = is_flat ? left_out : found.radius;
+        obtuse_[t] = static_cast<std::uint8_t>(found.obtuse);
+      }
+    });
+  }
+
+  // Whether the corner of a triangle opposite to an edge is strictly inside the edge's diametral disc.
+  bool is_cut_by(std::size_t edge, std::size_t t) const {
+    if (obtuse_[t] > 2) return false;
+    const std::int32_t apex = in_.triangles[3 * t + obtuse_[t]];
+    return apex != in_.edges[2 * edge] && apex != in_.edges[2 * edge + 1];
+  }
+
+  bool starts_at_half(std::size_t edge) const {
+    const bool both = has_side(edge, 0) && has_side(edge, 1);
+    if (both && rule_ == AlphaRule::printed) return true;
+    return !(has_side(edge, 0) && is_cut_by(edge, side(edge, 0))) &&
+           !(has_side(edge, 1) && is_cut_by(edge, side(edge, 1)));
+  }
+
+  void measure_edges() {
+    for_pieces(edges_, threads_, monitor_, [&](std::size_t, std::size_t first, std::size_t end) {
+      for (std::size_t i = triangles_ + first; i < triangles_ + end; ++i) {
+        call_for(in_.edges, 2 * (i - triangles_ + ahead), 2);
+        const auto item = static_cast<std::uint32_t>(i);
+        value_[i] = starts_at_half(i - triangles_) ? critical_radius(support_of(item)) : left_out;
+      }
+    });
+  }
+
+  // A rank, and the radius that has it.
+  struct Critical {
+    std::int32_t rank;
+    double radius;
+  };
+
+  Critical circumradius(const Spectrum& spectrum, std::size_t edge, std::size_t k) const {
+    if (!has_side(edge, k)) return {static_cast<std::int32_t>(spectrum.value.size()), infinity};
+    const std::size_t t = side(edge, k);
+    return {spectrum.rank[t], value_[t] < 0 ? infinity : value_[t]};
+  }
+
+  AlphaArrays write(Spectrum&& spectrum) const {
+    AlphaArrays out(triangles_, edges_);
+    for_pieces(edges_, threads_, monitor_, [&](std::size_t, std::size_t first, std::size_t end) {
+      for (std::size_t e = first; e < end; ++e) {
+        Critical mid = circumradius(spectrum, e, 0), max = circumradius(spectrum, e, 1);
+        if (max.rank < mid.rank) std::swap(mid, max);
+        const double half = value_[triangles_ + e];
+        const Critical min = half < 0 ? mid : Critical{spectrum.rank[triangles_ + e], half};
+        out.r_min[e] = min.radius;
+        out.r_mid[e] = mid.radius;
+        out.r_max[e] = max.radius;
+        out.rank_min[e] = min.rank;
+        out.rank_mid[e] = mid.rank;
+        out.rank_max[e] = max.rank;
+      }
+    });
+    for_pieces(triangles_, threads_, monitor_, [&](std::size_t, std::size_t first, std::size_t end) {
+      std::copy(spectrum.rank.data() + first, spectrum.rank.data() + end, out.triangle_rank.data() + first);
+    });
+    out.spectrum = std::move(spectrum.value);
+    out.witness = std::move(spectrum.witness);
+    return out;
+  }
+
+  const AlphaInput& in_;
+  AlphaRule rule_;
+  unsigned threads_;
+  const Monitor& monitor_;
+  std::size_t triangles_, edges_;
+  LargeArray<double> value_;         // [triangles + edges] radii at which the shape changes, or left out
+  LargeArray<std::uint8_t> obtuse_;  // [triangles] the corner with an obtuse angle; 3 if there is none
+};
+
+}  // namespace
+
+EdgeArrays edges_of_triangles(std::span<const std::int32_t> triangles,
+                              std::span<const std::int32_t> neighbours, unsigned threads,
+                              const Monitor& monitor) {
+  const std::size_t count = triangles.size() / 3;
+  std::vector<std::size_t> start(pieces_of(count) + 1);
+  for_pieces(count, threads, monitor, [&](std::size_t piece, std::size_t first, std::size_t end) {
+    visit_edges(neighbours, first, end, [&](std::size_t) { ++start[piece + 1]; });
+  });
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  EdgeArrays out{LargeArray<std::int32_t>(2 * start.back()), LargeArray<std::int32_t>(2 * start.back())};
+  for_pieces(count, threads, monitor, [&](std::size_t piece, std::size_t first, std::size_t end) {
+    std::size_t next = 2 * start[piece];
+    visit_edges(neighbours, first, end, [&](std::size_t k) {
+      const std::size_t t = k / 3;
+      const std::int32_t a = triangles[3 * t + (k + 1) % 3], b = triangles[3 * t + (k + 2) % 3];
+      out.ends[next] = std::min(a, b);
+      out.ends[next + 1] = std::max(a, b);
+      out.sides[next] = static_cast<std::int32_t>(t);
+      out.sides[next + 1] = neighbours[k];
+      next += 2;
+    });
+  });
+  return out;
+}
+
+AlphaArrays alpha_complex(const AlphaInput& input, AlphaRule rule, unsigned threads, const Monitor& monitor) {
+  return AlphaBuilder(input, rule, threads, monitor).run();
+}
+
+}  // namespace vorotool::core::alpha

@@ -1,0 +1,154 @@
+#include "core/alpha/alpha_curves.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "core/base/disjoint_sets.hpp"
+#include "core/numbers/expansion.hpp"
+
+namespace vorotool::core::alpha {
+
+using base::DisjointSets;
+using base::LargeArray;
+using base::Monitor;
+using numbers::TwoTerms;
+
+namespace {
+
+constexpr std::size_t poll_interval = std::size_t{1} << 16;  // edges
+
+// A sum of many terms, in two doubles; one once it is beyond their range.
+struct LongSum {
+  TwoTerms value{0, 0};
+
+  void add(double term) {
+    const TwoTerms sum = numbers::two_sum(value.head, term);
+    value =
+        std::isfinite(sum.head) ? numbers::two_sum(sum.head, sum.tail + value.tail) : TwoTerms{sum.head, 0};
+  }
+  void add(const LongSum& other) {
+    add(other.value.head);
+    add(other.value.tail);
+  }
+};
+
+// Edges by a rank below m, found in time linear in all.
+class ByRank {
+ public:
+  ByRank(std::span<const std::int32_t> rank, std::size_t ranks) : start_(ranks + 2), item_(rank.size()) {
+    for (const std::int32_t r : rank) ++start_[static_cast<std::size_t>(r) + 1];
+    for (std::size_t r = 1; r < start_.size(); ++r) start_[r] += start_[r - 1];
+    std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
+    for (std::size_t i = 0; i < rank.size(); ++i) {
+      item_[next[static_cast<std::size_t>(rank[i])]++] = static_cast<std::uint32_t>(i);
+    }
+  }
+  std::span<const std::uint32_t> operator[](std::size_t rank) const {
+    return std::span(item_).subspan(start_[rank], start_[rank + 1] - start_[rank]);
+  }
+
+ private:
+  std::vector<std::uint32_t> start_, item_;
+};
+
+class Sweep {
+ public:
+  Sweep(const CurveInput& input, const Monitor& monitor)
+      : in_(input),
+        m_(input.spectrum),
+        monitor_(monitor),
+        out_{LargeArray<double>(m_), LargeArray<double>(m_), LargeArray<std::int32_t>(m_),
+             LargeArray<std::int32_t>(m_), LargeArray<std::int32_t>(m_)} {}
+
+  Curves run() {
+    measure();
+    count_regions();
+    count_cavities();
+    return std::move(out_);
+  }
+
+ private:
+  struct Change {
+    LongSum area, perimeter;
+    std::int32_t edges = 0;
+  };
+
+  void poll(std::size_t done) {
+    if (done % poll_interval != 0 || !monitor_) return;
+    if (!monitor_(static_cast<double>(done) / static_cast<double>(3 * m_))) throw base::Interrupted();
+  }
+
+  void measure() {
+    std::vector<Change> change(m_ + 1);
+    const auto at = [&](std::int32_t rank) -> Change& { return change[static_cast<std::size_t>(rank)]; };
+    for (std::size_t t = 0; t < in_.triangle_rank.size(); ++t) at(in_.triangle_rank[t]).area.add(in_.area[t]);
+    for (std::size_t e = 0; e < in_.length.size(); ++e) {
+      at(in_.edges.mid[e]).perimeter.add(in_.length[e]);
+      at(in_.edges.max[e]).perimeter.add(-in_.length[e]);
+      ++at(in_.edges.min[e]).edges;
+      --at(in_.edges.max[e]).edges;
+    }
+    Change sum;
+    for (std::size_t k = 0; k < m_; ++k) {
+      poll(k);
+      sum.area.add(change[k].area);
+      sum.perimeter.add(change[k].perimeter);
+      sum.edges += change[k].edges;
+      out_.area[k] = sum.area.value.head;
+      out_.perimeter[k] = sum.perimeter.value.head;
+      out_.edges[k] = sum.edges;
+    }
+  }
+
+  std::vector<std::int32_t> triangles_by_rank() const {
+    std::vector<std::int32_t> count(m_ + 1);
+    for (const std::int32_t rank : in_.triangle_rank) ++count[static_cast<std::size_t>(rank)];
+    return count;
+  }
+
+  // The two faces of an edge: 0 is the unbounded one, t + 1 a triangle.
+  bool join(DisjointSets<>& faces, std::size_t edge) const {
+    return faces.join(static_cast<std::uint32_t>(in_.sides[2 * edge] + 1),
+                      static_cast<std::uint32_t>(in_.sides[2 * edge + 1] + 1));
+  }
+
+  // Upwards: a triangle is a new region, and an edge that goes inside may join two.
+  void count_regions() {
+    const ByRank edges(in_.edges.max, m_);
+    const std::vector<std::int32_t> triangles = triangles_by_rank();
+    DisjointSets faces(in_.triangle_rank.size() + 1);
+    std::int32_t regions = 0;
+    for (std::size_t k = 0; k < m_; ++k) {
+      poll(m_ + k);
+      regions += triangles[k];
+      for (const std::uint32_t e : edges[k]) regions -= join(faces, e);
+      out_.regions[k] = regions;
+    }
+  }
+
+  // Downwards: a triangle that leaves is a new hole, and an edge that then has none left joins it with what
+  // is on the other side; the unbounded face counts for nothing.
+  void count_cavities() {
+    const ByRank edges(in_.edges.mid, m_);
+    const std::vector<std::int32_t> triangles = triangles_by_rank();
+    DisjointSets faces(in_.triangle_rank.size() + 1);
+    std::int32_t cavities = 0;
+    for (std::size_t k = m_; k-- > 0;) {
+      poll(3 * m_ - k);
+      cavities += triangles[k + 1];
+      for (const std::uint32_t e : edges[k + 1]) cavities -= join(faces, e);
+      out_.cavities[k] = cavities;
+    }
+  }
+
+  const CurveInput& in_;
+  std::size_t m_;
+  const Monitor& monitor_;
+  Curves out_;
+};
+
+}  // namespace
+
+Curves alpha_curves(const CurveInput& input, const Monitor& monitor) { return Sweep(input, monitor).run(); }
+
+}  // namespace vorotool::core::alpha

@@ -1,0 +1,23 @@
+// Stable least-significant-digit radix sort.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace vorotool::core::base {
+
+// A key and a number that goes with it: an index, a label.
+struct Keyed {
+  std::uint64_t key;
+  std::uint32_t value;
+};
+
+// Sorts by the lowest `bits` bits of the key; equal keys keep their order. Time linear in the number of
+// items.
+void radix_sort(std::vector<Keyed>& items, int bits);
+
+// Sorts words by their bits low ... high - 1 alone; the others go along. Half the memory of Keyed, where all
+// fits.
+void radix_sort(std::vector<std::uint64_t>& words, int low, int high);
+
+}  // namespace vorotool::core::base

@@ -1,0 +1,40 @@
+#include "core/delaunay/nearest_neighbours.hpp"
+
+#include <cstddef>
+#include <stdexcept>
+
+#include "core/kernel/circumcentre.hpp"
+
+namespace vorotool::core::delaunay {
+
+NearestNeighbours nearest_neighbours(std::span<const kernel::Point> points,
+                                     std::span<const std::int32_t> edges,
+                                     std::span<const std::int64_t> labels, const base::Monitor& monitor) {
+  constexpr std::size_t poll_every = std::size_t{1} << 16;  // edges, some milliseconds
+  NearestNeighbours result{std::vector<std::int32_t>(points.size(), -1),
+                           std::vector<std::int32_t>(points.size(), 0)};
+  const auto meet = [&](std::size_t p, std::size_t q) {
+    ++result.count[p];
+    std::int32_t& best = result.nearest[p];
+    if (best >= 0) {
+      const auto b = static_cast<std::size_t>(best);
+      const int order = kernel::compare_distances(points[p], points[q], points[b]);
+      if (order > 0 || (order == 0 && labels[q] > labels[b])) return;
+    }
+    best = static_cast<std::int32_t>(q);
+  };
+  for (std::size_t i = 0; i + 1 < edges.size(); i += 2) {
+    if (i % poll_every == 0 && monitor &&
+        !monitor(static_cast<double>(i) / static_cast<double>(edges.size()))) {
+      throw base::Interrupted();
+    }
+    const auto a = static_cast<std::size_t>(edges[i]), b = static_cast<std::size_t>(edges[i + 1]);
+    if (a >= points.size() || b >= points.size())
+      throw std::invalid_argument("an edge names a point that does not exist");
+    meet(a, b);
+    meet(b, a);
+  }
+  return result;
+}
+
+}  // namespace vorotool::core::delaunay

@@ -1,0 +1,145 @@
+#include "core/graphs/graph_colouring.hpp"
+
+#include <algorithm>
+
+namespace vorotool::core::graphs {
+
+using base::Monitor;
+
+namespace {
+
+constexpr std::size_t kPollEvery = std::size_t{1} << 16;
+
+void poll(const Monitor& monitor, std::size_t step) {
+  if (step % kPollEvery == 0 && monitor && !monitor(0.0)) throw base::Interrupted();
+}
+
+// Neighbours of vertex v: neighbours[start[v]] ... neighbours[start[v + 1] - 1].
+struct Adjacency {
+  std::vector<std::size_t> start;
+  std::vector<std::uint32_t> neighbours;
+
+  Adjacency(std::size_t vertices, std::span<const Edge> edges)
+      : start(vertices + 2, 0), neighbours(2 * edges.size()) {
+    for (const Edge& edge : edges) {
+      ++start[edge.a + 2];
+      ++start[edge.b + 2];
+    }
+    for (std::size_t v = 2; v < start.size(); ++v) start[v] += start[v - 1];
+    for (const Edge& edge : edges) {
+      neighbours[start[edge.a + 1]++] = edge.b;
+      neighbours[start[edge.b + 1]++] = edge.a;
+    }
+  }
+
+  std::size_t size() const { return start.size() - 2; }
+  std::size_t degree(std::size_t v) const { return start[v + 1] - start[v]; }
+  std::span<const std::uint32_t> of(std::size_t v) const {
+    return std::span(neighbours).subspan(start[v], degree(v));
+  }
+};
+
+// Vertices sorted by their degree among the vertices not yet taken, in buckets of one array.
+class DegreeOrder {
+ public:
+  explicit DegreeOrder(const Adjacency& graph)
+      : order_(graph.size()), place_(graph.size()), degree_(graph.size()) {
+    std::size_t largest = 0;
+    for (std::size_t v = 0; v < graph.size(); ++v) largest = std::max(largest, graph.degree(v));
+    bucket_.assign(largest + 2, 0);
+    for (std::size_t v = 0; v < graph.size(); ++v) ++bucket_[graph.degree(v) + 1];
+    for (std::size_t d = 1; d < bucket_.size(); ++d) bucket_[d] += bucket_[d - 1];
+    std::vector<std::size_t> next = bucket_;
+    for (std::size_t v = 0; v < graph.size(); ++v) {
+      degree_[v] = graph.degree(v);
+      place_[v] = next[degree_[v]]++;
+      order_[place_[v]] = static_cast<std::uint32_t>(v);
+    }
+  }
+
+  // The vertex of smallest degree that is `taken`-th to go; its degree is counted no more.
+  std::uint32_t take(std::size_t taken) {
+    const std::uint32_t vertex = order_[taken];
+    current_ = degree_[vertex];
+    bucket_[current_] = taken + 1;
+    return vertex;
+  }
+
+  // One neighbour less: swaps with the first of its bucket, which then begins one place later. A vertex of
+  // the smallest degree stays: it goes next anyway, and so no bucket reaches back among the taken.
+  void lower(std::uint32_t vertex) {
+    if (degree_[vertex] <= current_) return;
+    const std::size_t to = bucket_[degree_[vertex]]++;
+    const std::size_t from = place_[vertex];
+    std::swap(order_[from], order_[to]);
+    place_[order_[from]] = from;
+    place_[vertex] = to;
+    --degree_[vertex];
+  }
+
+  const std::vector<std::uint32_t>& order() const { return order_; }
+
+ private:
+  std::vector<std::uint32_t> order_;
+  std::vector<std::size_t> place_;   // order_[place_[v]] == v
+  std::vector<std::size_t> degree_;  // at least current_ for those not taken
+  std::vector<std::size_t> bucket_;  // where the vertices of each degree begin in order_
+  std::size_t current_ = 0;
+};
+
+// The degeneracy order: every vertex has the smallest degree among itself and those after it.
+std::vector<std::uint32_t> smallest_first(const Adjacency& graph, const Monitor& monitor) {
+  DegreeOrder order(graph);
+  for (std::size_t taken = 0; taken < graph.size(); ++taken) {
+    poll(monitor, taken);
+    for (const std::uint32_t neighbour : graph.of(order.take(taken))) order.lower(neighbour);
+  }
+  return order.order();
+}
+
+// Colours 1, 2, ... and how often each is used.
+class Palette {
+ public:
+  // Forbids a colour for the vertex at hand.
+  void forbid(std::uint32_t colour, std::uint32_t vertex) {
+    forbidden_for_[colour] = std::uint64_t{vertex} + 1;
+  }
+
+  std::uint32_t choose(std::uint32_t vertex) {
+    std::size_t best = 0;
+    for (std::size_t colour = 1; colour < uses_.size(); ++colour) {
+      if (forbidden_for_[colour] == std::uint64_t{vertex} + 1) continue;
+      if (best == 0 || uses_[colour] < uses_[best]) best = colour;
+    }
+    if (best == 0) {
+      best = uses_.size();
+      uses_.push_back(0);
+      forbidden_for_.push_back(0);
+    }
+    ++uses_[best];
+    return static_cast<std::uint32_t>(best);
+  }
+
+ private:
+  std::vector<std::uint64_t> uses_{0};           // entry 0, "no colour yet", is not used
+  std::vector<std::uint64_t> forbidden_for_{0};  // the last vertex + 1 that must not take it
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> colour_graph(std::size_t vertices, std::span<const Edge> edges,
+                                        const Monitor& monitor) {
+  const Adjacency graph(vertices, edges);
+  const std::vector<std::uint32_t> order = smallest_first(graph, monitor);
+  std::vector<std::uint32_t> colours(vertices, 0);
+  Palette palette;
+  for (std::size_t k = vertices; k-- > 0;) {
+    poll(monitor, k);
+    const std::uint32_t vertex = order[k];
+    for (const std::uint32_t neighbour : graph.of(vertex)) palette.forbid(colours[neighbour], vertex);
+    colours[vertex] = palette.choose(vertex);
+  }
+  return colours;
+}
+
+}  // namespace vorotool::core::graphs

@@ -1,0 +1,102 @@
+#include "core/graphs/shortest_paths.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vorotool::core::graphs {
+namespace {
+
+std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
+
+bool is_farther(const ShortestPaths::Start& a, const ShortestPaths::Start& b) {
+  return a.distance != b.distance ? a.distance > b.distance : a.node > b.node;
+}
+
+}  // namespace
+
+std::vector<std::int64_t> whole_lengths(std::span<const double> lengths, std::span<const std::int32_t> group,
+                                        std::size_t groups) {
+  std::vector<double> sum(groups);
+  for (std::size_t k = 0; k < lengths.size(); ++k) sum[at(group[k])] += lengths[k];
+  std::vector<int> exponent(groups);
+  for (std::size_t k = 0; k < groups; ++k) std::frexp(sum[k], &exponent[k]);  // the sum is below 2^exponent
+  std::vector<std::int64_t> whole(lengths.size());
+  for (std::size_t k = 0; k < lengths.size(); ++k) {
+    const double scaled = std::ldexp(lengths[k], 61 - exponent[at(group[k])]);
+    whole[k] = static_cast<std::int64_t>(std::floor(scaled + 0.5));
+  }
+  return whole;
+}
+
+GraphIncidence::GraphIncidence(std::span<const std::array<std::int32_t, 2>> arcs, std::size_t nodes,
+                               const std::vector<bool>& uses)
+    : start_(nodes + 2) {
+  const auto used = [&](std::size_t k) { return uses.empty() || uses[k]; };
+  for (std::size_t k = 0; k < arcs.size(); ++k) {
+    if (!used(k)) continue;
+    for (const std::int32_t node : arcs[k]) ++start_[at(node) + 2];
+  }
+  for (std::size_t k = 2; k < start_.size(); ++k) start_[k] += start_[k - 1];
+  arc_.resize(start_.back());
+  for (std::size_t k = 0; k < arcs.size(); ++k) {
+    if (!used(k)) continue;
+    for (const std::int32_t node : arcs[k]) arc_[start_[at(node) + 1]++] = static_cast<std::int32_t>(k);
+  }
+  start_.pop_back();
+}
+
+ShortestPaths::ShortestPaths(std::span<const std::array<std::int32_t, 2>> arcs,
+                             std::span<const std::int64_t> lengths, const GraphIncidence& incidence,
+                             std::size_t nodes)
+    : arcs_(arcs), lengths_(lengths), incidence_(incidence), distance_(nodes, unreached), last_(nodes, -1) {}
+
+void ShortestPaths::find(std::span<const Start> starts, const base::Monitor& monitor) {
+  for (const std::int32_t node : reached_) distance_[at(node)] = unreached;
+  reached_.clear();
+  for (const auto& [node, distance] : starts) reach(node, distance, -1);
+  std::size_t done = 0;
+  while (!queue_.empty()) {
+    std::pop_heap(queue_.begin(), queue_.end(), is_farther);
+    const auto [node, distance] = queue_.back();
+    queue_.pop_back();
+    if (distance > distance_[at(node)]) continue;
+    if (++done % (1 << 14) == 0 && monitor && !monitor(0)) throw base::Interrupted();
+    for (const std::int32_t arc : incidence_.arcs_at(node)) {
+      const auto [a, b] = arcs_[at(arc)];
+      reach(a == node ? b : a, distance + lengths_[at(arc)], arc);
+    }
+  }
+}
+
+// An arc of length 0 takes no node over: two such could lead to each other.
+void ShortestPaths::reach(std::int32_t node, std::int64_t distance, std::int32_t arc) {
+  std::int64_t& best = distance_[at(node)];
+  if (best == distance) {
+    if (last_[at(node)] > arc && arc >= 0 && lengths_[at(arc)] > 0) last_[at(node)] = arc;
+    return;
+  }
+  if (best != unreached && best < distance) return;
+  if (best == unreached) reached_.push_back(node);
+  best = distance;
+  last_[at(node)] = arc;
+  queue_.push_back({node, distance});
+  std::push_heap(queue_.begin(), queue_.end(), is_farther);
+}
+
+GraphPath ShortestPaths::path_to(std::int32_t node) const {
+  GraphPath path;
+  if (distance(node) == unreached) return path;
+  path.nodes.push_back(node);
+  while (last_[at(node)] >= 0) {
+    const std::int32_t arc = last_[at(node)];
+    const auto [a, b] = arcs_[at(arc)];
+    node = a == node ? b : a;
+    path.arcs.push_back(arc);
+    path.nodes.push_back(node);
+  }
+  std::reverse(path.nodes.begin(), path.nodes.end());
+  std::reverse(path.arcs.begin(), path.arcs.end());
+  return path;
+}
+
+}  // namespace vorotool::core::graphs

@@ -1,0 +1,37 @@
+// Regions of what is not far, and how regions are nested.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/disjoint_sets.hpp"
+#include "core/offsets/level_crossings.hpp"
+
+namespace vorotool::core::offsets {
+
+// What is near holds all sites, and what is on the other side of the shapes.
+class NearRegions {
+ public:
+  NearRegions(const CellBorders& borders, const OffsetDomain& domain, const ClearanceLevel& level,
+              const Descents& descents, const base::Monitor& monitor);
+
+  // The number of the region of a site.
+  std::int32_t of(std::int32_t site) { return sets_.find(site); }
+
+ private:
+  base::DisjointSets<std::int32_t> sets_;
+};
+
+// A ring is between two regions.
+struct RingSides {
+  std::int32_t far, near;
+};
+
+// Which rings are the outer ones of their shapes, which are the near regions or the far ones. Regions and the
+// rings between them are a tree, since a ring parts the plane: seen from the region at infinity, the ring on
+// the way to a shape is its outer one.
+std::vector<bool> outer_rings(std::span<const RingSides> rings, std::int32_t region_at_infinity,
+                              bool shapes_are_near);
+
+}  // namespace vorotool::core::offsets

@@ -1,0 +1,49 @@
+// What is left of a skeleton for a threshold.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/monitor.hpp"
+#include "core/pruning/critical_values.hpp"
+#include "core/skeleton/skeleton_view.hpp"
+
+namespace vorotool::core::pruning {
+
+// The part of an arc that is left: from one parameter to another, the same where it is a single place.
+struct ArcPart {
+  std::int32_t arc;
+  double first, last;
+};
+
+// Its ends, its control point (NaN where it is straight), and its length.
+struct PartGeometry {
+  skeleton::ArcEnd first, last;
+  skeleton::Place control;
+  double length;
+};
+PartGeometry part_geometry(const skeleton::SkeletonView& skeleton, const ArcPart& part);
+
+// By arc: the places whose critical value is at least the threshold.
+std::vector<ArcPart> parts_left(const skeleton::SkeletonView& skeleton, const CriticalValues& values,
+                                Criterion criterion, double threshold);
+
+// Arcs branch by branch, as of a whole skeleton.
+struct PrunedSkeleton {
+  std::vector<skeleton::Place> vertices;          // [v]
+  std::vector<double> radius;                     // [v]
+  std::vector<std::array<std::int32_t, 2>> arcs;  // [a]
+  std::vector<skeleton::Place> control;           // [a] NaN on straight lines
+  std::vector<double> length;                     // [a]
+  std::vector<std::int32_t> branch;               // [a]
+  std::vector<std::int32_t> original;             // [a] the arc that each is a part of
+  std::vector<std::uint8_t> is_reversed;          // [a] runs against that
+};
+
+// Of parts with the groups of their arcs: groups stay together.
+PrunedSkeleton pruned_skeleton(const skeleton::SkeletonView& skeleton, std::span<const ArcPart> parts,
+                               std::span<const std::int32_t> group, const base::Monitor& monitor);
+
+}  // namespace vorotool::core::pruning

@@ -1,0 +1,65 @@
+// The edges of shapes near a part of a Voronoi edge of seeds on them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/arrangement/planar_graph_view.hpp"
+#include "core/sampled_skeleton/arc_error_bound.hpp"
+#include "core/sampled_skeleton/sample_diagram.hpp"
+#include "core/spatial/obb_tree.hpp"
+
+namespace vorotool::core::sampled_skeleton {
+
+// The discs about two points of a Voronoi edge hold those about all points between, if each goes through both
+// seeds or, squared, its radius is larger than that by the same for all.
+struct DiscPair {
+  std::array<skeleton::Place, 2> centre;
+  std::array<double, 2> radius;
+};
+
+// Finds edges one time after the other: memory is used again.
+class NearEdges {
+ public:
+  // Of each group the segments of a graph, then all of its points that no segment ends at.
+  static std::vector<std::vector<NearEdge>> items(const arrangement::ShapeGraph& graph,
+                                                  const SeedGroups& groups);
+
+  // `hierarchy` holds the items by their numbers.
+  NearEdges(std::span<const NearEdge> items, const spatial::SiteHierarchy& hierarchy, std::size_t most)
+      : items_(items), hierarchy_(hierarchy), most_(most) {}
+
+  // All that meet the discs; nothing if more than `most` meet one of them, as where a shape is round about
+  // it.
+  std::optional<std::span<const NearEdge>> find(const DiscPair& discs);
+  // Whether that was so of a disc of the last search.
+  bool is_crowded(std::size_t disc) const { return discs_[disc].numbers.size() > most_; }
+
+ private:
+  // What meets one disc. Arcs that follow each other have one in common.
+  struct Found {
+    skeleton::Place centre{0, 0};
+    double radius = -1;
+    std::vector<std::uint32_t> numbers;
+  };
+  bool is_known(const skeleton::Place& centre, double radius, std::size_t i);
+  void search(const skeleton::Place& centre, double radius, Found& found);
+  // Whether the surroundings hold a disc; they are gathered where it is hardly away from the last one.
+  bool is_surrounded(const skeleton::Place& centre, double reach);
+
+  std::span<const NearEdge> items_;
+  const spatial::SiteHierarchy& hierarchy_;
+  std::size_t most_;
+  std::array<Found, 2> discs_;
+  Found surroundings_;          // what meets a wider disc: many that follow are within it
+  skeleton::Place last_{0, 0};  // the centre of the disc that was searched for last
+  std::vector<NearEdge> found_;
+};
+
+}  // namespace vorotool::core::sampled_skeleton

@@ -1,0 +1,87 @@
+// The Delaunay triangulation of seeds, side by side, and differences of seeds.
+//
+// Side 3 t + k of triangle t is opposite to its corner k; t is on its left. Its Voronoi edge goes from the
+// circumcentre of t to that of the neighbour across it, or to infinity.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/kernel/point.hpp"
+#include "core/numbers/int128.hpp"
+#include "core/numbers/sign.hpp"
+#include "core/sampled_skeleton/boundary_samples.hpp"
+
+namespace vorotool::core::sampled_skeleton {
+
+using Side = std::int32_t;
+using Triangle = std::int32_t;
+
+// What is known of the Voronoi edge of a side; 0: it is kept.
+enum SideState : std::uint8_t {
+  same_label = 1,  // its seeds have a label in common
+  own_piece = 2,  // its seeds follow each other on an edge, and it is all that the piece between them crosses
+  crossed = 4,    // another piece meets it
+};
+
+struct SeedMesh {
+  std::span<const kernel::Point> seeds;
+  std::span<const std::int32_t> triangles, neighbours;  // [3 t] as of core/delaunay/triangulation.hpp
+
+  std::size_t size() const { return triangles.size() / 3; }
+  std::size_t sides() const { return triangles.size(); }
+  const kernel::Point& seed(std::int32_t i) const { return seeds[static_cast<std::size_t>(i)]; }
+
+  static Triangle triangle_of(Side s) { return s / 3; }
+  std::int32_t corner(Triangle t, int k) const { return triangles[static_cast<std::size_t>(3 * t + k % 3)]; }
+  std::int32_t origin(Side s) const {
+    return triangles[static_cast<std::size_t>(s % 3 == 2 ? s - 2 : s + 1)];
+  }
+  std::int32_t target(Side s) const {
+    return triangles[static_cast<std::size_t>(s % 3 == 0 ? s + 2 : s - 1)];
+  }
+  std::int32_t apex(Side s) const { return triangles[static_cast<std::size_t>(s)]; }
+  // The triangle across a side, or -1.
+  Triangle across(Side s) const { return neighbours[static_cast<std::size_t>(s)]; }
+  // The same side of the triangle across it, or -1.
+  Side twin(Side s) const {
+    const Triangle u = across(s);
+    if (u < 0) return -1;
+    for (int k = 0; k < 2; ++k) {
+      if (across(3 * u + k) == triangle_of(s)) return 3 * u + k;
+    }
+    return 3 * u + 2;
+  }
+  // Whether a side is the one of the two to be looked at where each is once.
+  bool is_first(Side s) const { return across(s) < 0 || triangle_of(s) < across(s); }
+};
+
+// Differences of seeds, and exact products of them. Coordinates are multiples of `seed_step` below 2^30
+// (core/sampled_skeleton/boundary_samples.hpp): differences are below 2^53 of these, products of two below
+// 2^106, sums of two products below 2^107.
+struct SeedVector {
+  std::int64_t x, y;
+};
+
+inline SeedVector seed_difference(const kernel::Point& a, const kernel::Point& b) {
+  return {static_cast<std::int64_t>((a.x - b.x) / seed_step),
+          static_cast<std::int64_t>((a.y - b.y) / seed_step)};
+}
+inline SeedVector operator+(const SeedVector& v, const SeedVector& w) { return {v.x + w.x, v.y + w.y}; }
+inline numbers::int128 dot(const SeedVector& v, const SeedVector& w) {
+  return numbers::int128{v.x} * w.x + numbers::int128{v.y} * w.y;
+}
+inline SeedVector left_of(const SeedVector& v) { return {-v.y, v.x}; }
+
+// The sign of the angle at p between a and b less 90 degrees, exactly: 1 if it is smaller.
+inline int sign_of_dot(const kernel::Point& p, const kernel::Point& a, const kernel::Point& b) {
+  // differences are exact, two products and a sum rounded
+  const double x = (a.x - p.x) * (b.x - p.x), y = (a.y - p.y) * (b.y - p.y), sum = x + y;
+  if (std::abs(sum) > 4 * numbers::unit_roundoff * (std::abs(x) + std::abs(y))) return numbers::sign_of(sum);
+  const numbers::int128 exact = dot(seed_difference(a, p), seed_difference(b, p));
+  return (exact > 0) - (exact < 0);
+}
+
+}  // namespace vorotool::core::sampled_skeleton

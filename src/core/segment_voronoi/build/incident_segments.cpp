@@ -1,0 +1,85 @@
+#include "core/segment_voronoi/build/incident_segments.hpp"
+
+#include <algorithm>
+
+#include "core/kernel/lattice.hpp"
+
+namespace vorotool::core::segment_voronoi::build {
+
+using kernel::LatticeVector;
+
+namespace {
+
+LatticeVector way_from(const SegmentDiagram& in, std::int32_t point, std::int32_t segment) {
+  const auto& [a, b] = in.ends(segment);
+  return in.point(a == point ? b : a) - in.point(point);
+}
+
+bool is_lower(const LatticeVector& v) { return v.y < 0 || (v.y == 0 && v.x < 0); }
+
+bool earlier(const LatticeVector& v, const LatticeVector& w) {
+  return is_lower(v) != is_lower(w) ? is_lower(w) : kernel::cross(v, w) > 0;
+}
+
+}  // namespace
+
+IncidentSegments::IncidentSegments(const SegmentDiagram& diagram)
+    : in_(diagram), start_(diagram.points.size() + 1), segments_(2 * diagram.segments.size()) {
+  for (const auto& ends : in_.segments) {
+    for (const std::int32_t end : ends) ++start_[static_cast<std::size_t>(end) + 1];
+  }
+  for (std::size_t i = 1; i < start_.size(); ++i) start_[i] += start_[i - 1];
+  std::vector<std::size_t> next(start_.begin(), start_.end());
+  for (std::size_t j = 0; j < in_.segments.size(); ++j) {
+    for (const std::int32_t end : in_.segments[j]) {
+      segments_[next[static_cast<std::size_t>(end)]++] = static_cast<std::int32_t>(in_.points.size() + j);
+    }
+  }
+  for (std::size_t p = 0; p + 1 < start_.size(); ++p) {
+    const auto point = static_cast<std::int32_t>(p);
+    std::sort(segments_.begin() + static_cast<std::ptrdiff_t>(start_[p]),
+              segments_.begin() + static_cast<std::ptrdiff_t>(start_[p + 1]),
+              [&](std::int32_t s, std::int32_t t) {
+                return earlier(way_from(in_, point, s), way_from(in_, point, t));
+              });
+  }
+}
+
+std::int32_t IncidentSegments::between(std::int32_t p, std::int32_t q) const {
+  const std::int32_t fewer = at(p).size() < at(q).size() ? p : q, other = fewer == p ? q : p;
+  for (const std::int32_t segment : at(fewer)) {
+    if (in_.is_end(other, segment)) return segment;
+  }
+  return -1;
+}
+
+bool IncidentSegments::wide_gap_after(std::int32_t point, std::size_t i) const {
+  const auto segments = at(point);
+  const std::int32_t following = segments[(i + 1) % segments.size()];
+  return kernel::cross(way_from(in_, point, segments[i]), way_from(in_, point, following)) <= 0;
+}
+
+bool IncidentSegments::has_no_cell(std::int32_t point) const {
+  for (std::size_t i = 0; i < at(point).size(); ++i) {
+    if (wide_gap_after(point, i)) return false;
+  }
+  return !at(point).empty();
+}
+
+std::vector<std::int32_t> IncidentSegments::corner_ring(std::int32_t point) const {
+  const auto segments = at(point);
+  if (segments.size() < 2) return {};
+  std::vector<std::int32_t> ring;
+  int wide = 0;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    ring.push_back(segments[i]);
+    if (!wide_gap_after(point, i)) continue;
+    ring.push_back(point);
+    ++wide;
+  }
+  if (wide > 1) return {};  // two gaps of 180 degrees
+  std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end()), ring.end());
+  return ring;
+}
+
+}  // namespace vorotool::core::segment_voronoi::build

@@ -1,0 +1,42 @@
+// The segments that end at each point, counter-clockwise.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/segment_voronoi/build/diagram.hpp"
+
+namespace vorotool::core::segment_voronoi::build {
+
+class IncidentSegments {
+ public:
+  // Of the diagram only points and segments are read.
+  explicit IncidentSegments(const SegmentDiagram& diagram);
+
+  // Site numbers of the segments at a point, counter-clockwise from the positive x axis.
+  std::span<const std::int32_t> at(std::int32_t point) const {
+    const auto begin = start_[static_cast<std::size_t>(point)],
+               end = start_[static_cast<std::size_t>(point) + 1];
+    return std::span(segments_).subspan(begin, end - begin);
+  }
+  // The site number of the segment between two points, or -1.
+  std::int32_t between(std::int32_t p, std::int32_t q) const;
+
+  // The cells that meet at a corner in a disc of radius 0: the segments, and the point itself in a gap of 180
+  // degrees or more. Empty where no vertex is: fewer than two segments, or two on one line.
+  std::vector<std::int32_t> corner_ring(std::int32_t point) const;
+  // Whether all gaps are under 180 degrees: then the point has no cell.
+  bool has_no_cell(std::int32_t point) const;
+
+ private:
+  // Where the gap after segment i at a point is 180 degrees or more.
+  bool wide_gap_after(std::int32_t point, std::size_t i) const;
+
+  SegmentDiagram in_;
+  std::vector<std::size_t> start_;
+  std::vector<std::int32_t> segments_;
+};
+
+}  // namespace vorotool::core::segment_voronoi::build

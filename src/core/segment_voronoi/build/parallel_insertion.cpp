@@ -1,0 +1,101 @@
+#include "core/segment_voronoi/build/parallel_insertion.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/base/parallel.hpp"
+
+namespace vorotool::core::segment_voronoi::build {
+
+using base::Monitor;
+
+namespace {
+
+constexpr std::size_t piece_size = 512;  // insertions of a piece of work, some ms
+// Shorter rounds are not worth sharing: threads would often be in each other's way.
+constexpr std::size_t pieces_to_share = 16;
+constexpr std::int32_t ahead = 3;  // insertions: how early memory is called for
+
+}  // namespace
+
+InsertionRounds::InsertionRounds(const discs::SegmentSites& sites, VoronoiRecords& records, unsigned threads)
+    : sites_(sites),
+      records_(records),
+      threads_(base::resolve_threads(threads)),
+      order_(insertion_order(sites.segment_count())),
+      alone_(sites, records) {}
+
+void InsertionRounds::run(const Monitor& monitor) {
+  for (std::size_t r = 0; r + 1 < order_.begin.size(); ++r) {
+    const std::size_t begin = order_.begin[r], end = order_.begin[r + 1];
+    if (threads_ > 1 && end - begin >= pieces_to_share * piece_size) {
+      insert_together(begin, end, monitor);
+    } else {
+      Places places(end - begin);
+      std::iota(places.begin(), places.end(), static_cast<std::int32_t>(begin));
+      insert_alone(places, monitor);
+    }
+  }
+}
+
+// There are at most two attempts for each place: their numbers, and the stamps made of them, fit in 31 bits.
+bool InsertionRounds::insert(SegmentInsertion& worker, std::int32_t place) const {
+  const auto first_segment = static_cast<discs::SiteIndex>(sites_.point_count());
+  const auto count = static_cast<std::int32_t>(order_.items.size());
+  const auto item = [&](std::int32_t k) { return order_.items[static_cast<std::size_t>(k)]; };
+  if (place + ahead < count) worker.prefetch(first_segment + item(place + ahead));
+  const std::int32_t number = 1 + place + (&worker == &alone_ ? count : 0);
+  const auto fresh = static_cast<std::int32_t>(records_.of_points) + 2 * item(place);
+  return worker.insert(first_segment + item(place), number, fresh);
+}
+
+void InsertionRounds::insert_alone(const Places& places, const Monitor& monitor) {
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const double done = static_cast<double>(places[k]) / static_cast<double>(order_.items.size());
+    if (k % (piece_size / 2) == 0 && monitor && !monitor(done)) throw base::Interrupted();
+    insert(alone_, places[k]);
+  }
+}
+
+// A piece is a stretch of the curve. Segments that are in the way of another thread are left to the end.
+void InsertionRounds::insert_together(std::size_t begin, std::size_t end, const Monitor& monitor) {
+  std::vector<Places> left(base::piece_count(end - begin, piece_size));
+  const auto insert_piece = [&](std::size_t piece) {
+    SegmentInsertion& worker = take_worker();
+    const std::size_t first = begin + piece * piece_size;
+    for (std::size_t k = first; k < std::min(end, first + piece_size); ++k) {
+      const auto place = static_cast<std::int32_t>(k);
+      if (!insert(worker, place)) left[piece].push_back(place);
+    }
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(&worker);
+  };
+  base::parallel_for(left.size(), threads_, insert_piece, monitor);
+  for (const Places& places : left) insert_alone(places, monitor);
+}
+
+SegmentInsertion& InsertionRounds::take_worker() {
+  const std::lock_guard lock(mutex_);
+  if (idle_.empty()) {
+    const auto number = static_cast<std::uint16_t>(workers_.size() + 1);
+    workers_.push_back(std::make_unique<SegmentInsertion>(sites_, records_, number));
+    return *workers_.back();
+  }
+  SegmentInsertion& worker = *idle_.back();
+  idle_.pop_back();
+  return worker;
+}
+
+SegmentVoronoiCounts InsertionRounds::counts() const {
+  SegmentVoronoiCounts sum;
+  const auto add = [&](const SegmentInsertion& worker) {
+    sum.visited += worker.visited();
+    sum.cyclic += worker.cyclic();
+    sum.escalations += worker.escalations();
+  };
+  add(alone_);
+  for (const auto& worker : workers_) add(*worker);
+  return sum;
+}
+
+}  // namespace vorotool::core::segment_voronoi::build

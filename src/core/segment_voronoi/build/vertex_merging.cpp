@@ -1,0 +1,281 @@
+#include "core/segment_voronoi/build/vertex_merging.hpp"
+
+#include <atomic>
+#include <numeric>
+
+#include "core/base/parallel.hpp"
+#include "core/segment_voronoi/build/coincident_vertices.hpp"
+#include "core/segment_voronoi/build/wanted_faces.hpp"
+
+namespace vorotool::core::segment_voronoi::build {
+
+using base::Monitor;
+using base::piece_count;
+using discs::Corner;
+using discs::corner_of;
+using discs::place_of;
+using discs::record_of;
+using discs::SiteIndex;
+using discs::VoronoiRecord;
+
+namespace {
+
+constexpr std::size_t piece_size = std::size_t{1} << 13;  // items of a piece of work, some ms
+constexpr std::size_t ahead = 8;                          // items: how early others are called for
+
+// Calls body(piece, begin, end) for pieces of the items.
+template <class Body>
+void for_pieces(std::size_t count, unsigned threads, const Monitor& monitor, Body body) {
+  base::parallel_for(
+      piece_count(count, piece_size), threads,
+      [&](std::size_t piece) {
+        body(piece, static_cast<std::int32_t>(piece * piece_size),
+             static_cast<std::int32_t>(std::min(count, (piece + 1) * piece_size)));
+      },
+      monitor);
+}
+
+std::uint32_t add(std::uint32_t& counter, std::uint32_t value) {
+  return std::atomic_ref(counter).fetch_add(value, std::memory_order_relaxed);
+}
+
+void prefetch_neighbours(const VoronoiRecords& records, std::int32_t record) {
+  for (const Corner twin : records[record].twins) records.prefetch(record_of(twin));
+}
+
+}  // namespace
+
+VertexNumbers::VertexNumbers(const discs::SegmentSites& sites, const VoronoiRecords& records,
+                             std::span<const std::uint8_t> idle, unsigned threads, const Monitor& monitor)
+    : records_(records),
+      code_(records.all.size()),
+      is_merged_(records.all.size()),
+      begin_(static_cast<std::size_t>(sites.infinite()) + 2) {
+  std::vector<Found> found(piece_count(code_.size(), piece_size));
+  for_pieces(code_.size(), threads, monitor, [&](std::size_t piece, std::int32_t begin, std::int32_t end) {
+    for (std::int32_t v = begin; v < end; ++v) look_at(sites, idle, v, found[piece]);
+  });
+  for (const Found& some : found)
+    infinite_.insert(infinite_.end(), some.infinite.begin(), some.infinite.end());
+  merge(found);
+  found = std::vector<Found>();
+  choose_leads();
+  gather_rings(threads, monitor);
+}
+
+void VertexNumbers::assign(unsigned threads, const Monitor& monitor) {
+  sort_by_first_site(threads, monitor);
+  number(threads, monitor);
+  make_starts();
+}
+
+// Its disc, if it has a radius, is in the face of each site on that side.
+bool VertexNumbers::is_idle(const VoronoiRecord& v, std::span<const std::uint8_t> idle) const {
+  if (idle.empty() || v.radius == 0) return false;
+  for (int i = 0; i < 3; ++i) {
+    const auto site = static_cast<std::size_t>(v.sites[static_cast<std::size_t>(i)]);
+    if ((idle[site] & (v.is_left(i) ? idle_left : idle_right)) != 0) return true;
+  }
+  return false;
+}
+
+// As if it were alone at its place. Where points have cells without area, a record of these alone may be not
+// idle while others at its place are: then it stays alone, outside.
+void VertexNumbers::look_at(const discs::SegmentSites& sites, std::span<const std::uint8_t> idle,
+                            std::int32_t u, Found& found) {
+  if (static_cast<std::size_t>(u) + ahead < code_.size()) {
+    prefetch_neighbours(records_, u + static_cast<std::int32_t>(ahead));
+  }
+  const VoronoiRecord& v = records_[u];
+  if (v.is_infinite()) {
+    code(u) = ~at_infinity;
+    found.infinite.push_back(u);
+    return;
+  }
+  if (is_idle(v, idle)) {
+    code(u) = ~left_out;
+    return;
+  }
+  const SiteIndex first = *std::min_element(v.sites.begin(), v.sites.end());
+  code(u) = ~first;
+  add(count_at(first), 1);
+  for (int i = 0; i < 3; ++i) {
+    const std::int32_t w = record_of(v.twins[static_cast<std::size_t>(i)]);
+    if (w < u || records_[w].is_infinite() || is_idle(records_[w], idle)) continue;
+    if (are_coincident(sites, v, i, records_[w])) found.coincident.push_back({u, w});
+  }
+}
+
+// The smallest number at a place becomes that of the place. With every step to it the way is halved for those
+// who come after.
+std::int32_t VertexNumbers::root(std::int32_t record) {
+  if (code(record) < 0) {
+    --count_at(~code(record));
+    code(record) = record;
+    is_merged_[static_cast<std::size_t>(record)] = true;
+  }
+  while (code(record) != record) {
+    code(record) = code(code(record));
+    record = code(record);
+  }
+  return record;
+}
+
+void VertexNumbers::merge(const std::vector<Found>& found) {
+  for (const Found& some : found) {
+    for (const auto& [u, w] : some.coincident) {
+      const std::int32_t one = root(u), other = root(w);
+      code(std::max(one, other)) = std::min(one, other);
+    }
+  }
+  for (const Found& some : found) {
+    for (const auto& [u, w] : some.coincident) {
+      code(u) = root(u);
+      code(w) = root(w);
+    }
+  }
+}
+
+// The border of a place is gone round counter-clockwise: from half-edge to half-edge of one vertex, and on in
+// the next vertex of the place where a half-edge has no length. A point whose segments leave no gap of 180
+// degrees is inside.
+void VertexNumbers::gather_ring(std::int32_t record, std::vector<Spoke>& spokes) const {
+  const auto begin = static_cast<std::ptrdiff_t>(spokes.size());
+  Corner corner = corner_of(record, 0);
+  while (!is_border(corner)) ++corner;
+  const Corner first = corner;
+  do {
+    spokes.push_back(spoke_at(corner));
+    for (;;) {
+      const std::int32_t here = record_of(corner);
+      corner = corner_of(here, discs::following(place_of(corner)));
+      if (is_border(corner)) break;
+      corner = records_[here].twins[static_cast<std::size_t>(place_of(corner))];
+    }
+  } while (corner != first);
+  const auto least = std::min_element(spokes.begin() + begin, spokes.end(),
+                                      [](const Spoke& a, const Spoke& b) { return a.site < b.site; });
+  std::rotate(spokes.begin() + begin, least, spokes.end());
+}
+
+// The edge opposite to a corner, and the site on its left.
+VertexNumbers::Spoke VertexNumbers::spoke_at(Corner corner) const {
+  const VoronoiRecord& v = records_[record_of(corner)];
+  const int left = discs::preceding(place_of(corner));
+  return {static_cast<std::uint32_t>(v.sites[static_cast<std::size_t>(left)]), v.is_left(left),
+          record_of(v.twins[static_cast<std::size_t>(place_of(corner))])};
+}
+
+std::span<const VertexNumbers::Spoke> VertexNumbers::merged_ring(std::size_t k) const {
+  const std::span<const Spoke> rings = rings_[k / piece_size];
+  const bool is_last = k + 1 == ring_begin_.size() || (k + 1) % piece_size == 0;
+  return rings.subspan(ring_begin_[k], (is_last ? rings.size() : ring_begin_[k + 1]) - ring_begin_[k]);
+}
+
+// The first record of each place that is on its border.
+void VertexNumbers::choose_leads() {
+  std::vector<bool> seen(code_.size());
+  for (std::int32_t v = 0; v < static_cast<std::int32_t>(code_.size()); ++v) {
+    if (!is_merged(v) || seen[static_cast<std::size_t>(code(v))]) continue;
+    const auto is_border = [&](int i) { return this->is_border(corner_of(v, i)); };
+    if (!is_border(0) && !is_border(1) && !is_border(2)) continue;
+    seen[static_cast<std::size_t>(code(v))] = true;
+    merged_leads_.push_back(v);
+  }
+}
+
+void VertexNumbers::gather_rings(unsigned threads, const Monitor& monitor) {
+  ring_begin_.resize(merged_leads_.size());
+  rings_.resize(piece_count(merged_leads_.size(), piece_size));
+  for_pieces(merged_leads_.size(), threads, monitor,
+             [&](std::size_t piece, std::int32_t begin, std::int32_t end) {
+               std::vector<Spoke> spokes;
+               for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+                 if (k + ahead < merged_leads_.size())
+                   prefetch_neighbours(records_, merged_leads_[k + ahead]);
+                 ring_begin_[k] = static_cast<std::uint32_t>(spokes.size());
+                 gather_ring(merged_leads_[k], spokes);
+                 add(count_at(static_cast<SiteIndex>(spokes[ring_begin_[k]].site)), 1);
+               }
+               rings_[piece].assign(spokes.begin(), spokes.end());  // no more memory than it takes
+             });
+}
+
+// By the first site in one go, and by the others among the few that share it. No two have the same three
+// sites first, in the same order. Keys of several records are named by the complements of their numbers.
+void VertexNumbers::sort_by_first_site(unsigned threads, const Monitor& monitor) {
+  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+  leads_ = base::LargeArray<std::int32_t>(begin_.back() + 1);
+  const auto put = [&](std::int32_t name, SiteIndex first) {
+    leads_[add(begin_[static_cast<std::size_t>(first) + 1], 1)] = name;
+  };
+  for_pieces(code_.size(), threads, monitor, [&](std::size_t, std::int32_t begin, std::int32_t end) {
+    for (std::int32_t v = begin; v < end; ++v) {
+      if (code(v) < 0 && ~code(v) < left_out) put(v, ~code(v));
+    }
+  });
+  for_pieces(merged_leads_.size(), threads, monitor, [&](std::size_t, std::int32_t begin, std::int32_t end) {
+    for (std::int32_t k = begin; k < end; ++k) put(~k, key_of(~k).first);
+  });
+  for_pieces(begin_.size() - 2, threads, monitor,
+             [&](std::size_t, std::int32_t begin, std::int32_t end) { sort_buckets(begin, end); });
+  begin_ = std::vector<std::uint32_t>();
+}
+
+VertexNumbers::Key VertexNumbers::key_of(std::int32_t name) const {
+  if (name < 0) {
+    const auto k = static_cast<std::size_t>(~name);
+    const auto ring = merged_ring(k);
+    const auto site = [&](std::size_t i) { return static_cast<SiteIndex>(ring[i].site); };
+    return {site(0), site(1), site(2), merged_leads_[k]};
+  }
+  const std::array<SiteIndex, 3>& sites = records_[name].sites;
+  const auto i = static_cast<int>(std::min_element(sites.begin(), sites.end()) - sites.begin());
+  return {sites[static_cast<std::size_t>(i)], sites[static_cast<std::size_t>(discs::following(i))],
+          sites[static_cast<std::size_t>(discs::preceding(i))], name};
+}
+
+// Vertices whose first sites are first ... last - 1. Their records are far apart in memory: they are called
+// for early.
+void VertexNumbers::sort_buckets(SiteIndex first, SiteIndex last) {
+  std::vector<Key> keys;
+  std::size_t k = begin_[static_cast<std::size_t>(first)], called = k;
+  const std::size_t all = begin_[static_cast<std::size_t>(last)];
+  for (SiteIndex site = first; site < last; ++site) {
+    const std::size_t begin = k, end = begin_[static_cast<std::size_t>(site) + 1];
+    for (; called < std::min(all, end + ahead); ++called) {
+      if (leads_[called] >= 0) records_.prefetch(leads_[called]);
+    }
+    keys.clear();
+    for (; k < end; ++k) keys.push_back(key_of(leads_[k]));
+    std::sort(keys.begin(), keys.end());
+    for (std::size_t i = 0; i < keys.size(); ++i) leads_[begin + i] = keys[i].record;
+  }
+}
+
+// First one record of each place, then the others.
+void VertexNumbers::number(unsigned threads, const Monitor& monitor) {
+  for_pieces(leads_.size() - 1, threads, monitor, [&](std::size_t, std::int32_t begin, std::int32_t end) {
+    for (std::int32_t k = begin; k < end; ++k) {
+      const std::int32_t lead = leads_[static_cast<std::size_t>(k)];
+      code(is_merged(lead) ? code(lead) : lead) = ~k;
+    }
+  });
+  for_pieces(merged_leads_.empty() ? 0 : code_.size(), threads, monitor,
+             [&](std::size_t, std::int32_t begin, std::int32_t end) {
+               for (std::int32_t v = begin; v < end; ++v) {
+                 if (code(v) >= 0) code(v) = code(code(v));
+               }
+             });
+}
+
+// Of three sites each, but for places with several records.
+void VertexNumbers::make_starts() {
+  std::fill_n(leads_.data(), leads_.size(), 3);
+  for (std::size_t k = 0; k < merged_leads_.size(); ++k) {
+    leads_[static_cast<std::size_t>(of(merged_leads_[k]))] = static_cast<std::int32_t>(merged_ring(k).size());
+  }
+  std::exclusive_scan(leads_.data(), leads_.data() + leads_.size(), leads_.data(), 0);
+}
+
+}  // namespace vorotool::core::segment_voronoi::build

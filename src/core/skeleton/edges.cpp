@@ -1,0 +1,120 @@
+#include "core/skeleton/edges.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+
+#include "core/base/disjoint_sets.hpp"
+#include "core/base/large_array.hpp"
+#include "core/base/parallel.hpp"
+#include "core/segment_voronoi/build/wanted_faces.hpp"
+
+namespace vorotool::core::skeleton {
+
+using segment_voronoi::build::SegmentDiagram;
+
+namespace {
+
+using Pair = std::array<std::int32_t, 2>;
+constexpr std::int32_t unknown = -1, deleted = -2;
+constexpr std::size_t grain = 1 << 15;  // edges a piece: some 0.5 ms
+
+std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
+
+class FaceFinder {
+ public:
+  FaceFinder(const SegmentDiagram& diagram, std::span<const Pair> faces)
+      : diagram_(diagram),
+        faces_(faces),
+        point_face_(segment_voronoi::build::point_faces(diagram.points, diagram.segments, faces)) {}
+
+  // The face of an edge as far as its own sites and ends tell.
+  std::int32_t face(std::size_t edge) const {
+    const auto [left, right] = diagram_.edge_sites[edge];
+    const auto [source, target] = diagram_.edges[edge];
+    if (is_own_end(left, right) || is_own_end(right, left)) return deleted;
+    if (source < 0 || target < 0) return 0;
+    for (const std::int32_t site : {left, right}) {
+      if (diagram_.is_point(site) && point_face_[at(site)] != unknown) return point_face_[at(site)];
+    }
+    if (diagram_.radius[at(source)] == 0) return face_right_of(left, common_end(left, right));
+    if (diagram_.radius[at(target)] == 0) return face_right_of(right, common_end(left, right));
+    return unknown;
+  }
+
+ private:
+  bool is_own_end(std::int32_t site, std::int32_t other) const {
+    if (!diagram_.is_point(site) || diagram_.is_point(other)) return false;
+    const Pair& ends = diagram_.ends(other);
+    return ends[0] == site || ends[1] == site;
+  }
+
+  std::int32_t common_end(std::int32_t one, std::int32_t other) const {
+    const Pair &a = diagram_.ends(one), &b = diagram_.ends(other);
+    return a[0] == b[0] || a[0] == b[1] ? a[0] : a[1];
+  }
+
+  // As seen from an end of the segment along it.
+  std::int32_t face_right_of(std::int32_t segment, std::int32_t end) const {
+    return faces_[at(segment) - diagram_.points.size()][diagram_.ends(segment)[0] == end ? 1 : 0];
+  }
+
+  const SegmentDiagram& diagram_;
+  std::span<const Pair> faces_;
+  std::vector<std::int32_t> point_face_;
+};
+
+// Edges between segments, and between points without segments, are in the face of the edges that they meet at
+// vertices which are no corners: a path inside a face leads to each of them.
+void spread_faces(const SegmentDiagram& diagram, base::LargeArray<std::int32_t>& face) {
+  std::vector<std::int32_t> of_vertex(diagram.radius.size(), unknown);
+  std::vector<std::size_t> left_over;
+  for (std::size_t e = 0; e < face.size(); ++e) {
+    if (face[e] == unknown) left_over.push_back(e);
+    if (face[e] < 0) continue;
+    for (const std::int32_t v : diagram.edges[e]) {
+      if (v >= 0 && diagram.radius[at(v)] > 0) of_vertex[at(v)] = face[e];
+    }
+  }
+  base::DisjointSets<std::int32_t> together(diagram.radius.size());
+  for (const std::size_t e : left_over) together.join(diagram.edges[e][0], diagram.edges[e][1]);
+  for (std::size_t v = 0; v < of_vertex.size(); ++v) {
+    if (of_vertex[v] != unknown) of_vertex[at(together.find(static_cast<std::int32_t>(v)))] = of_vertex[v];
+  }
+  for (const std::size_t e : left_over) {
+    face[e] = of_vertex[at(together.find(diagram.edges[e][0]))];
+    if (face[e] == unknown) {
+      throw std::invalid_argument("edge " + std::to_string(e) + " is joined to nothing that has a face");
+    }
+  }
+}
+
+}  // namespace
+
+SkeletonEdges skeleton_edges(const SegmentDiagram& diagram, std::span<const Pair> segment_faces,
+                             unsigned threads, const base::Monitor& monitor) {
+  const std::size_t count = diagram.edges.size();
+  const FaceFinder finder(diagram, segment_faces);
+  base::LargeArray<std::int32_t> face(count);
+  base::parallel_for(
+      base::piece_count(count, grain), threads,
+      [&](std::size_t piece) {
+        const std::size_t last = std::min(count, (piece + 1) * grain);
+        for (std::size_t e = piece * grain; e < last; ++e) face[e] = finder.face(e);
+      },
+      monitor);
+  spread_faces(diagram, face);
+  SkeletonEdges kept;
+  const auto size = count - static_cast<std::size_t>(std::count(face.data(), face.data() + count, deleted));
+  kept.edge.reserve(size);
+  kept.face.reserve(size);
+  for (std::size_t e = 0; e < count; ++e) {
+    if (face[e] == deleted) continue;
+    kept.edge.push_back(static_cast<std::int32_t>(e));
+    kept.face.push_back(face[e]);
+  }
+  return kept;
+}
+
+}  // namespace vorotool::core::skeleton

@@ -1,0 +1,29 @@
+// Which edges of a segment Voronoi diagram are the skeleton's (paper, section 3.2), and where they lie.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/monitor.hpp"
+#include "core/segment_voronoi/build/diagram.hpp"
+
+namespace vorotool::core::skeleton {
+
+struct SkeletonEdges {
+  std::vector<std::int32_t> edge;  // of the diagram, ascending
+  std::vector<std::int32_t> face;  // of the planar graph, in which it lies as a whole
+};
+
+// All edges but those between a segment and its own end: what the paper deletes by its labels. Each lies in
+// one face, since it meets segments only where it ends in a corner. `segment_faces` are those left and right
+// of each segment; face 0 is the unbounded one.
+//
+// No coordinate of a vertex is looked at: a point's cell is in its sector over 180 degrees, an edge from a
+// corner between two segments, an unbounded edge in face 0; the rest is in the faces of its neighbours.
+SkeletonEdges skeleton_edges(const segment_voronoi::build::SegmentDiagram& diagram,
+                             std::span<const std::array<std::int32_t, 2>> segment_faces, unsigned threads,
+                             const base::Monitor& monitor);
+
+}  // namespace vorotool::core::skeleton

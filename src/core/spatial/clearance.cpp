@@ -1,0 +1,51 @@
+#include "core/spatial/clearance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/parallel.hpp"
+#include "core/kernel/lattice.hpp"
+#include "core/spatial/obb_tree.hpp"
+
+namespace vorotool::core::spatial {
+
+double closed_distance(const kernel::LatticeSite& site, const std::array<double, 2>& place) {
+  double x = place[0] - site.a.x, y = place[1] - site.a.y;
+  if (!site.is_point()) {
+    const kernel::LatticeVector along = site.b - site.a;
+    const double ux = static_cast<double>(along.x), uy = static_cast<double>(along.y);
+    const double square = static_cast<double>(kernel::norm2(along));
+    const double t = ux * x + uy * y;
+    if (t >= square) {
+      x = place[0] - site.b.x;
+      y = place[1] - site.b.y;
+    } else if (t > 0) {
+      return std::abs(ux * y - uy * x) / std::sqrt(square);
+    }
+  }
+  return std::sqrt(x * x + y * y);
+}
+
+std::vector<double> clearances(std::span<const kernel::LatticeSite> sites,
+                               std::span<const std::array<double, 2>> places, std::span<const double> reach,
+                               unsigned threads, const base::Monitor& monitor) {
+  constexpr std::size_t grain = 1 << 12;  // places a piece: some milliseconds
+  std::vector<double> found(places.size(), std::numeric_limits<double>::infinity());
+  const SiteHierarchy hierarchy(sites, threads, monitor);
+  base::parallel_for(
+      base::piece_count(places.size(), grain), threads,
+      [&](std::size_t piece) {
+        const std::size_t last = std::min(places.size(), (piece + 1) * grain);
+        for (std::size_t i = piece * grain; i < last; ++i) {
+          hierarchy.near(places[i][0], places[i][1], reach[i], [&](std::uint32_t site) {
+            found[i] = std::min(found[i], closed_distance(sites[site], places[i]));
+            return true;
+          });
+        }
+      },
+      monitor);
+  return found;
+}
+
+}  // namespace vorotool::core::spatial

@@ -1,0 +1,35 @@
+#include "core/spatial/nearest_sites.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "core/base/parallel.hpp"
+#include "core/spatial/kd_tree.hpp"
+
+namespace vorotool::core::spatial {
+
+std::vector<NearestOther> nearest_other_sites(std::span<const double> x, std::span<const double> y,
+                                              std::span<const std::uint32_t> labels, unsigned threads,
+                                              const base::Monitor& monitor) {
+  using Tree = SiteTree<double, double>;
+  constexpr std::size_t kPiece = 4096;
+  const Tree tree(x, y, labels, monitor);
+  std::vector<NearestOther> result(tree.size());
+  // In the order of the tree, where neighbours share most of their paths.
+  auto query = [&](std::size_t piece) {
+    for (std::size_t i = piece * kPiece; i < std::min(tree.size(), (piece + 1) * kPiece); ++i) {
+      const Tree::Site& site = tree.site(static_cast<std::ptrdiff_t>(i));
+      const Tree::Nearest found = tree.nearest(site.x, site.y, {}, site.index);
+      NearestOther& other = result[site.index];
+      if (found.place < 0) {
+        other = {-1, std::numeric_limits<double>::quiet_NaN()};
+      } else {
+        other = {tree.site(found.place).index, std::sqrt(found.d2)};
+      }
+    }
+  };
+  base::parallel_for(base::piece_count(tree.size(), kPiece), threads, query, monitor);
+  return result;
+}
+
+}  // namespace vorotool::core::spatial

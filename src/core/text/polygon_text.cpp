@@ -1,0 +1,106 @@
+#include "core/text/polygon_text.hpp"
+
+#include "core/text/number_text.hpp"
+
+namespace vorotool::core::text {
+namespace {
+
+// What stands around and between the parts of a text.
+struct Marks {
+  const char *list_opens, *list_closes, *between_lists;
+  const char *point_opens, *between_numbers, *point_closes, *between_points;
+  bool closes_rings;  // by their first vertex
+};
+
+constexpr Marks marks_of_wkt{"(", ")", ", ", "", " ", "", ", ", true};
+constexpr Marks marks_of_geojson{"[", "]", ",", "[", ",", "]", ",", true};
+constexpr Marks marks_of_json{"[", "]", ",", "[", ",", "]", ",", false};
+
+class Writer {
+ public:
+  Writer(std::string& out, const PolygonTexts& texts, const Marks& marks, int precision)
+      : out_(out), texts_(texts), marks_(marks), precision_(precision) {}
+
+  // A list of the items from `first` to `last - 1`, each appended by item(number).
+  template <class Item>
+  void list(std::int64_t first, std::int64_t last, Item item) {
+    out_ += marks_.list_opens;
+    for (std::int64_t i = first; i < last; ++i) {
+      if (i > first) out_ += marks_.between_lists;
+      item(i);
+    }
+    out_ += marks_.list_closes;
+  }
+
+  void polygon(std::int64_t number) {
+    const auto at = static_cast<std::size_t>(number);
+    list(texts_.polygons[at], texts_.polygons[at + 1], [this](std::int64_t k) { ring(k); });
+  }
+
+  void ring(std::int64_t number) {
+    const auto at = static_cast<std::size_t>(number);
+    const auto begin = static_cast<std::size_t>(texts_.rings[at]);
+    const auto end = static_cast<std::size_t>(texts_.rings[at + 1]);
+    out_ += marks_.list_opens;
+    for (std::size_t k = begin; k < end; ++k) {
+      if (k > begin) out_ += marks_.between_points;
+      point(texts_.vertices[k]);
+    }
+    if (marks_.closes_rings) {
+      out_ += marks_.between_points;
+      point(texts_.vertices[begin]);
+    }
+    out_ += marks_.list_closes;
+  }
+
+ private:
+  void point(const kernel::Point& p) {
+    out_ += marks_.point_opens;
+    append_number(out_, p.x, precision_);
+    out_ += marks_.between_numbers;
+    append_number(out_, p.y, precision_);
+    out_ += marks_.point_closes;
+  }
+
+  std::string& out_;
+  const PolygonTexts& texts_;
+  const Marks& marks_;
+  const int precision_;
+};
+
+}  // namespace
+
+bool PolygonTexts::append(std::string& out, std::size_t row, int precision) const {
+  const std::int64_t first = rows[row], last = rows[row + 1];
+  if (style == PolygonStyle::json) {
+    if (first == last) {
+      out += "\"shell\":[],\"holes\":[]";
+      return true;
+    }
+    Writer writer(out, *this, marks_of_json, precision);
+    const auto at = static_cast<std::size_t>(first);
+    out += "\"shell\":";
+    writer.ring(polygons[at]);
+    out += ",\"holes\":";
+    writer.list(polygons[at] + 1, polygons[at + 1], [&](std::int64_t k) { writer.ring(k); });
+    return true;
+  }
+  if (first == last) return false;
+  const bool is_wkt = style == PolygonStyle::wkt, is_multi = last - first > 1;
+  Writer writer(out, *this, is_wkt ? marks_of_wkt : marks_of_geojson, precision);
+  if (is_wkt) {
+    out += is_multi ? "MULTIPOLYGON " : "POLYGON ";
+  } else {
+    out +=
+        is_multi ? "{\"type\":\"MultiPolygon\",\"coordinates\":" : "{\"type\":\"Polygon\",\"coordinates\":";
+  }
+  if (is_multi) {
+    writer.list(first, last, [&](std::int64_t k) { writer.polygon(k); });
+  } else {
+    writer.polygon(first);
+  }
+  if (!is_wkt) out += '}';
+  return true;
+}
+
+}  // namespace vorotool::core::text

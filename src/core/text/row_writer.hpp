@@ -1,0 +1,63 @@
+// Columns to text, one row after the other: delimited text, JSON, and any other format with one record a row.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/base/monitor.hpp"
+#include "core/text/number_text.hpp"
+#include "core/text/polygon_text.hpp"
+
+namespace vorotool::core::text {
+
+// Values read at a distance: `data[i * stride]`, as the columns of a matrix lie in memory.
+struct StridedIndices {
+  const std::int32_t* data;
+  std::size_t size;
+  std::ptrdiff_t stride;
+
+  std::size_t operator[](std::size_t row) const {
+    return static_cast<std::size_t>(data[static_cast<std::ptrdiff_t>(row) * stride]);
+  }
+};
+
+// A column and which of its fields do not exist (nonzero; empty: all exist). Doubles that are not finite do
+// not exist either. With `index`, row i shows values[index[i]], and `missing` is about values too.
+struct TextColumn {
+  std::variant<std::span<const std::int64_t>, std::span<const std::uint64_t>, std::span<const double>,
+               std::span<const std::string_view>, const NumberTexts*, const PolygonTexts*>
+      values;
+  std::span<const std::uint8_t> missing;
+  std::optional<StridedIndices> index = {};
+};
+
+std::size_t value_count(const TextColumn& column);
+std::size_t row_count(const TextColumn& column);
+
+// The text of a row around its fields.
+struct RowShape {
+  std::vector<std::string_view> around;  // before the first field, between fields, after the last one
+  std::string_view separator;            // between rows
+  std::string_view missing;              // instead of a field that does not exist
+  bool is_csv = false;                   // texts are put in quotes where a reader of CSV would misread them
+};
+
+// The shape of comma-separated text with `columns` columns, each row ended by LF.
+RowShape csv_shape(std::size_t columns);
+
+// The text of the rows in blocks to be written one after the other. All columns have the same length. Doubles
+// have `precision` significant digits, or with 0 the shortest text that reads back the same. The text does
+// not depend on the number of threads.
+std::vector<std::string> format_columns(std::span<const TextColumn> columns, const RowShape& shape,
+                                        int precision, unsigned threads, const base::Monitor& monitor = {});
+
+// A field as it stands in comma-separated text: in quotes where a reader would otherwise misread it.
+void append_csv_field(std::string& out, std::string_view value);
+
+}  // namespace vorotool::core::text
