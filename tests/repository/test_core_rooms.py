@@ -22,7 +22,7 @@ ROOMS_BELOW = {
     "tessellation": {"base", "numbers", "spatial"},
     "cells": {"base", "delaunay", "kernel", "numbers", "spatial", "text"},
     "digital": {"base", "delaunay", "kernel", "label_images", "numbers", "tessellation"},
-    "segment_voronoi/build": {"base", "delaunay", "kernel", "numbers", "segment_voronoi/discs"},
+    "segment_voronoi/build": {"base", "delaunay", "kernel", "numbers", "segment_voronoi/discs", "spatial"},
     "segment_voronoi/verify": {
         "base",
         "kernel",
