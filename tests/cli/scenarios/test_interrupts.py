@@ -1,6 +1,7 @@
 """A signal ends the process quietly, whenever it comes: while modules are imported, before and after the work."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -56,8 +57,9 @@ def test_an_interrupt_during_the_start_shows_nothing_of_ours(folder, entry):
         assert child.returncode in (130, 0, *PYTHON_ENDS)
         if child.returncode == 130:
             assert err == b""
+        files = b" ".join(re.findall(rb'File "([^"]*)"', err))  # of frames: an editable install quotes all our paths
         for ours in (b"vorotool/cli", b"vorotool/signals", b"vorotool/formats", b"vorotool/__main__", b"/click/"):
-            assert ours not in err
+            assert ours not in files
         assert leftovers(folder) == []
 
 
