@@ -319,3 +319,11 @@ def test_too_few_objects_of_an_image():
         alpha_shape([[0, 0], [4, 0]])
     with pytest.warns(VorotoolWarning, match="span no triangle"):
         assert not len(alpha_shape([[0, 0], [4, 0]], allow_empty=True).edges)
+
+
+def test_the_checker_takes_no_digit_from_products_that_vanish():
+    """The squares of two sides are near the smallest number where that of the radius is not."""
+    points = [[-2.7e-95, 0.0], [-3.0e-93, -2.623065247051060e-32], [8.27e-113, 1.69e-68], [7.9e-297, 1.3e-188]]
+    family = alpha_complex(points)
+    for rank in range(len(family.spectrum)):
+        verify_alpha_shape(alpha_shape(family, r=family.radius_from(rank)))

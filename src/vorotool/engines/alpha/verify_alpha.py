@@ -19,6 +19,9 @@ from vorotool.geometry.mesh.triangulation import Triangulation
 # much where it cancels. What is closer to r than this is decided in rational numbers.
 _ROUNDING = 2.0**-48
 
+_SMALL = 2.0**-900
+"""Far above what loses digits because it is near the smallest number."""
+
 
 def verify_alpha_shape(shape: AlphaShape, *, threads: int = 0, progress: Progress = None) -> None:
     """Check an alpha shape from its triangulation, exactly.
@@ -86,11 +89,15 @@ def _triangles_reached(mesh: Triangulation, r: Radius) -> NDArray[np.bool_]:
     corners = mesh.points[mesh.triangles]
     with np.errstate(all="ignore"):
         sides = [corners[:, (k + 2) % 3] - corners[:, (k + 1) % 3] for k in range(3)]
-        squares = np.prod([(side * side).sum(axis=1) for side in sides], axis=0)
+        lengths = np.stack([(side * side).sum(axis=1) for side in sides])
+        squares = lengths.prod(axis=0)
         left, right = sides[0][:, 0] * sides[1][:, 1], sides[0][:, 1] * sides[1][:, 0]
         cross = left - right
         radius2 = squares / (4 * cross * cross)
         doubt = _ROUNDING * (4 + (np.abs(left) + np.abs(right)) / np.abs(cross))
+        # a relative error is known of what is far from the smallest numbers all the way
+        least = np.min([*lengths, squares, np.abs(left) + np.abs(right), cross * cross], axis=0)
+        doubt[~(least > _SMALL)] = inf
     return _at_most(radius2, doubt, r, lambda t: _squared_circumradius(mesh.points[mesh.triangles[t]]))
 
 
@@ -110,7 +117,7 @@ def _at_most(squares: NDArray[np.float64], doubt: NDArray[np.float64], r: Radius
     limit = Fraction(r) ** 2
     rounded = float(limit) if limit < Fraction(2) ** 1000 else inf
     with np.errstate(all="ignore"):
-        clear = (np.abs(squares - rounded) > (doubt + _ROUNDING) * (squares + rounded)) & (squares > 2.0**-900)
+        clear = (np.abs(squares - rounded) > (doubt + _ROUNDING) * (squares + rounded)) & (squares > _SMALL)
     result = squares < rounded
     for k in np.flatnonzero(~clear | ~np.isfinite(squares)).tolist():
         result[k] = exact(k) <= limit  # type: ignore[operator]
@@ -145,7 +152,7 @@ def _gabriel(family: AlphaComplex) -> NDArray[np.bool_]:
             terms = (a - p) * (b - p)
             dot = terms.sum(axis=1)
             clear = np.abs(dot) > _ROUNDING * np.abs(terms).sum(axis=1)
-            clear &= (np.abs(terms).sum(axis=1) > 2.0**-900) & np.isfinite(dot)
+            clear &= (np.abs(terms).sum(axis=1) > _SMALL) & np.isfinite(dot)
         inside = dot < 0
         for i in np.flatnonzero(~clear).tolist():
             (px, py), (ax, ay), (bx, by) = _exact(np.stack([p[i], a[i], b[i]]))
