@@ -44,6 +44,9 @@ WRITERS = {
 ENDS = {signal.SIGKILL: -signal.SIGKILL, signal.SIGTERM: 143, signal.SIGINT: 130}
 """Exit codes of processes that got a signal."""
 
+SENT = {signal.SIGTERM, signal.SIGINT}
+"""Signals that a process can wait with."""
+
 VARYING = b'"seconds"'
 """Statistics tell seconds, which differ."""
 
@@ -64,8 +67,10 @@ def write_inputs(folder, number):
 def run(folder, command, prepare=lambda: None, finish=lambda: None):
     """Start a command in a forked process, which begins with something else; its number."""
     sys.stdout.flush()
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, SENT)  # an exception of the child would unwind what is ours
     number = os.fork()
     if number:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
         return number
     code = 70
     try:
@@ -74,6 +79,7 @@ def run(folder, command, prepare=lambda: None, finish=lambda: None):
             for descriptor, file in ((0, nothing), (1, messages), (2, messages)):
                 os.dup2(file.fileno(), descriptor)
         signal.signal(signal.SIGINT, signal.default_int_handler)
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
         prepare()
         code = result(command)
         for each in (signal.SIGINT, signal.SIGTERM):  # what comes now comes too late
