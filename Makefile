@@ -31,7 +31,7 @@ include figures.mk
 
 .PHONY: test
 test: build lint ## lint, then run every test, on all cores
-	$(RUN) -m pytest -n auto --dist loadgroup
+	$(RUN) -m pytest -n auto
 
 .PHONY: lint
 lint: build ## ruff, mypy --strict, clang-format

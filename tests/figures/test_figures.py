@@ -8,8 +8,6 @@ import numpy as np
 import pytest
 from PIL import Image
 
-pytestmark = pytest.mark.xdist_group("figures")  # which are drawn once
-
 PIXELS = {
     "figure-03a.png": "eb46790d48b0f8fccd36c7174ee5bf47ae186f83d044c9a3bd2f9f7c477ed1bc",
     "figure-lakes.png": "49de66dec3e29ae31b8a96535d452e66becb0828c52b74ca7c1dd11ea245ddc7",
