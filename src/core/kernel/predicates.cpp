@@ -13,11 +13,11 @@
 
 namespace vorotool::core::kernel {
 
-using numbers::CommonLattice;
+using numbers::DyadicGrid;
 using numbers::Expansion;
+using numbers::FixedInteger;
 using numbers::int128;
 using numbers::undecided;
-using numbers::WideInteger;
 
 namespace {
 
@@ -29,7 +29,7 @@ struct OrientationCall {
   int bits() const { return std::max(x_lattice.bits, y_lattice.bits); }
 
   std::array<double, 3> x, y;
-  CommonLattice x_lattice, y_lattice;
+  DyadicGrid x_lattice, y_lattice;
 };
 
 struct CircleCall {
@@ -40,7 +40,7 @@ struct CircleCall {
   int bits() const { return lattice.bits; }
 
   std::array<double, 4> x, y;
-  CommonLattice lattice;
+  DyadicGrid lattice;
 };
 
 // ---- integers that fit a machine word ----
@@ -94,11 +94,11 @@ constexpr int room = 3;
 
 // The first values less the last.
 template <std::size_t limbs, std::size_t n>
-std::array<WideInteger<limbs>, n - 1> wide_differences(const CommonLattice& lattice,
-                                                       const std::array<double, n>& values) {
-  const WideInteger<limbs> last = lattice.wide_integer<limbs>(values[n - 1]);
-  std::array<WideInteger<limbs>, n - 1> result;
-  for (std::size_t i = 0; i + 1 < n; ++i) result[i] = lattice.wide_integer<limbs>(values[i]) - last;
+std::array<FixedInteger<limbs>, n - 1> wide_differences(const DyadicGrid& lattice,
+                                                        const std::array<double, n>& values) {
+  const FixedInteger<limbs> last = lattice.fixed_integer<limbs>(values[n - 1]);
+  std::array<FixedInteger<limbs>, n - 1> result;
+  for (std::size_t i = 0; i + 1 < n; ++i) result[i] = lattice.fixed_integer<limbs>(values[i]) - last;
   return result;
 }
 
