@@ -85,7 +85,7 @@ int integer_sign(const CircleCall& call) {
   return call.bits() <= short_bits ? short_sign(x, y) : long_sign(x, y);
 }
 
-// ---- wide integers ----
+// ---- integers of fixed width ----
 
 // Coordinates of 64 limbs - 3 bits have differences below 2^(64 limbs - 2). Their products are below
 // 2^(128 limbs - 4), lifts and minors below 2^(128 limbs - 3), products of these below 2^(256 limbs - 6), and
@@ -192,7 +192,7 @@ int expansion_sign(const CircleCall& call) {
 
 // ---- the order of the levels ----
 
-// Wide integers of up to four limbs are at least as fast as expansions; these come in where more limbs would
+// Fixed integers of up to four limbs are at least as fast as expansions; these come in where more limbs would
 // be needed, and integers again where the range of exponents is too wide for expansions.
 constexpr int few_limbs = 4;
 
