@@ -137,3 +137,11 @@ def test_retired_words_do_not_return():
     ]
     assert len(list(sources())) > 500
     assert not found, "\n".join(found)
+
+
+def test_the_glossary_is_in_order_and_has_each_term_once():
+    rows = [line.split("|")[1:-1] for line in (ROOT / "docs/glossary.md").read_text().splitlines() if "|" in line][2:]
+    terms = [term.strip().casefold().replace("-", " ") for term, _ in rows]
+    assert len(terms) > 40
+    assert terms == sorted(set(terms))
+    assert all(meaning.strip().endswith(".") for _, meaning in rows)
