@@ -24,7 +24,7 @@ namespace {
 namespace nb = nanobind;
 using namespace nb::literals;
 using core::base::Monitor;
-using core::delaunay::DelaunayMesh;
+using core::delaunay::DelaunayTriangulation;
 using core::kernel::Point;
 
 nb::object copied(std::span<const std::int32_t> values) {
@@ -33,14 +33,15 @@ nb::object copied(std::span<const std::int32_t> values) {
   return to_numpy(std::move(kept), {values.size()});
 }
 
-void make_mesh(DelaunayMesh* self, const Matrix<const double>& array, unsigned threads, nb::handle progress) {
+void make_mesh(DelaunayTriangulation* self, const Matrix<const double>& array, unsigned threads,
+               nb::handle progress) {
   const std::span<const Point> points = as_points(array);
-  run_interruptible(progress,
-                    [&](const Monitor& monitor) { new (self) DelaunayMesh(points, threads, monitor); });
+  run_interruptible(
+      progress, [&](const Monitor& monitor) { new (self) DelaunayTriangulation(points, threads, monitor); });
 }
 
 // Triangles, their neighbours, and edges.
-nb::tuple arrays_of(const DelaunayMesh& mesh, unsigned threads, nb::handle progress) {
+nb::tuple arrays_of(const DelaunayTriangulation& mesh, unsigned threads, nb::handle progress) {
   const std::size_t rows = mesh.triangle_count();
   core::base::LargeArray<std::int32_t> triangles(3 * rows), neighbours(3 * rows),
       edges(2 * mesh.edge_count());
@@ -92,10 +93,10 @@ std::optional<std::string> triangulation_fault(const Matrix<const double>& point
 }  // namespace
 
 void bind_delaunay(nb::module_& module) {
-  nb::class_<DelaunayMesh>(module, "DelaunayMesh")
+  nb::class_<DelaunayTriangulation>(module, "DelaunayTriangulation")
       .def("__init__", &make_mesh, "points"_a.noconvert(), "threads"_a, "progress"_a.none())
-      .def_prop_ro("first", [](const DelaunayMesh& mesh) { return copied(mesh.first()); })
-      .def_prop_ro("hull", [](const DelaunayMesh& mesh) { return copied(mesh.hull()); })
+      .def_prop_ro("first", [](const DelaunayTriangulation& mesh) { return copied(mesh.first()); })
+      .def_prop_ro("hull", [](const DelaunayTriangulation& mesh) { return copied(mesh.hull()); })
       .def("arrays", &arrays_of, "threads"_a, "progress"_a.none());
   module.def("insert_points", &insert_points, "points"_a.noconvert(), "triangles"_a.noconvert(),
              "neighbours"_a.noconvert(), "edges"_a.noconvert(), "hull"_a.noconvert(), "first"_a.noconvert(),

@@ -17,7 +17,7 @@ namespace {
 namespace nb = nanobind;
 using namespace nb::literals;
 using core::base::Monitor;
-using core::delaunay::DelaunayMesh;
+using core::delaunay::DelaunayTriangulation;
 using core::delaunay::OrderedPoints;
 using core::digital::DigitalRepair;
 using core::digital::DigitalTriangulationScan;
@@ -77,22 +77,23 @@ nb::tuple digital_mesh(const Matrix<const double>& points, const Coordinates& x,
     throw std::invalid_argument("sites and points differ in number");
   const core::tessellation::PixelFrame frame{frame_x, frame_y, image.shape(1), image.shape(0)};
   DigitalRepair repair;
-  DelaunayMesh mesh = run_interruptible(progress, [&](const Monitor& monitor) {
+  DelaunayTriangulation mesh = run_interruptible(progress, [&](const Monitor& monitor) {
     const auto triangulate = [&](const OrderedPoints& ordered) {
       return core::digital::digital_delaunay(view(image), frame, {view(x), view(y), scale}, ordered, repair,
                                              threads, monitor);
     };
-    return DelaunayMesh(as_points(points), triangulate, threads, monitor);
+    return DelaunayTriangulation(as_points(points), triangulate, threads, monitor);
   });
   return nb::make_tuple(nb::cast(std::move(mesh)), as_dict(repair));
 }
 
-DelaunayMesh inserted_mesh(const Matrix<const double>& points, unsigned threads, nb::handle progress) {
+DelaunayTriangulation inserted_mesh(const Matrix<const double>& points, unsigned threads,
+                                    nb::handle progress) {
   return run_interruptible(progress, [&](const Monitor& monitor) {
     const auto triangulate = [&](const OrderedPoints& ordered) {
       return core::digital::delaunay_by_insertion(ordered, monitor);
     };
-    return DelaunayMesh(as_points(points), triangulate, threads, monitor);
+    return DelaunayTriangulation(as_points(points), triangulate, threads, monitor);
   });
 }
 

@@ -80,10 +80,10 @@ nb::list offset_curves(const IndexRows& points, const IndexRows& segments, const
     throw std::invalid_argument("each site must have a feature");
   check_rings(vertex_start, vertex_sites);
   std::vector<OffsetCurves> made = run_interruptible(progress, [&](const Monitor& monitor) {
-    const core::offsets::CellBorders borders(diagram, view(vertex_start), view(vertex_sites));
+    const core::offsets::HalfEdges borders(diagram, view(vertex_start), view(vertex_sites));
     std::vector<OffsetCurves> all;
     for (const double distance : distances) {
-      const core::offsets::OffsetDomain domain{
+      const core::offsets::PolygonFaces domain{
           view(edge_face), faces, view(face_polygon), view(site_polygon), view(site_feature), distance > 0};
       all.push_back(core::offsets::offset_curves(borders, domain, std::abs(distance),
                                                  {origin_x, origin_y, scale}, monitor));

@@ -105,16 +105,16 @@ nb::dict make_planar_graph(const IndexRows& array, const Vector<const std::int64
   return result;
 }
 
-nb::dict border_rings(const IndexRows& points, const IndexRows& segments, const IndexRows& segment_faces,
-                      const Vector<const std::int32_t>& face_start,
-                      const Vector<const std::int32_t>& face_polygon, nb::handle progress) {
-  const core::arrangement::BorderGraph graph{as_lattice_points(points), view(segments), view(segment_faces),
-                                             view(face_start), view(face_polygon)};
+nb::dict boundary_rings(const IndexRows& points, const IndexRows& segments, const IndexRows& segment_faces,
+                        const Vector<const std::int32_t>& face_start,
+                        const Vector<const std::int32_t>& face_polygon, nb::handle progress) {
+  const core::arrangement::BoundaryGraph graph{as_lattice_points(points), view(segments), view(segment_faces),
+                                               view(face_start), view(face_polygon)};
   if (graph.segment_faces.size() != graph.segments.size() || graph.face_start.empty()) {
     throw std::invalid_argument("the arrays of a planar graph have lengths that do not go together");
   }
-  core::arrangement::BorderRings rings = run_interruptible(
-      progress, [&](const Monitor&) { return core::arrangement::find_border_rings(graph); });
+  core::arrangement::BoundaryRings rings = run_interruptible(
+      progress, [&](const Monitor&) { return core::arrangement::find_boundary_rings(graph); });
   nb::dict result;
   result["start"] = to_numpy(std::move(rings.start));
   result["point"] = to_numpy(std::move(rings.point));
@@ -146,7 +146,7 @@ void bind_planar_graph(nb::module_& module) {
   module.def("disjoint_sheets", &disjoint_sheets, "boxes"_a.noconvert(), "progress"_a.none());
   module.def("make_planar_graph", &make_planar_graph, "vertices"_a.noconvert(), "ring_start"_a.noconvert(),
              "ring_kind"_a.noconvert(), "ring_polygon"_a.noconvert(), "progress"_a.none());
-  module.def("border_rings", &border_rings, "points"_a.noconvert(), "segments"_a.noconvert(),
+  module.def("boundary_rings", &boundary_rings, "points"_a.noconvert(), "segments"_a.noconvert(),
              "segment_faces"_a.noconvert(), "face_start"_a.noconvert(), "face_polygon"_a.noconvert(),
              "progress"_a.none());
   module.def("planar_graph_fault", &planar_graph_fault, "points"_a.noconvert(), "segments"_a.noconvert(),

@@ -75,17 +75,18 @@ void mark_diagram(Matrix<const Label> labels, std::optional<Vector<const Label>>
 
 // `limit_high` and `limit_low` are the halves of a 128-bit limit of the squared distance.
 template <class Label>
-nb::tuple verify_labels(Matrix<const Label> labels, std::int64_t x, std::int64_t y,
-                        Vector<const std::int64_t> seed_x, Vector<const std::int64_t> seed_y,
-                        Vector<const std::uint32_t> seed_labels, std::int64_t scale,
-                        std::optional<std::uint64_t> limit_high, std::uint64_t limit_low, unsigned threads,
-                        nb::object progress) {
+nb::tuple verify_tessellation(Matrix<const Label> labels, std::int64_t x, std::int64_t y,
+                              Vector<const std::int64_t> seed_x, Vector<const std::int64_t> seed_y,
+                              Vector<const std::uint32_t> seed_labels, std::int64_t scale,
+                              std::optional<std::uint64_t> limit_high, std::uint64_t limit_low,
+                              unsigned threads, nb::object progress) {
   const core::tessellation::PixelFrame frame{x, y, labels.shape(1), labels.shape(0)};
   const core::tessellation::LatticeSeeds seeds{view(seed_x), view(seed_y), view(seed_labels), scale};
   std::optional<core::numbers::uint128> limit;
   if (limit_high) limit = core::numbers::uint128{*limit_high} << 64 | limit_low;
   const core::tessellation::WrongPixels wrong = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::tessellation::verify_labels<Label>(view(labels), frame, seeds, limit, threads, monitor);
+    return core::tessellation::verify_tessellation<Label>(view(labels), frame, seeds, limit, threads,
+                                                          monitor);
   });
   return nb::make_tuple(wrong.count, wrong.column, wrong.row, wrong.found, wrong.right);
 }
@@ -118,7 +119,7 @@ void bind_label_image(nb::module_& module) {
              "values"_a.noconvert(), "wanted"_a.noconvert(), "threads"_a, "progress"_a.none());
   module.def("mark_diagram", &mark_diagram<Label>, "labels"_a.noconvert(), "above"_a.noconvert().none(),
              "below"_a.noconvert().none(), "out"_a.noconvert(), "threads"_a, "progress"_a.none());
-  module.def("verify_labels", &verify_labels<Label>, "labels"_a.noconvert(), "x"_a, "y"_a,
+  module.def("verify_tessellation", &verify_tessellation<Label>, "labels"_a.noconvert(), "x"_a, "y"_a,
              "seed_x"_a.noconvert(), "seed_y"_a.noconvert(), "seed_labels"_a.noconvert(), "scale"_a,
              "limit_high"_a.none(), "limit_low"_a, "threads"_a, "progress"_a.none());
 }

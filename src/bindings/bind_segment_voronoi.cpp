@@ -76,9 +76,9 @@ void make_diagram(SegmentVoronoi* self, const Rows& points, const Rows& segments
 }
 
 // Vertices, radii, where their sites begin, their sites, edges, and the sites of these.
-nb::tuple take_arrays(SegmentVoronoi& diagram, const std::optional<Vector<const std::uint8_t>>& idle,
+nb::tuple take_arrays(SegmentVoronoi& diagram, const std::optional<Vector<const std::uint8_t>>& unwanted,
                       unsigned threads, nb::handle progress) {
-  const std::span<const std::uint8_t> sides = idle ? view(*idle) : std::span<const std::uint8_t>();
+  const std::span<const std::uint8_t> sides = unwanted ? view(*unwanted) : std::span<const std::uint8_t>();
   core::segment_voronoi::build::DiagramArrays made = run_interruptible(
       progress, [&](const Monitor& monitor) { return diagram.take_arrays(sides, threads, monitor); });
   const std::size_t vertices = made.radius.size(), ring = made.vertex_sites.size(),
@@ -90,14 +90,14 @@ nb::tuple take_arrays(SegmentVoronoi& diagram, const std::optional<Vector<const 
 }
 
 // A byte a site.
-nb::object idle_sides(const Rows& points, const Rows& segments, const Rows& segment_faces,
-                      const Vector<const std::uint8_t>& is_wanted) {
+nb::object unwanted_sides(const Rows& points, const Rows& segments, const Rows& segment_faces,
+                          const Vector<const std::uint8_t>& is_wanted) {
   const auto faces = as_segments(segment_faces);
   if (faces.size() != segments.shape(0)) throw std::invalid_argument("each segment must have two faces");
   check_range(as_segments(segments), points.shape(0));
   check_range(faces, is_wanted.size());
-  return to_numpy(core::segment_voronoi::build::idle_sides(as_points(points), as_segments(segments), faces,
-                                                           view(is_wanted)));
+  return to_numpy(core::segment_voronoi::build::unwanted_sides(as_points(points), as_segments(segments),
+                                                               faces, view(is_wanted)));
 }
 
 nb::dict counts_of(const SegmentVoronoi& diagram) {
@@ -114,13 +114,13 @@ nb::dict counts_of(const SegmentVoronoi& diagram) {
 }  // namespace
 
 void bind_segment_voronoi(nb::module_& module) {
-  module.def("idle_sides", &idle_sides, "points"_a.noconvert(), "segments"_a.noconvert(),
+  module.def("unwanted_sides", &unwanted_sides, "points"_a.noconvert(), "segments"_a.noconvert(),
              "segment_faces"_a.noconvert(), "is_wanted"_a.noconvert());
   nb::class_<SegmentVoronoi>(module, "SegmentVoronoi")
       .def("__init__", &make_diagram, "points"_a.noconvert(), "segments"_a.noconvert(), "threads"_a,
            "progress"_a.none(), "within"_a = nb::none())
       .def_prop_ro("counts", &counts_of)
-      .def("take_arrays", &take_arrays, "idle"_a.none(), "threads"_a, "progress"_a.none());
+      .def("take_arrays", &take_arrays, "unwanted"_a.none(), "threads"_a, "progress"_a.none());
 }
 
 }  // namespace vorotool::bindings

@@ -287,15 +287,15 @@ core::text::RowShape shape_of(const std::optional<nb::tuple>& shape, std::size_t
   return result;
 }
 
-nb::list format_columns(const nb::list& values, const std::vector<std::optional<InputArray<bool>>>& missing,
-                        int precision, unsigned threads, const std::optional<nb::tuple>& shape) {
+nb::list format_rows(const nb::list& values, const std::vector<std::optional<InputArray<bool>>>& missing,
+                     int precision, unsigned threads, const std::optional<nb::tuple>& shape) {
   if (values.size() != missing.size()) throw nb::value_error("one mask, or None, a column");
   ColumnStore store;
   for (std::size_t i = 0; i < missing.size(); ++i) store.add(values[i], missing[i]);
   const core::text::RowShape row = shape_of(shape, missing.size(), store);
   const std::vector<std::string> blocks =
       run_interruptible(nb::none(), [&](const core::base::Monitor& monitor) {
-        return core::text::format_columns(store.columns, row, precision, threads, monitor);
+        return core::text::format_rows(store.columns, row, precision, threads, monitor);
       });
   nb::list result;
   for (const std::string& block : blocks) result.append(nb::bytes(block.data(), block.size()));
@@ -322,7 +322,7 @@ void bind_text(nb::module_& module) {
   module.def("line_of_row", &line_of_row, "text"_a, "delimiter"_a, "header_records"_a, "row"_a);
   module.def("first_record", &first_record, "text"_a, "delimiter"_a);
   module.def("find_too_deep", &find_too_deep, "text"_a, "limit"_a);
-  module.def("format_columns", &format_columns, "values"_a, "missing"_a, "precision"_a = 0, "threads"_a = 0,
+  module.def("format_rows", &format_rows, "values"_a, "missing"_a, "precision"_a = 0, "threads"_a = 0,
              "shape"_a = nb::none());
   nb::class_<core::text::NumberTexts>(module, "NumberTexts")
       .def("__init__", &make_number_texts, "values"_a.noconvert(), "precision"_a = 0, "threads"_a = 0)

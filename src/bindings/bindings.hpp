@@ -18,12 +18,12 @@ void bind_cells(nanobind::module_& module);
 void bind_paths(nanobind::module_& module);
 void bind_planar_graph(nanobind::module_& module);
 void bind_pruning(nanobind::module_& module);
-void bind_segment_exact(nanobind::module_& module);
-void bind_segment_predicates(nanobind::module_& module);
+void bind_exact_signs(nanobind::module_& module);
+void bind_insertion_predicates(nanobind::module_& module);
 void bind_outlines(nanobind::module_& module);
 void bind_skeleton(nanobind::module_& module);
 void bind_offsets(nanobind::module_& module);
-void bind_seed_skeleton(nanobind::module_& module);
+void bind_sampled_skeleton(nanobind::module_& module);
 void bind_segment_verification(nanobind::module_& module);
 void bind_segment_voronoi(nanobind::module_& module);
 

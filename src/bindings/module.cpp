@@ -16,12 +16,12 @@ NB_MODULE(_core, module) {
   vorotool::bindings::bind_paths(module);
   vorotool::bindings::bind_planar_graph(module);
   vorotool::bindings::bind_pruning(module);
-  vorotool::bindings::bind_segment_exact(module);
-  vorotool::bindings::bind_segment_predicates(module);
+  vorotool::bindings::bind_exact_signs(module);
+  vorotool::bindings::bind_insertion_predicates(module);
   vorotool::bindings::bind_outlines(module);
   vorotool::bindings::bind_skeleton(module);
   vorotool::bindings::bind_offsets(module);
-  vorotool::bindings::bind_seed_skeleton(module);
+  vorotool::bindings::bind_sampled_skeleton(module);
   vorotool::bindings::bind_segment_verification(module);
   vorotool::bindings::bind_segment_voronoi(module);
 }

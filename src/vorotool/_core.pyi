@@ -94,7 +94,7 @@ def mark_diagram(
     threads: int,
     progress: _Progress,
 ) -> None: ...
-def verify_labels(
+def verify_tessellation(
     labels: NDArray[Any],
     x: int,
     y: int,
@@ -147,7 +147,7 @@ def first_record(text: bytes, delimiter: str) -> tuple[int, str, list[str]] | No
 def find_too_deep(text: bytes, limit: int) -> int | None: ...
 def unpack_lzw(data: bytes, limit: int) -> NDArray[np.uint8]: ...
 def unpack_packbits(data: bytes, limit: int) -> NDArray[np.uint8]: ...
-def format_columns(
+def format_rows(
     values: list[Any],
     missing: list[NDArray[np.bool_] | None],
     precision: int = 0,
@@ -181,7 +181,7 @@ def incircle(points: NDArray[np.float64], level: str = "auto") -> NDArray[np.int
 
 # ---- Delaunay triangulation (bind_delaunay.cpp): points are C-contiguous and finite, indices int32 -----------------
 
-class DelaunayMesh:
+class DelaunayTriangulation:
     def __init__(self, points: NDArray[np.float64], threads: int, progress: _Progress) -> None: ...
     @property
     def first(self) -> NDArray[np.int32]: ...
@@ -286,8 +286,8 @@ def digital_mesh(
     frame_y: int,
     threads: int,
     progress: _Progress,
-) -> tuple[DelaunayMesh, dict[str, Any]]: ...
-def inserted_mesh(points: NDArray[np.float64], threads: int, progress: _Progress) -> DelaunayMesh: ...
+) -> tuple[DelaunayTriangulation, dict[str, Any]]: ...
+def inserted_mesh(points: NDArray[np.float64], threads: int, progress: _Progress) -> DelaunayTriangulation: ...
 
 # ---- Voronoi cells (bind_cells.cpp): a frame is left, bottom, right, top --------------------------------------------
 
@@ -467,7 +467,7 @@ def make_planar_graph(
 def disjoint_sheets(boxes: NDArray[np.int64], progress: _Progress) -> NDArray[np.int32]:
     """Of boxes with the columns least x, least y, most x, most y."""
 
-def border_rings(
+def boundary_rings(
     points: NDArray[np.int32],
     segments: NDArray[np.int32],
     segment_faces: NDArray[np.int32],
@@ -481,7 +481,7 @@ def planar_graph_fault(
     points: NDArray[np.int32], segments: NDArray[np.int32], faces: NDArray[np.int32] | None, progress: _Progress
 ) -> str | None: ...
 
-# ---- exact signs of segment Voronoi diagrams (bind_segment_exact.cpp), for tests: a site is a row x, y, x, y of int32,
+# ---- exact signs of segment Voronoi diagrams (bind_exact_signs.cpp), for tests: a site is a row x, y, x, y of int32,
 # ---- a disc three sites in counter-clockwise order of contact; the sign is 2 where they have no disc ----------------
 
 def segment_clearance_signs(sites: NDArray[np.int32]) -> NDArray[np.int8]:
@@ -496,7 +496,7 @@ def segment_edge_clearance_signs(sites: NDArray[np.int32]) -> NDArray[np.int8]:
 def segment_discs(sites: NDArray[np.int32]) -> NDArray[np.float64]:
     """(k, 3) x, y and radius of (k, 3, 4) discs; NaN where there is none."""
 
-# ---- decisions of the engine about a few sites (bind_segment_predicates.cpp), for tests: sites as above --------
+# ---- decisions of the engine about a few sites (bind_insertion_predicates.cpp), for tests: sites as above --------
 
 def segment_conflicts(sites: NDArray[np.int32]) -> NDArray[np.int8]:
     """(k, 2) of (k, 4, 4), a disc and a segment: in conflict; told by doubles, integers, double-double, exactly."""
@@ -521,7 +521,7 @@ def segment_voronoi_fault(
 
 # ---- segment Voronoi diagrams (bind_segment_voronoi.cpp): arrays of int32, C-contiguous, two columns -----------------
 
-def idle_sides(
+def unwanted_sides(
     points: NDArray[np.int32],
     segments: NDArray[np.int32],
     segment_faces: NDArray[np.int32],
@@ -540,7 +540,7 @@ class SegmentVoronoi:
     @property
     def counts(self) -> dict[str, int]: ...
     def take_arrays(
-        self, idle: NDArray[np.uint8] | None, threads: int, progress: _Progress
+        self, unwanted: NDArray[np.uint8] | None, threads: int, progress: _Progress
     ) -> tuple[
         NDArray[np.float64],
         NDArray[np.float64],
@@ -563,7 +563,7 @@ def clearances(
 ) -> NDArray[np.float64]:
     """Of the nearest site within reach; infinite where there is none."""
 
-# ---- approximate skeletons (bind_seed_skeleton.cpp): the first three arguments are the arrays of a planar graph ------
+# ---- approximate skeletons (bind_sampled_skeleton.cpp): the first three arguments are the arrays of a planar graph ---
 
 class TooManySeedsError(Exception): ...
 

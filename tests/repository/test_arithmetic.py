@@ -2,7 +2,8 @@
 
 Sums, products, quotients and square roots are; powers, sines, logarithms and hypot differ between C libraries and with
 the vector instructions that numpy or a C library chooses, products of matrices with the linear algebra, and the order
-that an unstable sort leaves equal keys in with the vector instructions. `geometry.elementary` has what is needed.
+that an unstable sort leaves equal keys in with the vector instructions. What is needed is in
+`geometry.curves.inverse_functions`.
 """
 
 import ast

@@ -62,7 +62,7 @@ class AlphaBuilder {
       return compare_radii(support_of(p), support_of(q));
     };
     const std::span values(value_.data(), value_.size());
-    return write(make_spectrum(values, compare, threads_, monitor_));
+    return write(rank_radii(values, compare, threads_, monitor_));
   }
 
  private:
@@ -131,13 +131,13 @@ class AlphaBuilder {
     double radius;
   };
 
-  Critical circumradius(const Spectrum& spectrum, std::size_t edge, std::size_t k) const {
+  Critical circumradius(const RadiusRanks& spectrum, std::size_t edge, std::size_t k) const {
     if (!has_side(edge, k)) return {static_cast<std::int32_t>(spectrum.value.size()), infinity};
     const std::size_t t = side(edge, k);
     return {spectrum.rank[t], value_[t] < 0 ? infinity : value_[t]};
   }
 
-  AlphaArrays write(Spectrum&& spectrum) const {
+  AlphaArrays write(RadiusRanks&& spectrum) const {
     AlphaArrays out(triangles_, edges_);
     for_pieces(edges_, threads_, monitor_, [&](std::size_t, std::size_t first, std::size_t end) {
       for (std::size_t e = first; e < end; ++e) {

@@ -34,7 +34,7 @@ BigInteger integer_of(double value, int exponent) {
 SquaredRadius exact_square(const Support& s) {
   const Point& third = s.is_triangle ? s.c : s.a;
   const std::array<double, 6> values{s.a.x, s.b.x, third.x, s.a.y, s.b.y, third.y};
-  const int exponent = numbers::CommonLattice(values).exponent;
+  const int exponent = numbers::DyadicGrid(values).exponent;
   std::array<BigInteger, 6> at;
   for (std::size_t i = 0; i < 6; ++i) at[i] = integer_of(values[i], exponent);
   const auto [ax, bx, cx, ay, by, cy] = at;
@@ -95,7 +95,7 @@ double round_exactly(const Support& s) {
 
 bool is_obtuse_exactly(const Point& a, const Point& b, const Point& p) {
   const std::array<double, 6> values{a.x, a.y, b.x, b.y, p.x, p.y};
-  const int exponent = numbers::CommonLattice(values).exponent;
+  const int exponent = numbers::DyadicGrid(values).exponent;
   std::array<BigInteger, 6> at;
   for (std::size_t i = 0; i < 6; ++i) at[i] = integer_of(values[i], exponent);
   return ((at[0] - at[4]) * (at[2] - at[4]) + (at[1] - at[5]) * (at[3] - at[5])).sign() < 0;

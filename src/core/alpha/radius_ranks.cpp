@@ -42,7 +42,7 @@ class Sorter {
         counts_(base::piece_count(values.size(), piece_size)),
         distinct_(buckets) {}
 
-  Spectrum run() {
+  RadiusRanks run() {
     find_range();
     count();
     LargeArray<std::uint64_t> words(start_[buckets]);
@@ -214,15 +214,15 @@ class Sorter {
     }
   }
 
-  Spectrum write(const LargeArray<std::uint64_t>& words, const LargeArray<double>& sorted) {
+  RadiusRanks write(const LargeArray<std::uint64_t>& words, const LargeArray<double>& sorted) {
     std::size_t sum = 0;
     for (std::size_t& distinct : distinct_) {
       const std::size_t here = distinct;
       distinct = sum;
       sum += here;
     }
-    Spectrum out{LargeArray<double>(sum), LargeArray<std::int32_t>(sum),
-                 LargeArray<std::int32_t>(values_.size())};
+    RadiusRanks out{LargeArray<double>(sum), LargeArray<std::int32_t>(sum),
+                    LargeArray<std::int32_t>(values_.size())};
     const auto leave_out = [&](std::size_t piece) {
       const std::size_t end = std::min(values_.size(), (piece + 1) * piece_size);
       for (std::size_t i = piece * piece_size; i < end; ++i) {
@@ -264,7 +264,7 @@ class Sorter {
 
 }  // namespace
 
-Spectrum make_spectrum(std::span<const double> values, const CompareItems& compare, unsigned threads,
+RadiusRanks rank_radii(std::span<const double> values, const CompareItems& compare, unsigned threads,
                        const Monitor& monitor) {
   return Sorter(values, compare, threads, monitor).run();
 }

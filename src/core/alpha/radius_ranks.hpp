@@ -10,7 +10,7 @@
 
 namespace vorotool::core::alpha {
 
-struct Spectrum {
+struct RadiusRanks {
   base::LargeArray<double> value;          // [m] increasing; equal where two exact values have one double
   base::LargeArray<std::int32_t> witness;  // [m] an item with this value
   base::LargeArray<std::int32_t> rank;     // [n] place of each item in the above; m of those left out
@@ -22,7 +22,7 @@ using CompareItems = std::function<int(std::uint32_t, std::uint32_t)>;
 // The items are 0 ... n - 1, n < 2^31, and values[i] is the double nearest to the exact value of item i, not
 // a NaN; items with negative values are left out. Time is linear for values spread like radii, n log n at
 // worst.
-Spectrum make_spectrum(std::span<const double> values, const CompareItems& compare, unsigned threads,
+RadiusRanks rank_radii(std::span<const double> values, const CompareItems& compare, unsigned threads,
                        const base::Monitor& monitor);
 
 }  // namespace vorotool::core::alpha

@@ -29,7 +29,7 @@ struct Ring {
 class Tracer {
  public:
   // A region of a polygon is a set of entries of face_polygon: its faces, joined where a segment divides two.
-  explicit Tracer(const BorderGraph& graph) : graph_(graph), regions_(graph.face_polygon.size()) {
+  explicit Tracer(const BoundaryGraph& graph) : graph_(graph), regions_(graph.face_polygon.size()) {
     for (std::size_t s = 0; 2 * s < graph.segments.size(); ++s) compare_sides(s);
     std::sort(borders_.begin(), borders_.end(), [](const Border& a, const Border& b) {
       return std::tie(a.polygon, a.from, a.segment) < std::tie(b.polygon, b.from, b.segment);
@@ -135,7 +135,7 @@ class Tracer {
     rings_.push_back(std::move(ring));
   }
 
-  const BorderGraph& graph_;
+  const BoundaryGraph& graph_;
   base::DisjointSets<std::int32_t> regions_;
   std::vector<Border> borders_;  // sorted by polygon and then by their first points
   std::vector<std::uint8_t> is_used_;
@@ -159,11 +159,11 @@ void sort_rings(std::vector<Ring>& rings, std::size_t regions) {
 
 }  // namespace
 
-BorderRings find_border_rings(const BorderGraph& graph) {
+BoundaryRings find_boundary_rings(const BoundaryGraph& graph) {
   Tracer tracer(graph);
   std::vector<Ring> rings = tracer.trace();
   sort_rings(rings, graph.face_polygon.size());
-  BorderRings result;
+  BoundaryRings result;
   result.start.push_back(0);
   for (const Ring& ring : rings) {
     if (!ring.is_hole) result.part_polygon.push_back(ring.polygon);

@@ -10,7 +10,7 @@
 
 namespace vorotool::core::arrangement {
 
-struct BorderGraph {
+struct BoundaryGraph {
   std::span<const kernel::LatticePoint> points;
   std::span<const std::int32_t> segments;       // [2 m]
   std::span<const std::int32_t> segment_faces;  // [2 m] left and right
@@ -21,7 +21,7 @@ struct BorderGraph {
 // A part is a connected region of a polygon: a shell and then its holes. Parts are sorted by polygon and then
 // by the first point of their shells, holes by their first points; a ring begins with its first point. Rings
 // of one part may touch each other in points, and so may parts.
-struct BorderRings {
+struct BoundaryRings {
   std::vector<std::int32_t> start;         // [r + 1]
   std::vector<std::int32_t> point;         // along each ring
   std::vector<std::int32_t> segment;       // from each point to the next one
@@ -30,6 +30,6 @@ struct BorderRings {
   std::vector<std::int32_t> part_polygon;  // [parts] not decreasing
 };
 
-BorderRings find_border_rings(const BorderGraph& graph);
+BoundaryRings find_boundary_rings(const BoundaryGraph& graph);
 
 }  // namespace vorotool::core::arrangement

@@ -13,10 +13,10 @@
 namespace vorotool::core::arrangement {
 
 // Counted from the lowest one, in steps of the largest power of two that divides all differences.
-class CoordinateSteps {
+class CoordinateCompression {
  public:
-  CoordinateSteps(std::span<const kernel::LatticePoint> points,
-                  std::int32_t kernel::LatticePoint::* coordinate) {
+  CoordinateCompression(std::span<const kernel::LatticePoint> points,
+                        std::int32_t kernel::LatticePoint::* coordinate) {
     if (points.empty()) return;
     const std::int32_t first = points.front().*coordinate;
     std::int32_t low = first, high = first;

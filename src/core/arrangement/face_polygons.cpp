@@ -52,7 +52,7 @@ class Position {
 // Walks over the faces, from the unbounded one, by a tree of segments; each face is reached once.
 class Walk {
  public:
-  Walk(const SegmentSet& set, const PlanarFaces& faces, std::span<const std::int32_t> ring_of_edge)
+  Walk(const SegmentSet& set, const Faces& faces, std::span<const std::int32_t> ring_of_edge)
       : set_(set), faces_(faces), ring_of_edge_(ring_of_edge) {
     const auto count = static_cast<std::size_t>(faces.count);
     start_.assign(count + 1, 0);
@@ -108,7 +108,7 @@ class Walk {
   }
 
   const SegmentSet& set_;
-  const PlanarFaces& faces_;
+  const Faces& faces_;
   std::span<const std::int32_t> ring_of_edge_;
   std::vector<std::size_t> start_, next_;
   std::vector<std::int32_t> border_;  // segments of each face
@@ -116,7 +116,7 @@ class Walk {
 
 }  // namespace
 
-FacePolygons find_face_polygons(const SegmentSet& set, const PlanarFaces& faces, const Rings& rings,
+FacePolygons find_face_polygons(const SegmentSet& set, const Faces& faces, const Rings& rings,
                                 std::span<const std::int32_t> ring_of_edge, const base::Monitor& monitor) {
   const std::size_t polygons = rings.polygon.empty() ? 0 : static_cast<std::size_t>(rings.polygon.back()) + 1;
   const auto count = static_cast<std::size_t>(faces.count);

@@ -43,7 +43,7 @@ struct FacePolygons {
 // A face lies in a polygon if it is inside its shell and in none of its holes, each ring by the even-odd
 // rule: crossing a segment changes the side of every ring whose edges it comes from an odd number of times.
 // The sources of the segments are edges, `ring_of_edge` the ring of each.
-FacePolygons find_face_polygons(const SegmentSet& set, const PlanarFaces& faces, const Rings& rings,
+FacePolygons find_face_polygons(const SegmentSet& set, const Faces& faces, const Rings& rings,
                                 std::span<const std::int32_t> ring_of_edge, const base::Monitor& monitor);
 
 }  // namespace vorotool::core::arrangement

@@ -78,7 +78,7 @@ std::int32_t label_cycles(const SortedSegments& segments, std::vector<std::int32
 
 }  // namespace
 
-PlanarFaces find_faces(const SortedSegments& segments, std::span<const std::int32_t> below) {
+Faces find_faces(const SortedSegments& segments, std::span<const std::int32_t> below) {
   std::vector<std::int32_t> cycle(2 * segments.lower_end.size(), -1);
   const std::int32_t cycles = label_cycles(segments, cycle);
   // Face of the sets: 0 for outside, cycle + 1 else. Left of a point that nothing comes to from the left is
@@ -91,7 +91,7 @@ PlanarFaces find_faces(const SortedSegments& segments, std::span<const std::int3
     if (has_left[i] != 0 || segments.start[i] == segments.start[i + 1]) continue;
     faces.join(left_of(segments.start[i + 1] - 1), below[i] < 0 ? 0 : left_of(below[i]));
   }
-  PlanarFaces result;
+  Faces result;
   std::vector<std::int32_t> number(static_cast<std::size_t>(cycles) + 1, -1);
   number[0] = 0;
   const auto numbered = [&](std::int32_t half_edge_cycle) {

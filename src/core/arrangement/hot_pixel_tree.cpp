@@ -8,7 +8,7 @@ namespace vorotool::core::arrangement {
 
 using numbers::int128;
 
-CellTree::CellTree(std::span<const kernel::LatticePoint> points) {
+HotPixelTree::HotPixelTree(std::span<const kernel::LatticePoint> points) {
   items_.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) items_.push_back({points[i], static_cast<std::int32_t>(i)});
   std::size_t widest = 1;  // nodes of a level; halving rounds up, so that a leaf holds at most leaf_size
@@ -17,7 +17,7 @@ CellTree::CellTree(std::span<const kernel::LatticePoint> points) {
   if (!items_.empty()) build(0, 0, items_.size());
 }
 
-void CellTree::build(std::size_t node, std::size_t begin, std::size_t end) {
+void HotPixelTree::build(std::size_t node, std::size_t begin, std::size_t end) {
   Box box{items_[begin].point, items_[begin].point};
   for (std::size_t i = begin; i < end; ++i) {
     const kernel::LatticePoint p = items_[i].point;
@@ -39,7 +39,7 @@ void CellTree::build(std::size_t node, std::size_t begin, std::size_t end) {
 // Whether a segment may meet a cell of a point of a box: unless one of the directions x, y and across the
 // segment separates it from the union of the cells. In half steps; the numbers of the last test are below
 // 2^66.
-bool CellTree::may_meet(const Box& box, const LatticeSegment& s) {
+bool HotPixelTree::may_meet(const Box& box, const LatticeSegment& s) {
   const auto [low_x, high_x] = std::minmax(s.a.x, s.b.x);
   const auto [low_y, high_y] = std::minmax(s.a.y, s.b.y);
   // a cell reaches half a step beyond its point, and segments end at lattice points

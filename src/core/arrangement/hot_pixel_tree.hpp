@@ -10,9 +10,9 @@
 
 namespace vorotool::core::arrangement {
 
-class CellTree {
+class HotPixelTree {
  public:
-  explicit CellTree(std::span<const kernel::LatticePoint> points);
+  explicit HotPixelTree(std::span<const kernel::LatticePoint> points);
 
   // Calls visit(i) for every point whose cell the segment meets (meets_cell), in no particular order, until
   // it returns false.

@@ -35,7 +35,7 @@ class Maker {
       graph_.is_repaired.assign(static_cast<std::size_t>(rings_.polygon.back()) + 1, 0);
     }
     arrange();
-    const PlanarFaces faces = find_faces(set_.view(), below_);
+    const Faces faces = find_faces(set_.view(), below_);
     const FacePolygons inside =
         find_face_polygons(set_, faces, rings_, ring_of_edge_, part_of(monitor_, 0.8, 1));
     keep_borders(faces, inside);
@@ -214,7 +214,7 @@ class Maker {
     });
   }
 
-  void keep_borders(const PlanarFaces& faces, const FacePolygons& inside) {
+  void keep_borders(const Faces& faces, const FacePolygons& inside) {
     borders_.reserve(set_.size());
     for (std::size_t s = 0; s < set_.size(); ++s) {
       const auto segment = static_cast<std::int32_t>(s);
@@ -233,7 +233,7 @@ class Maker {
   };
 
   // The face of a point: above the segment next below it, or beside a segment there.
-  std::vector<std::int32_t> faces_of_points(const PlanarFaces& faces) const {
+  std::vector<std::int32_t> faces_of_points(const Faces& faces) const {
     std::vector<std::int32_t> face(set_.points.size());
     for (std::size_t i = 0; i < face.size(); ++i) {
       face[i] = below_[i] < 0 ? 0 : faces.left[static_cast<std::size_t>(below_[i])];
@@ -246,7 +246,7 @@ class Maker {
   }
 
   // What is at the end of a border is a site already.
-  void find_point_holes(const PlanarFaces& faces, const FacePolygons& inside) {
+  void find_point_holes(const Faces& faces, const FacePolygons& inside) {
     if (std::ranges::find(is_flat_hole_, 1) == is_flat_hole_.end()) return;
     std::vector<std::uint8_t> is_known(set_.points.size(), 0);
     for (const Border& border : borders_) {
@@ -379,7 +379,7 @@ class Maker {
   }
 
   // Faces that only idle segments divide are one.
-  void number_faces(const PlanarFaces& faces, const FacePolygons& inside) {
+  void number_faces(const Faces& faces, const FacePolygons& inside) {
     std::vector<std::uint8_t> is_kept(set_.size(), 0);
     for (const Border& border : borders_) is_kept[static_cast<std::size_t>(border.segment)] = 1;
     base::DisjointSets<std::int32_t> joined(static_cast<std::size_t>(faces.count));

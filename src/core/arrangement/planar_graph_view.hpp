@@ -10,7 +10,7 @@
 
 namespace vorotool::core::arrangement {
 
-struct ShapeGraph {
+struct PlanarGraphView {
   std::span<const kernel::LatticePoint> points;           // [n] distinct
   std::span<const std::array<std::int32_t, 2>> segments;  // [m] ends; segments meet at ends only
   std::span<const std::array<std::int32_t, 2>> faces;  // [m] left and right of each; 0 is the unbounded one

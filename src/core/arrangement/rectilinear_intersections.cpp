@@ -13,9 +13,9 @@ namespace {
 // The table of rows then takes no more memory than sorting the points did: 64 bytes a point.
 constexpr std::size_t most_rows_per_point = 16;
 
-class RectilinearSweep {
+class RectilinearIntersections {
  public:
-  RectilinearSweep(const SortedSegments& segments, const CoordinateSteps& rows)
+  RectilinearIntersections(const SortedSegments& segments, const CoordinateCompression& rows)
       : segments_(segments),
         rows_(rows),
         cut_(std::size_t{rows.last()} + 1),
@@ -63,7 +63,7 @@ class RectilinearSweep {
   }
 
   const SortedSegments& segments_;
-  const CoordinateSteps& rows_;
+  const CoordinateCompression& rows_;
   base::IntegerSet cut_;                        // rows of the segments that are cut here
   std::unique_ptr<std::int32_t[]> segment_in_;  // these, by row
   std::size_t reached_ = SIZE_MAX;              // the end of the last segment upwards
@@ -74,9 +74,9 @@ class RectilinearSweep {
 
 std::optional<std::vector<std::int32_t>> sweep_rectilinear(const SortedSegments& segments,
                                                            const base::Monitor& monitor) {
-  const CoordinateSteps rows(segments.points, &kernel::LatticePoint::y);
+  const CoordinateCompression rows(segments.points, &kernel::LatticePoint::y);
   if (rows.last() >= most_rows_per_point * segments.points.size()) return {};
-  RectilinearSweep sweep(segments, rows);
+  RectilinearIntersections sweep(segments, rows);
   for (std::size_t point = 0; point < segments.points.size(); ++point) {
     if (!sweep.pass(point)) return {};
     base::report_item(monitor, point);

@@ -12,7 +12,7 @@ namespace vorotool::core::arrangement {
 using kernel::LatticePoint;
 
 SortedPoints sort_points(std::span<const LatticePoint> points, const base::Monitor& monitor) {
-  const CoordinateSteps columns(points, &LatticePoint::x), rows(points, &LatticePoint::y);
+  const CoordinateCompression columns(points, &LatticePoint::x), rows(points, &LatticePoint::y);
   std::vector<base::Keyed> keyed;
   keyed.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -37,7 +37,7 @@ SortedPoints sort_points(std::span<const LatticePoint> points, const base::Monit
 }
 
 std::vector<std::int32_t> first_at_place(std::span<const LatticePoint> points, const base::Monitor& monitor) {
-  const CoordinateSteps columns(points, &LatticePoint::x), rows(points, &LatticePoint::y);
+  const CoordinateCompression columns(points, &LatticePoint::x), rows(points, &LatticePoint::y);
   const int index_bits = static_cast<int>(std::bit_width(points.size()));
   const int bits = index_bits + columns.bits() + rows.bits();
   if (bits <= 64) {  // a word holds place and index

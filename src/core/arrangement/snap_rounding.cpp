@@ -32,7 +32,7 @@ class Snapping {
   SnappedSegments run(const SweepResult& swept) {
     release_crossing(swept);
     if (!loose_.empty()) {
-      const CellTree tree(nodes_);
+      const HotPixelTree tree(nodes_);
       std::vector<std::int32_t> disturbed = route(tree, loose_);
       for (int round = 0; !disturbed.empty(); ++round) {
         disturbed = route(tree, round < most_rounds ? release_at(disturbed) : release_all());
@@ -102,7 +102,7 @@ class Snapping {
   }
 
   // Finds the nodes whose cells newly loose segments meet; returns those that become disturbed by it.
-  std::vector<std::int32_t> route(const CellTree& tree, const std::vector<std::int32_t>& loose) {
+  std::vector<std::int32_t> route(const HotPixelTree& tree, const std::vector<std::int32_t>& loose) {
     std::vector<std::int32_t> fresh;
     disturbed_.resize(nodes_.size());
     for (std::size_t i = 0; i < loose.size(); ++i) {
@@ -124,7 +124,7 @@ class Snapping {
   std::vector<std::int32_t> release_at(const std::vector<std::int32_t>& disturbed) {
     std::vector<LatticePoint> cells;
     for (const std::int32_t i : disturbed) cells.push_back(node(i));
-    const CellTree tree(cells);
+    const HotPixelTree tree(cells);
     const std::size_t before = loose_.size();
     for (std::size_t s = 0; s < segments_.lower_end.size(); ++s) {
       const auto segment = static_cast<std::int32_t>(s);

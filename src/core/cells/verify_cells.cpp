@@ -74,7 +74,7 @@ class Checker {
   }
 
  private:
-  using Tree = spatial::SiteTree<double, double>;
+  using Tree = spatial::KdTree<double, double>;
 
   std::span<const Point> ring(std::size_t cell) const {
     const auto begin = static_cast<std::size_t>(in_.starts[cell]);

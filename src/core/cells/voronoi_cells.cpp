@@ -328,7 +328,7 @@ class CellMaker {
   }
 
   const TriangulationArrays& mesh_;
-  const delaunay::TriangleRings rings_;
+  const delaunay::VertexTriangles rings_;
   const Frame frame_;
   const unsigned threads_;
   const Monitor& monitor_;

@@ -33,15 +33,17 @@ void for_all(std::size_t count, unsigned threads, const Monitor& monitor, Body b
 
 }  // namespace
 
-DelaunayMesh::DelaunayMesh(std::span<const kernel::Point> points, unsigned threads, const Monitor& monitor,
-                           const std::optional<spatial::Bounds>& within)
-    : DelaunayMesh(
+DelaunayTriangulation::DelaunayTriangulation(std::span<const kernel::Point> points, unsigned threads,
+                                             const Monitor& monitor,
+                                             const std::optional<spatial::Bounds>& within)
+    : DelaunayTriangulation(
           points, [&](const OrderedPoints& ordered) { return divide_and_conquer(ordered, threads, monitor); },
           threads, monitor, within) {}
 
-DelaunayMesh::DelaunayMesh(std::span<const kernel::Point> points, const Triangulate& triangulate,
-                           unsigned threads, const Monitor& monitor,
-                           const std::optional<spatial::Bounds>& within)
+DelaunayTriangulation::DelaunayTriangulation(std::span<const kernel::Point> points,
+                                             const Triangulate& triangulate, unsigned threads,
+                                             const Monitor& monitor,
+                                             const std::optional<spatial::Bounds>& within)
     : first_(points.size()) {
   if (points.size() > most_points) throw std::length_error("more than 268435456 points");
   MortonOrder order = morton_order(points, first_, FineOrder::of_crowds, threads, monitor, within);
@@ -53,7 +55,7 @@ DelaunayMesh::DelaunayMesh(std::span<const kernel::Point> points, const Triangul
 }
 
 // Lists the hull, and marks in the rings where the unbounded face follows.
-void DelaunayMesh::walk_hull(const Subdivision& mesh, std::span<RingVertex> vertices) {
+void DelaunayTriangulation::walk_hull(const Subdivision& mesh, std::span<RingVertex> vertices) {
   Vertex from = -1;
   for (Vertex v = mesh.start; v >= 0;) {
     outline_.push_back(v);
@@ -74,8 +76,8 @@ void DelaunayMesh::walk_hull(const Subdivision& mesh, std::span<RingVertex> vert
   }
 }
 
-void DelaunayMesh::gather_rings(std::span<const RingVertex> vertices, unsigned threads,
-                                const Monitor& monitor) {
+void DelaunayTriangulation::gather_rings(std::span<const RingVertex> vertices, unsigned threads,
+                                         const Monitor& monitor) {
   ring_end_.resize(vertices.size());
   edge_start_.resize(vertices.size());
   pieces_.resize(base::piece_count(vertices.size(), piece_size) + 1);
@@ -88,7 +90,8 @@ void DelaunayMesh::gather_rings(std::span<const RingVertex> vertices, unsigned t
   }
 }
 
-DelaunayMesh::Piece DelaunayMesh::gather_piece(std::size_t number, std::span<const RingVertex> vertices) {
+DelaunayTriangulation::Piece DelaunayTriangulation::gather_piece(std::size_t number,
+                                                                 std::span<const RingVertex> vertices) {
   const std::size_t begin = number << piece_bits;
   const std::size_t end = std::min(vertices.size(), begin + piece_size);
   std::size_t entries = 0;
@@ -115,14 +118,14 @@ DelaunayMesh::Piece DelaunayMesh::gather_piece(std::size_t number, std::span<con
   return piece;
 }
 
-std::span<const Vertex> DelaunayMesh::ring(Vertex v) const {
+std::span<const Vertex> DelaunayTriangulation::ring(Vertex v) const {
   const auto place = static_cast<std::size_t>(v);
   const std::size_t begin = place % piece_size == 0 ? 0 : ring_end_[place - 1];
   return {pieces_[place >> piece_bits].rings.data() + begin, ring_end_[place] - begin};
 }
 
 // A triangle is written at its earliest vertex v: what links it to its neighbours.
-struct DelaunayMesh::Lead {
+struct DelaunayTriangulation::Lead {
   Vertex w, u;                   // the others
   std::uint32_t edge_w, edge_u;  // numbers of the edges to them
 };
@@ -131,7 +134,7 @@ struct DelaunayMesh::Lead {
 // order that depends on the points alone. Calls visit(v, w, u, the edge from v to w, that to u, whether the
 // edge to w is written here, whether the triangle v, w, u is).
 template <class Visit>
-void DelaunayMesh::visit_spokes(std::size_t piece, Visit visit) const {
+void DelaunayTriangulation::visit_spokes(std::size_t piece, Visit visit) const {
   const std::size_t end = std::min(index_.size(), (piece + 1) << piece_bits);
   for (std::size_t place = piece << piece_bits; place < end; ++place) {
     const auto v = static_cast<Vertex>(place);
@@ -152,7 +155,7 @@ void DelaunayMesh::visit_spokes(std::size_t piece, Visit visit) const {
   }
 }
 
-void DelaunayMesh::write(const MeshArrays& out, unsigned threads, const Monitor& monitor) const {
+void DelaunayTriangulation::write(const MeshArrays& out, unsigned threads, const Monitor& monitor) const {
   if (edge_count_ == 0) return;
   const bool link = out.neighbours != nullptr && triangle_count() > 0;
   base::LargeArray<std::uint32_t> slots(link ? 2 * edge_count_ : 0);
@@ -175,7 +178,8 @@ void DelaunayMesh::write(const MeshArrays& out, unsigned threads, const Monitor&
 
 // Every candidate is written, and the next one over it unless it counts: faster than a branch that cannot be
 // foretold. At the end of a piece nothing more is written.
-void DelaunayMesh::write_piece(std::size_t piece, const MeshArrays& out, std::uint32_t* slots) const {
+void DelaunayTriangulation::write_piece(std::size_t piece, const MeshArrays& out,
+                                        std::uint32_t* slots) const {
   const std::size_t first = pieces_[piece].triangles;
   std::vector<Lead> leads(out.triangles ? pieces_[piece + 1].triangles - first : 0);
   std::size_t count = 0;
@@ -203,7 +207,8 @@ void DelaunayMesh::write_piece(std::size_t piece, const MeshArrays& out, std::ui
 
 // The slot of a side is where the neighbour across it belongs: the triangle on its left, times four, and the
 // corner opposite to it. An edge has two: first that of its direction from the earlier vertex.
-void DelaunayMesh::fill_slots(const std::vector<Lead>& leads, std::size_t first, std::uint32_t* slots) const {
+void DelaunayTriangulation::fill_slots(const std::vector<Lead>& leads, std::size_t first,
+                                       std::uint32_t* slots) const {
   for (std::size_t i = 0; i < leads.size(); ++i) {
     const auto [w, u, edge_w, edge_u] = leads[i];
     const auto slot = static_cast<std::uint32_t>(4 * (first + i));
@@ -213,17 +218,17 @@ void DelaunayMesh::fill_slots(const std::vector<Lead>& leads, std::size_t first,
   }
 }
 
-std::size_t DelaunayMesh::slot_of(Vertex from, Vertex to) const {
+std::size_t DelaunayTriangulation::slot_of(Vertex from, Vertex to) const {
   return 2 * edge_between(std::min(from, to), std::max(from, to)) + (to < from);
 }
 
-std::size_t DelaunayMesh::first_edge(Vertex v) const {
+std::size_t DelaunayTriangulation::first_edge(Vertex v) const {
   const auto place = static_cast<std::size_t>(v);
   return pieces_[place >> piece_bits].edges + edge_start_[place];
 }
 
 // The number of an edge: it is written at its earlier vertex.
-std::size_t DelaunayMesh::edge_between(Vertex earlier, Vertex later) const {
+std::size_t DelaunayTriangulation::edge_between(Vertex earlier, Vertex later) const {
   std::size_t edge = first_edge(earlier);
   for (const Vertex entry : ring(earlier)) {
     const Vertex w = neighbour(entry);

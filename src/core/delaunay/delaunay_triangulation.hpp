@@ -28,18 +28,19 @@ struct MeshArrays {
       nullptr;  // [2 edge_count] ends, the smaller index first; of collinear points, a chain
 };
 
-class DelaunayMesh {
+class DelaunayTriangulation {
  public:
   // Finite points. Throws std::length_error for more than 2^28 of them. Triangles and edges are in an order
   // along the curve through `within`, if it is there: it holds all points.
-  DelaunayMesh(std::span<const kernel::Point> points, unsigned threads, const base::Monitor& monitor,
-               const std::optional<spatial::Bounds>& within = {});
+  DelaunayTriangulation(std::span<const kernel::Point> points, unsigned threads, const base::Monitor& monitor,
+                        const std::optional<spatial::Bounds>& within = {});
 
   // The same from the rings of divide_and_conquer that are made in another way, after permute_equal_codes.
   using Triangulate = std::function<Subdivision(const OrderedPoints&)>;
-  DelaunayMesh(std::span<const kernel::Point> points, const Triangulate& triangulate, unsigned threads,
-               const base::Monitor& monitor, const std::optional<spatial::Bounds>& within = {});
-  DelaunayMesh(DelaunayMesh&&) = default;  // and no copy
+  DelaunayTriangulation(std::span<const kernel::Point> points, const Triangulate& triangulate,
+                        unsigned threads, const base::Monitor& monitor,
+                        const std::optional<spatial::Bounds>& within = {});
+  DelaunayTriangulation(DelaunayTriangulation&&) = default;  // and no copy
 
   // [n] for each point the first one at the same place: itself if it is the only one.
   std::span<const std::int32_t> first() const { return first_; }

@@ -13,14 +13,14 @@ bool comes_before(const kernel::Point& a, const kernel::Point& b) {
 
 }  // namespace
 
-TriangleMesh::Side TriangleMesh::add_triangle(Vertex a, Vertex b, Vertex c) {
+FlipMesh::Side FlipMesh::add_triangle(Vertex a, Vertex b, Vertex c) {
   const Side first = sides();
   origins_.insert(origins_.end(), {a, b, c});
   twins_.insert(twins_.end(), 3, -1);
   return first;
 }
 
-void TriangleMesh::start(Vertex a, Vertex b, Vertex c) {
+void FlipMesh::start(Vertex a, Vertex b, Vertex c) {
   if (kernel::orient2d(at(a), at(b), at(c)) < 0) std::swap(b, c);
   const Side inner = add_triangle(a, b, c);
   const Side ghosts[] = {add_triangle(b, a, infinity), add_triangle(c, b, infinity),
@@ -32,13 +32,13 @@ void TriangleMesh::start(Vertex a, Vertex b, Vertex c) {
 }
 
 // Of a triangle with collinear corners.
-TriangleMesh::Side TriangleMesh::opposite_to_middle(Side s) const {
+FlipMesh::Side FlipMesh::opposite_to_middle(Side s) const {
   while (comes_before(at(apex(s)), at(origin(s))) == comes_before(at(apex(s)), at(target(s))))
     s = following(s);
   return s;
 }
 
-std::uint64_t TriangleMesh::straighten() {
+std::uint64_t FlipMesh::straighten() {
   std::vector<Side> flat;
   for (Side s = 0; s < sides(); s += 3) {
     if (is_flat(s)) flat.push_back(s);
@@ -63,21 +63,21 @@ std::uint64_t TriangleMesh::straighten() {
   return flips;
 }
 
-bool TriangleMesh::is_positive() const {
+bool FlipMesh::is_positive() const {
   for (Side s = 0; s < sides(); s += 3) {
     if (!is_ghost(s) && side_of(s, apex(s)) <= 0) return false;
   }
   return true;
 }
 
-bool TriangleMesh::has_triangle() const {
+bool FlipMesh::has_triangle() const {
   for (Side s = 0; s < sides(); s += 3) {
     if (!is_ghost(s)) return true;
   }
   return false;
 }
 
-void TriangleMesh::poll() {
+void FlipMesh::poll() {
   if (++steps_ % steps_between_polls == 0 && monitor_ && !monitor_(0.9)) throw base::Interrupted();
 }
 
@@ -85,7 +85,7 @@ void TriangleMesh::poll() {
 // never. Of any other: whether the circle of one of its triangles holds the apex of the other; if this is on
 // the circle, the diagonal belongs to the lexicographically smallest of the four, by the same symbolic lift
 // as in divide and conquer.
-bool TriangleMesh::is_wrong(Side s) const {
+bool FlipMesh::is_wrong(Side s) const {
   if (origin(s) == infinity) s = twin(s);
   const Vertex a = origin(s), b = target(s), c = apex(s), d = apex(twin(s));
   if (b == infinity) return c != infinity && d != infinity && kernel::orient2d(at(d), at(a), at(c)) < 0;
@@ -97,7 +97,7 @@ bool TriangleMesh::is_wrong(Side s) const {
 
 // Replaces the side a, b of the triangles a, b, c and b, a, d: they become d, b, c and c, a, d. Sides keep
 // their triangle.
-void TriangleMesh::flip(Side s) {
+void FlipMesh::flip(Side s) {
   const Side t = twin(s);
   const Side before_s = preceding(s), before_t = preceding(t);
   origin(s) = origin(before_t);
@@ -110,7 +110,7 @@ void TriangleMesh::flip(Side s) {
 
 // Every flip lowers the triangulation lifted to the paraboloid, if only symbolically, or fills a part of the
 // hull: it comes to an end.
-void TriangleMesh::settle() {
+void FlipMesh::settle() {
   while (!doubtful_.empty()) {
     poll();
     const Side s = doubtful_.back();
@@ -121,7 +121,7 @@ void TriangleMesh::settle() {
   }
 }
 
-void TriangleMesh::make_delaunay() {
+void FlipMesh::make_delaunay() {
   for (const bool at_infinity : {true, false}) {
     for (Side s = 0; s < sides(); ++s) {
       if (s < twin(s) && (origin(s) == infinity || target(s) == infinity) == at_infinity)
@@ -132,7 +132,7 @@ void TriangleMesh::make_delaunay() {
 }
 
 // A side of the triangle, or of the ghost, in which a point lies; on the border of a triangle, that side.
-TriangleMesh::Side TriangleMesh::find(Vertex v) const {
+FlipMesh::Side FlipMesh::find(Vertex v) const {
   Side s = recent_ - recent_ % 3;
   if (is_ghost(s)) {
     while (apex(s) != infinity) ++s;
@@ -154,7 +154,7 @@ TriangleMesh::Side TriangleMesh::find(Vertex v) const {
 }
 
 // Puts v into the triangle of a side: a, b, c becomes a, b, v and b, c, v and c, a, v.
-void TriangleMesh::split(Side s, Vertex v) {
+void FlipMesh::split(Side s, Vertex v) {
   const Side second = following(s), third = preceding(s);
   const Vertex a = origin(s), b = origin(second), c = origin(third);
   const Side bc = add_triangle(b, c, v);
@@ -168,7 +168,7 @@ void TriangleMesh::split(Side s, Vertex v) {
   doubtful_.insert(doubtful_.end(), {s, bc, ca});
 }
 
-void TriangleMesh::insert(Vertex v) {
+void FlipMesh::insert(Vertex v) {
   const Side s = find(v);
   const bool on_side = !is_ghost(s) && side_of(s, v) == 0;
   split(s, v);
@@ -181,7 +181,7 @@ void TriangleMesh::insert(Vertex v) {
 
 // Lists the neighbours of the vertex that a side leaves, from that of the side on. Returns how many sides
 // leave it, one to infinity among them.
-TriangleMesh::Side TriangleMesh::make_ring(Side start, RingStore& store) {
+FlipMesh::Side FlipMesh::make_ring(Side start, RingStore& store) {
   RingVertex& vertex = vertices_[static_cast<std::size_t>(origin(start))];
   Side count = 0;
   Side s = start;
@@ -193,7 +193,7 @@ TriangleMesh::Side TriangleMesh::make_ring(Side start, RingStore& store) {
   return count;
 }
 
-std::optional<Subdivision> TriangleMesh::subdivision() {
+std::optional<Subdivision> FlipMesh::subdivision() {
   // Euler's relation on the sphere, with the vertex at infinity.
   if (static_cast<std::size_t>(sides()) != 6 * vertices_.size() - 6) return {};
   for (RingVertex& vertex : vertices_) vertex.clear(vertex.point);

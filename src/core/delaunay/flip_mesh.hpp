@@ -16,13 +16,13 @@
 
 namespace vorotool::core::delaunay {
 
-class TriangleMesh {
+class FlipMesh {
  public:
   using Side = std::int32_t;  // side 3 t + k of triangle t leaves its corner k
   static constexpr Vertex infinity = -1;
 
   // Distinct points; none is in the mesh yet.
-  TriangleMesh(std::span<RingVertex> vertices, const base::Monitor& monitor)
+  FlipMesh(std::span<RingVertex> vertices, const base::Monitor& monitor)
       : vertices_(vertices), monitor_(monitor) {}
 
   // Adds a triangle, ghosts included; its sides have no twins yet. Returns its first side.

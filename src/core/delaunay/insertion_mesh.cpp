@@ -16,7 +16,7 @@ bool comes_before(const Point& a, const Point& b) { return a.x != b.x ? a.x < b.
 
 }  // namespace
 
-GhostMesh::GhostMesh(const TriangulationArrays& mesh, std::span<const Point> points, std::size_t more)
+InsertionMesh::InsertionMesh(const TriangulationArrays& mesh, std::span<const Point> points, std::size_t more)
     : points_(points),
       slots_(mesh.triangles.size() / 3),
       corners_(3 * (slots_ + mesh.hull.size() + 2 * more)),
@@ -29,7 +29,7 @@ GhostMesh::GhostMesh(const TriangulationArrays& mesh, std::span<const Point> poi
 }
 
 // Ghosts are linked to each other around the hull by the vertex that they share.
-void GhostMesh::add_ghosts() {
+void InsertionMesh::add_ghosts() {
   const std::size_t sides = 3 * slots_;
   std::vector<std::pair<Vertex, Slot>> starts, ends;  // of hull sides, and their ghosts
   for (std::size_t i = 0; i < sides; ++i) {
@@ -52,7 +52,7 @@ void GhostMesh::add_ghosts() {
   }
 }
 
-GhostMesh::Slot GhostMesh::new_slot() {
+InsertionMesh::Slot InsertionMesh::new_slot() {
   if (3 * slots_ == corners_.size()) refuse();  // more sides than the hull has
   const auto s = static_cast<Slot>(slots_++);
   changed_.push_back(0);
@@ -60,37 +60,37 @@ GhostMesh::Slot GhostMesh::new_slot() {
   return s;
 }
 
-void GhostMesh::mark(Slot s) {
+void InsertionMesh::mark(Slot s) {
   if (is_changed(s)) return;
   changed_[static_cast<std::size_t>(s)] = 1;
   changed_slots_.push_back(s);
 }
 
-void GhostMesh::set(Slot s, const std::array<Vertex, 3>& corners) {
+void InsertionMesh::set(Slot s, const std::array<Vertex, 3>& corners) {
   std::copy(corners.begin(), corners.end(), corners_.data() + at(s, 0));
   mark(s);
 }
 
-void GhostMesh::link(Slot s, int k, Slot t, int j) {
+void InsertionMesh::link(Slot s, int k, Slot t, int j) {
   across_[at(s, k)] = t;
   across_[at(t, j)] = s;
 }
 
-int GhostMesh::corner_of(Slot s, Vertex v) const {
+int InsertionMesh::corner_of(Slot s, Vertex v) const {
   for (int k = 0; k < 3; ++k) {
     if (corner(s, k) == v) return k;
   }
   refuse();
 }
 
-int GhostMesh::side_towards(Slot s, Slot t) const {
+int InsertionMesh::side_towards(Slot s, Slot t) const {
   for (int k = 0; k < 3; ++k) {
     if (across(s, k) == t) return k;
   }
   refuse();
 }
 
-void GhostMesh::rotate(Slot s, int k) {
+void InsertionMesh::rotate(Slot s, int k) {
   for (std::int32_t* of : {corners_.data() + at(s, 0), across_.data() + at(s, 0)})
     std::rotate(of, of + k, of + 3);
 }
@@ -103,7 +103,7 @@ void GhostMesh::rotate(Slot s, int k) {
 // 1991), or, across a side between cocircular triangles, stays, where a walk among the triangles of a convex
 // polygon cannot turn in a circle. Orientations are exact, so no triangle is met twice, and a walk longer
 // than all is one of no triangulation.
-GhostMesh::Location GhostMesh::locate(const Point& p, Slot start) const {
+InsertionMesh::Location InsertionMesh::locate(const Point& p, Slot start) const {
   Slot s = is_ghost(start) ? across(start, corner_of(start, infinity)) : start;
   Slot before = -1;
   for (std::size_t steps = 0; steps < slots(); ++steps) {
@@ -124,7 +124,7 @@ GhostMesh::Location GhostMesh::locate(const Point& p, Slot start) const {
 
 // ---- insertion ----
 
-GhostMesh::Vertex GhostMesh::insert(Vertex v, Slot& near) {
+InsertionMesh::Vertex InsertionMesh::insert(Vertex v, Slot& near) {
   const Location found = locate(point(v), near);
   near = found.slot;
   if (found.place == Place::vertex) return corner(found.slot, found.k);
@@ -137,7 +137,7 @@ GhostMesh::Vertex GhostMesh::insert(Vertex v, Slot& near) {
   return v;
 }
 
-void GhostMesh::insert_in_face(Vertex v, Slot s) {
+void InsertionMesh::insert_in_face(Vertex v, Slot s) {
   const std::array<Vertex, 3> c{corner(s, 0), corner(s, 1), corner(s, 2)};
   const std::array<Slot, 3> outside{across(s, 0), across(s, 1), across(s, 2)};
   std::array<int, 3> back{};
@@ -152,7 +152,7 @@ void GhostMesh::insert_in_face(Vertex v, Slot s) {
 }
 
 // Both triangles at a side are cut in two.
-void GhostMesh::insert_on_side(Vertex v, Slot s, int k) {
+void InsertionMesh::insert_on_side(Vertex v, Slot s, int k) {
   const Slot t = across(s, k);
   const int j = side_towards(t, s);
   const Vertex c = corner(s, k), a = corner(s, (k + 1) % 3), b = corner(s, (k + 2) % 3), d = corner(t, j);
@@ -172,7 +172,7 @@ void GhostMesh::insert_on_side(Vertex v, Slot s, int k) {
 }
 
 // Lawson's flips. Each adds an edge at the new vertex, so there are fewer than vertices.
-void GhostMesh::legalize() {
+void InsertionMesh::legalize() {
   std::size_t flips = 0;
   while (!pending_.empty()) {
     const Slot s = pending_.back();
@@ -189,7 +189,7 @@ void GhostMesh::legalize() {
 
 // Whether the side opposite to the new vertex, at corner 2, is none in the new triangulation. A side to
 // infinity is none if the hull turned right at its end.
-bool GhostMesh::must_flip(Slot s, Vertex opposite) const {
+bool InsertionMesh::must_flip(Slot s, Vertex opposite) const {
   const Vertex a = corner(s, 0), b = corner(s, 1), v = corner(s, 2);
   if (b == infinity) return turn(opposite, a, v) < 0;
   if (a == infinity) return turn(v, b, opposite) < 0;
@@ -198,7 +198,7 @@ bool GhostMesh::must_flip(Slot s, Vertex opposite) const {
 }
 
 // The triangles a, b, v and b, a, d become a, d, v and d, b, v.
-void GhostMesh::flip(Slot s) {
+void InsertionMesh::flip(Slot s) {
   const Slot t = across(s, 2);
   const int j = side_towards(t, s);
   const Vertex a = corner(s, 0), b = corner(s, 1), v = corner(s, 2), d = corner(t, j);
@@ -216,7 +216,7 @@ void GhostMesh::flip(Slot s) {
 
 // ---- cocircular polygons ----
 
-void GhostMesh::make_fans() {
+void InsertionMesh::make_fans() {
   fanned_.assign(slots(), 0);
   for (std::size_t i = 0; i < changed_slots_.size(); ++i) {  // fans add to them
     const Slot s = changed_slots_[i];
@@ -230,7 +230,7 @@ void GhostMesh::make_fans() {
   }
 }
 
-bool GhostMesh::is_diagonal(Slot s, int k) const {
+bool InsertionMesh::is_diagonal(Slot s, int k) const {
   const Slot t = across(s, k);
   if (is_ghost(t)) return false;
   const Vertex d = corner(t, side_towards(t, s));
@@ -238,7 +238,7 @@ bool GhostMesh::is_diagonal(Slot s, int k) const {
 }
 
 // The polygon's triangles are found and its sides walked along; then the same slots are filled anew.
-void GhostMesh::make_fan(Slot within) {
+void InsertionMesh::make_fan(Slot within) {
   std::vector<Slot> members{within};
   std::vector<Side> sides;
   fanned_[static_cast<std::size_t>(within)] = 1;

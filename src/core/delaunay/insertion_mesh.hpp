@@ -16,7 +16,7 @@
 
 namespace vorotool::core::delaunay {
 
-class GhostMesh {
+class InsertionMesh {
  public:
   using Slot = std::int32_t;    // a triangle's place
   using Vertex = std::int32_t;  // a point
@@ -25,7 +25,7 @@ class GhostMesh {
 
   // The triangulation as given, triangle t in slot t; there must be one. `more` points can be inserted.
   // Throws std::invalid_argument where the arrays are found not to be a triangulation.
-  GhostMesh(const TriangulationArrays& mesh, std::span<const kernel::Point> points, std::size_t more);
+  InsertionMesh(const TriangulationArrays& mesh, std::span<const kernel::Point> points, std::size_t more);
 
   std::size_t slots() const { return slots_; }
   Vertex corner(Slot s, int k) const { return corners_[at(s, k)]; }

@@ -23,8 +23,8 @@ using spatial::Bounds;
 
 namespace {
 
-using Slot = GhostMesh::Slot;
-using Vertex = GhostMesh::Vertex;
+using Slot = InsertionMesh::Slot;
+using Vertex = InsertionMesh::Vertex;
 
 constexpr std::size_t rows_a_piece = std::size_t{1} << 15;
 constexpr std::size_t poll_every = 1024;  // insertions, some milliseconds
@@ -235,8 +235,8 @@ class Inserter {
         throw std::invalid_argument("the triangles around a point form no ring");
     } while (s != start);
     const auto before = [&](const Spoke& a, const Spoke& b) {
-      if (a.neighbour == GhostMesh::infinity || b.neighbour == GhostMesh::infinity) {
-        return b.neighbour == GhostMesh::infinity && a.neighbour != GhostMesh::infinity;
+      if (a.neighbour == InsertionMesh::infinity || b.neighbour == InsertionMesh::infinity) {
+        return b.neighbour == InsertionMesh::infinity && a.neighbour != InsertionMesh::infinity;
       }
       return is_earlier(a.neighbour, b.neighbour);
     };
@@ -244,7 +244,7 @@ class Inserter {
   }
 
   void write_block(Vertex v, const std::vector<Spoke>& ring) {
-    const auto is_later = [&](Vertex w) { return w != GhostMesh::infinity && is_earlier(v, w); };
+    const auto is_later = [&](Vertex w) { return w != InsertionMesh::infinity && is_earlier(v, w); };
     for (std::size_t i = 0; i < ring.size(); ++i) {
       if (!is_later(ring[i].neighbour)) continue;
       new_edges_.push_back(std::min(v, ring[i].neighbour));
@@ -259,7 +259,7 @@ class Inserter {
   bool changes_order() const {
     CellCounts cells(near_.size() + points_.size() - in_.points.size());
     for (const Vertex v : near_) {
-      if (v != GhostMesh::infinity) cells.add_cell(code(v));
+      if (v != InsertionMesh::infinity) cells.add_cell(code(v));
     }
     for (std::size_t i = in_.points.size(); i < points_.size(); ++i) cells.add_cell(codes_[i]);
     const auto count = [&](std::size_t piece) {
@@ -370,7 +370,7 @@ class Inserter {
     const Slot start = *std::find_if(changed.begin(), changed.end(), is_ghost);
     Slot s = start;
     do {
-      const int k = (mesh_.corner_of(s, GhostMesh::infinity) + 2) % 3;
+      const int k = (mesh_.corner_of(s, InsertionMesh::infinity) + 2) % 3;
       hull.push_back(mesh_.corner(s, k));
       s = mesh_.across(s, k);
     } while (s != start);
@@ -388,7 +388,7 @@ class Inserter {
   const unsigned threads_;
   const Monitor& monitor_;
   LargeArray<std::uint32_t> codes_;  // [points] of their cells
-  GhostMesh mesh_;
+  InsertionMesh mesh_;
   std::vector<std::int32_t> first_;
   std::vector<Block> blocks_;
   std::vector<Slot> new_triangles_;

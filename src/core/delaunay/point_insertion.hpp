@@ -20,10 +20,10 @@ struct InsertedArrays {
   std::vector<std::int32_t> hull, first;
 };
 
-// The triangulation of `points`, of which the first ones are those of `mesh`, which DelaunayMesh or this
-// function has made: array by array what DelaunayMesh makes of all of them. `hints` may hold for each further
-// point one of `mesh` from which the search for it begins; without it, the order of the triangles tells where
-// to begin.
+// The triangulation of `points`, of which the first ones are those of `mesh`, which DelaunayTriangulation or
+// this function has made: array by array what DelaunayTriangulation makes of all of them. `hints` may hold
+// for each further point one of `mesh` from which the search for it begins; without it, the order of the
+// triangles tells where to begin.
 //
 // m points take time O(m log n) if a constant number of triangles each is expected to change, and the copying
 // of the arrays besides. There is no result where triangles that stay may change their order: with a point

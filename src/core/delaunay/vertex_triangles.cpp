@@ -22,7 +22,7 @@ void check_indices(const TriangulationArrays& mesh) {
   check_range(mesh.first, 0, mesh.points.size(), "first names a point that does not exist");
 }
 
-TriangleRings::TriangleRings(const TriangulationArrays& mesh)
+VertexTriangles::VertexTriangles(const TriangulationArrays& mesh)
     : mesh_(mesh), triangles_(mesh.triangles.size() / 3), first_(mesh.points.size(), -1) {
   check_indices(mesh);
   order_.reserve(mesh.points.size());

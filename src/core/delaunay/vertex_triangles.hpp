@@ -14,10 +14,10 @@ namespace vorotool::core::delaunay {
 // Refuses indices that do not exist with std::invalid_argument.
 void check_indices(const TriangulationArrays& mesh);
 
-class TriangleRings {
+class VertexTriangles {
  public:
   // Refuses indices that do not exist with std::invalid_argument.
-  explicit TriangleRings(const TriangulationArrays& mesh);
+  explicit VertexTriangles(const TriangulationArrays& mesh);
 
   // Vertices of triangles in the order in which they first occur: neighbours are close together in it.
   std::span<const std::int32_t> order() const { return order_; }

@@ -11,30 +11,30 @@
 namespace vorotool::core::digital {
 
 using base::Monitor;
+using delaunay::FlipMesh;
 using delaunay::OrderedPoints;
 using delaunay::RingVertex;
 using delaunay::Subdivision;
-using delaunay::TriangleMesh;
 using delaunay::Vertex;
 
 namespace {
 
-constexpr TriangleMesh::Side sides_between_polls = 3 << 14;
+constexpr FlipMesh::Side sides_between_polls = 3 << 14;
 
 Vertex as_vertex(std::size_t i) { return static_cast<Vertex>(i); }
 
 // Links every side of the dual with its twin, and the ring with ghosts. False if it is no closed surface.
-bool assemble(const DigitalDual& dual, TriangleMesh& mesh, const Monitor& monitor) {
+bool assemble(const DigitalDual& dual, FlipMesh& mesh, const Monitor& monitor) {
   if (dual.ring.size() < 2) return false;
   base::FlatMap waiting(
       2 * dual.triangles.size());  // by a, b: the side, plus 1, whose twin b, a is to come; then 0
   std::size_t open = 0;
-  const auto close = [&](Vertex a, Vertex b, TriangleMesh::Side side) {
+  const auto close = [&](Vertex a, Vertex b, FlipMesh::Side side) {
     const auto key = [](Vertex from, Vertex to) {
       return (static_cast<std::uint64_t>(from) + 1) << 32 | (static_cast<std::uint64_t>(to) + 1);
     };
     if (const std::uint64_t other = waiting.find(key(b, a)); other != 0) {
-      mesh.link(side, static_cast<TriangleMesh::Side>(other - 1));
+      mesh.link(side, static_cast<FlipMesh::Side>(other - 1));
       waiting[key(b, a)] = 0;
       --open;
       return true;
@@ -46,20 +46,20 @@ bool assemble(const DigitalDual& dual, TriangleMesh& mesh, const Monitor& monito
     return true;
   };
   for (const auto& [a, b, c] : dual.triangles) {
-    const TriangleMesh::Side s = mesh.add_triangle(a, b, c);
+    const FlipMesh::Side s = mesh.add_triangle(a, b, c);
     if (s % sides_between_polls == 0 && monitor && !monitor(0.5)) throw base::Interrupted();
     if (!close(a, b, s) || !close(b, c, s + 1) || !close(c, a, s + 2)) return false;
   }
   const std::size_t count = dual.ring.size();
-  const TriangleMesh::Side first = 3 * static_cast<TriangleMesh::Side>(dual.triangles.size());
+  const FlipMesh::Side first = 3 * static_cast<FlipMesh::Side>(dual.triangles.size());
   for (std::size_t i = 0; i < count; ++i) {
     const Vertex here = dual.ring[i], next = dual.ring[(i + 1) % count];
-    const TriangleMesh::Side s = mesh.add_triangle(next, here, TriangleMesh::infinity);
+    const FlipMesh::Side s = mesh.add_triangle(next, here, FlipMesh::infinity);
     if (!close(next, here, s)) return false;
   }
   for (std::size_t i = 0; i < count; ++i) {
-    const auto ghost = first + 3 * static_cast<TriangleMesh::Side>(i);
-    const auto next = first + 3 * static_cast<TriangleMesh::Side>((i + 1) % count);
+    const auto ghost = first + 3 * static_cast<FlipMesh::Side>(i);
+    const auto next = first + 3 * static_cast<FlipMesh::Side>((i + 1) % count);
     mesh.link(ghost + 2, next + 1);  // from infinity to the vertex that the next one leaves
   }
   return open == 0;
@@ -79,7 +79,7 @@ std::vector<Vertex> vertices_of_labels(const OrderedPoints& ordered, std::size_t
 }
 
 // Inserts the points that are in no triangle. Returns their number.
-std::uint64_t insert_missing(TriangleMesh& mesh, const std::vector<bool>& used) {
+std::uint64_t insert_missing(FlipMesh& mesh, const std::vector<bool>& used) {
   std::uint64_t inserted = 0;
   for (std::size_t v = 0; v < used.size(); ++v) {
     if (used[v]) continue;
@@ -91,7 +91,7 @@ std::uint64_t insert_missing(TriangleMesh& mesh, const std::vector<bool>& used) 
 
 std::optional<Subdivision> repaired(const DigitalDual& dual, std::span<RingVertex> vertices,
                                     DigitalRepair& repair, const Monitor& monitor) {
-  TriangleMesh mesh(vertices, monitor);
+  FlipMesh mesh(vertices, monitor);
   if (!assemble(dual, mesh, monitor)) return {};
   repair.straightened = mesh.straighten();
   if (!mesh.is_positive()) return {};
@@ -116,7 +116,7 @@ Subdivision delaunay_by_insertion(const OrderedPoints& ordered, const Monitor& m
   delaunay::permute_equal_codes(ordered);
   std::size_t third = 2;
   while (kernel::orient2d(vertices[0].point, vertices[1].point, vertices[third].point) == 0) ++third;
-  TriangleMesh mesh(vertices, monitor);
+  FlipMesh mesh(vertices, monitor);
   mesh.start(0, 1, as_vertex(third));
   std::vector<bool> used(vertices.size(), false);
   used[0] = used[1] = used[third] = true;

@@ -195,7 +195,7 @@ class PathFinder {
   std::span<const std::int64_t> lengths_;
   double tie_;
   const Monitor& monitor_;
-  SkeletonForest forest_;
+  PendantTrees forest_;
   std::vector<Hanging> deepest_, second_;  // at each node
   std::vector<std::int32_t> group_;        // of each node
   std::vector<std::int32_t> mark_;         // the first leaf of a path from there to the root

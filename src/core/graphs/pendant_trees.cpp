@@ -11,8 +11,8 @@ std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 
-SkeletonForest::SkeletonForest(std::span<const std::array<std::int32_t, 2>> arcs,
-                               std::span<const std::uint8_t> is_anchored)
+PendantTrees::PendantTrees(std::span<const std::array<std::int32_t, 2>> arcs,
+                           std::span<const std::uint8_t> is_anchored)
     : above_(is_anchored.size(), -1), degree_(is_anchored.size()), tree_(is_anchored.size(), -1) {
   for (const auto& [source, target] : arcs) {
     ++degree_[at(source)];
@@ -21,8 +21,8 @@ SkeletonForest::SkeletonForest(std::span<const std::array<std::int32_t, 2>> arcs
   peel(arcs, is_anchored);
 }
 
-void SkeletonForest::peel(std::span<const std::array<std::int32_t, 2>> arcs,
-                          std::span<const std::uint8_t> is_anchored) {
+void PendantTrees::peel(std::span<const std::array<std::int32_t, 2>> arcs,
+                        std::span<const std::uint8_t> is_anchored) {
   std::vector<std::int32_t> left = degree_, others(degree_.size());  // exclusive or of the arcs that are left
   for (std::size_t k = 0; k < arcs.size(); ++k) {
     others[at(arcs[k][0])] ^= static_cast<std::int32_t>(k);
@@ -49,7 +49,7 @@ void SkeletonForest::peel(std::span<const std::array<std::int32_t, 2>> arcs,
 }
 
 // Roots are the inner ends of which nothing is left.
-void SkeletonForest::number_trees(const std::vector<std::int32_t>& left) {
+void PendantTrees::number_trees(const std::vector<std::int32_t>& left) {
   for (std::size_t k = hanging_.size(); k-- > 0;) {
     const auto [arc, outer, inner] = hanging_[k];
     above_[at(outer)] = static_cast<std::int32_t>(k);
@@ -61,14 +61,14 @@ void SkeletonForest::number_trees(const std::vector<std::int32_t>& left) {
   }
 }
 
-void SkeletonForest::number_arcs() {
+void PendantTrees::number_arcs() {
   for (std::size_t k = 0; k < hanging_.size(); ++k) {
     above_[at(hanging_[k].outer)] = static_cast<std::int32_t>(k);
   }
 }
 
 // The arcs between an old root and a new one hang the other way round then, and what hung on them still does.
-void SkeletonForest::set_roots(std::span<const std::int32_t> roots) {
+void PendantTrees::set_roots(std::span<const std::int32_t> roots) {
   std::vector<bool> is_turned(hanging_.size());
   std::vector<std::int32_t> turned;
   for (std::size_t tree = 0; tree < roots.size(); ++tree) {

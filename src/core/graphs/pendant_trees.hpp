@@ -19,10 +19,9 @@ struct HangingArc {
 // leads from one to another, and from there to anchored ends, or between these. Where there is neither a
 // cycle nor an anchored end, the component is a tree, and one node stays, its root, which can be chosen.
 // Where there is one anchored end and no cycle, this end is all that stays.
-class SkeletonForest {
+class PendantTrees {
  public:
-  SkeletonForest(std::span<const std::array<std::int32_t, 2>> arcs,
-                 std::span<const std::uint8_t> is_anchored);
+  PendantTrees(std::span<const std::array<std::int32_t, 2>> arcs, std::span<const std::uint8_t> is_anchored);
 
   // Each after all that hang on its outer end.
   const std::vector<HangingArc>& hanging() const { return hanging_; }

@@ -14,8 +14,8 @@
 
 namespace vorotool::core::kernel {
 
-using numbers::CommonLattice;
 using numbers::DoubleDouble;
+using numbers::DyadicGrid;
 using numbers::Rounded;
 using numbers::rounded_quotient;
 using numbers::two_difference;
@@ -126,9 +126,9 @@ auto with_limbs(int bits, Body body) {
 // (...) below 2^(2 k - 2), their products with a coordinate below 2^(3 k - 5), and numerators, sums of three
 // such, below 2^(3 k - 3).
 template <std::size_t limbs>
-RoundedPoint circumcentre_in_limbs(const CommonLattice& lattice, const Point& a, const Point& b,
+RoundedPoint circumcentre_in_limbs(const DyadicGrid& lattice, const Point& a, const Point& b,
                                    const Point& c) {
-  const auto of = [&](double value) { return lattice.wide_integer<limbs>(value); };
+  const auto of = [&](double value) { return lattice.fixed_integer<limbs>(value); };
   const auto ax = of(a.x), ay = of(a.y);
   const auto bx = of(b.x) - ax, by = of(b.y) - ay, cx = of(c.x) - ax, cy = of(c.y) - ay;
   const auto b_square = bx * bx + by * by, c_square = cx * cx + cy * cy;
@@ -141,8 +141,8 @@ RoundedPoint circumcentre_in_limbs(const CommonLattice& lattice, const Point& a,
 
 // The denominator is below 2^(k - 1), the numerator a sum of two products below 2^(2 k - 3).
 template <std::size_t limbs>
-double bisector_in_limbs(const CommonLattice& lattice, double at, const Point& a, const Point& b) {
-  const auto of = [&](double value) { return lattice.wide_integer<limbs>(value); };
+double bisector_in_limbs(const DyadicGrid& lattice, double at, const Point& a, const Point& b) {
+  const auto of = [&](double value) { return lattice.fixed_integer<limbs>(value); };
   const auto x = of(at), ax = of(a.x), ay = of(a.y), bx = of(b.x), by = of(b.y);
   const auto along = by - ay;
   const auto numerator = (ay + by) * along + (bx - ax) * ((ax - x) + (bx - x));
@@ -150,8 +150,8 @@ double bisector_in_limbs(const CommonLattice& lattice, double at, const Point& a
 }
 
 template <std::size_t limbs>
-int order_in_limbs(const CommonLattice& lattice, const Point& q, const Point& a, const Point& b) {
-  const auto of = [&](double value) { return lattice.wide_integer<limbs>(value); };
+int order_in_limbs(const DyadicGrid& lattice, const Point& q, const Point& a, const Point& b) {
+  const auto of = [&](double value) { return lattice.fixed_integer<limbs>(value); };
   const auto qx = of(q.x), qy = of(q.y), ax = of(a.x), ay = of(a.y), bx = of(b.x), by = of(b.y);
   return ((bx - ax) * ((qx - ax) + (qx - bx)) + (by - ay) * ((qy - ay) + (qy - by))).sign();
 }
@@ -174,7 +174,7 @@ int order_by_filter(const Point& q, const Point& a, const Point& b) {
 }  // namespace
 
 RoundedPoint circumcentre_exactly(const Point& a, const Point& b, const Point& c) {
-  const CommonLattice lattice(std::array{a.x, a.y, b.x, b.y, c.x, c.y});
+  const DyadicGrid lattice(std::array{a.x, a.y, b.x, b.y, c.x, c.y});
   return with_limbs(lattice.bits, [&](auto limbs) { return circumcentre_in_limbs<limbs>(lattice, a, b, c); });
 }
 
@@ -185,14 +185,14 @@ RoundedPoint circumcentre(const Point& a, const Point& b, const Point& c) {
 
 double bisector_at(double x, const Point& a, const Point& b) {
   if (const std::optional<Rounded> estimate = rounded(bisector_by_estimate(x, a, b))) return estimate->value;
-  const CommonLattice lattice(std::array{a.x, a.y, b.x, b.y, x});
+  const DyadicGrid lattice(std::array{a.x, a.y, b.x, b.y, x});
   return with_limbs(lattice.bits, [&](auto limbs) { return bisector_in_limbs<limbs>(lattice, x, a, b); });
 }
 
 int compare_distances(const Point& q, const Point& a, const Point& b) {
   const int sign = order_by_filter(q, a, b);
   if (sign != undecided) return sign;
-  const CommonLattice lattice(std::array{q.x, q.y, a.x, a.y, b.x, b.y});
+  const DyadicGrid lattice(std::array{q.x, q.y, a.x, a.y, b.x, b.y});
   return with_limbs(lattice.bits, [&](auto limbs) { return order_in_limbs<limbs>(lattice, q, a, b); });
 }
 

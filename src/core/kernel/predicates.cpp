@@ -13,11 +13,11 @@
 
 namespace vorotool::core::kernel {
 
-using numbers::CommonLattice;
+using numbers::DyadicGrid;
 using numbers::Expansion;
+using numbers::FixedInteger;
 using numbers::int128;
 using numbers::undecided;
-using numbers::WideInteger;
 
 namespace {
 
@@ -29,7 +29,7 @@ struct OrientationCall {
   int bits() const { return std::max(x_lattice.bits, y_lattice.bits); }
 
   std::array<double, 3> x, y;
-  CommonLattice x_lattice, y_lattice;
+  DyadicGrid x_lattice, y_lattice;
 };
 
 struct CircleCall {
@@ -40,7 +40,7 @@ struct CircleCall {
   int bits() const { return lattice.bits; }
 
   std::array<double, 4> x, y;
-  CommonLattice lattice;
+  DyadicGrid lattice;
 };
 
 // ---- integers that fit a machine word ----
@@ -85,7 +85,7 @@ int integer_sign(const CircleCall& call) {
   return call.bits() <= short_bits ? short_sign(x, y) : long_sign(x, y);
 }
 
-// ---- wide integers ----
+// ---- integers of fixed width ----
 
 // Coordinates of 64 limbs - 3 bits have differences below 2^(64 limbs - 2). Their products are below
 // 2^(128 limbs - 4), lifts and minors below 2^(128 limbs - 3), products of these below 2^(256 limbs - 6), and
@@ -94,11 +94,11 @@ constexpr int room = 3;
 
 // The first values less the last.
 template <std::size_t limbs, std::size_t n>
-std::array<WideInteger<limbs>, n - 1> wide_differences(const CommonLattice& lattice,
-                                                       const std::array<double, n>& values) {
-  const WideInteger<limbs> last = lattice.wide_integer<limbs>(values[n - 1]);
-  std::array<WideInteger<limbs>, n - 1> result;
-  for (std::size_t i = 0; i + 1 < n; ++i) result[i] = lattice.wide_integer<limbs>(values[i]) - last;
+std::array<FixedInteger<limbs>, n - 1> wide_differences(const DyadicGrid& lattice,
+                                                        const std::array<double, n>& values) {
+  const FixedInteger<limbs> last = lattice.fixed_integer<limbs>(values[n - 1]);
+  std::array<FixedInteger<limbs>, n - 1> result;
+  for (std::size_t i = 0; i + 1 < n; ++i) result[i] = lattice.fixed_integer<limbs>(values[i]) - last;
   return result;
 }
 
@@ -192,7 +192,7 @@ int expansion_sign(const CircleCall& call) {
 
 // ---- the order of the levels ----
 
-// Wide integers of up to four limbs are at least as fast as expansions; these come in where more limbs would
+// Fixed integers of up to four limbs are at least as fast as expansions; these come in where more limbs would
 // be needed, and integers again where the range of exponents is too wide for expansions.
 constexpr int few_limbs = 4;
 

@@ -34,11 +34,11 @@ struct OddMantissa {
 
 // The coarsest lattice that holds the values: they are integers below 2^bits in magnitude, times 2^exponent.
 // bits <= 2098, since the bits of finite doubles are worth 2^-1074 to 2^1023.
-struct CommonLattice {
+struct DyadicGrid {
   int exponent = 1024, bits = 0;
 
   template <std::size_t n>
-  explicit CommonLattice(const std::array<double, n>& values) {
+  explicit DyadicGrid(const std::array<double, n>& values) {
     int above = -1074;
     for (const double value : values) {
       const OddMantissa parts(value);
@@ -59,16 +59,16 @@ struct CommonLattice {
 
   // The same, where bits < 64 limbs.
   template <std::size_t limbs>
-  WideInteger<limbs> wide_integer(double value) const {
+  FixedInteger<limbs> fixed_integer(double value) const {
     const OddMantissa parts(value);
-    WideInteger<limbs> result;
+    FixedInteger<limbs> result;
     if (parts.mantissa == 0) return result;
     const auto shift = static_cast<std::size_t>(parts.exponent - exponent);
     const std::size_t first = shift / 64;
     const uint128 spread = uint128{parts.mantissa} << shift % 64;
     result.limb[first] = static_cast<std::uint64_t>(spread);
     if (first + 1 < limbs) result.limb[first + 1] = static_cast<std::uint64_t>(spread >> 64);
-    return parts.is_negative ? WideInteger<limbs>{} - result : result;
+    return parts.is_negative ? FixedInteger<limbs>{} - result : result;
   }
 };
 

@@ -11,7 +11,7 @@
 namespace vorotool::core::numbers {
 
 template <std::size_t limbs>
-struct WideInteger {
+struct FixedInteger {
   std::array<std::uint64_t, limbs> limb{};  // the lowest first
 
   bool is_negative() const { return limb[limbs - 1] >> 63 != 0; }
@@ -26,8 +26,8 @@ struct WideInteger {
 };
 
 template <std::size_t n>
-WideInteger<n> operator+(const WideInteger<n>& a, const WideInteger<n>& b) {
-  WideInteger<n> sum;
+FixedInteger<n> operator+(const FixedInteger<n>& a, const FixedInteger<n>& b) {
+  FixedInteger<n> sum;
   uint128 carry = 0;
   for (std::size_t i = 0; i < n; ++i) {
     carry += uint128{a.limb[i]} + b.limb[i];
@@ -39,7 +39,7 @@ WideInteger<n> operator+(const WideInteger<n>& a, const WideInteger<n>& b) {
 
 // Subtracts b from the limbs of a at `first` and above; a borrow beyond the last limb is dropped.
 template <std::size_t n, std::size_t m>
-void subtract_at(WideInteger<n>& a, const WideInteger<m>& b, std::size_t first) {
+void subtract_at(FixedInteger<n>& a, const FixedInteger<m>& b, std::size_t first) {
   std::uint64_t borrow = 0;
   for (std::size_t i = 0; i < m && first + i < n; ++i) {
     const uint128 difference = uint128{a.limb[first + i]} - b.limb[i] - borrow;
@@ -49,7 +49,7 @@ void subtract_at(WideInteger<n>& a, const WideInteger<m>& b, std::size_t first) 
 }
 
 template <std::size_t n>
-WideInteger<n> operator-(WideInteger<n> a, const WideInteger<n>& b) {
+FixedInteger<n> operator-(FixedInteger<n> a, const FixedInteger<n>& b) {
   subtract_at(a, b, 0);
   return a;
 }
@@ -57,8 +57,8 @@ WideInteger<n> operator-(WideInteger<n> a, const WideInteger<n>& b) {
 // The limbs are multiplied as if unsigned. A negative a counts as a + 2^(64 n) then, so 2^(64 n) b is taken
 // off again, and likewise for b.
 template <std::size_t n, std::size_t m>
-WideInteger<n + m> operator*(const WideInteger<n>& a, const WideInteger<m>& b) {
-  WideInteger<n + m> product;
+FixedInteger<n + m> operator*(const FixedInteger<n>& a, const FixedInteger<m>& b) {
+  FixedInteger<n + m> product;
   for (std::size_t i = 0; i < n; ++i) {
     std::uint64_t carry = 0;  // (2^64 - 1)^2 + 2 (2^64 - 1) = 2^128 - 1: the sum below fits
     for (std::size_t j = 0; j < m; ++j) {
@@ -73,7 +73,7 @@ WideInteger<n + m> operator*(const WideInteger<n>& a, const WideInteger<m>& b) {
   return product;
 }
 
-inline WideInteger<2> widen(int128 value) {
+inline FixedInteger<2> widen(int128 value) {
   const auto bits = static_cast<uint128>(value);
   return {{static_cast<std::uint64_t>(bits), static_cast<std::uint64_t>(bits >> 64)}};
 }

@@ -23,7 +23,7 @@ struct Rounded {
 };
 
 template <std::size_t n>
-int bit_width(const WideInteger<n>& a) {
+int bit_width(const FixedInteger<n>& a) {
   for (std::size_t i = n; i-- > 0;) {
     if (a.limb[i] != 0) return static_cast<int>(64 * i) + std::bit_width(a.limb[i]);
   }
@@ -31,10 +31,10 @@ int bit_width(const WideInteger<n>& a) {
 }
 
 template <std::size_t n>
-WideInteger<n> shifted_left(const WideInteger<n>& a, int bits) {
+FixedInteger<n> shifted_left(const FixedInteger<n>& a, int bits) {
   const auto limbs = static_cast<std::size_t>(bits / 64);
   const int rest = bits % 64;
-  WideInteger<n> result;
+  FixedInteger<n> result;
   for (std::size_t i = limbs; i < n; ++i) {
     result.limb[i] = a.limb[i - limbs] << rest;
     if (rest != 0 && i > limbs) result.limb[i] |= a.limb[i - limbs - 1] >> (64 - rest);
@@ -44,9 +44,9 @@ WideInteger<n> shifted_left(const WideInteger<n>& a, int bits) {
 
 // The same number in more limbs.
 template <std::size_t to, std::size_t from>
-WideInteger<to> resized(const WideInteger<from>& a) {
+FixedInteger<to> resized(const FixedInteger<from>& a) {
   static_assert(to >= from);
-  WideInteger<to> result;
+  FixedInteger<to> result;
   const std::uint64_t sign = a.is_negative() ? ~std::uint64_t{0} : 0;
   for (std::size_t i = 0; i < to; ++i) result.limb[i] = i < from ? a.limb[i] : sign;
   return result;
@@ -72,12 +72,12 @@ inline Rounded rounded_scaled(std::uint64_t mantissa, bool more, int exponent) {
 // numerator / denominator 2^exponent, rounded. The denominator is not zero; both are at least three bits
 // shorter than their limbs, n >= m. What is beyond the largest double is infinite.
 template <std::size_t n, std::size_t m>
-Rounded rounded_quotient(WideInteger<n> numerator, const WideInteger<m>& denominator, int exponent) {
+Rounded rounded_quotient(FixedInteger<n> numerator, const FixedInteger<m>& denominator, int exponent) {
   const int sign = numerator.sign() * denominator.sign();
   if (sign == 0) return {0.0, 0};
-  if (numerator.is_negative()) numerator = WideInteger<n>{} - numerator;
-  WideInteger<n> divisor = resized<n>(denominator);
-  if (divisor.is_negative()) divisor = WideInteger<n>{} - divisor;
+  if (numerator.is_negative()) numerator = FixedInteger<n>{} - numerator;
+  FixedInteger<n> divisor = resized<n>(denominator);
+  if (divisor.is_negative()) divisor = FixedInteger<n>{} - divisor;
   // Aligned, their quotient lies between 1/2 and 2.
   const int shift = bit_width(numerator) - bit_width(divisor);
   if (shift > 0) divisor = shifted_left(divisor, shift);
@@ -85,7 +85,7 @@ Rounded rounded_quotient(WideInteger<n> numerator, const WideInteger<m>& denomin
   std::uint64_t mantissa = 0;
   int scale = exponent + shift + 1;
   while (mantissa >> 54 == 0) {  // long division, until there are 55 bits
-    const WideInteger<n> rest = numerator - divisor;
+    const FixedInteger<n> rest = numerator - divisor;
     const bool fits = !rest.is_negative();
     numerator = shifted_left(fits ? rest : numerator, 1);
     mantissa = 2 * mantissa + fits;

@@ -23,12 +23,12 @@ Terms low_half(Terms terms) { return terms.first(terms.size() / 2); }
 Terms high_half(Terms terms) { return terms.last(terms.size() / 2); }
 
 // The radicand of the root that the higher half of 2 `half` coefficients has in common.
-Terms radicand_of(const RootTower* tower, std::size_t half) {
+Terms radicand_of(const SqrtTower* tower, std::size_t half) {
   return tower->radicand(static_cast<std::size_t>(std::countr_zero(half))).coefficients();
 }
 
 // result += a b; the result has as many coefficients as the longer one, at least.
-void add_product(const RootTower* tower, Terms a, Terms b, MutableTerms result) {
+void add_product(const SqrtTower* tower, Terms a, Terms b, MutableTerms result) {
   if (is_zero(a) || is_zero(b)) return;
   if (a.size() < b.size()) std::swap(a, b);
   if (a.size() == 1) {
@@ -50,7 +50,7 @@ void add_product(const RootTower* tower, Terms a, Terms b, MutableTerms result) 
 }
 
 // low^2 - a high^2, of the level below.
-RootTerms norm(const RootTower* tower, Terms terms) {
+RootTerms norm(const SqrtTower* tower, Terms terms) {
   const std::size_t half = terms.size() / 2;
   RootTerms difference(half), high(half);
   add_product(tower, high_half(terms), high_half(terms), high);
@@ -60,7 +60,7 @@ RootTerms norm(const RootTower* tower, Terms terms) {
   return difference;
 }
 
-int sign_of(const RootTower* tower, Terms terms) {
+int sign_of(const SqrtTower* tower, Terms terms) {
   if (terms.size() == 1) return terms[0].sign();
   const int low = sign_of(tower, low_half(terms)), high = sign_of(tower, high_half(terms));
   if (low == 0 || high == 0 || low == high) return low != 0 ? low : high;
@@ -74,7 +74,7 @@ RootMagnitude normalized(uint128 mantissa, std::int64_t exponent) {
   return {static_cast<std::uint64_t>(mantissa << zeros >> 64), exponent + 64 - zeros};
 }
 
-RootMagnitude magnitude_of(const RootTower* tower, Terms terms) {
+RootMagnitude magnitude_of(const SqrtTower* tower, Terms terms) {
   if (terms.size() == 1) {
     return {terms[0].leading_bits(), static_cast<std::int64_t>(terms[0].bits()) - 64};
   }
@@ -123,13 +123,13 @@ RootNumber operator-(RootNumber a, const RootNumber& b) {
 }
 
 RootNumber operator*(const RootNumber& a, const RootNumber& b) {
-  const RootTower* tower = a.tower_ != nullptr ? a.tower_ : b.tower_;
+  const SqrtTower* tower = a.tower_ != nullptr ? a.tower_ : b.tower_;
   RootNumber product(tower, RootTerms(std::max(a.terms_.size(), b.terms_.size())));
   add_product(tower, a.terms_, b.terms_, product.terms_);
   return product;
 }
 
-RootNumber RootTower::adjoin_root(const RootNumber& radicand) {
+RootNumber SqrtTower::adjoin_root(const RootNumber& radicand) {
   std::size_t level = depth();
   if (radicand.coefficients().size() == 1) {
     const BigInteger& number = radicand.coefficients()[0];
@@ -146,13 +146,13 @@ RootNumber RootTower::adjoin_root(const RootNumber& radicand) {
   return RootNumber(this, std::move(terms));
 }
 
-std::vector<RootNumber> RootTower::adjoin_all(const RootTower& other) {
+std::vector<RootNumber> SqrtTower::adjoin_all(const SqrtTower& other) {
   std::vector<RootNumber> roots;
   for (const RootNumber& radicand : other.radicands_) roots.push_back(adjoin_root(lift(radicand, roots)));
   return roots;
 }
 
-RootNumber RootTower::lift(const RootNumber& number, std::span<const RootNumber> roots) {
+RootNumber SqrtTower::lift(const RootNumber& number, std::span<const RootNumber> roots) {
   const Terms terms = number.coefficients();
   if (terms.size() == 1) return terms[0];
   const auto level = static_cast<std::size_t>(std::countr_zero(terms.size())) - 1;

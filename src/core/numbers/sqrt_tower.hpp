@@ -26,7 +26,7 @@
 
 namespace vorotool::core::numbers {
 
-class RootTower;
+class SqrtTower;
 
 // The coefficients of the products of roots: 1, 2, 4, ... integers, of which two take no memory.
 class RootTerms {
@@ -52,10 +52,10 @@ class RootNumber {
   RootNumber(int128 value) : RootNumber(BigInteger(value)) {}
   RootNumber(const BigInteger& value) : terms_({&value, 1}) {}
   // Of 2^level coefficients: bit i of an index tells whether root i is in the product.
-  RootNumber(const RootTower* tower, RootTerms terms) : tower_(tower), terms_(std::move(terms)) {}
+  RootNumber(const SqrtTower* tower, RootTerms terms) : tower_(tower), terms_(std::move(terms)) {}
 
   std::span<const BigInteger> coefficients() const { return terms_; }
-  const RootTower* tower() const { return tower_; }
+  const SqrtTower* tower() const { return tower_; }
   int sign() const;
 
   RootNumber operator-() const;
@@ -66,23 +66,23 @@ class RootNumber {
  private:
   void widen(std::size_t size);
 
-  const RootTower* tower_ = nullptr;  // no matter for integers
+  const SqrtTower* tower_ = nullptr;  // no matter for integers
   RootTerms terms_;
 };
 
 inline RootNumber square(const RootNumber& a) { return a * a; }
 
 // Keep it where it is: numbers point to it.
-class RootTower {
+class SqrtTower {
  public:
-  RootTower() = default;
-  RootTower(const RootTower&) = delete;
-  RootTower& operator=(const RootTower&) = delete;
+  SqrtTower() = default;
+  SqrtTower(const SqrtTower&) = delete;
+  SqrtTower& operator=(const SqrtTower&) = delete;
 
   // The square root of a positive number of this tower.
   RootNumber adjoin_root(const RootNumber& radicand);
   // The roots of another tower in this one, and a number of the other one, made of these.
-  std::vector<RootNumber> adjoin_all(const RootTower& other);
+  std::vector<RootNumber> adjoin_all(const SqrtTower& other);
   static RootNumber lift(const RootNumber& number, std::span<const RootNumber> roots);
 
   std::size_t depth() const { return radicands_.size(); }

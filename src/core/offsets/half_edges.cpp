@@ -6,9 +6,8 @@
 
 namespace vorotool::core::offsets {
 
-CellBorders::CellBorders(const segment_voronoi::build::SegmentDiagram& diagram,
-                         std::span<const std::int32_t> vertex_start,
-                         std::span<const std::int32_t> vertex_sites)
+HalfEdges::HalfEdges(const segment_voronoi::build::SegmentDiagram& diagram,
+                     std::span<const std::int32_t> vertex_start, std::span<const std::int32_t> vertex_sites)
     : diagram_(diagram),
       vertex_start_(vertex_start),
       vertex_sites_(vertex_sites),
@@ -28,7 +27,7 @@ CellBorders::CellBorders(const segment_voronoi::build::SegmentDiagram& diagram,
 }
 
 // Rings have three sites nearly always.
-std::size_t CellBorders::slot(std::int32_t vertex, std::int32_t site) const {
+std::size_t HalfEdges::slot(std::int32_t vertex, std::int32_t site) const {
   const auto v = static_cast<std::size_t>(vertex);
   const auto first = static_cast<std::size_t>(vertex_start_[v]),
              last = static_cast<std::size_t>(vertex_start_[v + 1]);
@@ -41,7 +40,7 @@ std::size_t CellBorders::slot(std::int32_t vertex, std::int32_t site) const {
 
 // A cell is unbounded once, or twice: then it is a strip, and what comes back on the same side of it is
 // parallel.
-HalfEdge CellBorders::from_infinity(HalfEdge h) const {
+HalfEdge HalfEdges::from_infinity(HalfEdge h) const {
   const auto comes_before = [](const auto& entry, std::int32_t site) { return entry.first < site; };
   auto found = std::lower_bound(infinite_.begin(), infinite_.end(), left(h), comes_before);
   const auto is_own = [&](auto entry) { return entry != infinite_.end() && entry->first == left(h); };
@@ -51,7 +50,7 @@ HalfEdge CellBorders::from_infinity(HalfEdge h) const {
   return out[0] * in[0] + out[1] * in[1] < 0 ? found->second : (found + 1)->second;
 }
 
-skeleton::Place CellBorders::way(HalfEdge h) const {
+skeleton::Place HalfEdges::way(HalfEdge h) const {
   const kernel::LatticeSite a = diagram_.site(left(h)), b = diagram_.site(right(h));
   const auto sum = [](std::int32_t p, std::int32_t q) { return std::int64_t{p} + q; };
   return {static_cast<double>(sum(a.a.y, a.b.y) - sum(b.a.y, b.b.y)),

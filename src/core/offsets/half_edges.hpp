@@ -19,12 +19,12 @@ inline constexpr HalfEdge no_edge = -1;
 
 // Half-edge 2k leads from the source of edge k to its target, 2k + 1 back. The cell of the site on the left
 // of a half-edge is gone round counter-clockwise; one that is unbounded is closed at infinity.
-class CellBorders {
+class HalfEdges {
  public:
   // `vertex_sites` are the sites around vertex v from vertex_start[v] on, counter-clockwise. Throws
   // std::invalid_argument if they do not fit the edges.
-  CellBorders(const segment_voronoi::build::SegmentDiagram& diagram,
-              std::span<const std::int32_t> vertex_start, std::span<const std::int32_t> vertex_sites);
+  HalfEdges(const segment_voronoi::build::SegmentDiagram& diagram, std::span<const std::int32_t> vertex_start,
+            std::span<const std::int32_t> vertex_sites);
 
   const segment_voronoi::build::SegmentDiagram& diagram() const { return diagram_; }
   HalfEdge size() const { return static_cast<HalfEdge>(2 * diagram_.edges.size()); }

@@ -7,8 +7,8 @@
 
 namespace vorotool::core::offsets {
 
-NearRegions::NearRegions(const CellBorders& borders, const OffsetDomain& domain, const ClearanceLevel& level,
-                         const Descents& descents, const base::Monitor& monitor)
+InnerComponents::InnerComponents(const HalfEdges& borders, const PolygonFaces& domain, const LevelSet& level,
+                                 const LevelCrossings& crossings, const base::Monitor& monitor)
     : sets_(domain.site_polygon.size()) {
   const segment_voronoi::build::SegmentDiagram& diagram = borders.diagram();
   for (std::size_t j = 0; j < diagram.segments.size(); ++j) {
@@ -17,9 +17,9 @@ NearRegions::NearRegions(const CellBorders& borders, const OffsetDomain& domain,
   }
   for (HalfEdge h = 0; h < borders.size(); ++h) {
     base::report_item(monitor, static_cast<std::size_t>(h));
-    if (descents.has(h)) {
-      sets_.join(borders.left(h), borders.right(descents.onward(h)));
-    } else if (!descents.has(h ^ 1) && (!domain.holds(borders, h) || !level.is_edge_above(h))) {
+    if (crossings.has(h)) {
+      sets_.join(borders.left(h), borders.right(crossings.onward(h)));
+    } else if (!crossings.has(h ^ 1) && (!domain.holds(borders, h) || !level.is_edge_above(h))) {
       sets_.join(borders.left(h), borders.right(h));
     }
   }

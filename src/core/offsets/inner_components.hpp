@@ -11,10 +11,10 @@
 namespace vorotool::core::offsets {
 
 // What is near holds all sites, and what is on the other side of the shapes.
-class NearRegions {
+class InnerComponents {
  public:
-  NearRegions(const CellBorders& borders, const OffsetDomain& domain, const ClearanceLevel& level,
-              const Descents& descents, const base::Monitor& monitor);
+  InnerComponents(const HalfEdges& borders, const PolygonFaces& domain, const LevelSet& level,
+                  const LevelCrossings& crossings, const base::Monitor& monitor);
 
   // The number of the region of a site.
   std::int32_t of(std::int32_t site) { return sets_.find(site); }

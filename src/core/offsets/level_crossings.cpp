@@ -8,22 +8,22 @@
 
 namespace vorotool::core::offsets {
 
-Descents::Descents(const CellBorders& borders, const OffsetDomain& domain, const ClearanceLevel& level,
-                   FarRegions& far, const base::Monitor& monitor)
+LevelCrossings::LevelCrossings(const HalfEdges& borders, const PolygonFaces& domain, const LevelSet& level,
+                               OuterComponents& far, const base::Monitor& monitor)
     : borders_(borders), number_(static_cast<std::size_t>(borders.size()), -1) {
   for (HalfEdge h = 0; h < borders.size(); ++h) {
     base::report_item(monitor, static_cast<std::size_t>(h));
     if (!level.descends(h) || !domain.holds(borders, h)) continue;
     number_[static_cast<std::size_t>(h)] = static_cast<std::int32_t>(all_.size());
     all_.push_back(h);
-    places_.push_back(level.descent(h));
+    places_.push_back(level.crossing(h));
   }
   onward_ = all_;
   part_touching(level, far, domain.is_outward);
 }
 
 // Back up the edge, and around the cell through what is far to the first half-edge that descends.
-HalfEdge Descents::across_cell(HalfEdge h) const {
+HalfEdge LevelCrossings::across_cell(HalfEdge h) const {
   h ^= 1;
   do {
     h = borders_.next(h);
@@ -70,7 +70,7 @@ void group_by_cycles(std::vector<Corner>& corners) {
 // no curve visits a place twice. Between corners of different regions what is near is connected; but shapes
 // of it fall apart also where several such places together divide them, which is where regions and places are
 // on a cycle.
-void Descents::part_touching(const ClearanceLevel& level, FarRegions& far, bool shapes_are_near) {
+void LevelCrossings::part_touching(const LevelSet& level, OuterComponents& far, bool shapes_are_near) {
   const auto vertices = static_cast<std::int32_t>(borders_.diagram().radius.size());
   std::vector<Corner> corners;
   for (const HalfEdge h : all_) {

@@ -14,10 +14,10 @@ namespace vorotool::core::offsets {
 
 // Half-edges on which the clearance falls to the level, each with the place where it does. The curve, what is
 // near on its left, comes there through the cell on the left and goes on into the one on the right.
-class Descents {
+class LevelCrossings {
  public:
-  Descents(const CellBorders& borders, const OffsetDomain& domain, const ClearanceLevel& level,
-           FarRegions& far, const base::Monitor& monitor);
+  LevelCrossings(const HalfEdges& borders, const PolygonFaces& domain, const LevelSet& level,
+                 OuterComponents& far, const base::Monitor& monitor);
 
   const std::vector<HalfEdge>& all() const { return all_; }
   bool has(HalfEdge h) const { return number_[static_cast<std::size_t>(h)] >= 0; }
@@ -34,9 +34,9 @@ class Descents {
   HalfEdge across_cell(HalfEdge h) const;
 
  private:
-  void part_touching(const ClearanceLevel& level, FarRegions& far, bool shapes_are_near);
+  void part_touching(const LevelSet& level, OuterComponents& far, bool shapes_are_near);
 
-  const CellBorders& borders_;
+  const HalfEdges& borders_;
   std::vector<std::int32_t> number_;  // [half-edges] in the lists that follow, -1: it does not descend
   std::vector<HalfEdge> all_;
   std::vector<skeleton::Place> places_;

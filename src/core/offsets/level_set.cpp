@@ -24,7 +24,7 @@ Place from(const kernel::LatticePoint& p, const Place& way, double distance) {
 
 }  // namespace
 
-double ClearanceLevel::minimum(HalfEdge h) const {
+double LevelSet::minimum(HalfEdge h) const {
   const segment_voronoi::build::SegmentDiagram& diagram = borders_.diagram();
   const LatticeSite left = diagram.site(borders_.left(h)), right = diagram.site(borders_.right(h));
   if (left.is_point() && right.is_point()) return minimum_between_points(h, left, right);
@@ -37,8 +37,7 @@ double ClearanceLevel::minimum(HalfEdge h) const {
   return (t0 < 0 && t1 > 0) || (t0 > 0 && t1 < 0) ? arc.parabola.h / 2 : none;
 }
 
-double ClearanceLevel::minimum_between_points(HalfEdge h, const LatticeSite& left,
-                                              const LatticeSite& right) const {
+double LevelSet::minimum_between_points(HalfEdge h, const LatticeSite& left, const LatticeSite& right) const {
   const Place way = borders_.way(h);
   const Place middle{(static_cast<double>(left.a.x) + right.a.x) / 2,
                      (static_cast<double>(left.a.y) + right.a.y) / 2};
@@ -50,22 +49,21 @@ double ClearanceLevel::minimum_between_points(HalfEdge h, const LatticeSite& lef
   return (tail < 0 || along(tail) < 0) && (head < 0 || along(head) > 0) ? length_of(way) / 4 : none;
 }
 
-Place ClearanceLevel::descent(HalfEdge h) const {
+Place LevelSet::crossing(HalfEdge h) const {
   if (ends_at_head(h)) return end(borders_.head(h)).place;  // all that end there meet
   const segment_voronoi::build::SegmentDiagram& diagram = borders_.diagram();
   const LatticeSite left = diagram.site(borders_.left(h)), right = diagram.site(borders_.right(h));
-  if (left.is_point() && right.is_point()) return descent_between_points(h, left, right);
+  if (left.is_point() && right.is_point()) return crossing_between_points(h, left, right);
   if (is_end_of(left, right) || is_end_of(right, left)) return beside_end(left, right);
   const skeleton::BisectorArc arc(left, right);
-  if (!arc.is_parabola) return descent_between_segments(h);
+  if (!arc.is_parabola) return crossing_between_segments(h);
   // the focus is to the left of growing parameters; towards the minimum, which is at 0
   const double h0 = arc.parabola.h, t = std::sqrt(h0) * std::sqrt(std::max(0.0, 2 * level_ - h0));
   return arc.parabola.place(left.is_point() ? -t : t);
 }
 
 // Towards the middle of the points.
-Place ClearanceLevel::descent_between_points(HalfEdge h, const LatticeSite& left,
-                                             const LatticeSite& right) const {
+Place LevelSet::crossing_between_points(HalfEdge h, const LatticeSite& left, const LatticeSite& right) const {
   const Place way = borders_.way(h);
   const double length = length_of(way), half = length / 4;
   const double back = std::sqrt(std::max(0.0, level_ - half)) * std::sqrt(level_ + half) / length;
@@ -74,14 +72,14 @@ Place ClearanceLevel::descent_between_points(HalfEdge h, const LatticeSite& left
 }
 
 // The clearance grows evenly; from the nearer end, since the other one may be far away.
-Place ClearanceLevel::descent_between_segments(HalfEdge h) const {
+Place LevelSet::crossing_between_segments(HalfEdge h) const {
   const skeleton::ArcEnd low = end(borders_.head(h)), high = end(borders_.tail(h));
   const double part = (level_ - low.radius) / (high.radius - low.radius);
   return {low.place[0] + part * (high.place[0] - low.place[0]),
           low.place[1] + part * (high.place[1] - low.place[1])};
 }
 
-Place ClearanceLevel::beside_end(const LatticeSite& left, const LatticeSite& right) const {
+Place LevelSet::beside_end(const LatticeSite& left, const LatticeSite& right) const {
   const kernel::LatticePoint& end = left.is_point() ? left.a : right.a;
   const LatticeSite& segment = left.is_point() ? right : left;
   const kernel::LatticeVector across = kernel::left_of(segment.b - segment.a);

@@ -14,10 +14,10 @@ namespace vorotool::core::offsets {
 //
 // Along an edge the clearance is convex. It passes the level once where one end is above, and where both are
 // never or twice: then it has its minimum, half the distance between the two sites, inside the edge.
-class ClearanceLevel {
+class LevelSet {
  public:
   // The level is positive, in lattice units.
-  ClearanceLevel(const CellBorders& borders, double level) : borders_(borders), level_(level) {}
+  LevelSet(const HalfEdges& borders, double level) : borders_(borders), level_(level) {}
 
   bool is_above(std::int32_t vertex) const {
     return vertex < 0 || borders_.diagram().radius[static_cast<std::size_t>(vertex)] > level_;
@@ -31,7 +31,7 @@ class ClearanceLevel {
     return is_above(borders_.tail(h)) && (!is_above(borders_.head(h)) || dips(h));
   }
   // Where a half-edge that descends does so.
-  skeleton::Place descent(HalfEdge h) const;
+  skeleton::Place crossing(HalfEdge h) const;
   // Whether it does so at its head, which is just on the level.
   bool ends_at_head(HalfEdge h) const {
     const std::int32_t head = borders_.head(h);
@@ -46,16 +46,16 @@ class ClearanceLevel {
   double minimum(HalfEdge h) const;
   double minimum_between_points(HalfEdge h, const kernel::LatticeSite& left,
                                 const kernel::LatticeSite& right) const;
-  skeleton::Place descent_between_points(HalfEdge h, const kernel::LatticeSite& left,
-                                         const kernel::LatticeSite& right) const;
-  skeleton::Place descent_between_segments(HalfEdge h) const;
+  skeleton::Place crossing_between_points(HalfEdge h, const kernel::LatticeSite& left,
+                                          const kernel::LatticeSite& right) const;
+  skeleton::Place crossing_between_segments(HalfEdge h) const;
   skeleton::Place beside_end(const kernel::LatticeSite& left, const kernel::LatticeSite& right) const;
   skeleton::ArcEnd end(std::int32_t vertex) const {
     const auto v = static_cast<std::size_t>(vertex);
     return {borders_.diagram().vertices[v], borders_.diagram().radius[v]};
   }
 
-  const CellBorders& borders_;
+  const HalfEdges& borders_;
   double level_;
 };
 

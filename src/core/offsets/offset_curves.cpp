@@ -45,7 +45,7 @@ struct Ring {
 
 class CurveMaker {
  public:
-  CurveMaker(const CellBorders& borders, const OffsetDomain& domain, double distance,
+  CurveMaker(const HalfEdges& borders, const PolygonFaces& domain, double distance,
              const LatticeToInput& place, const Monitor& monitor)
       : borders_(borders),
         diagram_(borders.diagram()),
@@ -55,8 +55,8 @@ class CurveMaker {
         monitor_(monitor),
         level_(borders, distance / place.scale),
         far_(borders, domain, level_, monitor),
-        descents_(borders, domain, level_, far_, monitor),
-        near_(borders, domain, level_, descents_, monitor),
+        crossings_(borders, domain, level_, far_, monitor),
+        near_(borders, domain, level_, crossings_, monitor),
         is_lone_(diagram_.points.size(), true) {
     for (const auto& ends : diagram_.segments) {
       for (const std::int32_t end : ends) is_lone_[static_cast<std::size_t>(end)] = false;
@@ -85,16 +85,16 @@ class CurveMaker {
   }
 
   void walk_rings() {
-    std::vector<bool> is_done(descents_.all().size());
-    for (const HalfEdge first : descents_.all()) {
-      if (is_done[descents_.number(first)]) continue;
+    std::vector<bool> is_done(crossings_.all().size());
+    for (const HalfEdge first : crossings_.all()) {
+      if (is_done[crossings_.number(first)]) continue;
       if (monitor_ && !monitor_(0)) throw base::Interrupted();
       Ring ring;
       HalfEdge h = first;
       do {
-        is_done[descents_.number(h)] = true;
-        ring.pieces.push_back({h, descents_.across_cell(h)});
-        h = descents_.onward(ring.pieces.back().last);
+        is_done[crossings_.number(h)] = true;
+        ring.pieces.push_back({h, crossings_.across_cell(h)});
+        h = crossings_.onward(ring.pieces.back().last);
       } while (h != first);
       add(std::move(ring), borders_.tail(first), borders_.right(first), domain_.polygon_at(borders_, first));
     }
@@ -214,8 +214,8 @@ class CurveMaker {
   void write_ring(const std::vector<Piece>& ring) {
     for (const Piece& piece : ring) {
       if (is_empty(piece))
-        descents_.place(descents_.onward(piece.last)) = descents_.place(piece.last) =
-            descents_.place(piece.first);
+        crossings_.place(crossings_.onward(piece.last)) = crossings_.place(piece.last) =
+            crossings_.place(piece.first);
     }
     for (std::size_t i = 0; i < ring.size(); ++i)
       write_between(ring[domain_.is_outward ? i : ring.size() - 1 - i]);
@@ -232,14 +232,14 @@ class CurveMaker {
                                 other = diagram_.site(borders_.right(last));
       if (core::kernel::cross(one.b - one.a, other.b - other.a) == 0) return true;
     }
-    const Place a = descents_.place(first) - centre_of(site), b = descents_.place(last) - centre_of(site);
+    const Place a = crossings_.place(first) - centre_of(site), b = crossings_.place(last) - centre_of(site);
     return dot(a, b) > 0 && cross(a, b) <= 0 && !(is_lone(site) && turn(piece) > std::numbers::pi);
   }
 
   void write_between(const Piece& piece) {
     const auto& [first, last] = piece;
     const std::int32_t site = borders_.left(last);
-    const Place start = placed(descents_.place(first)), end = placed(descents_.place(last));
+    const Place start = placed(crossings_.place(first)), end = placed(crossings_.place(last));
     if (!diagram_.is_point(site)) {
       write_directed(start, end, {nan, nan}, site);
       return;
@@ -260,7 +260,7 @@ class CurveMaker {
   // The middle of a long arc: across its chord, or where that is short away from its ends.
   Place opposite(const Piece& piece) {
     const Place centre = centre_of(borders_.left(piece.last));
-    const Place a = descents_.place(piece.first) - centre, b = descents_.place(piece.last) - centre;
+    const Place a = crossings_.place(piece.first) - centre, b = crossings_.place(piece.last) - centre;
     const Place across = dot(a, b) > 0 ? Place{-a[0] - b[0], -a[1] - b[1]} : Place{b[1] - a[1], a[0] - b[0]};
     const double part = distance_ / place_.scale / std::sqrt(dot(across, across));
     return {centre[0] + part * across[0], centre[1] + part * across[1]};
@@ -271,7 +271,7 @@ class CurveMaker {
   double turn(const Piece& piece) {
     const auto [first, last] = piece;
     const Place centre = centre_of(borders_.left(last));
-    Place before = descents_.place(first) - centre;
+    Place before = crossings_.place(first) - centre;
     double sum = 0;
     const auto go_to = [&](const Place& direction) {
       sum += angle(before, direction);
@@ -286,7 +286,7 @@ class CurveMaker {
           head < 0 ? borders_.way(h) : centre - diagram_.vertices[static_cast<std::size_t>(head)];
       go_to({-in[0], -in[1]});
     } while (h != last);
-    go_to(descents_.place(last) - centre);
+    go_to(crossings_.place(last) - centre);
     return sum;
   }
 
@@ -310,16 +310,16 @@ class CurveMaker {
     return {place_.origin_x + place_.scale * p[0], place_.origin_y + place_.scale * p[1]};
   }
 
-  const CellBorders& borders_;
+  const HalfEdges& borders_;
   const segment_voronoi::build::SegmentDiagram& diagram_;
-  const OffsetDomain& domain_;
+  const PolygonFaces& domain_;
   double distance_;
   const LatticeToInput& place_;
   const Monitor& monitor_;
-  ClearanceLevel level_;
-  FarRegions far_;
-  Descents descents_;
-  NearRegions near_;
+  LevelSet level_;
+  OuterComponents far_;
+  LevelCrossings crossings_;
+  InnerComponents near_;
   std::vector<bool> is_lone_;  // [n] whether no segment ends there
   std::vector<Ring> rings_;
   std::vector<RingSides> sides_;             // of the rings
@@ -329,7 +329,7 @@ class CurveMaker {
 
 }  // namespace
 
-OffsetCurves offset_curves(const CellBorders& borders, const OffsetDomain& domain, double distance,
+OffsetCurves offset_curves(const HalfEdges& borders, const PolygonFaces& domain, double distance,
                            const LatticeToInput& place, const Monitor& monitor) {
   return CurveMaker(borders, domain, distance, place, monitor).make();
 }

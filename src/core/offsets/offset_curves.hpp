@@ -29,7 +29,7 @@ struct OffsetCurves {
 // Half-edges that descend from above the level are where the curve goes from cell to cell. Both decisions of
 // the topology, whether a vertex is above and whether an edge dips between its ends, are made once: rings
 // are closed and properly nested whatever the rounding of radii.
-OffsetCurves offset_curves(const CellBorders& borders, const OffsetDomain& domain, double distance,
+OffsetCurves offset_curves(const HalfEdges& borders, const PolygonFaces& domain, double distance,
                            const skeleton::LatticeToInput& place, const base::Monitor& monitor);
 
 }  // namespace vorotool::core::offsets

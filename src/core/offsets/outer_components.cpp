@@ -2,8 +2,8 @@
 
 namespace vorotool::core::offsets {
 
-FarRegions::FarRegions(const CellBorders& borders, const OffsetDomain& domain, const ClearanceLevel& level,
-                       const base::Monitor& monitor)
+OuterComponents::OuterComponents(const HalfEdges& borders, const PolygonFaces& domain, const LevelSet& level,
+                                 const base::Monitor& monitor)
     : infinity_(static_cast<std::int32_t>(borders.diagram().radius.size())),
       sets_(borders.diagram().radius.size() + 1) {
   for (HalfEdge h = 0; h < borders.size(); h += 2) {

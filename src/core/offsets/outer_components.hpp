@@ -11,10 +11,10 @@
 namespace vorotool::core::offsets {
 
 // What is far is connected just as the edges of the diagram are that are above the level as a whole.
-class FarRegions {
+class OuterComponents {
  public:
-  FarRegions(const CellBorders& borders, const OffsetDomain& domain, const ClearanceLevel& level,
-             const base::Monitor& monitor);
+  OuterComponents(const HalfEdges& borders, const PolygonFaces& domain, const LevelSet& level,
+                  const base::Monitor& monitor);
 
   // The number of the region of a vertex of the diagram that is above (-1: infinity).
   std::int32_t of(std::int32_t vertex) { return sets_.find(vertex < 0 ? infinity_ : vertex); }

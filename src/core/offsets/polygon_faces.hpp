@@ -9,7 +9,7 @@
 
 namespace vorotool::core::offsets {
 
-struct OffsetDomain {
+struct PolygonFaces {
   std::span<const std::int32_t> edge_face;                     // [e] -1 between a segment and its own end
   std::span<const std::array<std::int32_t, 2>> segment_faces;  // [m] left and right
   std::span<const std::int32_t> face_polygon;                  // [f] the first one, -1 outside
@@ -19,16 +19,16 @@ struct OffsetDomain {
 
   bool is_own_end(HalfEdge h) const { return edge_face[static_cast<std::size_t>(h >> 1)] < 0; }
   // Whether a half-edge begins in a face that the curves are in.
-  bool holds(const CellBorders& borders, HalfEdge h) const {
+  bool holds(const HalfEdges& borders, HalfEdge h) const {
     return (polygon_at(borders, h) < 0) == is_outward;
   }
   // The polygon where a half-edge begins, -1 outside.
-  std::int32_t polygon_at(const CellBorders& borders, HalfEdge h) const {
+  std::int32_t polygon_at(const HalfEdges& borders, HalfEdge h) const {
     return face_polygon[static_cast<std::size_t>(face_at(borders, h))];
   }
 
  private:
-  std::int32_t face_at(const CellBorders& borders, HalfEdge h) const {
+  std::int32_t face_at(const HalfEdges& borders, HalfEdge h) const {
     if (!is_own_end(h)) return edge_face[static_cast<std::size_t>(h >> 1)];
     const segment_voronoi::build::SegmentDiagram& diagram = borders.diagram();
     const std::int32_t left = borders.left(h), right = borders.right(h);

@@ -78,7 +78,7 @@ class Pruner {
 
   const SkeletonView& skeleton_;
   const Monitor& monitor_;
-  graphs::SkeletonForest forest_;
+  graphs::PendantTrees forest_;
   CriticalValues values_;
 };
 
@@ -276,16 +276,16 @@ class EnlargedDiscs : public Pruner {
     find_largest_discs();
     number_discs();
     poll(monitor_, 0.2);
-    const DiscDomination domination(discs(), rounding());
+    const DiscEnlargement enlargement(discs(), rounding());
     poll(monitor_, 0.4);
-    using Need = DiscDomination::Need;
+    using Need = DiscEnlargement::Need;
     std::vector<Need> least(hanging_count());
     for (std::size_t k = hanging_count(); k-- > 0;) {
       const auto [arc, outer, inner] = hanging(k);
       const std::int32_t above = forest_.above(inner);
       const Need best = above >= 0 ? least[at(above)] : Need{infinity, 0};
       const double enough = best.factor * (1 - 0x1p-26);
-      const Need own = domination.factor(disc(inner), begin_[at(outer)], end_[at(outer)], enough, best.disc);
+      const Need own = enlargement.factor(disc(inner), begin_[at(outer)], end_[at(outer)], enough, best.disc);
       least[k] = own.factor < enough ? own : Need{best.factor, own.disc};
       set(arc, least[k].factor, least[k].factor);
       poll_at(k, hanging_count(), 1, 0.4);

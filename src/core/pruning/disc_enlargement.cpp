@@ -13,7 +13,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-struct DiscDomination::Search {
+struct DiscEnlargement::Search {
   const Disc& disc;
   std::size_t first, last;
   double enough;
@@ -22,7 +22,7 @@ struct DiscDomination::Search {
   bool is_done() const { return found.factor >= enough; }
 };
 
-DiscDomination::DiscDomination(std::vector<Disc> discs, double rounding)
+DiscEnlargement::DiscEnlargement(std::vector<Disc> discs, double rounding)
     : discs_(std::move(discs)), rounding_(rounding) {
   std::size_t count = discs_.size(), width = leaf_size;
   do {
@@ -35,7 +35,7 @@ DiscDomination::DiscDomination(std::vector<Disc> discs, double rounding)
   } while (count > 1);
 }
 
-DiscDomination::Box DiscDomination::box_of(std::size_t first, std::size_t last) const {
+DiscEnlargement::Box DiscEnlargement::box_of(std::size_t first, std::size_t last) const {
   Box box{infinity, -infinity, infinity, -infinity, -infinity};
   const auto extend = [&](double least_x, double most_x, double least_y, double most_y, double radius) {
     box.least_x = std::min(box.least_x, least_x);
@@ -57,7 +57,7 @@ DiscDomination::Box DiscDomination::box_of(std::size_t first, std::size_t last) 
 }
 
 // Of discs so close to each other that rounding tells, as small as rounding lets it be: they do not hinder.
-double DiscDomination::pair_factor(double squared_distance, double difference) const {
+double DiscEnlargement::pair_factor(double squared_distance, double difference) const {
   double distance = std::sqrt(squared_distance);
   if (distance < 0x1p16 * rounding_) {
     distance -= rounding_;
@@ -67,8 +67,8 @@ double DiscDomination::pair_factor(double squared_distance, double difference) c
   return difference > 0 ? distance / difference : infinity;
 }
 
-DiscDomination::Need DiscDomination::factor(const Disc& disc, std::size_t first, std::size_t last,
-                                            double enough, std::size_t likely) const {
+DiscEnlargement::Need DiscEnlargement::factor(const Disc& disc, std::size_t first, std::size_t last,
+                                              double enough, std::size_t likely) const {
   Search task{disc, first, last, enough};
   if (likely >= first && likely < last) visit(task, likely, likely + 1);
   if (last - first <= leaf_size) {
@@ -79,7 +79,7 @@ DiscDomination::Need DiscDomination::factor(const Disc& disc, std::size_t first,
   return task.found;
 }
 
-void DiscDomination::visit(Search& task, std::size_t first, std::size_t last) const {
+void DiscEnlargement::visit(Search& task, std::size_t first, std::size_t last) const {
   for (std::size_t k = first; k < last && !task.is_done(); ++k) {
     const double x = task.disc.x - discs_[k].x, y = task.disc.y - discs_[k].y;
     const double factor = pair_factor(x * x + y * y, task.disc.radius - discs_[k].radius);
@@ -88,14 +88,14 @@ void DiscDomination::visit(Search& task, std::size_t first, std::size_t last) co
 }
 
 // That of the farthest corner of a box, with its largest radius: no disc in it needs more.
-double DiscDomination::bound(const Disc& d, const Box& box) const {
+double DiscEnlargement::bound(const Disc& d, const Box& box) const {
   const double x = std::max(d.x - box.least_x, box.most_x - d.x);
   const double y = std::max(d.y - box.least_y, box.most_y - d.y);
   return pair_factor(x * x + y * y, d.radius - box.most_radius);
 }
 
 // The box that may need most comes first.
-void DiscDomination::search(Search& task, std::size_t level, std::size_t number) const {
+void DiscEnlargement::search(Search& task, std::size_t level, std::size_t number) const {
   const std::size_t discs = leaf_size << (fan_bits * level);  // in a box of this level
   const std::size_t first = std::max(task.first, number * discs);
   const std::size_t last = std::min(task.last, (number + 1) * discs);

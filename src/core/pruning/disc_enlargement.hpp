@@ -11,10 +11,10 @@ struct Disc {
 };
 
 // Discs in a fixed order, and boxes around groups of them that follow each other.
-class DiscDomination {
+class DiscEnlargement {
  public:
   // By `rounding` centres and radii may be wrong.
-  DiscDomination(std::vector<Disc> discs, double rounding);
+  DiscEnlargement(std::vector<Disc> discs, double rounding);
 
   // A factor, and the disc that needs it.
   struct Need {

@@ -46,7 +46,7 @@ double least_difference(const Place& n, const Place& first, const Place& last) {
 }  // namespace
 
 // What is known of the nearest edge C over a stretch: values at both of its ends.
-struct AxisBound::Nearest {
+struct ArcErrorBound::Nearest {
   const Seen& edge;
   std::array<Place, 2> place;
   std::array<double, 2> distance;
@@ -73,8 +73,8 @@ struct AxisBound::Nearest {
   }
 };
 
-double AxisBound::operator()(const Place& source, const Place& target, std::span<const ArcSeed> seeds,
-                             std::span<const NearEdge> near, double reach, const Clearing& clearing) {
+double ArcErrorBound::operator()(const Place& source, const Place& target, std::span<const ArcSample> seeds,
+                                 std::span<const NearEdge> near, double reach, const Clearing& clearing) {
   see(source, target, near);
   const Place way = target - source;
   double bound = 0;
@@ -91,9 +91,10 @@ double AxisBound::operator()(const Place& source, const Place& target, std::span
                     moved(c.a, between(c.foot, part.from), c.way),
                     moved(c.a, between(c.foot, part.to), c.way),
                     0};
-    const bool is_nearer = seeds.empty() || std::any_of(seeds.begin(), seeds.end(), [&](const ArcSeed& seed) {
-                             return nearest.excess({seed.place.x, seed.place.y}) > 0;
-                           });
+    const bool is_nearer =
+        seeds.empty() || std::any_of(seeds.begin(), seeds.end(), [&](const ArcSample& seed) {
+          return nearest.excess({seed.place.x, seed.place.y}) > 0;
+        });
     if (!is_nearer) continue;
     const double first = between(c.foot, part.from), last = between(c.foot, part.to);
     nearest.reach = std::min({reach, nearest.least(), first, last, c.length - first, c.length - last});
@@ -104,7 +105,7 @@ double AxisBound::operator()(const Place& source, const Place& target, std::span
   return bound;
 }
 
-AxisBound::Clearing AxisBound::clearing_among(std::span<const NearEdge> near) {
+ArcErrorBound::Clearing ArcErrorBound::clearing_among(std::span<const NearEdge> near) {
   return [near](const Place& first, const Place& last, std::int32_t segment, double reach) {
     double least = reach;
     for (const NearEdge& other : near) {
@@ -117,7 +118,7 @@ AxisBound::Clearing AxisBound::clearing_among(std::span<const NearEdge> near) {
   };
 }
 
-void AxisBound::see(const Place& source, const Place& target, std::span<const NearEdge> near) {
+void ArcErrorBound::see(const Place& source, const Place& target, std::span<const NearEdge> near) {
   seen_.clear();
   for (const NearEdge& edge : near) {
     const auto [a, b] = edge.site;
@@ -143,7 +144,7 @@ void AxisBound::see(const Place& source, const Place& target, std::span<const Ne
 
 // Feet lie on the edge, and no other edge is nearer. Where that is not clear the stretch gets longer, not
 // shorter.
-bool AxisBound::stretch_of(const Seen& c, Stretch& part) const {
+bool ArcErrorBound::stretch_of(const Seen& c, Stretch& part) const {
   // keeps where a linear function, given at both ends of the arc, is not negative
   const auto clip = [&](double first, double last) {
     if (first < 0 && last < 0) return false;
@@ -169,12 +170,13 @@ bool AxisBound::stretch_of(const Seen& c, Stretch& part) const {
   return true;
 }
 
-double AxisBound::bound_by(const Nearest& c, const Stretch& part, std::span<const ArcSeed> seeds) const {
+double ArcErrorBound::bound_by(const Nearest& c, const Stretch& part,
+                               std::span<const ArcSample> seeds) const {
   double bound = infinity;
   for (const Seen& d : seen_) {
     if (&d != &c.edge && d.length > 0) bound = std::min(bound, bound_by_edge(c, d, part));
   }
-  for (const ArcSeed& seed : seeds) {
+  for (const ArcSample& seed : seeds) {
     const bool is_on = std::find(seed.labels.begin(), seed.labels.end(), c.edge.segment) != seed.labels.end();
     if (is_on || (seed.labels.size() == 1 && bound < infinity)) continue;  // its edge shows more
     bound = std::min(bound, bound_by_seed(c, {seed.place.x, seed.place.y}));
@@ -182,7 +184,7 @@ double AxisBound::bound_by(const Nearest& c, const Stretch& part, std::span<cons
   return bound;
 }
 
-double AxisBound::bound_by_edge(const Nearest& c, const Seen& d, const Stretch& part) {
+double ArcErrorBound::bound_by_edge(const Nearest& c, const Seen& d, const Stretch& part) {
   const std::array<double, 2> height{between(d.height, part.from), between(d.height, part.to)};
   const std::array<double, 2> foot{between(d.foot, part.from), between(d.foot, part.to)};
   if (height[0] * height[1] <= 0) return infinity;
@@ -216,7 +218,7 @@ double AxisBound::bound_by_edge(const Nearest& c, const Seen& d, const Stretch& 
       {c.by_growth(moved(d.a, middle, d.way)), c.by_growth(d.a), c.by_growth(moved(d.a, d.length, d.way))});
 }
 
-double AxisBound::bound_by_seed(const Nearest& c, const Place& g) {
+double ArcErrorBound::bound_by_seed(const Nearest& c, const Place& g) {
   const double excess = c.excess(g), grown = c.by_growth(g);
   const Place first = c.place[0] - g, last = c.place[1] - g;
   const double first_length = norm(first), last_length = norm(last);

@@ -43,13 +43,13 @@ struct NearEdge {
 };
 
 // A seed of an arc.
-struct ArcSeed {
+struct ArcSample {
   kernel::Point place;
   std::span<const std::int32_t> labels;  // segments that it is on
 };
 
 // Bounds arcs one after the other: memory is used again.
-class AxisBound {
+class ArcErrorBound {
  public:
   // How far edges but one are from the places between two on this, or less; no matter where it is more than
   // the reach.
@@ -61,7 +61,7 @@ class AxisBound {
   // equally far from any. The errors of the second kind are proved up to `reach`. Infinite where nothing is
   // proved.
   double operator()(const skeleton::Place& source, const skeleton::Place& target,
-                    std::span<const ArcSeed> seeds, std::span<const NearEdge> near, double reach,
+                    std::span<const ArcSample> seeds, std::span<const NearEdge> near, double reach,
                     const Clearing& clearing);
 
   // Of the distances of other edges among those given.
@@ -85,7 +85,7 @@ class AxisBound {
 
   void see(const skeleton::Place& source, const skeleton::Place& target, std::span<const NearEdge> near);
   bool stretch_of(const Seen& c, Stretch& part) const;
-  double bound_by(const Nearest& c, const Stretch& part, std::span<const ArcSeed> seeds) const;
+  double bound_by(const Nearest& c, const Stretch& part, std::span<const ArcSample> seeds) const;
   static double bound_by_edge(const Nearest& c, const Seen& d, const Stretch& part);
   static double bound_by_seed(const Nearest& c, const skeleton::Place& g);
 

@@ -12,7 +12,7 @@
 
 namespace vorotool::core::sampled_skeleton {
 
-using delaunay::TriangleRings;
+using delaunay::VertexTriangles;
 using kernel::Point;
 using numbers::widen;
 
@@ -42,13 +42,13 @@ struct Spoke {
 
 class Walk {
  public:
-  Walk(const SeedMesh& mesh, const TriangleRings& rings, const EdgePiece& piece, std::int32_t number,
+  Walk(const SampleMesh& mesh, const VertexTriangles& rings, const EdgePiece& piece, std::int32_t number,
        Crossings& found)
       : mesh_(mesh),
         rings_(rings),
         piece_(piece),
         number_(number),
-        way_(seed_difference(mesh.seed(piece.last), mesh.seed(piece.first))),
+        way_(sample_difference(mesh.seed(piece.last), mesh.seed(piece.first))),
         found_(found) {}
 
   void run() {
@@ -59,8 +59,8 @@ class Walk {
   // Where q takes over from p: |x - p| = |x - q| at x = first + t way.
   Exit exit_to(std::int32_t p, std::int32_t q) const {
     const Point &from = mesh_.seed(piece_.first), &a = mesh_.seed(p), &b = mesh_.seed(q);
-    const SeedVector step = seed_difference(b, a);
-    const SeedVector sum = seed_difference(b, from) + seed_difference(a, from);
+    const SampleVector step = sample_difference(b, a);
+    const SampleVector sum = sample_difference(b, from) + sample_difference(a, from);
     return {dot(step, sum), dot(way_, step)};
   }
 
@@ -118,11 +118,11 @@ class Walk {
     });
   }
 
-  const SeedMesh& mesh_;
-  const TriangleRings& rings_;
+  const SampleMesh& mesh_;
+  const VertexTriangles& rings_;
   EdgePiece piece_;
   std::int32_t number_;
-  SeedVector way_;
+  SampleVector way_;
   Crossings& found_;
   std::vector<Spoke> tied_, ridden_;
 };
@@ -134,7 +134,7 @@ void append(Items& all, const Items& more) {
 
 }  // namespace
 
-Crossings find_crossings(const SeedMesh& mesh, const TriangleRings& rings, const SeedLabels& labels,
+Crossings find_crossings(const SampleMesh& mesh, const VertexTriangles& rings, const SampleLabels& labels,
                          std::span<const std::int32_t> pieces, unsigned threads,
                          const base::Monitor& monitor) {
   constexpr std::size_t grain = 1 << 8;
@@ -159,27 +159,27 @@ Crossings find_crossings(const SeedMesh& mesh, const TriangleRings& rings, const
 
 // With u along the Voronoi edge, a crossing is at u x = u first + t u way = (2 d u first + n u way) / (2 d):
 // the numerator is below 2^217, the denominator below 2^109, and products of both below 2^326.
-int compare_crossings(const SeedMesh& mesh, const SeedLabels& labels, const Crossing& one,
+int compare_crossings(const SampleMesh& mesh, const SampleLabels& labels, const Crossing& one,
                       const Crossing& other) {
-  using Long = numbers::WideInteger<6>;
+  using Long = numbers::FixedInteger<6>;
   struct Place {
     Long numerator, denominator;
   };
   const Point &p = mesh.seed(mesh.origin(one.side)), &q = mesh.seed(mesh.target(one.side));
-  const SeedVector step = seed_difference(q, p), along = left_of(step);
+  const SampleVector step = sample_difference(q, p), along = left_of(step);
   const auto place = [&](const Crossing& crossing) {
     const EdgePiece piece = labels.piece(crossing.piece);
     const Point& from = mesh.seed(piece.first);
-    const SeedVector way = seed_difference(mesh.seed(piece.last), from);
-    const SeedVector sum = seed_difference(q, from) + seed_difference(p, from);
+    const SampleVector way = sample_difference(mesh.seed(piece.last), from);
+    const SampleVector sum = sample_difference(q, from) + sample_difference(p, from);
     numbers::int128 n = dot(step, sum), d = dot(way, step);
     if (d < 0) n = -n, d = -d;
-    const auto first = widen(2 * d) * widen(dot(along, seed_difference(from, p)));
+    const auto first = widen(2 * d) * widen(dot(along, sample_difference(from, p)));
     return Place{numbers::resized<6>(first + widen(n) * widen(dot(along, way))),
                  numbers::resized<6>(widen(2 * d))};
   };
   const auto product = [](const Long& a, const Long& b) {
-    const numbers::WideInteger<12> whole = a * b;
+    const numbers::FixedInteger<12> whole = a * b;
     Long low;
     std::copy_n(whole.limb.begin(), 6, low.limb.begin());
     return low;

@@ -28,13 +28,13 @@ struct Crossings {
 
 // Walks along pieces through the cells. Everything is decided exactly, for the pieces as straight lines
 // between seeds. A piece that meets no other cells than those of its ends crosses the edge between them only.
-Crossings find_crossings(const SeedMesh& mesh, const delaunay::TriangleRings& rings, const SeedLabels& labels,
-                         std::span<const std::int32_t> pieces, unsigned threads,
+Crossings find_crossings(const SampleMesh& mesh, const delaunay::VertexTriangles& rings,
+                         const SampleLabels& labels, std::span<const std::int32_t> pieces, unsigned threads,
                          const base::Monitor& monitor);
 
 // The order in which two pieces cross the Voronoi edge of a side, seen along it to the circumcentre of the
 // triangle on the left of the side: negative if the first one is farther from that.
-int compare_crossings(const SeedMesh& mesh, const SeedLabels& labels, const Crossing& one,
+int compare_crossings(const SampleMesh& mesh, const SampleLabels& labels, const Crossing& one,
                       const Crossing& other);
 
 }  // namespace vorotool::core::sampled_skeleton

@@ -8,7 +8,7 @@
 
 namespace vorotool::core::sampled_skeleton {
 
-using arrangement::ShapeGraph;
+using arrangement::PlanarGraphView;
 using base::Monitor;
 using kernel::LatticeSite;
 using kernel::Point;
@@ -40,10 +40,10 @@ void check(double seeds, std::size_t most) {
 
 // `count(j)` seeds lie inside segment j, and `place(j, seeds)` writes them.
 template <class Count, class Write>
-EdgeSamples sample(const ShapeGraph& graph, std::size_t most, unsigned threads, const Monitor& monitor,
-                   const Count& count, const Write& write) {
+BoundarySamples sample(const PlanarGraphView& graph, std::size_t most, unsigned threads,
+                       const Monitor& monitor, const Count& count, const Write& write) {
   const std::size_t points = graph.points.size(), segments = graph.segments.size();
-  EdgeSamples made;
+  BoundarySamples made;
   made.start.resize(segments + 1);
   double total = static_cast<double>(points);
   for (std::size_t j = 0; j < segments; ++j) {
@@ -94,7 +94,7 @@ std::size_t count_up_to(double half, std::span<const double> distance) {
   return k;
 }
 
-HalvedSegment halved(const ShapeGraph& graph, const CornerSteps& steps, std::size_t segment) {
+HalvedSegment halved(const PlanarGraphView& graph, const CornerSteps& steps, std::size_t segment) {
   const auto [a, b] = graph.segments[segment];
   const double length = length_of(graph.site(static_cast<std::int32_t>(segment)));
   const auto by_a = distances_at(steps, a), by_b = distances_at(steps, b);
@@ -109,7 +109,7 @@ HalvedSegment halved(const ShapeGraph& graph, const CornerSteps& steps, std::siz
 }
 
 // The longest segment at each point, and the shortest.
-std::vector<std::pair<double, double>> lengths_at_points(const ShapeGraph& graph) {
+std::vector<std::pair<double, double>> lengths_at_points(const PlanarGraphView& graph) {
   std::vector<std::pair<double, double>> found(graph.points.size(), {0.0, infinity});
   for (std::size_t j = 0; j < graph.segments.size(); ++j) {
     const double length = length_of(graph.site(static_cast<std::int32_t>(j)));
@@ -123,8 +123,8 @@ std::vector<std::pair<double, double>> lengths_at_points(const ShapeGraph& graph
 
 }  // namespace
 
-EdgeSamples sample_by_step(const ShapeGraph& graph, double step, std::size_t most, unsigned threads,
-                           const Monitor& monitor) {
+BoundarySamples sample_by_step(const PlanarGraphView& graph, double step, std::size_t most, unsigned threads,
+                               const Monitor& monitor) {
   const auto site = [&](std::size_t j) { return graph.site(static_cast<std::int32_t>(j)); };
   return sample(
       graph, most, threads, monitor,
@@ -138,7 +138,7 @@ EdgeSamples sample_by_step(const ShapeGraph& graph, double step, std::size_t mos
       });
 }
 
-CornerSteps even_steps(const ShapeGraph& graph, double step, std::size_t most) {
+CornerSteps even_steps(const PlanarGraphView& graph, double step, std::size_t most) {
   CornerSteps steps{{0}, {}};
   double total = 0;
   for (const auto& [longest, shortest] : lengths_at_points(graph))
@@ -152,7 +152,7 @@ CornerSteps even_steps(const ShapeGraph& graph, double step, std::size_t most) {
   return steps;
 }
 
-CornerSteps doubled_steps(const ShapeGraph& graph, double coarsest, std::size_t most) {
+CornerSteps doubled_steps(const PlanarGraphView& graph, double coarsest, std::size_t most) {
   CornerSteps steps{{0}, {}};
   for (const auto& [longest, shortest] : lengths_at_points(graph)) {
     double gap = std::min(coarsest, shortest / 3), distance = 0;
@@ -169,8 +169,8 @@ CornerSteps doubled_steps(const ShapeGraph& graph, double coarsest, std::size_t 
   return steps;
 }
 
-EdgeSamples sample_from_corners(const ShapeGraph& graph, const CornerSteps& steps, std::size_t most,
-                                unsigned threads, const Monitor& monitor) {
+BoundarySamples sample_from_corners(const PlanarGraphView& graph, const CornerSteps& steps, std::size_t most,
+                                    unsigned threads, const Monitor& monitor) {
   return sample(
       graph, most, threads, monitor,
       [&](std::size_t j) { return static_cast<double>(halved(graph, steps, j).count()); },
@@ -190,7 +190,7 @@ EdgeSamples sample_from_corners(const ShapeGraph& graph, const CornerSteps& step
       });
 }
 
-CornerSteps refined_steps(const ShapeGraph& graph, const CornerSteps& steps,
+CornerSteps refined_steps(const PlanarGraphView& graph, const CornerSteps& steps,
                           std::span<const std::int32_t> start, std::span<const std::int32_t> parts,
                           std::size_t most) {
   std::vector<std::int32_t> of_gap(steps.distance.size(), 1);

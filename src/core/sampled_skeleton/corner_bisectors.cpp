@@ -11,7 +11,7 @@
 
 namespace vorotool::core::sampled_skeleton {
 
-using delaunay::TriangleRings;
+using delaunay::VertexTriangles;
 using kernel::LatticeVector;
 using numbers::widen;
 
@@ -47,7 +47,7 @@ struct Spoke {
 
 class Sector {
  public:
-  Sector(const SeedDiagram& diagram, const TriangleRings& rings, CornerLine& line)
+  Sector(const SampleDiagram& diagram, const VertexTriangles& rings, CornerBisector& line)
       : diagram_(diagram), mesh_(diagram.mesh()), line_(line) {
     find_spokes(rings);
   }
@@ -62,14 +62,14 @@ class Sector {
     const std::size_t first = first_met();
     const bool is_last = first + 1 == spokes_.size();
     if (first > 0 && !is_last && compare(first, first + 1) != 0) return meet_inside(first);
-    line_.node = SeedMesh::triangle_of(is_last ? spokes_[first - 1].side : spokes_[first].side);
+    line_.node = SampleMesh::triangle_of(is_last ? spokes_[first - 1].side : spokes_[first].side);
     return true;
   }
 
  private:
   // All seeds between the ones next to the corner on both edges; none if one of these is no neighbour.
-  void find_spokes(const TriangleRings& rings) {
-    const SeedLabels& labels = diagram_.labels();
+  void find_spokes(const VertexTriangles& rings) {
+    const SampleLabels& labels = diagram_.labels();
     const std::int32_t first = labels.seed_beside(line_.corner, line_.right);
     const std::int32_t last = labels.seed_beside(line_.corner, line_.left);
     struct Fan {
@@ -100,9 +100,9 @@ class Sector {
     numbers::int128 square, dot;
   };
   Meeting meeting(std::size_t spoke) const {
-    const SeedVector v = seed_difference(mesh_.seed(spokes_[spoke].seed), mesh_.seed(line_.corner));
-    const SeedVector w{static_cast<std::int64_t>(std::nearbyint(line_.direction.x * 0x1p53)),
-                       static_cast<std::int64_t>(std::nearbyint(line_.direction.y * 0x1p53))};
+    const SampleVector v = sample_difference(mesh_.seed(spokes_[spoke].seed), mesh_.seed(line_.corner));
+    const SampleVector w{static_cast<std::int64_t>(std::nearbyint(line_.direction.x * 0x1p53)),
+                         static_cast<std::int64_t>(std::nearbyint(line_.direction.y * 0x1p53))};
     return {dot(v, v), dot(w, v)};
   }
   int compare(std::size_t one, std::size_t other) const {
@@ -129,20 +129,21 @@ class Sector {
     return true;
   }
 
-  const SeedDiagram& diagram_;
-  const SeedMesh& mesh_;
-  CornerLine& line_;
+  const SampleDiagram& diagram_;
+  const SampleMesh& mesh_;
+  CornerBisector& line_;
   std::vector<Spoke> spokes_;
 };
 
-std::vector<CornerLine> corners_of(const SeedDiagram& diagram, std::span<const std::int32_t> face_group) {
-  const arrangement::ShapeGraph& graph = diagram.labels().graph();
+std::vector<CornerBisector> corners_of(const SampleDiagram& diagram,
+                                       std::span<const std::int32_t> face_group) {
+  const arrangement::PlanarGraphView& graph = diagram.labels().graph();
   const auto points = static_cast<std::int32_t>(graph.points.size());
   const auto way = [&](std::int32_t point, std::int32_t segment) {
     const auto& [a, b] = graph.ends(segment);
     return graph.point(a == point ? b : a) - graph.point(point);
   };
-  std::vector<CornerLine> corners;
+  std::vector<CornerBisector> corners;
   for (std::int32_t point = 0; point < points; ++point) {
     const auto sites = diagram.labels().incident().at(point);
     for (std::size_t i = 0; i < sites.size(); ++i) {
@@ -160,14 +161,14 @@ std::vector<CornerLine> corners_of(const SeedDiagram& diagram, std::span<const s
 
 }  // namespace
 
-CornerLines corner_lines(const SeedDiagram& diagram, std::span<const std::int32_t> face_group,
-                         unsigned threads, const base::Monitor& monitor) {
+CornerBisectors corner_bisectors(const SampleDiagram& diagram, std::span<const std::int32_t> face_group,
+                                 unsigned threads, const base::Monitor& monitor) {
   constexpr std::size_t grain = 1 << 10;
-  CornerLines found{corners_of(diagram, face_group)};
+  CornerBisectors found{corners_of(diagram, face_group)};
   if (diagram.mesh().size() == 0) return {{}, found.lines.size()};
-  const SeedMesh& mesh = diagram.mesh();
+  const SampleMesh& mesh = diagram.mesh();
   const delaunay::TriangulationArrays arrays{mesh.seeds, mesh.triangles, mesh.neighbours, {}, {}, {}};
-  const TriangleRings rings(arrays);
+  const VertexTriangles rings(arrays);
   std::vector<std::uint8_t> is_met(found.lines.size());
   base::parallel_for(
       base::piece_count(is_met.size(), grain), threads,

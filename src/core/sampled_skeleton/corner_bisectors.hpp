@@ -11,7 +11,7 @@
 namespace vorotool::core::sampled_skeleton {
 
 // From a corner under 180 degrees, in the face between two edges, to the first kept Voronoi edge.
-struct CornerLine {
+struct CornerBisector {
   std::int32_t corner;       // point of the graph
   std::int32_t right, left;  // segments: counter-clockwise from the first to the second
   std::int32_t face;
@@ -21,14 +21,14 @@ struct CornerLine {
   kernel::Point direction{0, 0};  // a unit vector
 };
 
-struct CornerLines {
-  std::vector<CornerLine> lines;
+struct CornerBisectors {
+  std::vector<CornerBisector> lines;
   std::size_t open = 0;  // corners without: a piece or a deleted edge is met first
 };
 
 // For the corners in faces that are wanted. Which edge the bisector meets first is decided exactly, for its
 // direction as it is rounded to 53 bits.
-CornerLines corner_lines(const SeedDiagram& diagram, std::span<const std::int32_t> face_group,
-                         unsigned threads, const base::Monitor& monitor);
+CornerBisectors corner_bisectors(const SampleDiagram& diagram, std::span<const std::int32_t> face_group,
+                                 unsigned threads, const base::Monitor& monitor);
 
 }  // namespace vorotool::core::sampled_skeleton

@@ -15,7 +15,7 @@ namespace vorotool::core::sampled_skeleton {
 
 using kernel::LatticeSite;
 using skeleton::Place;
-using spatial::SiteHierarchy;
+using spatial::ObbTree;
 
 namespace {
 
@@ -50,14 +50,14 @@ double rounded_up(double value) { return static_cast<float>(value * (1 + 0x1p-22
 // What is known of an arc while it is bounded.
 class Bounder {
  public:
-  Bounder(const SeedDiagram& diagram, std::span<const NearEdge> items, const SiteHierarchy& hierarchy)
+  Bounder(const SampleDiagram& diagram, std::span<const NearEdge> items, const ObbTree& hierarchy)
       : diagram_(diagram),
         items_(items),
         hierarchy_(hierarchy),
         near_(items, hierarchy, few_edges),
         nearest_(items, hierarchy, many_edges) {}
 
-  const ArcBound& operator()(const BoundedArc& arc) {
+  const ErrorBound& operator()(const BoundedArc& arc) {
     arc_ = &arc;
     for (std::size_t i = 0; i < 2; ++i) found_.radius[i] = distance(arc.place[i], place_of(seed(arc.seed)));
     found_.error = node_error;  // all there is where the seeds are on one line: they are the ends of edges
@@ -92,7 +92,7 @@ class Bounder {
   }
 
  private:
-  const SeedMesh& mesh() const { return diagram_.mesh(); }
+  const SampleMesh& mesh() const { return diagram_.mesh(); }
   const kernel::Point& seed(std::int32_t s) const { return mesh().seed(s); }
   // How far along a segment the foot of an end of the arc is, as a share of its length.
   double foot(std::int32_t segment, std::size_t end) const {
@@ -134,7 +134,7 @@ class Bounder {
   double bound(const Place& a, const Place& b, int halvings) {
     if (const auto near = near_.find({{a, b}, {wide_radius(a), wide_radius(b)}})) {
       note_radius(a, b, *near);
-      return noted(axis_(a, b, seeds(), *near, reach_, AxisBound::clearing_among(*near)), *near);
+      return noted(axis_(a, b, seeds(), *near, reach_, ArcErrorBound::clearing_among(*near)), *near);
     }
     if (const auto nearest = nearest_.find({{a, b}, label_radii(a, b)})) {
       note_radius(a, b, *nearest);
@@ -148,8 +148,8 @@ class Bounder {
     return std::max(first, bound(middle, b, halvings + 1));
   }
 
-  std::span<const ArcSeed> seeds() const {
-    return arc_->corner < 0 ? std::span<const ArcSeed>(seeds_) : std::span<const ArcSeed>();
+  std::span<const ArcSample> seeds() const {
+    return arc_->corner < 0 ? std::span<const ArcSample>(seeds_) : std::span<const ArcSample>();
   }
 
   // Discs that all edges meet which are nearest somewhere between: no farther than an edge L of the arc. The
@@ -172,12 +172,13 @@ class Bounder {
   }
 
   // By what is found near the feet.
-  AxisBound::Clearing local_clearing() const {
+  ArcErrorBound::Clearing local_clearing() const {
     return [this](const Place& first, const Place& last, std::int32_t segment, double reach) {
       const Place middle{(first[0] + last[0]) / 2, (first[1] + last[1]) / 2};
       double least = reach;
       hierarchy_.near(middle[0], middle[1], distance(first, last) / 2 + reach, [&](std::uint32_t item) {
-        const double other = AxisBound::clearing_among(items_.subspan(item, 1))(first, last, segment, reach);
+        const double other =
+            ArcErrorBound::clearing_among(items_.subspan(item, 1))(first, last, segment, reach);
         least = std::min(least, other);
         return least > 0;
       });
@@ -242,7 +243,7 @@ class Bounder {
   // Of some triangles around the side: where very many seeds are at one distance these lead across the disc.
   std::vector<std::int32_t> seeds_around() const {
     constexpr std::size_t most = 64;
-    std::vector<Triangle> triangles{SeedMesh::triangle_of(arc_->side)};
+    std::vector<Triangle> triangles{SampleMesh::triangle_of(arc_->side)};
     std::vector<std::int32_t> seeds;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
       for (Side s = 3 * triangles[i]; s < 3 * triangles[i] + 3; ++s) {
@@ -289,7 +290,7 @@ class Bounder {
 
   // Whether no edge is that near to the corner but those that end there.
   bool has_only_corner(double radius) const {
-    const arrangement::ShapeGraph& graph = diagram_.labels().graph();
+    const arrangement::PlanarGraphView& graph = diagram_.labels().graph();
     bool has_only = true;
     hierarchy_.near(origin_[0], origin_[1], radius, [&](std::uint32_t item) {
       const std::int32_t segment = items_[item].segment;
@@ -301,18 +302,18 @@ class Bounder {
     return has_only;
   }
 
-  const SeedDiagram& diagram_;
+  const SampleDiagram& diagram_;
   std::span<const NearEdge> items_;
-  const SiteHierarchy& hierarchy_;
+  const ObbTree& hierarchy_;
   NearEdges near_, nearest_;
-  AxisBound axis_;
+  ArcErrorBound axis_;
   const BoundedArc* arc_ = nullptr;
   std::array<std::vector<std::int32_t>, 2> labels_;
-  std::array<ArcSeed, 2> seeds_;
+  std::array<ArcSample, 2> seeds_;
   Place origin_{0, 0};
   double reach_ = 0, most_ = -1;
   std::vector<std::int32_t> wanting_;  // segments
-  ArcBound found_;
+  ErrorBound found_;
 };
 
 std::vector<LatticeSite> sites_of(std::span<const NearEdge> items) {
@@ -323,12 +324,12 @@ std::vector<LatticeSite> sites_of(std::span<const NearEdge> items) {
 
 }  // namespace
 
-void bound_arcs(const SeedDiagram& diagram, const ArcsToBound& arcs, double tolerance,
+void bound_arcs(const SampleDiagram& diagram, const ArcsToBound& arcs, double tolerance,
                 std::span<std::int32_t> parts, unsigned threads, const base::Monitor& monitor) {
   constexpr std::size_t grain = 1 << 11;
   const std::vector<std::vector<NearEdge>> items =
       NearEdges::items(diagram.labels().graph(), diagram.groups());
-  std::vector<SiteHierarchy> hierarchies;
+  std::vector<ObbTree> hierarchies;
   for (const auto& own : items) {
     hierarchies.emplace_back(sites_of(own), own.size() < grain ? 1 : threads, monitor);
   }
@@ -343,7 +344,7 @@ void bound_arcs(const SeedDiagram& diagram, const ArcsToBound& arcs, double tole
             bounder.emplace(diagram, items[own], hierarchies[own]);
             group = own;
           }
-          const ArcBound& bound = (*bounder)(arc);
+          const ErrorBound& bound = (*bounder)(arc);
           arcs.take(i, bound);
           if (!parts.empty() && !(bound.error <= tolerance)) bounder->demand(tolerance, parts);
         }

@@ -22,7 +22,7 @@ struct BoundedArc {
   std::int32_t corner;  // where a line that completes begins, its source; else -1
 };
 
-struct ArcBound {
+struct ErrorBound {
   double error = 0;                    // lattice steps; infinite where nothing is proved
   std::array<double, 2> radius{0, 0};  // clearance at the ends; where very many edges are near, not quite
 };
@@ -31,12 +31,12 @@ struct ArcBound {
 struct ArcsToBound {
   std::size_t count;
   std::function<BoundedArc(std::size_t)> arc;
-  std::function<void(std::size_t, const ArcBound&)> take;
+  std::function<void(std::size_t, const ErrorBound&)> take;
 };
 
 // `parts`, if not empty, says for each piece of an edge how many parts it should have for errors of at most
 // `tolerance`: at least what stands there already.
-void bound_arcs(const SeedDiagram& diagram, const ArcsToBound& arcs, double tolerance,
+void bound_arcs(const SampleDiagram& diagram, const ArcsToBound& arcs, double tolerance,
                 std::span<std::int32_t> parts, unsigned threads, const base::Monitor& monitor);
 
 }  // namespace vorotool::core::sampled_skeleton

@@ -18,8 +18,8 @@ constexpr double wider = 0x1p-5;            // part of its radius by which a dis
 
 }  // namespace
 
-std::vector<std::vector<NearEdge>> NearEdges::items(const arrangement::ShapeGraph& graph,
-                                                    const SeedGroups& groups) {
+std::vector<std::vector<NearEdge>> NearEdges::items(const arrangement::PlanarGraphView& graph,
+                                                    const SampleGroups& groups) {
   std::vector<std::vector<NearEdge>> all(static_cast<std::size_t>(groups.count));
   const auto of_point = [&](std::size_t i) {
     return groups.of_point.empty() ? 0 : static_cast<std::size_t>(groups.of_point[i]);

@@ -28,11 +28,11 @@ struct DiscPair {
 class NearEdges {
  public:
   // Of each group the segments of a graph, then all of its points that no segment ends at.
-  static std::vector<std::vector<NearEdge>> items(const arrangement::ShapeGraph& graph,
-                                                  const SeedGroups& groups);
+  static std::vector<std::vector<NearEdge>> items(const arrangement::PlanarGraphView& graph,
+                                                  const SampleGroups& groups);
 
   // `hierarchy` holds the items by their numbers.
-  NearEdges(std::span<const NearEdge> items, const spatial::SiteHierarchy& hierarchy, std::size_t most)
+  NearEdges(std::span<const NearEdge> items, const spatial::ObbTree& hierarchy, std::size_t most)
       : items_(items), hierarchy_(hierarchy), most_(most) {}
 
   // All that meet the discs; nothing if more than `most` meet one of them, as where a shape is round about
@@ -54,7 +54,7 @@ class NearEdges {
   bool is_surrounded(const skeleton::Place& centre, double reach);
 
   std::span<const NearEdge> items_;
-  const spatial::SiteHierarchy& hierarchy_;
+  const spatial::ObbTree& hierarchy_;
   std::size_t most_;
   std::array<Found, 2> discs_;
   Found surroundings_;          // what meets a wider disc: many that follow are within it

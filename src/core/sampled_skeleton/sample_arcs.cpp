@@ -29,14 +29,14 @@ double length(const Place& p, const Place& q) {
 }  // namespace
 
 // A node that a line to a corner makes inside an arc.
-struct SeedArcs::Division {
+struct SampleArcs::Division {
   std::size_t arc;
   double along;  // from the source of the arc
   std::int32_t node;
 };
 
-void SeedArcs::add_kept(std::span<const std::int32_t> face_group) {
-  const SeedMesh& mesh = diagram_.mesh();
+void SampleArcs::add_kept(std::span<const std::int32_t> face_group) {
+  const SampleMesh& mesh = diagram_.mesh();
   node_of_.assign(mesh.size(), -1);
   std::size_t count = 0;
   for (std::size_t s = 0; s < mesh.sides(); ++s) count += is_wanted(static_cast<Side>(s), face_group) ? 1 : 0;
@@ -44,7 +44,7 @@ void SeedArcs::add_kept(std::span<const std::int32_t> face_group) {
   origin_.reserve(count);
   for (std::size_t i = 0; i < mesh.sides(); ++i) {
     const auto s = static_cast<Side>(i);
-    if (is_wanted(s, face_group)) add_side(s, face_group[at(diagram_.face(SeedMesh::triangle_of(s)))]);
+    if (is_wanted(s, face_group)) add_side(s, face_group[at(diagram_.face(SampleMesh::triangle_of(s)))]);
   }
   const auto chain = diagram_.chain();
   for (std::size_t i = 1; i < chain.size() && face_group[0] >= 0; ++i) {
@@ -53,13 +53,13 @@ void SeedArcs::add_kept(std::span<const std::int32_t> face_group) {
   }
 }
 
-bool SeedArcs::is_wanted(Side s, std::span<const std::int32_t> face_group) const {
+bool SampleArcs::is_wanted(Side s, std::span<const std::int32_t> face_group) const {
   if (!diagram_.is_kept(s) || !diagram_.mesh().is_first(s)) return false;
-  const std::int32_t face = diagram_.face(SeedMesh::triangle_of(s));
+  const std::int32_t face = diagram_.face(SampleMesh::triangle_of(s));
   return face >= 0 && face_group[at(face)] >= 0;
 }
 
-void SeedArcs::add_all() {
+void SampleArcs::add_all() {
   node_of_.assign(diagram_.mesh().size(), -1);
   for (std::size_t i = 0; i < diagram_.mesh().sides(); ++i) {
     if (diagram_.mesh().is_first(static_cast<Side>(i))) add_side(static_cast<Side>(i), 0);
@@ -70,8 +70,8 @@ void SeedArcs::add_all() {
 
 // The Voronoi edge leads across the side from its left to its right: the target of the side is on the left.
 // Between triangles with one circumcentre it has no length.
-void SeedArcs::add_side(Side s, std::int32_t group) {
-  const Triangle t = diagram_.same_centre(SeedMesh::triangle_of(s)), across = diagram_.mesh().across(s);
+void SampleArcs::add_side(Side s, std::int32_t group) {
+  const Triangle t = diagram_.same_centre(SampleMesh::triangle_of(s)), across = diagram_.mesh().across(s);
   if (across >= 0 && diagram_.same_centre(across) == t) return;
   const std::int32_t source = node_of(t);
   add_arc({source, across < 0 ? -1 : node_of(diagram_.same_centre(across)), diagram_.mesh().target(s),
@@ -79,11 +79,11 @@ void SeedArcs::add_side(Side s, std::int32_t group) {
           {s, -1});
 }
 
-void SeedArcs::add_chain_link(std::int32_t p, std::int32_t q, std::int32_t group) {
+void SampleArcs::add_chain_link(std::int32_t p, std::int32_t q, std::int32_t group) {
   add_arc({-1, -1, q, p, group}, {-1, -1});
 }
 
-std::int32_t SeedArcs::node_of(Triangle t) {
+std::int32_t SampleArcs::node_of(Triangle t) {
   std::int32_t& node = node_of_[at(t)];
   if (node < 0) {
     node = static_cast<std::int32_t>(node_triangle_.size());
@@ -92,22 +92,22 @@ std::int32_t SeedArcs::node_of(Triangle t) {
   return node;
 }
 
-std::int32_t SeedArcs::add_node(const Place& place, FrameSide side) {
+std::int32_t SampleArcs::add_node(const Place& place, FrameSide side) {
   place_.push_back(place);
   side_.push_back(side);
   return static_cast<std::int32_t>(place_.size()) - 1;
 }
 
-void SeedArcs::add_arc(const GraphArc& arc, const ArcOrigin& origin) {
+void SampleArcs::add_arc(const GraphArc& arc, const ArcOrigin& origin) {
   arcs_.push_back(arc);
   origin_.push_back(origin);
 }
 
-void SeedArcs::place_nodes(unsigned threads, const base::Monitor& monitor) {
+void SampleArcs::place_nodes(unsigned threads, const base::Monitor& monitor) {
   constexpr std::size_t grain = 1 << 13;
   place_.resize(node_triangle_.size());
   side_.assign(node_triangle_.size(), FrameSide::none);
-  const SeedMesh& mesh = diagram_.mesh();
+  const SampleMesh& mesh = diagram_.mesh();
   base::parallel_for(
       base::piece_count(place_.size(), grain), threads,
       [&](std::size_t piece) {
@@ -121,11 +121,12 @@ void SeedArcs::place_nodes(unsigned threads, const base::Monitor& monitor) {
       monitor);
 }
 
-std::size_t SeedArcs::add_lines(std::span<const CornerLine> lines, std::span<const std::int32_t> face_group,
-                                const skeleton::JoinedGroups& joined) {
+std::size_t SampleArcs::add_lines(std::span<const CornerBisector> lines,
+                                  std::span<const std::int32_t> face_group,
+                                  const skeleton::JoinedGroups& joined) {
   std::vector<Division> divisions;
   std::size_t open = 0;
-  for (const CornerLine& line : lines) {
+  for (const CornerBisector& line : lines) {
     const kernel::LatticePoint& p = diagram_.labels().graph().point(line.corner);
     const Place corner{static_cast<double>(p.x), static_cast<double>(p.y)};
     std::int32_t target = -1;
@@ -153,7 +154,7 @@ std::size_t SeedArcs::add_lines(std::span<const CornerLine> lines, std::span<con
 }
 
 // Of the lines from a corner, which are the last arcs.
-std::optional<std::int32_t> SeedArcs::node_at_corner(std::int32_t corner, std::int32_t group) const {
+std::optional<std::int32_t> SampleArcs::node_at_corner(std::int32_t corner, std::int32_t group) const {
   for (std::size_t arc = arcs_.size(); arc > 0 && origin_[arc - 1].corner == corner; --arc) {
     if (arcs_[arc - 1].group == group) return arcs_[arc - 1].source;
   }
@@ -161,8 +162,8 @@ std::optional<std::int32_t> SeedArcs::node_at_corner(std::int32_t corner, std::i
 }
 
 // Arcs were added in the order of the first sides of edges.
-std::optional<std::size_t> SeedArcs::arc_of(Side s) const {
-  const SeedMesh& mesh = diagram_.mesh();
+std::optional<std::size_t> SampleArcs::arc_of(Side s) const {
+  const SampleMesh& mesh = diagram_.mesh();
   const Side first = mesh.is_first(s) ? s : mesh.twin(s);
   const auto end =
       std::find_if(origin_.begin(), origin_.end(), [](const ArcOrigin& o) { return o.corner >= 0; });
@@ -173,7 +174,7 @@ std::optional<std::size_t> SeedArcs::arc_of(Side s) const {
 }
 
 // The arc itself becomes its first part.
-void SeedArcs::divide(std::vector<Division>& divisions) {
+void SampleArcs::divide(std::vector<Division>& divisions) {
   std::sort(divisions.begin(), divisions.end(), [](const Division& a, const Division& b) {
     return a.arc != b.arc ? a.arc < b.arc : a.along < b.along;
   });
@@ -191,7 +192,7 @@ void SeedArcs::divide(std::vector<Division>& divisions) {
   }
 }
 
-void SeedArcs::clip(std::int32_t group, const skeleton::Frame& frame) {
+void SampleArcs::clip(std::int32_t group, const skeleton::Frame& frame) {
   std::vector<GraphArc> arcs;
   std::vector<ArcOrigin> origins;
   arcs.swap(arcs_);
@@ -217,7 +218,7 @@ void SeedArcs::clip(std::int32_t group, const skeleton::Frame& frame) {
 
 // From the nearer end, which is rounded less; an unbounded one from between its seeds, the left one to the
 // left.
-Line SeedArcs::line_of(const GraphArc& arc) const {
+Line SampleArcs::line_of(const GraphArc& arc) const {
   if (arc.source >= 0 && arc.target >= 0) {
     const Place &a = place(arc.source), &b = place(arc.target);
     const Place way{b[0] - a[0], b[1] - a[1]};

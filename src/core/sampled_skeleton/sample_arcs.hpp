@@ -22,9 +22,9 @@ struct ArcOrigin {
   std::int32_t corner;  // where a line begins that completes the skeleton; -1 of others
 };
 
-class SeedArcs {
+class SampleArcs {
  public:
-  explicit SeedArcs(const SeedDiagram& diagram) : diagram_(diagram) {}
+  explicit SampleArcs(const SampleDiagram& diagram) : diagram_(diagram) {}
 
   // Kept edges, in the groups of their faces; none of a negative group.
   void add_kept(std::span<const std::int32_t> face_group);
@@ -34,7 +34,7 @@ class SeedArcs {
   void place_nodes(unsigned threads, const base::Monitor& monitor);
   // Joins corners; arcs that are met in their inside are divided. Gives how many lines lead to no node. Lines
   // from one corner follow each other.
-  std::size_t add_lines(std::span<const CornerLine> lines, std::span<const std::int32_t> face_group,
+  std::size_t add_lines(std::span<const CornerBisector> lines, std::span<const std::int32_t> face_group,
                         const skeleton::JoinedGroups& joined);
   // Keeps what is in a frame of the arcs of a group.
   void clip(std::int32_t group, const skeleton::Frame& frame);
@@ -61,7 +61,7 @@ class SeedArcs {
   void divide(std::vector<Division>& divisions);
   skeleton::Line line_of(const skeleton::GraphArc& arc) const;
 
-  const SeedDiagram& diagram_;
+  const SampleDiagram& diagram_;
   std::vector<skeleton::GraphArc> arcs_;
   std::vector<ArcOrigin> origin_;
   std::vector<std::int32_t> node_of_;    // [triangles] -1: none

@@ -13,7 +13,7 @@
 
 namespace vorotool::core::sampled_skeleton {
 
-using arrangement::ShapeGraph;
+using arrangement::PlanarGraphView;
 using base::LargeArray;
 using base::Monitor;
 using kernel::Point;
@@ -26,7 +26,7 @@ std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 // Calls body(s) for the sides that are to be looked at once.
 template <class Body>
-void for_each_side(const SeedMesh& mesh, unsigned threads, const Monitor& monitor, const Body& body) {
+void for_each_side(const SampleMesh& mesh, unsigned threads, const Monitor& monitor, const Body& body) {
   base::parallel_for(
       base::piece_count(mesh.size(), grain), threads,
       [&](std::size_t piece) {
@@ -39,9 +39,9 @@ void for_each_side(const SeedMesh& mesh, unsigned threads, const Monitor& monito
 }
 
 // The seeds of each group, ascending.
-std::vector<std::vector<std::int32_t>> members_of(const ShapeGraph& graph,
+std::vector<std::vector<std::int32_t>> members_of(const PlanarGraphView& graph,
                                                   std::span<const std::int32_t> segment,
-                                                  const SeedGroups& groups) {
+                                                  const SampleGroups& groups) {
   std::vector<std::vector<std::int32_t>> members(at(groups.count));
   for (std::size_t s = 0; s < segment.size(); ++s) {
     const std::int32_t group = segment[s] < 0 ? groups.of_point[s] : groups.of_segment(graph, segment[s]);
@@ -58,7 +58,7 @@ struct GroupMeshes {
            const std::optional<spatial::Bounds>& within, unsigned threads, const Monitor& monitor) {
     std::vector<Point> places;
     for (const std::int32_t seed : members) places.push_back(seeds[at(seed)]);
-    const delaunay::DelaunayMesh mesh(places, places.size() < grain ? 1 : threads, monitor, within);
+    const delaunay::DelaunayTriangulation mesh(places, places.size() < grain ? 1 : threads, monitor, within);
     for (std::size_t i = 0; i < members.size(); ++i) first[at(members[i])] = members[at(mesh.first()[i])];
     const std::size_t begin = triangles.size(), size = 3 * mesh.triangle_count();
     if (size == 0) return;
@@ -82,10 +82,11 @@ LargeArray<std::int32_t> copied(const std::vector<std::int32_t>& values) {
 
 }  // namespace
 
-SeedDiagram::Triangulation SeedDiagram::triangulate(const ShapeGraph& graph, std::span<const Point> seeds,
-                                                    std::span<const std::int32_t> segment,
-                                                    const SeedGroups& groups, unsigned threads,
-                                                    const Monitor& monitor) {
+SampleDiagram::Triangulation SampleDiagram::triangulate(const PlanarGraphView& graph,
+                                                        std::span<const Point> seeds,
+                                                        std::span<const std::int32_t> segment,
+                                                        const SampleGroups& groups, unsigned threads,
+                                                        const Monitor& monitor) {
   if (!groups.of_point.empty()) {
     GroupMeshes all(seeds.size());
     for (const auto& members : members_of(graph, segment, groups)) {
@@ -93,7 +94,7 @@ SeedDiagram::Triangulation SeedDiagram::triangulate(const ShapeGraph& graph, std
     }
     return {copied(all.triangles), copied(all.neighbours), std::move(all.first), {}};
   }
-  const delaunay::DelaunayMesh mesh(seeds, threads, monitor, groups.within);
+  const delaunay::DelaunayTriangulation mesh(seeds, threads, monitor, groups.within);
   const std::size_t size = 3 * mesh.triangle_count();
   Triangulation made{LargeArray<std::int32_t>(size), LargeArray<std::int32_t>(size), {}, {}};
   if (size > 0) mesh.write({made.triangles.data(), made.neighbours.data(), nullptr}, threads, monitor);
@@ -102,15 +103,15 @@ SeedDiagram::Triangulation SeedDiagram::triangulate(const ShapeGraph& graph, std
   return made;
 }
 
-SeedDiagram::SeedDiagram(const ShapeGraph& graph, std::span<const Point> seeds,
-                         std::span<const std::int32_t> segment, std::span<const std::int32_t> start,
-                         const SeedGroups& groups, unsigned threads, const Monitor& monitor)
-    : SeedDiagram(triangulate(graph, seeds, segment, groups, threads, monitor), graph, seeds, segment, start,
-                  groups, threads, monitor) {}
+SampleDiagram::SampleDiagram(const PlanarGraphView& graph, std::span<const Point> seeds,
+                             std::span<const std::int32_t> segment, std::span<const std::int32_t> start,
+                             const SampleGroups& groups, unsigned threads, const Monitor& monitor)
+    : SampleDiagram(triangulate(graph, seeds, segment, groups, threads, monitor), graph, seeds, segment,
+                    start, groups, threads, monitor) {}
 
-SeedDiagram::SeedDiagram(Triangulation&& made, const ShapeGraph& graph, std::span<const Point> seeds,
-                         std::span<const std::int32_t> segment, std::span<const std::int32_t> start,
-                         const SeedGroups& groups, unsigned threads, const Monitor& monitor)
+SampleDiagram::SampleDiagram(Triangulation&& made, const PlanarGraphView& graph, std::span<const Point> seeds,
+                             std::span<const std::int32_t> segment, std::span<const std::int32_t> start,
+                             const SampleGroups& groups, unsigned threads, const Monitor& monitor)
     : groups_(groups),
       triangles_(std::move(made.triangles)),
       neighbours_(std::move(made.neighbours)),
@@ -127,14 +128,14 @@ SeedDiagram::SeedDiagram(Triangulation&& made, const ShapeGraph& graph, std::spa
   count_deleted();
 }
 
-std::int32_t SeedDiagram::group_of(std::int32_t seed) const {
+std::int32_t SampleDiagram::group_of(std::int32_t seed) const {
   if (groups_.of_point.empty()) return 0;
   return labels_.is_point(seed) ? groups_.of_point[at(seed)]
                                 : groups_.of_segment(labels_.graph(), labels_.segment_of(seed));
 }
 
 // Where the seeds of a group are on one line there are no cells to walk through.
-void SeedDiagram::find_walked(const std::vector<std::uint8_t>& has_side) {
+void SampleDiagram::find_walked(const std::vector<std::uint8_t>& has_side) {
   std::vector<bool> is_corner(mesh_.seeds.size());
   for (const std::int32_t seed : mesh_.triangles) is_corner[at(seed)] = true;
   for (std::size_t k = 0; k < has_side.size(); ++k) {
@@ -143,8 +144,8 @@ void SeedDiagram::find_walked(const std::vector<std::uint8_t>& has_side) {
   }
 }
 
-void SeedDiagram::classify_sides(std::vector<std::uint8_t>& has_side, unsigned threads,
-                                 const Monitor& monitor) {
+void SampleDiagram::classify_sides(std::vector<std::uint8_t>& has_side, unsigned threads,
+                                   const Monitor& monitor) {
   for_each_side(mesh_, threads, monitor, [&](std::size_t, Side s) {
     const std::uint8_t state = state_of(s, has_side);
     state_[at(s)] = state;
@@ -152,7 +153,7 @@ void SeedDiagram::classify_sides(std::vector<std::uint8_t>& has_side, unsigned t
   });
 }
 
-std::uint8_t SeedDiagram::state_of(Side s, std::vector<std::uint8_t>& has_side) const {
+std::uint8_t SampleDiagram::state_of(Side s, std::vector<std::uint8_t>& has_side) const {
   const std::int32_t p = mesh_.origin(s), q = mesh_.target(s);
   if (!labels_.share(p, q)) return 0;
   const std::int32_t piece = labels_.piece_between(p, q);
@@ -162,14 +163,14 @@ std::uint8_t SeedDiagram::state_of(Side s, std::vector<std::uint8_t>& has_side) 
 }
 
 // Of the other seeds those opposite to a side would be the first in the disc about it.
-bool SeedDiagram::is_alone_on(Side s) const {
+bool SampleDiagram::is_alone_on(Side s) const {
   const Point &p = mesh_.seed(mesh_.origin(s)), &q = mesh_.seed(mesh_.target(s));
   if (sign_of_dot(mesh_.seed(mesh_.apex(s)), p, q) <= 0) return false;
   const Side twin = mesh_.across(s) < 0 ? -1 : mesh_.twin(s);
   return twin < 0 || sign_of_dot(mesh_.seed(mesh_.apex(twin)), p, q) > 0;
 }
 
-void SeedDiagram::join_centres(unsigned threads, const Monitor& monitor) {
+void SampleDiagram::join_centres(unsigned threads, const Monitor& monitor) {
   std::vector<std::vector<Side>> found(base::piece_count(mesh_.size(), grain));
   for_each_side(mesh_, threads, monitor, [&](std::size_t piece, Side s) {
     if (mesh_.across(s) < 0) return;
@@ -181,20 +182,20 @@ void SeedDiagram::join_centres(unsigned threads, const Monitor& monitor) {
   if (std::all_of(found.begin(), found.end(), [](const auto& sides) { return sides.empty(); })) return;
   base::DisjointSets<Triangle> sets(mesh_.size());
   for (const auto& sides : found) {
-    for (const Side s : sides) sets.join(SeedMesh::triangle_of(s), mesh_.across(s));
+    for (const Side s : sides) sets.join(SampleMesh::triangle_of(s), mesh_.across(s));
   }
   root_.resize(mesh_.size());
   for (std::size_t t = 0; t < root_.size(); ++t) root_[t] = sets.find(static_cast<Triangle>(t));
 }
 
 // Finds what pieces meet besides their own edges, and then the faces.
-void SeedDiagram::cross_out(unsigned threads, const Monitor& monitor) {
+void SampleDiagram::cross_out(unsigned threads, const Monitor& monitor) {
   Crossings found;
   std::vector<std::uint8_t> is_on_shape;
   if (!walked_.empty()) {
     const delaunay::TriangulationArrays arrays{mesh_.seeds, mesh_.triangles, mesh_.neighbours, {},
                                                {},          first_};
-    found = find_crossings(mesh_, delaunay::TriangleRings(arrays), labels_, walked_, threads, monitor);
+    found = find_crossings(mesh_, delaunay::VertexTriangles(arrays), labels_, walked_, threads, monitor);
   }
   for (const Crossing& crossing : found.crossings) mark_crossed(crossing.side);
   for (const Side s : found.ridden) mark_crossed(s);
@@ -209,15 +210,15 @@ void SeedDiagram::cross_out(unsigned threads, const Monitor& monitor) {
     }
   }
   const std::span<const std::uint8_t> state(state_.data(), state_.size());
-  face_ = seed_faces({mesh_, labels_, state, is_on_shape, found.crossings}, threads, monitor);
+  face_ = sample_faces({mesh_, labels_, state, is_on_shape, found.crossings}, threads, monitor);
 }
 
-void SeedDiagram::mark_crossed(Side s) {
+void SampleDiagram::mark_crossed(Side s) {
   state_[at(s)] |= crossed;
   if (mesh_.across(s) >= 0) state_[at(mesh_.twin(s))] |= crossed;
 }
 
-void SeedDiagram::count_deleted() {
+void SampleDiagram::count_deleted() {
   for (std::size_t s = 0; s < mesh_.sides(); ++s) {
     if (!mesh_.is_first(static_cast<Side>(s)) || state_[s] == 0) continue;
     ++((state_[s] & same_label) != 0 ? counts_.shared : counts_.crossed);

@@ -15,20 +15,20 @@
 
 namespace vorotool::core::sampled_skeleton {
 
-struct SeedDiagramCounts {
+struct SampleDiagramCounts {
   std::size_t shared = 0;   // Voronoi edges between seeds with a label in common
   std::size_t crossed = 0;  // others that the shapes meet
   std::size_t walked = 0;   // pieces of edges that meet other cells than those of their ends, or may do so
 };
 
 // Shapes that have diagrams of their own: no seed of one has a cell in that of another, wherever it is.
-struct SeedGroups {
+struct SampleGroups {
   std::span<const std::int32_t> of_point;  // [points of the graph] from 0; empty: all are one group
   std::int32_t count = 1;
   std::optional<spatial::Bounds>
       within;  // holds all seeds: triangles are in an order along the curve through it
 
-  std::int32_t of_segment(const arrangement::ShapeGraph& graph, std::int32_t segment) const {
+  std::int32_t of_segment(const arrangement::PlanarGraphView& graph, std::int32_t segment) const {
     return of_point.empty() ? 0 : of_point[static_cast<std::size_t>(graph.ends(segment)[0])];
   }
 };
@@ -36,21 +36,21 @@ struct SeedGroups {
 // All decisions are exact for the seeds as they are rounded, with edges as polylines through them: by the
 // predicates of the triangulation, signs of dot products, and the walks of
 // core/sampled_skeleton/boundary_crossings.hpp.
-class SeedDiagram {
+class SampleDiagram {
  public:
   // What is given, as of core/sampled_skeleton/boundary_samples.hpp, must outlive the diagram. Throws
   // std::length_error for more than 2^28 seeds. The mesh holds the triangles of one group after the other; a
   // segment and its ends are in one group.
-  SeedDiagram(const arrangement::ShapeGraph& graph, std::span<const kernel::Point> seeds,
-              std::span<const std::int32_t> segment, std::span<const std::int32_t> start,
-              const SeedGroups& groups, unsigned threads, const base::Monitor& monitor);
-  SeedDiagram(const SeedDiagram&) = delete;
-  SeedDiagram& operator=(const SeedDiagram&) = delete;
+  SampleDiagram(const arrangement::PlanarGraphView& graph, std::span<const kernel::Point> seeds,
+                std::span<const std::int32_t> segment, std::span<const std::int32_t> start,
+                const SampleGroups& groups, unsigned threads, const base::Monitor& monitor);
+  SampleDiagram(const SampleDiagram&) = delete;
+  SampleDiagram& operator=(const SampleDiagram&) = delete;
 
-  const SeedMesh& mesh() const { return mesh_; }
-  const SeedLabels& labels() const { return labels_; }
-  const SeedDiagramCounts& counts() const { return counts_; }
-  const SeedGroups& groups() const { return groups_; }
+  const SampleMesh& mesh() const { return mesh_; }
+  const SampleLabels& labels() const { return labels_; }
+  const SampleDiagramCounts& counts() const { return counts_; }
+  const SampleGroups& groups() const { return groups_; }
   std::int32_t group_of(std::int32_t seed) const;
 
   // Seeds from end to end where all are on one line, and there are no triangles; else none, and of several
@@ -76,13 +76,14 @@ class SeedDiagram {
     base::LargeArray<std::int32_t> triangles, neighbours;
     std::vector<std::int32_t> first, chain;
   };
-  static Triangulation triangulate(const arrangement::ShapeGraph& graph, std::span<const kernel::Point> seeds,
-                                   std::span<const std::int32_t> segment, const SeedGroups& groups,
+  static Triangulation triangulate(const arrangement::PlanarGraphView& graph,
+                                   std::span<const kernel::Point> seeds,
+                                   std::span<const std::int32_t> segment, const SampleGroups& groups,
                                    unsigned threads, const base::Monitor& monitor);
-  SeedDiagram(Triangulation&& made, const arrangement::ShapeGraph& graph,
-              std::span<const kernel::Point> seeds, std::span<const std::int32_t> segment,
-              std::span<const std::int32_t> start, const SeedGroups& groups, unsigned threads,
-              const base::Monitor& monitor);
+  SampleDiagram(Triangulation&& made, const arrangement::PlanarGraphView& graph,
+                std::span<const kernel::Point> seeds, std::span<const std::int32_t> segment,
+                std::span<const std::int32_t> start, const SampleGroups& groups, unsigned threads,
+                const base::Monitor& monitor);
 
   void find_walked(const std::vector<std::uint8_t>& has_side);
   void classify_sides(std::vector<std::uint8_t>& has_side, unsigned threads, const base::Monitor& monitor);
@@ -93,16 +94,16 @@ class SeedDiagram {
   void mark_crossed(Side s);
   void count_deleted();
 
-  SeedGroups groups_;
+  SampleGroups groups_;
   base::LargeArray<std::int32_t> triangles_, neighbours_;
   std::vector<std::int32_t> first_, chain_;
-  SeedMesh mesh_;
-  SeedLabels labels_;
+  SampleMesh mesh_;
+  SampleLabels labels_;
   base::LargeArray<std::uint8_t> state_;  // [sides] of both sides of an edge
   std::vector<Triangle> root_;            // empty while all centres differ
   std::vector<std::int32_t> walked_;
   std::vector<std::int32_t> face_;
-  SeedDiagramCounts counts_;
+  SampleDiagramCounts counts_;
 };
 
 }  // namespace vorotool::core::sampled_skeleton

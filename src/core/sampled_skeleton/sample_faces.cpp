@@ -14,7 +14,7 @@ std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 class FaceFinder {
  public:
-  explicit FaceFinder(const SeedFaceInput& in) : in_(in), face_(in.mesh.size(), unknown) {}
+  explicit FaceFinder(const SampleFaceInput& in) : in_(in), face_(in.mesh.size(), unknown) {}
 
   std::vector<std::int32_t> run(unsigned threads, const base::Monitor& monitor) {
     constexpr std::size_t grain = 1 << 15;
@@ -69,7 +69,7 @@ class FaceFinder {
         return compare_crossings(in_.mesh, in_.labels, a, b) < 0;
       };
       const auto [last, first] = std::minmax_element(begin, end, earlier);
-      set_face(SeedMesh::triangle_of(begin->side), first->piece, first->from_origin);
+      set_face(SampleMesh::triangle_of(begin->side), first->piece, first->from_origin);
       if (in_.mesh.across(begin->side) >= 0)
         set_face(in_.mesh.across(begin->side), last->piece, !last->from_origin);
     }
@@ -120,14 +120,14 @@ class FaceFinder {
     });
   }
 
-  const SeedFaceInput& in_;
+  const SampleFaceInput& in_;
   std::vector<std::int32_t> face_;
 };
 
 }  // namespace
 
-std::vector<std::int32_t> seed_faces(const SeedFaceInput& input, unsigned threads,
-                                     const base::Monitor& monitor) {
+std::vector<std::int32_t> sample_faces(const SampleFaceInput& input, unsigned threads,
+                                       const base::Monitor& monitor) {
   return FaceFinder(input).run(threads, monitor);
 }
 

@@ -9,9 +9,9 @@ std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 
-SeedLabels::SeedLabels(const arrangement::ShapeGraph& graph, std::span<const kernel::Point> seeds,
-                       std::span<const std::int32_t> start, std::span<const std::int32_t> segment,
-                       std::span<const std::int32_t> first)
+SampleLabels::SampleLabels(const arrangement::PlanarGraphView& graph, std::span<const kernel::Point> seeds,
+                           std::span<const std::int32_t> start, std::span<const std::int32_t> segment,
+                           std::span<const std::int32_t> first)
     : graph_(graph),
       incident_(segment_voronoi::build::SegmentDiagram{graph.points, graph.segments, {}, {}, {}, {}}),
       seeds_(seeds),
@@ -24,7 +24,7 @@ SeedLabels::SeedLabels(const arrangement::ShapeGraph& graph, std::span<const ker
   std::sort(extra_.begin(), extra_.end());
 }
 
-std::span<const SeedLabels::ExtraLabel> SeedLabels::extra(std::int32_t seed) const {
+std::span<const SampleLabels::ExtraLabel> SampleLabels::extra(std::int32_t seed) const {
   if (extra_.empty()) return {};
   const auto [begin, end] =
       std::equal_range(extra_.begin(), extra_.end(), ExtraLabel{seed, 0},
@@ -32,14 +32,14 @@ std::span<const SeedLabels::ExtraLabel> SeedLabels::extra(std::int32_t seed) con
   return {begin, end};
 }
 
-bool SeedLabels::is_on(std::int32_t seed, std::int32_t segment) const {
+bool SampleLabels::is_on(std::int32_t seed, std::int32_t segment) const {
   if (is_point(seed) ? is_end(seed, segment) : inside(seed) == segment) return true;
   const auto more = extra(seed);
   return std::any_of(more.begin(), more.end(),
                      [&](const ExtraLabel& label) { return label.segment == segment; });
 }
 
-bool SeedLabels::share(std::int32_t p, std::int32_t q) const {
+bool SampleLabels::share(std::int32_t p, std::int32_t q) const {
   const bool known = is_point(p)   ? is_point(q) ? segment_between(p, q) >= 0 : is_end(p, inside(q))
                      : is_point(q) ? is_end(q, inside(p))
                                    : inside(p) == inside(q);
@@ -49,7 +49,7 @@ bool SeedLabels::share(std::int32_t p, std::int32_t q) const {
   return found;
 }
 
-std::int32_t SeedLabels::piece_between(std::int32_t p, std::int32_t q) const {
+std::int32_t SampleLabels::piece_between(std::int32_t p, std::int32_t q) const {
   if (is_point(p) && is_point(q)) {
     const std::int32_t segment = segment_between(p, q);
     return segment >= 0 && start_[at(segment)] == start_[at(segment) + 1] ? first_piece(segment) : -1;
@@ -65,13 +65,13 @@ std::int32_t SeedLabels::piece_between(std::int32_t p, std::int32_t q) const {
   return -1;
 }
 
-std::pair<std::int32_t, bool> SeedLabels::segment_of_piece(std::int32_t p, std::int32_t q) const {
+std::pair<std::int32_t, bool> SampleLabels::segment_of_piece(std::int32_t p, std::int32_t q) const {
   if (!is_point(p)) return {inside(p), is_point(q) ? graph_.ends(inside(p))[1] == q : p < q};
   const std::int32_t segment = is_point(q) ? segment_between(p, q) : inside(q);
   return {segment, graph_.ends(segment)[0] == p};
 }
 
-EdgePiece SeedLabels::piece(std::int32_t number) const {
+EdgePiece SampleLabels::piece(std::int32_t number) const {
   // the last segment whose first piece is not later
   std::int32_t low = 0, high = static_cast<std::int32_t>(graph_.segments.size());
   while (high - low > 1) {
@@ -83,7 +83,7 @@ EdgePiece SeedLabels::piece(std::int32_t number) const {
   return {first(k == 0 ? a : begin + k - 1), first(k == end - begin ? b : begin + k), low};
 }
 
-std::int32_t SeedLabels::piece_at(std::int32_t segment, double share) const {
+std::int32_t SampleLabels::piece_at(std::int32_t segment, double share) const {
   const kernel::LatticeSite site = graph_.site(segment);
   const kernel::LatticeVector along = site.b - site.a;
   const double ux = static_cast<double>(along.x), uy = static_cast<double>(along.y);
@@ -97,7 +97,7 @@ std::int32_t SeedLabels::piece_at(std::int32_t segment, double share) const {
   return first_piece(segment) + static_cast<std::int32_t>(after - seeds.begin());
 }
 
-std::int32_t SeedLabels::seed_beside(std::int32_t end, std::int32_t segment) const {
+std::int32_t SampleLabels::seed_beside(std::int32_t end, std::int32_t segment) const {
   const std::int32_t begin = start_[at(segment)], stop = start_[at(segment) + 1];
   const auto [a, b] = graph_.ends(segment);
   if (begin == stop) return end == a ? b : a;

@@ -20,16 +20,16 @@ struct EdgePiece {
 };
 
 // Of seeds as core/sampled_skeleton/boundary_samples.hpp numbers them.
-class SeedLabels {
+class SampleLabels {
  public:
   // `first` names for each of the seeds the first one at the same place. Nearly all are that themselves;
   // seeds on segments that meet at a very small angle may be rounded to one place, and the first then has all
   // labels.
-  SeedLabels(const arrangement::ShapeGraph& graph, std::span<const kernel::Point> seeds,
-             std::span<const std::int32_t> start, std::span<const std::int32_t> segment,
-             std::span<const std::int32_t> first);
+  SampleLabels(const arrangement::PlanarGraphView& graph, std::span<const kernel::Point> seeds,
+               std::span<const std::int32_t> start, std::span<const std::int32_t> segment,
+               std::span<const std::int32_t> first);
 
-  const arrangement::ShapeGraph& graph() const { return graph_; }
+  const arrangement::PlanarGraphView& graph() const { return graph_; }
   const segment_voronoi::build::IncidentSegments& incident() const { return incident_; }
   std::size_t piece_count() const { return start_.size() - 1 + segment_.size() - graph_.points.size(); }
 
@@ -87,7 +87,7 @@ class SeedLabels {
   std::span<const ExtraLabel> extra(std::int32_t seed) const;
   std::int32_t piece_at(std::int32_t segment, double share) const;
 
-  arrangement::ShapeGraph graph_;
+  arrangement::PlanarGraphView graph_;
   segment_voronoi::build::IncidentSegments incident_;
   std::span<const kernel::Point> seeds_;
   std::span<const std::int32_t> start_, segment_, first_;
@@ -95,7 +95,7 @@ class SeedLabels {
 };
 
 template <class Visit>
-void SeedLabels::visit(std::int32_t seed, const Visit& visit) const {
+void SampleLabels::visit(std::int32_t seed, const Visit& visit) const {
   if (is_point(seed)) {
     const auto points = static_cast<std::int32_t>(graph_.points.size());
     for (const std::int32_t site : incident_.at(seed)) visit(site - points);
@@ -106,7 +106,7 @@ void SeedLabels::visit(std::int32_t seed, const Visit& visit) const {
 }
 
 template <class Visit>
-void SeedLabels::visit_pieces(std::int32_t segment, double from, double to, const Visit& visit) const {
+void SampleLabels::visit_pieces(std::int32_t segment, double from, double to, const Visit& visit) const {
   if (from > to) std::swap(from, to);
   if (to < 0 || from > 1) return;
   const std::int32_t last = piece_at(segment, to);
@@ -114,7 +114,7 @@ void SeedLabels::visit_pieces(std::int32_t segment, double from, double to, cons
 }
 
 template <class Visit>
-void SeedLabels::visit_beside(std::int32_t seed, const Visit& visit) const {
+void SampleLabels::visit_beside(std::int32_t seed, const Visit& visit) const {
   if (is_point(seed)) {
     const auto points = static_cast<std::int32_t>(graph_.points.size());
     for (const std::int32_t site : incident_.at(seed)) visit(seed_beside(seed, site - points));

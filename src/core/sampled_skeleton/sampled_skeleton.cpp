@@ -34,14 +34,14 @@ void lower(double& value, double other) {
 
 class Writer {
  public:
-  Writer(const SeedDiagram& diagram, const SeedArcs& arcs, const LatticeToInput& place,
+  Writer(const SampleDiagram& diagram, const SampleArcs& arcs, const LatticeToInput& place,
          const Monitor& monitor)
       : diagram_(diagram),
         arcs_(arcs),
         place_(place),
         order_(skeleton::order_by_branches(arcs.arcs(), arcs.node_count(), monitor)) {}
 
-  void write(SeedSkeleton& out, unsigned threads, const Monitor& monitor) const {
+  void write(SampledSkeleton& out, unsigned threads, const Monitor& monitor) const {
     constexpr std::size_t grain = 1 << 14;
     const std::size_t nodes = order_.nodes.size(), arcs = order_.arcs.size();
     SkeletonArrays& a = out.arrays;
@@ -65,7 +65,7 @@ class Writer {
   }
 
   // Bounds and clearances; of nodes the least that any of their arcs found.
-  void write_bounds(SeedSkeleton& out, double tolerance, unsigned threads, const Monitor& monitor) const {
+  void write_bounds(SampledSkeleton& out, double tolerance, unsigned threads, const Monitor& monitor) const {
     const auto arc = [&](std::size_t i) {
       const OrderedArc& ordered = order_.arcs[i];
       const GraphArc& own = graph_arc(ordered);
@@ -77,7 +77,7 @@ class Writer {
     };
     out.error.resize(order_.arcs.size());
     out.arrays.radius.assign(order_.nodes.size(), std::numeric_limits<double>::infinity());
-    const auto take = [&](std::size_t i, const ArcBound& bound) {
+    const auto take = [&](std::size_t i, const ErrorBound& bound) {
       const OrderedArc& ordered = order_.arcs[i];
       out.error[i] = place_.scale * bound.error;
       for (std::size_t end = 0; end < 2; ++end) {
@@ -89,7 +89,7 @@ class Writer {
   }
 
   // The distances of nodes from the seeds, where nothing is bounded.
-  void write_radii(SeedSkeleton& out) const {
+  void write_radii(SampledSkeleton& out) const {
     out.error.assign(order_.arcs.size(), nan);
     out.arrays.radius.resize(order_.nodes.size());
     for (const OrderedArc& ordered : order_.arcs) {
@@ -115,7 +115,7 @@ class Writer {
     a.side[i] = static_cast<std::int8_t>(arcs_.side(order_.nodes[i]));
   }
 
-  void write_arc(std::size_t i, SeedSkeleton& out) const {
+  void write_arc(std::size_t i, SampledSkeleton& out) const {
     const OrderedArc& ordered = order_.arcs[i];
     const GraphArc& arc = graph_arc(ordered);
     const bool completes = arcs_.origin(static_cast<std::size_t>(ordered.arc)).corner >= 0;
@@ -137,18 +137,19 @@ class Writer {
     a.length[i] = place_.scale * std::sqrt(x * x + y * y);
   }
 
-  const SeedDiagram& diagram_;
-  const SeedArcs& arcs_;
+  const SampleDiagram& diagram_;
+  const SampleArcs& arcs_;
   const LatticeToInput& place_;
   skeleton::SkeletonOrder order_;
 };
 
 }  // namespace
 
-SeedSkeleton extract_seed_skeleton(const SeedDiagram& diagram, const SeedSkeletonOptions& options,
-                                   const LatticeToInput& place, unsigned threads, const Monitor& monitor) {
-  SeedSkeleton made;
-  SeedArcs arcs(diagram);
+SampledSkeleton extract_sampled_skeleton(const SampleDiagram& diagram, const SampledSkeletonOptions& options,
+                                         const LatticeToInput& place, unsigned threads,
+                                         const Monitor& monitor) {
+  SampledSkeleton made;
+  SampleArcs arcs(diagram);
   if (options.whole) {
     arcs.add_all();
   } else {
@@ -156,7 +157,7 @@ SeedSkeleton extract_seed_skeleton(const SeedDiagram& diagram, const SeedSkeleto
   }
   arcs.place_nodes(threads, monitor);
   if (options.complete) {
-    const CornerLines lines = corner_lines(diagram, options.face_group, threads, monitor);
+    const CornerBisectors lines = corner_bisectors(diagram, options.face_group, threads, monitor);
     made.open_corners = lines.open + arcs.add_lines(lines.lines, options.face_group, options.joined);
   }
   if (options.clipped) arcs.clip(options.clipped->group, options.clipped->frame);

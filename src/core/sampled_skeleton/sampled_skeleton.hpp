@@ -15,7 +15,7 @@
 
 namespace vorotool::core::sampled_skeleton {
 
-struct SeedSkeletonOptions {
+struct SampledSkeletonOptions {
   std::span<const std::int32_t> face_group;       // [faces] of the arcs in each; negative: not wanted
   std::optional<skeleton::ClippedGroup> clipped;  // unbounded arcs are in this group
   bool whole = false;     // all Voronoi edges, of group 0 and without bounds: nothing is deleted
@@ -25,7 +25,7 @@ struct SeedSkeletonOptions {
       joined;  // lines of one of these groups that complete one corner have a node in common there
 };
 
-struct SeedSkeleton {
+struct SampledSkeleton {
   // Straight lines only: no control points. Sites are points, then segments, of the graph.
   skeleton::SkeletonArrays arrays;
   std::vector<std::array<std::int32_t, 2>> seeds;  // [a] left and right; -1 of lines that complete
@@ -35,8 +35,8 @@ struct SeedSkeleton {
   std::size_t open_corners = 0;  // that could not be joined
 };
 
-SeedSkeleton extract_seed_skeleton(const SeedDiagram& diagram, const SeedSkeletonOptions& options,
-                                   const skeleton::LatticeToInput& place, unsigned threads,
-                                   const base::Monitor& monitor);
+SampledSkeleton extract_sampled_skeleton(const SampleDiagram& diagram, const SampledSkeletonOptions& options,
+                                         const skeleton::LatticeToInput& place, unsigned threads,
+                                         const base::Monitor& monitor);
 
 }  // namespace vorotool::core::sampled_skeleton

@@ -32,7 +32,7 @@ std::vector<double> clearances(std::span<const kernel::LatticeSite> sites,
                                unsigned threads, const base::Monitor& monitor) {
   constexpr std::size_t grain = 1 << 12;  // places a piece: some milliseconds
   std::vector<double> found(places.size(), std::numeric_limits<double>::infinity());
-  const SiteHierarchy hierarchy(sites, threads, monitor);
+  const ObbTree hierarchy(sites, threads, monitor);
   base::parallel_for(
       base::piece_count(places.size(), grain), threads,
       [&](std::size_t piece) {

@@ -15,14 +15,14 @@
 
 namespace vorotool::core::spatial {
 
-// Coordinates and squared distances of a SiteTree, with their bounds:
+// Coordinates and squared distances of a KdTree, with their bounds:
 // - std::int64_t, std::uint64_t: exact while coordinates differ by at most 2^31: 2 * (2^31)^2 < 2^64;
 // - std::int64_t, uint128: exact while coordinates are at most 2^62: 2 * (2^63)^2 < 2^128;
 // - double, double: the minimum of squared distances as they are rounded, exact where they need at most 53
 //   bits. The search adds no error of its own: rounding is monotonic, so the rounded distance to a box never
 //   exceeds that to a point in it.
 template <class Coordinate, class Distance>
-class SiteTree {
+class KdTree {
  public:
   struct Site {
     Coordinate x;
@@ -45,8 +45,8 @@ class SiteTree {
   };
 
   // Polls the monitor; sorting a million points takes some tenths of a second. At most 2^32 - 1 points.
-  SiteTree(std::span<const Coordinate> x, std::span<const Coordinate> y,
-           std::span<const std::uint32_t> labels, const base::Monitor& monitor) {
+  KdTree(std::span<const Coordinate> x, std::span<const Coordinate> y, std::span<const std::uint32_t> labels,
+         const base::Monitor& monitor) {
     sites_.resize(labels.size());
     for (std::size_t i = 0; i < sites_.size(); ++i) {
       sites_[i] = {x[i], y[i], labels[i], static_cast<std::uint32_t>(i)};

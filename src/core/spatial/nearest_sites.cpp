@@ -11,7 +11,7 @@ namespace vorotool::core::spatial {
 std::vector<NearestOther> nearest_other_sites(std::span<const double> x, std::span<const double> y,
                                               std::span<const std::uint32_t> labels, unsigned threads,
                                               const base::Monitor& monitor) {
-  using Tree = SiteTree<double, double>;
+  using Tree = KdTree<double, double>;
   constexpr std::size_t kPiece = 4096;
   const Tree tree(x, y, labels, monitor);
   std::vector<NearestOther> result(tree.size());

@@ -98,8 +98,7 @@ class Bundle {
 
 }  // namespace
 
-SiteHierarchy::SiteHierarchy(std::span<const LatticeSite> items, unsigned threads,
-                             const base::Monitor& monitor)
+ObbTree::ObbTree(std::span<const LatticeSite> items, unsigned threads, const base::Monitor& monitor)
     : index_(items.size()) {
   std::iota(index_.begin(), index_.end(), 0U);
   std::size_t levels = 1;

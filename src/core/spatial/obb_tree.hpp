@@ -25,9 +25,9 @@ struct OrientedBox {
   double t_least, t_most, n_least, n_most;  // along it, and across
 };
 
-class SiteHierarchy {
+class ObbTree {
  public:
-  SiteHierarchy(std::span<const kernel::LatticeSite> items, unsigned threads, const base::Monitor& monitor);
+  ObbTree(std::span<const kernel::LatticeSite> items, unsigned threads, const base::Monitor& monitor);
 
   // Calls visit(item) for every item not farther than reach from (x, y), and for some others. It stops where
   // visit gives false.

@@ -18,7 +18,7 @@ std::int32_t count_bits(std::uint64_t w) {
 }  // namespace
 
 template <class Arithmetic>
-LiveList<Arithmetic>::LiveList(const Sites& sites) : sites_(sites) {
+ActiveColumns<Arithmetic>::ActiveColumns(const Sites& sites) : sites_(sites) {
   const std::size_t columns = sites.column_x.size();
   const std::size_t padded = columns + kernel_padding;
   x_ = std::make_unique_for_overwrite<Value[]>(padded);
@@ -38,7 +38,7 @@ LiveList<Arithmetic>::LiveList(const Sites& sites) : sites_(sites) {
 }
 
 template <class Arithmetic>
-void LiveList<Arithmetic>::clear() {
+void ActiveColumns<Arithmetic>::clear() {
   columns_.count = 0;
   waiting_.clear();
   std::fill(listed_.begin(), listed_.end(), 0);
@@ -46,14 +46,14 @@ void LiveList<Arithmetic>::clear() {
 }
 
 template <class Arithmetic>
-std::size_t LiveList<Arithmetic>::entry_of(std::int32_t c) const {
+std::size_t ActiveColumns<Arithmetic>::entry_of(std::int32_t c) const {
   const auto word = static_cast<std::size_t>(c) / 64;
   const std::uint64_t before = listed_[word] & ((std::uint64_t{1} << (c % 64)) - 1);
   return static_cast<std::size_t>(listed_before_[word] + count_bits(before));
 }
 
 template <class Arithmetic>
-void LiveList<Arithmetic>::put(std::int32_t column, std::int32_t above, std::int32_t below) {
+void ActiveColumns<Arithmetic>::put(std::int32_t column, std::int32_t above, std::int32_t below) {
   const Change change{column, above, below};
   if (is_listed(column)) {
     apply(entry_of(column), change);
@@ -63,13 +63,13 @@ void LiveList<Arithmetic>::put(std::int32_t column, std::int32_t above, std::int
 }
 
 template <class Arithmetic>
-void LiveList<Arithmetic>::link_below(std::vector<std::int32_t>* follows, std::int32_t offset) {
+void ActiveColumns<Arithmetic>::link_below(std::vector<std::int32_t>* follows, std::int32_t offset) {
   follows_ = follows;
   offset_ = offset;
 }
 
 template <class Arithmetic>
-void LiveList<Arithmetic>::apply(std::size_t entry, const Change& change) {
+void ActiveColumns<Arithmetic>::apply(std::size_t entry, const Change& change) {
   if (change.above >= 0) {
     const auto site = static_cast<std::size_t>(change.above);
     columns_.above_y[entry] = static_cast<Coordinate>(sites_.y[site]);
@@ -90,7 +90,7 @@ void LiveList<Arithmetic>::apply(std::size_t entry, const Change& change) {
 
 // Gives the waiting columns entries without a seed, then makes the changes in their order.
 template <class Arithmetic>
-void LiveList<Arithmetic>::insert() {
+void ActiveColumns<Arithmetic>::insert() {
   if (waiting_.empty()) return;
   const auto by_column = [](const Change& a, const Change& b) { return a.column < b.column; };
   if (!std::is_sorted(waiting_.begin(), waiting_.end(), by_column)) {
@@ -107,7 +107,7 @@ void LiveList<Arithmetic>::insert() {
 
 // Moves the entries apart, from the last on, so that each is moved once.
 template <class Arithmetic>
-void LiveList<Arithmetic>::make_room(const std::vector<std::int32_t>& fresh) {
+void ActiveColumns<Arithmetic>::make_room(const std::vector<std::int32_t>& fresh) {
   auto end = static_cast<std::size_t>(columns_.count);
   for (std::size_t k = fresh.size(); k-- > 0;) {
     const std::size_t begin = entry_of(fresh[k]);
@@ -131,7 +131,7 @@ void LiveList<Arithmetic>::make_room(const std::vector<std::int32_t>& fresh) {
 
 // Moves entries begin ... end - 1 back by some places: array by array where they are many, else one by one.
 template <class Arithmetic>
-void LiveList<Arithmetic>::move_back(std::size_t begin, std::size_t end, std::size_t places) {
+void ActiveColumns<Arithmetic>::move_back(std::size_t begin, std::size_t end, std::size_t places) {
   constexpr std::size_t many = 64;
   if (end - begin < many) {
     while (end > begin) {
@@ -153,7 +153,7 @@ void LiveList<Arithmetic>::move_back(std::size_t begin, std::size_t end, std::si
 }
 
 template <class Arithmetic>
-void LiveList<Arithmetic>::move_entry(std::size_t from, std::size_t to) {
+void ActiveColumns<Arithmetic>::move_entry(std::size_t from, std::size_t to) {
   columns_.x[to] = columns_.x[from];
   columns_.above_y[to] = columns_.above_y[from];
   columns_.below_y[to] = columns_.below_y[from];
@@ -164,7 +164,7 @@ void LiveList<Arithmetic>::move_entry(std::size_t from, std::size_t to) {
 }
 
 template <class Arithmetic>
-void LiveList<Arithmetic>::count_listed() {
+void ActiveColumns<Arithmetic>::count_listed() {
   std::int32_t before = 0;
   for (std::size_t word = 0; word < listed_.size(); ++word) {
     listed_before_[word] = before;
@@ -173,7 +173,7 @@ void LiveList<Arithmetic>::count_listed() {
 }
 
 template <class Arithmetic>
-void LiveList<Arithmetic>::compact() {
+void ActiveColumns<Arithmetic>::compact() {
   std::size_t kept = 0;
   for (std::size_t e = 0; e < static_cast<std::size_t>(columns_.count); ++e) {
     if (columns_.above_y[e] == -Arithmetic::far && columns_.below_y[e] == Arithmetic::far) {
@@ -187,7 +187,7 @@ void LiveList<Arithmetic>::compact() {
   count_listed();
 }
 
-template class LiveList<Narrow>;
-template class LiveList<Wide>;
+template class ActiveColumns<Narrow>;
+template class ActiveColumns<Wide>;
 
 }  // namespace vorotool::core::tessellation

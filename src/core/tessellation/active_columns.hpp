@@ -11,15 +11,15 @@
 namespace vorotool::core::tessellation {
 
 template <class Arithmetic>
-class LiveList {
+class ActiveColumns {
  public:
   // What becomes of a seed of a column: a site takes its place, it goes, or it stays.
   static constexpr std::int32_t gone = -1;
   static constexpr std::int32_t stays = -2;
 
-  explicit LiveList(const Sites& sites);
+  explicit ActiveColumns(const Sites& sites);
 
-  const LiveColumns<Arithmetic>& columns() const { return columns_; }
+  const ActiveColumnArrays<Arithmetic>& columns() const { return columns_; }
 
   void clear();
   // Changes a column. Columns that are not in the list wait for `insert`. Where `follows` is given and a site
@@ -57,7 +57,7 @@ class LiveList {
   std::unique_ptr<std::uint32_t[]> labels_;  // above, below and nearer
   std::unique_ptr<std::int32_t[]> column_;   // [count] column of an entry
   std::unique_ptr<std::int32_t[]> below_site_;
-  LiveColumns<Arithmetic> columns_;
+  ActiveColumnArrays<Arithmetic> columns_;
 
   std::vector<std::uint64_t> listed_;        // bit c % 64 of word c / 64: column c has an entry
   std::vector<std::int32_t> listed_before_;  // [words] listed columns before each word
@@ -66,7 +66,7 @@ class LiveList {
   std::int32_t offset_ = 0;
 };
 
-extern template class LiveList<Narrow>;
-extern template class LiveList<Wide>;
+extern template class ActiveColumns<Narrow>;
+extern template class ActiveColumns<Wide>;
 
 }  // namespace vorotool::core::tessellation

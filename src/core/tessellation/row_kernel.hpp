@@ -20,7 +20,7 @@ inline constexpr std::int32_t kernel_padding = 256;
 // column is a distinct x coordinate of the seeds. The list has an entry for every column with a live seed, in
 // increasing x, and may have entries that have lost theirs.
 template <class Arithmetic>
-struct LiveColumns {
+struct ActiveColumnArrays {
   std::int32_t count;                        // entries
   typename Arithmetic::Value* x;             // [count]
   typename Arithmetic::Coordinate* above_y;  // [count] at most the row; -far: none
@@ -69,7 +69,7 @@ template <class Arithmetic>
 struct RowKernel {
   // Collects the nearer seed of each column, then drops those that are nowhere nearest on the row.
   // Takes out the seeds above that a nearer seed below hides for good.
-  void (*prune)(const LiveColumns<Arithmetic>&, typename Arithmetic::Coordinate row, const PixelRow&,
+  void (*prune)(const ActiveColumnArrays<Arithmetic>&, typename Arithmetic::Coordinate row, const PixelRow&,
                 Envelope<Arithmetic>&);
   // Fills end and ties of a pruned envelope.
   void (*bound)(const PixelRow&, Envelope<Arithmetic>&);

@@ -26,7 +26,7 @@ struct RowKernelOn {
   // Takes the nearer seed of each column. A seed above that is farther than the one below is hidden for good;
   // at equal distance both have the same parabola, and the smaller label stands for both. Arrays are passed
   // by value, here and below: the compiler then keeps their addresses in registers.
-  static std::int32_t collect(const LiveColumns<Arithmetic> live, Coordinate row,
+  static std::int32_t collect(const ActiveColumnArrays<Arithmetic> live, Coordinate row,
                               const Candidates<Arithmetic> out) {
     std::int32_t n = 0;
     for (std::int32_t i = 0; i < live.count; i += width) {
@@ -130,7 +130,7 @@ struct RowKernelOn {
     return kept;
   }
 
-  static void prune(const LiveColumns<Arithmetic>& live, Coordinate row, const PixelRow& pixels,
+  static void prune(const ActiveColumnArrays<Arithmetic>& live, Coordinate row, const PixelRow& pixels,
                     Envelope<Arithmetic>& envelope) {
     std::int32_t n = collect(live, row, envelope.candidates);
     envelope.collected = n;

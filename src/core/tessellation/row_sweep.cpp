@@ -49,7 +49,7 @@ void Sweep<Arithmetic>::start(std::int32_t first, std::int32_t last) {
   births_.clear();
   offset_ = sites_.count_to(frame_.row_y(first) - frame_.steps);
   follows_.assign(static_cast<std::size_t>(sites_.count_to(frame_.row_y(last)) - offset_),
-                  LiveList<Arithmetic>::gone);
+                  ActiveColumns<Arithmetic>::gone);
   put_nearest_below(frame_.row_y(last));
   learn_births(first, last);
   put_nearest_above(frame_.row_y(first) - frame_.steps);
@@ -60,20 +60,21 @@ void Sweep<Arithmetic>::start(std::int32_t first, std::int32_t last) {
 // The nearest seed at or above a line in each column: the first one met going up.
 template <class Arithmetic>
 void Sweep<Arithmetic>::put_nearest_above(std::int64_t line) {
-  std::fill(nearest_.begin(), nearest_.end(), LiveList<Arithmetic>::gone);
+  std::fill(nearest_.begin(), nearest_.end(), ActiveColumns<Arithmetic>::gone);
   std::size_t missing = nearest_.size();
   for (std::int32_t s = sites_.count_to(line); s > 0 && missing > 0;) {
     std::int32_t& nearest = nearest_[static_cast<std::size_t>(column_of(--s))];
     missing -= nearest < 0;
     nearest = std::max(nearest, s);  // sites are sorted by y: the first one met has the largest number
   }
-  put_nearest([&](std::int32_t c, std::int32_t site) { live_.put(c, site, LiveList<Arithmetic>::stays); });
+  put_nearest(
+      [&](std::int32_t c, std::int32_t site) { live_.put(c, site, ActiveColumns<Arithmetic>::stays); });
 }
 
 // The nearest seed below a line in each column: the first one met going down.
 template <class Arithmetic>
 void Sweep<Arithmetic>::put_nearest_below(std::int64_t line) {
-  std::fill(nearest_.begin(), nearest_.end(), LiveList<Arithmetic>::gone);
+  std::fill(nearest_.begin(), nearest_.end(), ActiveColumns<Arithmetic>::gone);
   const auto count = static_cast<std::int32_t>(sites_.size());
   std::size_t missing = nearest_.size();
   for (std::int32_t s = sites_.count_to(line); s < count && missing > 0; ++s) {
@@ -82,7 +83,8 @@ void Sweep<Arithmetic>::put_nearest_below(std::int64_t line) {
     nearest = s;
     --missing;
   }
-  put_nearest([&](std::int32_t c, std::int32_t site) { live_.put(c, LiveList<Arithmetic>::stays, site); });
+  put_nearest(
+      [&](std::int32_t c, std::int32_t site) { live_.put(c, ActiveColumns<Arithmetic>::stays, site); });
 }
 
 // Puts the nearest sites column by column, so that they arrive sorted.
@@ -107,7 +109,7 @@ void Sweep<Arithmetic>::learn_births(std::int32_t first, std::int32_t last) {
     row = std::max(first, row - birth_step);
     for (const std::int64_t line = frame_.row_y(row); site > 0 && y_of(site - 1) > line;) {
       --site;
-      live_.put(column_of(site), LiveList<Arithmetic>::stays, site);
+      live_.put(column_of(site), ActiveColumns<Arithmetic>::stays, site);
     }
     live_.insert();
     drop_dead_below(row);
@@ -139,13 +141,13 @@ const Envelope<Arithmetic>& Sweep<Arithmetic>::next_row() {
   // A seed that the sweep reaches stands above from now on; below it waits the one that it had hidden. On the
   // first row the sweep up has ended, and what is below is in place.
   for (; next_site_ < count && y_of(next_site_) <= line; ++next_site_) {
-    const std::int32_t hidden = row_ == first_ ? LiveList<Arithmetic>::stays
+    const std::int32_t hidden = row_ == first_ ? ActiveColumns<Arithmetic>::stays
                                                : follows_[static_cast<std::size_t>(next_site_ - offset_)];
     live_.put(column_of(next_site_), next_site_, hidden);
   }
   for (; !births_.empty() && births_.back().row <= row_; births_.pop_back()) {
     const std::int32_t site = births_.back().site;
-    if (y_of(site) > line) live_.put(column_of(site), LiveList<Arithmetic>::stays, site);
+    if (y_of(site) > line) live_.put(column_of(site), ActiveColumns<Arithmetic>::stays, site);
   }
   live_.insert();
   prune(row_);

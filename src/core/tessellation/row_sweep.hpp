@@ -55,7 +55,7 @@ class Sweep {
   const FrameOnLattice frame_;
   const RowKernel<Arithmetic> kernel_;
   PixelRow pixels_;
-  LiveList<Arithmetic> live_;
+  ActiveColumns<Arithmetic> live_;
 
   // Room for the envelope: as many elements as there are columns, of which few are ever touched.
   std::unique_ptr<Value[]> values_;

@@ -17,7 +17,7 @@ namespace {
 template <class Distance>
 class RightRow {
  public:
-  using Tree = spatial::SiteTree<std::int64_t, Distance>;
+  using Tree = spatial::KdTree<std::int64_t, Distance>;
   using Nearest = typename Tree::Nearest;
 
   RightRow(const Tree& tree, const PixelFrame& frame, std::int64_t scale, std::optional<uint128> limit)
@@ -89,7 +89,7 @@ void compare_row(std::span<const Label> row, std::span<const std::uint32_t> righ
 template <class Distance, class Label>
 WrongPixels verify(std::span<const Label> image, const PixelFrame& frame, const LatticeSeeds& seeds,
                    std::optional<uint128> limit, unsigned threads, const Monitor& monitor) {
-  const spatial::SiteTree<std::int64_t, Distance> tree(seeds.x, seeds.y, seeds.labels, monitor);
+  const spatial::KdTree<std::int64_t, Distance> tree(seeds.x, seeds.y, seeds.labels, monitor);
   // At a query a pixel, 2^14 pixels are a few milliseconds.
   const std::size_t rows = std::max<std::size_t>(1, (std::size_t{1} << 14) / frame.width);
   std::vector<WrongPixels> wrong(base::piece_count(frame.height, rows));
@@ -135,21 +135,22 @@ Extent extent(std::span<const std::int64_t> seeds, std::int64_t origin, std::siz
 }  // namespace
 
 template <class Label>
-WrongPixels verify_labels(std::span<const Label> image, const PixelFrame& frame, const LatticeSeeds& seeds,
-                          std::optional<uint128> limit, unsigned threads, const Monitor& monitor) {
+WrongPixels verify_tessellation(std::span<const Label> image, const PixelFrame& frame,
+                                const LatticeSeeds& seeds, std::optional<uint128> limit, unsigned threads,
+                                const Monitor& monitor) {
   if (image.empty()) return {};
   const Extent x = extent(seeds.x, frame.x, frame.width, seeds.scale);
   const Extent y = extent(seeds.y, frame.y, frame.height, seeds.scale);
-  constexpr std::int64_t kNarrow = std::int64_t{1} << 31;  // see SiteTree
+  constexpr std::int64_t kNarrow = std::int64_t{1} << 31;  // see KdTree
   if (x.high - x.low <= kNarrow && y.high - y.low <= kNarrow) {
     return verify<std::uint64_t>(image, frame, seeds, limit, threads, monitor);
   }
   return verify<uint128>(image, frame, seeds, limit, threads, monitor);
 }
 
-#define VOROTOOL_INSTANTIATE(Label)                                                                  \
-  template WrongPixels verify_labels(std::span<const Label>, const PixelFrame&, const LatticeSeeds&, \
-                                     std::optional<uint128>, unsigned, const Monitor&);
+#define VOROTOOL_INSTANTIATE(Label)                                                                        \
+  template WrongPixels verify_tessellation(std::span<const Label>, const PixelFrame&, const LatticeSeeds&, \
+                                           std::optional<uint128>, unsigned, const Monitor&);
 VOROTOOL_INSTANTIATE(std::uint8_t)
 VOROTOOL_INSTANTIATE(std::uint16_t)
 VOROTOOL_INSTANTIATE(std::uint32_t)

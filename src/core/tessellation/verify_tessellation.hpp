@@ -24,8 +24,8 @@ struct WrongPixels {
 // are at most 2^83, and are computed in 64 bits where coordinates differ by at most 2^31, else in 128.
 // Throws std::out_of_range beyond kLatticeLimit.
 template <class Label>
-WrongPixels verify_labels(std::span<const Label> image, const PixelFrame& frame, const LatticeSeeds& seeds,
-                          std::optional<numbers::uint128> limit, unsigned threads,
-                          const base::Monitor& monitor);
+WrongPixels verify_tessellation(std::span<const Label> image, const PixelFrame& frame,
+                                const LatticeSeeds& seeds, std::optional<numbers::uint128> limit,
+                                unsigned threads, const base::Monitor& monitor);
 
 }  // namespace vorotool::core::tessellation

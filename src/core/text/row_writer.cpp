@@ -109,8 +109,8 @@ RowShape csv_shape(std::size_t columns) {
   return shape;
 }
 
-std::vector<std::string> format_columns(std::span<const TextColumn> columns, const RowShape& shape,
-                                        int precision, unsigned threads, const base::Monitor& monitor) {
+std::vector<std::string> format_rows(std::span<const TextColumn> columns, const RowShape& shape,
+                                     int precision, unsigned threads, const base::Monitor& monitor) {
   const std::size_t rows = columns.empty() ? 0 : row_count(columns.front());
   std::vector<std::string> blocks(base::piece_count(rows, kBlockRows));
   base::parallel_for(

@@ -54,8 +54,8 @@ RowShape csv_shape(std::size_t columns);
 // The text of the rows in blocks to be written one after the other. All columns have the same length. Doubles
 // have `precision` significant digits, or with 0 the shortest text that reads back the same. The text does
 // not depend on the number of threads.
-std::vector<std::string> format_columns(std::span<const TextColumn> columns, const RowShape& shape,
-                                        int precision, unsigned threads, const base::Monitor& monitor = {});
+std::vector<std::string> format_rows(std::span<const TextColumn> columns, const RowShape& shape,
+                                     int precision, unsigned threads, const base::Monitor& monitor = {});
 
 // A field as it stands in comma-separated text: in quotes where a reader would otherwise misread it.
 void append_csv_field(std::string& out, std::string_view value);

@@ -240,7 +240,7 @@ def test_nesting():
 
 def format_text(values, missing=None, **options):
     masks = missing or [None] * len(values)
-    return b"".join(_core.format_columns(values, masks, **options)).decode()
+    return b"".join(_core.format_rows(values, masks, **options)).decode()
 
 
 def test_format_of_each_type():
@@ -298,7 +298,7 @@ def _digits(text):
 
 def test_text_does_not_depend_on_threads():
     values = np.random.default_rng(5).normal(size=(2, 50000))
-    texts = [b"".join(_core.format_columns([*values], [None, None], 0, threads)) for threads in (1, 2, 3, 8)]
+    texts = [b"".join(_core.format_rows([*values], [None, None], 0, threads)) for threads in (1, 2, 3, 8)]
     assert len(set(texts)) == 1
     assert texts[0].count(b"\n") == 50000
     np.testing.assert_array_equal(parse(texts[0]), values.T)
@@ -315,7 +315,7 @@ def test_format_refuses_columns_of_other_types_and_lengths():
 
 def rows(*columns, around=None, separator="", missing=""):
     shape = None if around is None else (around, separator, missing)
-    return b"".join(_core.format_columns(list(columns), [None] * len(columns), 0, 2, shape)).decode()
+    return b"".join(_core.format_rows(list(columns), [None] * len(columns), 0, 2, shape)).decode()
 
 
 def test_rows_of_any_shape():

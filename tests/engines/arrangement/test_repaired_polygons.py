@@ -9,7 +9,7 @@ import shapely
 
 from support.families.polygon_families import FAMILIES, draw
 from vorotool import PolygonSet, planar_graph, read
-from vorotool.engines.arrangement.repaired_polygons import used_polygons
+from vorotool.engines.arrangement.repaired_polygons import repaired_polygons
 from vorotool.geometry.polygons.conversion import as_polygons, to_shapely
 from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL
 
@@ -21,7 +21,7 @@ def both(source):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         graph = planar_graph(source)
-    used = used_polygons(graph)
+    used = repaired_polygons(graph)
     check(graph, used)
     return graph, used
 

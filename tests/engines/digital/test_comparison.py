@@ -12,7 +12,7 @@ import vorotool
 from support.oracles.delaunay_oracle import circle, cross
 from support.oracles.digital_oracle import edge_is_delaunay, paper_rule, parts
 from vorotool import InputError, LimitError, compare_digital, delaunay
-from vorotool.engines.delaunay.cocircular_ties import DelaunayTies
+from vorotool.engines.delaunay.cocircular_ties import CocircularTies
 from vorotool.engines.delaunay.voronoi_edges import voronoi_lengths
 
 
@@ -42,7 +42,7 @@ def test_ties_by_the_definition(seed):
     seeds = random_seeds(seed, m, min(m * m, 10))
     sites = rational(seeds)
     mesh = delaunay(seeds)
-    ties = DelaunayTies(mesh)
+    ties = CocircularTies(mesh)
     for edge in combinations(range(len(sites)), 2):
         assert ties.has_edge(edge) == edge_is_delaunay(sites, *edge)[0], edge
     for triangle in combinations(range(len(sites)), 3):

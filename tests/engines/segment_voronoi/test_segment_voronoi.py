@@ -145,7 +145,7 @@ def test_the_direction_of_a_long_segment_changes_nothing():
         assert np.array_equal(getattr(one, array), getattr(other, array))
 
 
-def test_a_closed_form_with_five_roundings_too_many_is_polished():
+def test_a_closed_form_with_five_roundings_too_many_is_refined():
     """The disc on the normal at a point that touches a segment: formulas in doubles err by 5 ulp here."""
     points = np.array(
         [[-96936238, -298339065], [-203354759, -279893813], [-313710510, 0], [-309901800, -100693199]], dtype=np.int32

@@ -11,7 +11,7 @@ from support.families.skeleton_shapes import FAMILIES, TOUCHING
 from vorotool import _core
 from vorotool.engines.arrangement.lattice_rings import placed_shapes
 from vorotool.engines.arrangement.planar_graph import planar_graph
-from vorotool.engines.segment_voronoi.segment_voronoi import NEITHER, idle_sides, segment_voronoi
+from vorotool.engines.segment_voronoi.segment_voronoi import NEITHER, segment_voronoi, unwanted_sides
 from vorotool.engines.skeleton.exact import ShapeDiagram, shape_diagram, skeleton_of
 
 ARRAYS = ("vertices", "radius", "arcs", "control", "sites", "polygon", "side", "branch", "length")
@@ -41,7 +41,7 @@ def test_the_skeleton_inside_is_the_same(family):
     saved = 0
     for graph in graphs(family):
         whole = segment_voronoi(graph.points, graph.segments, threads=1)
-        part = segment_voronoi(graph.points, graph.segments, idle=idle_sides(graph, graph.is_inside), threads=2)
+        part = segment_voronoi(graph.points, graph.segments, unwanted=unwanted_sides(graph, graph.is_inside), threads=2)
         placed = placed_shapes(graph)
         expected, made = (skeleton_of(ShapeDiagram(graph, diagram, placed)) for diagram in (whole, part))
         for name in ARRAYS:
@@ -54,7 +54,7 @@ def test_the_skeleton_inside_is_the_same(family):
 def test_what_is_left_is_of_the_whole_diagram_and_in_its_order(family):
     for graph in graphs(family):
         whole = segment_voronoi(graph.points, graph.segments)
-        part = segment_voronoi(graph.points, graph.segments, idle=idle_sides(graph, graph.is_inside))
+        part = segment_voronoi(graph.points, graph.segments, unwanted=unwanted_sides(graph, graph.is_inside))
         known = {tuple(whole.sites_of(v).tolist()): v for v in range(len(whole))}
         at = [known[tuple(part.sites_of(v).tolist())] for v in range(len(part))]
         assert at == sorted(at)
@@ -71,9 +71,9 @@ def test_what_is_left_is_of_the_whole_diagram_and_in_its_order(family):
 def test_points_without_segments_are_outside():
     graph = planar_graph([[0, 0], [8, 0], [8, 4], [0, 4]])
     far = np.concatenate([graph.points, [[1 - 2**30, 0], [1 - 2**30, 9]]]).astype(np.int32)
-    idle = np.insert(idle_sides(graph, graph.is_inside), 4, [NEITHER, NEITHER])
-    beside = segment_voronoi(far, graph.segments, idle=idle)
-    alone = segment_voronoi(graph.points, graph.segments, idle=idle_sides(graph, graph.is_inside))
+    unwanted = np.insert(unwanted_sides(graph, graph.is_inside), 4, [NEITHER, NEITHER])
+    beside = segment_voronoi(far, graph.segments, unwanted=unwanted)
+    alone = segment_voronoi(graph.points, graph.segments, unwanted=unwanted_sides(graph, graph.is_inside))
     assert np.array_equal(beside.vertices, alone.vertices)
     finite = [diagram.edges[(diagram.edges >= 0).all(axis=1)].tolist() for diagram in (beside, alone)]
     assert finite[0] == finite[1] == [[0, 4], [1, 4], [2, 5], [3, 5], [4, 5]]
@@ -90,7 +90,7 @@ def test_a_line_of_one_place_may_be_inside():
 
 def test_a_byte_for_each_site_is_needed():
     graph = planar_graph([[0, 0], [8, 0], [8, 4]])
-    with pytest.raises(ValueError, match="idle sides"):
-        segment_voronoi(graph.points, graph.segments, idle=np.zeros(5, dtype=np.uint8))
+    with pytest.raises(ValueError, match="unwanted sides"):
+        segment_voronoi(graph.points, graph.segments, unwanted=np.zeros(5, dtype=np.uint8))
     with pytest.raises(ValueError, match="out of range"):
-        _core.idle_sides(graph.points, graph.segments, graph.segment_faces, np.ones(1, dtype=np.uint8))
+        _core.unwanted_sides(graph.points, graph.segments, graph.segment_faces, np.ones(1, dtype=np.uint8))

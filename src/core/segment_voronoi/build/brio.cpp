@@ -25,8 +25,8 @@ std::size_t round_of(std::size_t item) {
 
 }  // namespace
 
-InsertionOrder insertion_order(std::size_t count) {
-  InsertionOrder order{std::vector<std::int32_t>(count), std::vector<std::size_t>(rounds + 1)};
+Brio make_brio(std::size_t count) {
+  Brio order{std::vector<std::int32_t>(count), std::vector<std::size_t>(rounds + 1)};
   for (std::size_t item = 0; item < count; ++item) ++order.begin[round_of(item) + 1];
   std::partial_sum(order.begin.begin(), order.begin.end(), order.begin.begin());
   std::vector<std::size_t> next = order.begin;

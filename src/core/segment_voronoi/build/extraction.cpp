@@ -39,7 +39,7 @@ void for_pieces(std::size_t count, unsigned threads, const Monitor& monitor, Bod
 // Calls on_single(record) and on_merged(k, record) for the records begin ... end - 1 that stand for their
 // places.
 template <class OnSingle, class OnMerged>
-void for_leads(const VoronoiRecords& records, const VertexNumbers& numbers, std::size_t begin,
+void for_leads(const VoronoiRecords& records, const VertexMerging& numbers, std::size_t begin,
                std::size_t end, OnSingle on_single, OnMerged on_merged) {
   const auto merged = numbers.merged_leads();
   const auto last = static_cast<std::int32_t>(end);
@@ -69,25 +69,25 @@ struct SingleRing {
 };
 
 // Gives the records that stand for their places the discs of their vertices.
-void polish_discs(const SegmentSites& sites, VoronoiRecords& records, const VertexNumbers& numbers,
+void refine_discs(const SegmentSites& sites, VoronoiRecords& records, const VertexMerging& numbers,
                   unsigned threads, const Monitor& monitor) {
   for_pieces(records.all.size(), threads, monitor, [&](std::size_t, std::size_t begin, std::size_t end) {
     std::vector<Contact> contacts;
-    const auto polish = [&](std::int32_t record, std::span<const Contact> around) {
-      const PolishedDisc disc = polished_disc(sites, records[record], around);
+    const auto refine = [&](std::int32_t record, std::span<const Contact> around) {
+      const RefinedDisc disc = refined_disc(sites, records[record], around);
       records[record].x = disc.x;
       records[record].y = disc.y;
       records[record].radius = disc.radius;
     };
     for_leads(
         records, numbers, begin, end,
-        [&](std::int32_t record) { polish(record, SingleRing(records[record]).contacts); },
+        [&](std::int32_t record) { refine(record, SingleRing(records[record]).contacts); },
         [&](std::size_t k, std::int32_t record) {
           contacts.clear();
-          for (const VertexNumbers::Spoke& spoke : numbers.merged_ring(k)) {
+          for (const VertexMerging::Spoke& spoke : numbers.merged_ring(k)) {
             contacts.push_back({static_cast<SiteIndex>(spoke.site), spoke.is_left != 0});
           }
-          polish(record, contacts);
+          refine(record, contacts);
         });
   });
 }
@@ -96,7 +96,7 @@ void polish_discs(const SegmentSites& sites, VoronoiRecords& records, const Vert
 // engine.
 class VertexWriter {
  public:
-  VertexWriter(VoronoiRecords& records, const VertexNumbers& numbers, DiagramArrays& out,
+  VertexWriter(VoronoiRecords& records, const VertexMerging& numbers, DiagramArrays& out,
                LargeArray<std::int32_t>& targets)
       : records_(records), numbers_(numbers), out_(out), targets_(targets) {}
 
@@ -107,7 +107,7 @@ class VertexWriter {
   void write_disc(std::size_t vertex, const VoronoiRecord& v);
 
   VoronoiRecords& records_;
-  const VertexNumbers& numbers_;
+  const VertexMerging& numbers_;
   DiagramArrays& out_;
   LargeArray<std::int32_t>& targets_;
 };
@@ -146,7 +146,7 @@ void VertexWriter::write_stretch(std::size_t first, std::size_t count, std::size
       },
       [&](std::size_t k, std::int32_t record) {
         std::size_t place = start_of(record);
-        for (const VertexNumbers::Spoke& spoke : numbers_.merged_ring(k)) {
+        for (const VertexMerging::Spoke& spoke : numbers_.merged_ring(k)) {
           put(place++, static_cast<SiteIndex>(spoke.site), spoke.across);
         }
       });
@@ -166,7 +166,7 @@ struct Edge {
 };
 
 // Edges from infinity to infinity, each once, in the order of the sites on their left.
-std::vector<Edge> edges_without_vertex(const VoronoiRecords& records, const VertexNumbers& numbers,
+std::vector<Edge> edges_without_vertex(const VoronoiRecords& records, const VertexMerging& numbers,
                                        SiteIndex infinite) {
   std::vector<Edge> edges;
   for (const std::int32_t record : numbers.infinite()) {
@@ -174,7 +174,7 @@ std::vector<Edge> edges_without_vertex(const VoronoiRecords& records, const Vert
     const int i = v.find(infinite);
     const auto [right, left] = discs::sites_of_edge(v, i);
     const std::int32_t across = numbers.of(discs::record_of(v.twins[static_cast<std::size_t>(i)]));
-    if (across == VertexNumbers::at_infinity && left < right) edges.push_back({-1, -1, left, right});
+    if (across == VertexMerging::at_infinity && left < right) edges.push_back({-1, -1, left, right});
   }
   std::ranges::sort(edges, [](const Edge& a, const Edge& b) {
     return a.left != b.left ? a.left < b.left : a.right < b.right;
@@ -193,7 +193,7 @@ class EdgeWriter {
  private:
   // An edge is written with the end that has the smaller number: it may be the only one.
   static bool is_written_from(std::size_t vertex, std::int32_t target) {
-    return target > static_cast<std::int32_t>(vertex) && target != VertexNumbers::left_out;
+    return target > static_cast<std::int32_t>(vertex) && target != VertexMerging::left_out;
   }
   std::size_t start(std::size_t vertex) const { return static_cast<std::size_t>(out_.vertex_start[vertex]); }
   std::size_t count(std::size_t begin, std::size_t end) const;
@@ -241,7 +241,7 @@ void EdgeWriter::write(std::size_t begin, std::size_t end, std::size_t place) {
     for (std::size_t k = 0; k < sites.size(); ++k) {
       const std::int32_t target = targets_[start(vertex) + k];
       if (is_written_from(vertex, target)) {
-        put(place++, {static_cast<std::int32_t>(vertex), target == VertexNumbers::at_infinity ? -1 : target,
+        put(place++, {static_cast<std::int32_t>(vertex), target == VertexMerging::at_infinity ? -1 : target,
                       sites[k], right});
       }
       right = sites[k];
@@ -261,11 +261,13 @@ void EdgeWriter::put(std::size_t place, const Edge& edge) {
 }  // namespace
 
 DiagramArrays extract_diagram(SegmentSites sites, VoronoiRecords records, std::span<const std::int32_t> given,
-                              std::span<const std::uint8_t> idle, unsigned threads, const Monitor& monitor) {
-  std::vector<std::uint8_t> own_idle;  // by the numbers of the engine
-  if (!idle.empty()) {
-    own_idle.resize(given.size());
-    for (std::size_t i = 0; i < given.size(); ++i) own_idle[i] = idle[static_cast<std::size_t>(given[i])];
+                              std::span<const std::uint8_t> unwanted, unsigned threads,
+                              const Monitor& monitor) {
+  std::vector<std::uint8_t> own_unwanted;  // by the numbers of the engine
+  if (!unwanted.empty()) {
+    own_unwanted.resize(given.size());
+    for (std::size_t i = 0; i < given.size(); ++i)
+      own_unwanted[i] = unwanted[static_cast<std::size_t>(given[i])];
   }
   records.corner_of_point = std::vector<discs::Corner>();
   const std::size_t in_use = records.all.size() * sizeof(VoronoiRecord);
@@ -275,8 +277,8 @@ DiagramArrays extract_diagram(SegmentSites sites, VoronoiRecords records, std::s
   std::vector<Edge> without_vertex;
   {
     const SiteIndex infinite = sites.infinite();
-    VertexNumbers numbers(sites, records, own_idle, threads, monitor);
-    polish_discs(sites, records, numbers, threads, monitor);
+    VertexMerging numbers(sites, records, own_unwanted, threads, monitor);
+    refine_discs(sites, records, numbers, threads, monitor);
     sites = SegmentSites();
     numbers.assign(threads, monitor);
     without_vertex = edges_without_vertex(records, numbers, infinite);

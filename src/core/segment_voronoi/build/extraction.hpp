@@ -29,12 +29,12 @@ struct DiagramArrays {
   base::LargeArray<std::int32_t> edge_sites;  // [2 e] on the left and on the right
 };
 
-// `given` are the numbers of the sites in the input. With `idle`, their sides by these numbers
+// `given` are the numbers of the sites in the input. With `unwanted`, their sides by these numbers
 // (core/segment_voronoi/build/wanted_faces.hpp), vertices there are left out, but for corners, and so are the
 // edges to them. The memory of the records is given back as the arrays are filled, so that both are never
 // there as a whole.
 DiagramArrays extract_diagram(discs::SegmentSites sites, VoronoiRecords records,
-                              std::span<const std::int32_t> given, std::span<const std::uint8_t> idle,
+                              std::span<const std::int32_t> given, std::span<const std::uint8_t> unwanted,
                               unsigned threads, const base::Monitor& monitor);
 
 }  // namespace vorotool::core::segment_voronoi::build

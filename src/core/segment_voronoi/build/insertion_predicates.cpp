@@ -48,7 +48,7 @@ int sign_beyond(const DoubleDouble& value, double error) {
   return value.head < -error ? -1 : undecided;
 }
 
-// As SegmentPredicates::sign, for a disc that does not touch the ends of the query.
+// As InsertionPredicates::sign, for a disc that does not touch the ends of the query.
 int clearance_sign(const discs::TangentDisc<DoubleDouble>& disc, const SegmentSite& s) {
   const LatticeVector d = s.direction();
   const Offset offset = offset_of(disc, s.a, d, s.length);
@@ -66,7 +66,7 @@ int clearance_sign(const discs::TangentDisc<DoubleDouble>& disc, const SegmentSi
 }
 
 // Where the centre of a vertex is, seen from a lattice point along a unit vector, and to the left of it. The
-// error is that of SegmentPredicates::sign.
+// error is that of InsertionPredicates::sign.
 struct Sighting {
   Sighting(const VoronoiRecord& v, const LatticePoint& p, double ux, double uy) {
     const double dx = v.x - p.x, dy = v.y - p.y;
@@ -90,7 +90,7 @@ int crosses(int from, int to) {
 
 }  // namespace
 
-int SegmentPredicates::sign(const VoronoiRecord& v, const SegmentQuery& query) {
+int InsertionPredicates::sign(const VoronoiRecord& v, const SegmentQuery& query) {
   const int at_p = v.find(query.p), at_q = v.find(query.q);
   if (v.is_infinite()) return at_p >= 0 && at_q >= 0 ? -1 : 1;
   if (at_p >= 0 || at_q >= 0) {
@@ -118,7 +118,7 @@ int SegmentPredicates::sign(const VoronoiRecord& v, const SegmentQuery& query) {
 
 // At a corner, a vertex of radius 0 between a point and two of its own segments X, Y: the new segment is in
 // conflict if it leaves within the sector from X to Y, which is less than 180 degrees.
-int SegmentPredicates::corner_sign(const VoronoiRecord& v, int i, const SegmentQuery& query) const {
+int InsertionPredicates::corner_sign(const VoronoiRecord& v, int i, const SegmentQuery& query) const {
   const SiteIndex end = v.sites[static_cast<std::size_t>(i)];
   const LatticeVector d = sites_.direction_from(end, query.site);
   const LatticeVector x = sites_.direction_from(end, v.sites[static_cast<std::size_t>(discs::following(i))]);
@@ -127,7 +127,7 @@ int SegmentPredicates::corner_sign(const VoronoiRecord& v, int i, const SegmentQ
 }
 
 // The disc touches one end of the segment, site i: it is in conflict if (c - end) . direction > 0.
-int SegmentPredicates::end_sign(const VoronoiRecord& v, int i, const SegmentQuery& query) {
+int InsertionPredicates::end_sign(const VoronoiRecord& v, int i, const SegmentQuery& query) {
   if (v.radius == 0) return corner_sign(v, i, query);
   const SiteIndex end = v.sites[static_cast<std::size_t>(i)];
   for (const int k : {discs::following(i), discs::preceding(i)}) {
@@ -152,7 +152,7 @@ int SegmentPredicates::end_sign(const VoronoiRecord& v, int i, const SegmentQuer
   return sign_beyond_filter(v, query);
 }
 
-int SegmentPredicates::sign_in_double_double(const VoronoiRecord& v, const SegmentQuery& query) const {
+int InsertionPredicates::sign_in_double_double(const VoronoiRecord& v, const SegmentQuery& query) const {
   const auto disc = discs::tangent_disc<DoubleDouble>(sites_, v.sites, v.left);
   if (!disc.known_within(1)) return undecided;
   const int at_p = v.find(query.p), at_q = v.find(query.q);
@@ -165,7 +165,7 @@ int SegmentPredicates::sign_in_double_double(const VoronoiRecord& v, const Segme
 }
 
 // Whether the line of a segment that nearly touches the disc of three segments does touch it.
-bool SegmentPredicates::is_touched_as_fourth(const VoronoiRecord& v, const SegmentQuery& query) const {
+bool InsertionPredicates::is_touched_as_fourth(const VoronoiRecord& v, const SegmentQuery& query) const {
   std::array<kernel::LatticeSite, 4> lines;
   for (int i = 0; i < 3; ++i) {
     const SiteIndex site = v.sites[static_cast<std::size_t>(i)];
@@ -177,7 +177,7 @@ bool SegmentPredicates::is_touched_as_fourth(const VoronoiRecord& v, const Segme
   return discs::is_one_circle(lines);
 }
 
-int SegmentPredicates::sign_beyond_filter(const VoronoiRecord& v, const SegmentQuery& query) {
+int InsertionPredicates::sign_beyond_filter(const VoronoiRecord& v, const SegmentQuery& query) {
   if (const std::optional<discs::DyadicDisc> disc = dyadic_disc(sites_, v)) {
     const int sign = disc->sign(query.segment);
     if (sign != undecided) {
@@ -204,8 +204,8 @@ int SegmentPredicates::sign_beyond_filter(const VoronoiRecord& v, const SegmentQ
 // along an edge the clearance d(segment) - r has one maximum between two slopes, and there the way from the
 // point to the centre is perpendicular to the segment; with a line for the other site there is none but on
 // its shadow.
-bool SegmentPredicates::survives(const VoronoiRecord& u, int i, const VoronoiRecord& w,
-                                 const SegmentQuery& query) {
+bool InsertionPredicates::survives(const VoronoiRecord& u, int i, const VoronoiRecord& w,
+                                   const SegmentQuery& query) {
   const auto [right, left] = discs::sites_of_edge(u, i);
   if (right == sites_.infinite() || left == sites_.infinite()) return true;
   return (sites_.is_point(left) && has_shadow_on(u, i, w, true, query)) ||
@@ -214,8 +214,8 @@ bool SegmentPredicates::survives(const VoronoiRecord& u, int i, const VoronoiRec
 
 // Whether the shadow of a point crosses edge i of u, between the point and another site. Seen from the point
 // the edge turns counter-clockwise, from u to w or from w to u.
-bool SegmentPredicates::has_shadow_on(const VoronoiRecord& u, int i, const VoronoiRecord& w, bool of_left,
-                                      const SegmentQuery& query) {
+bool InsertionPredicates::has_shadow_on(const VoronoiRecord& u, int i, const VoronoiRecord& w, bool of_left,
+                                        const SegmentQuery& query) {
   const auto [right, left] = discs::sites_of_edge(u, i);
   const SiteIndex point = of_left ? left : right, other = of_left ? right : left;
   const bool at_end = point == query.p || point == query.q;
@@ -238,7 +238,7 @@ bool SegmentPredicates::has_shadow_on(const VoronoiRecord& u, int i, const Voron
 // The bisector of two points, seen from one of them over less than 180 degrees: along the segment, it goes
 // from before the point to beyond it, or the other way where the point lies on the right of the segment. A
 // vertex straight between point and segment is not near the shadow.
-int SegmentPredicates::shadow_on_line(const Arc& arc, const SegmentQuery& query) const {
+int InsertionPredicates::shadow_on_line(const Arc& arc, const SegmentQuery& query) const {
   const SegmentSite& s = query.segment;
   const LatticePoint& point = sites_.point(arc.point);
   const std::int64_t side = cross(s.direction(), point - s.a);
@@ -254,7 +254,7 @@ int SegmentPredicates::shadow_on_line(const Arc& arc, const SegmentQuery& query)
 
 // A parabola with the line of another segment for its directrix. In the frame of the directrix, with the
 // point at (0, h), the shadow leaves in direction (b, c) and meets the parabola at y = h b / (1 - c).
-int SegmentPredicates::shadow_on_parabola(const Arc& arc, const SegmentQuery& query) const {
+int InsertionPredicates::shadow_on_parabola(const Arc& arc, const SegmentQuery& query) const {
   const SegmentSite& s = query.segment;
   const SegmentSite& base = sites_.segment(arc.other);
   const LatticePoint& point = sites_.point(arc.point);
@@ -279,7 +279,7 @@ int SegmentPredicates::shadow_on_parabola(const Arc& arc, const SegmentQuery& qu
 // The same at an end of the new segment, where the half plane behind the end takes the place of the ray. The
 // line between both half planes goes through the focus: if the segment leaves away from the directrix, the
 // part of the parabola behind it lies around the vertex of the parabola, where no vertex can be in conflict.
-int SegmentPredicates::end_shadow_on_parabola(const Arc& arc, const SegmentQuery& query) const {
+int InsertionPredicates::end_shadow_on_parabola(const Arc& arc, const SegmentQuery& query) const {
   const SegmentSite& base = sites_.segment(arc.other);
   const LatticePoint& point = sites_.point(arc.point);
   const bool is_left = arc.from.is_left(arc.from.find(arc.other));

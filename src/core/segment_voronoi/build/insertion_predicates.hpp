@@ -39,9 +39,9 @@ struct SegmentQuery {
   discs::SiteIndex p, q;  // its ends
 };
 
-class SegmentPredicates {
+class InsertionPredicates {
  public:
-  explicit SegmentPredicates(const discs::SegmentSites& sites) : sites_(sites) {}
+  explicit InsertionPredicates(const discs::SegmentSites& sites) : sites_(sites) {}
 
   // Whether the open segment enters the open disc of a vertex. At infinity: whether it is an edge of the
   // hull.

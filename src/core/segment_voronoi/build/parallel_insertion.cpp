@@ -18,14 +18,15 @@ constexpr std::int32_t ahead = 3;  // insertions: how early memory is called for
 
 }  // namespace
 
-InsertionRounds::InsertionRounds(const discs::SegmentSites& sites, VoronoiRecords& records, unsigned threads)
+ParallelInsertion::ParallelInsertion(const discs::SegmentSites& sites, VoronoiRecords& records,
+                                     unsigned threads)
     : sites_(sites),
       records_(records),
       threads_(base::resolve_threads(threads)),
-      order_(insertion_order(sites.segment_count())),
+      order_(make_brio(sites.segment_count())),
       alone_(sites, records) {}
 
-void InsertionRounds::run(const Monitor& monitor) {
+void ParallelInsertion::run(const Monitor& monitor) {
   for (std::size_t r = 0; r + 1 < order_.begin.size(); ++r) {
     const std::size_t begin = order_.begin[r], end = order_.begin[r + 1];
     if (threads_ > 1 && end - begin >= pieces_to_share * piece_size) {
@@ -39,7 +40,7 @@ void InsertionRounds::run(const Monitor& monitor) {
 }
 
 // There are at most two attempts for each place: their numbers, and the stamps made of them, fit in 31 bits.
-bool InsertionRounds::insert(SegmentInsertion& worker, std::int32_t place) const {
+bool ParallelInsertion::insert(SegmentInsertion& worker, std::int32_t place) const {
   const auto first_segment = static_cast<discs::SiteIndex>(sites_.point_count());
   const auto count = static_cast<std::int32_t>(order_.items.size());
   const auto item = [&](std::int32_t k) { return order_.items[static_cast<std::size_t>(k)]; };
@@ -49,7 +50,7 @@ bool InsertionRounds::insert(SegmentInsertion& worker, std::int32_t place) const
   return worker.insert(first_segment + item(place), number, fresh);
 }
 
-void InsertionRounds::insert_alone(const Places& places, const Monitor& monitor) {
+void ParallelInsertion::insert_alone(const Places& places, const Monitor& monitor) {
   for (std::size_t k = 0; k < places.size(); ++k) {
     const double done = static_cast<double>(places[k]) / static_cast<double>(order_.items.size());
     if (k % (piece_size / 2) == 0 && monitor && !monitor(done)) throw base::Interrupted();
@@ -58,7 +59,7 @@ void InsertionRounds::insert_alone(const Places& places, const Monitor& monitor)
 }
 
 // A piece is a stretch of the curve. Segments that are in the way of another thread are left to the end.
-void InsertionRounds::insert_together(std::size_t begin, std::size_t end, const Monitor& monitor) {
+void ParallelInsertion::insert_together(std::size_t begin, std::size_t end, const Monitor& monitor) {
   std::vector<Places> left(base::piece_count(end - begin, piece_size));
   const auto insert_piece = [&](std::size_t piece) {
     SegmentInsertion& worker = take_worker();
@@ -74,7 +75,7 @@ void InsertionRounds::insert_together(std::size_t begin, std::size_t end, const 
   for (const Places& places : left) insert_alone(places, monitor);
 }
 
-SegmentInsertion& InsertionRounds::take_worker() {
+SegmentInsertion& ParallelInsertion::take_worker() {
   const std::lock_guard lock(mutex_);
   if (idle_.empty()) {
     const auto number = static_cast<std::uint16_t>(workers_.size() + 1);
@@ -86,7 +87,7 @@ SegmentInsertion& InsertionRounds::take_worker() {
   return worker;
 }
 
-SegmentVoronoiCounts InsertionRounds::counts() const {
+SegmentVoronoiCounts ParallelInsertion::counts() const {
   SegmentVoronoiCounts sum;
   const auto add = [&](const SegmentInsertion& worker) {
     sum.visited += worker.visited();

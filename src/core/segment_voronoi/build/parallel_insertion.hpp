@@ -20,9 +20,9 @@ struct SegmentVoronoiCounts {
   EscalationCounts escalations;
 };
 
-class InsertionRounds {
+class ParallelInsertion {
  public:
-  InsertionRounds(const discs::SegmentSites& sites, VoronoiRecords& records, unsigned threads);
+  ParallelInsertion(const discs::SegmentSites& sites, VoronoiRecords& records, unsigned threads);
 
   void run(const base::Monitor& monitor);
   SegmentVoronoiCounts counts() const;
@@ -38,7 +38,7 @@ class InsertionRounds {
   const discs::SegmentSites& sites_;
   VoronoiRecords& records_;
   unsigned threads_;
-  InsertionOrder order_;
+  Brio order_;
   SegmentInsertion alone_;
   std::mutex mutex_;  // of what follows
   std::vector<std::unique_ptr<SegmentInsertion>> workers_;

@@ -76,8 +76,8 @@ Excess excess_of(const SegmentSites& sites, const VoronoiRecord& v, const Contac
 // vectors, which are right to 2^-44, a step of length h is right to h 2^-42 / D; what it leaves out are
 // squares, 4 h^2 / (D r); distances are right to 2^-97 of the reach, which counts 4 / D times. Nothing is
 // told unless each is less than an eighth of a rounding of the radius.
-std::optional<PolishedDisc> by_newton(const SegmentSites& sites, const VoronoiRecord& v,
-                                      std::span<const Contact> contacts) {
+std::optional<RefinedDisc> by_newton(const SegmentSites& sites, const VoronoiRecord& v,
+                                     std::span<const Contact> contacts) {
   const Excess a = excess_of(sites, v, contacts[0]), b = excess_of(sites, v, contacts[1]),
                c = excess_of(sites, v, contacts[2]);
   const double bx = b.nx - a.nx, by = b.ny - a.ny, cx = c.nx - a.nx, cy = c.ny - a.ny;
@@ -89,7 +89,7 @@ std::optional<PolishedDisc> by_newton(const SegmentSites& sites, const VoronoiRe
   const bool known = step * 0x1p-42 <= 0x1p-56 * size && 4 * step * step <= 0x1p-56 * size * v.radius &&
                      reach * 0x1p-95 <= 0x1p-56 * size;
   if (!known) return std::nullopt;
-  return PolishedDisc{v.x + dx, v.y + dy, v.radius + dr};
+  return RefinedDisc{v.x + dx, v.y + dy, v.radius + dr};
 }
 
 // A triple of contacts that determines its disc: not a point and two of its own segments.
@@ -103,8 +103,8 @@ bool determines(const SegmentSites& sites, const std::array<SiteIndex, 3>& tripl
   return true;
 }
 
-std::optional<PolishedDisc> by_double_double(const SegmentSites& sites,
-                                             const std::array<SiteIndex, 3>& triple, std::uint8_t left) {
+std::optional<RefinedDisc> by_double_double(const SegmentSites& sites, const std::array<SiteIndex, 3>& triple,
+                                            std::uint8_t left) {
   const discs::TangentDisc<DoubleDouble> disc = discs::tangent_disc<DoubleDouble>(sites, triple, left);
   const DoubleDouble x = DoubleDouble(static_cast<double>(disc.anchor.x)) + disc.x;
   const DoubleDouble y = DoubleDouble(static_cast<double>(disc.anchor.y)) + disc.y;
@@ -112,13 +112,13 @@ std::optional<PolishedDisc> by_double_double(const SegmentSites& sites,
   const double size = std::abs(x.head) + std::abs(y.head) + radius;
   const bool known = disc.position_error <= nearly_exact * size && disc.radius_error <= nearly_exact * radius;
   if (!known) return std::nullopt;
-  return PolishedDisc{x.head, y.head, radius};
+  return RefinedDisc{x.head, y.head, radius};
 }
 
 // Calls solve(triple, left) for the triples of contacts in order until one gives a disc.
 template <class Solve>
-std::optional<PolishedDisc> first_of_triples(const SegmentSites& sites, std::span<const Contact> contacts,
-                                             Solve solve) {
+std::optional<RefinedDisc> first_of_triples(const SegmentSites& sites, std::span<const Contact> contacts,
+                                            Solve solve) {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     for (std::size_t j = i + 1; j < contacts.size(); ++j) {
       for (std::size_t k = j + 1; k < contacts.size(); ++k) {
@@ -132,11 +132,10 @@ std::optional<PolishedDisc> first_of_triples(const SegmentSites& sites, std::spa
   return std::nullopt;
 }
 
-std::optional<PolishedDisc> by_exact_level(const SegmentSites& sites,
-                                           const std::array<SiteIndex, 3>& triple) {
+std::optional<RefinedDisc> by_exact_level(const SegmentSites& sites, const std::array<SiteIndex, 3>& triple) {
   try {
     const discs::RoundedDisc disc = discs::exact_disc_rounded(sites.triple(triple));
-    return PolishedDisc{disc.x, disc.y, disc.radius};
+    return RefinedDisc{disc.x, disc.y, disc.radius};
   } catch (const discs::NoDisc&) {
     return std::nullopt;  // two collinear segments
   }
@@ -144,8 +143,8 @@ std::optional<PolishedDisc> by_exact_level(const SegmentSites& sites,
 
 }  // namespace
 
-PolishedDisc polished_disc(const SegmentSites& sites, const VoronoiRecord& v,
-                           std::span<const Contact> contacts) {
+RefinedDisc refined_disc(const SegmentSites& sites, const VoronoiRecord& v,
+                         std::span<const Contact> contacts) {
   if (v.radius == 0 || (contacts.size() == 3 && is_sharp(v))) return {v.x, v.y, v.radius};
   if (contacts.size() == 3) {
     if (const auto disc = by_newton(sites, v, contacts)) return *disc;

@@ -9,7 +9,7 @@
 
 namespace vorotool::core::segment_voronoi::build {
 
-struct PolishedDisc {
+struct RefinedDisc {
   double x, y, radius;
 };
 
@@ -21,7 +21,7 @@ struct Contact {
 
 // The disc of a vertex that touches three sites or more, in a canonical order: the numbers depend on nothing
 // else. They err by at most 2^-48 of the radius and of the coordinates, in practice by three ulp.
-PolishedDisc polished_disc(const discs::SegmentSites& sites, const discs::VoronoiRecord& record,
-                           std::span<const Contact> contacts);
+RefinedDisc refined_disc(const discs::SegmentSites& sites, const discs::VoronoiRecord& record,
+                         std::span<const Contact> contacts);
 
 }  // namespace vorotool::core::segment_voronoi::build

@@ -99,7 +99,7 @@ class SegmentInsertion {
 
   const discs::SegmentSites& sites_;
   VoronoiRecords& records_;
-  SegmentPredicates predicates_;
+  InsertionPredicates predicates_;
   std::uint16_t worker_;
   std::int32_t number_ = 0;          // of the attempt
   std::int32_t fresh_ = 0;           // the first of two records that it may begin

@@ -84,7 +84,7 @@ SegmentVoronoi::SegmentVoronoi(const SegmentGraph& graph, unsigned threads, cons
   check(graph);
   make_point_diagram(graph, threads, monitor);
   base::return_freed_memory(records_->all.size() * sizeof(discs::VoronoiRecord));
-  InsertionRounds rounds(sites_, *records_, threads);
+  ParallelInsertion rounds(sites_, *records_, threads);
   try {
     rounds.run(monitor);
   } catch (const discs::NoDisc& error) {
@@ -93,14 +93,14 @@ SegmentVoronoi::SegmentVoronoi(const SegmentGraph& graph, unsigned threads, cons
   counts_ = rounds.counts();
 }
 
-DiagramArrays SegmentVoronoi::take_arrays(std::span<const std::uint8_t> idle, unsigned threads,
+DiagramArrays SegmentVoronoi::take_arrays(std::span<const std::uint8_t> unwanted, unsigned threads,
                                           const Monitor& monitor) {
-  if (!idle.empty() && idle.size() != given_.size())
-    throw std::invalid_argument("each site must have its idle sides");
+  if (!unwanted.empty() && unwanted.size() != given_.size())
+    throw std::invalid_argument("each site must have its unwanted sides");
   if (!records_) throw std::logic_error("the arrays of the diagram were taken before");
   VoronoiRecords records = std::move(*records_);
   records_.reset();
-  return extract_diagram(std::move(sites_), std::move(records), given_, idle, threads, monitor);
+  return extract_diagram(std::move(sites_), std::move(records), given_, unwanted, threads, monitor);
 }
 
 // The triangulation is gone when segments are inserted.

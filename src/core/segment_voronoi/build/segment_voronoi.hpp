@@ -34,10 +34,10 @@ class SegmentVoronoi {
   SegmentVoronoi(const SegmentGraph& graph, unsigned threads, const base::Monitor& monitor);
 
   const SegmentVoronoiCounts& counts() const { return counts_; }
-  // Arrays of the diagram: once, then it is gone, and this throws std::logic_error. What is idle is left out
-  // (core/segment_voronoi/build/extraction.hpp); it throws std::invalid_argument unless nothing or each site
-  // has its sides.
-  DiagramArrays take_arrays(std::span<const std::uint8_t> idle, unsigned threads,
+  // Arrays of the diagram: once, then it is gone, and this throws std::logic_error. What is unwanted is left
+  // out (core/segment_voronoi/build/extraction.hpp); it throws std::invalid_argument unless nothing or each
+  // site has its sides.
+  DiagramArrays take_arrays(std::span<const std::uint8_t> unwanted, unsigned threads,
                             const base::Monitor& monitor);
 
  private:

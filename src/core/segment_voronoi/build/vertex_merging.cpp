@@ -45,15 +45,15 @@ void prefetch_neighbours(const VoronoiRecords& records, std::int32_t record) {
 
 }  // namespace
 
-VertexNumbers::VertexNumbers(const discs::SegmentSites& sites, const VoronoiRecords& records,
-                             std::span<const std::uint8_t> idle, unsigned threads, const Monitor& monitor)
+VertexMerging::VertexMerging(const discs::SegmentSites& sites, const VoronoiRecords& records,
+                             std::span<const std::uint8_t> unwanted, unsigned threads, const Monitor& monitor)
     : records_(records),
       code_(records.all.size()),
       is_merged_(records.all.size()),
       begin_(static_cast<std::size_t>(sites.infinite()) + 2) {
   std::vector<Found> found(piece_count(code_.size(), piece_size));
   for_pieces(code_.size(), threads, monitor, [&](std::size_t piece, std::int32_t begin, std::int32_t end) {
-    for (std::int32_t v = begin; v < end; ++v) look_at(sites, idle, v, found[piece]);
+    for (std::int32_t v = begin; v < end; ++v) look_at(sites, unwanted, v, found[piece]);
   });
   for (const Found& some : found)
     infinite_.insert(infinite_.end(), some.infinite.begin(), some.infinite.end());
@@ -63,25 +63,25 @@ VertexNumbers::VertexNumbers(const discs::SegmentSites& sites, const VoronoiReco
   gather_rings(threads, monitor);
 }
 
-void VertexNumbers::assign(unsigned threads, const Monitor& monitor) {
+void VertexMerging::assign(unsigned threads, const Monitor& monitor) {
   sort_by_first_site(threads, monitor);
   number(threads, monitor);
   make_starts();
 }
 
 // Its disc, if it has a radius, is in the face of each site on that side.
-bool VertexNumbers::is_idle(const VoronoiRecord& v, std::span<const std::uint8_t> idle) const {
-  if (idle.empty() || v.radius == 0) return false;
+bool VertexMerging::is_unwanted(const VoronoiRecord& v, std::span<const std::uint8_t> unwanted) const {
+  if (unwanted.empty() || v.radius == 0) return false;
   for (int i = 0; i < 3; ++i) {
     const auto site = static_cast<std::size_t>(v.sites[static_cast<std::size_t>(i)]);
-    if ((idle[site] & (v.is_left(i) ? idle_left : idle_right)) != 0) return true;
+    if ((unwanted[site] & (v.is_left(i) ? unwanted_left : unwanted_right)) != 0) return true;
   }
   return false;
 }
 
 // As if it were alone at its place. Where points have cells without area, a record of these alone may be not
-// idle while others at its place are: then it stays alone, outside.
-void VertexNumbers::look_at(const discs::SegmentSites& sites, std::span<const std::uint8_t> idle,
+// unwanted while others at its place are: then it stays alone, outside.
+void VertexMerging::look_at(const discs::SegmentSites& sites, std::span<const std::uint8_t> unwanted,
                             std::int32_t u, Found& found) {
   if (static_cast<std::size_t>(u) + ahead < code_.size()) {
     prefetch_neighbours(records_, u + static_cast<std::int32_t>(ahead));
@@ -92,7 +92,7 @@ void VertexNumbers::look_at(const discs::SegmentSites& sites, std::span<const st
     found.infinite.push_back(u);
     return;
   }
-  if (is_idle(v, idle)) {
+  if (is_unwanted(v, unwanted)) {
     code(u) = ~left_out;
     return;
   }
@@ -101,14 +101,14 @@ void VertexNumbers::look_at(const discs::SegmentSites& sites, std::span<const st
   add(count_at(first), 1);
   for (int i = 0; i < 3; ++i) {
     const std::int32_t w = record_of(v.twins[static_cast<std::size_t>(i)]);
-    if (w < u || records_[w].is_infinite() || is_idle(records_[w], idle)) continue;
+    if (w < u || records_[w].is_infinite() || is_unwanted(records_[w], unwanted)) continue;
     if (are_coincident(sites, v, i, records_[w])) found.coincident.push_back({u, w});
   }
 }
 
 // The smallest number at a place becomes that of the place. With every step to it the way is halved for those
 // who come after.
-std::int32_t VertexNumbers::root(std::int32_t record) {
+std::int32_t VertexMerging::root(std::int32_t record) {
   if (code(record) < 0) {
     --count_at(~code(record));
     code(record) = record;
@@ -121,7 +121,7 @@ std::int32_t VertexNumbers::root(std::int32_t record) {
   return record;
 }
 
-void VertexNumbers::merge(const std::vector<Found>& found) {
+void VertexMerging::merge(const std::vector<Found>& found) {
   for (const Found& some : found) {
     for (const auto& [u, w] : some.coincident) {
       const std::int32_t one = root(u), other = root(w);
@@ -139,7 +139,7 @@ void VertexNumbers::merge(const std::vector<Found>& found) {
 // The border of a place is gone round counter-clockwise: from half-edge to half-edge of one vertex, and on in
 // the next vertex of the place where a half-edge has no length. A point whose segments leave no gap of 180
 // degrees is inside.
-void VertexNumbers::gather_ring(std::int32_t record, std::vector<Spoke>& spokes) const {
+void VertexMerging::gather_ring(std::int32_t record, std::vector<Spoke>& spokes) const {
   const auto begin = static_cast<std::ptrdiff_t>(spokes.size());
   Corner corner = corner_of(record, 0);
   while (!is_border(corner)) ++corner;
@@ -159,21 +159,21 @@ void VertexNumbers::gather_ring(std::int32_t record, std::vector<Spoke>& spokes)
 }
 
 // The edge opposite to a corner, and the site on its left.
-VertexNumbers::Spoke VertexNumbers::spoke_at(Corner corner) const {
+VertexMerging::Spoke VertexMerging::spoke_at(Corner corner) const {
   const VoronoiRecord& v = records_[record_of(corner)];
   const int left = discs::preceding(place_of(corner));
   return {static_cast<std::uint32_t>(v.sites[static_cast<std::size_t>(left)]), v.is_left(left),
           record_of(v.twins[static_cast<std::size_t>(place_of(corner))])};
 }
 
-std::span<const VertexNumbers::Spoke> VertexNumbers::merged_ring(std::size_t k) const {
+std::span<const VertexMerging::Spoke> VertexMerging::merged_ring(std::size_t k) const {
   const std::span<const Spoke> rings = rings_[k / piece_size];
   const bool is_last = k + 1 == ring_begin_.size() || (k + 1) % piece_size == 0;
   return rings.subspan(ring_begin_[k], (is_last ? rings.size() : ring_begin_[k + 1]) - ring_begin_[k]);
 }
 
 // The first record of each place that is on its border.
-void VertexNumbers::choose_leads() {
+void VertexMerging::choose_leads() {
   std::vector<bool> seen(code_.size());
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(code_.size()); ++v) {
     if (!is_merged(v) || seen[static_cast<std::size_t>(code(v))]) continue;
@@ -184,7 +184,7 @@ void VertexNumbers::choose_leads() {
   }
 }
 
-void VertexNumbers::gather_rings(unsigned threads, const Monitor& monitor) {
+void VertexMerging::gather_rings(unsigned threads, const Monitor& monitor) {
   ring_begin_.resize(merged_leads_.size());
   rings_.resize(piece_count(merged_leads_.size(), piece_size));
   for_pieces(merged_leads_.size(), threads, monitor,
@@ -203,7 +203,7 @@ void VertexNumbers::gather_rings(unsigned threads, const Monitor& monitor) {
 
 // By the first site in one go, and by the others among the few that share it. No two have the same three
 // sites first, in the same order. Keys of several records are named by the complements of their numbers.
-void VertexNumbers::sort_by_first_site(unsigned threads, const Monitor& monitor) {
+void VertexMerging::sort_by_first_site(unsigned threads, const Monitor& monitor) {
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
   leads_ = base::LargeArray<std::int32_t>(begin_.back() + 1);
   const auto put = [&](std::int32_t name, SiteIndex first) {
@@ -222,7 +222,7 @@ void VertexNumbers::sort_by_first_site(unsigned threads, const Monitor& monitor)
   begin_ = std::vector<std::uint32_t>();
 }
 
-VertexNumbers::Key VertexNumbers::key_of(std::int32_t name) const {
+VertexMerging::Key VertexMerging::key_of(std::int32_t name) const {
   if (name < 0) {
     const auto k = static_cast<std::size_t>(~name);
     const auto ring = merged_ring(k);
@@ -237,7 +237,7 @@ VertexNumbers::Key VertexNumbers::key_of(std::int32_t name) const {
 
 // Vertices whose first sites are first ... last - 1. Their records are far apart in memory: they are called
 // for early.
-void VertexNumbers::sort_buckets(SiteIndex first, SiteIndex last) {
+void VertexMerging::sort_buckets(SiteIndex first, SiteIndex last) {
   std::vector<Key> keys;
   std::size_t k = begin_[static_cast<std::size_t>(first)], called = k;
   const std::size_t all = begin_[static_cast<std::size_t>(last)];
@@ -254,7 +254,7 @@ void VertexNumbers::sort_buckets(SiteIndex first, SiteIndex last) {
 }
 
 // First one record of each place, then the others.
-void VertexNumbers::number(unsigned threads, const Monitor& monitor) {
+void VertexMerging::number(unsigned threads, const Monitor& monitor) {
   for_pieces(leads_.size() - 1, threads, monitor, [&](std::size_t, std::int32_t begin, std::int32_t end) {
     for (std::int32_t k = begin; k < end; ++k) {
       const std::int32_t lead = leads_[static_cast<std::size_t>(k)];
@@ -270,7 +270,7 @@ void VertexNumbers::number(unsigned threads, const Monitor& monitor) {
 }
 
 // Of three sites each, but for places with several records.
-void VertexNumbers::make_starts() {
+void VertexMerging::make_starts() {
   std::fill_n(leads_.data(), leads_.size(), 3);
   for (std::size_t k = 0; k < merged_leads_.size(); ++k) {
     leads_[static_cast<std::size_t>(of(merged_leads_[k]))] = static_cast<std::int32_t>(merged_ring(k).size());

@@ -18,7 +18,7 @@
 
 namespace vorotool::core::segment_voronoi::build {
 
-class VertexNumbers {
+class VertexMerging {
  public:
   static constexpr std::int32_t at_infinity = std::numeric_limits<std::int32_t>::max();
   static constexpr std::int32_t left_out = at_infinity - 1;
@@ -29,10 +29,10 @@ class VertexNumbers {
     std::int32_t across;
   };
 
-  // Finds the places of the records. Those are left out that are no corners and where a site is idle; `idle`
-  // tells its sides (core/segment_voronoi/build/wanted_faces.hpp), or is empty if there is none.
-  VertexNumbers(const discs::SegmentSites& sites, const VoronoiRecords& records,
-                std::span<const std::uint8_t> idle, unsigned threads, const base::Monitor& monitor);
+  // Finds the places of the records. Those are left out that are no corners and where a site is unwanted;
+  // `unwanted` tells its sides (core/segment_voronoi/build/wanted_faces.hpp), or is empty if there is none.
+  VertexMerging(const discs::SegmentSites& sites, const VoronoiRecords& records,
+                std::span<const std::uint8_t> unwanted, unsigned threads, const base::Monitor& monitor);
   // Numbers them, sorted by the lists of their sites, each in the engine's order from its first one.
   void assign(unsigned threads, const base::Monitor& monitor);
 
@@ -70,8 +70,8 @@ class VertexNumbers {
   std::int32_t& code(std::int32_t record) { return code_[static_cast<std::size_t>(record)]; }
   std::uint32_t& count_at(discs::SiteIndex first) { return begin_[static_cast<std::size_t>(first) + 2]; }
 
-  bool is_idle(const discs::VoronoiRecord& v, std::span<const std::uint8_t> idle) const;
-  void look_at(const discs::SegmentSites& sites, std::span<const std::uint8_t> idle, std::int32_t record,
+  bool is_unwanted(const discs::VoronoiRecord& v, std::span<const std::uint8_t> unwanted) const;
+  void look_at(const discs::SegmentSites& sites, std::span<const std::uint8_t> unwanted, std::int32_t record,
                Found& found);
   void merge(const std::vector<Found>& found);
   std::int32_t root(std::int32_t record);

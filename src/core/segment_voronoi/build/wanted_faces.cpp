@@ -54,15 +54,16 @@ std::vector<std::int32_t> point_faces(std::span<const LatticePoint> points, Pair
 }
 
 // Where no sector is over 180 degrees there is no cell, or one without area that may lie in two faces: it is
-// not idle, and its neighbours tell.
-std::vector<std::uint8_t> idle_sides(std::span<const LatticePoint> points, Pairs segments,
-                                     Pairs segment_faces, std::span<const std::uint8_t> is_wanted) {
-  const auto is_idle = [&](std::int32_t face) { return is_wanted[at(face)] == 0; };
+// not unwanted, and its neighbours tell.
+std::vector<std::uint8_t> unwanted_sides(std::span<const LatticePoint> points, Pairs segments,
+                                         Pairs segment_faces, std::span<const std::uint8_t> is_wanted) {
+  const auto is_unwanted = [&](std::int32_t face) { return is_wanted[at(face)] == 0; };
   const std::vector<std::int32_t> border = sector_borders(points, segments);
-  std::vector<std::uint8_t> idle(points.size(), idle_left | idle_right);
-  idle.reserve(points.size() + segments.size());
+  std::vector<std::uint8_t> unwanted(points.size(), unwanted_left | unwanted_right);
+  unwanted.reserve(points.size() + segments.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (border[i] != unknown && !is_idle(face_left_of(segments, segment_faces, border[i], i))) idle[i] = 0;
+    if (border[i] != unknown && !is_unwanted(face_left_of(segments, segment_faces, border[i], i)))
+      unwanted[i] = 0;
   }
   for (std::size_t j = 0; j < segments.size(); ++j) {
     const auto segment = static_cast<std::int32_t>(j);
@@ -70,14 +71,14 @@ std::vector<std::uint8_t> idle_sides(std::span<const LatticePoint> points, Pairs
       const std::int32_t first = border[at(end)];
       if (first == segment) continue;
       const kernel::LatticeVector way = way_from(points, segments, end, segment);
-      if (kernel::cross(way_from(points, segments, end, first), way) >= 0) idle[at(end)] = 0;
+      if (kernel::cross(way_from(points, segments, end, first), way) >= 0) unwanted[at(end)] = 0;
     }
   }
   for (const auto& [left, right] : segment_faces) {
-    idle.push_back(
-        static_cast<std::uint8_t>((is_idle(left) ? idle_left : 0) | (is_idle(right) ? idle_right : 0)));
+    unwanted.push_back(static_cast<std::uint8_t>((is_unwanted(left) ? unwanted_left : 0) |
+                                                 (is_unwanted(right) ? unwanted_right : 0)));
   }
-  return idle;
+  return unwanted;
 }
 
 }  // namespace vorotool::core::segment_voronoi::build

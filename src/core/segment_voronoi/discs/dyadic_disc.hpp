@@ -13,7 +13,7 @@ namespace vorotool::core::segment_voronoi::discs {
 
 class DyadicDisc {
  public:
-  // As SegmentPredicates::sign; undecided where the integers would not fit.
+  // As InsertionPredicates::sign; undecided where the integers would not fit.
   int sign(const SegmentSite& query) const;
 
   bool same_centre(const DyadicDisc& other) const { return x_ == other.x_ && y_ == other.y_; }

@@ -22,13 +22,13 @@ using kernel::LatticeVector;
 using kernel::left_of;
 using kernel::norm2;
 using numbers::RootNumber;
-using numbers::RootTower;
+using numbers::SqrtTower;
 using numbers::square;
 
 namespace {
 
 using Found = std::optional<ExactDisc>;
-using Tower = std::shared_ptr<RootTower>;
+using Tower = std::shared_ptr<SqrtTower>;
 
 RootNumber big(std::int64_t value) { return RootNumber(value); }
 
@@ -71,7 +71,7 @@ bool on_one_line(const LatticeSite& s, const LatticeSite& t) {
   return ray.height(t.a) == 0 && ray.height(t.b) == 0;
 }
 
-ExactDisc point_disc(const LatticePoint& p) { return {std::make_shared<RootTower>(), p, 0, 0, 1, 0}; }
+ExactDisc point_disc(const LatticePoint& p) { return {std::make_shared<SqrtTower>(), p, 0, 0, 1, 0}; }
 
 // ---- sites that touch at one place p: the centre is p + t normal, t > 0 ----
 
@@ -81,7 +81,7 @@ Found touching_at(const LatticePoint& p, const LatticeVector& normal, const Latt
   if (dot(normal, way) <= 0) return std::nullopt;
   const RootNumber t = big(norm2(way));
   return ExactDisc{
-      std::make_shared<RootTower>(), p, t * big(normal.x), t * big(normal.y), big(2) * big(dot(normal, way)),
+      std::make_shared<SqrtTower>(), p, t * big(normal.x), t * big(normal.y), big(2) * big(dot(normal, way)),
       big(norm2(normal)) * square(t)};
 }
 
@@ -91,7 +91,7 @@ Found touching_at(const LatticePoint& p, const LatticeVector& normal, const Latt
   if (!ray) return std::nullopt;
   const LatticeVector other = ray->normal();
   if (cross(other, normal) == 0 && dot(other, normal) > 0) return std::nullopt;
-  const auto tower = std::make_shared<RootTower>();
+  const auto tower = std::make_shared<SqrtTower>();
   const RootNumber lengths = tower->adjoin_root(big(norm2(normal)) * big(norm2(other)));
   const RootNumber height = big(ray->height(p));
   return ExactDisc{tower,
@@ -124,7 +124,7 @@ Found circle(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c
   if (cross(ab, ac) <= 0) return std::nullopt;
   const RootNumber ab2 = big(norm2(ab)), ac2 = big(norm2(ac));
   const RootNumber x = ab2 * big(ac.y) - ac2 * big(ab.y), y = ac2 * big(ab.x) - ab2 * big(ac.x);
-  return ExactDisc{std::make_shared<RootTower>(), a, x, y, big(2) * big(cross(ab, ac)),
+  return ExactDisc{std::make_shared<SqrtTower>(), a, x, y, big(2) * big(cross(ab, ac)),
                    square(x) + square(y)};
 }
 
@@ -147,7 +147,7 @@ Found segment_and_points(const LatticeSite& segment, const LatticePoint& p, cons
   if (!ray || ray->height(q) <= 0) return std::nullopt;
   const std::int64_t hp = ray->height(p), hq = ray->height(q), tq = dot(ray->along, q - p);
   const LatticeVector u = ray->along, n = ray->normal();
-  const auto tower = std::make_shared<RootTower>();
+  const auto tower = std::make_shared<SqrtTower>();
   RootNumber t = 0, r = 0, divisor = 0;  // T = t / divisor, R = r / (2 divisor^2)
   if (hp == hq) {
     if (tq >= 0) return std::nullopt;
@@ -194,7 +194,7 @@ Found point_and_lines(const LatticePoint& p, const Ray& first, const Ray& second
   const LatticeVector n1 = first.normal(), n2 = second.normal();
   const std::int64_t h1 = first.height(p), h2 = second.height(p), d = cross(n1, n2);
   if (d == 0 && dot(n1, n2) > 0) return std::nullopt;
-  const auto tower = std::make_shared<RootTower>();
+  const auto tower = std::make_shared<SqrtTower>();
   const RootNumber l1 = big(norm2(n1));  // squared
   const RootNumber k = tower->adjoin_root(l1 * big(norm2(n2)));
   const RootNumber m = k - big(dot(n1, n2));
@@ -247,7 +247,7 @@ Found disc_left_of(const Lines& lines) {
   RootNumber r = 0;  // times W
   for (std::size_t i = 0; i < 3; ++i) r = r + big(h[i]) * big(turn[i]);
   if (r.sign() <= 0) return std::nullopt;
-  const auto tower = std::make_shared<RootTower>();
+  const auto tower = std::make_shared<SqrtTower>();
   const RootNumber l1 = big(norm2(n[0]));  // squared
   const std::array<RootNumber, 3> l{l1, tower->adjoin_root(l1 * big(norm2(n[1]))),
                                     tower->adjoin_root(l1 * big(norm2(n[2])))};

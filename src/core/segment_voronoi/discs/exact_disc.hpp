@@ -20,7 +20,7 @@ using SiteTriple = std::span<const kernel::LatticeSite, 3>;
 
 // centre = origin + (x, y) / w, radius^2 = z / w^2, w > 0.
 struct ExactDisc {
-  std::shared_ptr<const numbers::RootTower> tower;  // of x, y, w and z
+  std::shared_ptr<const numbers::SqrtTower> tower;  // of x, y, w and z
   kernel::LatticePoint origin;
   numbers::RootNumber x, y, w, z;
 };

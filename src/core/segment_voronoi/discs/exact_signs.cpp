@@ -103,7 +103,7 @@ int middle_of_parabola(const LatticePoint& p, const LatticeSite& segment, const 
   if (cross(n1, n2) == 0 && dot(n1, n2) > 0) return -1;
   const std::int64_t h1 = dot(n1, p - segment.a);
   auto side = [&](const ExactDisc& disc) {
-    numbers::RootTower tower;
+    numbers::SqrtTower tower;
     const std::vector<RootNumber> lifted = tower.adjoin_all(*disc.tower);
     const RootNumber m = tower.adjoin_root(big(norm2(n1)) * big(norm2(n2))) - big(dot(n1, n2));
     const RootNumber along = tower.lift(CentreSeen(disc, p).along(left_of(n1)), lifted);
@@ -165,7 +165,7 @@ int clearance_sign(const ExactDisc& disc, const LatticeSite& query) {
 }
 
 int compare_along(const ExactDisc& first, const ExactDisc& second, const LatticeVector& direction) {
-  numbers::RootTower tower;
+  numbers::SqrtTower tower;
   const std::vector<RootNumber> lifted_first = tower.adjoin_all(*first.tower),
                                 lifted_second = tower.adjoin_all(*second.tower);
   const RootNumber a = tower.lift(CentreSeen(first, first.origin).along(direction), lifted_first);

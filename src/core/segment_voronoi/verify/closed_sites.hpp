@@ -17,7 +17,7 @@ class ClosedSites {
   ClosedSites(const build::RingedDiagram& arrays, const build::IncidentSegments& incident, unsigned threads,
               const base::Monitor& monitor);
 
-  // Calls visit(site number), see SiteHierarchy.
+  // Calls visit(site number), see ObbTree.
   template <class Visit>
   void near(double x, double y, double reach, const Visit& visit) const {
     tree_.near(x, y, reach, [&](std::uint32_t item) { return visit(numbers_[item]); });
@@ -25,7 +25,7 @@ class ClosedSites {
 
  private:
   std::vector<std::int32_t> numbers_;
-  spatial::SiteHierarchy tree_;
+  spatial::ObbTree tree_;
 };
 
 }  // namespace vorotool::core::segment_voronoi::verify

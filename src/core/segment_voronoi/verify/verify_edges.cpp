@@ -118,7 +118,7 @@ class Bisector {
                         std::abs(y) + in_.radius[k];
     if (std::abs(height) > 0x1p-46 * size * (std::abs(ux) + std::abs(uy))) return height > 0 ? 1 : -1;
     const LatticeVector across = left_of(u);
-    const discs::ExactDisc end{std::make_shared<numbers::RootTower>(), s.a, 0, 0, 1, 0};
+    const discs::ExactDisc end{std::make_shared<numbers::SqrtTower>(), s.a, 0, 0, 1, 0};
     return discs::compare_along(disc(vertex), end, across);
   }
 

@@ -60,7 +60,7 @@ class Vertex {
 
   ExactDisc exact_disc() {
     if (in_.radius[vertex_] == 0)
-      return {std::make_shared<numbers::RootTower>(), in_.point(corner()), 0, 0, 1, 0};
+      return {std::make_shared<numbers::SqrtTower>(), in_.point(corner()), 0, 0, 1, 0};
     choose_base();
     return *exact();
   }

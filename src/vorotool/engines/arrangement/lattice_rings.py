@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.arrangement.polygon_regions import PolygonRegions
-from vorotool.engines.arrangement.repaired_polygons import inner_faces, parts_of_edges, used_polygons
+from vorotool.engines.arrangement.repaired_polygons import inner_faces, parts_of_edges, repaired_polygons
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.polygons.repaired_polygons import UsedPolygons
+from vorotool.geometry.polygons.repaired_polygons import RepairedPolygons
 from vorotool.geometry.polygons.ring_arrays import RingArrays
 from vorotool.geometry.skeleton.skeleton import EDGE, VERTEX, SiteTable
 
@@ -77,13 +77,13 @@ def placed_shapes(
 
 
 def _of_borders(graph: PlanarGraph, given: PolygonSet, source: NDArray[np.int64]) -> PlacedShapes:
-    used = used_polygons(graph)
+    used = repaired_polygons(graph)
     vertex = _vertices_of_sites(graph, used)
     sites = _table(used.polygons, vertex, len(graph), given, source)
     return PlacedShapes(used.polygons, sites, _first_parts(graph, used), used.source.astype(np.int64))
 
 
-def _vertices_of_sites(graph: PlanarGraph, used: UsedPolygons) -> NDArray[np.int64]:
+def _vertices_of_sites(graph: PlanarGraph, used: RepairedPolygons) -> NDArray[np.int64]:
     """(s,) the first vertex of used polygons at each site, or from which it leads; their number if there is none."""
     first_at = np.full(len(graph.points), len(used.point), dtype=np.int64)
     np.minimum.at(first_at, used.point, np.arange(len(used.point)))
@@ -97,7 +97,7 @@ def _of_some_borders(
     graph: PlanarGraph, given: PolygonSet, source: NDArray[np.int64], is_repaired: NDArray[np.bool_]
 ) -> PlacedShapes:
     """Rings of polygons that were repaired as they bound them, those of others as they were given."""
-    used = used_polygons(graph)
+    used = repaired_polygons(graph)
     kept, parts = np.flatnonzero(~is_repaired), np.flatnonzero(is_repaired[used.source])
     sources = np.concatenate([kept, used.source[parts]])
     order = np.argsort(sources, kind="stable")
@@ -124,7 +124,7 @@ def _first_polygons(graph: PlanarGraph) -> NDArray[np.int32]:
     return first
 
 
-def _first_parts(graph: PlanarGraph, used: UsedPolygons) -> NDArray[np.int32]:
+def _first_parts(graph: PlanarGraph, used: RepairedPolygons) -> NDArray[np.int32]:
     """The part of its first polygon that each face is in: faces are connected over segments that do not bound it."""
     regions = PolygonRegions(graph)
     of_region = np.full(len(regions), -1, dtype=np.int32)

@@ -13,7 +13,7 @@ from vorotool.engines.arrangement.flat_rings import flat_holes
 from vorotool.engines.arrangement.polygon_regions import PolygonRegions
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet
-from vorotool.geometry.polygons.repaired_polygons import UsedPolygons
+from vorotool.geometry.polygons.repaired_polygons import RepairedPolygons
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ class _Rings:
     segment: NDArray[Any]
 
 
-def used_polygons(graph: PlanarGraph) -> UsedPolygons:
+def repaired_polygons(graph: PlanarGraph) -> RepairedPolygons:
     """Polygons as their planar graph has them: what a skeleton is made of, and refers to.
 
     Parameters
@@ -37,14 +37,14 @@ def used_polygons(graph: PlanarGraph) -> UsedPolygons:
 
     Returns
     -------
-    UsedPolygons
+    RepairedPolygons
         In the order of the input.
 
     Examples
     --------
     >>> from vorotool import planar_graph
     >>> clockwise = planar_graph([[[0, 0], [0, 4], [4, 4], [4, 0]]])
-    >>> used = used_polygons(clockwise)
+    >>> used = repaired_polygons(clockwise)
     >>> used.polygons.xy.tolist(), used.point.tolist(), used.segment.tolist()
     ([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]], [0, 3, 2, 1], [3, 2, 1, 0])
     """
@@ -68,11 +68,11 @@ def used_polygons(graph: PlanarGraph) -> UsedPolygons:
         given.y_up,
         given.crs,
     )
-    return UsedPolygons(polygons, source.astype(np.int32), rings.point, rings.segment)
+    return RepairedPolygons(polygons, source.astype(np.int32), rings.point, rings.segment)
 
 
 def _borders(graph: PlanarGraph) -> _Rings:
-    found = _core.border_rings(
+    found = _core.boundary_rings(
         graph.points, graph.segments, graph.segment_faces, graph.face_start, graph.face_polygon, None
     )
     return _Rings(
@@ -173,24 +173,24 @@ def _flat_rings(graph: PlanarGraph, given: PolygonSet, is_flat: NDArray[np.bool_
     return flat, np.concatenate([graph.segment_faces[own[:, 0], 0], faces])
 
 
-def inner_faces(graph: PlanarGraph, used: UsedPolygons) -> tuple[NDArray[Any], NDArray[Any]]:
+def inner_faces(graph: PlanarGraph, used: RepairedPolygons) -> tuple[NDArray[Any], NDArray[Any]]:
     """The face left of each edge of the rings of used polygons, and the polygon of the input that it is of."""
     edges = _border_edges(used)
     faces = _inner_faces(graph, used.point[edges], used.segment[edges])
     return faces, used.source[_polygons_of_edges(used)[edges]]
 
 
-def parts_of_edges(used: UsedPolygons) -> NDArray[Any]:
+def parts_of_edges(used: RepairedPolygons) -> NDArray[Any]:
     """The used polygon of each of these edges."""
     parts: NDArray[np.int32] = _polygons_of_edges(used)[_border_edges(used)]
     return parts
 
 
-def _border_edges(used: UsedPolygons) -> NDArray[Any]:
+def _border_edges(used: RepairedPolygons) -> NDArray[Any]:
     return np.flatnonzero((used.segment >= 0) & ~used.polygons.is_line[_polygons_of_edges(used)])
 
 
-def _polygons_of_edges(used: UsedPolygons) -> NDArray[np.int32]:
+def _polygons_of_edges(used: RepairedPolygons) -> NDArray[np.int32]:
     return np.repeat(used.polygons.ring_polygon, np.diff(used.polygons.ring_start))
 
 

@@ -11,7 +11,7 @@ from vorotool import _core
 from vorotool.geometry.mesh.triangulation import Triangulation
 
 
-class DelaunayTies:
+class CocircularTies:
     """The polygons of cocircular points, which may be triangulated in any way.
 
     Parameters
@@ -29,7 +29,7 @@ class DelaunayTies:
     Examples
     --------
     >>> from vorotool.engines.delaunay.delaunay import delaunay
-    >>> ties = DelaunayTies(delaunay([[0, 0], [1, 0], [1, 1], [0, 1]]))
+    >>> ties = CocircularTies(delaunay([[0, 0], [1, 0], [1, 1], [0, 1]]))
     >>> ties.unique_edges.sum(), ties.has_edge((1, 3)), ties.has_triangle((0, 1, 3))
     (np.int64(4), True, True)
     """

@@ -68,7 +68,7 @@ def delaunay(points: Any, *, strict: bool = False, threads: int = 0, progress: P
     if len(given) > MOST_POINTS:
         raise LimitError(f"there are {len(given)} points, more than {MOST_POINTS}: triangulate them in parts")
     threads = checked_threads(threads)
-    core = _core.DelaunayMesh(given.xy, threads, progress)
+    core = _core.DelaunayTriangulation(given.xy, threads, progress)
     triangles, neighbours, edges = core.arrays(threads, progress)
     mesh = Triangulation(
         given.xy,

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.common.label_arrays import Progress
-from vorotool.engines.delaunay.cocircular_ties import DelaunayTies
+from vorotool.engines.delaunay.cocircular_ties import CocircularTies
 from vorotool.engines.delaunay.delaunay import delaunay
 from vorotool.engines.digital.causes import SHORT, Causes, Members, members_of
 from vorotool.engines.digital.triangulation import digital_triangulation, one_seed_a_label
@@ -93,7 +93,7 @@ def compare_digital(
     components[np.searchsorted(digital.labels, measures.labels)] = measures.columns["components"]
     mesh = delaunay(digital.points, threads=threads, progress=progress)
     causes = Causes(digital, mesh, frame, components > 0, components > 1)
-    ties = DelaunayTies(mesh)
+    ties = CocircularTies(mesh)
     edges = _compare("edge", mesh.edges, ties.unique_edges, digital.edges, ties.has_edge, causes)
     triangles = _compare(
         "triangle", mesh.triangles, ties.unique_triangles, digital.triangles, ties.has_triangle, causes

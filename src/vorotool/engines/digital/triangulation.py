@@ -301,7 +301,7 @@ def repair_digital(
         points, ranked.x, ranked.y, seeds.scale, sweep.labels(dtype=np.uint32), frame.x, frame.y, threads, progress
     )
 
-    def mesh_of(core: _core.DelaunayMesh) -> Triangulation:
+    def mesh_of(core: _core.DelaunayTriangulation) -> Triangulation:
         arrays = core.arrays(threads, progress)
         return Triangulation(
             points, *arrays, core.hull, core.first, labels=labels.astype(np.int64), properties=seeds.properties

@@ -27,7 +27,7 @@ from vorotool.errors import LimitError, UsageError
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.numbers import finite_double, shown_number
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.skeleton.boundary_samples import EdgeSamples
+from vorotool.geometry.skeleton.boundary_samples import BoundarySamples
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
 SAMPLINGS = ("paper", "symmetric")
@@ -74,7 +74,7 @@ class SamplingOptions:
 
 
 @dataclass(frozen=True, eq=False)
-class SeedGroups:
+class SampleGroups:
     """Which seeds have a diagram together, and in which bounds its parts are put into order.
 
     Parameters
@@ -88,7 +88,7 @@ class SeedGroups:
     of_point: NDArray[np.int32] = field(default_factory=lambda: np.empty(0, dtype=np.int32))
     within: tuple[float, float, float, float] | None = None
 
-    def of_seeds(self, samples: EdgeSamples) -> NDArray[np.int32] | None:
+    def of_samples(self, samples: BoundarySamples) -> NDArray[np.int32] | None:
         """(s,) groups; None if all are one."""
         if not len(self.of_point):
             return None
@@ -106,19 +106,19 @@ class SampledShapes:
         Of the polygons.
     placed : PlacedShapes
         The rings as the graph has them, and what the sites are there.
-    samples : EdgeSamples
+    samples : BoundarySamples
         The seeds.
     diagram : compiled object
         Their Voronoi diagram, with what is to be deleted.
-    groups : SeedGroups
+    groups : SampleGroups
         Which of them have a diagram together.
     """
 
     graph: PlanarGraph
     placed: PlacedShapes
-    samples: EdgeSamples
+    samples: BoundarySamples
     diagram: Any
-    groups: SeedGroups
+    groups: SampleGroups
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,7 +181,7 @@ def sampled_graph(
 ) -> SampledShapes:
     """Sample a graph by a step, and compute the Voronoi diagram of the seeds."""
     try:
-        return diagram_by_step(graph, placed, options, SeedGroups(), most=most, threads=threads, progress=progress)
+        return diagram_by_step(graph, placed, options, SampleGroups(), most=most, threads=threads, progress=progress)
     except _core.TooManySeedsError as error:
         raise LimitError(f"a step of {options.step:g} gives {error}, more than {most}: use a larger one") from None
 
@@ -190,7 +190,7 @@ def diagram_by_step(
     graph: PlanarGraph,
     placed: PlacedShapes,
     options: SamplingOptions,
-    groups: SeedGroups,
+    groups: SampleGroups,
     *,
     most: int,
     threads: int,
@@ -216,13 +216,13 @@ def diagram_of_samples(
     graph: PlanarGraph,
     placed: PlacedShapes,
     made: tuple[Any, Any, Any],
-    groups: SeedGroups,
+    groups: SampleGroups,
     *,
     threads: int,
     progress: Progress,
 ) -> SampledShapes:
     """Compute the Voronoi diagram of seeds, or of each group of them."""
-    samples = EdgeSamples(*made, graph, placed.sites, placed.polygons)
+    samples = BoundarySamples(*made, graph, placed.sites, placed.polygons)
     diagram = _core.SampledDiagram(*graph_arrays(graph), *made, groups.of_point, groups.within, threads, progress)
     return SampledShapes(graph, placed, samples, diagram, groups)
 

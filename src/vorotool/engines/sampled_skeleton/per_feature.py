@@ -21,8 +21,8 @@ from vorotool.engines.features.sheets import Features
 from vorotool.engines.sampled_skeleton.approximate import (
     MOST_SEEDS,
     ApproximateSkeleton,
+    SampleGroups,
     SamplingOptions,
-    SeedGroups,
     approximate_skeleton,
     diagram_by_step,
     sampled_graph,
@@ -226,7 +226,7 @@ def _outside(
     return approximate_skeleton(sampled_graph(graph, placed, options, most=most, **common), **wanted, **common)
 
 
-def _groups(shapes: BatchShapes) -> SeedGroups:
+def _groups(shapes: BatchShapes) -> SampleGroups:
     """Each feature has a diagram of its own, which is put into order in the bounds of all."""
     graph, batch = shapes.graph, shapes.batch
     corners = np.concatenate([batch.placement.vertices, batch.beyond])
@@ -236,7 +236,7 @@ def _groups(shapes: BatchShapes) -> SeedGroups:
     feature = of_vertex[graph.point_vertex]  # of crossings any: they are ends
     feature[graph.segments] = of_vertex[graph.source_edge[graph.source_start[:-1]]][:, None]
     present, group = np.unique(feature, return_inverse=True)
-    return SeedGroups(group.astype(np.int32) if len(present) > 1 else np.empty(0, dtype=np.int32), within)
+    return SampleGroups(group.astype(np.int32) if len(present) > 1 else np.empty(0, dtype=np.int32), within)
 
 
 def _numbers(places: Places, counts: Sequence[int]) -> list[Indices]:

@@ -14,7 +14,7 @@ from vorotool.engines.sampled_skeleton.approximate import (
     MOST_SEEDS,
     ApproximateSkeleton,
     SampledShapes,
-    SeedGroups,
+    SampleGroups,
     diagram_of_samples,
     graph_arrays,
     skeleton_of_samples,
@@ -86,7 +86,7 @@ def skeleton_within(
             graph,
             placed,
             tolerance,
-            SeedGroups(),
+            SampleGroups(),
             side=side,
             frame=frame,
             complete=complete,
@@ -107,7 +107,7 @@ def refined_skeleton(
     graph: PlanarGraph,
     placed: PlacedShapes,
     tolerance: float,
-    groups: SeedGroups,
+    groups: SampleGroups,
     *,
     side: str,
     frame: Frame | None,
@@ -151,7 +151,7 @@ def refuse_unproved(skeleton: Skeleton, tolerance: float) -> None:
     )
 
 
-def _extent(graph: PlanarGraph, groups: SeedGroups) -> float:
+def _extent(graph: PlanarGraph, groups: SampleGroups) -> float:
     """The larger side of the bounds, of all if what is sampled is a part."""
     if groups.within is not None:
         least_x, most_x, least_y, most_y = groups.within

@@ -18,7 +18,7 @@ from vorotool.errors import VorotoolWarning
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.polygons.conversion import to_shapely
-from vorotool.geometry.skeleton.boundary_samples import EdgeSamples
+from vorotool.geometry.skeleton.boundary_samples import BoundarySamples
 from vorotool.geometry.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
 
 Floats = NDArray[np.float64]
@@ -89,7 +89,7 @@ def verify_approximate(
     _check_bounds(found, threads)
 
 
-def check_samples(samples: EdgeSamples, step: float | None = None) -> None:
+def check_samples(samples: BoundarySamples, step: float | None = None) -> None:
     """Raise unless seeds follow each other on their segments, with the gaps of a step if one is given."""
     graph, seeds = samples.graph, samples.seeds
     points = len(graph.points)
@@ -113,7 +113,7 @@ def check_samples(samples: EdgeSamples, step: float | None = None) -> None:
         _check_gaps(samples, step)
 
 
-def _check_gaps(samples: EdgeSamples, step: float) -> None:
+def _check_gaps(samples: BoundarySamples, step: float) -> None:
     if not len(samples.graph):
         return
     gaps, segment = samples.gaps()
@@ -124,7 +124,7 @@ def _check_gaps(samples: EdgeSamples, step: float) -> None:
         fail(f"a gap on edge {segment[at]} is {gaps[at]}, but the step is {step}")
 
 
-def _place_error(skeleton: Skeleton, samples: EdgeSamples) -> float:
+def _place_error(skeleton: Skeleton, samples: BoundarySamples) -> float:
     largest = max(np.abs(skeleton.vertices).max(initial=0.0), np.abs(samples.polygons.xy).max(initial=0.0))
     return PLACE_ERROR * samples.graph.scale + 4 * float(np.spacing(largest))
 
@@ -156,7 +156,7 @@ def _nearest_of_group(
     """How far the nearest seed is that has a diagram with a given one; only what is within a reach is looked for."""
     import shapely
 
-    points, group = shapely.points(places), found.shapes.groups.of_seeds(found.shapes.samples)
+    points, group = shapely.points(places), found.shapes.groups.of_samples(found.shapes.samples)
     if group is None:
         distance: Floats = tree.query_nearest(points, return_distance=True, all_matches=False)[1]
         return distance

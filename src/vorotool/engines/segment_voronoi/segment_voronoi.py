@@ -17,14 +17,14 @@ from vorotool.geometry.skeleton.segment_voronoi import LATTICE_LIMIT, SegmentVor
 MOST_SITES = 2**28 - 1
 """Of n sites there are at most 2 n - 2 vertices, each with four corner numbers in 31 bits."""
 NEITHER = 3
-"""What `idle_sides` tells of a site where neither side is wanted."""
+"""What `unwanted_sides` tells of a site where neither side is wanted."""
 
 
 def segment_voronoi(
     points: Any,
     segments: Any,
     *,
-    idle: NDArray[np.uint8] | None = None,
+    unwanted: NDArray[np.uint8] | None = None,
     within: tuple[int, int, int, int] | None = None,
     threads: int = 0,
     progress: Progress = None,
@@ -41,8 +41,8 @@ def segment_voronoi(
     segments : (m, 2) array of integers
         Indices of the ends of each segment. Segments meet at shared ends only, no point lies inside one, and no two
         have the same ends: placement makes such a graph. This is not checked in full.
-    idle : (n + m,) uint8 array, optional
-        Sides of points, then of segments, where the diagram is not asked for, as `idle_sides` gives them: vertices
+    unwanted : (n + m,) uint8 array, optional
+        Sides of points, then of segments, where the diagram is not asked for, as `unwanted_sides` gives them: vertices
         there are left out, but for corners, and so are the edges to them. All else is as in the whole diagram.
     within : (least x, most x, least y, most y), optional
         Bounds that hold all points, by default theirs: sites, and what is numbered or rounded along them, are put into
@@ -92,10 +92,10 @@ def segment_voronoi(
         raise InputError(f"{error}: place the input on the lattice first") from None
     except RuntimeError as error:
         raise _explained(str(error), places, ends) from None
-    return SegmentVoronoiDiagram(places, ends, *core.take_arrays(idle, threads, progress), counts=core.counts)
+    return SegmentVoronoiDiagram(places, ends, *core.take_arrays(unwanted, threads, progress), counts=core.counts)
 
 
-def idle_sides(graph: PlanarGraph, is_wanted: NDArray[np.bool_]) -> NDArray[np.uint8]:
+def unwanted_sides(graph: PlanarGraph, is_wanted: NDArray[np.bool_]) -> NDArray[np.uint8]:
     """Tell on which sides of its points and segments a planar graph has faces that are not wanted.
 
     Parameters
@@ -114,13 +114,13 @@ def idle_sides(graph: PlanarGraph, is_wanted: NDArray[np.bool_]) -> NDArray[np.u
     --------
     >>> from vorotool.engines.arrangement.planar_graph import planar_graph
     >>> graph = planar_graph([[0, 0], [6, 0], [3, 2], [0, 6]])
-    >>> sides = idle_sides(graph, graph.is_inside)
+    >>> sides = unwanted_sides(graph, graph.is_inside)
     >>> sides.tolist()
     [3, 3, 0, 3, 2, 2, 2, 2]
-    >>> [len(segment_voronoi(graph.points, graph.segments, idle=idle)) for idle in (None, sides)]
+    >>> [len(segment_voronoi(graph.points, graph.segments, unwanted=unwanted)) for unwanted in (None, sides)]
     [9, 7]
     """
-    return _core.idle_sides(graph.points, graph.segments, graph.segment_faces, is_wanted.view(np.uint8))
+    return _core.unwanted_sides(graph.points, graph.segments, graph.segment_faces, is_wanted.view(np.uint8))
 
 
 def _explained(symptom: str, points: NDArray[np.int32], segments: NDArray[np.int32]) -> VorotoolError:

@@ -13,7 +13,7 @@ from vorotool import _core
 from vorotool.engines.arrangement.lattice_rings import PlacedShapes, placed_shapes
 from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
 from vorotool.engines.common.label_arrays import Progress
-from vorotool.engines.segment_voronoi.segment_voronoi import idle_sides, segment_voronoi
+from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
 from vorotool.errors import Kind, Message, UsageError, VorotoolWarning
 from vorotool.geometry.box import bounds
 from vorotool.geometry.checks import checked_threads
@@ -87,20 +87,20 @@ def diagram_of_graph(
     If only the interior is asked for, vertices outside are left out, but for corners.
     """
     threads = checked_threads(threads)
-    idle = interior_idle_sides(graph) if interior_only else None
-    diagram = segment_voronoi(graph.points, graph.segments, idle=idle, threads=threads, progress=progress)
+    unwanted = sides_not_interior(graph) if interior_only else None
+    diagram = segment_voronoi(graph.points, graph.segments, unwanted=unwanted, threads=threads, progress=progress)
     return ShapeDiagram(graph, diagram, placed_shapes(graph, threads=threads))
 
 
-def interior_idle_sides(graph: PlanarGraph) -> NDArray[np.uint8] | None:
+def sides_not_interior(graph: PlanarGraph) -> NDArray[np.uint8] | None:
     """Tell where there is nothing inside; None if that is not known of a point: a line of one place."""
     is_known = np.bincount(graph.segments.ravel(), minlength=len(graph.points)) > 0
     is_known[graph.point_holes[:, 0]] = True
     if not is_known.all():
         return None
-    idle = idle_sides(graph, graph.is_inside)
-    idle[graph.point_holes[:, 0]] = 0
-    return idle
+    unwanted = unwanted_sides(graph, graph.is_inside)
+    unwanted[graph.point_holes[:, 0]] = 0
+    return unwanted
 
 
 def skeleton_of(

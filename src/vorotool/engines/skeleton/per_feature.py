@@ -13,7 +13,7 @@ from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.features.batches import BatchShapes, FeatureShapes, in_batches
 from vorotool.engines.features.order import InputOrder, Places, stacked
 from vorotool.engines.segment_voronoi.segment_voronoi import NEITHER, segment_voronoi
-from vorotool.engines.skeleton.exact import ShapeDiagram, interior_idle_sides, interior_skeleton, warn_empty
+from vorotool.engines.skeleton.exact import ShapeDiagram, interior_skeleton, sides_not_interior, warn_empty
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
@@ -86,10 +86,10 @@ def batch_diagram(
     graph, beyond = shapes.graph, shapes.batch.beyond
     count = len(graph.points)
     points = np.concatenate([graph.points, beyond])
-    idle = None if is_whole else interior_idle_sides(graph)
-    if idle is not None:
-        idle = np.insert(idle, count, np.full(len(beyond), NEITHER, dtype=np.uint8))
-    diagram = segment_voronoi(points, graph.segments, idle=idle, threads=threads, progress=progress)
+    unwanted = None if is_whole else sides_not_interior(graph)
+    if unwanted is not None:
+        unwanted = np.insert(unwanted, count, np.full(len(beyond), NEITHER, dtype=np.uint8))
+    diagram = segment_voronoi(points, graph.segments, unwanted=unwanted, threads=threads, progress=progress)
     return ShapeDiagram(graph, diagram, shapes.placed)
 
 

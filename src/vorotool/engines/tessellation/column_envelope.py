@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 
 @dataclass(frozen=True)
-class ColumnList:
+class ColumnEnvelope:
     """At most one seed a column.
 
     Parameters
@@ -25,26 +25,26 @@ class ColumnList:
     label: NDArray[np.uint32]
 
     @classmethod
-    def empty(cls, width: int) -> ColumnList:
+    def empty(cls, width: int) -> ColumnEnvelope:
         """No seed in any column."""
         return cls(np.zeros(width, np.int32), np.zeros(width, np.uint32))
 
-    def or_else(self, farther: ColumnList) -> ColumnList:
+    def or_else(self, farther: ColumnEnvelope) -> ColumnEnvelope:
         """These seeds, and in the columns that have none those of another list.
 
         Examples
         --------
-        >>> near = ColumnList(np.array([5, 0], np.int32), np.array([1, 0], np.uint32))
-        >>> far = ColumnList(np.array([2, 3], np.int32), np.array([7, 8], np.uint32))
+        >>> near = ColumnEnvelope(np.array([5, 0], np.int32), np.array([1, 0], np.uint32))
+        >>> far = ColumnEnvelope(np.array([2, 3], np.int32), np.array([7, 8], np.uint32))
         >>> near.or_else(far).label.tolist()
         [1, 8]
         """
         has = self.label != 0
-        return ColumnList(np.where(has, self.row, farther.row), np.where(has, self.label, farther.label))
+        return ColumnEnvelope(np.where(has, self.row, farther.row), np.where(has, self.label, farther.label))
 
-    def numbered(self, number: NDArray[np.uint32]) -> ColumnList:
+    def numbered(self, number: NDArray[np.uint32]) -> ColumnEnvelope:
         """The list with other labels, from a table."""
-        return ColumnList(self.row, number[self.label])
+        return ColumnEnvelope(self.row, number[self.label])
 
     def seeds(self) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.uint32]]:
         """Columns, rows and labels of the seeds."""
@@ -57,27 +57,27 @@ class ColumnList:
         return zlib.compress(change.tobytes() + self.label.tobytes(), 1)
 
     @classmethod
-    def unpacked(cls, data: bytes) -> ColumnList:
+    def unpacked(cls, data: bytes) -> ColumnEnvelope:
         """Give the list back.
 
         Examples
         --------
-        >>> ColumnList.unpacked(ColumnList(np.array([4, 2], np.int32), np.array([3, 0], np.uint32)).packed())
-        ColumnList(row=array([4, 2], dtype=int32), label=array([3, 0], dtype=uint32))
+        >>> ColumnEnvelope.unpacked(ColumnEnvelope(np.array([4, 2], np.int32), np.array([3, 0], np.uint32)).packed())
+        ColumnEnvelope(row=array([4, 2], dtype=int32), label=array([3, 0], dtype=uint32))
         """
         row, label = np.frombuffer(zlib.decompress(data), np.uint32).reshape(2, -1)
         return cls(np.cumsum(row.view(np.int32), dtype=np.int32), label)
 
 
-def last_seeds(objects: NDArray[np.uint32], first: int) -> ColumnList:
+def last_seeds(objects: NDArray[np.uint32], first: int) -> ColumnEnvelope:
     """The lowest seed of each column, of rows from ``first`` on, which have labels and 0."""
-    found = ColumnList.empty(objects.shape[1])
+    found = ColumnEnvelope.empty(objects.shape[1])
     for row, line in enumerate(objects, start=first):
         _put(found, row, line)
     return found
 
 
-def first_seeds(objects: NDArray[np.uint32], first: int) -> ColumnList:
+def first_seeds(objects: NDArray[np.uint32], first: int) -> ColumnEnvelope:
     """The uppermost seed of each column.
 
     Examples
@@ -86,13 +86,13 @@ def first_seeds(objects: NDArray[np.uint32], first: int) -> ColumnList:
     >>> first_seeds(objects, 10).label.tolist(), last_seeds(objects, 10).label.tolist()
     ([2, 1], [2, 3])
     """
-    found = ColumnList.empty(objects.shape[1])
+    found = ColumnEnvelope.empty(objects.shape[1])
     for row in range(len(objects) - 1, -1, -1):
         _put(found, first + row, objects[row])
     return found
 
 
-def _put(found: ColumnList, row: int, line: NDArray[np.uint32]) -> None:
+def _put(found: ColumnEnvelope, row: int, line: NDArray[np.uint32]) -> None:
     has = line != 0
     np.copyto(found.row, row, where=has)
     np.copyto(found.label, line, where=has)

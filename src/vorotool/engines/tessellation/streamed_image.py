@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.tessellation.bands import Quantity, SeedBand
-from vorotool.engines.tessellation.column_envelope import ColumnList, first_seeds, last_seeds
+from vorotool.engines.tessellation.column_envelope import ColumnEnvelope, first_seeds, last_seeds
 from vorotool.engines.tessellation.interior_seeds import surrounded_pixels
 from vorotool.engines.tessellation.raster_objects import (
     LARGEST_LABEL,
@@ -125,7 +125,7 @@ class ObjectBand:
     first, count : int
         Which rows.
     above, below : bytes
-        The nearest seed of each column above and below them: `ColumnList.packed`.
+        The nearest seed of each column above and below them: `ColumnEnvelope.packed`.
     row_above : bytes
         Of components: the numbers of the row above them, compressed.
     start, end : int
@@ -198,12 +198,12 @@ class ImageBand:
         def rows(start: int, stop: int) -> NDArray[np.uint32]:
             return objects[start - part.first : stop - part.first]
 
-        below = first_seeds(rows(end, part.first + part.count), end).or_else(ColumnList.unpacked(part.below))
+        below = first_seeds(rows(end, part.first + part.count), end).or_else(ColumnEnvelope.unpacked(part.below))
         lists_below = []
         for start, stop in reversed(limits):
             lists_below.append(below)
             below = first_seeds(rows(start, stop), start).or_else(below)
-        above = last_seeds(rows(part.first, begin), part.first).or_else(ColumnList.unpacked(part.above))
+        above = last_seeds(rows(part.first, begin), part.first).or_else(ColumnEnvelope.unpacked(part.above))
         for (start, stop), below in zip(limits, reversed(lists_below), strict=True):
             place = out[start - self.first : stop - self.first]
             self._label(rows(start, stop), start, above, below, place, threads)
@@ -214,8 +214,8 @@ class ImageBand:
         self,
         objects: NDArray[np.uint32],
         first: int,
-        above: ColumnList,
-        below: ColumnList,
+        above: ColumnEnvelope,
+        below: ColumnEnvelope,
         out: NDArray[Any],
         threads: int,
     ) -> None:
@@ -325,7 +325,7 @@ class StreamedImage:
     def _scan(self, progress: Progress) -> None:
         """Read the image from top to bottom; labels are provisional yet, and the list below is that of the band."""
         width = self.frame.width
-        above, row_above = ColumnList.empty(width), np.zeros(width, np.uint32)
+        above, row_above = ColumnEnvelope.empty(width), np.zeros(width, np.uint32)
         end = 0
         for first, count in self.source.limits():
             start = end
@@ -376,17 +376,17 @@ class StreamedImage:
         number = np.empty(self._components.size + 1, np.uint32)
         if self.source.mode == "components":
             self.largest_label = self._components.settle(number)
-        below = ColumnList.empty(self.frame.width)
+        below = ColumnEnvelope.empty(self.frame.width)
         for k in range(len(self._bands) - 1, -1, -1):
             band = self._bands[k]
-            own = ColumnList.unpacked(band.below)
+            own = ColumnEnvelope.unpacked(band.below)
             band = replace(band, below=below.packed())
             if self.source.mode == "components":
                 own = own.numbered(number)
                 row_above = number[np.frombuffer(zlib.decompress(band.row_above), np.uint32)]
                 band = replace(
                     band,
-                    above=ColumnList.unpacked(band.above).numbered(number).packed(),
+                    above=ColumnEnvelope.unpacked(band.above).numbered(number).packed(),
                     row_above=zlib.compress(row_above.tobytes(), 1),
                     fresh=number[band.start + 1 : band.end + 1],
                 )
@@ -402,7 +402,7 @@ def _numbered_pixels(mask: NDArray[np.uint8], start: int) -> NDArray[np.uint32]:
     return numbers
 
 
-def _seeds_near(objects: NDArray[np.uint32], frame: Frame, above: ColumnList, below: ColumnList) -> SeedSet:
+def _seeds_near(objects: NDArray[np.uint32], frame: Frame, above: ColumnEnvelope, below: ColumnEnvelope) -> SeedSet:
     """Give the seeds that are nearest to pixels of these rows: those that are not surrounded, and the lists.
 
     See `needed_seeds` and `SeedBands`.

@@ -145,7 +145,7 @@ def write_rows(
     def formatted(part: slice) -> list[bytes]:
         parts = [column.part(part) for column in columns]
         values = [_core_values(column, texts) for column in parts]
-        return _core.format_columns(values, [column.missing for column in parts], digits, 1, shape)
+        return _core.format_rows(values, [column.missing for column in parts], digits, 1, shape)
 
     between = b"" if shape is None else shape.separator.encode()
     for number, blocks in enumerate(in_order(formatted, slices(rows, SLICE_ROWS), threads if rows > SLICE_ROWS else 1)):

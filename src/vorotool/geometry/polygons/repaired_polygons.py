@@ -11,7 +11,7 @@ from vorotool.geometry.polygons.polygon_set import PolygonSet
 
 
 @dataclass(frozen=True, eq=False)
-class UsedPolygons:
+class RepairedPolygons:
     """The rings of a planar graph, and where each vertex and edge is in it.
 
     A polygon of the input that falls apart gives several, one that has no inside none; they follow one another, with

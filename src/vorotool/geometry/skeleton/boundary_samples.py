@@ -15,7 +15,7 @@ from vorotool.geometry.table import Lookup, Table
 
 
 @dataclass(frozen=True, eq=False)
-class EdgeSamples:
+class BoundarySamples:
     """Seeds: the points of a planar graph, then those inside each of its segments, along it.
 
     Parameters
@@ -85,12 +85,12 @@ class EdgeSamples:
         return lengths, np.repeat(np.arange(len(segments), dtype=np.int32), count + 1)
 
 
-def sample_table(samples: EdgeSamples) -> Table:
+def sample_table(samples: BoundarySamples) -> Table:
     """Give one row a seed.
 
     Parameters
     ----------
-    samples : EdgeSamples
+    samples : BoundarySamples
         Rows are in the order of its seeds: vertices first, then edge by edge.
 
     Returns

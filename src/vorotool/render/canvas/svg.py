@@ -100,7 +100,7 @@ def _parts(layer: Layer, page: Page, threads: int) -> Iterator[bytes]:
 
 
 def _rows(columns: list[Any], around: tuple[str, ...], threads: int, separator: str = "") -> list[bytes]:
-    return _core.format_columns(columns, [None] * len(columns), 0, threads, (around, separator, ""))
+    return _core.format_rows(columns, [None] * len(columns), 0, threads, (around, separator, ""))
 
 
 def _chunks(count: int, size: int) -> Iterator[slice]:

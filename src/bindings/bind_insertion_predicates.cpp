@@ -81,7 +81,7 @@ nb::object conflicts(SiteRows<4> rows) {
   core::base::LargeArray<std::int8_t> result(2 * rows.shape(0));
   for (std::size_t k = 0; k < rows.shape(0); ++k) {
     const FewSites sites(rows.data() + 16 * k, 4);
-    core::segment_voronoi::build::SegmentPredicates predicates(sites.all());
+    core::segment_voronoi::build::InsertionPredicates predicates(sites.all());
     const core::segment_voronoi::build::SegmentQuery query(sites.all(), sites.number(3));
     result.data()[2 * k] = predicates.in_conflict(sites.vertex(0), query);
     const core::segment_voronoi::build::EscalationCounts& counts = predicates.counts();
@@ -107,7 +107,7 @@ nb::object coincidences(SiteRows<6> rows) {
 
 }  // namespace
 
-void bind_segment_predicates(nb::module_& module) {
+void bind_insertion_predicates(nb::module_& module) {
   module.def("segment_conflicts", &conflicts, "sites"_a.noconvert());
   module.def("segment_coincidences", &coincidences, "sites"_a.noconvert());
 }

@@ -106,7 +106,7 @@ nb::object rounded_discs(SiteRows<3> rows) {
 
 }  // namespace
 
-void bind_segment_exact(nb::module_& module) {
+void bind_exact_signs(nb::module_& module) {
   module.def("segment_clearance_signs", &clearance_signs, "sites"_a.noconvert());
   module.def("segment_same_disc", &same_disc, "sites"_a.noconvert());
   module.def("segment_edge_clearance_signs", &edge_clearance_signs, "sites"_a.noconvert());

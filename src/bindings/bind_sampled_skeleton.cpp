@@ -32,9 +32,9 @@ using core::base::Monitor;
 struct GraphArrays {
   IndexRows points, segments, faces;
 
-  core::arrangement::ShapeGraph graph() const {
-    const core::arrangement::ShapeGraph g{rows<LatticePoint>(points), rows<Pair>(segments),
-                                          rows<Pair>(faces)};
+  core::arrangement::PlanarGraphView graph() const {
+    const core::arrangement::PlanarGraphView g{rows<LatticePoint>(points), rows<Pair>(segments),
+                                               rows<Pair>(faces)};
     if (g.faces.size() != g.segments.size()) throw std::invalid_argument("each segment must have two faces");
     for (const Pair& ends : g.segments) {
       for (const std::int32_t end : ends) {
@@ -48,7 +48,7 @@ struct GraphArrays {
 };
 
 // Seeds, the segment that each is inside of, and where those of each segment begin.
-nb::tuple to_tuple(core::sampled_skeleton::EdgeSamples&& samples) {
+nb::tuple to_tuple(core::sampled_skeleton::BoundarySamples&& samples) {
   const std::size_t count = samples.segment.size();
   return nb::make_tuple(points_to_numpy(std::move(samples.seeds)),
                         to_numpy(std::move(samples.segment), {count}), to_numpy(std::move(samples.start)));
@@ -56,7 +56,7 @@ nb::tuple to_tuple(core::sampled_skeleton::EdgeSamples&& samples) {
 
 nb::tuple sample_by_step(const IndexRows& points, const IndexRows& segments, const IndexRows& faces,
                          double step, std::size_t most, unsigned threads, nb::handle progress) {
-  const core::arrangement::ShapeGraph graph = GraphArrays{points, segments, faces}.graph();
+  const core::arrangement::PlanarGraphView graph = GraphArrays{points, segments, faces}.graph();
   return to_tuple(run_interruptible(progress, [&](const Monitor& monitor) {
     return core::sampled_skeleton::sample_by_step(graph, step, most, core::base::resolve_threads(threads),
                                                   monitor);
@@ -65,7 +65,8 @@ nb::tuple sample_by_step(const IndexRows& points, const IndexRows& segments, con
 
 using Steps = std::pair<Vector<const std::uint64_t>, Vector<const double>>;
 
-core::sampled_skeleton::CornerSteps steps_of(const Steps& steps, const core::arrangement::ShapeGraph& graph) {
+core::sampled_skeleton::CornerSteps steps_of(const Steps& steps,
+                                             const core::arrangement::PlanarGraphView& graph) {
   const auto start = view(steps.first);
   const auto distance = view(steps.second);
   core::sampled_skeleton::CornerSteps made{{start.begin(), start.end()}, {distance.begin(), distance.end()}};
@@ -82,7 +83,7 @@ nb::tuple to_tuple(core::sampled_skeleton::CornerSteps&& steps) {
 
 nb::tuple sample_from_corners(const IndexRows& points, const IndexRows& segments, const IndexRows& faces,
                               const Steps& steps, std::size_t most, unsigned threads, nb::handle progress) {
-  const core::arrangement::ShapeGraph graph = GraphArrays{points, segments, faces}.graph();
+  const core::arrangement::PlanarGraphView graph = GraphArrays{points, segments, faces}.graph();
   const core::sampled_skeleton::CornerSteps wanted = steps_of(steps, graph);
   return to_tuple(run_interruptible(progress, [&](const Monitor& monitor) {
     return core::sampled_skeleton::sample_from_corners(graph, wanted, most,
@@ -92,14 +93,14 @@ nb::tuple sample_from_corners(const IndexRows& points, const IndexRows& segments
 
 nb::tuple corner_steps(const IndexRows& points, const IndexRows& segments, const IndexRows& faces,
                        double step, bool is_even, std::size_t most) {
-  const core::arrangement::ShapeGraph graph = GraphArrays{points, segments, faces}.graph();
+  const core::arrangement::PlanarGraphView graph = GraphArrays{points, segments, faces}.graph();
   return to_tuple(is_even ? core::sampled_skeleton::even_steps(graph, step, most)
                           : core::sampled_skeleton::doubled_steps(graph, step, most));
 }
 
 nb::tuple refined_steps(const IndexRows& points, const IndexRows& segments, const IndexRows& faces,
                         const Steps& steps, const Indices& start, const Indices& parts, std::size_t most) {
-  const core::arrangement::ShapeGraph graph = GraphArrays{points, segments, faces}.graph();
+  const core::arrangement::PlanarGraphView graph = GraphArrays{points, segments, faces}.graph();
   if (start.size() != graph.segments.size() + 1 ||
       parts.size() !=
           graph.segments.size() + static_cast<std::size_t>(view(start).back()) - graph.points.size()) {
@@ -118,20 +119,20 @@ class SampledDiagram {
                  const Indices& start, const Indices& group, const std::optional<Box>& within,
                  unsigned threads, nb::handle progress)
       : arrays_(arrays), seeds_(seeds), segment_(segment), start_(start), group_(group) {
-    const core::arrangement::ShapeGraph graph = arrays_.graph();
+    const core::arrangement::PlanarGraphView graph = arrays_.graph();
     check(graph);
-    const core::sampled_skeleton::SeedGroups groups = groups_of(graph, within);
+    const core::sampled_skeleton::SampleGroups groups = groups_of(graph, within);
     made_ = run_interruptible(progress, [&](const Monitor& monitor) {
-      return std::make_unique<core::sampled_skeleton::SeedDiagram>(
+      return std::make_unique<core::sampled_skeleton::SampleDiagram>(
           graph, as_points(seeds_), view(segment_), view(start_), groups,
           core::base::resolve_threads(threads), monitor);
     });
   }
 
-  const core::sampled_skeleton::SeedDiagram& operator*() const { return *made_; }
+  const core::sampled_skeleton::SampleDiagram& operator*() const { return *made_; }
 
  private:
-  void check(const core::arrangement::ShapeGraph& graph) const {
+  void check(const core::arrangement::PlanarGraphView& graph) const {
     const std::span<const std::int32_t> start = view(start_), segment = view(segment_);
     bool fits = start.size() == graph.segments.size() + 1 && segment.size() == as_points(seeds_).size() &&
                 static_cast<std::size_t>(start.front()) == graph.points.size() &&
@@ -143,9 +144,9 @@ class SampledDiagram {
     if (!fits) throw std::invalid_argument("the seeds do not go with the segments");
   }
 
-  core::sampled_skeleton::SeedGroups groups_of(const core::arrangement::ShapeGraph& graph,
-                                               const std::optional<Box>& within) const {
-    core::sampled_skeleton::SeedGroups groups{view(group_), 1, {}};
+  core::sampled_skeleton::SampleGroups groups_of(const core::arrangement::PlanarGraphView& graph,
+                                                 const std::optional<Box>& within) const {
+    core::sampled_skeleton::SampleGroups groups{view(group_), 1, {}};
     if (within) {
       const auto [least_x, most_x, least_y, most_y] = *within;
       groups.within = core::spatial::Bounds({least_x, least_y});
@@ -168,7 +169,7 @@ class SampledDiagram {
   GraphArrays arrays_;
   Matrix<const double> seeds_;
   Indices segment_, start_, group_;
-  std::unique_ptr<core::sampled_skeleton::SeedDiagram> made_;
+  std::unique_ptr<core::sampled_skeleton::SampleDiagram> made_;
 };
 
 nb::dict counts_of(const SampledDiagram& diagram) {
@@ -190,7 +191,7 @@ nb::dict skeleton_of(const SampledDiagram& diagram, const Indices& face_group,
                      const std::optional<std::pair<std::int32_t, Box>>& clipped, bool whole, bool complete,
                      double tolerance, const std::pair<std::int32_t, std::int32_t>& joined, double origin_x,
                      double origin_y, double scale, unsigned threads, nb::handle progress) {
-  core::sampled_skeleton::SeedSkeletonOptions options{
+  core::sampled_skeleton::SampledSkeletonOptions options{
       view(face_group), {}, whole, complete, tolerance, {joined.first, joined.second}};
   if (clipped) {
     const auto [least_x, most_x, least_y, most_y] = clipped->second;
@@ -207,9 +208,9 @@ nb::dict skeleton_of(const SampledDiagram& diagram, const Indices& face_group,
   if (unbounded >= 0 && !(options.clipped && options.clipped->group == unbounded)) {
     throw std::invalid_argument("unbounded edges are in no frame");
   }
-  core::sampled_skeleton::SeedSkeleton made = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::sampled_skeleton::extract_seed_skeleton(*diagram, options, {origin_x, origin_y, scale},
-                                                         core::base::resolve_threads(threads), monitor);
+  core::sampled_skeleton::SampledSkeleton made = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::sampled_skeleton::extract_sampled_skeleton(*diagram, options, {origin_x, origin_y, scale},
+                                                            core::base::resolve_threads(threads), monitor);
   });
   nb::dict result;
   result["vertices"] = two_columns(std::move(made.arrays.vertices));
@@ -230,7 +231,7 @@ nb::dict skeleton_of(const SampledDiagram& diagram, const Indices& face_group,
 
 }  // namespace
 
-void bind_seed_skeleton(nb::module_& module) {
+void bind_sampled_skeleton(nb::module_& module) {
   nb::exception<core::sampled_skeleton::TooManySeeds>(module, "TooManySeedsError");
   module.def("sample_by_step", &sample_by_step, "points"_a.noconvert(), "segments"_a.noconvert(),
              "faces"_a.noconvert(), "step"_a, "most"_a, "threads"_a, "progress"_a.none());
