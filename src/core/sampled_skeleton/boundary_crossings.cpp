@@ -13,6 +13,8 @@
 namespace vorotool::core::sampled_skeleton {
 
 using delaunay::VertexTriangles;
+using kernel::LatticeSite;
+using kernel::LatticeVector;
 using kernel::Point;
 using numbers::widen;
 
@@ -127,6 +129,26 @@ class Walk {
   std::vector<Spoke> tied_, ridden_;
 };
 
+// The segment of a piece, as the piece leads from the cell of the side's origin to that of its target.
+LatticeSite across_side(const SeedLabels& labels, const Crossing& crossing) {
+  const LatticeSite site = labels.graph().site(labels.piece(crossing.piece).segment);
+  return crossing.from_origin ? site : LatticeSite{site.b, site.a};
+}
+
+// On which side of the line of one segment the other one is: 1 if on its left, 0 if on both.
+int side_of(const LatticeSite& line, const LatticeSite& other) {
+  const LatticeVector way = line.b - line.a;
+  const std::int64_t a = kernel::cross(way, other.a - line.a), b = kernel::cross(way, other.b - line.a);
+  return (std::max(a, b) > 0 ? 1 : 0) - (std::min(a, b) < 0 ? 1 : 0);
+}
+
+// Negative if the other one is on the left. Segments meet at ends only: one at least is on one side of the
+// other's line, or both are on one line.
+int compare_segments(const LatticeSite& one, const LatticeSite& other) {
+  const int side = side_of(other, one);
+  return side != 0 ? side : -side_of(one, other);
+}
+
 template <class Items>
 void append(Items& all, const Items& more) {
   all.insert(all.end(), more.begin(), more.end());
@@ -185,7 +207,8 @@ int compare_crossings(const SampleMesh& mesh, const SampleLabels& labels, const 
     return low;
   };
   const Place a = place(one), b = place(other);
-  return (product(a.numerator, b.denominator) - product(b.numerator, a.denominator)).sign();
+  const int order = (product(a.numerator, b.denominator) - product(b.numerator, a.denominator)).sign();
+  return order != 0 ? order : compare_segments(across_side(labels, one), across_side(labels, other));
 }
 
 }  // namespace vorotool::core::sampled_skeleton

@@ -33,7 +33,8 @@ Crossings find_crossings(const SampleMesh& mesh, const delaunay::VertexTriangles
                          const base::Monitor& monitor);
 
 // The order in which two pieces cross the Voronoi edge of a side, seen along it to the circumcentre of the
-// triangle on the left of the side: negative if the first one is farther from that.
+// triangle on the left of the side: negative if the first one is farther from that. Pieces that cross it in
+// one place, as those do whose seeds are rounded to the same places, have the order of their segments.
 int compare_crossings(const SampleMesh& mesh, const SampleLabels& labels, const Crossing& one,
                       const Crossing& other);
 

@@ -8,8 +8,12 @@ import pytest
 import vorotool
 from fuzz.skeleton_approx import failure
 from fuzz.skeleton_bounds import Shape, check_steps, check_tolerances, random_shapes
-from support.families.skeleton_shapes import FAMILIES, regular
+from support.families.skeleton_shapes import FAMILIES, regular, under_symmetries
+from vorotool.engines.arrangement.lattice_rings import placed_shapes
+from vorotool.engines.arrangement.planar_graph import planar_graph
 from vorotool.engines.sampled_skeleton.hausdorff import distances_to, places_on_arcs
+from vorotool.engines.sampled_skeleton.refinement import skeleton_within
+from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
 from vorotool.errors import UsageError
 
 SHAPES = random_shapes(np.random.default_rng(1))
@@ -40,6 +44,22 @@ def test_bounds_hold_and_are_small_where_shapes_are_round():
     true = distances_to(shape.exact, spots).reshape(len(skeleton), 5)
     assert (true <= skeleton.error_bound[:, None]).all()
     assert skeleton.error_bound.max() < 1
+
+
+@pytest.mark.parametrize("order", [[0, 1, 2], [2, 1, 0], [1, 0, 2]])
+def test_arcs_beside_edges_with_common_seeds_are_in_their_polygons(order):
+    # edges lead from one corner at angles so small that seeds near it are rounded to one place
+    triangles = [
+        [[0, 0], [2, -1], [417237026, 284508827]],
+        [[0, 0], [417237024, 284508826], [417237026, 284508828]],
+        [[0, 0], [417237021, 284508830], [0, 2]],
+    ]
+    for shape in under_symmetries([triangles[i] for i in order]):
+        graph = planar_graph(shape)
+        found = skeleton_within(graph, placed_shapes(graph), 950000.0, side="interior", most=100000)
+        seeds = found.shapes.samples.seeds
+        assert len(np.unique(seeds, axis=0)) < len(seeds)
+        verify_approximate(found)
 
 
 def test_results_do_not_depend_on_threads():
