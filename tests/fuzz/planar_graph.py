@@ -44,6 +44,11 @@ def described(graph: PlanarGraph) -> dict[tuple, tuple]:
     return found
 
 
+def holes_of(graph: PlanarGraph) -> set[tuple]:
+    """Holes of one place as the oracle has them."""
+    return {(tuple(graph.points[point].tolist()), polygon) for point, _, polygon in graph.point_holes.tolist()}
+
+
 def failure(vertices: np.ndarray, rings: list[tuple[int, int, int, int]]) -> str | None:
     """What is wrong with the graph of these rings, if anything."""
     graph = graph_of(vertices, rings)
@@ -61,6 +66,8 @@ def failure(vertices: np.ndarray, rings: list[tuple[int, int, int, int]]) -> str
         expected, moved = oracle.planar_graph(vertices.tolist(), rings)
         if described(graph) != expected or graph.repairs["moved_edges"] != moved:
             return "not what the definition gives"
+        if holes_of(graph) != oracle.point_holes(vertices.tolist(), rings, expected):
+            return "not the holes of one place that the definition gives"
     return None
 
 

@@ -70,7 +70,9 @@ def check(vertices, rings):
     assert graph["repairs"][3][0] == moved
     ends = {p for pair in expected for p in pair}
     alone = {tuple(vertices[begin].tolist()) for begin, _, kind, _ in rings if kind == LINE}
-    assert set(points) == ends | alone
+    holes = {(points[point], polygon) for point, _, polygon in graph["point_holes"].reshape(-1, 3).tolist()}
+    assert holes == oracle.point_holes(vertices.tolist(), rings, expected)
+    assert set(points) == ends | alone | {place for place, _ in holes}
     for vertex, point in zip(graph["point_vertex"].tolist(), points, strict=True):
         first = next((i for i, v in enumerate(vertices.tolist()) if tuple(v) == point), -1)
         assert vertex == first
@@ -82,6 +84,33 @@ def check(vertices, rings):
 def test_small_inputs_beside_the_definition(name, n):
     for seed in range(5):
         check(*draw(name, n, [seed, n]))
+
+
+HOLES = {
+    "a point": ([[3, 2]], 0),
+    "a point, twice": ([[3, 2], [3, 2], [3, 2]], 0),
+    "a segment": ([[3, 2], [5, 4]], 0),
+    "a segment, there and back": ([[3, 2], [5, 4], [3, 2], [5, 4]], 0),
+    "from the middle of an edge": ([[4, 0], [5, 4]], 0),
+    "across an edge": ([[4, -4], [5, 4]], 0),
+    "across the polygon": ([[-2, 4], [12, 4]], 0),
+    "along an edge": ([[-2, 0], [6, 0]], 0),
+    "a point on an edge": ([[4, 0]], 0),
+    "a point outside": ([[-4, 0]], 0),
+    "a segment outside": ([[-4, 0], [-2, 5]], 0),
+    "of another polygon": ([[3, 2], [5, 4]], 1),
+}
+
+
+@pytest.mark.parametrize(("hole", "polygon"), HOLES.values(), ids=HOLES)
+def test_holes_without_an_area(hole, polygon):
+    """Points and segments are there where they lie in their polygon; the last ones are a segment and its end."""
+    shells = [[[0, 0], [8, 0], [8, 8], [0, 8]], [[20, 0], [28, 0], [28, 8], [20, 8]]]
+    holes = [(hole, 1, polygon), ([[1, 6], [3, 6]], 1, 0), ([[3, 6]], 1, 0)]
+    order = sorted([(shell, 0, k) for k, shell in enumerate(shells)] + holes, key=lambda ring: ring[2])
+    end = np.cumsum([len(xy) for xy, _, _ in order]).tolist()
+    rings = [(last - len(xy), last, kind, of) for last, (xy, kind, of) in zip(end, order, strict=True)]
+    check(np.concatenate([xy for xy, _, _ in order]).astype(np.int32), rings)
 
 
 @pytest.mark.parametrize("name", FAMILIES)

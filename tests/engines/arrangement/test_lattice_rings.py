@@ -5,9 +5,10 @@ import warnings
 import numpy as np
 import pytest
 
+import vorotool
 from support.families.skeleton_shapes import FAMILIES
 from vorotool.engines.arrangement.lattice_rings import placed_shapes
-from vorotool.engines.arrangement.planar_graph import planar_graph
+from vorotool.engines.arrangement.planar_graph import planar_graph, verify_planar_graph
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.skeleton.skeleton import EDGE, Skeleton
 
@@ -69,3 +70,23 @@ def test_what_is_not_on_the_lattice_is_moved_there():
     graph = graph_of(shape)
     placed = placed_shapes(graph)
     assert 0 < np.abs(placed.polygons.xy - shape).max() <= graph.largest_move
+
+
+@pytest.mark.filterwarnings("ignore::vorotool.errors.RepairWarning")
+def test_holes_that_are_points_and_segments_on_the_lattice_only():
+    """Vertices of three places that the lattice has at one or two."""
+    far = 2.0**40
+    point = [[far / 2, far / 2], [far / 2 + 9, far / 2], [far / 2, far / 2 + 9]]
+    segment = [[far / 4, far / 4], [far / 4, far / 4 + 9], [far / 2, far / 4]]
+    shape = {"shell": [[0, 0], [far, 0], [far, far], [0, far]], "holes": [segment, point]}
+    graph = graph_of([shape])
+    verify_planar_graph(graph)
+    placed = placed_shapes(graph)
+    assert np.diff(placed.polygons.ring_start).tolist() == [4, 2, 1]
+    ends = site_ends(placed)
+    assert np.array_equal(ends[: len(graph.points), 0], graph.coordinates())
+    made, expected = (
+        vorotool.skeleton_exact({**shape, "holes": holes}) for holes in ([segment, point], [segment[::2], point[:1]])
+    )
+    vorotool.verify_skeleton(made)
+    assert np.array_equal(made.vertices, expected.vertices)

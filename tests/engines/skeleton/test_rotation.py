@@ -4,6 +4,7 @@ import warnings
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from fuzz.rotation import failure
 from support.oracles.rotation_oracle import Pair, Rotation, fault
@@ -31,6 +32,19 @@ def test_larger_moves_and_other_radii_are_found():
     away = np.array([100 * pair.move, 0])
     for changed in ({"vertices": right.vertices + away}, {"radius": right.radius * (1 + 1e-6)}):
         pair.second = replace(right, **changed)
+        assert fault(pair, {}) is not None
+
+
+@pytest.mark.filterwarnings("ignore:1 polygon has vertices at one or two places")
+def test_features_that_overlap_are_compared_one_by_one():
+    """What is nearest to a place inside a feature is its own border, though another one runs between."""
+    pair = Pair(as_polygons([SHAPE.xy, [[3, -2], [9, -2], [9, 20]], [[7, 1], [8, 2]]]), Rotation(10))
+    assert fault(pair, {}) is None
+    right = pair.second
+    for feature in (0, 1):
+        radius = right.radius.copy()
+        radius[np.unique(right.arcs[right.polygon == feature])] *= 1 + 1e-6
+        pair.second = replace(right, radius=radius)
         assert fault(pair, {}) is not None
 
 

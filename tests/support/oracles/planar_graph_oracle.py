@@ -108,6 +108,12 @@ def ring_of(rings, edge):
     return next(i for i, (begin, end, _, _) in enumerate(rings) if begin <= edge < end)
 
 
+def flat_holes(vertices, rings):
+    """{ring: its one or two places} of holes without an area: points and segments that their polygons go around."""
+    places = {ring: set(vertices[begin:end]) for ring, (begin, end, kind, _) in enumerate(rings) if kind == HOLE}
+    return {ring: here for ring, here in places.items() if len(here) < 3}
+
+
 def polygons_at(point, pieces, rings):
     """Polygons that a point on no piece lies in: inside the shell and no hole, each by the even-odd rule."""
     inside = [False] * len(rings)
@@ -138,13 +144,31 @@ def planar_graph(vertices, rings):
     """{segment: (edges, polygons left, polygons right)}, and the number of loose edges."""
     vertices = [tuple(v) for v in vertices]
     pieces, loose = snapped_pieces(vertices, rings)
+    flat = flat_holes(vertices, rings)
     found = {}
     for piece, edges in pieces.items():
         left, right = (polygons_at(p, pieces, rings) for p in beside(piece, pieces))
-        if left != right or any(rings[ring_of(rings, e)][2] == LINE for e in edges):
+        own = {ring_of(rings, e) for e in edges}
+        around = {rings[ring][3] for ring in own & flat.keys()} & left & right
+        if left != right or any(rings[ring][2] == LINE for ring in own) or around:
             found[piece] = (sorted(edges), left, right)
     moved = sum(tuple(sorted((a, b))) in loose for _, _, a, b in edges_of(vertices, rings))
     return found, moved
+
+
+def point_holes(vertices, rings, found):
+    """{(place, polygon)} of holes of one place in their polygon, where none of the segments that were found ends."""
+    vertices = [tuple(v) for v in vertices]
+    pieces, _ = snapped_pieces(vertices, rings)
+    ends, holes = {place for piece in found for place in piece}, set()
+    for ring, places in flat_holes(vertices, rings).items():
+        polygon, (place, *others) = rings[ring][3], places
+        if others or place in ends:
+            continue
+        idle = next((piece for piece in pieces if place in piece), None)  # has the same polygons on both sides
+        if polygon in polygons_at(beside(idle, pieces)[0] if idle else place, pieces, rings):
+            holes.add((place, polygon))
+    return holes
 
 
 def fault(points, segments):

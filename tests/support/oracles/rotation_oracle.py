@@ -23,6 +23,7 @@ import numpy as np
 
 from vorotool import offset, prune, skeleton_exact
 from vorotool.engines.sampled_skeleton.hausdorff import distances_to, places_on_arcs
+from vorotool.engines.skeleton.parts import with_polygons
 from vorotool.engines.skeleton.site_distances import SitePlaces
 
 ANGLES = (30, 60, 90, 120)
@@ -86,11 +87,20 @@ def fault(pair, worst):
 
     `worst` keeps the largest moves by angle, as multiples of the placement.
     """
-    for own, other, to_other in pair.directions():
-        wrong = place_fault(own, other, to_other, pair) or pruned_fault(own, other, to_other, pair, worst)
-        if wrong:
-            return wrong
+    for *both, to_other in pair.directions():
+        for own, other in by_feature(*both):
+            wrong = place_fault(own, other, to_other, pair) or pruned_fault(own, other, to_other, pair, worst)
+            if wrong:
+                return wrong
     return radius_fault(pair) or area_fault(pair)
+
+
+def by_feature(own, other):
+    """What two skeletons have inside each feature: where features overlap, each is as if there were no others."""
+    feature = own.polygons.feature
+    for each in np.unique(feature[own.polygon]):
+        chosen = np.flatnonzero(feature == each)
+        yield with_polygons(own, chosen), with_polygons(other, chosen)
 
 
 def place_fault(own, other, to_other, pair):

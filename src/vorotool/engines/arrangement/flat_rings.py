@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,8 +11,16 @@ from numpy.typing import NDArray
 from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet
 
 
-def flat_holes(polygons: PolygonSet) -> NDArray[np.bool_]:
+def flat_holes(polygons: PolygonSet, places: NDArray[Any] | None = None) -> NDArray[np.bool_]:
     """(r,) whether a ring is a hole with vertices at one or two places.
+
+    Parameters
+    ----------
+    polygons : PolygonSet
+        With any rings.
+    places : (n, 2) array, optional
+        Where the vertices are taken to be, such as on a lattice, where more of them may coincide; otherwise where
+        their coordinates are.
 
     Examples
     --------
@@ -19,7 +28,7 @@ def flat_holes(polygons: PolygonSet) -> NDArray[np.bool_]:
     >>> flat_holes(as_polygons([{"shell": [[0, 0], [9, 0], [0, 9]], "holes": [[[1, 1], [2, 1]]]}])).tolist()
     [False, True]
     """
-    return np.equal(polygons.ring_kind, HOLE) & _are_flat(polygons)
+    return np.equal(polygons.ring_kind, HOLE) & _are_flat(polygons, polygons.xy if places is None else places)
 
 
 def with_flat_shells_as_lines(polygons: PolygonSet) -> PolygonSet:
@@ -34,7 +43,7 @@ def with_flat_shells_as_lines(polygons: PolygonSet) -> PolygonSet:
     shell = polygons.polygon_start[:-1]
     is_alone = np.diff(polygons.polygon_start) == 1
     flat = shell[is_alone & np.equal(polygons.ring_kind[shell], SHELL)]
-    flat = flat[_are_flat(polygons)[flat]]
+    flat = flat[_are_flat(polygons, polygons.xy)[flat]]
     if not flat.size:
         return polygons
     kind = polygons.ring_kind.copy()
@@ -42,13 +51,13 @@ def with_flat_shells_as_lines(polygons: PolygonSet) -> PolygonSet:
     return replace(polygons, ring_kind=kind)
 
 
-def _are_flat(polygons: PolygonSet) -> NDArray[np.bool_]:
+def _are_flat(polygons: PolygonSet, places: NDArray[Any]) -> NDArray[np.bool_]:
     start, size = polygons.ring_start, np.diff(polygons.ring_start)
     ring = np.repeat(np.arange(len(size)), size)
-    is_other = (polygons.xy != polygons.xy[start[:-1]][ring]).any(axis=1)
+    is_other = (places != places[start[:-1]][ring]).any(axis=1)
     vertex = np.where(is_other, np.arange(len(ring)), len(ring))
     second = np.minimum.reduceat(vertex, start[:-1]) if len(size) else vertex
     second = np.where(second < len(ring), second, start[:-1])  # of one place it is the first
-    is_third = is_other & (polygons.xy != polygons.xy[second][ring]).any(axis=1)
+    is_third = is_other & (places != places[second][ring]).any(axis=1)
     has_three: NDArray[np.bool_] = np.bincount(ring[is_third], minlength=len(size)) > 0
     return ~has_three

@@ -336,7 +336,7 @@ def _source_fault(graph: PlanarGraph) -> str | None:
         if is_off.any():
             at = int(is_off.argmax())
             return f"segment {segment[at]} is not where edge {edge[at]} runs"
-    return _side_fault(graph, given, segment, edge)
+    return _side_fault(graph, given, segment, edge, flat_holes(given, vertices))
 
 
 def _next_vertices(polygons: PolygonSet) -> Any:
@@ -347,7 +347,9 @@ def _next_vertices(polygons: PolygonSet) -> Any:
     return following
 
 
-def _side_fault(graph: PlanarGraph, given: PolygonSet, segment: Any, edge: Any) -> str | None:
+def _side_fault(
+    graph: PlanarGraph, given: PolygonSet, segment: Any, edge: Any, is_flat_hole: NDArray[np.bool_]
+) -> str | None:
     """Check that the polygons of the two sides of a segment differ by polygons whose edges it is part of."""
     count = max(len(given), 1)
     ring_of_edge = np.searchsorted(given.ring_start, edge, side="right") - 1
@@ -366,7 +368,7 @@ def _side_fault(graph: PlanarGraph, given: PolygonSet, segment: Any, edge: Any) 
             f"segment {np.repeat(np.arange(len(graph)), length)[strange][0]} divides a polygon of which it is no edge"
         )
     is_border = length > 0
-    is_thin = (given.ring_kind == LINE) | flat_holes(given)
+    is_thin = (given.ring_kind == LINE) | is_flat_hole
     is_border[segment[is_thin[ring_of_edge]]] = True
     if not is_border.all():
         return f"segment {is_border.argmin()} bounds nothing"

@@ -49,10 +49,11 @@ def repaired_polygons(graph: PlanarGraph) -> RepairedPolygons:
     ([[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]], [0, 3, 2, 1], [3, 2, 1, 0])
     """
     assert graph.polygons is not None
+    assert graph.vertices is not None
     given = graph.polygons
     borders, lines = _borders(graph), _lines(graph, given)
     rings = _merged(borders, lines, borders.source, lines.source)
-    holes = flat_holes(given)
+    holes = flat_holes(given, graph.vertices)  # what coincides on the lattice, too
     if holes.any():
         rings = _with_flat_holes(graph, given, rings, holes)
     starts_polygon = rings.kind != HOLE
