@@ -130,7 +130,7 @@ class Walk {
 };
 
 // The segment of a piece, as the piece leads from the cell of the side's origin to that of its target.
-LatticeSite across_side(const SeedLabels& labels, const Crossing& crossing) {
+LatticeSite across_side(const SampleLabels& labels, const Crossing& crossing) {
   const LatticeSite site = labels.graph().site(labels.piece(crossing.piece).segment);
   return crossing.from_origin ? site : LatticeSite{site.b, site.a};
 }
