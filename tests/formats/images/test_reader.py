@@ -337,6 +337,14 @@ def test_tiff_damaged_anywhere() -> None:
             assert "a.tif" in str(error)  # noqa: PT017
 
 
+def test_tiff_of_samples_that_are_no_numbers() -> None:
+    data = bytearray(tiff(GREY, compression="zlib", metadata=None, software=False))
+    at = data.index(struct.pack("<HHIHH", 258, 3, 1, 8, 0)) + 8  # the value of BitsPerSample
+    data[at] = 93
+    with pytest.raises(InputError, match=r"a\.tif has 93 bits a sample"):
+        read("a.tif", bytes(data))
+
+
 # ---- which format
 
 

@@ -107,6 +107,11 @@ def _by_library(source: SourceLike, page: Any, layout: TiffLayout) -> NDArray[An
         check_jpegs(layout, source.data)
     if layout.compression not in tifffile.TIFF.DECOMPRESSORS:
         return _by_pillow(source, page)
+    if page.dtype is None:  # by its version the library refuses such a page, or reads it as an empty one
+        raise InputError(
+            f"{source.name} has {layout.bits} bits a sample, which are no numbers: is the file damaged? "
+            "If not, save it with samples of 8, 16 or 32 bits"
+        )
     values = np.asarray(page.asarray())
     if values.ndim == 3 and page.planarconfig == 2 and page.samplesperpixel == values.shape[0]:
         values = np.moveaxis(values, 0, 2)
