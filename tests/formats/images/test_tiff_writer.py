@@ -104,6 +104,8 @@ def test_memory_stays_bounded(dtype: str, tmp_path: object) -> None:
         ((1 / 0.325, 1 / 0.325, "um"), (1e4 / 0.325, 1e4 / 0.325, "cm")),
         ((2.0, 3.0, "mm"), (20, 30, "cm")),
         ((2.0, 3.0, "furlong"), None),
+        ((1e300, 3.0, "cm"), None),
+        ((3.0, 1e-300, "cm"), None),
         (None, None),
     ],
 )

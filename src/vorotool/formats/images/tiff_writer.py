@@ -13,6 +13,7 @@ import shutil
 import tempfile
 import zlib
 from collections.abc import Iterable, Iterator
+from fractions import Fraction
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -23,6 +24,9 @@ from vorotool.formats.io.row_bands import BLOCK_BYTES, blocks, in_order
 
 _CENTIMETRES = {"m": 0.01, "cm": 1, "mm": 10, "um": 1e4, "µm": 1e4, "μm": 1e4, "micron": 1e4, "microns": 1e4, "nm": 1e7}
 """How many of each unit a centimetre has."""
+
+_LARGEST = 2**32 - 1
+"""The largest numerator and denominator."""
 
 _CLASSIC_LIMIT = 2**32 - 2**25
 """Bytes of pixels from which offsets may need BigTIFF; the rest is room for tags and tables of strips."""
@@ -119,12 +123,23 @@ def _resolution_tags(resolution: tuple[float, float, str] | None) -> dict[str, A
     if resolution is None:
         return {}
     x, y, unit = resolution
-    if unit == "inch":
-        return {"resolution": (x, y), "resolutionunit": 2}
     in_centimetres = _CENTIMETRES.get(unit)
-    if in_centimetres is None:
-        return {"resolution": (x, y), "resolutionunit": 1}
-    return {"resolution": (x * in_centimetres, y * in_centimetres), "resolutionunit": 3}
+    number = 2 if unit == "inch" else 1 if in_centimetres is None else 3
+    ratios = [_ratio(value * (in_centimetres or 1)) for value in (x, y)]
+    return {} if None in ratios else {"resolution": tuple(ratios), "resolutionunit": number}
+
+
+def _ratio(value: float) -> tuple[int, int] | None:
+    """Nearest ratio of two 32-bit integers, as TIFF stores numbers; None beyond what they can tell.
+
+    Examples
+    --------
+    >>> _ratio(0.5), _ratio(1e-12)
+    ((1, 2), None)
+    """
+    if not 1 / _LARGEST <= value <= _LARGEST:
+        return None
+    return Fraction(value).limit_denominator(min(_LARGEST, int(_LARGEST / value))).as_integer_ratio()
 
 
 def _strips(
