@@ -214,3 +214,11 @@ def test_the_threshold_is_said_and_counted(run, folder, command, threshold):
     assert "Otsu" not in done.err
     if done.code == 0:
         assert json.loads((folder / "s.json").read_text())["threshold"] == 4.5
+
+
+def test_a_failure_leaves_standard_output_as_it_is(run, folder, monkeypatch):
+    with (folder / "said").open("w") as said:
+        monkeypatch.setattr("sys.stdout", said)
+        assert run("delaunay", "dots.csv", "-o", "no/such/a.csv").code == 4
+        said.write("and on")
+    assert (folder / "said").read_text() == "and on"

@@ -119,13 +119,12 @@ def main(arguments: list[str] | None = None) -> NoReturn:
     code = settled(code)
     try:
         sys.stdout.flush()
-    except BrokenPipeError:
-        code = EXIT_BROKEN_PIPE
     except OSError as error:
-        if code != EXIT_OUTPUT:  # which has been reported
-            code = _fail(f"standard output cannot be written: {error.strerror or error}", EXIT_OUTPUT)
-    if code in (EXIT_BROKEN_PIPE, EXIT_OUTPUT):
         _abandon(sys.stdout)
+        if isinstance(error, BrokenPipeError):
+            code = EXIT_BROKEN_PIPE
+        elif code != EXIT_OUTPUT:  # which has been reported
+            code = _fail(f"standard output cannot be written: {error.strerror or error}", EXIT_OUTPUT)
     try:
         sys.stderr.flush()
     except OSError:  # nobody hears what is wrong; the exit code remains
