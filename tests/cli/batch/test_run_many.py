@@ -396,7 +396,9 @@ def test_what_a_killed_run_of_one_input_has_left_is_removed_by_the_next(run, pro
 
 
 @pytest.mark.parametrize(
-    "lines", ['{"run": "*"}', '{"run": "x/../../victim/"}', "[" * 100_000, "\0\xff\n{}", '{"run": "' + "x" * 10**6]
+    "lines",
+    ['{"run": "*"}', '{"run": "x/../../victim/"}', "[" * 100_000, "\0\xff\n{}", '{"run": "' + "x" * 10**6],
+    ids=["pattern", "path", "deep", "bytes", "long"],  # pytest puts the name of a test into the environment
 )
 def test_a_manifest_that_somebody_else_wrote(run, inputs, lines):
     victims = [inputs / "victim/-important.tmp", inputs / f"out/.vorotool-0a1b2c3d-1-{16 * 'a'}.tmp"]

@@ -6,6 +6,7 @@ import sys
 import numpy as np
 import pytest
 import tifffile
+from PIL import Image
 
 import vorotool
 from vorotool.errors import InputError, LimitError, UsageError
@@ -49,8 +50,12 @@ def test_zarr(tmp_path, dtype, version):
 )
 def test_tiff(tmp_path, dtype, layout):
     image = (IMAGE > 100 if dtype is bool else IMAGE).astype(dtype)
-    if "predictor" in layout and image.dtype.kind in "fb":
+    if "predictor" in layout and image.dtype.kind == "f":
         layout = {"compression": "zlib"}
+    if "predictor" in layout and dtype is bool:  # which not every version of tifffile compresses
+        Image.fromarray(image).save(tmp_path / "a.tif", compression="tiff_adobe_deflate")
+        check(tmp_path / "a.tif", image.astype(np.uint8))
+        return
     tifffile.imwrite(tmp_path / "a.tif", image, byteorder=">" if dtype == ">u2" else "<", bigtiff=True, **layout)
     check(tmp_path / "a.tif", vorotool.read(tmp_path / "a.tif").values)
 

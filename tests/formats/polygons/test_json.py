@@ -48,8 +48,8 @@ def test_nothing(text):
 
 def test_writing():
     shapes = read("[[0, 0.1], [1e-9, 1e300], [0.30000000000000004, 2]]")
-    assert written(shapes, "json") == (
-        '{"polygons":[\n{"shell":[[0.0,0.1],[1e-9,1e+300],[0.30000000000000004,2.0]],"holes":[]}\n]}\n'
+    assert written(shapes, "json").replace("e+", "e") == (  # which versions of orjson write or not
+        '{"polygons":[\n{"shell":[[0.0,0.1],[1e-9,1e300],[0.30000000000000004,2.0]],"holes":[]}\n]}\n'
     )
     assert "[0.3,2.0]" in written(shapes, "json", precision=3)
     assert_same(read(written(shapes, "json")), shapes)

@@ -8,7 +8,7 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from vorotool.errors import LimitError
@@ -59,6 +59,8 @@ finite = st.floats(allow_nan=False, allow_infinity=False)
 
 @settings(deadline=None)
 @given(st.lists(st.tuples(finite, finite), min_size=1, max_size=20), st.booleans(), st.integers(16, 2000))
+@example([(0.0, 1.0), (0.0, np.nextafter(1.0, 2.0))], False, 1030)
+@example([(0.0, np.nextafter(1.0, 2.0)), (0.0, 1.0 + 2.0**-51)], True, 1030)
 def test_the_page_holds_all_points_whatever_their_size(points, y_up, width):
     array = np.array(points)
     page = Page(bounds_of([Points("p", array)]), width=width, y_up=y_up)

@@ -363,6 +363,7 @@ class Page:
         self.scale = float(min(width / across, TALLEST * width / down))  # px a unit of the scaled data
         self.width, self.height = width, max(1, round(float(down * self.scale)))
         self.y_up, self._middle = y_up, low + span / 2
+        self._rest = (low - self._middle) + span / 2  # of the middle of places that are neighbours, half their distance
 
     @property
     def backdrop(self) -> Backdrop | None:
@@ -373,7 +374,7 @@ class Page:
         """(n, 2) px from the left and from the top."""
         scale = np.array([self.scale, -self.scale if self.y_up else self.scale])
         centre = np.array([self.width / 2, self.height / 2])
-        placed: NDArray[np.float64] = (np.ldexp(points, -self._exponent) - self._middle) * scale + centre
+        placed: NDArray[np.float64] = (np.ldexp(points, -self._exponent) - self._middle - self._rest) * scale + centre
         return placed
 
     def length(self, distance: float) -> float:

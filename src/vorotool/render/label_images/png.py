@@ -129,13 +129,14 @@ def over_image(
     height, width = made.shape[:2]
     left, right = (min(max(x, 0), width) for x in (frame.x, frame.x + frame.width))
     row = frame.y
+    lines = [number for number in (palette.line, palette.seed, palette.halo) if number >= 0]
     for band in bands:
         top, bottom = (min(max(y, 0), height) for y in (row, row + len(band)))
         index = band[top - row : bottom - row, left - frame.x : right - frame.x]
         beneath = made[top:bottom, left:right]
         colour = palette.colours[index]
         mixed = ((beneath.astype(np.uint16) + colour + 1) // 2).astype(np.uint8)
-        is_line = (index == palette.line) | (index == palette.seed) | (index == palette.halo)
+        is_line = np.isin(index, lines)
         beneath[...] = np.where(is_line[..., None], colour, np.where(index[..., None] > 0, mixed, beneath))
         row += len(band)
     return made.reshape(height, -1)
