@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.formats.images import npy, png_reader, tiff_reader
-from vorotool.formats.images import pnm_reader as pnm
+from vorotool.formats.images import npy, png_reader, pnm_reader, tiff_reader
 from vorotool.formats.io.limits import SourceLike, check_pixels
 from vorotool.formats.parsing.format_names import IMAGE_NAMES, known_input_format
 from vorotool.geometry.pixel_frame import MAX_PIXELS
@@ -102,7 +101,7 @@ def image_size(source: SourceLike, *, input_format: str | None = None, page: int
         header = png_reader.png_header(source)
         return header.width, header.height
     if kind == "pnm":
-        fields = pnm.pnm_header(source)
+        fields = pnm_reader.pnm_header(source)
         return fields.width, fields.height
     if kind == "npy":
         shape = _npy_shape(source)
@@ -159,7 +158,7 @@ def read_image(
     _check_page(source, page)
     readers: dict[str, Callable[[SourceLike, int], NDArray[Any]]] = {
         "png": png_reader.read_png,
-        "pnm": pnm.read_pnm,
+        "pnm": pnm_reader.read_pnm,
         "npy": _read_npy,
     }
     return Raster(_plain(readers[kind](source, max_pixels)))
@@ -173,7 +172,7 @@ def _by_content(data: bytes) -> str | None:
     for magic, kind in _MAGIC:
         if data.startswith(magic):
             return kind
-    return "pnm" if pnm.looks_like_pnm(data) else None
+    return "pnm" if pnm_reader.looks_like_pnm(data) else None
 
 
 def _check_page(source: SourceLike, page: int | None) -> None:
