@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import math
 import os
 import random
 import shutil
@@ -20,6 +21,9 @@ from vorotool.cli.main import main
 from vorotool.formats.images.band_reader import open_rows
 
 LIMITS = {"max_pixels": 2**16, "max_sites": 2**14, "threads": 1}
+LONGEST = 2**22
+"""Pixels of an image that a command is given: one that passes by in bands may have any number, and takes its time."""
+
 READ, REFUSED, LIMIT, WRONG = "read", "refused", "limit", "wrong"
 IMAGES = {"png", "tiff", "npy", "pnm", "zarr"}
 SHAPES = {"json", "geojson", "wkt", "poly", "skeleton"}
@@ -134,12 +138,20 @@ def judge(bundle: Bundle, folder: Path, chance: random.Random, commands: float) 
         if bundle.kind == "manifest":
             return judge_manifest(bundle.files[bundle.name], folder, chance)
         path = write_bundle(bundle, folder)
-        if chance.random() < commands:
+        if chance.random() < commands and _pixels_that_pass_by(path) <= LONGEST:
             return judge_command(path, bundle.kind, chance)
         return judge_reading(path, bundle.kind, chance)
     finally:
         for entry in os.scandir(folder):
             shutil.rmtree(entry.path) if entry.is_dir() else os.unlink(entry.path)  # noqa: PTH108
+
+
+def _pixels_that_pass_by(path: Path) -> int:
+    """Pixels of an image that is read in bands, of which there may be more than memory holds; 0 of all else."""
+    with contextlib.suppress(vorotool.VorotoolError):
+        if (rows := open_rows(path)) is not None:
+            return math.prod(rows.shape)
+    return 0
 
 
 def _place(error: BaseException) -> str:

@@ -4,6 +4,7 @@ import json
 import os
 import pickle
 import re
+from pathlib import Path
 
 import google_crc32c
 import numpy as np
@@ -240,3 +241,24 @@ def test_indices_of_shards_that_lie(tmp_path):
     file.write_bytes(data[:50])
     with pytest.raises(InputError, match="a shard has 50 bytes, but its index 68"):
         vorotool.read(tmp_path / "a")
+
+
+@pytest.mark.parametrize(
+    "names",
+    [{"name": "default", "separator": "/"}, {"name": "default", "separator": "."}, {"name": "v2", "separator": "."}],
+)
+def test_chunks_that_are_left_out_are_not_looked_for_one_by_one(tmp_path, names, monkeypatch):
+    array = zarr.create_array(
+        tmp_path / "a", shape=(2**40, 6), dtype="u2", chunks=(4, 3), fill_value=9, chunk_key_encoding=names
+    )
+    array[400_000:400_003, 3:] = 5
+    looked_for = []
+    found = Path.stat
+    monkeypatch.setattr(Path, "stat", lambda path, **options: looked_for.append(path) or found(path, **options))
+    stored = StoredArray("a.zarr", tmp_path / "a")
+    looked_for.clear()
+    values = stored.read((slice(0, 2**19), slice(0, 6)), threads=1)
+    assert len(looked_for) <= 3
+    expected = np.full((2**19, 6), 9, np.uint16)
+    expected[400_000:400_003, 3:] = 5
+    np.testing.assert_array_equal(values, expected)

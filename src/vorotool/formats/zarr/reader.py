@@ -41,6 +41,7 @@ class StoredArray:
             raise InputError(f"{name} holds no Zarr array")
         self.folder = Path(path)
         self.metadata: ZarrMetadata = array_metadata(name, made)
+        self._rows: frozenset[int] | None = None  # rows of chunks of which some are stored, when they have been listed
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -76,13 +77,30 @@ class StoredArray:
         return result
 
     def _chunk(self, place: tuple[int, ...]) -> bytes | None:
-        """Bytes of a chunk; None if it is left out."""
+        """Bytes of a chunk; None if it is left out.
+
+        The first that is left out has the folder listed: a sparse array may lack millions of rows of chunks.
+        """
+        if place and self._rows is not None and place[0] not in self._rows:
+            return None
         key, most = self.metadata.key(place), self.metadata.pipeline.most_bytes
         path = self.folder / key
         try:
             status = path.stat()
         except FileNotFoundError:
+            if self._rows is None:
+                self._rows = self._stored_rows()
             return None
         if not stat.S_ISREG(status.st_mode) or status.st_size > most:
             raise ValueError(f"chunk {key} is no file of at most {most} bytes")
         return path.read_bytes()
+
+    def _stored_rows(self) -> frozenset[int]:
+        """Numbers of the rows of chunks of which some may be stored."""
+        within, start = os.path.split(self.metadata.prefix)
+        try:
+            with os.scandir(self.folder / within) as entries:
+                names = (entry.name.removeprefix(start).split(self.metadata.separator)[0] for entry in entries)
+                return frozenset(int(name) for name in names if name.isascii() and name.isdigit())
+        except FileNotFoundError:
+            return frozenset()
