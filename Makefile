@@ -5,6 +5,8 @@ VENV    := .venv
 BIN     := $(VENV)/bin
 RUN     := $(BIN)/python
 BUILD   := build
+PIP     := pip install --quiet --disable-pip-version-check
+NEEDED  := $(PYTHON) tools/requirements.py
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 
@@ -15,12 +17,16 @@ CORE_SOURCES := $(shell find src/core src/bindings -name '*.[ch]pp') \
 $(BUILD)/.venv: pyproject.toml
 	@mkdir -p $(BUILD)
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/pip install --quiet --disable-pip-version-check \
-	    $$($(PYTHON) -c 'import tomllib; p = tomllib.load(open("pyproject.toml", "rb"))["project"]; print(*p["dependencies"], *(name for extra in ("dev", "distributed") for name in p["optional-dependencies"][extra]))')
+	$(BIN)/$(PIP) $$($(NEEDED) build)
 	@touch $@
 
 $(BUILD)/.installed: $(BUILD)/.venv $(CORE_SOURCES)
-	$(BIN)/pip install --quiet --disable-pip-version-check --no-build-isolation --no-deps --editable .
+	$(BIN)/$(PIP) --no-build-isolation --no-deps --editable .
+	@touch $@
+
+# What tests and checks need beside it.
+$(BUILD)/.tests: $(BUILD)/.venv
+	$(BIN)/$(PIP) $$($(NEEDED) dev distributed)
 	@touch $@
 
 .PHONY: build
@@ -30,26 +36,31 @@ build: $(BUILD)/.installed ## build the C++ core and install the package into .v
 include figures.mk
 
 .PHONY: test
-test: build lint ## lint, then run every test, on all cores
+test: build lint $(BUILD)/.tests ## lint, then run every test, on all cores
 	$(RUN) -m pytest -n auto
 
 .PHONY: lint
-lint: build ## ruff, mypy --strict, clang-format
+lint: build $(BUILD)/.tests ## ruff, mypy --strict, clang-format, codespell
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/clang-format --dry-run --Werror $(filter %.cpp %.hpp,$(CORE_SOURCES))
+	$(BIN)/codespell
+
+.PHONY: tidy
+tidy: $(BUILD)/.venv ## clang-tidy of the core, which takes minutes
+	$(BIN)/$(PIP) 'clang-tidy>=18.1'
+	tools/tidy.sh
 
 .PHONY: format
-format: build ## rewrite the sources in the project's format
+format: $(BUILD)/.tests ## rewrite the sources in the project's format
 	$(BIN)/ruff check --fix-only .
 	$(BIN)/ruff format .
 	$(BIN)/clang-format -i $(filter %.cpp %.hpp,$(CORE_SOURCES))
 
 .PHONY: bench
-bench: build ## measure beside the peers, in one run
-	$(BIN)/pip install --quiet --disable-pip-version-check \
-	    $$($(PYTHON) -c 'import tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["bench"])')
+bench: build $(BUILD)/.tests ## measure beside the peers, in one run
+	$(BIN)/$(PIP) $$($(NEEDED) bench)
 	$(RUN) tests/benchmarks/tessellate.py
 	$(RUN) tests/benchmarks/delaunay.py
 	$(RUN) tests/benchmarks/alphashape.py
@@ -61,7 +72,7 @@ bench: build ## measure beside the peers, in one run
 	$(RUN) tests/benchmarks/batch.py
 
 .PHONY: fuzz
-fuzz: build ## all comparisons and harnesses: for MINUTES=... in all, or by counts (PIXELS=..., CASES=..., FAULTS=..., SEED=...)
+fuzz: build $(BUILD)/.tests ## all comparisons and harnesses: for MINUTES=... in all, or by counts (PIXELS=..., CASES=..., FAULTS=..., SEED=...)
 ifdef MINUTES
 	$(RUN) tests/fuzz/together.py --minutes $(MINUTES) --seed $(or $(SEED),1)
 else
@@ -92,7 +103,7 @@ else
 endif
 
 .PHONY: long
-long: build ## frames and images far beyond memory: minutes, and a gigabyte of disk (SIDE=..., SEED=...)
+long: build $(BUILD)/.tests ## frames and images far beyond memory: minutes, and a gigabyte of disk (SIDE=..., SEED=...)
 	$(RUN) tests/long/big_tessellation.py --side 32768 --seeds 100000 --folder $(BUILD) --seed $(or $(SEED),1)
 	$(RUN) tests/long/big_tessellation.py --side 32768 --seeds 30000 --folder $(BUILD) --seed $(or $(SEED),1) -- --cluster local
 	$(RUN) tests/long/big_tessellation.py --side 16384 --seeds 100000 --image --folder $(BUILD) --seed $(or $(SEED),1)
@@ -104,14 +115,13 @@ test-oldest: ## run every test on the oldest versions that pyproject.toml allows
 	rm -rf $(OLDEST)
 	@mkdir -p $(OLDEST)
 	$(PYTHON) -m venv $(OLDEST)/venv
-	$(OLDEST)/venv/bin/pip install --quiet --disable-pip-version-check $$($(PYTHON) tests/oldest.py)
-	$(OLDEST)/venv/bin/pip install --quiet --disable-pip-version-check --no-build-isolation --no-deps \
-	    -C build-dir=$(OLDEST)/core --editable .
-	PATH="$(CURDIR)/$(OLDEST)/venv/bin:$$PATH" $(OLDEST)/venv/bin/python -m pytest
+	$(OLDEST)/venv/bin/$(PIP) $$($(NEEDED) --oldest build dev distributed zarr graphs)
+	$(OLDEST)/venv/bin/$(PIP) --no-build-isolation --no-deps -C build-dir=$(OLDEST)/core --editable .
+	PATH="$(CURDIR)/$(OLDEST)/venv/bin:$$PATH" $(OLDEST)/venv/bin/python -m pytest -n auto
 
 .PHONY: sanitize
-sanitize: build ## the suite on a build with address and undefined-behaviour sanitizers; then damaged files for MINUTES=...
-	MINUTES=$(MINUTES) SEED=$(SEED) tests/sanitize.sh $(RUN)
+sanitize: build $(BUILD)/.tests ## the suite on a build with address and undefined-behaviour sanitizers; then damaged files for MINUTES=...
+	MINUTES=$(MINUTES) SEED=$(SEED) tools/sanitize.sh $(RUN)
 
 .PHONY: clean
 clean: ## remove what was built (.venv and build/)

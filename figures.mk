@@ -121,18 +121,18 @@ $(FIGURES)/figure-lakes.png: data/great-lakes.geojson $(BUILD)/.installed | $(FI
 
 # Purpose: seconds against the size of the image: the paper's, its algorithm here, and the exact engine.
 # The 53 seeds of Figure 3 are scaled to each size.
-$(FIGURES)/table-1.md: data/dots.csv docs/table_1.py $(BUILD)/.installed | $(FIGURES)
+$(FIGURES)/table-1.md: data/dots.csv docs/scripts/table_1.py $(BUILD)/.installed | $(FIGURES)
 	mkdir -p $(BUILD)/table-1
 	for m in $(TABLE_1_SIZES); do for method in propagation exact; do \
 	    awk -F, -v m=$$m 'NR == 1 { print; next } { print int($$1 * m / 512) "," int($$2 * m / 512) }' $< \
 	    | $(VOROTOOL) tessellate - --size $${m}x$${m} --method $$method --threads 1 -q -o $(BUILD)/table-1/labels.npy \
 	      --stats $(BUILD)/table-1/$$method-$$m.json || exit 1; \
 	done; done
-	$(RUN) docs/table_1.py $(BUILD)/table-1 $(TABLE_1_SIZES) > $@
+	$(RUN) docs/scripts/table_1.py $(BUILD)/table-1 $(TABLE_1_SIZES) > $@
 	cat $@
 
 # ---- gallery: docs/gallery.md shows these, each with its command ---------------------------------------------------
-$(GALLERY)/%.png: docs/gallery_inputs.py $(BUILD)/.installed | $(GALLERY)
+$(GALLERY)/%.png: docs/scripts/gallery_inputs.py $(BUILD)/.installed | $(GALLERY)
 	$(RUN) $< $* > $@
 
 # Purpose: the exact skeleton of letters in pixels: each corner of a pixel has its branch.
@@ -199,6 +199,6 @@ $(FIGURES)/gallery-outside.svg: data/blobs.png $(BUILD)/.installed | $(FIGURES)
 $(FIGURES)/gallery-alpha.svg: data/dot-pattern.csv $(BUILD)/.installed | $(FIGURES)
 	$(VOROTOOL) alphashape $< -r 10 --what polygons -f geojson -q -o - | $(VOROTOOL) skeleton-exact - --prune scale=1.2 -q -o $@
 # Purpose: the errors of section 3.1 against the step, measured and certified, beside the paper's estimates.
-$(FIGURES)/error-vs-h.md: data/shape.json data/two-shapes.json data/two-segments.wkt docs/error_vs_h.py $(BUILD)/.installed | $(FIGURES)
-	$(RUN) docs/error_vs_h.py $(FIGURES)/error-vs-h.svg > $@
+$(FIGURES)/error-vs-h.md: data/shape.json data/two-shapes.json data/two-segments.wkt docs/scripts/error_vs_h.py $(BUILD)/.installed | $(FIGURES)
+	$(RUN) docs/scripts/error_vs_h.py $(FIGURES)/error-vs-h.svg > $@
 	cat $@

@@ -70,14 +70,18 @@ def test_rules_of_make_are_those_of_the_makefile():
 
 
 def test_the_reference_is_true():
-    done = subprocess.run([sys.executable, ROOT / "docs/cli_reference.py"], capture_output=True, text=True, check=True)
-    assert done.stdout == (ROOT / "docs/cli.md").read_text(encoding="utf-8"), "run docs/cli_reference.py > docs/cli.md"
+    done = subprocess.run(
+        [sys.executable, ROOT / "docs/scripts/cli_reference.py"], capture_output=True, text=True, check=True
+    )
+    assert done.stdout == (ROOT / "docs/cli.md").read_text(encoding="utf-8"), (
+        "run docs/scripts/cli_reference.py > docs/cli.md"
+    )
 
 
 def test_the_manual_pages_are_true(tmp_path):
-    subprocess.run([sys.executable, ROOT / "docs/manual_pages.py", tmp_path], check=True)
+    subprocess.run([sys.executable, ROOT / "docs/scripts/manual_pages.py", tmp_path], check=True)
     made, kept = ({path.name: path.read_bytes() for path in folder.iterdir()} for folder in (tmp_path, MANUAL))
-    assert made == kept, "run docs/manual_pages.py"
+    assert made == kept, "run docs/scripts/manual_pages.py"
 
 
 @pytest.mark.parametrize(

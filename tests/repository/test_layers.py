@@ -1,8 +1,6 @@
 """Imports run downwards only, and heavy modules are loaded only where they are needed."""
 
 import ast
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -150,33 +148,3 @@ def test_each_arrow_is_used():
         if (room := room_of(path)) in used:
             used[room] |= {room_named(name) for name in imported_modules(path)} - {None, room, *FOR_ALL}
     assert used == ALLOWED
-
-
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ["--help"],
-        ["--version"],
-        ["tessellate", "--help"],
-        ["delaunay", "--help"],
-        ["alphashape", "--help"],
-        ["draw", "--help"],
-    ],
-)
-def test_help_loads_no_heavy_module(arguments):
-    script = (
-        "import sys\n"
-        "from vorotool.cli.main import main\n"
-        "try:\n    main(sys.argv[1:])\n"
-        "except SystemExit as end:\n"
-        "    heavy = {'numpy', 'vorotool._core', 'PIL', 'skimage', 'shapely', 'orjson'} & set(sys.modules)\n"
-        "    sys.exit(f'loaded {heavy}' if heavy or end.code else 0)\n"
-    )
-    done = subprocess.run([sys.executable, "-c", script, *arguments], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    assert "Usage" in done.stdout or "version" in done.stdout
-
-
-def test_importing_the_package_loads_no_heavy_module():
-    script = "import sys, vorotool; sys.exit('numpy' in sys.modules or 'vorotool._core' in sys.modules)"
-    assert subprocess.run([sys.executable, "-c", script], check=False).returncode == 0

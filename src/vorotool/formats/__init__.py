@@ -47,7 +47,7 @@ def read(
     geometry : {"points", "polygons"}, optional
         What must be in a file that is no image; by default its content tells.
     input_format : str, optional
-        csv, node, npy, geojson, wkt, json, poly, png, tiff, pnm or zarr (or another usual extension of one of these),
+        One of csv, node, npy, geojson, wkt, json, poly, png, tiff, pnm and zarr (or another usual extension of one),
         where extension and content leave it unclear.
     columns : str, optional
         ``X,Y[,LABEL]`` of a point list, by name or number from 1.
@@ -67,6 +67,7 @@ def read(
     Returns
     -------
     PointSet, PolygonSet, Raster, Skeleton or Offsets
+        What is in the file.
 
     Raises
     ------
@@ -237,6 +238,11 @@ def to_geojson(value: Any, *, what: str | None = None, flatten: float | None = N
         With ids and properties, if it has any.
     what, flatten : optional
         As of `write`.
+
+    Returns
+    -------
+    dict
+        A FeatureCollection.
 
     Raises
     ------

@@ -44,6 +44,11 @@ def alpha_hull(shape: AlphaShape) -> AlphaHull:
     shape : AlphaShape
         Without thresholds; of a finite radius.
 
+    Returns
+    -------
+    AlphaHull
+        The arcs, and the points that are hull by themselves.
+
     Raises
     ------
     UsageError

@@ -66,6 +66,11 @@ def alpha_complex(
     progress : callable, optional
         Called with the fraction done.
 
+    Returns
+    -------
+    AlphaComplex
+        The edges, and the interval of radii of each.
+
     Raises
     ------
     InputError
@@ -228,11 +233,18 @@ def alpha_shape(
         How many regions the automatic choice allows.
     hole_threshold, region_threshold : number, optional
         First, cavities of at most this area are filled; then regions of at most this area are left out.
-    rule, strict, threads, progress
+    rule, strict : optional
         As for `alpha_complex`.
     allow_empty : bool, optional
         As for `alpha_complex`; and give the shape of radii that join no points, where the automatic choice finds no
         triangle.
+    threads, progress : optional
+        As for `alpha_complex`.
+
+    Returns
+    -------
+    AlphaShape
+        Its radius, edges, regions and polygons.
 
     Raises
     ------

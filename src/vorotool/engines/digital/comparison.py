@@ -45,7 +45,7 @@ def compare_digital(
     ----------
     source : what `tessellate` accepts
         Each label must have one seed.
-    shape, window
+    shape, window : tuple of int, optional
         As in `tessellate`.
     strict : bool
         Refuse several seeds at one place.

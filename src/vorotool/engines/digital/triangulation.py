@@ -52,7 +52,7 @@ def digital_triangulation(
     source : LabelImage, or what `tessellate` accepts
         Seeds are tessellated exactly, band by band: memory does not grow with the height of the frame. Of a label
         image without seeds, the centroids of the regions are the sites.
-    shape, window
+    shape, window : tuple of int, optional
         As in `tessellate`; not for a label image.
     strict : bool
         Refuse several seeds at one place.
@@ -210,12 +210,15 @@ def digital_delaunay(source: Any, **options: Any) -> Triangulation:
 
     Parameters
     ----------
-    source, **options
+    source : what `tessellate` accepts
+        As in `repair_digital`.
+    **options
         As in `repair_digital`.
 
     Returns
     -------
     Triangulation
+        That of ``delaunay(seeds)``.
 
     Examples
     --------
@@ -247,7 +250,7 @@ def repair_digital(
     source : what `tessellate` accepts
         Each label must have one seed. Seeds between pixels, or outside the frame, may have no region: they are
         inserted.
-    shape, window
+    shape, window : tuple of int, optional
         As in `tessellate`.
     strict : bool
         Refuse several seeds at one place.
@@ -263,6 +266,7 @@ def repair_digital(
     mesh : Triangulation
         That of ``delaunay(seeds)``, array by array.
     repair : DigitalRepair
+        How many regions, sites and sides had to be changed.
 
     Raises
     ------

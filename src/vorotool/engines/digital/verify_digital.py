@@ -32,8 +32,10 @@ def verify_digital_triangulation(
     ----------
     found : DigitalTriangulation
         However it was made.
-    source, shape, window
-        What it was made from, see `digital_triangulation`; no label image.
+    source : what `tessellate` accepts
+        What it was made from; no label image.
+    shape, window : tuple of int, optional
+        As in `digital_triangulation`.
     threads : int
         0 uses all.
 

@@ -194,6 +194,11 @@ def critical_values(skeleton: Skeleton, criterion: str, *, progress: Progress = 
     progress : callable, optional
         Called with the fraction done.
 
+    Returns
+    -------
+    CriticalValues
+        Of each arc and each vertex.
+
     Raises
     ------
     UsageError
@@ -218,6 +223,16 @@ def critical_values(skeleton: Skeleton, criterion: str, *, progress: Progress = 
 
 def arc_profiles(skeleton: Skeleton) -> ArcProfiles:
     """Tell how the two nearest places on the boundary lie along each arc.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        Of any side.
+
+    Returns
+    -------
+    ArcProfiles
+        One row an arc, in the order of the skeleton.
 
     Examples
     --------

@@ -58,16 +58,21 @@ def tessellate(
         Passes of the propagation.
     max_distance : float or Fraction, optional
         Pixels farther than this from every seed get label 0.
-    dtype, out
+    dtype : dtype, optional
+        As in `Tessellator.labels`.
+    out : (H, W) array, optional
         As in `Tessellator.labels`.
     threads : int
         0 uses all. The result does not depend on it.
     max_pixels : int
         Larger images are refused before memory is taken.
+    progress : callable, optional
+        Called with the fraction done.
 
     Returns
     -------
     LabelImage
+        The labels, with the seeds.
 
     Raises
     ------

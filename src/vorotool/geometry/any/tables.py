@@ -26,6 +26,11 @@ def table(value: Any) -> dict[str, NDArray[Any]]:
     value : Table, Triangulation, Skeleton, SkeletonPoints, Offsets or Centerlines
         What to tell about; fields that do not exist are masked, None, or NaN.
 
+    Returns
+    -------
+    dict of arrays
+        By the names of the columns; all have one length.
+
     Raises
     ------
     UsageError

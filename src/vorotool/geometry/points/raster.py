@@ -18,7 +18,7 @@ class Raster:
     Parameters
     ----------
     values : (H, W) or (H, W, C) array
-        bool, integer or float. PBM: 1 is foreground. Palette images: the indices.
+        Truth values, integers or floats. PBM: 1 is foreground. Palette images: the indices.
     resolution : tuple of (float, float, str), optional
         Pixels a unit in x and y, and the unit, where the file says so.
     mask : (H, W) bool array, optional

@@ -29,6 +29,11 @@ def to_networkx(skeleton: Skeleton, *, by: str = "branch", flatten: float | None
     flatten : float, optional
         How far the geometry may be from parabolas; by default 1/4096 of the larger side of the bounds.
 
+    Returns
+    -------
+    networkx.MultiGraph
+        As told above.
+
     Raises
     ------
     UsageError

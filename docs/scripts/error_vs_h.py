@@ -1,4 +1,4 @@
-"""Errors of approximate skeletons against the step, beside the paper's; prints a table: `docs/error_vs_h.py OUT.svg`.
+"""Errors of approximate skeletons against the step, beside the paper's; as a table: `error_vs_h.py OUT.svg`.
 
 Of each shape and step the largest measured distance from the exact skeleton and the largest certified bound, over three
 kinds of arcs: parabolas, straight ones away from corners, and straight ones near to them.
@@ -22,7 +22,7 @@ from vorotool.render.canvas.layers import Curves, Layer, Lines, Page, Points, Te
 from vorotool.render.canvas.palettes import FAINT, INK, PALE, RESULT, SEED
 from vorotool.render.canvas.svg import write_layers_svg
 
-DATA = Path(__file__).parents[1] / "data"
+DATA = Path(__file__).parents[2] / "data"
 SHAPES = {"shape.json": "interior", "two-shapes.json": "interior", "two-segments.wkt": "exterior"}
 STEPS = (25, 50, 100, 200, 400)
 """Of the extent a step."""

@@ -1,4 +1,4 @@
-"""Print the command-line reference, made from the commands themselves: `docs/cli_reference.py > docs/cli.md`."""
+"""Print the command-line reference, made from the commands: `docs/scripts/cli_reference.py > docs/cli.md`."""
 
 import sys
 
@@ -9,7 +9,12 @@ from vorotool.cli.main import COMMANDS, vorotool
 
 def reference() -> str:
     """The help of every command, as Markdown."""
-    parts = ["# Command-line reference", "", "Made by `python docs/cli_reference.py`; a test keeps it true.", ""]
+    parts = [
+        "# Command-line reference",
+        "",
+        "Made by `python docs/scripts/cli_reference.py`; a test keeps it true.",
+        "",
+    ]
     context = click.Context(vorotool, info_name="vorotool", terminal_width=100, max_content_width=100)
     for name in COMMANDS:
         command = vorotool.get_command(context, name)

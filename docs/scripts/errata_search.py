@@ -1,4 +1,4 @@
-"""Search all small seed sets for counterexamples to section 2.1 of the paper: `python tests/errata_search.py`.
+"""Search all small seed sets for counterexamples to section 2.1 of the paper: `python docs/scripts/errata_search.py`.
 
 Images come in order of their pixels, then of their longer side (width ≥ height: the others are mirror images); within
 an image, first the sets of fewest seeds. Every set is tried with every order of its labels, since ties go to the
@@ -83,10 +83,12 @@ class Batch:
 
     @cached_property
     def has_no_four_cocircular(self):
+        """Whether each circle through three sites goes through no fourth."""
         return all(alone for _, _, alone in self.circles.values())
 
     @cached_property
     def delaunay_edges(self):
+        """Which pairs of sites an edge joins, as a symmetric matrix."""
         linked = np.zeros((len(self.sites),) * 2, dtype=bool)
         for a, b in combinations(range(len(self.sites)), 2):
             linked[a, b] = linked[b, a] = edge_is_delaunay(self.sites, a, b)[0]
@@ -94,6 +96,7 @@ class Batch:
 
     @cached_property
     def delaunay_triangles(self):
+        """Which triples of sites have an empty circle."""
         found = np.zeros((len(self.sites),) * 3, dtype=bool)
         for three, (_, empty, _) in self.circles.items():
             found[three] = empty
@@ -101,6 +104,7 @@ class Batch:
 
     @cached_property
     def are_collinear(self):
+        """Whether all sites are on one line."""
         return not self.circles
 
 

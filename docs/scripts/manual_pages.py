@@ -1,4 +1,4 @@
-"""Write the manual pages, made from the commands themselves: `docs/manual_pages.py [FOLDER]`."""
+"""Write the manual pages, made from the commands themselves: `docs/scripts/manual_pages.py [FOLDER]`."""
 
 import re
 import sys
@@ -10,7 +10,7 @@ import click
 from vorotool import __version__
 from vorotool.cli.main import COMMANDS, vorotool
 
-FOLDER = Path(__file__).parent / "man/man1"
+FOLDER = Path(__file__).parents[1] / "man/man1"
 
 EXITS = {
     0: "Done.",

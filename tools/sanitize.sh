@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Build the core and its bindings with address and undefined-behaviour sanitizers, and run the suite on them; then, for
 # MINUTES of the environment, damaged files (tests/fuzz/bytes.py).
-# Usage: [MINUTES=5] tests/sanitize.sh PYTHON [pytest arguments]
+# Usage: [MINUTES=5] tools/sanitize.sh PYTHON [pytest arguments]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 python=$1; shift

@@ -1,4 +1,4 @@
-"""Draw the masks of the gallery: `docs/gallery_inputs.py NAME`, one PNG on standard output.
+"""Draw the masks of the gallery: `docs/scripts/gallery_inputs.py NAME`, one PNG on standard output.
 
 letters, vessels and river are masks; silhouettes are labels 1 to 3.
 """

@@ -1,4 +1,4 @@
-"""Print the paper's Table 1 beside our seconds: `docs/table_1.py FOLDER SIZE...` reads the --stats of each run."""
+"""Print the paper's Table 1 beside our seconds: `table_1.py FOLDER SIZE...` reads the --stats of each run."""
 
 import json
 import sys

@@ -1,0 +1,68 @@
+"""What is imported when: `--help` loads nothing heavy, a usual run nothing that only an extra brings."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["--help"],
+        ["--version"],
+        ["tessellate", "--help"],
+        ["delaunay", "--help"],
+        ["alphashape", "--help"],
+        ["draw", "--help"],
+    ],
+)
+def test_help_loads_no_heavy_module(arguments):
+    script = (
+        "import sys\n"
+        "from vorotool.cli.main import main\n"
+        "try:\n    main(sys.argv[1:])\n"
+        "except SystemExit as end:\n"
+        "    heavy = {'numpy', 'vorotool._core', 'PIL', 'skimage', 'shapely', 'orjson'} & set(sys.modules)\n"
+        "    sys.exit(f'loaded {heavy}' if heavy or end.code else 0)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", script, *arguments], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert "Usage" in done.stdout or "version" in done.stdout
+
+
+EXTRAS = {"zarr", "numcodecs", "dask", "distributed", "networkx", "pandas", "geopandas", "pyarrow", "matplotlib"}
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["tessellate", "data/dots.csv", "-o", "{}.png"],
+        ["tessellate", "data/blobs.png", "-o", "{}.npy"],
+        ["delaunay", "data/dots.csv", "-o", "{}.geojson"],
+        ["alphashape", "data/blobs.png", "-o", "{}.svg"],
+        ["skeleton-exact", "data/ne_110m_lakes.geojson", "-o", "{}.csv"],
+        ["skeleton-approx", "data/shape.json", "--step", "5", "-o", "{}.json"],
+        ["draw", "data/great-lakes.geojson", "-o", "{}.png"],
+    ],
+    ids=lambda arguments: arguments[0] + Path(arguments[1]).suffix,
+)
+def test_a_usual_run_loads_no_extra(arguments, tmp_path):
+    script = (
+        "import sys\n"
+        "from vorotool.cli.main import main\n"
+        "try:\n    main(sys.argv[1:])\n"
+        f"finally:\n    print('loaded:', *{EXTRAS} & set(sys.modules), file=sys.stderr)\n"
+    )
+    command = [sys.executable, "-c", script, *(word.format(tmp_path / "out") for word in arguments), "-q"]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert done.stderr.splitlines()[-1] == "loaded:"
+
+
+def test_importing_the_package_loads_no_heavy_module():
+    script = "import sys, vorotool; sys.exit('numpy' in sys.modules or 'vorotool._core' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", script], check=False).returncode == 0
