@@ -1,4 +1,4 @@
-// What the parts of the extension module share: one function a part, called by module.cpp.
+// Shared by the parts of the extension module: one function a part, called by module.cpp.
 #pragma once
 
 #include <nanobind/nanobind.h>

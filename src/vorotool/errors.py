@@ -6,7 +6,7 @@ from enum import Enum, auto
 
 
 class Kind(Enum):
-    """What a note or a warning is about, where something hangs on it."""
+    """Kinds of notes and warnings that callers tell apart."""
 
     GENERAL = auto()
     DEGREES = auto()

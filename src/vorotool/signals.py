@@ -17,7 +17,7 @@ MOMENT = 0.001
 
 
 class _End:
-    """What a signal does, and the exit code of the last one that came."""
+    """Handlers of signals, and the exit code of the last one that came."""
 
     is_exception = True
     code = 0

@@ -1,4 +1,4 @@
-// What the alpha shapes of all radii have in common, by one sweep through the spectrum.
+// Measures of the alpha shapes of all radii, by one sweep through the ranks of the radii.
 #pragma once
 
 #include <cstdint>

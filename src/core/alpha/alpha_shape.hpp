@@ -11,7 +11,7 @@
 
 namespace vorotool::core::alpha {
 
-// What an edge is in a shape: outside of it, alone in it, between a triangle of it and none, or between two.
+// Classes of edges in a shape: outside, without a triangle (singular), with one (regular), with two (interior).
 enum class EdgeClass : std::uint8_t { outside, singular, boundary, interior };
 
 struct EdgeRanks {

@@ -245,7 +245,7 @@ class Maker {
     return face;
   }
 
-  // What is at the end of a border is a site already.
+  // The ends of a border are sites already.
   void find_point_holes(const Faces& faces, const FacePolygons& inside) {
     if (std::ranges::find(is_flat_hole_, 1) == is_flat_hole_.end()) return;
     std::vector<std::uint8_t> is_known(set_.points.size(), 0);

@@ -13,7 +13,7 @@
 
 namespace vorotool::core::arrangement {
 
-// What is done to rings that are no planar graph yet, or whose edges bound nothing.
+// How rings are repaired that do not form a planar graph, or whose edges bound no face.
 enum class Repair {
   repeated_vertex,  // an edge without length is left out
   touching_vertex,  // a vertex inside an edge cuts it: once a vertex and straight stretch of edges

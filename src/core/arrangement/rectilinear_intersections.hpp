@@ -11,7 +11,7 @@
 
 namespace vorotool::core::arrangement {
 
-// What sweep_segments gives as `below` where it finds no meetings; nothing if there are some, if a segment is
+// The `below` of sweep_segments for segments that do not meet; nothing if some meet, if a segment is
 // not along an axis, or if the points lie in too many rows for their number. The segments that a column cuts
 // are a set of rows: no order has to be searched by the places of segments.
 std::optional<std::vector<std::int32_t>> sweep_rectilinear(const SortedSegments& segments,

@@ -1,4 +1,4 @@
-// What the system is told of memory, so that no more of it is held than is used. Where it cannot be told
+// Returns unused pages to the system, so that no more memory is held than is used. Where it cannot be told
 // nothing happens.
 #pragma once
 

@@ -18,7 +18,7 @@ struct OrderedPoints {
   std::span<const std::uint32_t> fine;  // [n] the same among points of equal code; or empty
 };
 
-// What else there is to know about the rings that were made. The ring of a vertex on the hull begins with the
+// Further results of the construction. The ring of a vertex on the hull begins with the
 // next vertex of the hull, counter-clockwise, and ends with the one before: the unbounded face follows its
 // last neighbour.
 struct Subdivision {

@@ -74,7 +74,7 @@ class CellCounts {
   std::vector<Entry> slots_;
 };
 
-// What is written anew: the triangles and edges that belong to a vertex, being the earliest one of theirs.
+// The triangles and edges of which a vertex is the earliest, written anew.
 struct Block {
   Vertex vertex;
   std::size_t first_triangle, first_edge;  // among all new ones; the last block is an end

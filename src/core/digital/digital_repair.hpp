@@ -19,7 +19,7 @@
 
 namespace vorotool::core::digital {
 
-// What the repair had to do.
+// Counts of the repair's steps.
 struct DigitalRepair {
   std::uint64_t split_regions = 0;
   std::uint64_t moved_pixels = 0;

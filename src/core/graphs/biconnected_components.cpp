@@ -72,7 +72,7 @@ class DepthFirst {
     }
   }
 
-  // What is on the stack since the edge to a node is a component if nothing below leads above its other end.
+  // The edges stacked since the one to a node are a component if no edge below leads above its other end.
   void leave(const Step& step) {
     path_.pop_back();
     if (path_.empty()) return;

@@ -174,7 +174,7 @@ class PathFinder {
     return path;
   }
 
-  // From a leaf to a node that it hangs on.
+  // From a leaf to a node of the tree that holds it.
   GraphPath climb(std::int32_t leaf, std::int32_t node) const {
     GraphPath path{{leaf}, {}};
     while (path.nodes.back() != node) {
@@ -185,7 +185,7 @@ class PathFinder {
     return path;
   }
 
-  // What begins where the path ends.
+  // The arcs that begin where the path ends.
   static void append(GraphPath& path, const GraphPath& more) {
     path.nodes.insert(path.nodes.end(), more.nodes.begin() + 1, more.nodes.end());
     path.arcs.insert(path.arcs.end(), more.arcs.begin(), more.arcs.end());

@@ -22,7 +22,7 @@ struct LeafPair {
   bool is_better_than(const LeafPair& other) const;
 };
 
-// What a path can begin with at a node: the longest way to a leaf that hangs there.
+// The longest path from a node to a leaf of the trees attached to it.
 struct Hanging {
   std::int64_t depth = -1;
   std::int32_t leaf = -1;   // none: nothing hangs there

@@ -11,7 +11,7 @@
 
 namespace vorotool::core::label_images {
 
-// What happens where two pixels of a label meet at a corner only.
+// How an outline goes on where two pixels of a label meet at a corner only.
 enum class CornerRule : std::uint8_t {
   apart,    // 4-connectivity: they do not belong together by that
   divided,  // the same, and a ring that would visit the corner twice is divided there

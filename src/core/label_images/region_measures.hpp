@@ -1,4 +1,4 @@
-// What follows from a label image (section 2.1): the measures of its regions, and which are neighbours.
+// Regions of a label image (section 2.1): their measures, and which are neighbours.
 #pragma once
 
 #include <cstdint>

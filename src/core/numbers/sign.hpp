@@ -8,7 +8,7 @@ namespace vorotool::core::numbers {
 inline int sign_of(double value) { return (value > 0) - (value < 0); }
 inline int sign_of(std::int64_t value) { return (value > 0) - (value < 0); }
 
-// What a filter gives where it cannot tell the sign.
+// The result of a filter that cannot tell the sign.
 inline constexpr int undecided = 2;
 
 // 2^-53 bounds the relative error of a rounding.

@@ -10,7 +10,7 @@
 
 namespace vorotool::core::offsets {
 
-// What is near holds all sites, and what is on the other side of the shapes.
+// The set {clearance <= level} contains all sites, and the complement of the shapes.
 class InnerComponents {
  public:
   InnerComponents(const HalfEdges& borders, const PolygonFaces& domain, const LevelSet& level,

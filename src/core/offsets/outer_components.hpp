@@ -10,7 +10,7 @@
 
 namespace vorotool::core::offsets {
 
-// What is far is connected just as the edges of the diagram are that are above the level as a whole.
+// Two faces are in one outer component just if a path of edges wholly above the level joins them.
 class OuterComponents {
  public:
   OuterComponents(const HalfEdges& borders, const PolygonFaces& domain, const LevelSet& level,

@@ -1,4 +1,4 @@
-// What a segment Voronoi diagram is that of: polygons that cut the plane into faces.
+// The polygons whose boundary a segment Voronoi diagram was built from, as faces of the plane.
 #pragma once
 
 #include <array>

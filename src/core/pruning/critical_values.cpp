@@ -24,7 +24,7 @@ void poll(const Monitor& monitor, double done) {
   if (monitor && !monitor(done)) throw base::Interrupted();
 }
 
-// What the criteria have in common: the trees, and where the values go.
+// The part that all criteria share: the trees, and where the values go.
 class Pruner {
  public:
   Pruner(const SkeletonView& skeleton, const Monitor& monitor)
@@ -58,7 +58,7 @@ class Pruner {
     values_.kept.push_back({arc, parameter});
   }
 
-  // What hangs on an anchored end alone leaves this end.
+  // Trees attached to an anchored end alone leave this end.
   void keep_lone_ends() {
     std::vector<bool> is_lone(skeleton_.vertices.size());
     for (const std::int32_t node : forest_.lone_ends()) is_lone[at(node)] = true;

@@ -1,4 +1,4 @@
-// What is left of a skeleton for a threshold.
+// Pruning: the part of a skeleton that a threshold keeps.
 #pragma once
 
 #include <array>

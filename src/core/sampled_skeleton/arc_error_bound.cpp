@@ -45,7 +45,7 @@ double least_difference(const Place& n, const Place& first, const Place& last) {
 
 }  // namespace
 
-// What is known of the nearest edge C over a stretch: values at both of its ends.
+// Bounds for the nearest edge C over a stretch: values at both of its ends.
 struct ArcErrorBound::Nearest {
   const Seen& edge;
   std::array<Place, 2> place;

@@ -72,7 +72,7 @@ BoundarySamples sample(const PlanarGraphView& graph, std::size_t most, unsigned 
   return made;
 }
 
-// What lies inside a segment: seeds by the distances of its first end, one between perhaps, and seeds by
+// The samples inside a segment: seeds by the distances of its first end, one between perhaps, and seeds by
 // those of its second end.
 struct HalvedSegment {
   std::size_t from_first, from_second;

@@ -1,4 +1,4 @@
-// What completes an approximate skeleton at corners: a straight line along the bisector of the angle.
+// Straight lines along the bisectors of corners, which complete an approximate skeleton.
 #pragma once
 
 #include <cstdint>

@@ -47,7 +47,7 @@ double power_above(double value) {
 // To the precision of a float: what differs by its last bits only becomes the same, nearly always.
 double rounded_up(double value) { return static_cast<float>(value * (1 + 0x1p-22)); }
 
-// What is known of an arc while it is bounded.
+// The state of an arc while it is bounded.
 class Bounder {
  public:
   Bounder(const SampleDiagram& diagram, std::span<const NearEdge> items, const ObbTree& hierarchy)

@@ -27,7 +27,7 @@ struct ErrorBound {
   std::array<double, 2> radius{0, 0};  // clearance at the ends; where very many edges are near, not quite
 };
 
-// Arcs by their numbers, and who is told of each one. Both are called on several threads.
+// Arcs by index, and the callback that receives each bound. Both are called on several threads.
 struct ArcsToBound {
   std::size_t count;
   std::function<BoundedArc(std::size_t)> arc;

@@ -42,7 +42,7 @@ class NearEdges {
   bool is_crowded(std::size_t disc) const { return discs_[disc].numbers.size() > most_; }
 
  private:
-  // What meets one disc. Arcs that follow each other have one in common.
+  // The edges that meet one disc. Arcs that follow each other share one.
   struct Found {
     skeleton::Place centre{0, 0};
     double radius = -1;

@@ -16,7 +16,7 @@
 
 namespace vorotool::core::sampled_skeleton {
 
-// What an arc is a part of.
+// The bisector that an arc is a part of.
 struct ArcOrigin {
   Side side;            // of the triangulation; -1: it has no triangles
   std::int32_t corner;  // where a line begins that completes the skeleton; -1 of others

@@ -38,7 +38,7 @@ struct SampleGroups {
 // core/sampled_skeleton/boundary_crossings.hpp.
 class SampleDiagram {
  public:
-  // What is given, as of core/sampled_skeleton/boundary_samples.hpp, must outlive the diagram. Throws
+  // The samples (core/sampled_skeleton/boundary_samples.hpp) must outlive the diagram. Throws
   // std::length_error for more than 2^28 seeds. The mesh holds the triangles of one group after the other; a
   // segment and its ends are in one group.
   SampleDiagram(const arrangement::PlanarGraphView& graph, std::span<const kernel::Point> seeds,

@@ -19,7 +19,7 @@ namespace vorotool::core::sampled_skeleton {
 using Side = std::int32_t;
 using Triangle = std::int32_t;
 
-// What is known of the Voronoi edge of a side; 0: it is kept.
+// Flags of the Voronoi edge of a side; 0: it is kept.
 enum SideState : std::uint8_t {
   same_label = 1,  // its seeds have a label in common
   own_piece = 2,  // its seeds follow each other on an edge, and it is all that the piece between them crosses

@@ -37,7 +37,7 @@ class KdTree {
     return static_cast<Distance>(-1);
   }
 
-  // What a query has found so far: the smallest (d2, label), then the place in the tree, -1 for nothing.
+  // The best of a query so far: the smallest (d2, label), then the place in the tree, -1 for none.
   struct Nearest {
     Distance d2 = farthest();
     std::uint32_t label = UINT32_MAX;

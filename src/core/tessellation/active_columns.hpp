@@ -13,7 +13,7 @@ namespace vorotool::core::tessellation {
 template <class Arithmetic>
 class ActiveColumns {
  public:
-  // What becomes of a seed of a column: a site takes its place, it goes, or it stays.
+  // How a row changes the seed of a column: a site replaces it, it goes, or it stays.
   static constexpr std::int32_t gone = -1;
   static constexpr std::int32_t stays = -2;
 

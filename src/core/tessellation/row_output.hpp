@@ -1,4 +1,4 @@
-// What is written of the envelope of a row: labels, squared distances, distances.
+// Output of the envelope of a row: labels, squared distances, distances.
 #pragma once
 
 #include <algorithm>

@@ -71,7 +71,7 @@ class Watch {
  public:
   explicit Watch(const Monitor& monitor) : monitor_(monitor), caller_(std::this_thread::get_id()) {}
 
-  // What parallel_for asks between bands.
+  // Called by parallel_for between bands.
   Monitor monitor() {
     if (!monitor_) return {};
     return [this](double fraction) { return ask(fraction); };

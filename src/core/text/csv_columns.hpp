@@ -24,7 +24,7 @@ struct TextLayout {
   std::size_t fields = 0;  // fields every record must have; 0: as many as the first one after the header
 };
 
-// What is wrong with a text, and where.
+// The first fault of a text, and its place.
 struct TextError : std::runtime_error {
   enum class Kind {
     not_number,   // `text` in a wanted column is no number

@@ -19,7 +19,7 @@ enum class NumberStatus {
 };
 
 // Reads the whole of `text` as a decimal number, correctly rounded: [+-] digits [. digits] [e [+-] digits].
-// What is too small for a double becomes zero.
+// Numbers too small for a double become zero.
 NumberStatus parse_number(std::string_view text, double& value);
 
 // Appends the shortest text that reads back as the same double: plain digits from 1e-5 to below 1e16 in
@@ -29,7 +29,7 @@ void append_number(std::string& out, std::int64_t value);
 void append_number(std::string& out, std::uint64_t value);
 
 // The texts of numbers, made once for columns that show each number many times: about 20 bytes a number.
-// What is not finite has an empty text.
+// Numbers that are not finite have an empty text.
 class NumberTexts {
  public:
   NumberTexts(std::span<const double> values, int precision, unsigned threads,

@@ -5,7 +5,7 @@
 namespace vorotool::core::text {
 namespace {
 
-// What stands around and between the parts of a text.
+// The text around and between the parts of a polygon.
 struct Marks {
   const char *list_opens, *list_closes, *between_lists;
   const char *point_opens, *between_numbers, *point_closes, *between_points;

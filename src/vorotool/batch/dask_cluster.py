@@ -190,7 +190,7 @@ def _absolute(task: Task) -> Task:
 
 
 def _outcome(task: Task, future: Any, result: Any) -> Outcome:
-    """What became of a task, in the words of this process."""
+    """The outcome of a task, in the words of this process."""
     if not isinstance(result, Outcome):
         reason = result[1] if future.status == "error" else "the scheduler does not answer any more"
         return Outcome(code=1, message=f"the cluster gave it up: {reason}")

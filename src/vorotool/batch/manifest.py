@@ -1,4 +1,4 @@
-"""What was done already: a file of JSON lines beside the outputs, to which a line is added for each input."""
+"""The record of work that is done: a file of JSON lines beside the outputs, to which a line is added for each input."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def digest_of_values(values: Any) -> str:
 
 @dataclass(frozen=True)
 class Done:
-    """What a manifest says of an input that was done: all of it is text that anybody may have written.
+    """A manifest's line of an input that was done: all of it is text that anybody may have written.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ class Done:
 
 @dataclass(frozen=True)
 class History:
-    """What manifests say.
+    """Contents of manifests.
 
     Parameters
     ----------

@@ -133,7 +133,7 @@ def _check_records(folder: str | os.PathLike[str], others: Mapping[str, str]) ->
 
 
 def _identity(path: str) -> tuple[int, int]:
-    """What the file system knows a file by; nothing for one that is not there, or that is a stream."""
+    """The identity of a file in the file system; nothing for one that is not there, or that is a stream."""
     try:
         found = Path(path).stat()
     except (OSError, ValueError):

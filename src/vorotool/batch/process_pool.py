@@ -17,7 +17,7 @@ from vorotool.batch.tasks import Outcome, Process, Task
 from vorotool.formats.io.temporaries import remove_tagged
 
 START = "import sys; sys.path[:] = sys.argv[2:]; from vorotool.batch.pool_worker import main; main(int(sys.argv[1]))"
-"""What a worker runs: modules are looked for where this process finds them, and not in the current folder."""
+"""The program of a worker: modules are looked for where this process finds them, and not in the current folder."""
 
 _ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1"}
 """numpy's linear algebra, which inputs have no use for, would start threads that take time from other workers."""
@@ -64,7 +64,7 @@ class Worker:
             self.connection.send(value)
 
     def result(self) -> Outcome | None:
-        """What became of the task, or None if the process has ended instead."""
+        """The outcome of the task, or None if the process has ended instead."""
         try:
             outcome: Outcome = self.connection.recv()
         except (EOFError, OSError):

@@ -18,7 +18,7 @@ INPUT = ""
 
 @dataclass(frozen=True)
 class Task:
-    """What is to be done with one input.
+    """The work for one input.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ class Task:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of one input.
+    """The outcome of one input.
 
     Parameters
     ----------

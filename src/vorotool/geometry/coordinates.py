@@ -69,7 +69,7 @@ MOST_AXES = 4
 """Of points in some space: an array of points has a side that is no longer."""
 
 INEXACT = "integers beyond 2^53 would be rounded; subtract an offset from all of them, or give floating-point numbers"
-"""What a message says of coordinates that `first_inexact` finds."""
+"""Describe a coordinate that `first_inexact` finds."""
 
 
 def number_array(values: Any, noun: str, expected: str | None = None) -> NDArray[Any]:

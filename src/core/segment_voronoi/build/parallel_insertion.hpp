@@ -13,7 +13,7 @@
 
 namespace vorotool::core::segment_voronoi::build {
 
-// What was done; with several threads it depends on how they met.
+// Counts of the work; with several threads they depend on how these met.
 struct SegmentVoronoiCounts {
   std::int64_t visited = 0;  // vertices tested while segments were inserted
   std::int64_t cyclic = 0;   // segments whose vertices in conflict closed a cycle

@@ -163,7 +163,7 @@ std::size_t SegmentInsertion::inner_edges() const {
   return halves / 2;
 }
 
-// What the new cell takes of the diagram's edges is a tree: no cell is swallowed. Where the vertices in
+// The part of the diagram's edges inside the new cell is a tree: no cell is swallowed. Where the vertices in
 // conflict close a cycle, some edges between them keep their middle.
 void SegmentInsertion::cut_cycles(const SegmentQuery& query) {
   ++cyclic_;
@@ -184,7 +184,7 @@ void SegmentInsertion::cut_cycles(const SegmentQuery& query) {
   }
 }
 
-// Goes around the tree counter-clockwise. A half-edge that keeps its middle is told the number of its cut.
+// Goes around the tree counter-clockwise. A half-edge that keeps its middle receives the number of its cut.
 void SegmentInsertion::gather_cuts() {
   cuts_.clear();
   Corner corner = corner_of(conflicts_[0], 0);

@@ -9,7 +9,7 @@
 
 namespace vorotool::core::segment_voronoi::discs {
 
-// What a disc (x, y, r) has to meet: it touches the point a; or it is tangent to the line through a and b; or
+// The equations of a disc (x, y, r): it touches the point a; or it is tangent to the line through a and b; or
 // its centre is across the segment from a to b at a, where a is a site that the disc touches too.
 struct DiscCondition {
   enum class Kind { point, tangent, across };

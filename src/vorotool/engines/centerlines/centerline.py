@@ -208,7 +208,7 @@ def _outer_places(skeleton: Skeleton, pieces: _Pieces, outer: Sequence[NDArray[n
 
 
 def _without(pieces: _Pieces, is_lead: Booleans, taken: Booleans) -> _Pieces:
-    """What is left of lines; a single place, the fork, of those of two leads."""
+    """The rest of lines; of two leads a single place, the fork."""
     left = np.bincount(pieces.line[~taken], minlength=int(pieces.line.max(initial=-1)) + 1) > 0
     single = ~left[pieces.line] & is_lead & (np.diff(pieces.line, prepend=-1) > 0)
     made = pieces[np.flatnonzero(~taken | single)]

@@ -46,7 +46,7 @@ def is_blunt(points: Floats) -> NDArray[np.bool_]:
 
 
 def _comparisons(u: Any, v: Any, w: Any) -> tuple[Any, Any]:
-    """What is not negative where an edge v between u and w is blunt, and the magnitudes of what is added there.
+    """A number that is not negative where an edge v between u and w is blunt, and the magnitudes of its terms.
 
     Each angle has a sine of at least its cosine; and the cosine of their difference is not negative.
     """

@@ -1,1 +1,1 @@
-"""What engines share: arrays of labels, input of points, parallel parts."""
+"""Shared by engines: arrays of labels, input of points, parallel parts."""

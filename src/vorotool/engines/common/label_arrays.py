@@ -1,4 +1,4 @@
-"""What engines on label images share: the arrays that the compiled core takes."""
+"""Label images as the arrays that the compiled core takes."""
 
 from __future__ import annotations
 

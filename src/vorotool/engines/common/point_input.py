@@ -1,4 +1,4 @@
-"""What engines accept as points: one conversion for all of them."""
+"""Points from all that engines accept: one conversion for all of them."""
 
 from __future__ import annotations
 

@@ -187,7 +187,7 @@ def _clipped(cells: CellSet, area: Any) -> CellSet:
 
 
 def _polygons_of(shape: Any) -> Any:
-    """What has area of a shape: of a boundary that is only touched, nothing."""
+    """The part of a shape that has area: of a boundary that is only touched, nothing."""
     import shapely
 
     if shape.geom_type in ("Polygon", "MultiPolygon"):

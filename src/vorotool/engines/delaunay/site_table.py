@@ -1,4 +1,4 @@
-"""What a triangulation and its Voronoi cells tell of each point."""
+"""Table of points: measures by a triangulation and its Voronoi cells."""
 
 from __future__ import annotations
 

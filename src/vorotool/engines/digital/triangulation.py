@@ -166,7 +166,7 @@ def _counter_clockwise(points: NDArray[np.float64], triangles: NDArray[np.int32]
 
 @dataclass(frozen=True)
 class DigitalRepair:
-    """What `repair_digital` had to do, step by step.
+    """Counts of the steps of `repair_digital`.
 
     Parameters
     ----------

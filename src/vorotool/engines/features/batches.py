@@ -94,7 +94,7 @@ class BatchShapes:
 
 @dataclass(frozen=True, eq=False)
 class FeatureShapes:
-    """What features are as a whole, each by itself, when all batches are done.
+    """Totals of features, each by itself, when all batches are done.
 
     Parameters
     ----------

@@ -1,1 +1,1 @@
-"""What follows from a skeleton: nearest points, points along branches, rebuilt shapes."""
+"""Results derived from a skeleton: nearest points, points along branches, rebuilt shapes."""

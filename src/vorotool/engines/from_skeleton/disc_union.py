@@ -1,4 +1,4 @@
-"""What the discs along arcs cover, as rings: where no borders between sites tell more."""
+"""Boundary rings of the union of discs along arcs, for arcs without site information."""
 
 from __future__ import annotations
 

@@ -147,7 +147,7 @@ def _common_point(a: _Discs, b: _Discs) -> tuple[Floats, Floats]:
 
 
 def _noise(skeleton: Skeleton) -> float:
-    """What places of feet may be wrong by."""
+    """Bound of the error of feet."""
     largest = max(np.abs(skeleton.vertices).max(initial=0), np.abs(skeleton.radius).max(initial=0))
     return _ULPS * float(np.spacing(largest))
 

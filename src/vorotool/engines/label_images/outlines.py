@@ -41,7 +41,7 @@ _CORNER_RULES = {
     ("contour", 4): "apart",
     ("contour", 8): "yielding",
 }
-"""What the core does where two pixels of an object meet at a corner only."""
+"""Rules of the core where two pixels of an object meet at a corner only."""
 
 
 def outlines(

@@ -1,4 +1,4 @@
-"""What follows from a label image: its regions, their neighbours, the diagram, a colouring (section 2.1)."""
+"""Measures of a label image: its regions, their neighbours, the diagram, a colouring (section 2.1)."""
 
 from __future__ import annotations
 

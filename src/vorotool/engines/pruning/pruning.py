@@ -1,4 +1,4 @@
-"""Pruning of skeletons: what hangs on the rest is removed, as far as a threshold tells."""
+"""Pruning of skeletons: side branches whose significance is below a threshold are removed."""
 
 from __future__ import annotations
 
@@ -171,7 +171,7 @@ def _pruned_part(
     compared: float,
     progress: Progress,
 ) -> dict[str, Any]:
-    """What is left of some arcs, in arrays of a skeleton."""
+    """The rest of some arcs, in arrays of a skeleton."""
     arcs, nodes = part
     own = _arrays_of_part(arrays, arcs, nodes)
     left: dict[str, Any] = _core.prune_skeleton(own, number, compared, group[arcs], progress)
@@ -212,7 +212,7 @@ def critical_values(skeleton: Skeleton, criterion: str, *, progress: Progress = 
     [1.414213562, 1.414213562, 1.414213562, 1.414213562, inf]
     """
     if criterion not in CRITERIA:
-        raise UsageError(f"{criterion!r} is nothing to prune by: use {', '.join(CRITERIA)}")
+        raise UsageError(f"unknown criterion {criterion!r}: choose one of {', '.join(CRITERIA)}")
     ends, most, kept_arc, kept_place = _core.critical_values(
         skeleton_arrays(skeleton, has_sites=criterion != "scale"), CRITERIA.index(criterion), progress
     )

@@ -17,7 +17,7 @@ from vorotool.geometry.skeleton.segment_voronoi import LATTICE_LIMIT, SegmentVor
 MOST_SITES = 2**28 - 1
 """Of n sites there are at most 2 n - 2 vertices, each with four corner numbers in 31 bits."""
 NEITHER = 3
-"""What `unwanted_sides` tells of a site where neither side is wanted."""
+"""Value of `unwanted_sides` for a site of which neither side is wanted."""
 
 
 def segment_voronoi(
@@ -124,7 +124,7 @@ def unwanted_sides(graph: PlanarGraph, is_wanted: NDArray[np.bool_]) -> NDArray[
 
 
 def _explained(symptom: str, points: NDArray[np.int32], segments: NDArray[np.int32]) -> VorotoolError:
-    """What was wrong with the graph where the diagram came out as none."""
+    """Describe the fault of a graph that has no diagram."""
     fault = _fault_of(points, segments)
     if fault is not None:
         return InputError(f"{fault}: place the input on the lattice first")

@@ -1,4 +1,4 @@
-"""What is inside each feature by itself, and outside of all of them: both sides of features in one skeleton."""
+"""Skeletons of both sides: inside each feature by itself, and outside of all of them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What skeletons are checked for by distances: nodes and arcs between their sites, and nothing nearer."""
+"""Checks of skeletons by distances: nodes and arcs lie between their sites, and no site is nearer."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What skeletons are checked for by regions: connection, cycles, ends and areas."""
+"""Checks of skeletons by regions: connection, cycles, ends and areas."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What digital diagrams share: seeds from anything, frames, types of labels, limits."""
+"""Shared by digital diagrams: seeds from anything, frames, types of labels, limits."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an image holds: foreground by a threshold, a mask of components, or labels."""
+"""Objects of an image: foreground by a threshold, a mask of components, or labels."""
 
 from __future__ import annotations
 

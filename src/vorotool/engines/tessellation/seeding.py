@@ -30,7 +30,7 @@ from vorotool.geometry.points.seed_set import FINEST_SCALE, SeedSet
 SeedMode = Literal["pixels", "components", "labels", "centroids"]
 
 Check = Callable[[SeedSet], object] | None
-"""Raises an error for seeds that cannot be used: called before anyone is told what became of them."""
+"""Raises an error for seeds that cannot be used: called before notes about them."""
 
 LARGEST_COORDINATE = float(2**44)
 """Coordinates up to here, times 256, are exact in a double."""

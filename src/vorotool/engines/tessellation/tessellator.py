@@ -30,7 +30,7 @@ from vorotool.geometry.points.seed_set import SeedSet
 
 
 class _NothingLabelled:
-    """What the core would be for no seeds: those of an image without foreground."""
+    """Stand-in for the core without seeds, as of an image without foreground."""
 
     duplicates = 0
     is_wide = False
@@ -152,7 +152,7 @@ class Tessellator:
             paint_seeds(rows, self.seeds, place, value)
 
     def _progress_of(self, first: int, rows: int) -> Progress:
-        """What is told while some rows are made: the fraction of the frame, as those above them are made before."""
+        """Progress while some rows are made: the fraction of the frame, rows above them included."""
         tell, height = self._progress, self.frame.height
         if tell is None:
             return None

@@ -30,7 +30,7 @@ Unpacker = Callable[[Packed, int], Any]
 
 
 class _Stream(Protocol):
-    """What the decoders of bz2 and lzma have in common."""
+    """Decoders as those of bz2 and lzma."""
 
     @property
     def eof(self) -> bool: ...

@@ -62,7 +62,7 @@ def stored(band: NDArray[Any], dtype: np.dtype[Any]) -> NDArray[Any]:
 
 
 class NpyHeader(NamedTuple):
-    """What an NPY file says of its array."""
+    """The header of an NPY file."""
 
     shape: tuple[int, ...]
     dtype: np.dtype[Any]

@@ -86,7 +86,7 @@ class TiffLayout:
 
     @property
     def kind(self) -> str:
-        """What a segment is called."""
+        """The name of a segment: strip or tile."""
         return "tile" if self.is_tiled else "strip"
 
     @property

@@ -119,7 +119,7 @@ def _write(
 
 
 def _resolution_tags(resolution: tuple[float, float, str] | None) -> dict[str, Any]:
-    """What tifffile is told of pixels a unit; TIFF knows inches, centimetres and units without a name."""
+    """Arguments of tifffile for pixels a unit; TIFF knows inches, centimetres and units without a name."""
     if resolution is None:
         return {}
     x, y, unit = resolution

@@ -79,7 +79,7 @@ def _place(name: str) -> tuple[int | None, int] | None:
 
 
 def stream_kind(name: str) -> str | None:
-    """What a stream is, in words; None for a file, a folder and what is not there. Nothing is opened.
+    """The kind of a stream, in words; None for a file, a folder and what is not there. Nothing is opened.
 
     Examples
     --------
@@ -96,7 +96,7 @@ def stream_kind(name: str) -> str | None:
 
 
 def input_identity(name: str) -> Hashable | None:
-    """What two names of one stream that is read have in common; None for files, and for devices, which start anew.
+    """An identity that two names of one stream share; None for files, and for devices, which start anew.
 
     Examples
     --------

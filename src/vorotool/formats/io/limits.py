@@ -1,4 +1,4 @@
-"""What every reader asks first: is this too large, and does the library that decodes it complain."""
+"""Limits of all readers: sizes are checked first, and complaints of decoding libraries become errors."""
 
 from __future__ import annotations
 

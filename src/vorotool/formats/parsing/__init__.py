@@ -1,1 +1,1 @@
-"""What readers share: GeoJSON, reference systems, names of formats, options."""
+"""Shared by readers: GeoJSON, reference systems, names of formats, options."""

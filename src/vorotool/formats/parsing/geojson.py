@@ -1,4 +1,4 @@
-"""What the readers of points and of polygons share of JSON and GeoJSON."""
+"""JSON and GeoJSON, as far as the readers of points and of polygons share it."""
 
 from __future__ import annotations
 

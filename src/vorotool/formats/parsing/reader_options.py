@@ -1,4 +1,4 @@
-"""What every reader of points is told, and the checks that they share."""
+"""Options of all readers of points, and the checks that they share."""
 
 from __future__ import annotations
 

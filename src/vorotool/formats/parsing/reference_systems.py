@@ -1,4 +1,4 @@
-"""What the coordinates of points and polygons are in: as the input says, or as it is declared."""
+"""Coordinate reference systems of points and polygons: as the input says, or as it is declared."""
 
 from __future__ import annotations
 

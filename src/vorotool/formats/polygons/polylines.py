@@ -16,7 +16,7 @@ from vorotool.geometry.table import Lookup
 
 
 class Wording(NamedTuple):
-    """What stands around the coordinates of polylines."""
+    """The text around the coordinates of polylines."""
 
     before: bytes
     openings: Sequence[str]

@@ -1,4 +1,4 @@
-"""What every reader of polygons and lines is told, and the rings that it collects."""
+"""Options of all readers of polygons and lines, and the rings that they collect."""
 
 from __future__ import annotations
 

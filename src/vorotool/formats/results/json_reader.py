@@ -46,7 +46,7 @@ class JsonRows:
         return value
 
     def fault(self, member: str, rows: list[Any], name: str, is_right: Callable[[Any], bool], what: str) -> InputError:
-        """What to say of the first value that is not right."""
+        """The error for the first value that is not right."""
         at = next((i for i, row in enumerate(rows) if not is_right(row.get(name))), 0)
         value = rows[at].get(name)
         return InputError(f"{self.name}, {member} {at}: {name} is {shortened(value)}; write {what}")

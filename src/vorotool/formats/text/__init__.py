@@ -1,1 +1,1 @@
-"""What writers of text share: rows, tables, lists, feature collections."""
+"""Shared by writers of text: rows, tables, lists, feature collections."""

@@ -10,7 +10,7 @@ from vorotool.formats.text.tables import json_text
 
 
 def collection_opening(crs: Any) -> bytes:
-    """What stands before the features of a collection, whose ``crs`` member may be None.
+    """The text before the features of a collection, whose ``crs`` member may be None.
 
     Examples
     --------

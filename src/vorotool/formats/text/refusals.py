@@ -1,4 +1,4 @@
-"""What writers are asked for and do not have."""
+"""Refusals of unknown formats and layers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a Zarr array is, by its metadata of format 2 or 3: checked and turned into values of our own.
+"""Metadata of Zarr arrays of format 2 or 3: checked and turned into values of our own.
 
 No codec is looked up by its name in a registry, as the zarr package does: a registry may hold one that runs code.
 """

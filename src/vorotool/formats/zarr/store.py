@@ -59,7 +59,7 @@ def is_group(path: str | os.PathLike[str]) -> bool:
 
 
 def _node_type(path: str | os.PathLike[str]) -> object:
-    """What the metadata of format 3 say, if they can be read."""
+    """The metadata of format 3, if they can be read."""
     from vorotool.formats.zarr.metadata import read_metadata
 
     try:

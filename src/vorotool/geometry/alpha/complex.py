@@ -19,7 +19,7 @@ Radius = float | Fraction
 """A radius: a double, or an exact fraction such as a decimal number."""
 
 CLASSES = ("outside", "singular", "boundary", "interior")
-"""What an edge is in a shape, by number: outside of it, alone in it, on one triangle of it, between two."""
+"""Classes of edges by number: outside of a shape, alone in it, on one triangle of it, between two."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,7 +12,7 @@ from vorotool.geometry.numbers import nearest_double
 from vorotool.geometry.polygons.polygon_set import HOLE, PolygonSet
 
 POINT_CLASSES = ("isolated", "singular", "boundary", "interior")
-"""What a point is in a shape: on no edge of it, on edges without a triangle only, on the boundary, inside."""
+"""Classes of points in a shape: on no edge of it, on edges without a triangle only, on the boundary, inside."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""What a digital tessellation shows of a triangulation: edges and triangles that need not fit together."""
+"""Edges and triangles that a digital tessellation shows, which need not fit together."""
 
 from __future__ import annotations
 
@@ -107,4 +107,4 @@ class DigitalTriangulation:
 
 
 AnyTriangulation = Triangulation | DigitalTriangulation
-"""What has points, edges and triangles to write or draw, whether or not these fit together."""
+"""Any value with points, edges and triangles to write or draw, whether or not these fit together."""

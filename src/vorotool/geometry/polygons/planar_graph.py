@@ -18,7 +18,7 @@ REPAIRS = (
     "idle_segments",
     "empty_polygons",
 )
-"""What is counted, in the order of the core: see `PlanarGraph.repairs`."""
+"""Names of the counts, in the order of the core: see `PlanarGraph.repairs`."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -29,7 +29,7 @@ VERTEX, EDGE = 0, 1
 
 @dataclass(frozen=True, eq=False)
 class SiteTable:
-    """What each site is: a vertex of a polygon as it was used, or the open edge that begins at a vertex.
+    """The elements of sites: a vertex of a polygon as it was used, or the open edge that begins at a vertex.
 
     Parameters
     ----------

@@ -367,7 +367,7 @@ class Page:
 
     @property
     def backdrop(self) -> Backdrop | None:
-        """What lies beneath the layers."""
+        """The ground beneath the layers."""
         return None
 
     def place(self, points: NDArray[np.float64]) -> NDArray[np.float64]:

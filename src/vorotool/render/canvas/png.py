@@ -23,7 +23,7 @@ CAPITAL = 0.72
 
 MOST_COLOURS = 255
 NOTHING = "#000000"
-"""What adds nothing to the image beneath."""
+"""A colour that adds nothing to the image beneath."""
 BAND_ROWS = 64
 _PIXELS = 1 << 22  # of the drawing, that are set at a time
 _TEXTS = 1 << 14  # that are written at a time
