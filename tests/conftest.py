@@ -5,14 +5,13 @@ would inherit that.
 """
 
 import os
-import signal
 
 from hypothesis import settings
+
+from support.processes.heard_signals import hear_signals
 
 settings.register_profile("steady", derandomize=True, deadline=None)
 settings.register_profile("search", deadline=None, max_examples=2000)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "steady"))
 
-for number, usual in ((signal.SIGINT, signal.default_int_handler), (signal.SIGHUP, signal.SIG_DFL)):
-    if signal.getsignal(number) == signal.SIG_IGN:
-        signal.signal(number, usual)
+hear_signals()

@@ -21,6 +21,7 @@ class _End:
 
     is_exception = True
     code = 0
+    comes_again = False
 
 
 def end_at_once() -> None:
@@ -45,6 +46,9 @@ def settled(code: int) -> int:
     """Give the exit code once nothing is left to be undone: that of a signal, if one came; the next ends at once."""
     _End.is_exception = signal.getsignal(signal.SIGINT) is not _end
     received, _End.code = _End.code, 0
+    if _End.comes_again:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        _End.comes_again = False
     return received or code
 
 
@@ -80,6 +84,7 @@ def insist_on_the_end() -> None:
         def end(_number: int, _frame: object) -> NoReturn:
             raise error
 
+        _End.comes_again = True
         signal.signal(signal.SIGALRM, end)
         signal.setitimer(signal.ITIMER_REAL, MOMENT)
 

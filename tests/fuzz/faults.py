@@ -23,6 +23,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from fuzz import faulty_batches, faulty_places
 from fuzz.write_events import Steps, announce, install
 from fuzz.writers import ENDS, WRITERS, ended, import_modules, leftovers, outputs, run, write_inputs
+from support.processes.heard_signals import hear_signals
 
 LONGEST = 0.003
 """Seconds after a step in which a signal comes that is not sent at the step itself."""
@@ -211,6 +212,7 @@ def main():
         for each in found:
             print(f"wrong: {each}", flush=True)
 
+    hear_signals()
     with tempfile.TemporaryDirectory() as scratch:
         wanted = [stage for stage in stages(arguments, Path(scratch), counts) if stage.goal]
         while (left := [stage for stage in wanted if not stage.is_done()]) and time.monotonic() < end:

@@ -74,15 +74,24 @@ def run(folder, command, prepare=lambda: None, finish=lambda: None):
         return number
     code = 70
     try:
+        code = _in_child(folder, command, before, prepare, finish)
+    finally:  # nothing that is the parent's is unwound, whatever comes
+        os._exit(code)
+
+
+def _in_child(folder, command, signals, prepare, finish):
+    """Run a command in a folder with the signals of before; its exit code."""
+    code = 70
+    try:
         os.chdir(folder)
         with Path(os.devnull).open("rb") as nothing, (folder / "messages").open("wb") as messages:
             for descriptor, file in ((0, nothing), (1, messages), (2, messages)):
                 os.dup2(file.fileno(), descriptor)
         signal.signal(signal.SIGINT, signal.default_int_handler)
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        signal.pthread_sigmask(signal.SIG_SETMASK, signals)
         prepare()
         code = result(command)
-        for each in (signal.SIGINT, signal.SIGTERM):  # what comes now comes too late
+        for each in (signal.SIGINT, signal.SIGTERM, signal.SIGALRM):  # what comes now comes too late
             signal.signal(each, signal.SIG_IGN)
         finish()
     except KeyboardInterrupt:
@@ -91,10 +100,9 @@ def run(folder, command, prepare=lambda: None, finish=lambda: None):
         code = end.code
     except BaseException:
         traceback.print_exc()
-    finally:
-        gc.collect()
-        sys.stderr.flush()
-        os._exit(code)
+    gc.collect()
+    sys.stderr.flush()
+    return code
 
 
 def result(command):

@@ -7,10 +7,12 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from support.processes.leftovers import leftovers
+from vorotool import signals
 
 HERE = "import os; import vorotool.__main__ as entry; os.write(1, b'.'); entry.main()"
 """Says when the first line of ours is done; from there on nothing of Python's own is to be seen."""
@@ -105,3 +107,19 @@ def test_an_interrupt_that_is_ignored_stays_so(folder):
     os.killpg(child.pid, signal.SIGINT)
     assert child.communicate(timeout=60) == (b"", b"")
     assert (child.returncode, (folder / "out.npy").exists()) == (0, True)
+
+
+def test_an_end_that_was_swallowed_does_not_come_after_the_run(monkeypatch):
+    monkeypatch.setattr(sys, "unraisablehook", sys.unraisablehook)
+    before = signal.getsignal(signal.SIGALRM)
+    try:
+        signals.insist_on_the_end()
+        sys.unraisablehook(SimpleNamespace(exc_value=SystemExit(143)))
+        assert signals.settled(3) == 3
+        time.sleep(50 * signals.MOMENT)
+        sys.unraisablehook(SimpleNamespace(exc_value=SystemExit(143)))
+        with pytest.raises(SystemExit, match="143"):
+            time.sleep(50 * signals.MOMENT)
+    finally:
+        signals.settled(0)
+        signal.signal(signal.SIGALRM, before)

@@ -90,8 +90,8 @@ def npy_header(source: SourceLike) -> NpyHeader:
         raise InputError(f"{source.name} holds pickled objects, which are never loaded: save it with a number dtype")
     if dtype.kind not in "buif":
         raise InputError(f"{source.name} holds {dtype}: save it as integers or floating-point numbers")
-    if any(side < 0 for side in shape):
-        raise InputError(f"{source.name} has the shape {shape}: sides cannot be negative")
+    if any(type(side) is not int or side < 0 for side in shape):
+        raise InputError(f"{source.name} has the shape {shape}: whole numbers from 0 on were expected")
     return NpyHeader(shape, dtype, fortran_order, stream.tell())
 
 

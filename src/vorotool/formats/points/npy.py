@@ -62,7 +62,7 @@ def _check_kind(name: str, shape: tuple[int, ...], dtype: np.dtype[np.generic]) 
         raise InputError(f"{name} holds pickled Python objects, which are never loaded; {_ADVICE}")
     if dtype.kind not in "iuf":
         raise InputError(f"{name} holds values of type {dtype}, not numbers; {_ADVICE}")
-    if len(shape) != 2 or shape[1] not in (2, 3) or shape[0] < 0:
+    if len(shape) != 2 or shape[1] not in (2, 3) or type(shape[0]) is not int or shape[0] < 0:
         raise InputError(f"{name} holds an array of shape {shape}; {_ADVICE} (columns x, y and label)")
 
 
