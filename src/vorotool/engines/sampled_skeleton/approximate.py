@@ -199,6 +199,11 @@ def diagram_by_step(
     """Sample a graph by a step, and compute the Voronoi diagrams; TooManySeedsError is the core's."""
     assert options.step is not None
     step = options.step / graph.scale
+    if step < _core.LEAST_SAMPLE_GAP:
+        raise LimitError(
+            f"a step of {options.step:g} is too fine to tell samples apart on the lattice that polygons are placed on: "
+            f"use at least {_core.LEAST_SAMPLE_GAP * graph.scale!r}"
+        )
     if options.is_symmetric:
         steps = _core.corner_steps(*graph_arrays(graph), step, True, most)
         made = _core.sample_from_corners(*graph_arrays(graph), steps, most, threads, progress)
