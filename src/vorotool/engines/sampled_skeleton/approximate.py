@@ -289,7 +289,7 @@ def skeleton_of_samples(
     largest = np.abs(graph.origin).max() + graph.scale * 2.0**30
     bound = made["error_bound"] + ROUNDING_ULPS * np.spacing(largest)
     made["error_bound"] = np.where(np.isinf(bound), np.nan, bound)
-    skeleton = skeleton_of_arrays(made, placed, clip)
+    skeleton = skeleton_of_arrays(made, graph, placed, clip)
     return ApproximateSkeleton(skeleton, seeds, shapes, open_corners, parts)
 
 
@@ -321,6 +321,6 @@ def whole_sampled_diagram(
     for name in ("seeds", "parts", "open_corners"):
         made.pop(name)
     made["group"][:] = len(placed.polygons)
-    whole = skeleton_of_arrays(made, placed, clip)
+    whole = skeleton_of_arrays(made, graph, placed, clip)
     whole.side[:] = -1
     return whole
