@@ -233,6 +233,7 @@ nb::dict skeleton_of(const SampledDiagram& diagram, const Indices& face_group,
 
 void bind_sampled_skeleton(nb::module_& module) {
   nb::exception<core::sampled_skeleton::TooManySeeds>(module, "TooManySeedsError");
+  module.attr("LEAST_SAMPLE_GAP") = core::sampled_skeleton::least_gap;
   module.def("sample_by_step", &sample_by_step, "points"_a.noconvert(), "segments"_a.noconvert(),
              "faces"_a.noconvert(), "step"_a, "most"_a, "threads"_a, "progress"_a.none());
   module.def("sample_from_corners", &sample_from_corners, "points"_a.noconvert(), "segments"_a.noconvert(),

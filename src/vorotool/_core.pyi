@@ -567,6 +567,8 @@ def clearances(
 
 class TooManySeedsError(Exception): ...
 
+LEAST_SAMPLE_GAP: float
+
 _Samples = tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]
 _Steps = tuple[NDArray[np.uint64], NDArray[np.float64]]
 

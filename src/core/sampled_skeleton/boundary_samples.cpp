@@ -212,7 +212,14 @@ CornerSteps refined_steps(const PlanarGraphView& graph, const CornerSteps& steps
     }
   }
   double total = 0;
-  for (const std::int32_t count : of_gap) total += count;
+  for (std::size_t i = 0; i + 1 < steps.start.size(); ++i) {
+    double last = 0;
+    for (std::size_t g = steps.start[i]; g < steps.start[i + 1]; last = steps.distance[g++]) {
+      const double parts = std::floor((steps.distance[g] - last) / least_gap);
+      if (parts < of_gap[g]) of_gap[g] = std::max(1, static_cast<std::int32_t>(parts));
+      total += of_gap[g];
+    }
+  }
   check(total / 2, most);
   CornerSteps refined{{0}, {}};
   refined.distance.reserve(static_cast<std::size_t>(total));

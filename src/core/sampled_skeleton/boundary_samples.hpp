@@ -20,6 +20,14 @@ namespace vorotool::core::sampled_skeleton {
 inline constexpr int seed_bits = 22;
 inline constexpr double seed_step = 0x1p-22;
 
+// Distances of seeds from an end of their edge differ by at least this, so that seeds follow each other as
+// they should. Each coordinate of those placed from one end is a monotone function of the distance: quotient,
+// product, sum and rounding are. Over this distance the larger one grows by more than 2^-17, and is wrong by
+// less than 2^-20: it differs. Between two halves is a quarter of the last gap of each, before the end of an
+// edge half a step: at least 2^-17 together, where each place is wrong along the edge by less than 2^-19, the
+// error of the length included.
+inline constexpr double least_gap = 0x1p-16;
+
 // More seeds than there may be; carries how many there would be.
 struct TooManySeeds : std::length_error {
   explicit TooManySeeds(double count_) : std::length_error("too many seeds"), count(count_) {}
@@ -59,7 +67,7 @@ CornerSteps doubled_steps(const arrangement::PlanarGraphView& graph, double coar
 BoundarySamples sample_from_corners(const arrangement::PlanarGraphView& graph, const CornerSteps& steps,
                                     std::size_t most, unsigned threads, const base::Monitor& monitor);
 
-// Divides the gaps that pieces of edges are made of: [pieces] into how many parts.
+// Divides the gaps that pieces of edges are made of: [pieces] into how many parts, of `least_gap` at least.
 CornerSteps refined_steps(const arrangement::PlanarGraphView& graph, const CornerSteps& steps,
                           std::span<const std::int32_t> start, std::span<const std::int32_t> parts,
                           std::size_t most);

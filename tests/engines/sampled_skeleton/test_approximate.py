@@ -1,5 +1,6 @@
 """Approximate skeletons: their checker on broken shapes, and their bounds beside the exact skeleton."""
 
+import json
 import warnings
 
 import numpy as np
@@ -11,10 +12,11 @@ from fuzz.skeleton_bounds import Shape, check_steps, check_tolerances, random_sh
 from support.families.skeleton_shapes import FAMILIES, regular, under_symmetries
 from vorotool.engines.arrangement.lattice_rings import placed_shapes
 from vorotool.engines.arrangement.planar_graph import planar_graph
+from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, approximate_skeleton, sampled_graph
 from vorotool.engines.sampled_skeleton.hausdorff import distances_to, places_on_arcs
 from vorotool.engines.sampled_skeleton.refinement import skeleton_within
-from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
-from vorotool.errors import UsageError
+from vorotool.engines.sampled_skeleton.verify_approximate import check_samples, verify_approximate
+from vorotool.errors import LimitError, UsageError
 
 SHAPES = random_shapes(np.random.default_rng(1))
 
@@ -60,6 +62,45 @@ def test_arcs_beside_edges_with_common_seeds_are_in_their_polygons(order):
         seeds = found.shapes.samples.seeds
         assert len(np.unique(seeds, axis=0)) < len(seeds)
         verify_approximate(found)
+
+
+# three edges from one corner, at angles of 1e-8
+FAN = [
+    {"line": [[0, 0], [311204261, 487696144]]},
+    {"shell": [[0, 0], [311204254, 487696143], [-12, 14]]},
+    {"shell": [[0, 0], [20, 0], [311204261, 487696142]]},
+]
+
+
+@pytest.fixture
+def fan(tmp_path):
+    path = tmp_path / "fan.json"
+    path.write_text(json.dumps({"polygons": FAN}))
+    return vorotool.read(path)
+
+
+def test_tolerances_where_edges_are_too_near_to_each_other_end_with_a_limit(fan):
+    with pytest.raises(LimitError, match=r"could not be bounded.*use a step"):
+        vorotool.skeleton_approx(fan, tolerance=3830685.32494347, features="together")
+
+
+@pytest.mark.parametrize("sampling", ["paper", "symmetric"])
+def test_steps_are_kept_where_edges_are_too_near_to_each_other(fan, sampling):
+    graph = planar_graph(fan)
+    shapes = sampled_graph(graph, placed_shapes(graph), SamplingOptions(1e6, None, sampling))
+    verify_approximate(approximate_skeleton(shapes), step=1e6)
+
+
+@pytest.mark.parametrize("sampling", ["paper", "symmetric"])
+@pytest.mark.parametrize("features", ["separate", "together"])
+def test_steps_below_the_spacing_of_samples_are_refused(sampling, features):
+    shapes = [[[x, 0], [x + 1, 0], [x, 1]] for x in (0, 2**29)]  # on a lattice of steps of 1/2
+    finest = 2**-17
+    with pytest.raises(LimitError, match=f"use at least {finest!r}"):
+        vorotool.skeleton_approx(shapes, step=finest * 0.99, sampling=sampling, features=features)
+    graph = planar_graph(shapes)
+    found = sampled_graph(graph, placed_shapes(graph), SamplingOptions(finest, None, sampling))
+    check_samples(found.samples, finest)
 
 
 def test_results_do_not_depend_on_threads():

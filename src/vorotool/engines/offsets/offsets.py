@@ -173,7 +173,9 @@ def _offsets_of_features(
                 "site": found["site"] + np.int32(shift),
                 "polygon": source[found["polygon"]].astype(np.int32),
             }
-    return _as_offsets([curves[distance] for distance in distances], distances, sites, order.polygons)
+    return _as_offsets(
+        [curves[distance] for distance in distances], distances, sites, order.polygons, whole.placement.origin
+    )
 
 
 def _joined_curves(order: InputOrder, made: Sequence[tuple[BatchShapes, list[Curves]]], number: int) -> Curves:
@@ -216,7 +218,7 @@ def _no_curves() -> Curves:
 
 def _offsets_of(shapes: ShapeDiagram, distances: list[float], threads: int, progress: Progress) -> Offsets:
     made = curves_of(shapes, distances, threads, progress)
-    return _as_offsets(made, distances, shapes.placed.sites, shapes.placed.polygons)
+    return _as_offsets(made, distances, shapes.placed.sites, shapes.placed.polygons, shapes.graph.origin)
 
 
 def curves_of(shapes: ShapeDiagram, distances: list[float], threads: int, progress: Progress) -> list[Curves]:
@@ -250,7 +252,13 @@ def curves_of(shapes: ShapeDiagram, distances: list[float], threads: int, progre
     return found
 
 
-def _as_offsets(made: Sequence[Curves], distances: list[float], sites: SiteTable, polygons: PolygonSet) -> Offsets:
+def _as_offsets(
+    made: Sequence[Curves],
+    distances: list[float],
+    sites: SiteTable,
+    polygons: PolygonSet,
+    origin: tuple[float, float],
+) -> Offsets:
     shape_counts = [len(curves["polygon"]) for curves in made]
     columns: dict[str, Any] = {
         name: np.concatenate([curves[name] for curves in made])
@@ -263,6 +271,7 @@ def _as_offsets(made: Sequence[Curves], distances: list[float], sites: SiteTable
         distance=np.repeat(distances, shape_counts),
         site_table=sites,
         polygons=polygons,
+        origin=origin,
     )
 
 

@@ -16,7 +16,7 @@ from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.features.batches import BatchShapes, in_batches
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
 from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
-from vorotool.engines.skeleton.site_distances import ULPS, fail, first_wrong
+from vorotool.engines.skeleton.site_distances import ULPS, fail, first_wrong, largest_coordinate
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.curves.circular_arcs import middles_of
 from vorotool.geometry.numbers import finite_double
@@ -132,7 +132,7 @@ def with_shapes(offsets: Offsets, chosen: NDArray[np.intp]) -> Offsets:
 
 
 def _tolerance(offsets: Offsets) -> float:
-    largest = max((float(np.abs(xy).max()) for xy in (offsets.polygons.xy, offsets.start) if len(xy)), default=1.0)
+    largest = largest_coordinate(offsets.origin, offsets.polygons.xy, offsets.start) or 1.0
     furthest = float(np.abs(offsets.distance).max(initial=0))
     return ULPS * float(np.spacing(max(largest, furthest)))
 

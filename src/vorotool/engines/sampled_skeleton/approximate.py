@@ -199,6 +199,11 @@ def diagram_by_step(
     """Sample a graph by a step, and compute the Voronoi diagrams; TooManySeedsError is the core's."""
     assert options.step is not None
     step = options.step / graph.scale
+    if step < _core.LEAST_SAMPLE_GAP:
+        raise LimitError(
+            f"a step of {options.step:g} is too fine to tell samples apart on the lattice that polygons are placed on: "
+            f"use at least {_core.LEAST_SAMPLE_GAP * graph.scale!r}"
+        )
     if options.is_symmetric:
         steps = _core.corner_steps(*graph_arrays(graph), step, True, most)
         made = _core.sample_from_corners(*graph_arrays(graph), steps, most, threads, progress)
@@ -284,7 +289,7 @@ def skeleton_of_samples(
     largest = np.abs(graph.origin).max() + graph.scale * 2.0**30
     bound = made["error_bound"] + ROUNDING_ULPS * np.spacing(largest)
     made["error_bound"] = np.where(np.isinf(bound), np.nan, bound)
-    skeleton = skeleton_of_arrays(made, placed, clip)
+    skeleton = skeleton_of_arrays(made, graph, placed, clip)
     return ApproximateSkeleton(skeleton, seeds, shapes, open_corners, parts)
 
 
@@ -316,6 +321,6 @@ def whole_sampled_diagram(
     for name in ("seeds", "parts", "open_corners"):
         made.pop(name)
     made["group"][:] = len(placed.polygons)
-    whole = skeleton_of_arrays(made, placed, clip)
+    whole = skeleton_of_arrays(made, graph, placed, clip)
     whole.side[:] = -1
     return whole

@@ -123,7 +123,7 @@ def refined_skeleton(
     if tolerance < LEAST_STEPS * graph.scale:
         raise LimitError(
             f"a tolerance of {tolerance:g} is finer than the lattice that polygons are placed on: use at least "
-            f"{LEAST_STEPS * graph.scale:.2g}"
+            f"{LEAST_STEPS * graph.scale!r}"
         )
     arrays = graph_arrays(graph)
     common: dict[str, Any] = {"threads": threads, "progress": progress}
@@ -135,7 +135,10 @@ def refined_skeleton(
         parts = _parts(shapes, found, tolerance)
         if (parts == 1).all():
             break
-        steps = _core.refined_steps(*arrays, steps, made[2], parts, most)
+        refined = _core.refined_steps(*arrays, steps, made[2], parts, most)
+        if len(refined[1]) == len(steps[1]):  # what is to be divided is as short as gaps may be
+            break
+        steps = refined
     return found
 
 
@@ -144,7 +147,15 @@ def refuse_unproved(skeleton: Skeleton, tolerance: float) -> None:
     wrong = ~(skeleton.error_bound <= tolerance)
     if not wrong.any():
         return
-    x, y = skeleton.vertices[skeleton.arcs[wrong.argmax(), 0]].tolist()
+    unproved = np.isnan(skeleton.error_bound)
+    first = (unproved if unproved.any() else wrong).argmax()
+    x, y = skeleton.vertices[skeleton.arcs[first, 0]].tolist()
+    if unproved.any():
+        raise LimitError(
+            f"errors of {np.count_nonzero(unproved)} arcs could not be bounded, the first near ({x:g}, {y:g}), where "
+            "edges are too near to each other for samples on the lattice: use a step instead of the tolerance, or the "
+            "exact skeleton"
+        )
     raise LimitError(
         f"errors of at most {tolerance:g} could not be proved for {np.count_nonzero(wrong)} arcs, the first near "
         f"({x:g}, {y:g}): use a larger tolerance"

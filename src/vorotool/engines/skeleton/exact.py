@@ -257,10 +257,10 @@ def assembled(
         threads,
         progress,
     )
-    return skeleton_of_arrays({**made, "error_bound": np.zeros(len(made["arcs"]))}, placed, frame)
+    return skeleton_of_arrays({**made, "error_bound": np.zeros(len(made["arcs"]))}, graph, placed, frame)
 
 
-def skeleton_of_arrays(made: dict[str, Any], placed: PlacedShapes, frame: Frame | None) -> Skeleton:
+def skeleton_of_arrays(made: dict[str, Any], graph: PlanarGraph, placed: PlacedShapes, frame: Frame | None) -> Skeleton:
     """Put a skeleton together from the arrays of the core, in which the polygons of arcs are groups.
 
     Those outside are the last group. `frame` is what they were cut by.
@@ -281,6 +281,8 @@ def skeleton_of_arrays(made: dict[str, Any], placed: PlacedShapes, frame: Frame 
         side=np.where(is_outside, EXTERIOR, INTERIOR).astype(np.int8),
         polygons=placed.polygons,
         frame=frame,
+        origin=graph.origin,
+        scale=graph.scale,
     )
 
 

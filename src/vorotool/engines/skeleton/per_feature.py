@@ -130,6 +130,7 @@ def joined_with_places(whole: FeatureShapes, parts: Sequence[tuple[BatchShapes, 
         polygon=arcs.arranged([polygon]),
         branch=_branches(arcs, skeletons),
         polygons=order.polygons,
+        **{name: getattr(skeleton, name) for name in ("origin", "scale") for skeleton in skeletons[:1]},
     )
     return made, arcs
 

@@ -17,7 +17,11 @@ ULPS = 32
 """Of the largest coordinate: by how much distances may differ. A node is right to 8 ulp of the radius and 2 of its
 coordinates, in each of which the radius is at most the extent; placing it rounds once more; the distance is wrong by
 four roundings. Inside an arc the control point's error counts half, along the tangents, which changes no distance but
-in second order."""
+in second order.
+
+The coordinates of a node are doubles on the lattice, whose step is a power of two: relative to its origin. This is near
+the middle of all that was placed there; where polygons are a small part of that, as when a hole ends far beyond its
+shell, what they have largest is how far they are from it."""
 
 
 def fail(message: str) -> None:
@@ -31,18 +35,22 @@ def first_wrong(wrong: NDArray[np.bool_]) -> int | None:
     return int(at[0]) if at.size else None
 
 
+def largest_coordinate(origin: tuple[float, float], *places: Floats) -> float:
+    """The largest of some coordinates, and of those that they have from the origin of a lattice: see `ULPS`."""
+    return max(float(np.abs(xy - near).max(initial=0.0)) for xy in places for near in ((0.0, 0.0), origin))
+
+
 class SitePlaces:
     """The places of sites, and distances from them, as exact as those of the `whole` that the skeleton is a part of."""
 
     def __init__(self, skeleton: Skeleton, whole: SitePlaces | None = None) -> None:
         self.is_edge = skeleton.site_table.kind == EDGE
         self.ends = skeleton.site_ends
-        shown = [skeleton.polygons.xy, skeleton.vertices]
-        self.largest = max([0.0, *(float(np.abs(xy).max()) for xy in shown if len(xy))]) or 1.0
+        self.largest = largest_coordinate(skeleton.origin, skeleton.polygons.xy, skeleton.vertices) or 1.0
         self.tolerance = ULPS * float(np.spacing(self.largest))
         if skeleton.gap:  # ends of shortened edges are on the lattice, within 0.71 steps of where they should be
             extent = float(np.ptp(skeleton.polygons.xy, axis=0).max())
-            self.tolerance += extent * 2.0**-28
+            self.tolerance += max(extent * 2.0**-28, skeleton.scale)
         if whole is not None:
             self.largest, self.tolerance = max(self.largest, whole.largest), max(self.tolerance, whole.tolerance)
 
@@ -89,19 +97,18 @@ def check_equal_distances(skeleton: Skeleton, sites: SitePlaces) -> None:
         place = _inner_places(skeleton, t)
         left, right = (sites.distances(skeleton.sites[:, hand], place) for hand in (0, 1))
         # moved along the curve by the rounding of a far control point, a place is still on it
-        at = first_wrong(~(np.abs(left - right) <= sites.tolerance * _looseness(skeleton)))
+        at = first_wrong(~(np.abs(left - right) <= sites.tolerance * _looseness(skeleton, sites)))
         if at is not None:
             fail(
                 f"arc {at} is {left[at]} from site {skeleton.sites[at, 0]} and {right[at]} from {skeleton.sites[at, 1]}"
             )
 
 
-def _looseness(skeleton: Skeleton) -> Floats:
+def _looseness(skeleton: Skeleton, sites: SitePlaces) -> Floats:
     """How much more than at nodes distances may differ inside an arc: a far control point is rounded in its own ulp."""
     source = skeleton.vertices[skeleton.arcs[:, 0]]
     way = np.where(skeleton.is_parabola[:, None], skeleton.control - source, 0)
-    largest = max(np.abs(skeleton.vertices).max(initial=0.0), np.abs(skeleton.polygons.xy).max(initial=0.0))
-    looseness: Floats = 1 + np.sqrt((way * way).sum(axis=1)) / largest
+    looseness: Floats = 1 + np.sqrt((way * way).sum(axis=1)) / sites.largest
     return looseness
 
 

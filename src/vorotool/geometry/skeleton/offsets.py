@@ -54,6 +54,8 @@ class Offsets:
         As they were used: placed, and cut where they meet, each feature by itself or all together.
     features : {"separate", "together"}
         Whether what is inside a feature is what it would be if there were no others; see `vorotool.Skeleton`.
+    origin : (float, float)
+        Of the lattice that they were computed on.
 
     Raises
     ------
@@ -79,6 +81,7 @@ class Offsets:
     site_table: SiteTable
     polygons: PolygonSet
     features: str = "separate"
+    origin: tuple[float, float] = (0.0, 0.0)
 
     def __post_init__(self) -> None:
         pieces, rings, shapes = len(self.site), len(self.ring_start) - 1, len(self.shape_start) - 1

@@ -119,6 +119,10 @@ class Skeleton:
     features : {"separate", "together"}
         Whether what is inside a feature is what it would be if there were no others, or all are one arrangement. What
         is outside always is of all of them.
+    origin : (float, float)
+        Of the lattice that it was computed on: nodes are rounded as doubles that far from it are.
+    scale : float
+        The step of that lattice; 0 if nothing was placed.
 
     Raises
     ------
@@ -152,6 +156,8 @@ class Skeleton:
     frame: tuple[float, float, float, float] | None = None
     gap: float = 0.0
     features: str = "separate"
+    origin: tuple[float, float] = (0.0, 0.0)
+    scale: float = 0.0
 
     def __post_init__(self) -> None:
         nodes, arcs = len(self.radius), len(self.arcs)
