@@ -8,6 +8,7 @@ import pytest
 
 import vorotool
 from fuzz import features as fuzz
+from vorotool.engines.skeleton import feature_elements as engine
 from vorotool.engines.skeleton.feature_elements import feature_elements
 from vorotool.errors import InputError, VerificationError, VorotoolWarning
 
@@ -47,6 +48,29 @@ def test_features_of_any_family_are_what_they_are_alone(family, seed):
         given = fuzz.chosen(polygons, [feature, count])
         alone = feature_elements(given, gap, threads=1).skeleton
         assert fuzz.differing(fuzz.inside_of(made, feature, polygons), fuzz.inside_of(alone, 0, given)) is None
+
+
+@pytest.mark.parametrize("complete", [True, False])
+@pytest.mark.parametrize("family", [fuzz.tiles, fuzz.nested, fuzz.parts, fuzz.scattered])
+@pytest.mark.filterwarnings("ignore::vorotool.errors.VorotoolWarning")
+def test_batches_of_features_are_what_each_is_by_itself(family, complete):
+    polygons = fuzz.as_set(family(np.random.default_rng(7)))
+    gap = 2.0**-20 * float(np.ptp(polygons.xy))
+    batches = feature_elements(polygons, gap, complete=complete).skeleton
+    one_by_one = feature_elements(polygons, gap, complete=complete, look=lambda *_: None).skeleton
+    assert differing(batches, one_by_one) == []
+    assert batches.features == one_by_one.features == "separate"
+
+
+def test_small_features_are_taken_in_batches(monkeypatch):
+    taken = []
+    whole = engine.elements_of_shapes
+    monkeypatch.setattr(
+        engine, "elements_of_shapes", lambda *args, **options: taken.append(1) or whole(*args, **options)
+    )
+    made = vorotool.skeleton_exact([[[x + 30 * k, y] for x, y in INNER] for k in range(500)], gap=0.25)
+    assert np.unique(made.polygon).size == 500
+    assert len(taken) == 1
 
 
 @pytest.mark.parametrize("side", ["interior", "exterior", "both"])

@@ -91,6 +91,14 @@ class BatchShapes:
         """The planar graph."""
         return self.arrangement.graph
 
+    @property
+    def feature_of_point(self) -> Indices:
+        """(n,) the feature in the batch of each point of the graph."""
+        of_vertex, graph = Features.of(self.batch.part).of_vertex, self.graph
+        feature = of_vertex[graph.point_vertex]  # of crossings any: they are ends
+        feature[graph.segments] = of_vertex[graph.source_edge[graph.source_start[:-1]]][:, None]
+        return feature
+
 
 @dataclass(frozen=True, eq=False)
 class FeatureShapes:

@@ -17,7 +17,6 @@ from vorotool.engines.arrangement.planar_graph import arranged, placed_vertices
 from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.features.batches import BatchShapes, FeatureShapes, in_batches, together
 from vorotool.engines.features.order import Places
-from vorotool.engines.features.sheets import Features
 from vorotool.engines.sampled_skeleton.approximate import (
     MOST_SEEDS,
     ApproximateSkeleton,
@@ -228,14 +227,11 @@ def _outside(
 
 def _groups(shapes: BatchShapes) -> SampleGroups:
     """Each feature has a diagram of its own, which is put into order in the bounds of all."""
-    graph, batch = shapes.graph, shapes.batch
+    batch = shapes.batch
     corners = np.concatenate([batch.placement.vertices, batch.beyond])
     (least_x, least_y), (most_x, most_y) = (bound.tolist() for bound in bounds(corners))
     within = (float(least_x), float(most_x), float(least_y), float(most_y))
-    of_vertex = Features.of(batch.part).of_vertex
-    feature = of_vertex[graph.point_vertex]  # of crossings any: they are ends
-    feature[graph.segments] = of_vertex[graph.source_edge[graph.source_start[:-1]]][:, None]
-    present, group = np.unique(feature, return_inverse=True)
+    present, group = np.unique(shapes.feature_of_point, return_inverse=True)
     return SampleGroups(group.astype(np.int32) if len(present) > 1 else np.empty(0, dtype=np.int32), within)
 
 

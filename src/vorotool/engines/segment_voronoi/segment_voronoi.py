@@ -95,6 +95,75 @@ def segment_voronoi(
     return SegmentVoronoiDiagram(places, ends, *core.take_arrays(unwanted, threads, progress), counts=core.counts)
 
 
+def segment_voronoi_of_groups(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    group: NDArray[np.int64],
+    *,
+    within: tuple[int, int, int, int] | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> SegmentVoronoiDiagram:
+    """Compute the diagrams of groups of points and segments, each as if there were no others, one after the other.
+
+    Parameters
+    ----------
+    points, segments, within, threads, progress
+        As of `segment_voronoi`.
+    group : (n + m,) int array
+        Of each point and segment; a segment and its ends are in one.
+
+    Examples
+    --------
+    >>> pairs = np.array([[0, 0], [4, 0], [0, 1], [4, 1]], dtype=np.int32)
+    >>> diagram = segment_voronoi_of_groups(pairs, np.empty((0, 2), dtype=np.int32), np.array([0, 0, 1, 1]))
+    >>> diagram.edges.tolist(), diagram.edge_sites.tolist()
+    ([[-1, -1], [-1, -1]], [[0, 1], [2, 3]])
+    """
+    count = len(points)
+    order = np.argsort(group, kind="stable")  # in each group points first
+    starts = np.flatnonzero(np.diff(group[order], prepend=-1))
+    number = np.empty(len(order), dtype=np.int32)
+    number[order] = np.arange(len(order)) - np.repeat(starts, np.diff(starts, append=len(order)))
+    parts = []
+    for own in np.split(order, starts[1:]):
+        inner = int(np.searchsorted(own, count))
+        ends = number[segments[own[inner:] - count]]
+        parts.append(segment_voronoi(points[own[:inner]], ends, within=within, threads=threads, progress=progress))
+    return _joined(points, segments, parts, order.astype(np.int32))
+
+
+def _joined(
+    points: NDArray[np.int32],
+    segments: NDArray[np.int32],
+    parts: list[SegmentVoronoiDiagram],
+    order: NDArray[np.int32],
+) -> SegmentVoronoiDiagram:
+    """Put diagrams together whose sites, one after the other, have the numbers in `order`."""
+
+    def shifted(name: str, sizes: list[int]) -> NDArray[np.int32]:
+        values = [getattr(part, name) for part in parts]
+        first = np.repeat(np.cumsum(sizes) - sizes, [len(rows) for rows in values])
+        joined: NDArray[np.int32] = np.concatenate(values) + first.astype(np.int32).reshape(
+            -1, *[1] * (values[0].ndim - 1)
+        )
+        return joined
+
+    sites = [len(part.points) + len(part.segments) for part in parts]
+    rings = np.concatenate([np.diff(part.vertex_start) for part in parts])
+    edges = np.concatenate([part.edges for part in parts])
+    return SegmentVoronoiDiagram(
+        points,
+        segments,
+        np.concatenate([part.vertices for part in parts]),
+        np.concatenate([part.radius for part in parts]),
+        np.concatenate([[0], np.cumsum(rings)]).astype(np.int32),
+        order[shifted("vertex_sites", sites)],
+        np.where(edges < 0, edges, shifted("edges", [len(part) for part in parts])),
+        order[shifted("edge_sites", sites)],
+    )
+
+
 def unwanted_sides(graph: PlanarGraph, is_wanted: NDArray[np.bool_]) -> NDArray[np.uint8]:
     """Tell on which sides of its points and segments a planar graph has faces that are not wanted.
 

@@ -68,17 +68,21 @@ def feature_elements(
         batch = shapes.batch
         within = np.stack(bounds(np.concatenate([batch.placement.vertices, batch.beyond])))
         common: dict[str, Any] = {"threads": threads, "progress": poll}
-        elements = elements_of_shapes(shapes.graph, shapes.placed, gap, within=within, **common)
+        feature = None if look is not None else shapes.feature_of_point
+        elements = elements_of_shapes(shapes.graph, shapes.placed, gap, within=within, feature=feature, **common)
         made = skeleton_of_elements(elements, complete=complete, **common)
         return short, [(made, [] if look is None else [look(elements, made)])]
 
-    whole, made = in_batches(polygons, work, alone=True, strict=strict, threads=threads, progress=progress)
+    alone = look is not None
+    whole, made = in_batches(polygons, work, alone=alone, strict=strict, threads=threads, progress=progress)
     _refuse(whole, [(shapes, short) for shapes, (short, _) in made], gap)
     if not whole.polygon_count:
         warn_empty(polygons, "interior")
     parts = [(shapes, *found) for shapes, (_, results) in made for found in results]
     skeleton = joined_skeletons(whole, [(shapes, skeleton) for shapes, skeleton, _ in parts])
-    return FeatureSkeleton(replace(skeleton, gap=gap), whole, [one for _, _, seen in parts for one in seen])
+    return FeatureSkeleton(
+        replace(skeleton, gap=gap, features="separate"), whole, [one for _, _, seen in parts for one in seen]
+    )
 
 
 def _refuse(whole: FeatureShapes, parts: Sequence[tuple[BatchShapes, ShortEdges]], gap: float) -> None:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vorotool.engines.arrangement.lattice_rings import PlacedShapes, placed_shapes
 from vorotool.engines.arrangement.planar_graph import Placement, arranged, graph_for_skeletons, placed_vertices
 from vorotool.engines.common.label_arrays import Progress
-from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
+from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, segment_voronoi_of_groups
 from vorotool.engines.skeleton.exact import (
     Frame,
     ShapeDiagram,
@@ -100,6 +100,7 @@ def elements_of_shapes(
     gap: float,
     *,
     within: NDArray[np.int32] | None = None,
+    feature: NDArray[np.int64] | None = None,
     threads: int = 0,
     progress: Progress = None,
 ) -> ElementDiagram:
@@ -114,6 +115,8 @@ def elements_of_shapes(
     within : (k, 2) int32 array, optional
         Corners of bounds on the lattice of `shapes`: elements are placed, and put into an order, as if there were
         points.
+    feature : (n,) int array, optional
+        Of each point of `shapes`: those of each have a diagram of their own. By default they are one.
     threads : int
         0 uses all.
     progress : callable, optional
@@ -133,7 +136,12 @@ def elements_of_shapes(
     graph = arranged(elements, placement, progress=progress).graph  # rounded ends may touch: nobody asked about these
     owner = np.repeat(np.arange(count), np.diff(starts))
     vertex = np.concatenate([graph.point_vertex, graph.source_edge[graph.source_start[:-1]]])
-    diagram = segment_voronoi(graph.points, graph.segments, within=box, threads=threads, progress=progress)
+    common: dict[str, Any] = {"within": box, "threads": threads, "progress": progress}
+    if feature is None:
+        diagram = segment_voronoi(graph.points, graph.segments, **common)
+    else:
+        group = np.concatenate([feature, feature[shapes.segments[:, 0]]])[owner[vertex]]
+        diagram = segment_voronoi_of_groups(graph.points, graph.segments, group, **common)
     return ElementDiagram(shapes, graph, diagram, owner[vertex], placed, gap)
 
 
@@ -268,8 +276,10 @@ def _sector_faces(shapes: PlanarGraph, vertex: NDArray[np.int64], place: NDArray
     seen = (place - shapes.points[vertex]).T
     wanted = angle_of(*seen)
     first, stop = np.searchsorted(at, vertex), np.searchsorted(at, vertex, side="right")
-    turns = 8.0  # more than a full circle, so that vertices stay apart
-    rank = np.searchsorted(at * turns + angle, vertex * turns + wanted, side="right") - 1
+    # by their ranks among all angles: a vertex sees the same whatever its number is
+    _, ranks = np.unique(np.concatenate([angle, wanted]), return_inverse=True)
+    known, sought = np.split(ranks.reshape(-1), [len(at)])
+    rank = np.searchsorted(at * len(ranks) + known, vertex * len(ranks) + sought, side="right") - 1
     rank = np.where(rank < first, stop - 1, rank)
     found: NDArray[np.int32] = np.where(stop > first, left[np.clip(rank, 0, len(left) - 1)], 0).astype(np.int32)
     return found
@@ -288,17 +298,16 @@ def _missing_portions(
     diagram, corners = elements.diagram, len(elements.shapes.points)
     degree = np.bincount(diagram.edges[kept][diagram.edges[kept] >= 0], minlength=len(diagram))
     start = diagram.vertex_start
-    ends = np.flatnonzero(degree == 1)
-    portions, sites = [], []
-    for vertex in ends.tolist():
-        ring = diagram.vertex_sites[start[vertex] : start[vertex + 1]]
-        for k in np.flatnonzero(elements.element[ring] < corners).tolist():
-            before, after = int(ring[k - 1]), int(ring[(k + 1) % len(ring)])
-            edges = elements.element[[before, after]] - corners
-            corner = elements.element[ring[k]]
-            if (edges >= 0).all() and (elements.shapes.segments[edges] == corner).any(axis=1).all():
-                portions.append((vertex, int(corner)))
-                sites.append((after, before))
+    vertex = np.repeat(np.arange(len(diagram)), np.diff(start))
+    at = np.flatnonzero((degree[vertex] == 1) & (elements.element[diagram.vertex_sites] < corners))
+    vertex, corner = vertex[at], elements.element[diagram.vertex_sites[at]]
+    before = diagram.vertex_sites[np.where(at == start[vertex], start[vertex + 1], at) - 1]
+    after = diagram.vertex_sites[np.where(at + 1 == start[vertex + 1], start[vertex], at + 1)]
+    edges = elements.element[np.stack([before, after])] - corners
+    is_end = (elements.shapes.segments[edges] == corner[:, None]).any(axis=2)
+    beside = ((edges >= 0) & is_end).all(axis=0)
+    portions = list(zip(vertex[beside].tolist(), corner[beside].tolist(), strict=True))
+    sites = list(zip(after[beside].tolist(), before[beside].tolist(), strict=True))
     done = elements.element[np.array(sites, dtype=np.int64).reshape(-1, 2)]
     for portion, beside in _portions_to_arcs(elements, kept, set(map(tuple, done.tolist()))):
         portions.append(portion)
