@@ -4,6 +4,9 @@ import os
 import subprocess
 import sys
 import time
+from pathlib import Path
+
+import pytest
 
 from support.processes.batch_jobs import obey, written
 from vorotool.batch import process_pool as workers
@@ -51,6 +54,19 @@ def test_an_end_leaves_no_process_and_no_file(tmp_path, monkeypatch):
     assert len(made) == 2
     assert all(worker._process.returncode is not None for worker in made)
     assert [path.name for path in (tmp_path / "out").iterdir()] == ["0.txt"]
+
+
+def open_descriptors():
+    return sorted(path.name for path in Path("/dev/fd").iterdir())
+
+
+def test_a_worker_that_cannot_start_leaves_no_socket(tmp_path, monkeypatch):
+    monkeypatch.setattr(workers.sys, "executable", str(tmp_path / "none"))
+    before = open_descriptors()
+    with pytest.raises(FileNotFoundError) as caught:
+        next(local_results(obey, iter(enumerate(written(tmp_path, "a"))), jobs=1))
+    assert open_descriptors() == before  # where nothing is closed with what the exception holds
+    assert caught.tb is not None
 
 
 def test_a_worker_ends_quietly_where_exceptions_are_swallowed(tmp_path, capfd):

@@ -40,7 +40,7 @@ class Worker:
 
     def __init__(self, process: Process) -> None:
         ours, theirs = socket.socketpair()
-        with theirs:
+        with ours, theirs:
             number = theirs.fileno()
             self._process = subprocess.Popen(
                 [sys.executable, "-c", START, str(number), *sys.path],
@@ -50,7 +50,7 @@ class Worker:
                 pass_fds=(number,),
                 process_group=0,
             )
-        self.connection = Connection(ours.detach())
+            self.connection = Connection(ours.detach())
         self._task: Task | None = None
         self._send(process)
 
