@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "core/base/large_array.hpp"
+#include "core/kernel/point.hpp"
 
 namespace vorotool::bindings {
 
@@ -57,14 +58,23 @@ nanobind::object to_numpy(std::vector<T>&& values) {
 }
 
 // An (n, 2) array that takes over the values.
+template <class Value, class Row>
+nanobind::object two_columns(std::vector<Row>&& values) {
+  static_assert(sizeof(Row) == 2 * sizeof(Value));
+  auto kept = std::make_unique<std::vector<Row>>(std::move(values));
+  Value* data = reinterpret_cast<Value*>(kept->data());
+  const std::size_t size = kept->size();
+  const nanobind::capsule owner(kept.release(),
+                                [](void* p) noexcept { delete static_cast<std::vector<Row>*>(p); });
+  return nanobind::cast(nanobind::ndarray<nanobind::numpy, Value>(data, {size, 2}, owner));
+}
+
 template <class Value>
 nanobind::object two_columns(std::vector<std::array<Value, 2>>&& values) {
-  auto kept = std::make_unique<std::vector<std::array<Value, 2>>>(std::move(values));
-  Value* data = kept->empty() ? nullptr : kept->front().data();
-  const std::size_t size = kept->size();
-  const nanobind::capsule owner(
-      kept.release(), [](void* p) noexcept { delete static_cast<std::vector<std::array<Value, 2>>*>(p); });
-  return nanobind::cast(nanobind::ndarray<nanobind::numpy, Value>(data, {size, 2}, owner));
+  return two_columns<Value, std::array<Value, 2>>(std::move(values));
+}
+inline nanobind::object two_columns(std::vector<core::kernel::Point>&& values) {
+  return two_columns<double, core::kernel::Point>(std::move(values));
 }
 
 // A NumPy array of the given shape that takes over the values.

@@ -22,13 +22,10 @@ using core::offsets::OffsetCurves;
 using Indices = Vector<const std::int32_t>;
 
 // What the sites around vertices and the polygons of all parts must be for the core to index by them.
-void check(const core::segment_voronoi::build::SegmentDiagram& diagram, const Indices& vertex_start,
-           const Indices& edge_face, std::span<const Pair> segment_faces, const Indices& face_polygon,
-           const Indices& site_polygon) {
-  const std::span<const std::int32_t> starts = view(vertex_start);
-  if (starts.size() != diagram.radius.size() + 1 || edge_face.size() != diagram.edges.size() ||
-      segment_faces.size() != diagram.segments.size() ||
-      site_polygon.size() != diagram.points.size() + diagram.segments.size()) {
+void check(const core::segment_voronoi::build::DiagramView& diagram, const Indices& edge_face,
+           const Indices& face_polygon, const Indices& site_polygon) {
+  if (diagram.vertex_start.size() != diagram.vertex_count() + 1 || edge_face.size() != diagram.edges.size() ||
+      diagram.faces.size() != diagram.segments.size() || site_polygon.size() != diagram.site_count()) {
     throw std::invalid_argument("arrays of a domain do not go with the diagram");
   }
   const auto is_face = [&](std::int32_t face) {
@@ -37,7 +34,7 @@ void check(const core::segment_voronoi::build::SegmentDiagram& diagram, const In
   for (const std::int32_t face : view(edge_face)) {
     if (face >= 0 && !is_face(face)) throw std::invalid_argument("the face of an edge is out of range");
   }
-  for (const Pair& pair : segment_faces) {
+  for (const Pair& pair : diagram.faces) {
     if (!is_face(pair[0]) || !is_face(pair[1]))
       throw std::invalid_argument("the face of a segment is out of range");
   }
@@ -73,18 +70,20 @@ nb::list offset_curves(const IndexRows& points, const IndexRows& segments, const
                        const std::vector<double>& distances, double origin_x, double origin_y, double scale,
                        nb::handle progress) {
   const DiagramArrays arrays{points, segments, vertices, radius, edges, edge_sites};
-  const core::segment_voronoi::build::SegmentDiagram diagram = arrays.diagram();
-  const std::span<const Pair> faces = rows<Pair>(segment_faces);
-  check(diagram, vertex_start, edge_face, faces, face_polygon, site_polygon);
+  core::segment_voronoi::build::DiagramView diagram = arrays.diagram();
+  diagram.faces = rows<Pair>(segment_faces);
+  diagram.vertex_start = view(vertex_start);
+  diagram.vertex_sites = view(vertex_sites);
+  check(diagram, edge_face, face_polygon, site_polygon);
   if (site_feature.size() != site_polygon.size())
     throw std::invalid_argument("each site must have a feature");
   check_rings(vertex_start, vertex_sites);
   std::vector<OffsetCurves> made = run_interruptible(progress, [&](const Monitor& monitor) {
-    const core::offsets::HalfEdges borders(diagram, view(vertex_start), view(vertex_sites));
+    const core::offsets::HalfEdges borders(diagram);
     std::vector<OffsetCurves> all;
     for (const double distance : distances) {
-      const core::offsets::PolygonFaces domain{
-          view(edge_face), faces, view(face_polygon), view(site_polygon), view(site_feature), distance > 0};
+      const core::offsets::PolygonFaces domain{view(edge_face), view(face_polygon), view(site_polygon),
+                                               view(site_feature), distance > 0};
       all.push_back(core::offsets::offset_curves(borders, domain, std::abs(distance),
                                                  {origin_x, origin_y, scale}, monitor));
     }

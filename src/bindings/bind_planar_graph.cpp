@@ -26,6 +26,7 @@ namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
+using core::base::IndexPair;
 using core::base::Monitor;
 using core::kernel::LatticePoint;
 using IndexRows = Matrix<const std::int32_t>;
@@ -89,10 +90,10 @@ nb::dict make_planar_graph(const IndexRows& array, const Vector<const std::int64
   nb::dict result;
   result["points"] = pairs(graph.points);
   result["point_vertex"] = to_numpy(std::move(graph.point_vertex));
-  result["segments"] = pairs(graph.segments);
+  result["segments"] = two_columns(std::move(graph.segments));
   result["source_start"] = to_numpy(std::move(graph.source_start));
   result["source_edge"] = to_numpy(std::move(graph.source_edge));
-  result["segment_faces"] = pairs(graph.segment_faces);
+  result["segment_faces"] = two_columns(std::move(graph.segment_faces));
   result["face_start"] = to_numpy(std::move(graph.face_polygons.start));
   result["face_polygon"] = to_numpy(std::move(graph.face_polygons.polygon));
   result["point_holes"] = to_numpy(std::move(graph.point_holes));
@@ -108,13 +109,14 @@ nb::dict make_planar_graph(const IndexRows& array, const Vector<const std::int64
 nb::dict boundary_rings(const IndexRows& points, const IndexRows& segments, const IndexRows& segment_faces,
                         const Vector<const std::int32_t>& face_start,
                         const Vector<const std::int32_t>& face_polygon, nb::handle progress) {
-  const core::arrangement::BoundaryGraph graph{as_lattice_points(points), view(segments), view(segment_faces),
-                                               view(face_start), view(face_polygon)};
-  if (graph.segment_faces.size() != graph.segments.size() || graph.face_start.empty()) {
+  const core::kernel::PlanarGraphView graph{as_lattice_points(points), rows<IndexPair>(segments),
+                                            rows<IndexPair>(segment_faces)};
+  if (graph.faces.size() != graph.segments.size() || face_start.size() == 0) {
     throw std::invalid_argument("the arrays of a planar graph have lengths that do not go together");
   }
-  core::arrangement::BoundaryRings rings = run_interruptible(
-      progress, [&](const Monitor&) { return core::arrangement::find_boundary_rings(graph); });
+  core::arrangement::BoundaryRings rings = run_interruptible(progress, [&](const Monitor&) {
+    return core::arrangement::find_boundary_rings(graph, view(face_start), view(face_polygon));
+  });
   nb::dict result;
   result["start"] = to_numpy(std::move(rings.start));
   result["point"] = to_numpy(std::move(rings.point));
@@ -130,8 +132,8 @@ std::optional<std::string> planar_graph_fault(const IndexRows& points, const Ind
   if (segments.shape(1) != 2 || (faces && (faces->shape(1) != 2 || faces->size() != segments.size()))) {
     throw std::invalid_argument("segments and their faces must have two columns and as many rows");
   }
-  const core::arrangement::GraphArrays graph{as_lattice_points(points), view(segments),
-                                             faces ? view(*faces) : std::span<const std::int32_t>{}};
+  core::kernel::PlanarGraphView graph{as_lattice_points(points), rows<IndexPair>(segments), {}};
+  if (faces) graph.faces = rows<IndexPair>(*faces);
   return run_interruptible(
       progress, [&](const Monitor& monitor) { return core::arrangement::find_fault(graph, monitor); });
 }

@@ -19,7 +19,7 @@ namespace {
 namespace nb = nanobind;
 using namespace nb::literals;
 using core::base::Monitor;
-using core::skeleton::Place;
+using core::kernel::Point;
 using Pair = std::array<std::int32_t, 2>;
 
 // The arrays of a skeleton, kept while the core works on views of them.
@@ -49,13 +49,13 @@ struct SkeletonInput {
 
   // Without the ends of sites only for what looks at none.
   core::skeleton::SkeletonView skeleton(bool needs_sites = true) const {
-    const core::skeleton::SkeletonView s{rows<Place>(vertices),
+    const core::skeleton::SkeletonView s{rows<Point>(vertices),
                                          view(radius),
                                          rows<Pair>(arcs),
-                                         rows<Place>(control),
+                                         rows<Point>(control),
                                          rows<Pair>(sites),
                                          view(length),
-                                         rows<std::array<Place, 2>, 4>(site_ends),
+                                         rows<std::array<Point, 2>, 4>(site_ends),
                                          view(is_anchored),
                                          has_gap,
                                          reach};
@@ -147,7 +147,7 @@ nb::dict part_geometry(const nb::tuple& arrays, const Vector<const std::int32_t>
   const core::skeleton::SkeletonView skeleton = input.skeleton();
   if (first.size() != arc.size() || last.size() != arc.size())
     throw std::invalid_argument("each part must have an arc and two ends");
-  std::vector<Place> from, to, control;
+  std::vector<Point> from, to, control;
   std::vector<double> from_radius, to_radius, length;
   for (std::size_t k = 0; k < arc.size(); ++k) {
     const core::pruning::ArcPart part{view(arc)[k], view(first)[k], view(last)[k]};

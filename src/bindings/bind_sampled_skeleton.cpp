@@ -32,9 +32,9 @@ using core::base::Monitor;
 struct GraphArrays {
   IndexRows points, segments, faces;
 
-  core::arrangement::PlanarGraphView graph() const {
-    const core::arrangement::PlanarGraphView g{rows<LatticePoint>(points), rows<Pair>(segments),
-                                               rows<Pair>(faces)};
+  core::kernel::PlanarGraphView graph() const {
+    const core::kernel::PlanarGraphView g{rows<LatticePoint>(points), rows<Pair>(segments),
+                                          rows<Pair>(faces)};
     if (g.faces.size() != g.segments.size()) throw std::invalid_argument("each segment must have two faces");
     for (const Pair& ends : g.segments) {
       for (const std::int32_t end : ends) {
@@ -56,7 +56,7 @@ nb::tuple to_tuple(core::sampled_skeleton::BoundarySamples&& samples) {
 
 nb::tuple sample_by_step(const IndexRows& points, const IndexRows& segments, const IndexRows& faces,
                          double step, std::size_t most, unsigned threads, nb::handle progress) {
-  const core::arrangement::PlanarGraphView graph = GraphArrays{points, segments, faces}.graph();
+  const core::kernel::PlanarGraphView graph = GraphArrays{points, segments, faces}.graph();
   return to_tuple(run_interruptible(progress, [&](const Monitor& monitor) {
     return core::sampled_skeleton::sample_by_step(graph, step, most, core::base::resolve_threads(threads),
                                                   monitor);
@@ -65,8 +65,7 @@ nb::tuple sample_by_step(const IndexRows& points, const IndexRows& segments, con
 
 using Steps = std::pair<Vector<const std::uint64_t>, Vector<const double>>;
 
-core::sampled_skeleton::CornerSteps steps_of(const Steps& steps,
-                                             const core::arrangement::PlanarGraphView& graph) {
+core::sampled_skeleton::CornerSteps steps_of(const Steps& steps, const core::kernel::PlanarGraphView& graph) {
   const auto start = view(steps.first);
   const auto distance = view(steps.second);
   core::sampled_skeleton::CornerSteps made{{start.begin(), start.end()}, {distance.begin(), distance.end()}};
@@ -83,7 +82,7 @@ nb::tuple to_tuple(core::sampled_skeleton::CornerSteps&& steps) {
 
 nb::tuple sample_from_corners(const IndexRows& points, const IndexRows& segments, const IndexRows& faces,
                               const Steps& steps, std::size_t most, unsigned threads, nb::handle progress) {
-  const core::arrangement::PlanarGraphView graph = GraphArrays{points, segments, faces}.graph();
+  const core::kernel::PlanarGraphView graph = GraphArrays{points, segments, faces}.graph();
   const core::sampled_skeleton::CornerSteps wanted = steps_of(steps, graph);
   return to_tuple(run_interruptible(progress, [&](const Monitor& monitor) {
     return core::sampled_skeleton::sample_from_corners(graph, wanted, most,
@@ -93,14 +92,14 @@ nb::tuple sample_from_corners(const IndexRows& points, const IndexRows& segments
 
 nb::tuple corner_steps(const IndexRows& points, const IndexRows& segments, const IndexRows& faces,
                        double step, bool is_even, std::size_t most) {
-  const core::arrangement::PlanarGraphView graph = GraphArrays{points, segments, faces}.graph();
+  const core::kernel::PlanarGraphView graph = GraphArrays{points, segments, faces}.graph();
   return to_tuple(is_even ? core::sampled_skeleton::even_steps(graph, step, most)
                           : core::sampled_skeleton::doubled_steps(graph, step, most));
 }
 
 nb::tuple refined_steps(const IndexRows& points, const IndexRows& segments, const IndexRows& faces,
                         const Steps& steps, const Indices& start, const Indices& parts, std::size_t most) {
-  const core::arrangement::PlanarGraphView graph = GraphArrays{points, segments, faces}.graph();
+  const core::kernel::PlanarGraphView graph = GraphArrays{points, segments, faces}.graph();
   if (start.size() != graph.segments.size() + 1 ||
       parts.size() !=
           graph.segments.size() + static_cast<std::size_t>(view(start).back()) - graph.points.size()) {
@@ -119,7 +118,7 @@ class SampledDiagram {
                  const Indices& start, const Indices& group, const std::optional<Box>& within,
                  unsigned threads, nb::handle progress)
       : arrays_(arrays), seeds_(seeds), segment_(segment), start_(start), group_(group) {
-    const core::arrangement::PlanarGraphView graph = arrays_.graph();
+    const core::kernel::PlanarGraphView graph = arrays_.graph();
     check(graph);
     const core::sampled_skeleton::SampleGroups groups = groups_of(graph, within);
     made_ = run_interruptible(progress, [&](const Monitor& monitor) {
@@ -132,7 +131,7 @@ class SampledDiagram {
   const core::sampled_skeleton::SampleDiagram& operator*() const { return *made_; }
 
  private:
-  void check(const core::arrangement::PlanarGraphView& graph) const {
+  void check(const core::kernel::PlanarGraphView& graph) const {
     const std::span<const std::int32_t> start = view(start_), segment = view(segment_);
     bool fits = start.size() == graph.segments.size() + 1 && segment.size() == as_points(seeds_).size() &&
                 static_cast<std::size_t>(start.front()) == graph.points.size() &&
@@ -144,7 +143,7 @@ class SampledDiagram {
     if (!fits) throw std::invalid_argument("the seeds do not go with the segments");
   }
 
-  core::sampled_skeleton::SampleGroups groups_of(const core::arrangement::PlanarGraphView& graph,
+  core::sampled_skeleton::SampleGroups groups_of(const core::kernel::PlanarGraphView& graph,
                                                  const std::optional<Box>& within) const {
     core::sampled_skeleton::SampleGroups groups{view(group_), 1, {}};
     if (within) {

@@ -28,9 +28,9 @@ std::span<const Pair> pairs(const IndexPairs& array) {
   return {reinterpret_cast<const Pair*>(array.data()), array.shape(0)};
 }
 
-std::span<const std::array<double, 2>> centres(const Centres& array) {
-  static_assert(sizeof(std::array<double, 2>) == 2 * sizeof(double));
-  return {reinterpret_cast<const std::array<double, 2>*>(array.data()), array.shape(0)};
+std::span<const core::kernel::Point> centres(const Centres& array) {
+  static_assert(sizeof(core::kernel::Point) == 2 * sizeof(double));
+  return {reinterpret_cast<const core::kernel::Point*>(array.data()), array.shape(0)};
 }
 
 std::span<const core::kernel::LatticePoint> lattice_points(const IndexPairs& array) {
@@ -44,11 +44,13 @@ std::optional<std::string> segment_voronoi_fault(const IndexPairs& points, const
                                                  const Vector<const std::int32_t>& vertex_sites,
                                                  const IndexPairs& edges, const IndexPairs& edge_sites,
                                                  unsigned threads, nb::handle progress) {
-  const core::segment_voronoi::build::RingedDiagram arrays{
-      {lattice_points(points), pairs(segments), centres(vertices), view(radius), pairs(edges),
-       pairs(edge_sites)},
-      view(vertex_start),
-      view(vertex_sites)};
+  const core::segment_voronoi::build::DiagramView arrays{{lattice_points(points), pairs(segments), {}},
+                                                         centres(vertices),
+                                                         view(radius),
+                                                         pairs(edges),
+                                                         pairs(edge_sites),
+                                                         view(vertex_start),
+                                                         view(vertex_sites)};
   if (arrays.vertices.size() != arrays.radius.size() ||
       arrays.vertex_start.size() != arrays.radius.size() + 1 ||
       arrays.edge_sites.size() != arrays.edges.size()) {

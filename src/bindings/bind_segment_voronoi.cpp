@@ -69,17 +69,18 @@ core::spatial::Bounds bounds_of(const std::array<std::int32_t, 4>& within,
 
 void make_diagram(SegmentVoronoi* self, const Rows& points, const Rows& segments, unsigned threads,
                   nb::handle progress, const std::optional<std::array<std::int32_t, 4>>& within) {
-  core::segment_voronoi::build::SegmentGraph graph{as_points(points), as_segments(segments), {}};
-  if (within) graph.within = bounds_of(*within, graph.points);
-  run_interruptible(progress,
-                    [&](const Monitor& monitor) { new (self) SegmentVoronoi(graph, threads, monitor); });
+  const core::kernel::PlanarGraphView graph{as_points(points), as_segments(segments), {}};
+  std::optional<core::spatial::Bounds> bounds;
+  if (within) bounds = bounds_of(*within, graph.points);
+  run_interruptible(
+      progress, [&](const Monitor& monitor) { new (self) SegmentVoronoi(graph, bounds, threads, monitor); });
 }
 
 // Vertices, radii, where their sites begin, their sites, edges, and the sites of these.
 nb::tuple take_arrays(SegmentVoronoi& diagram, const std::optional<Vector<const std::uint8_t>>& unwanted,
                       unsigned threads, nb::handle progress) {
   const std::span<const std::uint8_t> sides = unwanted ? view(*unwanted) : std::span<const std::uint8_t>();
-  core::segment_voronoi::build::DiagramArrays made = run_interruptible(
+  core::segment_voronoi::build::Diagram made = run_interruptible(
       progress, [&](const Monitor& monitor) { return diagram.take_arrays(sides, threads, monitor); });
   const std::size_t vertices = made.radius.size(), ring = made.vertex_sites.size(),
                     edges = made.edges.size() / 2;
@@ -96,8 +97,8 @@ nb::object unwanted_sides(const Rows& points, const Rows& segments, const Rows& 
   if (faces.size() != segments.shape(0)) throw std::invalid_argument("each segment must have two faces");
   check_range(as_segments(segments), points.shape(0));
   check_range(faces, is_wanted.size());
-  return to_numpy(core::segment_voronoi::build::unwanted_sides(as_points(points), as_segments(segments),
-                                                               faces, view(is_wanted)));
+  return to_numpy(core::segment_voronoi::build::unwanted_sides(
+      {as_points(points), as_segments(segments), faces}, view(is_wanted)));
 }
 
 nb::dict counts_of(const SegmentVoronoi& diagram) {

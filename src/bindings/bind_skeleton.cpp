@@ -30,12 +30,12 @@ nb::tuple skeleton_edges(const IndexRows& points, const IndexRows& segments, con
                          const IndexRows& edge_sites, const IndexRows& segment_faces, unsigned threads,
                          nb::handle progress) {
   const DiagramArrays arrays{points, segments, vertices, radius, edges, edge_sites};
-  const core::segment_voronoi::build::SegmentDiagram diagram = arrays.diagram();
-  const std::span<const Pair> faces = rows<Pair>(segment_faces);
-  if (faces.size() != diagram.segments.size())
+  core::segment_voronoi::build::DiagramView diagram = arrays.diagram();
+  diagram.faces = rows<Pair>(segment_faces);
+  if (diagram.faces.size() != diagram.segments.size())
     throw std::invalid_argument("each segment must have two faces");
   core::skeleton::SkeletonEdges kept = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::skeleton::skeleton_edges(diagram, faces, core::base::resolve_threads(threads), monitor);
+    return core::skeleton::skeleton_edges(diagram, core::base::resolve_threads(threads), monitor);
   });
   return nb::make_tuple(to_numpy(std::move(kept.edge)), to_numpy(std::move(kept.face)));
 }
@@ -50,7 +50,7 @@ nb::dict extract_skeleton(const IndexRows& points, const IndexRows& segments, co
                           const std::pair<std::int32_t, std::int32_t>& joined, double origin_x,
                           double origin_y, double scale, unsigned threads, nb::handle progress) {
   const DiagramArrays arrays{points, segments, vertices, radius, edges, edge_sites};
-  const core::segment_voronoi::build::SegmentDiagram diagram = arrays.diagram();
+  const core::segment_voronoi::build::DiagramView diagram = arrays.diagram();
   if (kept.size() != groups.size()) throw std::invalid_argument("each edge must have one group");
   std::optional<core::skeleton::ClippedGroup> frame;
   if (clipped) {
@@ -105,7 +105,7 @@ nb::object clearances(const IndexRows& points, const IndexRows& segments, const 
     for (const auto& [a, b] : ends) {
       sites.push_back({all[static_cast<std::size_t>(a)], all[static_cast<std::size_t>(b)]});
     }
-    return core::spatial::clearances(sites, rows<Place>(places), view(reach),
+    return core::spatial::clearances(sites, rows<Point>(places), view(reach),
                                      core::base::resolve_threads(threads), monitor);
   });
   return to_numpy(std::move(found));

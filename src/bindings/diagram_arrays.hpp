@@ -14,12 +14,12 @@
 namespace vorotool::bindings {
 
 using core::kernel::LatticePoint;
-using core::skeleton::Place;
+using core::kernel::Point;
 using Pair = std::array<std::int32_t, 2>;
 using IndexRows = Matrix<const std::int32_t>;
 using Places = Matrix<const double>;
 
-static_assert(sizeof(LatticePoint) == 2 * sizeof(std::int32_t) && sizeof(Place) == 2 * sizeof(double));
+static_assert(sizeof(LatticePoint) == 2 * sizeof(std::int32_t) && sizeof(Point) == 2 * sizeof(double));
 
 // The arrays of a diagram, kept while the core works on views of them.
 struct DiagramArrays {
@@ -28,16 +28,20 @@ struct DiagramArrays {
   Vector<const double> radius;
   IndexRows edges, edge_sites;
 
-  core::segment_voronoi::build::SegmentDiagram diagram() const {
-    const core::segment_voronoi::build::SegmentDiagram d{rows<LatticePoint>(points), rows<Pair>(segments),
-                                                         rows<Place>(vertices),      view(radius),
-                                                         rows<Pair>(edges),          rows<Pair>(edge_sites)};
+  core::segment_voronoi::build::DiagramView diagram() const {
+    const core::segment_voronoi::build::DiagramView d{{rows<LatticePoint>(points), rows<Pair>(segments), {}},
+                                                      rows<Point>(vertices),
+                                                      view(radius),
+                                                      rows<Pair>(edges),
+                                                      rows<Pair>(edge_sites),
+                                                      {},
+                                                      {}};
     check(d);
     return d;
   }
 
  private:
-  static void check(const core::segment_voronoi::build::SegmentDiagram& d) {
+  static void check(const core::segment_voronoi::build::DiagramView& d) {
     if (d.vertices.size() != d.radius.size() || d.edges.size() != d.edge_sites.size()) {
       throw std::invalid_argument("the arrays of a diagram have lengths that do not go together");
     }

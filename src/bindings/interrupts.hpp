@@ -15,8 +15,8 @@ namespace vorotool::bindings {
 // borrowed: it must outlive the monitor.
 inline core::base::Monitor python_monitor(nanobind::handle progress) {
   using Clock = std::chrono::steady_clock;
-  static constexpr auto kInterval = std::chrono::milliseconds(50);
-  return [progress, next = Clock::now() + kInterval](double fraction) mutable {
+  static constexpr auto interval = std::chrono::milliseconds(50);
+  return [progress, next = Clock::now() + interval](double fraction) mutable {
     const auto now = Clock::now();
     if (now < next) return true;
     const nanobind::gil_scoped_acquire gil;
@@ -29,7 +29,7 @@ inline core::base::Monitor python_monitor(nanobind::handle progress) {
         return false;
       }
     }
-    next = Clock::now() + kInterval;
+    next = Clock::now() + interval;
     return true;
   };
 }

@@ -5,11 +5,14 @@
 
 #include "core/arrangement/rational_point.hpp"
 #include "core/base/disjoint_sets.hpp"
+#include "core/base/indices.hpp"
 #include "core/numbers/int128.hpp"
 
 namespace vorotool::core::arrangement {
 
+using base::at;
 using kernel::LatticePoint;
+using kernel::PlanarGraphView;
 
 namespace {
 
@@ -29,8 +32,10 @@ struct Ring {
 class Tracer {
  public:
   // A region of a polygon is a set of entries of face_polygon: its faces, joined where a segment divides two.
-  explicit Tracer(const BoundaryGraph& graph) : graph_(graph), regions_(graph.face_polygon.size()) {
-    for (std::size_t s = 0; 2 * s < graph.segments.size(); ++s) compare_sides(s);
+  Tracer(const PlanarGraphView& graph, std::span<const std::int32_t> face_start,
+         std::span<const std::int32_t> face_polygon)
+      : graph_(graph), face_start_(face_start), face_polygon_(face_polygon), regions_(face_polygon.size()) {
+    for (std::size_t s = 0; s < graph.segments.size(); ++s) compare_sides(s);
     std::sort(borders_.begin(), borders_.end(), [](const Border& a, const Border& b) {
       return std::tie(a.polygon, a.from, a.segment) < std::tie(b.polygon, b.from, b.segment);
     });
@@ -45,18 +50,15 @@ class Tracer {
     return std::move(rings_);
   }
 
-  const Border& border(std::int32_t i) const { return borders_[static_cast<std::size_t>(i)]; }
+  const Border& border(std::int32_t i) const { return borders_[at(i)]; }
 
  private:
-  LatticePoint point(std::int32_t i) const { return graph_.points[static_cast<std::size_t>(i)]; }
-
   void compare_sides(std::size_t s) {
-    const auto left = static_cast<std::size_t>(graph_.segment_faces[2 * s]);
-    const auto right = static_cast<std::size_t>(graph_.segment_faces[2 * s + 1]);
-    const std::int32_t a = graph_.segments[2 * s], b = graph_.segments[2 * s + 1];
+    const std::size_t left = at(graph_.faces[s][0]), right = at(graph_.faces[s][1]);
+    const auto [a, b] = graph_.segments[s];
     const auto segment = static_cast<std::int32_t>(s);
-    std::int32_t l = graph_.face_start[left], r = graph_.face_start[right];
-    const std::int32_t l_end = graph_.face_start[left + 1], r_end = graph_.face_start[right + 1];
+    std::int32_t l = face_start_[left], r = face_start_[right];
+    const std::int32_t l_end = face_start_[left + 1], r_end = face_start_[right + 1];
     while (l < l_end || r < r_end) {
       const std::int32_t lp = l < l_end ? polygon(l) : INT32_MAX, rp = r < r_end ? polygon(r) : INT32_MAX;
       if (lp == rp) {
@@ -69,9 +71,7 @@ class Tracer {
     }
   }
 
-  std::int32_t polygon(std::int32_t entry) const {
-    return graph_.face_polygon[static_cast<std::size_t>(entry)];
-  }
+  std::int32_t polygon(std::int32_t entry) const { return face_polygon_[at(entry)]; }
 
   // The border that goes on around the same sector of the polygon: from the end, clockwise next to the way
   // back.
@@ -84,7 +84,8 @@ class Tracer {
     const auto [begin, end] = std::equal_range(borders_.begin(), borders_.end(), wanted, is_before);
     auto best = begin;
     for (auto other = begin; other != end; ++other) {
-      if (is_clockwise_first(point(here.to), point(here.from), point(other->to), point(best->to)))
+      if (is_clockwise_first(graph_.point(here.to), graph_.point(here.from), graph_.point(other->to),
+                             graph_.point(best->to)))
         best = other;
     }
     return static_cast<std::int32_t>(best - borders_.begin());
@@ -106,12 +107,11 @@ class Tracer {
 
   // Follows borders until they close, and takes a ring off wherever a point is visited again.
   void walk(std::int32_t i) {
-    while (is_used_[static_cast<std::size_t>(i)] == 0) {
-      is_used_[static_cast<std::size_t>(i)] = 1;
-      place_[static_cast<std::size_t>(border(i).from)] = static_cast<std::int32_t>(path_.size());
+    while (is_used_[at(i)] == 0) {
+      is_used_[at(i)] = 1;
+      place_[at(border(i).from)] = static_cast<std::int32_t>(path_.size());
       path_.push_back(i);
-      if (const std::int32_t seen = place_[static_cast<std::size_t>(border(i).to)]; seen >= 0)
-        take_ring(seen);
+      if (const std::int32_t seen = place_[at(border(i).to)]; seen >= 0) take_ring(seen);
       i = next(i);
     }
   }
@@ -123,9 +123,9 @@ class Tracer {
     path_.erase(begin, path_.end());
     numbers::int128 area = 0;  // at most 2^31 terms below 2^63
     for (const std::int32_t i : ring.borders) {
-      const LatticePoint a = point(border(i).from), b = point(border(i).to);
+      const LatticePoint a = graph_.point(border(i).from), b = graph_.point(border(i).to);
       area += std::int64_t{a.x} * b.y - std::int64_t{a.y} * b.x;
-      place_[static_cast<std::size_t>(border(i).from)] = -1;
+      place_[at(border(i).from)] = -1;
     }
     ring.is_hole = area < 0;
     const auto first = std::min_element(ring.borders.begin(), ring.borders.end(),
@@ -135,7 +135,8 @@ class Tracer {
     rings_.push_back(std::move(ring));
   }
 
-  const BoundaryGraph& graph_;
+  const PlanarGraphView& graph_;
+  std::span<const std::int32_t> face_start_, face_polygon_;
   base::DisjointSets<std::int32_t> regions_;
   std::vector<Border> borders_;  // sorted by polygon and then by their first points
   std::vector<std::uint8_t> is_used_;
@@ -148,9 +149,9 @@ class Tracer {
 void sort_rings(std::vector<Ring>& rings, std::size_t regions) {
   std::vector<std::int32_t> shell_point(regions, -1);
   for (const Ring& ring : rings) {
-    if (!ring.is_hole) shell_point[static_cast<std::size_t>(ring.region)] = ring.first_point;
+    if (!ring.is_hole) shell_point[at(ring.region)] = ring.first_point;
   }
-  for (Ring& ring : rings) ring.shell_point = shell_point[static_cast<std::size_t>(ring.region)];
+  for (Ring& ring : rings) ring.shell_point = shell_point[at(ring.region)];
   std::sort(rings.begin(), rings.end(), [](const Ring& a, const Ring& b) {
     return std::tie(a.polygon, a.shell_point, a.region, a.is_hole, a.first_point, a.borders) <
            std::tie(b.polygon, b.shell_point, b.region, b.is_hole, b.first_point, b.borders);
@@ -159,10 +160,11 @@ void sort_rings(std::vector<Ring>& rings, std::size_t regions) {
 
 }  // namespace
 
-BoundaryRings find_boundary_rings(const BoundaryGraph& graph) {
-  Tracer tracer(graph);
+BoundaryRings find_boundary_rings(const PlanarGraphView& graph, std::span<const std::int32_t> face_start,
+                                  std::span<const std::int32_t> face_polygon) {
+  Tracer tracer(graph, face_start, face_polygon);
   std::vector<Ring> rings = tracer.trace();
-  sort_rings(rings, graph.face_polygon.size());
+  sort_rings(rings, face_polygon.size());
   BoundaryRings result;
   result.start.push_back(0);
   for (const Ring& ring : rings) {

@@ -5,17 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "core/arrangement/face_polygons.hpp"
-#include "core/kernel/lattice.hpp"
+#include "core/kernel/planar_graph_view.hpp"
 
 namespace vorotool::core::arrangement {
-
-struct BoundaryGraph {
-  std::span<const kernel::LatticePoint> points;
-  std::span<const std::int32_t> segments;       // [2 m]
-  std::span<const std::int32_t> segment_faces;  // [2 m] left and right
-  std::span<const std::int32_t> face_start, face_polygon;
-};
 
 // Rings that visit no point twice, with the inside on their left: shells counter-clockwise, holes clockwise.
 // A part is a connected region of a polygon: a shell and then its holes. Parts are sorted by polygon and then
@@ -30,6 +22,9 @@ struct BoundaryRings {
   std::vector<std::int32_t> part_polygon;  // [parts] not decreasing
 };
 
-BoundaryRings find_boundary_rings(const BoundaryGraph& graph);
+// Face f of the graph lies in face_polygon[face_start[f]] ...
+BoundaryRings find_boundary_rings(const kernel::PlanarGraphView& graph,
+                                  std::span<const std::int32_t> face_start,
+                                  std::span<const std::int32_t> face_polygon);
 
 }  // namespace vorotool::core::arrangement

@@ -11,6 +11,7 @@
 #include "core/arrangement/segment_set.hpp"
 #include "core/arrangement/snap_rounding.hpp"
 #include "core/base/disjoint_sets.hpp"
+#include "core/base/indices.hpp"
 
 namespace vorotool::core::arrangement {
 
@@ -184,7 +185,7 @@ class Maker {
     std::vector<LatticePoint> merged;
     merged.reserve(rank.size());
     for (std::size_t i = 0, j = 0; i < old || j < fresh.size();) {
-      const bool takes_old = j == fresh.size() || (i < old && is_before(set_.points[i], fresh[j]));
+      const bool takes_old = j == fresh.size() || (i < old && lexicographic_less(set_.points[i], fresh[j]));
       const auto place = static_cast<std::int32_t>(merged.size());
       rank[takes_old ? i : old + j] = place;
       vertex[static_cast<std::size_t>(place)] = takes_old ? vertex_of_point_[i] : -1;
@@ -365,13 +366,12 @@ class Maker {
 
   void number_segments() {
     direct_borders();
-    graph_.segments.reserve(2 * borders_.size());
+    graph_.segments.reserve(borders_.size());
     graph_.source_start.reserve(borders_.size() + 1);
     graph_.source_edge.reserve(set_.source.size());
     graph_.source_start.push_back(0);
     for (const Border& border : borders_) {
-      graph_.segments.push_back(number_[static_cast<std::size_t>(source_of(border))]);
-      graph_.segments.push_back(number_[static_cast<std::size_t>(target_of(border))]);
+      graph_.segments.push_back({number_[base::at(source_of(border))], number_[base::at(target_of(border))]});
       const auto edges = set_.sources_of(static_cast<std::size_t>(border.segment));
       graph_.source_edge.insert(graph_.source_edge.end(), edges.begin(), edges.end());
       graph_.source_start.push_back(static_cast<std::int32_t>(graph_.source_edge.size()));
@@ -401,11 +401,11 @@ class Maker {
       return known;
     };
     numbered(0);
-    graph_.segment_faces.reserve(2 * borders_.size());
+    graph_.segment_faces.reserve(borders_.size());
     for (const Border& border : borders_) {
       const auto i = static_cast<std::size_t>(border.segment);
-      graph_.segment_faces.push_back(numbered(border.is_back ? faces.right[i] : faces.left[i]));
-      graph_.segment_faces.push_back(numbered(border.is_back ? faces.left[i] : faces.right[i]));
+      const std::int32_t left = numbered(border.is_back ? faces.right[i] : faces.left[i]);
+      graph_.segment_faces.push_back({left, numbered(border.is_back ? faces.left[i] : faces.right[i])});
     }
     for (const PointHole& hole : point_holes_) {
       graph_.point_holes.push_back(number_[static_cast<std::size_t>(hole.point)]);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/arrangement/face_polygons.hpp"
+#include "core/base/indices.hpp"
 #include "core/base/monitor.hpp"
 #include "core/kernel/lattice.hpp"
 
@@ -39,13 +40,13 @@ struct PlanarGraph {
 
   // Segments in the order of the input edges, each directed as its first one runs. No two have both ends in
   // common, none passes through a point, no two cross.
-  std::vector<std::int32_t> segments;  // [2 m] points
-  std::vector<std::int32_t> source_start,
-      source_edge;  // segment s is part of source_edge[source_start[s]] ...
+  std::vector<base::IndexPair> segments;  // [m] points
+  // Segment s is part of source_edge[source_start[s]] ...
+  std::vector<std::int32_t> source_start, source_edge;
 
   // The faces between the segments. A face lies in the polygons face_polygons.of(face), ascending; face 0 is
   // the unbounded one and lies in none.
-  std::vector<std::int32_t> segment_faces;  // [2 m] left and right of each segment
+  std::vector<base::IndexPair> segment_faces;  // [m] left and right of each segment
   FacePolygons face_polygons;
 
   // Holes of one place that no segment ends at: [3 h] the point, its face, and the polygon.

@@ -19,11 +19,6 @@ inline std::int64_t turn(kernel::LatticePoint a, kernel::LatticePoint b, kernel:
   return ux * vy - uy * vx;
 }
 
-// By x, then by y: the order in which a line sweeps over the points.
-inline bool is_before(kernel::LatticePoint a, kernel::LatticePoint b) {
-  return a.x != b.x ? a.x < b.x : a.y < b.y;
-}
-
 // The point (x + fraction_x / denominator, y + fraction_y / denominator), 0 <= fractions < denominator <
 // 2^63.
 struct RationalPoint {
@@ -39,7 +34,7 @@ struct RationalPoint {
   }
 };
 
-// -1, 0, 1 as p is before, at or after q in the order of is_before.
+// -1, 0, 1 as p is before, at or after q in lexicographic order.
 int compare(const RationalPoint& p, const RationalPoint& q);
 int compare(const RationalPoint& p, kernel::LatticePoint q);
 

@@ -37,10 +37,10 @@ struct Meeting {
 };
 
 struct SweepResult {
-  std::vector<RationalPoint>
-      crossings;  // of two segments or more inside them, none a point of the input; sorted
-  std::vector<Meeting>
-      meetings;  // every place inside a segment that is a point or on another segment; by place
+  // Of two segments or more inside them, none a point of the input; sorted
+  std::vector<RationalPoint> crossings;
+  // Every place inside a segment that is a point or on another segment; by place
+  std::vector<Meeting> meetings;
   // [n] for a point that no segment ends at or passes through from the left: the segment next below it, -1 if
   // there is none. -1 also for other points.
   std::vector<std::int32_t> below;

@@ -11,7 +11,7 @@
 
 namespace vorotool::core::arrangement {
 
-// Points in the order of is_before.
+// Points in lexicographic order.
 struct SortedPoints {
   std::vector<kernel::LatticePoint> points;  // distinct
   std::vector<std::int32_t> rank;            // of each point given, among these
@@ -33,8 +33,8 @@ struct SegmentSet {
   std::vector<kernel::LatticePoint> points;  // sorted
   std::vector<std::int32_t> start;           // as SortedSegments has them
   std::vector<std::int32_t> lower_end, upper_end;
-  std::vector<std::int32_t> source_start,
-      source;  // segment s came from source[source_start[s]] ...; ascending
+  // Segment s came from source[source_start[s]] ...; ascending
+  std::vector<std::int32_t> source_start, source;
 
   SortedSegments view() const { return {points, start, upper_end, lower_end}; }
   std::size_t size() const { return lower_end.size(); }

@@ -69,18 +69,20 @@ class Snapping {
     const std::span<const LatticePoint> points = segments_.points;
     std::vector<LatticePoint>& fresh = result_.new_points;
     for (const RationalPoint& crossing : swept.crossings) fresh.push_back(crossing.nearest());
-    std::sort(fresh.begin(), fresh.end(), is_before);
+    std::sort(fresh.begin(), fresh.end(), kernel::lexicographic_less<LatticePoint>);
     fresh.erase(std::unique(fresh.begin(), fresh.end()), fresh.end());
     std::erase_if(fresh, [&](LatticePoint p) {
-      return std::binary_search(points.begin(), points.end(), p, is_before);
+      return std::binary_search(points.begin(), points.end(), p, kernel::lexicographic_less<LatticePoint>);
     });
     nodes_.insert(nodes_.end(), fresh.begin(), fresh.end());
     for (const RationalPoint& crossing : swept.crossings) {
       const LatticePoint at = crossing.nearest();
-      const auto known = std::lower_bound(points.begin(), points.end(), at, is_before);
+      const auto known =
+          std::lower_bound(points.begin(), points.end(), at, kernel::lexicographic_less<LatticePoint>);
       const bool is_point = known != points.end() && *known == at;
       const auto place = is_point ? known - points.begin()
-                                  : std::lower_bound(fresh.begin(), fresh.end(), at, is_before) -
+                                  : std::lower_bound(fresh.begin(), fresh.end(), at,
+                                                     kernel::lexicographic_less<LatticePoint>) -
                                         fresh.begin() + static_cast<std::ptrdiff_t>(points.size());
       node_of_crossing_.push_back(static_cast<std::int32_t>(place));
     }

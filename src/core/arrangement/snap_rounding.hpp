@@ -36,8 +36,8 @@
 namespace vorotool::core::arrangement {
 
 struct SnappedSegments {
-  std::vector<kernel::LatticePoint>
-      new_points;  // nodes that are no points of the input, sorted; numbered from n on
+  // Nodes that are no points of the input, sorted; numbered from n on
+  std::vector<kernel::LatticePoint> new_points;
   // Segment s goes through chain[chain_start[s]] ... chain[chain_start[s + 1] - 1]: from its lower to its
   // upper end, both included.
   std::vector<std::int32_t> chain_start, chain;

@@ -6,14 +6,18 @@
 #include <set>
 #include <vector>
 
+#include "core/base/fault.hpp"
+#include "core/base/indices.hpp"
+
 namespace vorotool::core::arrangement {
 
 using base::Monitor;
 using kernel::LatticePoint;
+using kernel::PlanarGraphView;
 
 namespace {
 
-using Fault = std::optional<std::string>;
+using base::Fault;
 
 std::string named(LatticePoint p) { return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")"; }
 
@@ -21,8 +25,8 @@ std::string named(LatticePoint p) { return "(" + std::to_string(p.x) + ", " + st
 // 1976): if there is a fault, then two segments are neighbours below the lowest one.
 class Sweep {
  public:
-  Sweep(const GraphArrays& graph, const Monitor& monitor)
-      : graph_(graph), monitor_(monitor), cut_(IsLeft{this}), place_(graph.segments.size() / 2) {}
+  Sweep(const PlanarGraphView& graph, const Monitor& monitor)
+      : graph_(graph), monitor_(monitor), cut_(IsLeft{this}), place_(graph.segments.size()) {}
 
   Fault run() {
     const std::vector<std::size_t> order = sorted_points();
@@ -35,9 +39,7 @@ class Sweep {
     }
     incident_.resize(graph_.points.size());
     for (std::size_t s = 0; s < place_.size(); ++s) {
-      for (const std::size_t end : {2 * s, 2 * s + 1}) {
-        incident_[static_cast<std::size_t>(graph_.segments[end])].push_back(s);
-      }
+      for (const std::int32_t end : graph_.segments[s]) incident_[base::at(end)].push_back(s);
     }
     for (std::size_t i = 0; i < order.size(); ++i) {
       if (Fault fault = pass(order[i])) return fault;
@@ -68,11 +70,9 @@ class Sweep {
 
   static bool is_lower(LatticePoint a, LatticePoint b) { return a.y != b.y ? a.y < b.y : a.x < b.x; }
 
-  LatticePoint end(std::size_t i) const {
-    return graph_.points[static_cast<std::size_t>(graph_.segments[i])];
-  }
-  LatticePoint lower(std::size_t s) const { return std::min(end(2 * s), end(2 * s + 1), is_lower); }
-  LatticePoint upper(std::size_t s) const { return std::max(end(2 * s), end(2 * s + 1), is_lower); }
+  LatticePoint end(std::size_t s, std::size_t k) const { return graph_.point(graph_.segments[s][k]); }
+  LatticePoint lower(std::size_t s) const { return std::min(end(s, 0), end(s, 1), is_lower); }
+  LatticePoint upper(std::size_t s) const { return std::max(end(s, 0), end(s, 1), is_lower); }
 
   // 1 if p is right of the segment seen upwards, -1 left of it, 0 on its line: see lattice_limit.
   int side(std::size_t s, LatticePoint p) const {
@@ -139,14 +139,14 @@ class Sweep {
     return is_lower(a, p) && is_lower(p, b);
   }
 
-  const GraphArrays& graph_;
+  const PlanarGraphView& graph_;
   const Monitor& monitor_;
   Cut cut_;
   std::vector<Cut::iterator> place_;
   std::vector<std::vector<std::size_t>> incident_;
 };
 
-Fault index_fault(const GraphArrays& graph) {
+Fault index_fault(const PlanarGraphView& graph) {
   for (std::size_t i = 0; i < graph.points.size(); ++i) {
     const LatticePoint p = graph.points[i];
     if (std::max({p.x, p.y}) > kernel::lattice_limit || std::min({p.x, p.y}) < -kernel::lattice_limit) {
@@ -154,18 +154,18 @@ Fault index_fault(const GraphArrays& graph) {
     }
   }
   const auto points = static_cast<std::int32_t>(graph.points.size());
-  for (std::size_t i = 0; i < graph.segments.size(); i += 2) {
-    const std::int32_t a = graph.segments[i], b = graph.segments[i + 1];
+  for (std::size_t s = 0; s < graph.segments.size(); ++s) {
+    const auto [a, b] = graph.segments[s];
     if (std::min(a, b) < 0 || std::max(a, b) >= points) {
-      return "segment " + std::to_string(i / 2) + " ends at a point that does not exist";
+      return "segment " + std::to_string(s) + " ends at a point that does not exist";
     }
-    if (a == b) return "segment " + std::to_string(i / 2) + " has no length";
+    if (a == b) return "segment " + std::to_string(s) + " has no length";
   }
   return {};
 }
 
 // The faces on both sides of every corner: segments around a point in the order of their angle.
-Fault corner_fault(const GraphArrays& graph) {
+Fault corner_fault(const PlanarGraphView& graph) {
   struct Spoke {
     std::int64_t x, y;
     std::int32_t left, right;  // faces, seen from the point
@@ -177,13 +177,12 @@ Fault corner_fault(const GraphArrays& graph) {
     }
   };
   std::vector<std::vector<Spoke>> spokes(graph.points.size());
-  for (std::size_t i = 0; i < graph.segments.size(); i += 2) {
+  for (std::size_t s = 0; s < graph.segments.size(); ++s) {
     for (const std::size_t back : {std::size_t{0}, std::size_t{1}}) {
-      const auto from = static_cast<std::size_t>(graph.segments[i + back]);
-      const auto to = static_cast<std::size_t>(graph.segments[i + 1 - back]);
-      const LatticePoint a = graph.points[from], b = graph.points[to];
-      spokes[from].push_back({std::int64_t{b.x} - a.x, std::int64_t{b.y} - a.y, graph.faces[i + back],
-                              graph.faces[i + 1 - back]});
+      const std::int32_t from = graph.segments[s][back], to = graph.segments[s][1 - back];
+      const LatticePoint a = graph.point(from), b = graph.point(to);
+      spokes[base::at(from)].push_back(
+          {std::int64_t{b.x} - a.x, std::int64_t{b.y} - a.y, graph.faces[s][back], graph.faces[s][1 - back]});
     }
   }
   for (std::size_t i = 0; i < spokes.size(); ++i) {
@@ -199,7 +198,7 @@ Fault corner_fault(const GraphArrays& graph) {
 
 }  // namespace
 
-std::optional<std::string> find_fault(const GraphArrays& graph, const Monitor& monitor) {
+Fault find_fault(const PlanarGraphView& graph, const Monitor& monitor) {
   if (Fault fault = index_fault(graph)) return fault;
   if (Fault fault = Sweep(graph, monitor).run()) return fault;
   return graph.faces.empty() ? Fault{} : corner_fault(graph);

@@ -14,9 +14,9 @@
 namespace vorotool::core::base {
 namespace {
 
-constexpr auto kPollInterval = std::chrono::milliseconds(20);
+constexpr auto poll_interval = std::chrono::milliseconds(20);
 // More threads than this never help a kernel bound by memory, and a typing error should not start a million.
-constexpr unsigned kMostThreads = 1024;
+constexpr unsigned most_threads = 1024;
 
 // One parallel_for: the pieces not yet taken, what went wrong, and the threads still at work.
 class Crew {
@@ -99,7 +99,7 @@ class Crew {
 
   void wait() {
     std::unique_lock lock(mutex_);
-    while (!ended_.wait_for(lock, kPollInterval, [this] { return running_ == 0; })) {
+    while (!ended_.wait_for(lock, poll_interval, [this] { return running_ == 0; })) {
       lock.unlock();  // the monitor may take its time, and fail() takes the lock
       poll();
       lock.lock();
@@ -124,7 +124,7 @@ class Crew {
 
 unsigned resolve_threads(unsigned threads) {
   if (threads == 0) threads = std::thread::hardware_concurrency();
-  return std::clamp(threads, 1U, kMostThreads);
+  return std::clamp(threads, 1U, most_threads);
 }
 
 void parallel_for(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& body,

@@ -15,8 +15,6 @@ namespace {
 
 constexpr std::size_t cells_a_piece = std::size_t{1} << 13;
 
-double distance(const Point& p, const Point& q) { return numbers::hypotenuse(p.x - q.x, p.y - q.y); }
-
 // Twice the signed area, of coordinates times 2^scale relative to the first vertex: products do not overflow.
 double twice_area(std::span<const Point> ring, double factor) {
   const Point& origin = ring[0];

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/base/fault.hpp"
 #include "core/base/parallel.hpp"
 #include "core/kernel/circumcentre.hpp"
 #include "core/kernel/predicates.hpp"
@@ -19,6 +20,7 @@
 
 namespace vorotool::core::cells {
 
+using base::Fault;
 using base::Monitor;
 using kernel::Point;
 using numbers::DoubleDouble;
@@ -27,8 +29,6 @@ using numbers::two_difference;
 using text::append_number;
 
 namespace {
-
-using Fault = std::optional<std::string>;
 
 constexpr std::size_t cells_a_piece = std::size_t{1} << 12;
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
@@ -46,8 +46,6 @@ double rounding_diameter(const Point& p, int scale) {
 double approximately(std::span<const double> terms) {
   return std::accumulate(terms.begin(), terms.end(), 0.0);
 }
-
-double distance(const Point& p, const Point& q) { return hypotenuse(p.x - q.x, p.y - q.y); }
 
 std::string text_of(const Point& p) {
   std::string text = "(";
@@ -257,8 +255,7 @@ class Checker {
 
 }  // namespace
 
-std::optional<std::string> find_cell_fault(const CellRings& cells, const Box& frame, unsigned threads,
-                                           const Monitor& monitor) {
+Fault find_cell_fault(const CellRings& cells, const Box& frame, unsigned threads, const Monitor& monitor) {
   return Checker(cells, frame, threads, monitor).run();
 }
 

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <string>
 
+#include "core/base/fault.hpp"
 #include "core/base/monitor.hpp"
 #include "core/cells/voronoi_cells.hpp"
 #include "core/kernel/point.hpp"
@@ -21,7 +20,7 @@ struct CellRings {
 // What is wrong, in words: a ring that is not convex or not in the frame, a vertex nearer to another site, a
 // duplicate with a cell, or areas that do not add up to that of the frame. Vertices may be off by half a unit
 // in the last place of each coordinate; nothing else is allowed for.
-std::optional<std::string> find_cell_fault(const CellRings& cells, const Box& frame, unsigned threads,
-                                           const base::Monitor& monitor);
+base::Fault find_cell_fault(const CellRings& cells, const Box& frame, unsigned threads,
+                            const base::Monitor& monitor);
 
 }  // namespace vorotool::core::cells

@@ -25,7 +25,6 @@ using Index = std::int32_t;
 constexpr std::size_t sites_a_piece = std::size_t{1} << 12;
 constexpr std::size_t triangles_a_piece = std::size_t{1} << 14;
 
-bool comes_before(const Point& a, const Point& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
 bool same_place(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y; }
 
 // ---- the frame ----
@@ -192,7 +191,8 @@ void tidy(std::vector<Point>& ring) {
   std::size_t k = 2;
   while (k < ring.size() && kernel::orient2d(ring[0], ring[1], ring[k]) == 0) ++k;
   if (k >= ring.size()) ring.clear();
-  std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end(), comes_before), ring.end());
+  std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end(), kernel::lexicographic_less<Point>),
+              ring.end());
 }
 
 // ---- all cells ----

@@ -19,8 +19,8 @@ struct Box {
 };
 
 struct VoronoiCells {
-  base::LargeArray<kernel::Point>
-      vertices;                      // ring after ring, counter-clockwise from the lexicographically smallest
+  // Ring after ring, counter-clockwise from the lexicographically smallest
+  base::LargeArray<kernel::Point> vertices;
   std::vector<std::int64_t> starts;  // [n + 1] of the ring of each point in `vertices`; a ring may be empty
 };
 

@@ -7,18 +7,18 @@
 namespace vorotool::core::compression {
 namespace {
 
-constexpr unsigned kClear = 256, kEnd = 257, kFirst = 258, kCodes = 4096;
-constexpr unsigned kNarrow = 9, kWide = 12;  // bits of a code
+constexpr unsigned clear_code = 256, end_code = 257, first_code = 258, most_codes = 4096;
+constexpr unsigned narrow = 9, wide = 12;  // bits of a code
 
 // Codes of 9 to 12 bits, the highest bit first.
 class CodeReader {
  public:
   explicit CodeReader(std::span<const std::uint8_t> data) : data_(data) {}
 
-  // The next code; kEnd where fewer bits are left: many writers leave out the last code.
+  // The next code; end_code where fewer bits are left: many writers leave out the last code.
   unsigned next(unsigned width) {
     while (held_ < width) {
-      if (at_ == data_.size()) return kEnd;
+      if (at_ == data_.size()) return end_code;
       bits_ = bits_ << 8 | data_[at_++];
       held_ += 8;
     }
@@ -40,8 +40,8 @@ class LzwTexts {
   LzwTexts(std::vector<std::uint8_t>& out, std::size_t limit) : out_(out), limit_(limit) {}
 
   void clear() {
-    next_ = kFirst;
-    width_ = kNarrow;
+    next_ = first_code;
+    width_ = narrow;
     last_ = {0, 0};
   }
 
@@ -49,16 +49,16 @@ class LzwTexts {
 
   // Writes the text of a code, and gives the next code to the text before it and its first byte.
   void write(unsigned code) {
-    const bool learns = last_.size > 0 && next_ < kCodes;
+    const bool learns = last_.size > 0 && next_ < most_codes;
     if (learns) texts_[next_++] = {last_.start, last_.size + 1};  // its last byte is about to be written
-    const Text written{out_.size(), code < kClear ? 1 : text_of(code).size};
-    if (code < kClear) {
+    const Text written{out_.size(), code < clear_code ? 1 : text_of(code).size};
+    if (code < clear_code) {
       out_.push_back(static_cast<std::uint8_t>(code));
     } else {
       copy(text_of(code));
     }
     last_ = written;
-    if (next_ + 1 >= 1U << width_ && width_ < kWide) ++width_;  // TIFF changes one code early
+    if (next_ + 1 >= 1U << width_ && width_ < wide) ++width_;  // TIFF changes one code early
   }
 
  private:
@@ -81,9 +81,9 @@ class LzwTexts {
 
   std::vector<std::uint8_t>& out_;
   std::size_t limit_;
-  std::array<Text, kCodes> texts_{};  // of kFirst to next_ - 1
-  unsigned next_ = kFirst, width_ = kNarrow;
-  Text last_{0, 0};  // without size right after kClear
+  std::array<Text, most_codes> texts_{};  // of first_code to next_ - 1
+  unsigned next_ = first_code, width_ = narrow;
+  Text last_{0, 0};  // without size right after clear_code
 };
 
 }  // namespace
@@ -96,8 +96,8 @@ std::vector<std::uint8_t> unpack_lzw(std::span<const std::uint8_t> data, std::si
   for (std::size_t item = 1; out.size() < limit; ++item) {
     base::report_item(monitor, item);
     const unsigned code = codes.next(texts.width());
-    if (code == kEnd) break;
-    if (code == kClear) {
+    if (code == end_code) break;
+    if (code == clear_code) {
       texts.clear();
     } else {
       texts.write(code);

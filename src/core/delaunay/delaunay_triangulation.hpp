@@ -22,10 +22,10 @@ namespace vorotool::core::delaunay {
 // Where to write a mesh; null what is not wanted, neighbours only along with triangles.
 struct MeshArrays {
   std::int32_t* triangles = nullptr;  // [3 triangle_count] points, counter-clockwise
-  std::int32_t* neighbours =
-      nullptr;  // [3 triangle_count] the triangle across the side opposite to each; or -1
-  std::int32_t* edges =
-      nullptr;  // [2 edge_count] ends, the smaller index first; of collinear points, a chain
+  // [3 triangle_count] the triangle across the side opposite to each; or -1
+  std::int32_t* neighbours = nullptr;
+  // [2 edge_count] ends, the smaller index first; of collinear points, a chain
+  std::int32_t* edges = nullptr;
 };
 
 class DelaunayTriangulation {

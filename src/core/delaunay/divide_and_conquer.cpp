@@ -12,11 +12,11 @@
 
 namespace vorotool::core::delaunay {
 
+using kernel::lexicographic_less;
 using kernel::Point;
 
 namespace {
 
-bool less_by_x(const Point& a, const Point& b) { return (a.x < b.x) | (!(b.x < a.x) & (a.y < b.y)); }
 bool less_by_y(const Point& a, const Point& b) { return (a.y < b.y) | (!(b.y < a.y) & (a.x < b.x)); }
 
 // Extreme vertices of a part, by (x, y) and by (y, x), so they are ends even of a chain.
@@ -140,8 +140,8 @@ class Builder {
   Hull build_few(Vertex first, Vertex last, RingStore& store) {
     Hull hull{first, first, first, first, true};
     for (Vertex v = first + 1; v < last; ++v) {
-      hull.least_x = less_by_x(point(v), point(hull.least_x)) ? v : hull.least_x;
-      hull.most_x = less_by_x(point(v), point(hull.most_x)) ? hull.most_x : v;
+      hull.least_x = lexicographic_less(point(v), point(hull.least_x)) ? v : hull.least_x;
+      hull.most_x = lexicographic_less(point(v), point(hull.most_x)) ? hull.most_x : v;
       hull.least_y = less_by_y(point(v), point(hull.least_y)) ? v : hull.least_y;
       hull.most_y = less_by_y(point(v), point(hull.most_y)) ? hull.most_y : v;
     }
@@ -196,7 +196,7 @@ class Builder {
       most = {std::max(most.x, p.x), std::max(most.y, p.y)};
     }
     by_x = most.x / 2 - least.x / 2 >= most.y / 2 - least.y / 2;
-    const auto less = by_x ? less_by_x : less_by_y;
+    const auto less = by_x ? lexicographic_less<Point> : less_by_y;
     const std::int32_t half = (last - first) / 2;
     std::sort(items.begin(), items.end(),
               [&](const Item& a, const Item& b) { return less(a.point, b.point); });
@@ -225,7 +225,7 @@ class Builder {
     if (sign == numbers::undecided)
       sign = kernel::incircle_beyond_filter(point(l), point(r), point(v.vertex), point(w.vertex));
     if (sign != 0) return sign > 0;
-    const auto earlier = [&](Vertex a, Vertex b) { return less_by_x(point(b), point(a)) ? b : a; };
+    const auto earlier = [&](Vertex a, Vertex b) { return lexicographic_less(point(b), point(a)) ? b : a; };
     const Vertex smallest = earlier(earlier(l, r), earlier(v.vertex, w.vertex));
     if (smallest == l) return side_of(r, v.vertex, w.vertex) < 0;
     if (smallest == r) return side_of(v.vertex, l, w.vertex) < 0;
@@ -326,8 +326,8 @@ class Builder {
       if (less_by_y(point(right.least_y), point(left.least_y))) hull.least_y = right.least_y;
       if (less_by_y(point(right.most_y), point(left.most_y))) hull.most_y = left.most_y;
     } else {
-      if (less_by_x(point(right.least_x), point(left.least_x))) hull.least_x = right.least_x;
-      if (less_by_x(point(right.most_x), point(left.most_x))) hull.most_x = left.most_x;
+      if (lexicographic_less(point(right.least_x), point(left.least_x))) hull.least_x = right.least_x;
+      if (lexicographic_less(point(right.most_x), point(left.most_x))) hull.most_x = left.most_x;
     }
     return hull;
   }

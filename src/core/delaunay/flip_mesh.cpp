@@ -3,13 +3,12 @@
 #include <algorithm>
 
 namespace vorotool::core::delaunay {
+
+using kernel::lexicographic_less;
+
 namespace {
 
 constexpr std::size_t steps_between_polls = std::size_t{1} << 14;
-
-bool comes_before(const kernel::Point& a, const kernel::Point& b) {
-  return a.x != b.x ? a.x < b.x : a.y < b.y;
-}
 
 }  // namespace
 
@@ -33,7 +32,7 @@ void FlipMesh::start(Vertex a, Vertex b, Vertex c) {
 
 // Of a triangle with collinear corners.
 FlipMesh::Side FlipMesh::opposite_to_middle(Side s) const {
-  while (comes_before(at(apex(s)), at(origin(s))) == comes_before(at(apex(s)), at(target(s))))
+  while (lexicographic_less(at(apex(s)), at(origin(s))) == lexicographic_less(at(apex(s)), at(target(s))))
     s = following(s);
   return s;
 }
@@ -91,8 +90,10 @@ bool FlipMesh::is_wrong(Side s) const {
   if (b == infinity) return c != infinity && d != infinity && kernel::orient2d(at(d), at(a), at(c)) < 0;
   if (c == infinity || d == infinity) return false;
   if (const int sign = kernel::incircle(at(a), at(b), at(c), at(d)); sign != 0) return sign > 0;
-  const auto earlier = [&](Vertex v, Vertex w) { return std::min(at(v), at(w), comes_before); };
-  return comes_before(earlier(c, d), earlier(a, b));
+  const auto earlier = [&](Vertex v, Vertex w) {
+    return std::min(at(v), at(w), lexicographic_less<kernel::Point>);
+  };
+  return lexicographic_less(earlier(c, d), earlier(a, b));
 }
 
 // Replaces the side a, b of the triangles a, b, c and b, a, d: they become d, b, c and c, a, d. Sides keep
@@ -208,7 +209,7 @@ std::optional<Subdivision> FlipMesh::subdivision() {
       if (v == infinity || (on_hull && target(s) != infinity)) continue;
       if (vertices_[static_cast<std::size_t>(v)].degree() > 0) continue;
       ringed += make_ring(on_hull ? twin(preceding(s)) : s, store);
-      if (result.start < 0 || comes_before(at(v), at(result.start))) result.start = v;
+      if (result.start < 0 || lexicographic_less(at(v), at(result.start))) result.start = v;
     }
   }
   const auto has_ring = [](const RingVertex& vertex) { return vertex.degree() > 0; };

@@ -11,6 +11,7 @@
 
 #include "core/base/monitor.hpp"
 #include "core/delaunay/divide_and_conquer.hpp"
+#include "core/delaunay/half_edge.hpp"
 #include "core/delaunay/vertex_links.hpp"
 #include "core/kernel/predicates.hpp"
 
@@ -18,7 +19,7 @@ namespace vorotool::core::delaunay {
 
 class FlipMesh {
  public:
-  using Side = std::int32_t;  // side 3 t + k of triangle t leaves its corner k
+  using Side = HalfEdge;  // leaves its corner
   static constexpr Vertex infinity = -1;
 
   // Distinct points; none is in the mesh yet.
@@ -55,8 +56,6 @@ class FlipMesh {
   std::uint64_t fills() const { return fills_; }
 
  private:
-  static Side following(Side s) { return s % 3 == 2 ? s - 2 : s + 1; }
-  static Side preceding(Side s) { return s % 3 == 0 ? s + 2 : s - 1; }
   Side sides() const { return static_cast<Side>(origins_.size()); }
   Vertex& origin(Side s) { return origins_[static_cast<std::size_t>(s)]; }
   Vertex origin(Side s) const { return origins_[static_cast<std::size_t>(s)]; }

@@ -10,8 +10,6 @@ using kernel::Point;
 
 namespace {
 
-bool comes_before(const Point& a, const Point& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
-
 [[noreturn]] void refuse() { throw std::invalid_argument("the triangles do not fit together"); }
 
 }  // namespace
@@ -36,7 +34,7 @@ void InsertionMesh::add_ghosts() {
     if (across_[i] >= 0) continue;
     const auto s = static_cast<Slot>(i / 3);
     const int k = static_cast<int>(i % 3);
-    const Vertex a = corner(s, (k + 1) % 3), b = corner(s, (k + 2) % 3);
+    const Vertex a = corner(s, following(k)), b = corner(s, preceding(k));
     const Slot ghost = new_slot();
     set(ghost, {b, a, infinity});
     link(ghost, 2, s, k);
@@ -110,7 +108,7 @@ InsertionMesh::Location InsertionMesh::locate(const Point& p, Slot start) const 
     int out = -1, on = -1, zeros = 0;
     for (int k = 0; k < 3 && out < 0; ++k) {
       if (across(s, k) == before) continue;
-      const int side = kernel::orient2d(point(corner(s, (k + 1) % 3)), point(corner(s, (k + 2) % 3)), p);
+      const int side = kernel::orient2d(point(corner(s, following(k))), point(corner(s, preceding(k))), p);
       if (side < 0) out = k;
       if (side == 0) on = zeros++ == 0 ? k : 3 - on - k;  // with two sides, the corner where they meet
     }
@@ -144,21 +142,21 @@ void InsertionMesh::insert_in_face(Vertex v, Slot s) {
   for (std::size_t k = 0; k < 3; ++k) back[k] = side_towards(outside[k], s);
   const std::array<Slot, 3> part{s, new_slot(), new_slot()};
   for (std::size_t k = 0; k < 3; ++k) {  // part k has the side opposite to corner k
-    set(part[k], {c[(k + 1) % 3], c[(k + 2) % 3], v});
+    set(part[k], {c[following(k)], c[preceding(k)], v});
     link(part[k], 2, outside[k], back[k]);
     pending_.push_back(part[k]);
   }
-  for (std::size_t k = 0; k < 3; ++k) link(part[k], 0, part[(k + 1) % 3], 1);
+  for (std::size_t k = 0; k < 3; ++k) link(part[k], 0, part[following(k)], 1);
 }
 
 // Both triangles at a side are cut in two.
 void InsertionMesh::insert_on_side(Vertex v, Slot s, int k) {
   const Slot t = across(s, k);
   const int j = side_towards(t, s);
-  const Vertex c = corner(s, k), a = corner(s, (k + 1) % 3), b = corner(s, (k + 2) % 3), d = corner(t, j);
+  const Vertex c = corner(s, k), a = corner(s, following(k)), b = corner(s, preceding(k)), d = corner(t, j);
   const std::array<Vertex, 4> around{c, a, d, b};
-  const std::array<Slot, 4> outside{across(s, (k + 2) % 3), across(t, (j + 1) % 3), across(t, (j + 2) % 3),
-                                    across(s, (k + 1) % 3)};
+  const std::array<Slot, 4> outside{across(s, preceding(k)), across(t, following(j)), across(t, preceding(j)),
+                                    across(s, following(k))};
   const std::array<Slot, 4> owner{s, t, t, s};
   std::array<int, 4> back{};
   for (std::size_t i = 0; i < 4; ++i) back[i] = side_towards(outside[i], owner[i]);
@@ -256,20 +254,20 @@ void InsertionMesh::make_fan(Slot within) {
     }
     const Slot s = step.s;
     const int k = step.next;
-    step.next = (k + 1) % 3;
+    step.next = following(k);
     --step.left;
     const Slot t = across(s, k);
     const int j = side_towards(t, s);
     if (is_diagonal(s, k)) {
       members.push_back(t);
       fanned_[static_cast<std::size_t>(t)] = 1;
-      path.push_back({t, (j + 1) % 3, 2});
+      path.push_back({t, following(j), 2});
     } else {
-      sides.push_back({corner(s, (k + 1) % 3), t, j});
+      sides.push_back({corner(s, following(k)), t, j});
     }
   }
   const auto before = [&](const Side& a, const Side& b) {
-    return comes_before(point(a.from), point(b.from));
+    return lexicographic_less(point(a.from), point(b.from));
   };
   std::rotate(sides.begin(), std::min_element(sides.begin(), sides.end(), before), sides.end());
   for (std::size_t i = 0; i < members.size(); ++i) {  // between the apex and side i + 1

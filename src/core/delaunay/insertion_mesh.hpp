@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/large_array.hpp"
+#include "core/delaunay/half_edge.hpp"
 #include "core/delaunay/triangulation.hpp"
 #include "core/kernel/predicates.hpp"
 
@@ -96,8 +97,8 @@ class InsertionMesh {
   base::LargeArray<Slot> across_;     // [3 slots]
   std::vector<std::uint8_t> changed_;
   std::vector<Slot> changed_slots_;
-  std::vector<Slot>
-      pending_;  // triangles with the new vertex at corner 2 whose opposite side is to be looked at
+  // Triangles with the new vertex at corner 2 whose opposite side is to be looked at
+  std::vector<Slot> pending_;
   std::vector<std::uint8_t> fanned_;
 };
 

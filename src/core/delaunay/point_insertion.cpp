@@ -229,8 +229,8 @@ class Inserter {
     Slot s = start;
     do {
       const int k = mesh_.corner_of(s, v);
-      ring.push_back({mesh_.corner(s, (k + 1) % 3), s});
-      s = mesh_.across(s, (k + 1) % 3);
+      ring.push_back({mesh_.corner(s, following(k)), s});
+      s = mesh_.across(s, following(k));
       if (ring.size() > mesh_.slots())
         throw std::invalid_argument("the triangles around a point form no ring");
     } while (s != start);
@@ -370,7 +370,7 @@ class Inserter {
     const Slot start = *std::find_if(changed.begin(), changed.end(), is_ghost);
     Slot s = start;
     do {
-      const int k = (mesh_.corner_of(s, InsertionMesh::infinity) + 2) % 3;
+      const int k = preceding(mesh_.corner_of(s, InsertionMesh::infinity));
       hull.push_back(mesh_.corner(s, k));
       s = mesh_.across(s, k);
     } while (s != start);

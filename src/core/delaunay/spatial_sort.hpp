@@ -9,6 +9,7 @@
 #include "core/base/large_array.hpp"
 #include "core/base/monitor.hpp"
 #include "core/delaunay/vertex_links.hpp"
+#include "core/kernel/point.hpp"
 #include "core/spatial/morton_grid.hpp"
 
 namespace vorotool::core::delaunay {
@@ -19,8 +20,8 @@ struct MortonOrder {
   base::LargeArray<RingVertex> vertices;  // with empty rings; as many as there are indices count
   std::vector<std::uint32_t> index;       // of each point among those given; of equal points, the smallest
   std::vector<std::uint32_t> code;        // not decreasing; bits of x and y in turn, x the higher of two
-  std::vector<std::uint32_t>
-      fine;  // the same on the finer curve, 0 in cells without; empty if there are none
+  // The same on the finer curve, 0 in cells without; empty if there are none
+  std::vector<std::uint32_t> fine;
 };
 
 enum class FineOrder {

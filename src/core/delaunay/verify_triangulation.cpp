@@ -6,23 +6,25 @@
 #include <numeric>
 #include <vector>
 
+#include "core/base/fault.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/radix_sort.hpp"
 #include "core/kernel/predicates.hpp"
 
 namespace vorotool::core::delaunay {
 
+using base::Fault;
 using base::Monitor;
 using kernel::orient2d;
 using kernel::Point;
 
 namespace {
 
-using Fault = std::optional<std::string>;
 using Index = std::int32_t;
 
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
+// As kernel::lexicographic_less, written again: a checker shares no order with what it checks.
 bool comes_before(const Point& a, const Point& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
 
 std::string text(const char* what, std::size_t number) { return what + std::to_string(number); }
@@ -345,8 +347,7 @@ class Checker {
 
 }  // namespace
 
-std::optional<std::string> find_fault(const TriangulationArrays& arrays, unsigned threads,
-                                      const Monitor& monitor) {
+Fault find_fault(const TriangulationArrays& arrays, unsigned threads, const Monitor& monitor) {
   return Checker(arrays, threads, monitor).run();
 }
 

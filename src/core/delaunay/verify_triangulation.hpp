@@ -1,9 +1,7 @@
 // An exact check of a Delaunay triangulation that knows its arrays only, not how they were made.
 #pragma once
 
-#include <optional>
-#include <string>
-
+#include "core/base/fault.hpp"
 #include "core/base/monitor.hpp"
 #include "core/delaunay/triangulation.hpp"
 
@@ -12,7 +10,6 @@ namespace vorotool::core::delaunay {
 // What is wrong, in words: the first fault of the first check that fails. Nothing if the arrays are the
 // Delaunay triangulation of the points, cocircular polygons being fans from their lexicographically smallest
 // vertex, or the chain of fewer than three or of collinear points.
-std::optional<std::string> find_fault(const TriangulationArrays& arrays, unsigned threads,
-                                      const base::Monitor& monitor);
+base::Fault find_fault(const TriangulationArrays& arrays, unsigned threads, const base::Monitor& monitor);
 
 }  // namespace vorotool::core::delaunay

@@ -1,18 +1,9 @@
 #include "core/delaunay/vertex_triangles.hpp"
+#include "core/base/indices.hpp"
 
 namespace vorotool::core::delaunay {
-namespace {
 
-// Looks at all of them: without an early end several are compared at a time.
-void check_range(std::span<const std::int32_t> indices, std::int32_t least, std::size_t end,
-                 const char* what) {
-  const auto last = static_cast<std::int32_t>(end) - 1;
-  bool outside = false;
-  for (const std::int32_t i : indices) outside |= (i < least) | (i > last);
-  if (outside) throw std::invalid_argument(what);
-}
-
-}  // namespace
+using base::check_range;
 
 void check_indices(const TriangulationArrays& mesh) {
   check_range(mesh.triangles, 0, mesh.points.size(), "a triangle names a point that does not exist");
@@ -31,8 +22,7 @@ VertexTriangles::VertexTriangles(const TriangulationArrays& mesh)
     std::int32_t& first = first_[static_cast<std::size_t>(v)];
     if (first < 0) order_.push_back(v);
     // The side from v to the corner after it is opposite to the corner before it.
-    const std::size_t before = i % 3 == 0 ? i + 2 : i - 1;
-    if (first < 0 || mesh.neighbours[before] < 0) first = static_cast<std::int32_t>(i / 3);
+    if (first < 0 || mesh.neighbours[preceding(i)] < 0) first = static_cast<std::int32_t>(i / 3);
   }
 }
 

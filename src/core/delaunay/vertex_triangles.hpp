@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "core/base/indices.hpp"
+#include "core/delaunay/half_edge.hpp"
 #include "core/delaunay/triangulation.hpp"
 
 namespace vorotool::core::delaunay {
@@ -32,8 +34,8 @@ class VertexTriangles {
     std::int32_t t = start;
     for (std::size_t steps = 0; steps < triangles_; ++steps) {
       const std::size_t k = corner_of(t, v);
-      visit(t, corner(t, k + 1), corner(t, k + 2));
-      t = mesh_.neighbours[3 * static_cast<std::size_t>(t) + (k + 1) % 3];
+      visit(t, corner(t, following(k)), corner(t, preceding(k)));
+      t = mesh_.neighbours[3 * base::at(t) + following(k)];
       if (t == start) return false;
       if (t < 0) return true;
     }
@@ -41,9 +43,7 @@ class VertexTriangles {
   }
 
  private:
-  std::int32_t corner(std::int32_t t, std::size_t k) const {
-    return mesh_.triangles[3 * static_cast<std::size_t>(t) + k % 3];
-  }
+  std::int32_t corner(std::int32_t t, std::size_t k) const { return mesh_.triangles[3 * base::at(t) + k]; }
   std::size_t corner_of(std::int32_t t, std::int32_t v) const {
     for (std::size_t k = 0; k < 3; ++k) {
       if (corner(t, k) == v) return k;

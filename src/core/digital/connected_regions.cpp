@@ -20,7 +20,7 @@ using tessellation::PixelFrame;
 namespace {
 
 using Label = std::uint32_t;
-using Square = numbers::uint128;  // squared distances below 2^84: see kLatticeLimit
+using Square = numbers::uint128;  // squared distances below 2^84: see lattice_limit
 
 constexpr std::size_t steps_between_polls = std::size_t{1} << 14;
 

@@ -3,7 +3,12 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "core/base/indices.hpp"
+
 namespace vorotool::core::graphs {
+
+using base::at;
+
 namespace {
 
 using Index = std::int32_t;
@@ -37,8 +42,6 @@ class DepthFirst {
   }
 
  private:
-  static std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
   struct Step {
     Index node, edge;  // the edge that leads there, -1: none
   };

@@ -8,10 +8,10 @@ using base::Monitor;
 
 namespace {
 
-constexpr std::size_t kPollEvery = std::size_t{1} << 16;
+constexpr std::size_t poll_every = std::size_t{1} << 16;
 
 void poll(const Monitor& monitor, std::size_t step) {
-  if (step % kPollEvery == 0 && monitor && !monitor(0.0)) throw base::Interrupted();
+  if (step % poll_every == 0 && monitor && !monitor(0.0)) throw base::Interrupted();
 }
 
 // Neighbours of vertex v: neighbours[start[v]] ... neighbours[start[v + 1] - 1].

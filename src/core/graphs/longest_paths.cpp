@@ -4,20 +4,20 @@
 #include <iterator>
 #include <utility>
 
+#include "core/base/indices.hpp"
 #include "core/graphs/pendant_trees.hpp"
 #include "core/graphs/two_core.hpp"
 
 namespace vorotool::core::graphs {
 
+using base::at;
 using base::Monitor;
 
 namespace {
 
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
-
 class PathFinder {
  public:
-  PathFinder(std::span<const std::array<std::int32_t, 2>> arcs, std::span<const std::int64_t> lengths,
+  PathFinder(std::span<const base::IndexPair> arcs, std::span<const std::int64_t> lengths,
              std::span<const std::int32_t> group, std::size_t groups, std::size_t nodes, double tie,
              const Monitor& monitor)
       : arcs_(arcs),
@@ -191,7 +191,7 @@ class PathFinder {
     path.arcs.insert(path.arcs.end(), more.arcs.begin(), more.arcs.end());
   }
 
-  std::span<const std::array<std::int32_t, 2>> arcs_;
+  std::span<const base::IndexPair> arcs_;
   std::span<const std::int64_t> lengths_;
   double tie_;
   const Monitor& monitor_;
@@ -206,14 +206,14 @@ class PathFinder {
 
 }  // namespace
 
-std::vector<GraphPath> longest_paths(std::span<const std::array<std::int32_t, 2>> arcs,
+std::vector<GraphPath> longest_paths(std::span<const base::IndexPair> arcs,
                                      std::span<const std::int64_t> lengths,
                                      std::span<const std::int32_t> group, std::size_t groups,
                                      std::size_t nodes, double tie, const Monitor& monitor) {
   return PathFinder(arcs, lengths, group, groups, nodes, tie, monitor).find();
 }
 
-GraphPath path_from(std::span<const std::array<std::int32_t, 2>> arcs, std::span<const std::int64_t> lengths,
+GraphPath path_from(std::span<const base::IndexPair> arcs, std::span<const std::int64_t> lengths,
                     std::size_t nodes, std::int32_t first, std::int32_t last, const Monitor& monitor) {
   const GraphIncidence incidence(arcs, nodes);
   ShortestPaths paths(arcs, lengths, incidence, nodes);

@@ -4,15 +4,15 @@
 #include <functional>
 #include <utility>
 
+#include "core/base/indices.hpp"
+
 namespace vorotool::core::graphs {
-namespace {
 
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
+using base::at;
 
-}  // namespace
+namespace {}  // namespace
 
-PendantTrees::PendantTrees(std::span<const std::array<std::int32_t, 2>> arcs,
-                           std::span<const std::uint8_t> is_anchored)
+PendantTrees::PendantTrees(std::span<const base::IndexPair> arcs, std::span<const std::uint8_t> is_anchored)
     : above_(is_anchored.size(), -1), degree_(is_anchored.size()), tree_(is_anchored.size(), -1) {
   for (const auto& [source, target] : arcs) {
     ++degree_[at(source)];
@@ -21,8 +21,7 @@ PendantTrees::PendantTrees(std::span<const std::array<std::int32_t, 2>> arcs,
   peel(arcs, is_anchored);
 }
 
-void PendantTrees::peel(std::span<const std::array<std::int32_t, 2>> arcs,
-                        std::span<const std::uint8_t> is_anchored) {
+void PendantTrees::peel(std::span<const base::IndexPair> arcs, std::span<const std::uint8_t> is_anchored) {
   std::vector<std::int32_t> left = degree_, others(degree_.size());  // exclusive or of the arcs that are left
   for (std::size_t k = 0; k < arcs.size(); ++k) {
     others[at(arcs[k][0])] ^= static_cast<std::int32_t>(k);

@@ -1,11 +1,12 @@
 // The trees of a skeleton: what its leaves lead to.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "core/base/indices.hpp"
 
 namespace vorotool::core::graphs {
 
@@ -21,7 +22,7 @@ struct HangingArc {
 // Where there is one anchored end and no cycle, this end is all that stays.
 class PendantTrees {
  public:
-  PendantTrees(std::span<const std::array<std::int32_t, 2>> arcs, std::span<const std::uint8_t> is_anchored);
+  PendantTrees(std::span<const base::IndexPair> arcs, std::span<const std::uint8_t> is_anchored);
 
   // Each after all that hang on its outer end.
   const std::vector<HangingArc>& hanging() const { return hanging_; }
@@ -42,7 +43,7 @@ class PendantTrees {
   void set_roots(std::span<const std::int32_t> roots);
 
  private:
-  void peel(std::span<const std::array<std::int32_t, 2>> arcs, std::span<const std::uint8_t> is_anchored);
+  void peel(std::span<const base::IndexPair> arcs, std::span<const std::uint8_t> is_anchored);
   void number_trees(const std::vector<std::int32_t>& left);
   void number_arcs();
 

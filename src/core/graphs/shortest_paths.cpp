@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vorotool::core::graphs {
-namespace {
+#include "core/base/indices.hpp"
 
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
+namespace vorotool::core::graphs {
+
+using base::at;
+
+namespace {
 
 bool is_farther(const ShortestPaths::Start& a, const ShortestPaths::Start& b) {
   return a.distance != b.distance ? a.distance > b.distance : a.node > b.node;
@@ -28,7 +31,7 @@ std::vector<std::int64_t> whole_lengths(std::span<const double> lengths, std::sp
   return whole;
 }
 
-GraphIncidence::GraphIncidence(std::span<const std::array<std::int32_t, 2>> arcs, std::size_t nodes,
+GraphIncidence::GraphIncidence(std::span<const base::IndexPair> arcs, std::size_t nodes,
                                const std::vector<bool>& uses)
     : start_(nodes + 2) {
   const auto used = [&](std::size_t k) { return uses.empty() || uses[k]; };
@@ -45,9 +48,8 @@ GraphIncidence::GraphIncidence(std::span<const std::array<std::int32_t, 2>> arcs
   start_.pop_back();
 }
 
-ShortestPaths::ShortestPaths(std::span<const std::array<std::int32_t, 2>> arcs,
-                             std::span<const std::int64_t> lengths, const GraphIncidence& incidence,
-                             std::size_t nodes)
+ShortestPaths::ShortestPaths(std::span<const base::IndexPair> arcs, std::span<const std::int64_t> lengths,
+                             const GraphIncidence& incidence, std::size_t nodes)
     : arcs_(arcs), lengths_(lengths), incidence_(incidence), distance_(nodes, unreached), last_(nodes, -1) {}
 
 void ShortestPaths::find(std::span<const Start> starts, const base::Monitor& monitor) {

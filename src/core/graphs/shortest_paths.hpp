@@ -1,11 +1,11 @@
 // Shortest paths in a graph of arcs with lengths.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "core/base/indices.hpp"
 #include "core/base/monitor.hpp"
 
 namespace vorotool::core::graphs {
@@ -19,7 +19,7 @@ std::vector<std::int64_t> whole_lengths(std::span<const double> lengths, std::sp
 class GraphIncidence {
  public:
   // Of those arcs that `uses` says; all if it is empty.
-  GraphIncidence(std::span<const std::array<std::int32_t, 2>> arcs, std::size_t nodes,
+  GraphIncidence(std::span<const base::IndexPair> arcs, std::size_t nodes,
                  const std::vector<bool>& uses = {});
 
   std::span<const std::int32_t> arcs_at(std::int32_t node) const {
@@ -40,7 +40,7 @@ struct GraphPath {
 // Shortest paths from one place (Dijkstra). Of several equal ones those with the smallest arcs last.
 class ShortestPaths {
  public:
-  ShortestPaths(std::span<const std::array<std::int32_t, 2>> arcs, std::span<const std::int64_t> lengths,
+  ShortestPaths(std::span<const base::IndexPair> arcs, std::span<const std::int64_t> lengths,
                 const GraphIncidence& incidence, std::size_t nodes);
 
   // A node, or each end of the arc that the place is on, at a distance from it.
@@ -60,7 +60,7 @@ class ShortestPaths {
  private:
   void reach(std::int32_t node, std::int64_t distance, std::int32_t arc);
 
-  std::span<const std::array<std::int32_t, 2>> arcs_;
+  std::span<const base::IndexPair> arcs_;
   std::span<const std::int64_t> lengths_;
   const GraphIncidence& incidence_;
   std::vector<std::int64_t> distance_;

@@ -6,13 +6,14 @@
 #include <tuple>
 #include <utility>
 
+#include "core/base/indices.hpp"
+
 namespace vorotool::core::graphs {
 
+using base::at;
 using base::Monitor;
 
 namespace {
-
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 struct Terminal {
   std::int32_t node;
@@ -36,7 +37,7 @@ struct Component {
 
 class ComponentWalk {
  public:
-  ComponentWalk(std::span<const std::array<std::int32_t, 2>> arcs, std::span<const std::int64_t> lengths,
+  ComponentWalk(std::span<const base::IndexPair> arcs, std::span<const std::int64_t> lengths,
                 const GraphIncidence& core, std::span<const Hanging> hanging)
       : arcs_(arcs),
         lengths_(lengths),
@@ -114,7 +115,7 @@ class ComponentWalk {
     return a == node ? b : a;
   }
 
-  std::span<const std::array<std::int32_t, 2>> arcs_;
+  std::span<const base::IndexPair> arcs_;
   std::span<const std::int64_t> lengths_;
   const GraphIncidence& core_;
   std::span<const Hanging> hanging_;
@@ -165,8 +166,8 @@ class FarthestPair {
   }
 
  private:
-  static std::vector<std::array<std::int32_t, 2>> ends_of(const Component& component) {
-    std::vector<std::array<std::int32_t, 2>> ends;
+  static std::vector<base::IndexPair> ends_of(const Component& component) {
+    std::vector<base::IndexPair> ends;
     for (const Chain& chain : component.chains) ends.push_back({chain.first, chain.last});
     return ends;
   }
@@ -283,7 +284,7 @@ class FarthestPair {
 
   const Component& component_;
   const Monitor& monitor_;
-  std::vector<std::array<std::int32_t, 2>> ends_;
+  std::vector<base::IndexPair> ends_;
   std::vector<std::int64_t> lengths_;
   GraphIncidence incidence_;
   ShortestPaths paths_;                                // between junctions
@@ -321,7 +322,7 @@ LeafPair leaf_pair(const Hanging& a, std::int32_t a_node, const Hanging& b, std:
   return {length, b.leaf, a.leaf, b_node, a_node};
 }
 
-std::vector<LeafPair> farthest_pairs(std::span<const std::array<std::int32_t, 2>> arcs,
+std::vector<LeafPair> farthest_pairs(std::span<const base::IndexPair> arcs,
                                      std::span<const std::int64_t> lengths, const GraphIncidence& core,
                                      std::span<const Hanging> hanging, const Monitor& monitor) {
   std::vector<LeafPair> pairs;

@@ -2,11 +2,11 @@
 // there.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "core/base/indices.hpp"
 #include "core/base/monitor.hpp"
 #include "core/graphs/shortest_paths.hpp"
 
@@ -34,7 +34,7 @@ LeafPair leaf_pair(const Hanging& a, std::int32_t a_node, const Hanging& b, std:
 
 // The best pair of each component of a core, whose arcs are those of `core`. In a component at which nothing
 // hangs each node is a leaf; a single leaf makes pairs with the nodes.
-std::vector<LeafPair> farthest_pairs(std::span<const std::array<std::int32_t, 2>> arcs,
+std::vector<LeafPair> farthest_pairs(std::span<const base::IndexPair> arcs,
                                      std::span<const std::int64_t> lengths, const GraphIncidence& core,
                                      std::span<const Hanging> hanging, const base::Monitor& monitor);
 

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 
+#include "core/kernel/point.hpp"
+
 namespace vorotool::core::kernel {
 
 // |x| and |y| are at most this: differences of coordinates fit in 32 bits with their sign, and a sum of two

@@ -5,6 +5,7 @@
 #include <optional>
 #include <tuple>
 
+#include "core/base/indices.hpp"
 #include "core/base/large_array.hpp"
 #include "core/base/parallel.hpp"
 #include "core/label_images/corner_scan.hpp"
@@ -12,18 +13,18 @@
 
 namespace vorotool::core::label_images {
 
+using base::at;
 using base::LargeArray;
 using base::Monitor;
 
 namespace {
 
-constexpr std::size_t kSteps = std::size_t{1} << 16;  // of work between two polls: a millisecond or so
-
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
+constexpr std::size_t steps_between_polls = std::size_t{1}
+                                            << 16;  // of work between two polls: a millisecond or so
 
 // Directions along cracks, clockwise as an image is shown. Quadrant d of a corner is the pixel on the right
 // hand of who leaves it in direction d, and quadrant d - 1 the one on the left hand.
-enum Direction : int { kEast, kSouth, kWest, kNorth };
+enum Direction : int { east, south, west, north };
 
 constexpr int turned(int direction, int quarters) { return (direction + quarters) & 3; }
 
@@ -35,7 +36,7 @@ class Quadrants {
   std::uint32_t operator[](int quadrant) const { return label_[static_cast<std::size_t>(quadrant & 3)]; }
   bool has_crack(int direction) const { return (*this)[direction] != (*this)[direction + 3]; }
   bool is_vertex() const {
-    return (has_crack(kNorth) || has_crack(kSouth)) && (has_crack(kWest) || has_crack(kEast));
+    return (has_crack(north) || has_crack(south)) && (has_crack(west) || has_crack(east));
   }
 
   // How an outline goes on that comes in a direction, its object on the right hand.
@@ -153,13 +154,13 @@ class CrackBand {
       : vertices_(vertices),
         next_(static_cast<std::int32_t>(first)),
         rule_(rule),
-        above_(width + 1, kUnknown) {}
+        above_(width + 1, unknown) {}
 
   void add(std::size_t x, std::size_t y, const Quadrants& around) {
     const auto column = static_cast<std::int32_t>(x), line = static_cast<std::int32_t>(y);
     if (column == 0) run_column_ = run_crack_ = -1;
     if (around.is_vertex()) add_vertex(column, line, around);
-    if (around.has_crack(kSouth)) {
+    if (around.has_crack(south)) {
       run_column_ = column;
       run_crack_ = above_[x];
     }
@@ -168,20 +169,20 @@ class CrackBand {
   // The last line is done.
   void close() {
     for (std::size_t x = 0; x < above_.size(); ++x) {
-      if (above_[x] != kUnknown) last_.push_back({static_cast<std::int32_t>(x), above_[x]});
+      if (above_[x] != unknown) last_.push_back({static_cast<std::int32_t>(x), above_[x]});
     }
     above_ = {};
   }
 
   // Bands are joined from above: `above` has the last vertex in each column, and is brought down to here.
   void join(std::vector<std::int32_t>& above) const {
-    for (const auto& [column, vertex] : from_above_) link(above[at(column)], kSouth, vertex);
+    for (const auto& [column, vertex] : from_above_) link(above[at(column)], south, vertex);
     for (const auto& [column, vertex] : runs_from_above_) vertices_[at(vertex)].run_crack = above[at(column)];
     for (const auto& [column, vertex] : last_) above[at(column)] = vertex;
   }
 
  private:
-  static constexpr std::int32_t kUnknown = -1;
+  static constexpr std::int32_t unknown = -1;
 
   struct Place {
     std::int32_t column, vertex;
@@ -189,7 +190,7 @@ class CrackBand {
 
   void add_vertex(std::int32_t x, std::int32_t y, const Quadrants& around) {
     const std::int32_t vertex = next_++;
-    if (run_column_ >= 0 && run_crack_ == kUnknown) runs_from_above_.push_back({run_column_, vertex});
+    if (run_column_ >= 0 && run_crack_ == unknown) runs_from_above_.push_back({run_column_, vertex});
     CrackVertex& made = vertices_[at(vertex)];
     made = {.x = x, .y = y, .run_crack = run_crack_, .turns = 0, .is_open = 0};
     for (int direction = 0; direction < 4; ++direction) {
@@ -198,15 +199,15 @@ class CrackBand {
       made.turns |= static_cast<std::uint8_t>(around.next_direction(came, rule_) << 2 * came);
       if (around[direction] != 0) made.is_open |= static_cast<std::uint8_t>(1 << direction);
     }
-    if (around.has_crack(kNorth)) link_up(x, vertex);
-    if (around.has_crack(kWest)) link(before_, kEast, vertex);
-    if (around.has_crack(kSouth)) above_[at(x)] = vertex;
-    if (around.has_crack(kEast)) before_ = vertex;
+    if (around.has_crack(north)) link_up(x, vertex);
+    if (around.has_crack(west)) link(before_, east, vertex);
+    if (around.has_crack(south)) above_[at(x)] = vertex;
+    if (around.has_crack(east)) before_ = vertex;
   }
 
   void link_up(std::int32_t column, std::int32_t vertex) {
     const std::int32_t above = above_[at(column)];
-    above == kUnknown ? from_above_.push_back({column, vertex}) : link(above, kSouth, vertex);
+    above == unknown ? from_above_.push_back({column, vertex}) : link(above, south, vertex);
   }
 
   void link(std::int32_t from, int direction, std::int32_t to) const {
@@ -276,7 +277,7 @@ class RingWalk {
   // A ring leaves its first vertex to the east if it is a shell, to the south if it is a hole.
   void walk_all() {
     for (std::size_t v = 0; v < vertices_.size(); ++v) {
-      for (const int direction : {kEast, kSouth}) {
+      for (const int direction : {east, south}) {
         if (is_open(v, direction)) walk(static_cast<std::int32_t>(v), direction);
       }
     }
@@ -320,10 +321,10 @@ class RingWalk {
     const auto first = std::min_element(begin, steps_.end(),
                                         [](const Step& a, const Step& b) { return a.vertex < b.vertex; });
     const auto number = static_cast<std::int32_t>(rings.size());
-    rings.push_back({path.size(), path.size() + (steps_.size() - from), first->direction == kSouth, number});
+    rings.push_back({path.size(), path.size() + (steps_.size() - from), first->direction == south, number});
     const auto append = [this, number](const Step& step) {
       path.push_back(step.vertex);
-      if (step.direction == kNorth) north_[at(step.vertex)] = number;
+      if (step.direction == north) north_[at(step.vertex)] = number;
       if (divides_) place_[at(step.vertex)] = -1;
     };
     std::for_each(first, steps_.end(), append);
@@ -338,7 +339,7 @@ class RingWalk {
     for (CrackRing& ring : rings) {
       if (ring.is_hole) {
         const CrackVertex& crack = vertices_[at(vertices_[at(path[ring.begin])].run_crack)];
-        ring.object = object[at(north_[at(crack.next[kSouth])])];
+        ring.object = object[at(north_[at(crack.next[south])])];
       } else {
         ring.object = objects++;
       }
@@ -347,7 +348,7 @@ class RingWalk {
   }
 
   void poll() {
-    if (++polled_ % kSteps == 0 && monitor_ && !monitor_(0.75)) throw base::Interrupted();
+    if (++polled_ % steps_between_polls == 0 && monitor_ && !monitor_(0.75)) throw base::Interrupted();
   }
 
   std::span<CrackVertex> vertices_;

@@ -1,12 +1,12 @@
 // The outlines of the objects of a label image, along the cracks between pixels.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "core/base/indices.hpp"
 #include "core/base/monitor.hpp"
 
 namespace vorotool::core::label_images {
@@ -29,11 +29,11 @@ enum class CornerRule : std::uint8_t {
 // row by row. With CornerRule::divided no ring visits a vertex twice; otherwise each runs along one component
 // of what is not its object, so that it may touch itself in vertices. No two ever cross.
 struct CrackOutlines {
-  std::vector<std::array<std::int32_t, 2>> corners;  // along the rings
-  std::vector<std::int64_t> start;                   // [r + 1]
-  std::vector<std::int8_t> is_hole;                  // [r]
-  std::vector<std::int32_t> ring_object;             // [r] not decreasing
-  std::vector<std::uint32_t> labels;                 // of the objects, not decreasing
+  std::vector<base::IndexPair> corners;   // along the rings
+  std::vector<std::int64_t> start;        // [r + 1]
+  std::vector<std::int8_t> is_hole;       // [r]
+  std::vector<std::int32_t> ring_object;  // [r] not decreasing
+  std::vector<std::uint32_t> labels;      // of the objects, not decreasing
 };
 
 // Images are row-major, of uint8_t, uint16_t or uint32_t, with sides below 2^31.

@@ -20,11 +20,11 @@ class RunStarts {
   std::size_t cut(std::span<const Label> row) {
     count_ = 1;  // starts_[0] is 0 for good
     std::size_t x = 1;
-    for (; x + kBlock <= row.size(); x += kBlock) {
+    for (; x + block_size <= row.size(); x += block_size) {
       // Most blocks lie inside a run: one vectorised comparison skips them.
       Label difference = 0;
-      for (std::size_t k = x; k < x + kBlock; ++k) difference |= row[k] ^ row[k - 1];
-      if (difference != 0) mark(row, x, x + kBlock);
+      for (std::size_t k = x; k < x + block_size; ++k) difference |= row[k] ^ row[k - 1];
+      if (difference != 0) mark(row, x, x + block_size);
     }
     mark(row, x, row.size());
     starts_[count_] = static_cast<std::uint32_t>(row.size());
@@ -35,7 +35,7 @@ class RunStarts {
   std::uint32_t operator[](std::size_t run) const { return starts_[run]; }
 
  private:
-  static constexpr std::size_t kBlock = 16;
+  static constexpr std::size_t block_size = 16;
 
   // Without a branch: a start is written always and kept when the label changes.
   template <class Label>
@@ -53,8 +53,8 @@ class RunStarts {
 // Rows a piece of parallel work: about 2^19 pixels take a few milliseconds, of noise a tenth of
 // a second: short enough to interrupt.
 constexpr std::size_t rows_per_piece(std::size_t width) {
-  constexpr std::size_t kPixels = std::size_t{1} << 19;
-  return std::max<std::size_t>(1, kPixels / std::max<std::size_t>(1, width));
+  constexpr std::size_t piece_pixels = std::size_t{1} << 19;
+  return std::max<std::size_t>(1, piece_pixels / std::max<std::size_t>(1, width));
 }
 
 }  // namespace vorotool::core::label_images

@@ -12,8 +12,8 @@ namespace vorotool::core::label_images {
 // All pixels of one label, connected or not. Columns and rows are counted from the corner of the image.
 struct Region {
   std::int64_t area = 0;
-  std::int64_t perimeter =
-      0;  // pixel sides between the region and anything else, the outside of the image included
+  // Pixel sides between the region and anything else, the outside of the image included
+  std::int64_t perimeter = 0;
   std::int64_t components = 0;  // 4-connected parts
   std::int64_t sum_x = 0;       // over the pixels; below 2^63 while pixels * width are
   std::int64_t sum_y = 0;

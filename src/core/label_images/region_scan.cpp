@@ -6,7 +6,7 @@
 namespace vorotool::core::label_images {
 
 std::uint32_t ComponentSets::add() {
-  if (parent_.size() >= kNoComponent) throw std::length_error("the image has more than 2^32 - 2 components");
+  if (parent_.size() >= no_component) throw std::length_error("the image has more than 2^32 - 2 components");
   parent_.push_back(size());
   return size() - 1;
 }
@@ -29,7 +29,7 @@ bool ComponentSets::unite(std::uint32_t one, std::uint32_t other) {
 
 void ComponentSets::append(const ComponentSets& other) {
   const std::uint32_t offset = size();
-  if (std::uint64_t{offset} + other.size() >= kNoComponent) {
+  if (std::uint64_t{offset} + other.size() >= no_component) {
     throw std::length_error("the image has more than 2^32 - 2 components");
   }
   for (const std::uint32_t parent : other.parent_) parent_.push_back(parent + offset);
@@ -77,8 +77,8 @@ template <class Label>
 void BandScan::cut(std::span<const Label> row) {
   const std::size_t count = starts_.cut(row);
   runs_.resize(count + 1);
-  for (std::size_t k = 0; k < count; ++k) runs_[k] = {starts_[k], row[starts_[k]], 0, kNoComponent};
-  runs_[count] = {starts_[count], 0, 0, kNoComponent};
+  for (std::size_t k = 0; k < count; ++k) runs_[k] = {starts_[k], row[starts_[k]], 0, no_component};
+  runs_[count] = {starts_[count], 0, 0, no_component};
 }
 
 // The same label on both sides of `length` pixel sides: these are no boundary, and connect the two runs.
@@ -86,7 +86,7 @@ void BandScan::join(const Run& above, Run& below, std::uint32_t length) {
   if (above.label == 0) return;
   Region& region = regions[above.region];
   region.perimeter -= 2 * std::int64_t{length};
-  if (below.component == kNoComponent) {
+  if (below.component == no_component) {
     below.region = above.region;
     below.component = components.find(above.component);
   } else if (components.unite(below.component, above.component)) {
@@ -98,7 +98,7 @@ void BandScan::join(const Run& above, Run& below, std::uint32_t length) {
 void BandScan::open_components() {
   for (std::size_t k = 0; k + 1 < runs_.size(); ++k) {
     Run& run = runs_[k];
-    if (run.label == 0 || run.component != kNoComponent) continue;
+    if (run.label == 0 || run.component != no_component) continue;
     std::uint64_t& number = numbers_[run.label];
     if (number == 0) {
       number = labels.size();

@@ -29,10 +29,10 @@ struct Run {
   std::uint32_t start;
   std::uint32_t label;
   std::uint32_t region;     // number of the label among those of the band, 0 for the background
-  std::uint32_t component;  // kNoComponent until it is known, and for the background
+  std::uint32_t component;  // no_component until it is known, and for the background
 };
 
-constexpr std::uint32_t kNoComponent = UINT32_MAX;
+constexpr std::uint32_t no_component = UINT32_MAX;
 
 // The runs of a row from left to right, and an end mark that starts at the width.
 using RunRow = std::vector<Run>;

@@ -4,14 +4,12 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/base/indices.hpp"
+
 namespace vorotool::core::offsets {
 
-HalfEdges::HalfEdges(const segment_voronoi::build::SegmentDiagram& diagram,
-                     std::span<const std::int32_t> vertex_start, std::span<const std::int32_t> vertex_sites)
-    : diagram_(diagram),
-      vertex_start_(vertex_start),
-      vertex_sites_(vertex_sites),
-      leaving_(vertex_sites.size()) {
+HalfEdges::HalfEdges(const segment_voronoi::build::DiagramView& diagram)
+    : diagram_(diagram), leaving_(diagram.vertex_sites.size()) {
   std::fill_n(leaving_.data(), leaving_.size(), no_edge);
   for (HalfEdge h = 0; h < size(); ++h) {
     if (tail(h) >= 0) {
@@ -28,11 +26,9 @@ HalfEdges::HalfEdges(const segment_voronoi::build::SegmentDiagram& diagram,
 
 // Rings have three sites nearly always.
 std::size_t HalfEdges::slot(std::int32_t vertex, std::int32_t site) const {
-  const auto v = static_cast<std::size_t>(vertex);
-  const auto first = static_cast<std::size_t>(vertex_start_[v]),
-             last = static_cast<std::size_t>(vertex_start_[v + 1]);
-  for (std::size_t k = first; k < last; ++k) {
-    if (vertex_sites_[k] == site) return k;
+  const std::size_t v = base::at(vertex), last = base::at(diagram_.vertex_start[v + 1]);
+  for (std::size_t k = base::at(diagram_.vertex_start[v]); k < last; ++k) {
+    if (diagram_.vertex_sites[k] == site) return k;
   }
   throw std::invalid_argument("vertex " + std::to_string(vertex) + " has an edge at site " +
                               std::to_string(site) + ", which is not one of its own");
@@ -46,11 +42,10 @@ HalfEdge HalfEdges::from_infinity(HalfEdge h) const {
   const auto is_own = [&](auto entry) { return entry != infinite_.end() && entry->first == left(h); };
   if (!is_own(found)) throw std::invalid_argument("a cell is open at infinity");
   if (!is_own(found + 1)) return found->second;
-  const skeleton::Place out = way(h), in = way(found->second);
-  return out[0] * in[0] + out[1] * in[1] < 0 ? found->second : (found + 1)->second;
+  return kernel::dot(way(h), way(found->second)) < 0 ? found->second : (found + 1)->second;
 }
 
-skeleton::Place HalfEdges::way(HalfEdge h) const {
+kernel::Point HalfEdges::way(HalfEdge h) const {
   const kernel::LatticeSite a = diagram_.site(left(h)), b = diagram_.site(right(h));
   const auto sum = [](std::int32_t p, std::int32_t q) { return std::int64_t{p} + q; };
   return {static_cast<double>(sum(a.a.y, a.b.y) - sum(b.a.y, b.b.y)),

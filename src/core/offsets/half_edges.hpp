@@ -1,7 +1,6 @@
 // The borders of the cells of a segment Voronoi diagram, gone round half-edge by half-edge.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -21,12 +20,10 @@ inline constexpr HalfEdge no_edge = -1;
 // of a half-edge is gone round counter-clockwise; one that is unbounded is closed at infinity.
 class HalfEdges {
  public:
-  // `vertex_sites` are the sites around vertex v from vertex_start[v] on, counter-clockwise. Throws
-  // std::invalid_argument if they do not fit the edges.
-  HalfEdges(const segment_voronoi::build::SegmentDiagram& diagram, std::span<const std::int32_t> vertex_start,
-            std::span<const std::int32_t> vertex_sites);
+  // Throws std::invalid_argument if the sites around vertices do not fit the edges.
+  explicit HalfEdges(const segment_voronoi::build::DiagramView& diagram);
 
-  const segment_voronoi::build::SegmentDiagram& diagram() const { return diagram_; }
+  const segment_voronoi::build::DiagramView& diagram() const { return diagram_; }
   HalfEdge size() const { return static_cast<HalfEdge>(2 * diagram_.edges.size()); }
 
   // Ends, -1 at infinity.
@@ -45,7 +42,7 @@ class HalfEdges {
 
   // The way along the bisector of two points, or of a segment and its end, which alone are unbounded: across
   // the line between their middles, the left site to the left; twice as long as these are apart.
-  skeleton::Place way(HalfEdge h) const;
+  kernel::Point way(HalfEdge h) const;
 
  private:
   std::int32_t edge_end(HalfEdge h, int end) const {
@@ -58,8 +55,7 @@ class HalfEdges {
   std::size_t slot(std::int32_t vertex, std::int32_t site) const;
   HalfEdge from_infinity(HalfEdge h) const;
 
-  segment_voronoi::build::SegmentDiagram diagram_;
-  std::span<const std::int32_t> vertex_start_, vertex_sites_;
+  segment_voronoi::build::DiagramView diagram_;
   base::LargeArray<HalfEdge> leaving_;  // as vertex_sites: what leaves the vertex with this site on its left
   std::vector<std::pair<std::int32_t, HalfEdge>> infinite_;  // what comes from infinity, by the left site
 };

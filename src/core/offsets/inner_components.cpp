@@ -10,7 +10,7 @@ namespace vorotool::core::offsets {
 InnerComponents::InnerComponents(const HalfEdges& borders, const PolygonFaces& domain, const LevelSet& level,
                                  const LevelCrossings& crossings, const base::Monitor& monitor)
     : sets_(domain.site_polygon.size()) {
-  const segment_voronoi::build::SegmentDiagram& diagram = borders.diagram();
+  const segment_voronoi::build::DiagramView& diagram = borders.diagram();
   for (std::size_t j = 0; j < diagram.segments.size(); ++j) {
     const auto segment = static_cast<std::int32_t>(diagram.points.size() + j);
     for (const std::int32_t end : diagram.segments[j]) sets_.join(segment, end);

@@ -1,9 +1,9 @@
 #include "core/offsets/level_crossings.hpp"
 
 #include <algorithm>
-#include <array>
 #include <tuple>
 
+#include "core/base/indices.hpp"
 #include "core/graphs/biconnected_components.hpp"
 
 namespace vorotool::core::offsets {
@@ -51,7 +51,7 @@ void group_by_cycles(std::vector<Corner>& corners) {
   for (const Corner& corner : corners) regions.push_back(corner.region);
   std::sort(regions.begin(), regions.end());
   regions.erase(std::unique(regions.begin(), regions.end()), regions.end());
-  std::vector<std::array<std::int32_t, 2>> pairs;
+  std::vector<base::IndexPair> pairs;
   auto nodes = static_cast<std::int32_t>(regions.size());
   for (std::size_t k = 0; k < corners.size(); ++k) {
     if (k > 0 && corners[k].place != corners[k - 1].place) ++nodes;

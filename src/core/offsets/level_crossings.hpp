@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/monitor.hpp"
+#include "core/kernel/point.hpp"
 #include "core/offsets/level_set.hpp"
 #include "core/offsets/outer_components.hpp"
 #include "core/offsets/polygon_faces.hpp"
@@ -24,7 +25,7 @@ class LevelCrossings {
   std::size_t number(HalfEdge h) const {
     return static_cast<std::size_t>(number_[static_cast<std::size_t>(h)]);
   }
-  skeleton::Place& place(HalfEdge h) { return places_[number(h)]; }
+  kernel::Point& place(HalfEdge h) { return places_[number(h)]; }
 
   // From which half-edge at the same place the curve that comes along one goes on: the same, but where what
   // is far touches itself.
@@ -39,7 +40,7 @@ class LevelCrossings {
   const HalfEdges& borders_;
   std::vector<std::int32_t> number_;  // [half-edges] in the lists that follow, -1: it does not descend
   std::vector<HalfEdge> all_;
-  std::vector<skeleton::Place> places_;
+  std::vector<kernel::Point> places_;
   std::vector<HalfEdge> onward_;
 };
 

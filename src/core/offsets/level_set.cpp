@@ -9,23 +9,21 @@
 namespace vorotool::core::offsets {
 
 using kernel::LatticeSite;
-using skeleton::Place;
+using kernel::Point;
 
 namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity();
 
-double length_of(const Place& p) { return std::sqrt(p[0] * p[0] + p[1] * p[1]); }
-
-Place from(const kernel::LatticePoint& p, const Place& way, double distance) {
-  const double part = distance / length_of(way);
-  return {p.x + part * way[0], p.y + part * way[1]};
+Point from(const kernel::LatticePoint& p, const Point& way, double distance) {
+  const double part = distance / norm(way);
+  return {p.x + part * way.x, p.y + part * way.y};
 }
 
 }  // namespace
 
 double LevelSet::minimum(HalfEdge h) const {
-  const segment_voronoi::build::SegmentDiagram& diagram = borders_.diagram();
+  const segment_voronoi::build::DiagramView& diagram = borders_.diagram();
   const LatticeSite left = diagram.site(borders_.left(h)), right = diagram.site(borders_.right(h));
   if (left.is_point() && right.is_point()) return minimum_between_points(h, left, right);
   // the end itself is on the edge
@@ -38,20 +36,20 @@ double LevelSet::minimum(HalfEdge h) const {
 }
 
 double LevelSet::minimum_between_points(HalfEdge h, const LatticeSite& left, const LatticeSite& right) const {
-  const Place way = borders_.way(h);
-  const Place middle{(static_cast<double>(left.a.x) + right.a.x) / 2,
+  const Point way = borders_.way(h);
+  const Point middle{(static_cast<double>(left.a.x) + right.a.x) / 2,
                      (static_cast<double>(left.a.y) + right.a.y) / 2};
   const auto along = [&](std::int32_t vertex) {
-    const Place place = end(vertex).place;
-    return (place[0] - middle[0]) * way[0] + (place[1] - middle[1]) * way[1];
+    const Point place = end(vertex).place;
+    return dot(place - middle, way);
   };
   const std::int32_t tail = borders_.tail(h), head = borders_.head(h);
-  return (tail < 0 || along(tail) < 0) && (head < 0 || along(head) > 0) ? length_of(way) / 4 : none;
+  return (tail < 0 || along(tail) < 0) && (head < 0 || along(head) > 0) ? norm(way) / 4 : none;
 }
 
-Place LevelSet::crossing(HalfEdge h) const {
+Point LevelSet::crossing(HalfEdge h) const {
   if (ends_at_head(h)) return end(borders_.head(h)).place;  // all that end there meet
-  const segment_voronoi::build::SegmentDiagram& diagram = borders_.diagram();
+  const segment_voronoi::build::DiagramView& diagram = borders_.diagram();
   const LatticeSite left = diagram.site(borders_.left(h)), right = diagram.site(borders_.right(h));
   if (left.is_point() && right.is_point()) return crossing_between_points(h, left, right);
   if (is_end_of(left, right) || is_end_of(right, left)) return beside_end(left, right);
@@ -63,27 +61,27 @@ Place LevelSet::crossing(HalfEdge h) const {
 }
 
 // Towards the middle of the points.
-Place LevelSet::crossing_between_points(HalfEdge h, const LatticeSite& left, const LatticeSite& right) const {
-  const Place way = borders_.way(h);
-  const double length = length_of(way), half = length / 4;
+Point LevelSet::crossing_between_points(HalfEdge h, const LatticeSite& left, const LatticeSite& right) const {
+  const Point way = borders_.way(h);
+  const double length = norm(way), half = length / 4;
   const double back = std::sqrt(std::max(0.0, level_ - half)) * std::sqrt(level_ + half) / length;
-  return {(static_cast<double>(left.a.x) + right.a.x) / 2 - back * way[0],
-          (static_cast<double>(left.a.y) + right.a.y) / 2 - back * way[1]};
+  return {(static_cast<double>(left.a.x) + right.a.x) / 2 - back * way.x,
+          (static_cast<double>(left.a.y) + right.a.y) / 2 - back * way.y};
 }
 
 // The clearance grows evenly; from the nearer end, since the other one may be far away.
-Place LevelSet::crossing_between_segments(HalfEdge h) const {
+Point LevelSet::crossing_between_segments(HalfEdge h) const {
   const skeleton::ArcEnd low = end(borders_.head(h)), high = end(borders_.tail(h));
   const double part = (level_ - low.radius) / (high.radius - low.radius);
-  return {low.place[0] + part * (high.place[0] - low.place[0]),
-          low.place[1] + part * (high.place[1] - low.place[1])};
+  return {low.place.x + part * (high.place.x - low.place.x),
+          low.place.y + part * (high.place.y - low.place.y)};
 }
 
-Place LevelSet::beside_end(const LatticeSite& left, const LatticeSite& right) const {
+Point LevelSet::beside_end(const LatticeSite& left, const LatticeSite& right) const {
   const kernel::LatticePoint& end = left.is_point() ? left.a : right.a;
   const LatticeSite& segment = left.is_point() ? right : left;
   const kernel::LatticeVector across = kernel::left_of(segment.b - segment.a);
-  const Place normal{static_cast<double>(across.x), static_cast<double>(across.y)};
+  const Point normal{static_cast<double>(across.x), static_cast<double>(across.y)};
   return from(end, normal, begins_left(left, right) ? level_ : -level_);
 }
 

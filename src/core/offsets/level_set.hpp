@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/kernel/point.hpp"
 #include "core/offsets/half_edges.hpp"
 
 namespace vorotool::core::offsets {
@@ -31,7 +32,7 @@ class LevelSet {
     return is_above(borders_.tail(h)) && (!is_above(borders_.head(h)) || dips(h));
   }
   // Where a half-edge that descends does so.
-  skeleton::Place crossing(HalfEdge h) const;
+  kernel::Point crossing(HalfEdge h) const;
   // Whether it does so at its head, which is just on the level.
   bool ends_at_head(HalfEdge h) const {
     const std::int32_t head = borders_.head(h);
@@ -46,10 +47,10 @@ class LevelSet {
   double minimum(HalfEdge h) const;
   double minimum_between_points(HalfEdge h, const kernel::LatticeSite& left,
                                 const kernel::LatticeSite& right) const;
-  skeleton::Place crossing_between_points(HalfEdge h, const kernel::LatticeSite& left,
-                                          const kernel::LatticeSite& right) const;
-  skeleton::Place crossing_between_segments(HalfEdge h) const;
-  skeleton::Place beside_end(const kernel::LatticeSite& left, const kernel::LatticeSite& right) const;
+  kernel::Point crossing_between_points(HalfEdge h, const kernel::LatticeSite& left,
+                                        const kernel::LatticeSite& right) const;
+  kernel::Point crossing_between_segments(HalfEdge h) const;
+  kernel::Point beside_end(const kernel::LatticeSite& left, const kernel::LatticeSite& right) const;
   skeleton::ArcEnd end(std::int32_t vertex) const {
     const auto v = static_cast<std::size_t>(vertex);
     return {borders_.diagram().vertices[v], borders_.diagram().radius[v]};

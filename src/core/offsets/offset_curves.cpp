@@ -14,19 +14,15 @@
 namespace vorotool::core::offsets {
 
 using base::Monitor;
+using kernel::Point;
 using skeleton::LatticeToInput;
-using skeleton::Place;
 
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-Place operator-(const Place& a, const Place& b) { return {a[0] - b[0], a[1] - b[1]}; }
-double cross(const Place& a, const Place& b) { return a[0] * b[1] - a[1] * b[0]; }
-double dot(const Place& a, const Place& b) { return a[0] * b[0] + a[1] * b[1]; }
-
 // From one direction to another, counter-clockwise and by at most half a turn.
-double angle(const Place& a, const Place& b) {
+double angle(const Point& a, const Point& b) {
   if (cross(a, b) > 0) return numbers::angle_of(dot(a, b), cross(a, b));
   return dot(a, b) < 0 ? std::numbers::pi : 0;
 }
@@ -188,8 +184,8 @@ class CurveMaker {
         write_ring(rings_[ring].pieces);
       }
       const std::size_t count = curves_.site.size() - first;
-      if (count > 2 || (count == 2 && !(std::isnan(curves_.centre[first][0]) &&
-                                        std::isnan(curves_.centre[first + 1][0])))) {
+      if (count > 2 ||
+          (count == 2 && !(std::isnan(curves_.centre[first].x) && std::isnan(curves_.centre[first + 1].x)))) {
         curves_.ring_start.push_back(static_cast<std::int64_t>(first + count));
         continue;
       }
@@ -204,8 +200,8 @@ class CurveMaker {
   }
 
   void write_circle(std::int32_t point) {
-    const Place centre = placed(centre_of(point));
-    const Place right{centre[0] + distance_, centre[1]}, left{centre[0] - distance_, centre[1]};
+    const Point centre = place_(centre_of(point));
+    const Point right{centre.x + distance_, centre.y}, left{centre.x - distance_, centre.y};
     write_piece(right, left, centre, point);
     write_piece(left, right, centre, point);
   }
@@ -232,48 +228,48 @@ class CurveMaker {
                                 other = diagram_.site(borders_.right(last));
       if (core::kernel::cross(one.b - one.a, other.b - other.a) == 0) return true;
     }
-    const Place a = crossings_.place(first) - centre_of(site), b = crossings_.place(last) - centre_of(site);
+    const Point a = crossings_.place(first) - centre_of(site), b = crossings_.place(last) - centre_of(site);
     return dot(a, b) > 0 && cross(a, b) <= 0 && !(is_lone(site) && turn(piece) > std::numbers::pi);
   }
 
   void write_between(const Piece& piece) {
     const auto& [first, last] = piece;
     const std::int32_t site = borders_.left(last);
-    const Place start = placed(crossings_.place(first)), end = placed(crossings_.place(last));
+    const Point start = place_(crossings_.place(first)), end = place_(crossings_.place(last));
     if (!diagram_.is_point(site)) {
       write_directed(start, end, {nan, nan}, site);
       return;
     }
-    const Place centre = placed(centre_of(site));
+    const Point centre = place_(centre_of(site));
     // only about points without segments arcs are over half a circle
     if (!is_lone(site) || turn(piece) < 3) {
       write_directed(start, end, centre, site);
       return;
     }
-    const Place middle = placed(opposite(piece));
-    const std::pair<Place, Place> halves[2] = {{start, middle}, {middle, end}};
+    const Point middle = place_(opposite(piece));
+    const std::pair<Point, Point> halves[2] = {{start, middle}, {middle, end}};
     for (const auto& half : {halves[domain_.is_outward ? 0 : 1], halves[domain_.is_outward ? 1 : 0]}) {
       write_directed(half.first, half.second, centre, site);
     }
   }
 
   // The middle of a long arc: across its chord, or where that is short away from its ends.
-  Place opposite(const Piece& piece) {
-    const Place centre = centre_of(borders_.left(piece.last));
-    const Place a = crossings_.place(piece.first) - centre, b = crossings_.place(piece.last) - centre;
-    const Place across = dot(a, b) > 0 ? Place{-a[0] - b[0], -a[1] - b[1]} : Place{b[1] - a[1], a[0] - b[0]};
+  Point opposite(const Piece& piece) {
+    const Point centre = centre_of(borders_.left(piece.last));
+    const Point a = crossings_.place(piece.first) - centre, b = crossings_.place(piece.last) - centre;
+    const Point across = dot(a, b) > 0 ? Point{-a.x - b.x, -a.y - b.y} : Point{b.y - a.y, a.x - b.x};
     const double part = distance_ / place_.scale / std::sqrt(dot(across, across));
-    return {centre[0] + part * across[0], centre[1] + part * across[1]};
+    return {centre.x + part * across.x, centre.y + part * across.y};
   }
 
   // How far the curve turns about a point of its own: as its cell does between both ends. Sums of rounded
   // angles tell a small turn from a whole one.
   double turn(const Piece& piece) {
     const auto [first, last] = piece;
-    const Place centre = centre_of(borders_.left(last));
-    Place before = crossings_.place(first) - centre;
+    const Point centre = centre_of(borders_.left(last));
+    Point before = crossings_.place(first) - centre;
     double sum = 0;
-    const auto go_to = [&](const Place& direction) {
+    const auto go_to = [&](const Point& direction) {
       sum += angle(before, direction);
       before = direction;
     };
@@ -282,20 +278,20 @@ class CurveMaker {
       const std::int32_t head = borders_.head(h);
       if (head < 0) go_to(borders_.way(h));
       h = borders_.next(h);
-      const Place in =
+      const Point in =
           head < 0 ? borders_.way(h) : centre - diagram_.vertices[static_cast<std::size_t>(head)];
-      go_to({-in[0], -in[1]});
+      go_to({-in.x, -in.y});
     } while (h != last);
     go_to(crossings_.place(last) - centre);
     return sum;
   }
 
-  void write_directed(const Place& start, const Place& end, const Place& centre, std::int32_t site) {
+  void write_directed(const Point& start, const Point& end, const Point& centre, std::int32_t site) {
     if (start == end) return;
     domain_.is_outward ? write_piece(start, end, centre, site) : write_piece(end, start, centre, site);
   }
 
-  void write_piece(const Place& start, const Place& end, const Place& centre, std::int32_t site) {
+  void write_piece(const Point& start, const Point& end, const Point& centre, std::int32_t site) {
     curves_.start.push_back(start);
     curves_.end.push_back(end);
     curves_.centre.push_back(centre);
@@ -303,15 +299,12 @@ class CurveMaker {
   }
 
   bool is_lone(std::int32_t point) const { return is_lone_[static_cast<std::size_t>(point)]; }
-  Place centre_of(std::int32_t point) const {
+  Point centre_of(std::int32_t point) const {
     return {static_cast<double>(diagram_.point(point).x), static_cast<double>(diagram_.point(point).y)};
-  }
-  Place placed(const Place& p) const {
-    return {place_.origin_x + place_.scale * p[0], place_.origin_y + place_.scale * p[1]};
   }
 
   const HalfEdges& borders_;
-  const segment_voronoi::build::SegmentDiagram& diagram_;
+  const segment_voronoi::build::DiagramView& diagram_;
   const PolygonFaces& domain_;
   double distance_;
   const LatticeToInput& place_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/monitor.hpp"
+#include "core/kernel/point.hpp"
 #include "core/offsets/half_edges.hpp"
 #include "core/offsets/polygon_faces.hpp"
 #include "core/skeleton/extraction.hpp"
@@ -15,8 +16,8 @@ namespace vorotool::core::offsets {
 // Pieces follow each other around their rings, rings in their shapes: the outer one first, then those of
 // holes. A piece begins where the one before it ends, to the bit. The shape is on the left.
 struct OffsetCurves {
-  std::vector<skeleton::Place> start, end;  // [k] in input units
-  std::vector<skeleton::Place> centre;      // [k] NaN on straight lines; an arc is at most half a circle
+  std::vector<kernel::Point> start, end;    // [k] in input units
+  std::vector<kernel::Point> centre;        // [k] NaN on straight lines; an arc is at most half a circle
   std::vector<std::int32_t> site;           // [k] what it is at that distance from
   std::vector<std::int64_t> ring_start;     // [q + 1]
   std::vector<std::int64_t> shape_start;    // [s + 1] among the rings

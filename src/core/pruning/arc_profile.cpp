@@ -8,44 +8,39 @@
 
 namespace vorotool::core::pruning {
 
+using kernel::Point;
 using skeleton::ArcEnd;
-using skeleton::Place;
 
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-Place minus(const Place& a, const Place& b) { return {a[0] - b[0], a[1] - b[1]}; }
-double dot(const Place& a, const Place& b) { return a[0] * b[0] + a[1] * b[1]; }
-double norm(const Place& a) { return std::sqrt(dot(a, a)); }
-
 // (b - a) x (c - a). Of points on a lattice of 31 bits the products have 64: where they cancel to less than
 // 2^-20, two doubles hold the difference to 2^-80 of itself or more.
-double cross(const Place& a, const Place& b, const Place& c) {
-  const Place ab = minus(b, a), ac = minus(c, a);
-  const double plus = ab[0] * ac[1], less = ab[1] * ac[0];
+double cross(const Point& a, const Point& b, const Point& c) {
+  const Point ab = b - a, ac = c - a;
+  const double plus = ab.x * ac.y, less = ab.y * ac.x;
   if (std::abs(plus - less) > 0x1p-20 * (std::abs(plus) + std::abs(less))) return plus - less;
   const auto difference = [](double p, double q) {
     return numbers::DoubleDouble(numbers::two_difference(p, q));
   };
-  return (difference(b[0], a[0]) * difference(c[1], a[1]) - difference(b[1], a[1]) * difference(c[0], a[0]))
-      .head;
+  return (difference(b.x, a.x) * difference(c.y, a.y) - difference(b.y, a.y) * difference(c.x, a.x)).head;
 }
 
 // The closed site is a point there: of itself, or as the end of a segment that the foot lies at.
-bool has_foot_at(const std::array<Place, 2>& site, const Place& place, const Place*& end) {
-  const Place along = minus(site[1], site[0]);
-  const double t = dot(minus(place, site[0]), along);
+bool has_foot_at(const std::array<Point, 2>& site, const Point& place, const Point*& end) {
+  const Point along = site[1] - site[0];
+  const double t = dot(place - site[0], along);
   end = t <= 0 ? &site[0] : &site[1];
   return t <= 0 || t >= dot(along, along);
 }
 
 // On which side of the line of a segment the disc is that touches it, and the other segment near a place: the
 // disc is where its other foot is.
-double side_of_other_foot(const std::array<Place, 2>& line, const std::array<Place, 2>& other,
-                          const Place& place) {
-  const Place along = minus(other[1], other[0]);
-  const double s = std::clamp(dot(minus(place, other[0]), along) / dot(along, along), 0.0, 1.0);
+double side_of_other_foot(const std::array<Point, 2>& line, const std::array<Point, 2>& other,
+                          const Point& place) {
+  const Point along = other[1] - other[0];
+  const double s = std::clamp(dot(place - other[0], along) / dot(along, along), 0.0, 1.0);
   const double height = (1 - s) * cross(line[0], line[1], other[0]) + s * cross(line[0], line[1], other[1]);
   return height < 0 ? -1 : 1;
 }
@@ -57,12 +52,12 @@ ArcProfile::ArcProfile(const skeleton::SkeletonView& skeleton, std::size_t arc)
       radius_{skeleton.source_radius(arc), skeleton.target_radius(arc)},
       length_(skeleton.length[arc]) {
   const ArcEnd source{skeleton.source(arc), radius_[0]}, target{skeleton.target(arc), radius_[1]};
-  const Place middle{(source.place[0] + target.place[0]) / 2, (source.place[1] + target.place[1]) / 2};
+  const Point middle{(source.place.x + target.place.x) / 2, (source.place.y + target.place.y) / 2};
   const auto& left = skeleton.site_ends[static_cast<std::size_t>(skeleton.sites[arc][0])];
   const auto& right = skeleton.site_ends[static_cast<std::size_t>(skeleton.sites[arc][1])];
   // what leads to a corner past the shortened edges is still between their lines
   const bool ends_count = skeleton.has_gap && radius_[0] > 0 && radius_[1] > 0;
-  const Place *left_end = &left[0], *right_end = &right[0];
+  const Point *left_end = &left[0], *right_end = &right[0];
   const bool left_is_point = left[0] == left[1] || (ends_count && has_foot_at(left, middle, left_end));
   const bool right_is_point = right[0] == right[1] || (ends_count && has_foot_at(right, middle, right_end));
   if (left_is_point && right_is_point) {
@@ -78,37 +73,37 @@ ArcProfile::ArcProfile(const skeleton::SkeletonView& skeleton, std::size_t arc)
 
 // The ways from the centre to both feet are across the lines; the tangent of half the angle between them is
 // written so that nothing cancels.
-void ArcProfile::between_lines(const std::array<Place, 2>& left, const std::array<Place, 2>& right,
-                               const Place& middle) {
+void ArcProfile::between_lines(const std::array<Point, 2>& left, const std::array<Point, 2>& right,
+                               const Point& middle) {
   kind = Kind::lines;
-  const Place a = minus(left[1], left[0]), b = minus(right[1], right[0]);
+  const Point a = left[1] - left[0], b = right[1] - right[0];
   const double sides = side_of_other_foot(left, right, middle) * side_of_other_foot(right, left, middle);
   const double cosine = sides * dot(a, b), sine = std::abs(cross({0, 0}, a, b)), both = norm(a) * norm(b);
   size = cosine > 0 ? sine / (both + cosine) : sine > 0 ? (both - cosine) / sine : infinity;
 }
 
-void ArcProfile::between_points(const Place& left, const Place& right, const ArcEnd& source,
+void ArcProfile::between_points(const Point& left, const Point& right, const ArcEnd& source,
                                 const ArcEnd& target) {
   kind = Kind::points;
-  const Place across = minus(right, left);
+  const Point across = right - left;
   const double distance = norm(across);
-  const auto parameter = [&](const Place& p) {
-    const Place way{p[0] - (left[0] + right[0]) / 2, p[1] - (left[1] + right[1]) / 2};
-    return (across[0] * way[1] - across[1] * way[0]) / (distance * distance / 2);
+  const auto parameter = [&](const Point& p) {
+    const Point middle{(left.x + right.x) / 2, (left.y + right.y) / 2};
+    return kernel::cross(across, p - middle) / (distance * distance / 2);
   };
   size = distance / 2;
   from = parameter(source.place);
   to = parameter(target.place);
 }
 
-void ArcProfile::from_focus(const Place& focus, const std::array<Place, 2>& line, const ArcEnd& source,
+void ArcProfile::from_focus(const Point& focus, const std::array<Point, 2>& line, const ArcEnd& source,
                             const ArcEnd& target) {
   kind = Kind::parabola;
-  Place along = minus(line[1], line[0]);
+  Point along = line[1] - line[0];
   const double length = norm(along);
   double height = cross(line[0], line[1], focus) / length;
   if (height < 0) {
-    along = {-along[0], -along[1]};
+    along = {-along.x, -along.y};
     height = -height;
   }
   if (height == 0) {  // both feet are one: the centre is above the end of a line
@@ -116,7 +111,7 @@ void ArcProfile::from_focus(const Place& focus, const std::array<Place, 2>& line
     size = 0;
     return;
   }
-  const skeleton::Parabola parabola{focus, along[0] / length, along[1] / length, height};
+  const skeleton::Parabola parabola{focus, along.x / length, along.y / length, height};
   size = height;
   from = parabola.parameter(source) / height;
   to = parabola.parameter(target) / height;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "core/kernel/point.hpp"
 #include "core/skeleton/skeleton_view.hpp"
 
 namespace vorotool::core::pruning {
@@ -44,11 +45,11 @@ class ArcProfile {
   double size;              // h; between two lines the tangent of half the angle
 
  private:
-  void between_lines(const std::array<skeleton::Place, 2>& left, const std::array<skeleton::Place, 2>& right,
-                     const skeleton::Place& middle);
-  void between_points(const skeleton::Place& left, const skeleton::Place& right,
-                      const skeleton::ArcEnd& source, const skeleton::ArcEnd& target);
-  void from_focus(const skeleton::Place& focus, const std::array<skeleton::Place, 2>& line,
+  void between_lines(const std::array<kernel::Point, 2>& left, const std::array<kernel::Point, 2>& right,
+                     const kernel::Point& middle);
+  void between_points(const kernel::Point& left, const kernel::Point& right, const skeleton::ArcEnd& source,
+                      const skeleton::ArcEnd& target);
+  void from_focus(const kernel::Point& focus, const std::array<kernel::Point, 2>& line,
                   const skeleton::ArcEnd& source, const skeleton::ArcEnd& target);
   double x(double u) const { return from + u * (to - from); }
   double chord_at(double x, double radius) const;

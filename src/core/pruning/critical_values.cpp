@@ -4,12 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/indices.hpp"
 #include "core/graphs/pendant_trees.hpp"
 #include "core/pruning/arc_profile.hpp"
 #include "core/pruning/disc_enlargement.hpp"
 
 namespace vorotool::core::pruning {
 
+using base::at;
 using base::Monitor;
 using graphs::HangingArc;
 using skeleton::SkeletonView;
@@ -17,8 +19,6 @@ using skeleton::SkeletonView;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 void poll(const Monitor& monitor, double done) {
   if (monitor && !monitor(done)) throw base::Interrupted();
@@ -296,8 +296,8 @@ class EnlargedDiscs : public Pruner {
 
  private:
   Disc disc(std::int32_t node) const {
-    const skeleton::Place& place = skeleton_.vertices[at(node)];
-    return {place[0], place[1], skeleton_.radius[at(node)]};
+    const kernel::Point& place = skeleton_.vertices[at(node)];
+    return {place.x, place.y, skeleton_.radius[at(node)]};
   }
 
   void find_largest_discs() {

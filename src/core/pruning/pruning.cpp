@@ -4,22 +4,22 @@
 #include <limits>
 #include <utility>
 
+#include "core/base/indices.hpp"
 #include "core/pruning/arc_profile.hpp"
 #include "core/skeleton/branches.hpp"
 
 namespace vorotool::core::pruning {
 
+using base::at;
+using kernel::Point;
 using skeleton::ArcEnd;
 using skeleton::GraphArc;
-using skeleton::Place;
 using skeleton::SkeletonView;
 
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 // Where an arc is cut that has less than the threshold at its source or its target, or at both.
 ArcPart cut(const SkeletonView& skeleton, const CriticalValues& values, Criterion criterion, double threshold,
@@ -42,17 +42,17 @@ ArcPart cut(const SkeletonView& skeleton, const CriticalValues& values, Criterio
   return {arc, source < threshold ? reached(false) : 0, target < threshold ? reached(true) : 1};
 }
 
-Place between(const Place& a, const Place& b, double u) {
-  return {a[0] + u * (b[0] - a[0]), a[1] + u * (b[1] - a[1])};
+Point between(const Point& a, const Point& b, double u) {
+  return {a.x + u * (b.x - a.x), a.y + u * (b.y - a.y)};
 }
 
 ArcEnd end_at(const SkeletonView& skeleton, std::int32_t arc, double u) {
-  const Place source = skeleton.source(at(arc)), target = skeleton.target(at(arc));
+  const Point source = skeleton.source(at(arc)), target = skeleton.target(at(arc));
   if (u == 0) return {source, skeleton.source_radius(at(arc))};
   if (u == 1) return {target, skeleton.target_radius(at(arc))};
-  Place place = between(source, target, u);
+  Point place = between(source, target, u);
   if (skeleton.is_curved(at(arc))) {
-    const Place& control = skeleton.control[at(arc)];
+    const Point& control = skeleton.control[at(arc)];
     place = between(between(source, control, u), between(control, target, u), u);
   }
   return {place, ArcProfile(skeleton, at(arc)).radius(u)};
@@ -61,8 +61,8 @@ ArcEnd end_at(const SkeletonView& skeleton, std::int32_t arc, double u) {
 bool is_whole(const ArcPart& part) { return part.first == 0 && part.last == 1; }
 
 // Of a part of a quadratic Bezier curve: its blossom. A single place is no curve.
-Place control_of(const SkeletonView& skeleton, const ArcPart& part) {
-  const Place& whole = skeleton.control[at(part.arc)];
+Point control_of(const SkeletonView& skeleton, const ArcPart& part) {
+  const Point& whole = skeleton.control[at(part.arc)];
   if (is_whole(part)) return whole;
   if (!skeleton.is_curved(at(part.arc)) || part.first == part.last) return {nan, nan};
   return between(between(skeleton.source(at(part.arc)), whole, part.first),

@@ -1,12 +1,13 @@
 // Pruning: the part of a skeleton that a threshold keeps.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "core/base/indices.hpp"
 #include "core/base/monitor.hpp"
+#include "core/kernel/point.hpp"
 #include "core/pruning/critical_values.hpp"
 #include "core/skeleton/skeleton_view.hpp"
 
@@ -21,7 +22,7 @@ struct ArcPart {
 // Its ends, its control point (NaN where it is straight), and its length.
 struct PartGeometry {
   skeleton::ArcEnd first, last;
-  skeleton::Place control;
+  kernel::Point control;
   double length;
 };
 PartGeometry part_geometry(const skeleton::SkeletonView& skeleton, const ArcPart& part);
@@ -32,14 +33,14 @@ std::vector<ArcPart> parts_left(const skeleton::SkeletonView& skeleton, const Cr
 
 // Arcs branch by branch, as of a whole skeleton.
 struct PrunedSkeleton {
-  std::vector<skeleton::Place> vertices;          // [v]
-  std::vector<double> radius;                     // [v]
-  std::vector<std::array<std::int32_t, 2>> arcs;  // [a]
-  std::vector<skeleton::Place> control;           // [a] NaN on straight lines
-  std::vector<double> length;                     // [a]
-  std::vector<std::int32_t> branch;               // [a]
-  std::vector<std::int32_t> original;             // [a] the arc that each is a part of
-  std::vector<std::uint8_t> is_reversed;          // [a] runs against that
+  std::vector<kernel::Point> vertices;    // [v]
+  std::vector<double> radius;             // [v]
+  std::vector<base::IndexPair> arcs;      // [a]
+  std::vector<kernel::Point> control;     // [a] NaN on straight lines
+  std::vector<double> length;             // [a]
+  std::vector<std::int32_t> branch;       // [a]
+  std::vector<std::int32_t> original;     // [a] the arc that each is a part of
+  std::vector<std::uint8_t> is_reversed;  // [a] runs against that
 };
 
 // Of parts with the groups of their arcs: groups stay together.

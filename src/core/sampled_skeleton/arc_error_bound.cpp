@@ -8,7 +8,7 @@
 
 namespace vorotool::core::sampled_skeleton {
 
-using skeleton::Place;
+using kernel::Point;
 
 namespace {
 
@@ -18,45 +18,42 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // within 2^-21 of their edges, and nodes within 2^-22 of where the seeds have them.
 constexpr double relative_error = 0x1p-49, seed_error = 0x1p-20;
 
-Place operator-(const Place& p, const Place& q) { return {p[0] - q[0], p[1] - q[1]}; }
-double dot(const Place& v, const Place& w) { return v[0] * w[0] + v[1] * w[1]; }
-double cross(const Place& v, const Place& w) { return v[0] * w[1] - v[1] * w[0]; }
-double norm(const Place& v) { return std::sqrt(dot(v, v)); }
-Place moved(const Place& p, double t, const Place& way) { return {p[0] + t * way[0], p[1] + t * way[1]}; }
+Point moved(const Point& p, double t, const Point& way) { return {p.x + t * way.x, p.y + t * way.y}; }
 double between(const std::array<double, 2>& ends, double t) { return ends[0] + t * (ends[1] - ends[0]); }
 
-double distance(const Place& p, const Place& a, const Place& b) {
-  const Place way = b - a;
-  const double square = dot(way, way);
-  const double t = square > 0 ? std::clamp(dot(p - a, way) / square, 0.0, 1.0) : 0;
-  return norm(p - moved(a, t, way));
-}
-
 // Of segments that do not cross.
-double distance(const Place& a, const Place& b, const Place& c, const Place& d) {
-  return std::min({distance(a, c, d), distance(b, c, d), distance(c, a, b), distance(d, a, b)});
+double gap_between(const Point& a, const Point& b, const Point& c, const Point& d) {
+  return std::min({closed_distance(a, c, d), closed_distance(b, c, d), closed_distance(c, a, b),
+                   closed_distance(d, a, b)});
 }
 
 // The least |n - m| for a unit vector m that turns from one of two to the other by less than 180 degrees.
-double least_difference(const Place& n, const Place& first, const Place& last) {
+double least_difference(const Point& n, const Point& first, const Point& last) {
   const bool may_pass = cross(n, first) * cross(n, last) <= 0 && (dot(n, first) > 0 || dot(n, last) > 0);
   return may_pass ? 0 : std::min(norm(n - first), norm(n - last));
 }
 
 }  // namespace
 
+double closed_distance(const Point& p, const Point& a, const Point& b) {
+  const Point way = b - a;
+  const double square = dot(way, way);
+  const double t = square > 0 ? std::clamp(dot(p - a, way) / square, 0.0, 1.0) : 0;
+  return norm(p - moved(a, t, way));
+}
+
 // Bounds for the nearest edge C over a stretch: values at both of its ends.
 struct ArcErrorBound::Nearest {
   const Seen& edge;
-  std::array<Place, 2> place;
+  std::array<Point, 2> place;
   std::array<double, 2> distance;
-  Place normal;  // from the edge to the arc
-  Place first_foot, last_foot;
+  Point normal;  // from the edge to the arc
+  Point first_foot, last_foot;
   double reach;  // e is proved up to this
 
   double least() const { return std::min(distance[0], distance[1]); }
   // max |q - g|^2 - d^2, which is convex along the arc.
-  double excess(const Place& g) const {
+  double excess(const Point& g) const {
     double most = 0;
     for (int i = 0; i < 2; ++i) {
       const double far = dot(place[i] - g, place[i] - g), d = distance[i];
@@ -65,18 +62,18 @@ struct ArcErrorBound::Nearest {
     }
     return most;
   }
-  double height(const Place& g) const { return dot(g - edge.a, normal) - edge.error; }
+  double height(const Point& g) const { return dot(g - edge.a, normal) - edge.error; }
   // 1. of the header
-  double by_growth(const Place& g) const {
+  double by_growth(const Point& g) const {
     const double h = height(g);
     return h > 0 ? excess(g) / (2 * h) : infinity;
   }
 };
 
-double ArcErrorBound::operator()(const Place& source, const Place& target, std::span<const ArcSample> seeds,
+double ArcErrorBound::operator()(const Point& source, const Point& target, std::span<const ArcSample> seeds,
                                  std::span<const NearEdge> near, double reach, const Clearing& clearing) {
   see(source, target, near);
-  const Place way = target - source;
+  const Point way = target - source;
   double bound = 0;
   for (const Seen& c : seen_) {
     Stretch part{0, 1};
@@ -87,7 +84,7 @@ double ArcErrorBound::operator()(const Place& source, const Place& target, std::
     Nearest nearest{c,
                     {moved(source, part.from, way), moved(source, part.to, way)},
                     {std::abs(height[0]), std::abs(height[1])},
-                    {-sign * c.way[1], sign * c.way[0]},
+                    {-sign * c.way.y, sign * c.way.x},
                     moved(c.a, between(c.foot, part.from), c.way),
                     moved(c.a, between(c.foot, part.to), c.way),
                     0};
@@ -106,19 +103,19 @@ double ArcErrorBound::operator()(const Place& source, const Place& target, std::
 }
 
 ArcErrorBound::Clearing ArcErrorBound::clearing_among(std::span<const NearEdge> near) {
-  return [near](const Place& first, const Place& last, std::int32_t segment, double reach) {
+  return [near](const Point& first, const Point& last, std::int32_t segment, double reach) {
     double least = reach;
     for (const NearEdge& other : near) {
       if (other.segment == segment) continue;
-      const Place a{static_cast<double>(other.site.a.x), static_cast<double>(other.site.a.y)};
-      const Place b{static_cast<double>(other.site.b.x), static_cast<double>(other.site.b.y)};
-      least = std::min(least, distance(first, last, a, b));
+      const Point a{static_cast<double>(other.site.a.x), static_cast<double>(other.site.a.y)};
+      const Point b{static_cast<double>(other.site.b.x), static_cast<double>(other.site.b.y)};
+      least = std::min(least, gap_between(first, last, a, b));
     }
     return least;
   };
 }
 
-void ArcErrorBound::see(const Place& source, const Place& target, std::span<const NearEdge> near) {
+void ArcErrorBound::see(const Point& source, const Point& target, std::span<const NearEdge> near) {
   seen_.clear();
   for (const NearEdge& edge : near) {
     const auto [a, b] = edge.site;
@@ -130,13 +127,12 @@ void ArcErrorBound::see(const Place& source, const Place& target, std::span<cons
               {},
               {},
               edge.segment};
-    if (seen.length > 0) seen.way = {seen.way[0] / seen.length, seen.way[1] / seen.length};
+    if (seen.length > 0) seen.way = {seen.way.x / seen.length, seen.way.y / seen.length};
     for (std::size_t i = 0; i < 2; ++i) {
-      const Place from = (i == 0 ? source : target) - seen.a;
+      const Point from = (i == 0 ? source : target) - seen.a;
       seen.height[i] = cross(seen.way, from);
       seen.foot[i] = dot(seen.way, from);
-      seen.error =
-          std::max(seen.error, relative_error * (std::abs(from[0]) + std::abs(from[1])) + seed_error);
+      seen.error = std::max(seen.error, relative_error * (std::abs(from.x) + std::abs(from.y)) + seed_error);
     }
     seen_.push_back(seen);
   }
@@ -189,7 +185,7 @@ double ArcErrorBound::bound_by_edge(const Nearest& c, const Seen& d, const Stret
   const std::array<double, 2> foot{between(d.foot, part.from), between(d.foot, part.to)};
   if (height[0] * height[1] <= 0) return infinity;
   const double sign = height[0] > 0 ? 1 : -1;
-  const Place normal{-sign * d.way[1], sign * d.way[0]};
+  const Point normal{-sign * d.way.y, sign * d.way.x};
   const double s = norm(c.normal - normal) - relative_error;
   if (!(s > 0)) return infinity;
   const double error = c.edge.error + d.error;
@@ -199,7 +195,7 @@ double ArcErrorBound::bound_by_edge(const Nearest& c, const Seen& d, const Stret
   for (double& distance : more) distance = std::max(distance, 0.0) + error;
   // whether, moved along a vector by so much of this, both ends have feet inside d, and so has what is
   // between
-  const auto stays_inside = [&](const Place& way) {
+  const auto stays_inside = [&](const Point& way) {
     const double along = dot(way, d.way);
     for (std::size_t i = 0; i < 2; ++i) {
       const double after = foot[i] + along * more[i];
@@ -208,25 +204,25 @@ double ArcErrorBound::bound_by_edge(const Nearest& c, const Seen& d, const Stret
     return is_farther;
   };
   const double most = std::max(more[0], more[1]);
-  const Place across{(c.normal[0] - normal[0]) / (s * s), (c.normal[1] - normal[1]) / (s * s)};
+  const Point across{(c.normal.x - normal.x) / (s * s), (c.normal.y - normal.y) / (s * s)};
   if (most / s < c.reach && stays_inside(across)) return most / s;
   // until the disc that grows touches the line of d
-  const Place grown{2 * c.normal[0] / (s * s), 2 * c.normal[1] / (s * s)};
+  const Point grown{2 * c.normal.x / (s * s), 2 * c.normal.y / (s * s)};
   if (stays_inside(grown)) return 2 * most / (s * s);
   const double middle = std::clamp((foot[0] + foot[1]) / 2, 0.0, d.length);
   return std::min(
       {c.by_growth(moved(d.a, middle, d.way)), c.by_growth(d.a), c.by_growth(moved(d.a, d.length, d.way))});
 }
 
-double ArcErrorBound::bound_by_seed(const Nearest& c, const Place& g) {
+double ArcErrorBound::bound_by_seed(const Nearest& c, const Point& g) {
   const double excess = c.excess(g), grown = c.by_growth(g);
-  const Place first = c.place[0] - g, last = c.place[1] - g;
+  const Point first = c.place[0] - g, last = c.place[1] - g;
   const double first_length = norm(first), last_length = norm(last);
-  const double s = least_difference(c.normal, {first[0] / first_length, first[1] / first_length},
-                                    {last[0] / last_length, last[1] / last_length}) -
+  const double s = least_difference(c.normal, {first.x / first_length, first.y / first_length},
+                                    {last.x / last_length, last.y / last_length}) -
                    relative_error;
   if (!(s > 0)) return grown;
-  const double half = s * (c.least() + std::max(c.least(), distance(g, c.place[0], c.place[1]))) / 2;
+  const double half = s * (c.least() + std::max(c.least(), closed_distance(g, c.place[0], c.place[1]))) / 2;
   const double root = half * half - (1 - s * s / 4) * excess;
   if (root < 0) return grown;
   const double across = excess / (half + std::sqrt(root));

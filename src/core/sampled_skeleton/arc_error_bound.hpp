@@ -36,6 +36,9 @@
 
 namespace vorotool::core::sampled_skeleton {
 
+// Of p from the segment between a and b.
+double closed_distance(const kernel::Point& p, const kernel::Point& a, const kernel::Point& b);
+
 // A closed edge near an arc, or a point of the graph that is on none.
 struct NearEdge {
   std::int32_t segment;  // -1 of a point
@@ -53,14 +56,14 @@ class ArcErrorBound {
  public:
   // How far edges but one are from the places between two on this, or less; no matter where it is more than
   // the reach.
-  using Clearing = std::function<double(const skeleton::Place&, const skeleton::Place&, std::int32_t segment,
-                                        double reach)>;
+  using Clearing =
+      std::function<double(const kernel::Point&, const kernel::Point&, std::int32_t segment, double reach)>;
 
   // `near` holds all edges that may be nearest to a point of the arc. All ends of edges, and points without,
   // are seeds, and none is nearer to a point of the arc than its own. An arc without seeds need not be
   // equally far from any. The errors of the second kind are proved up to `reach`. Infinite where nothing is
   // proved.
-  double operator()(const skeleton::Place& source, const skeleton::Place& target,
+  double operator()(const kernel::Point& source, const kernel::Point& target,
                     std::span<const ArcSample> seeds, std::span<const NearEdge> near, double reach,
                     const Clearing& clearing);
 
@@ -70,9 +73,9 @@ class ArcErrorBound {
  private:
   // An edge as it is seen from the arc: distances of its line from the ends, and feet along it.
   struct Seen {
-    skeleton::Place a, way;  // its first end, and the unit vector along it
-    double length;           // 0 of a point
-    double error;            // of distances and feet
+    kernel::Point a, way;  // its first end, and the unit vector along it
+    double length;         // 0 of a point
+    double error;          // of distances and feet
     std::array<double, 2> height, foot;
     std::int32_t segment;
   };
@@ -83,11 +86,11 @@ class ArcErrorBound {
 
   struct Nearest;
 
-  void see(const skeleton::Place& source, const skeleton::Place& target, std::span<const NearEdge> near);
+  void see(const kernel::Point& source, const kernel::Point& target, std::span<const NearEdge> near);
   bool stretch_of(const Seen& c, Stretch& part) const;
   double bound_by(const Nearest& c, const Stretch& part, std::span<const ArcSample> seeds) const;
   static double bound_by_edge(const Nearest& c, const Seen& d, const Stretch& part);
-  static double bound_by_seed(const Nearest& c, const skeleton::Place& g);
+  static double bound_by_seed(const Nearest& c, const kernel::Point& g);
 
   std::vector<Seen> seen_;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/base/indices.hpp"
 #include "core/base/parallel.hpp"
 #include "core/numbers/fixed_integer.hpp"
 #include "core/numbers/rounded_quotient.hpp"
@@ -12,6 +13,8 @@
 
 namespace vorotool::core::sampled_skeleton {
 
+using delaunay::following;
+using delaunay::preceding;
 using delaunay::VertexTriangles;
 using kernel::LatticeSite;
 using kernel::LatticeVector;
@@ -100,10 +103,9 @@ class Walk {
   void visit_spokes(std::int32_t p, const Visit& visit) const {
     Spoke last{-1, -1, false};
     const bool is_open = rings_.visit(p, [&](Triangle t, std::int32_t next, std::int32_t after) {
-      int k = 0;
-      while (mesh_.corner(t, k) != p) ++k;
-      visit(Spoke{next, 3 * t + (k + 2) % 3, true});
-      last = {after, 3 * t + (k + 1) % 3, false};
+      const Side opposite = mesh_.opposite(t, p);
+      visit(Spoke{next, preceding(opposite), true});
+      last = {after, following(opposite), false};
     });
     if (is_open) visit(last);
   }
@@ -131,7 +133,7 @@ class Walk {
 
 // The segment of a piece, as the piece leads from the cell of the side's origin to that of its target.
 LatticeSite across_side(const SampleLabels& labels, const Crossing& crossing) {
-  const LatticeSite site = labels.graph().site(labels.piece(crossing.piece).segment);
+  const LatticeSite site = labels.graph().segment(base::at(labels.piece(crossing.piece).segment));
   return crossing.from_origin ? site : LatticeSite{site.b, site.a};
 }
 

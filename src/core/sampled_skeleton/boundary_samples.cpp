@@ -4,21 +4,21 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/indices.hpp"
 #include "core/base/parallel.hpp"
 
 namespace vorotool::core::sampled_skeleton {
 
-using arrangement::PlanarGraphView;
+using base::at;
 using base::Monitor;
 using kernel::LatticeSite;
+using kernel::PlanarGraphView;
 using kernel::Point;
 
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t grain = 1 << 10;  // segments a piece of work
-
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 double length_of(const LatticeSite& site) {
   return std::sqrt(static_cast<double>(kernel::norm2(site.b - site.a)));
@@ -96,7 +96,7 @@ std::size_t count_up_to(double half, std::span<const double> distance) {
 
 HalvedSegment halved(const PlanarGraphView& graph, const CornerSteps& steps, std::size_t segment) {
   const auto [a, b] = graph.segments[segment];
-  const double length = length_of(graph.site(static_cast<std::int32_t>(segment)));
+  const double length = length_of(graph.segment(segment));
   const auto by_a = distances_at(steps, a), by_b = distances_at(steps, b);
   const std::size_t i = count_up_to(length / 2, by_a), j = count_up_to(length / 2, by_b);
   const double last_a = i > 0 ? by_a[i - 1] : 0, last_b = j > 0 ? by_b[j - 1] : 0;
@@ -112,7 +112,7 @@ HalvedSegment halved(const PlanarGraphView& graph, const CornerSteps& steps, std
 std::vector<std::pair<double, double>> lengths_at_points(const PlanarGraphView& graph) {
   std::vector<std::pair<double, double>> found(graph.points.size(), {0.0, infinity});
   for (std::size_t j = 0; j < graph.segments.size(); ++j) {
-    const double length = length_of(graph.site(static_cast<std::int32_t>(j)));
+    const double length = length_of(graph.segment(j));
     for (const std::int32_t end : graph.segments[j]) {
       found[at(end)].first = std::max(found[at(end)].first, length);
       found[at(end)].second = std::min(found[at(end)].second, length);
@@ -125,7 +125,7 @@ std::vector<std::pair<double, double>> lengths_at_points(const PlanarGraphView& 
 
 BoundarySamples sample_by_step(const PlanarGraphView& graph, double step, std::size_t most, unsigned threads,
                                const Monitor& monitor) {
-  const auto site = [&](std::size_t j) { return graph.site(static_cast<std::int32_t>(j)); };
+  const auto site = [&](std::size_t j) { return graph.segment(j); };
   return sample(
       graph, most, threads, monitor,
       [&](std::size_t j) { return std::max(0.0, std::floor(length_of(site(j)) / step - 0.5)); },
@@ -176,7 +176,7 @@ BoundarySamples sample_from_corners(const PlanarGraphView& graph, const CornerSt
       [&](std::size_t j) { return static_cast<double>(halved(graph, steps, j).count()); },
       [&](std::size_t j, std::span<Point> seeds) {
         const auto [a, b] = graph.segments[j];
-        const LatticeSite edge = graph.site(static_cast<std::int32_t>(j));
+        const LatticeSite edge = graph.segment(j);
         const double length = length_of(edge);
         const HalvedSegment half = halved(graph, steps, j);
         std::size_t next = 0;

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "core/arrangement/planar_graph_view.hpp"
 #include "core/base/large_array.hpp"
 #include "core/base/monitor.hpp"
+#include "core/kernel/planar_graph_view.hpp"
 #include "core/kernel/point.hpp"
 
 namespace vorotool::core::sampled_skeleton {
@@ -37,15 +37,15 @@ struct TooManySeeds : std::length_error {
 // Pieces are what edges are cut into by their seeds: those of segment j are start[j] - n + j ... start[j + 1]
 // - n + j, along it.
 struct BoundarySamples {
-  base::LargeArray<kernel::Point>
-      seeds;  // [s] the points of the graph, then those inside each segment along it
+  // [s] the points of the graph, then those inside each segment along it
+  base::LargeArray<kernel::Point> seeds;
   base::LargeArray<std::int32_t> segment;  // [s] that each seed lies inside; -1 of points
   std::vector<std::int32_t> start;         // [m + 1] the first seed inside each segment
 };
 
 // As the paper prints it: from the first end of a segment at multiples of the step, so that the last gap is
 // at least half of it and less than one and a half. A segment shorter than half a step has only its ends.
-BoundarySamples sample_by_step(const arrangement::PlanarGraphView& graph, double step, std::size_t most,
+BoundarySamples sample_by_step(const kernel::PlanarGraphView& graph, double step, std::size_t most,
                                unsigned threads, const base::Monitor& monitor);
 
 // How far from each point the seeds on its segments are: the same on all of them, so that they are placed
@@ -56,19 +56,19 @@ struct CornerSteps {
 };
 
 // Multiples of the step, up to half of the longest segment at each point.
-CornerSteps even_steps(const arrangement::PlanarGraphView& graph, double step, std::size_t most);
+CornerSteps even_steps(const kernel::PlanarGraphView& graph, double step, std::size_t most);
 
 // A third of the shortest segment at each point, then twice as far each time while gaps are at most
 // `coarsest`: what refinement begins with.
-CornerSteps doubled_steps(const arrangement::PlanarGraphView& graph, double coarsest, std::size_t most);
+CornerSteps doubled_steps(const kernel::PlanarGraphView& graph, double coarsest, std::size_t most);
 
 // Where the halves of a segment meet, a seed is added if the gap there would be more than one and a half of
 // the smaller next gap.
-BoundarySamples sample_from_corners(const arrangement::PlanarGraphView& graph, const CornerSteps& steps,
+BoundarySamples sample_from_corners(const kernel::PlanarGraphView& graph, const CornerSteps& steps,
                                     std::size_t most, unsigned threads, const base::Monitor& monitor);
 
 // Divides the gaps that pieces of edges are made of: [pieces] into how many parts, of `least_gap` at least.
-CornerSteps refined_steps(const arrangement::PlanarGraphView& graph, const CornerSteps& steps,
+CornerSteps refined_steps(const kernel::PlanarGraphView& graph, const CornerSteps& steps,
                           std::span<const std::int32_t> start, std::span<const std::int32_t> parts,
                           std::size_t most);
 

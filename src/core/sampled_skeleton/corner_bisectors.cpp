@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/base/indices.hpp"
 #include "core/base/parallel.hpp"
 #include "core/delaunay/vertex_triangles.hpp"
 #include "core/numbers/fixed_integer.hpp"
@@ -11,13 +12,14 @@
 
 namespace vorotool::core::sampled_skeleton {
 
+using base::at;
+using delaunay::following;
+using delaunay::preceding;
 using delaunay::VertexTriangles;
 using kernel::LatticeVector;
 using numbers::widen;
 
 namespace {
-
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 struct Vector {
   double x, y;
@@ -77,9 +79,8 @@ class Sector {
     };
     std::vector<Fan> ring;
     rings.visit(line_.corner, [&](Triangle t, std::int32_t next, std::int32_t after) {
-      int k = 0;
-      while (mesh_.corner(t, k) != line_.corner) ++k;
-      ring.push_back({{next, 3 * t + (k + 2) % 3}, {after, 3 * t + (k + 1) % 3}});
+      const Side opposite = mesh_.opposite(t, line_.corner);
+      ring.push_back({{next, preceding(opposite)}, {after, following(opposite)}});
     });
     const auto from =
         std::find_if(ring.begin(), ring.end(), [&](const Fan& fan) { return fan.spoke.seed == first; });
@@ -137,20 +138,17 @@ class Sector {
 
 std::vector<CornerBisector> corners_of(const SampleDiagram& diagram,
                                        std::span<const std::int32_t> face_group) {
-  const arrangement::PlanarGraphView& graph = diagram.labels().graph();
+  const kernel::PlanarGraphView& graph = diagram.labels().graph();
   const auto points = static_cast<std::int32_t>(graph.points.size());
-  const auto way = [&](std::int32_t point, std::int32_t segment) {
-    const auto& [a, b] = graph.ends(segment);
-    return graph.point(a == point ? b : a) - graph.point(point);
-  };
   std::vector<CornerBisector> corners;
   for (std::int32_t point = 0; point < points; ++point) {
     const auto sites = diagram.labels().incident().at(point);
     for (std::size_t i = 0; i < sites.size(); ++i) {
-      const std::int32_t right = sites[i] - points, left = sites[(i + 1) % sites.size()] - points;
-      const LatticeVector a = way(point, right), b = way(point, left);
+      const std::int32_t following = sites[(i + 1) % sites.size()];
+      const LatticeVector a = graph.way_from(point, sites[i]), b = graph.way_from(point, following);
       if (kernel::cross(a, b) <= 0) continue;
-      const std::int32_t face = graph.faces[at(right)][graph.ends(right)[0] == point ? 0 : 1];
+      const std::int32_t right = sites[i] - points, left = following - points;
+      const std::int32_t face = graph.faces[at(right)][graph.segments[at(right)][0] == point ? 0 : 1];
       if (face_group[at(face)] < 0) continue;
       corners.push_back({point, right, left, face});
       corners.back().direction = bisector_of(a, b);

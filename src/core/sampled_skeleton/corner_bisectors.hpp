@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/monitor.hpp"
+#include "core/kernel/point.hpp"
 #include "core/sampled_skeleton/sample_diagram.hpp"
 
 namespace vorotool::core::sampled_skeleton {

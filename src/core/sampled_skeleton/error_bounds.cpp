@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/base/indices.hpp"
 #include "core/base/parallel.hpp"
 #include "core/sampled_skeleton/near_edges.hpp"
 #include "core/spatial/clearance.hpp"
@@ -14,7 +15,7 @@
 namespace vorotool::core::sampled_skeleton {
 
 using kernel::LatticeSite;
-using skeleton::Place;
+using kernel::Point;
 using spatial::ObbTree;
 
 namespace {
@@ -24,19 +25,6 @@ constexpr double node_error = 0x1p-21;  // nodes are rounded to doubles below 2^
 constexpr int most_halvings = 48;
 constexpr std::size_t few_edges = 12, many_edges = 64;  // near a disc: more is another case
 constexpr double most_parts = 16;                       // of a piece at a time
-
-double distance(const Place& p, const Place& q) {
-  const double x = p[0] - q[0], y = p[1] - q[1];
-  return std::sqrt(x * x + y * y);
-}
-Place place_of(const kernel::Point& p) { return {p.x, p.y}; }
-
-// Of a place from the segment between two others.
-double closed_distance(const Place& a, const Place& b, const Place& p) {
-  const double x = b[0] - a[0], y = b[1] - a[1], square = x * x + y * y;
-  const double t = square > 0 ? std::clamp(((p[0] - a[0]) * x + (p[1] - a[1]) * y) / square, 0.0, 1.0) : 0;
-  return distance(p, {a[0] + t * x, a[1] + t * y});
-}
 
 double power_above(double value) {
   int exponent = 0;
@@ -59,11 +47,11 @@ class Bounder {
 
   const ErrorBound& operator()(const BoundedArc& arc) {
     arc_ = &arc;
-    for (std::size_t i = 0; i < 2; ++i) found_.radius[i] = distance(arc.place[i], place_of(seed(arc.seed)));
+    for (std::size_t i = 0; i < 2; ++i) found_.radius[i] = norm(arc.place[i] - seed(arc.seed));
     found_.error = node_error;  // all there is where the seeds are on one line: they are the ends of edges
     if (arc.side < 0) return found_;
     set_seeds();
-    origin_ = place_of(seed(arc.seed));
+    origin_ = seed(arc.seed);
     most_ = -1;
     found_.error += arc.corner < 0 ? bound(arc.place[0], arc.place[1], 0) : bound_from_corner();
     return found_;
@@ -76,7 +64,7 @@ class Bounder {
     for (const std::int32_t segment : wanting_) {
       diagram_.labels().visit_pieces(segment, foot(segment, 0), foot(segment, 1), [&](std::int32_t piece) {
         const EdgePiece ends = diagram_.labels().piece(piece);
-        pieces.push_back({piece, distance(place_of(seed(ends.first)), place_of(seed(ends.last)))});
+        pieces.push_back({piece, norm(seed(ends.first) - seed(ends.last))});
         longest = std::max(longest, pieces.back().second);
       });
     }
@@ -96,10 +84,10 @@ class Bounder {
   const kernel::Point& seed(std::int32_t s) const { return mesh().seed(s); }
   // How far along a segment the foot of an end of the arc is, as a share of its length.
   double foot(std::int32_t segment, std::size_t end) const {
-    const LatticeSite site = diagram_.labels().graph().site(segment);
+    const LatticeSite site = diagram_.labels().graph().segment(base::at(segment));
     const kernel::LatticeVector along = site.b - site.a;
     const double ux = static_cast<double>(along.x), uy = static_cast<double>(along.y);
-    const double x = arc_->place[end][0] - site.a.x, y = arc_->place[end][1] - site.a.y;
+    const double x = arc_->place[end].x - site.a.x, y = arc_->place[end].y - site.a.y;
     return (ux * x + uy * y) / (ux * ux + uy * uy);
   }
 
@@ -107,31 +95,30 @@ class Bounder {
   // them, so that arcs that follow each other have the same.
   void set_seeds() {
     double longest = 0;
-    const std::array<std::int32_t, 2> own{mesh().origin(arc_->side), mesh().target(arc_->side)};
+    const base::IndexPair own{mesh().origin(arc_->side), mesh().target(arc_->side)};
     for (std::size_t i = 0; i < 2; ++i) {
       labels_[i].clear();
       diagram_.labels().visit(own[i], [&](std::int32_t segment) { labels_[i].push_back(segment); });
       seeds_[i] = {seed(own[i]), labels_[i]};
-      diagram_.labels().visit_beside(own[i], [&](std::int32_t other) {
-        longest = std::max(longest, distance(place_of(seed(other)), place_of(seed(own[i]))));
-      });
+      diagram_.labels().visit_beside(
+          own[i], [&](std::int32_t other) { longest = std::max(longest, norm(seed(other) - seed(own[i]))); });
     }
     reach_ = power_above(longest / 4);
   }
 
   // How far a place is from the seeds, or from the corner that the arc leads to.
-  double radius(const Place& p) const { return distance(p, origin_); }
+  double radius(const Point& p) const { return norm(p - origin_); }
 
   // A disc about a place that holds what counts besides the nearest edges: those near to where these are
   // nearest (core/sampled_skeleton/arc_error_bound.hpp). Discs about places on the arc are within those about
   // its ends: those through two seeds, and, squared, larger by the same; of a line from a corner the one
   // about its target holds all.
-  double wide_radius(const Place& p) const {
+  double wide_radius(const Point& p) const {
     const double own = radius(p);
     return arc_->corner < 0 ? rounded_up(std::sqrt(own * own + reach_ * reach_)) : own + reach_;
   }
 
-  double bound(const Place& a, const Place& b, int halvings) {
+  double bound(const Point& a, const Point& b, int halvings) {
     if (const auto near = near_.find({{a, b}, {wide_radius(a), wide_radius(b)}})) {
       note_radius(a, b, *near);
       return noted(axis_(a, b, seeds(), *near, reach_, ArcErrorBound::clearing_among(*near)), *near);
@@ -143,7 +130,7 @@ class Bounder {
     if (halvings == most_halvings || (nearest_.is_crowded(0) && nearest_.is_crowded(1))) {
       return noted(crowded_bound(a, b), {});
     }
-    const Place middle{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
+    const Point middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
     const double first = bound(a, middle, halvings + 1);
     return std::max(first, bound(middle, b, halvings + 1));
   }
@@ -155,12 +142,12 @@ class Bounder {
   // Discs that all edges meet which are nearest somewhere between: no farther than an edge L of the arc. The
   // distance of L is at most its chord; that of another edge, at least m at the ends, is convex and bends by
   // at most 1 / (m - l) over a length l, so that it is below its chord by no more than l^2 / (8 (m - l)).
-  std::array<double, 2> label_radii(const Place& a, const Place& b) const {
+  std::array<double, 2> label_radii(const Point& a, const Point& b) const {
     std::array<double, 2> least{radius(a), radius(b)};
-    const double length = distance(a, b);
+    const double length = norm(a - b);
     for (const auto& labels : labels_) {
       for (const std::int32_t segment : labels) {
-        const LatticeSite site = diagram_.labels().graph().site(segment);
+        const LatticeSite site = diagram_.labels().graph().segment(base::at(segment));
         const std::array<double, 2> own{spatial::closed_distance(site, a), spatial::closed_distance(site, b)};
         const double rest = std::min(own[0], own[1]) - length;
         const double more = length * length / (8 * rest) + node_error;
@@ -173,10 +160,10 @@ class Bounder {
 
   // By what is found near the feet.
   ArcErrorBound::Clearing local_clearing() const {
-    return [this](const Place& first, const Place& last, std::int32_t segment, double reach) {
-      const Place middle{(first[0] + last[0]) / 2, (first[1] + last[1]) / 2};
+    return [this](const Point& first, const Point& last, std::int32_t segment, double reach) {
+      const Point middle{(first.x + last.x) / 2, (first.y + last.y) / 2};
       double least = reach;
-      hierarchy_.near(middle[0], middle[1], distance(first, last) / 2 + reach, [&](std::uint32_t item) {
+      hierarchy_.near(middle.x, middle.y, norm(first - last) / 2 + reach, [&](std::uint32_t item) {
         const double other =
             ArcErrorBound::clearing_among(items_.subspan(item, 1))(first, last, segment, reach);
         least = std::min(least, other);
@@ -186,7 +173,7 @@ class Bounder {
     };
   }
 
-  void note_radius(const Place& a, const Place& b, std::span<const NearEdge> near) {
+  void note_radius(const Point& a, const Point& b, std::span<const NearEdge> near) {
     for (std::size_t i = 0; i < 2; ++i) {
       if (arc_->place[i] != (i == 0 ? a : b)) continue;
       for (const NearEdge& edge : near) {
@@ -212,19 +199,19 @@ class Bounder {
   // any fixed place p, |x - p|^2 - d^2 is the largest of linear functions of x, one for each f: it is convex,
   // and so largest at an end. Of two places that edges go through one is seen at no less than half of their
   // angle from f, and the disc that grows away from f (core/sampled_skeleton/arc_error_bound.hpp) meets that.
-  double crowded_bound(const Place& a, const Place& b) {
+  double crowded_bound(const Point& a, const Point& b) {
     const double at_a = clearance_of(a), at_b = clearance_of(b);
     const double excess = std::max(radius(a) * radius(a) - at_a * at_a, radius(b) * radius(b) - at_b * at_b) +
                           radius(a) * node_error;
-    const double own = closed_distance(a, b, origin_), clearance = std::sqrt(own * own - excess);
+    const double own = closed_distance(origin_, a, b), clearance = std::sqrt(own * own - excess);
     if (!(clearance > 0)) return infinity;
     double least = infinity;
     for (const std::int32_t s : seeds_around()) {
-      const Place other = place_of(seed(s));
-      const double cosine = cosine_of_half_angle(a, b, origin_, other, distance(a, b) / clearance);
+      const Point other = seed(s);
+      const double cosine = cosine_of_half_angle(a, b, origin_, other, norm(a - b) / clearance);
       double grown = 0;
-      for (const Place& place : {origin_, other}) {
-        const double far = std::max(distance(a, place), distance(b, place)) + node_error;
+      for (const Point& place : {origin_, other}) {
+        const double far = std::max(norm(a - place), norm(b - place)) + node_error;
         const double height = clearance - far * cosine;
         const double more = std::max(excess_of(a, place), excess_of(b, place)) + excess;
         grown = std::max(grown, height > 0 ? more / (2 * height) : infinity);
@@ -235,8 +222,8 @@ class Bounder {
   }
 
   // |x - g|^2 less the square of the radius.
-  double excess_of(const Place& x, const Place& g) const {
-    const double far = distance(x, g), own = radius(x);
+  double excess_of(const Point& x, const Point& g) const {
+    const double far = norm(x - g), own = radius(x);
     return (far - own) * (far + own);
   }
 
@@ -257,20 +244,19 @@ class Bounder {
   }
 
   // Not more than the clearance, and hardly less.
-  double clearance_of(const Place& place) const {
+  double clearance_of(const Point& place) const {
     const double share = reach_ / radius(place);
     return hierarchy_.nearest(
-        place[0], place[1], std::min(0x1p-10, share * share / 16),
+        place.x, place.y, std::min(0x1p-10, share * share / 16),
         [&](std::uint32_t item) { return spatial::closed_distance(items_[item].site, place); });
   }
 
   // Of the angle at which two places are seen from a and b and between, where directions turn by `turn` at
   // most.
-  static double cosine_of_half_angle(const Place& a, const Place& b, const Place& p, const Place& q,
+  static double cosine_of_half_angle(const Point& a, const Point& b, const Point& p, const Point& q,
                                      double turn) {
-    const Place x{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2};
-    const double cosine =
-        ((p[0] - x[0]) * (q[0] - x[0]) + (p[1] - x[1]) * (q[1] - x[1])) / (distance(x, p) * distance(x, q));
+    const Point x{(a.x + b.x) / 2, (a.y + b.y) / 2};
+    const double cosine = dot(p - x, q - x) / (norm(x - p) * norm(x - q));
     return std::sqrt(std::max(0.0, 1 + cosine) / 2) + turn + 0x1p-24;
   }
 
@@ -279,23 +265,22 @@ class Bounder {
   // no other edge meets the discs about them, widened by their errors, which are at most their radii.
   double bound_from_corner() {
     const auto& [corner, target] = arc_->place;
-    const double length = distance(corner, target);
+    const double length = norm(corner - target);
     double share = 0.5;
     while (share > 0x1p-60 && !has_only_corner(3 * share * length)) share /= 2;
-    const Place from{corner[0] + share * (target[0] - corner[0]),
-                     corner[1] + share * (target[1] - corner[1])};
+    const Point from{corner.x + share * (target.x - corner.x), corner.y + share * (target.y - corner.y)};
     found_.radius[0] = 0;
     return bound(from, target, 0);
   }
 
   // Whether no edge is that near to the corner but those that end there.
   bool has_only_corner(double radius) const {
-    const arrangement::PlanarGraphView& graph = diagram_.labels().graph();
+    const kernel::PlanarGraphView& graph = diagram_.labels().graph();
     bool has_only = true;
-    hierarchy_.near(origin_[0], origin_[1], radius, [&](std::uint32_t item) {
+    hierarchy_.near(origin_.x, origin_.y, radius, [&](std::uint32_t item) {
       const std::int32_t segment = items_[item].segment;
       const bool is_own =
-          segment >= 0 && (graph.ends(segment)[0] == arc_->corner || graph.ends(segment)[1] == arc_->corner);
+          segment >= 0 && std::ranges::count(graph.segments[base::at(segment)], arc_->corner) > 0;
       has_only = is_own || spatial::closed_distance(items_[item].site, origin_) > radius;
       return has_only;
     });
@@ -310,7 +295,7 @@ class Bounder {
   const BoundedArc* arc_ = nullptr;
   std::array<std::vector<std::int32_t>, 2> labels_;
   std::array<ArcSample, 2> seeds_;
-  Place origin_{0, 0};
+  Point origin_{0, 0};
   double reach_ = 0, most_ = -1;
   std::vector<std::int32_t> wanting_;  // segments
   ErrorBound found_;

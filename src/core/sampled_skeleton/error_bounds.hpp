@@ -8,6 +8,7 @@
 #include <span>
 
 #include "core/base/monitor.hpp"
+#include "core/kernel/point.hpp"
 #include "core/sampled_skeleton/arc_error_bound.hpp"
 #include "core/sampled_skeleton/sample_diagram.hpp"
 
@@ -15,7 +16,7 @@ namespace vorotool::core::sampled_skeleton {
 
 // A straight arc on the lattice: a part of the Voronoi edge of a side, or a line that completes the skeleton.
 struct BoundedArc {
-  std::array<skeleton::Place, 2> place;  // source and target
+  std::array<kernel::Point, 2> place;  // source and target
   Side side;          // of a line that completes: one whose triangles the disc about its target meets; -1: no
                       // triangles
   std::int32_t seed;  // on one side of it

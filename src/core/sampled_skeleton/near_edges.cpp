@@ -4,12 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/indices.hpp"
 #include "core/numbers/elementary.hpp"
 #include "core/spatial/clearance.hpp"
 
 namespace vorotool::core::sampled_skeleton {
 
-using skeleton::Place;
+using kernel::Point;
 
 namespace {
 
@@ -18,7 +19,7 @@ constexpr double wider = 0x1p-5;            // part of its radius by which a dis
 
 }  // namespace
 
-std::vector<std::vector<NearEdge>> NearEdges::items(const arrangement::PlanarGraphView& graph,
+std::vector<std::vector<NearEdge>> NearEdges::items(const kernel::PlanarGraphView& graph,
                                                     const SampleGroups& groups) {
   std::vector<std::vector<NearEdge>> all(static_cast<std::size_t>(groups.count));
   const auto of_point = [&](std::size_t i) {
@@ -27,8 +28,7 @@ std::vector<std::vector<NearEdge>> NearEdges::items(const arrangement::PlanarGra
   std::vector<bool> is_end(graph.points.size());
   for (std::size_t j = 0; j < graph.segments.size(); ++j) {
     const auto segment = static_cast<std::int32_t>(j);
-    all[static_cast<std::size_t>(groups.of_segment(graph, segment))].push_back(
-        {segment, graph.site(segment)});
+    all[base::at(groups.of_segment(graph, segment))].push_back({segment, graph.segment(j)});
     for (const std::int32_t end : graph.segments[j]) is_end[static_cast<std::size_t>(end)] = true;
   }
   for (std::size_t i = 0; i < graph.points.size(); ++i) {
@@ -53,7 +53,7 @@ std::optional<std::span<const NearEdge>> NearEdges::find(const DiscPair& discs) 
 }
 
 // Whether disc i is one of the last two, in its place now.
-bool NearEdges::is_known(const Place& centre, double radius, std::size_t i) {
+bool NearEdges::is_known(const Point& centre, double radius, std::size_t i) {
   const auto is = [&](const Found& found) { return found.centre == centre && found.radius == radius; };
   if (is(discs_[i])) return true;
   if (i == 1 || !is(discs_[1])) return false;
@@ -61,7 +61,7 @@ bool NearEdges::is_known(const Place& centre, double radius, std::size_t i) {
   return true;
 }
 
-void NearEdges::search(const Place& centre, double radius, Found& found) {
+void NearEdges::search(const Point& centre, double radius, Found& found) {
   found.centre = centre;
   found.radius = radius;
   found.numbers.clear();
@@ -71,7 +71,7 @@ void NearEdges::search(const Place& centre, double radius, Found& found) {
     return found.numbers.size() <= most_;
   };
   if (!is_surrounded(centre, reach)) {
-    hierarchy_.near(centre[0], centre[1], reach, visit);
+    hierarchy_.near(centre.x, centre.y, reach, visit);
     return;
   }
   for (const std::uint32_t number : surroundings_.numbers) {  // in the order of the hierarchy as well
@@ -79,8 +79,8 @@ void NearEdges::search(const Place& centre, double radius, Found& found) {
   }
 }
 
-bool NearEdges::is_surrounded(const Place& centre, double reach) {
-  const auto away = [&](const Place& p) { return numbers::hypotenuse(p[0] - centre[0], p[1] - centre[1]); };
+bool NearEdges::is_surrounded(const Point& centre, double reach) {
+  const auto away = [&](const Point& p) { return distance(p, centre); };
   const double moved = away(last_);
   last_ = centre;
   Found& found = surroundings_;
@@ -89,7 +89,7 @@ bool NearEdges::is_surrounded(const Place& centre, double reach) {
     found.centre = centre;
     found.radius = reach * (1 + wider);
     found.numbers.clear();
-    hierarchy_.near(centre[0], centre[1], found.radius, [&](std::uint32_t number) {
+    hierarchy_.near(centre.x, centre.y, found.radius, [&](std::uint32_t number) {
       if (spatial::closed_distance(items_[number].site, centre) <= found.radius + distance_error)
         found.numbers.push_back(number);
       return found.numbers.size() <= 2 * most_;

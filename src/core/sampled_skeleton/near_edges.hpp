@@ -10,7 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "core/arrangement/planar_graph_view.hpp"
+#include "core/kernel/planar_graph_view.hpp"
+#include "core/kernel/point.hpp"
 #include "core/sampled_skeleton/arc_error_bound.hpp"
 #include "core/sampled_skeleton/sample_diagram.hpp"
 #include "core/spatial/obb_tree.hpp"
@@ -20,7 +21,7 @@ namespace vorotool::core::sampled_skeleton {
 // The discs about two points of a Voronoi edge hold those about all points between, if each goes through both
 // seeds or, squared, its radius is larger than that by the same for all.
 struct DiscPair {
-  std::array<skeleton::Place, 2> centre;
+  std::array<kernel::Point, 2> centre;
   std::array<double, 2> radius;
 };
 
@@ -28,7 +29,7 @@ struct DiscPair {
 class NearEdges {
  public:
   // Of each group the segments of a graph, then all of its points that no segment ends at.
-  static std::vector<std::vector<NearEdge>> items(const arrangement::PlanarGraphView& graph,
+  static std::vector<std::vector<NearEdge>> items(const kernel::PlanarGraphView& graph,
                                                   const SampleGroups& groups);
 
   // `hierarchy` holds the items by their numbers.
@@ -44,21 +45,21 @@ class NearEdges {
  private:
   // The edges that meet one disc. Arcs that follow each other share one.
   struct Found {
-    skeleton::Place centre{0, 0};
+    kernel::Point centre{0, 0};
     double radius = -1;
     std::vector<std::uint32_t> numbers;
   };
-  bool is_known(const skeleton::Place& centre, double radius, std::size_t i);
-  void search(const skeleton::Place& centre, double radius, Found& found);
+  bool is_known(const kernel::Point& centre, double radius, std::size_t i);
+  void search(const kernel::Point& centre, double radius, Found& found);
   // Whether the surroundings hold a disc; they are gathered where it is hardly away from the last one.
-  bool is_surrounded(const skeleton::Place& centre, double reach);
+  bool is_surrounded(const kernel::Point& centre, double reach);
 
   std::span<const NearEdge> items_;
   const spatial::ObbTree& hierarchy_;
   std::size_t most_;
   std::array<Found, 2> discs_;
-  Found surroundings_;          // what meets a wider disc: many that follow are within it
-  skeleton::Place last_{0, 0};  // the centre of the disc that was searched for last
+  Found surroundings_;        // what meets a wider disc: many that follow are within it
+  kernel::Point last_{0, 0};  // the centre of the disc that was searched for last
   std::vector<NearEdge> found_;
 };
 

@@ -4,27 +4,22 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/indices.hpp"
 #include "core/base/parallel.hpp"
 #include "core/kernel/circumcentre.hpp"
 #include "core/skeleton/frame_clip.hpp"
 
 namespace vorotool::core::sampled_skeleton {
 
+using base::at;
+using kernel::Point;
 using skeleton::FrameSide;
 using skeleton::GraphArc;
 using skeleton::Line;
-using skeleton::Place;
 
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
-
-double length(const Place& p, const Place& q) {
-  const double x = p[0] - q[0], y = p[1] - q[1];
-  return std::sqrt(x * x + y * y);
-}
 
 }  // namespace
 
@@ -92,7 +87,7 @@ std::int32_t SampleArcs::node_of(Triangle t) {
   return node;
 }
 
-std::int32_t SampleArcs::add_node(const Place& place, FrameSide side) {
+std::int32_t SampleArcs::add_node(const Point& place, FrameSide side) {
   place_.push_back(place);
   side_.push_back(side);
   return static_cast<std::int32_t>(place_.size()) - 1;
@@ -114,7 +109,7 @@ void SampleArcs::place_nodes(unsigned threads, const base::Monitor& monitor) {
         for (std::size_t i = piece * grain; i < std::min(place_.size(), (piece + 1) * grain); ++i) {
           const Triangle t = node_triangle_[i];
           const kernel::RoundedPoint centre = kernel::circumcentre(
-              mesh.seed(mesh.corner(t, 0)), mesh.seed(mesh.corner(t, 1)), mesh.seed(mesh.corner(t, 2)));
+              mesh.seed(mesh.apex(3 * t)), mesh.seed(mesh.apex(3 * t + 1)), mesh.seed(mesh.apex(3 * t + 2)));
           place_[i] = {centre.x.value, centre.y.value};
         }
       },
@@ -128,15 +123,14 @@ std::size_t SampleArcs::add_lines(std::span<const CornerBisector> lines,
   std::size_t open = 0;
   for (const CornerBisector& line : lines) {
     const kernel::LatticePoint& p = diagram_.labels().graph().point(line.corner);
-    const Place corner{static_cast<double>(p.x), static_cast<double>(p.y)};
+    const Point corner{static_cast<double>(p.x), static_cast<double>(p.y)};
     std::int32_t target = -1;
     if (line.node >= 0) {
       target = node_of_[at(diagram_.same_centre(line.node))];
     } else if (const std::optional<std::size_t> arc = arc_of(line.side)) {
-      target =
-          add_node({corner[0] + line.along * line.direction.x, corner[1] + line.along * line.direction.y},
-                   FrameSide::none);
-      divisions.push_back({*arc, length(place(arcs_[*arc].source), place(target)), target});
+      target = add_node({corner.x + line.along * line.direction.x, corner.y + line.along * line.direction.y},
+                        FrameSide::none);
+      divisions.push_back({*arc, norm(place(target) - place(arcs_[*arc].source)), target});
     }
     if (target < 0) {
       ++open;
@@ -220,19 +214,18 @@ void SampleArcs::clip(std::int32_t group, const skeleton::Frame& frame) {
 // left.
 Line SampleArcs::line_of(const GraphArc& arc) const {
   if (arc.source >= 0 && arc.target >= 0) {
-    const Place &a = place(arc.source), &b = place(arc.target);
-    const Place way{b[0] - a[0], b[1] - a[1]};
-    const auto size = [](const Place& p) { return std::max(std::abs(p[0]), std::abs(p[1])); };
+    const Point &a = place(arc.source), &b = place(arc.target);
+    const Point way{b.x - a.x, b.y - a.y};
+    const auto size = [](const Point& p) { return std::max(std::abs(p.x), std::abs(p.y)); };
     return size(a) <= size(b) ? Line{a, way, 0, 1} : Line{b, way, -1, 0};
   }
   const kernel::Point &left = diagram_.mesh().seed(arc.left), &right = diagram_.mesh().seed(arc.right);
-  const Place way{left.y - right.y, right.x - left.x};
-  const Place middle{(left.x + right.x) / 2, (left.y + right.y) / 2};
+  const Point way{left.y - right.y, right.x - left.x};
+  const Point middle{(left.x + right.x) / 2, (left.y + right.y) / 2};
   double from = -infinity;
   if (arc.source >= 0) {
-    const Place& end = place(arc.source);
-    from =
-        ((end[0] - middle[0]) * way[0] + (end[1] - middle[1]) * way[1]) / (way[0] * way[0] + way[1] * way[1]);
+    const Point& end = place(arc.source);
+    from = ((end.x - middle.x) * way.x + (end.y - middle.y) * way.y) / (way.x * way.x + way.y * way.y);
   }
   return {middle, way, from, infinity};
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/monitor.hpp"
+#include "core/kernel/point.hpp"
 #include "core/sampled_skeleton/corner_bisectors.hpp"
 #include "core/sampled_skeleton/sample_diagram.hpp"
 #include "core/skeleton/extraction.hpp"
@@ -44,7 +45,7 @@ class SampleArcs {
   }  // left and right are seeds, of lines segments
   const ArcOrigin& origin(std::size_t arc) const { return origin_[arc]; }
   std::size_t node_count() const { return place_.size(); }
-  const skeleton::Place& place(std::int32_t node) const { return place_[static_cast<std::size_t>(node)]; }
+  const kernel::Point& place(std::int32_t node) const { return place_[static_cast<std::size_t>(node)]; }
   skeleton::FrameSide side(std::int32_t node) const { return side_[static_cast<std::size_t>(node)]; }
 
  private:
@@ -54,7 +55,7 @@ class SampleArcs {
   void add_side(Side s, std::int32_t group);
   void add_chain_link(std::int32_t p, std::int32_t q, std::int32_t group);
   std::int32_t node_of(Triangle t);
-  std::int32_t add_node(const skeleton::Place& place, skeleton::FrameSide side);
+  std::int32_t add_node(const kernel::Point& place, skeleton::FrameSide side);
   std::optional<std::int32_t> node_at_corner(std::int32_t corner, std::int32_t group) const;
   void add_arc(const skeleton::GraphArc& arc, const ArcOrigin& origin);
   std::optional<std::size_t> arc_of(Side s) const;
@@ -66,7 +67,7 @@ class SampleArcs {
   std::vector<ArcOrigin> origin_;
   std::vector<std::int32_t> node_of_;    // [triangles] -1: none
   std::vector<Triangle> node_triangle_;  // [nodes that are circumcentres]
-  std::vector<skeleton::Place> place_;
+  std::vector<kernel::Point> place_;
   std::vector<skeleton::FrameSide> side_;
 };
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/disjoint_sets.hpp"
+#include "core/base/indices.hpp"
 #include "core/base/parallel.hpp"
 #include "core/delaunay/delaunay_triangulation.hpp"
 #include "core/kernel/predicates.hpp"
@@ -13,16 +14,15 @@
 
 namespace vorotool::core::sampled_skeleton {
 
-using arrangement::PlanarGraphView;
+using base::at;
 using base::LargeArray;
 using base::Monitor;
+using kernel::PlanarGraphView;
 using kernel::Point;
 
 namespace {
 
 constexpr std::size_t grain = 1 << 14;  // triangles a piece of work: about a millisecond
-
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 // Calls body(s) for the sides that are to be looked at once.
 template <class Body>

@@ -7,8 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "core/base/indices.hpp"
 #include "core/base/large_array.hpp"
 #include "core/base/monitor.hpp"
+#include "core/kernel/point.hpp"
 #include "core/sampled_skeleton/sample_labels.hpp"
 #include "core/sampled_skeleton/sample_mesh.hpp"
 #include "core/spatial/morton_grid.hpp"
@@ -25,11 +27,11 @@ struct SampleDiagramCounts {
 struct SampleGroups {
   std::span<const std::int32_t> of_point;  // [points of the graph] from 0; empty: all are one group
   std::int32_t count = 1;
-  std::optional<spatial::Bounds>
-      within;  // holds all seeds: triangles are in an order along the curve through it
+  // Holds all seeds: triangles are in an order along the curve through it
+  std::optional<spatial::Bounds> within;
 
-  std::int32_t of_segment(const arrangement::PlanarGraphView& graph, std::int32_t segment) const {
-    return of_point.empty() ? 0 : of_point[static_cast<std::size_t>(graph.ends(segment)[0])];
+  std::int32_t of_segment(const kernel::PlanarGraphView& graph, std::int32_t segment) const {
+    return of_point.empty() ? 0 : of_point[base::at(graph.segments[base::at(segment)][0])];
   }
 };
 
@@ -41,7 +43,7 @@ class SampleDiagram {
   // The samples (core/sampled_skeleton/boundary_samples.hpp) must outlive the diagram. Throws
   // std::length_error for more than 2^28 seeds. The mesh holds the triangles of one group after the other; a
   // segment and its ends are in one group.
-  SampleDiagram(const arrangement::PlanarGraphView& graph, std::span<const kernel::Point> seeds,
+  SampleDiagram(const kernel::PlanarGraphView& graph, std::span<const kernel::Point> seeds,
                 std::span<const std::int32_t> segment, std::span<const std::int32_t> start,
                 const SampleGroups& groups, unsigned threads, const base::Monitor& monitor);
   SampleDiagram(const SampleDiagram&) = delete;
@@ -76,11 +78,10 @@ class SampleDiagram {
     base::LargeArray<std::int32_t> triangles, neighbours;
     std::vector<std::int32_t> first, chain;
   };
-  static Triangulation triangulate(const arrangement::PlanarGraphView& graph,
-                                   std::span<const kernel::Point> seeds,
+  static Triangulation triangulate(const kernel::PlanarGraphView& graph, std::span<const kernel::Point> seeds,
                                    std::span<const std::int32_t> segment, const SampleGroups& groups,
                                    unsigned threads, const base::Monitor& monitor);
-  SampleDiagram(Triangulation&& made, const arrangement::PlanarGraphView& graph,
+  SampleDiagram(Triangulation&& made, const kernel::PlanarGraphView& graph,
                 std::span<const kernel::Point> seeds, std::span<const std::int32_t> segment,
                 std::span<const std::int32_t> start, const SampleGroups& groups, unsigned threads,
                 const base::Monitor& monitor);

@@ -3,14 +3,16 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "core/base/indices.hpp"
 #include "core/base/parallel.hpp"
 
 namespace vorotool::core::sampled_skeleton {
+
+using base::at;
+
 namespace {
 
 constexpr std::int32_t unknown = -1;
-
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
 
 class FaceFinder {
  public:
@@ -33,7 +35,7 @@ class FaceFinder {
 
  private:
   bool is_on_shape(Triangle t) const { return !in_.is_on_shape.empty() && in_.is_on_shape[at(t)] != 0; }
-  const std::array<std::int32_t, 2>& faces_of(std::int32_t segment) const {
+  const base::IndexPair& faces_of(std::int32_t segment) const {
     return in_.labels.graph().faces[at(segment)];
   }
 

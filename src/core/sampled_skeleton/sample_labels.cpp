@@ -2,22 +2,16 @@
 
 #include <algorithm>
 
+#include "core/base/indices.hpp"
+
 namespace vorotool::core::sampled_skeleton {
-namespace {
 
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
+using base::at;
 
-}  // namespace
-
-SampleLabels::SampleLabels(const arrangement::PlanarGraphView& graph, std::span<const kernel::Point> seeds,
+SampleLabels::SampleLabels(const kernel::PlanarGraphView& graph, std::span<const kernel::Point> seeds,
                            std::span<const std::int32_t> start, std::span<const std::int32_t> segment,
                            std::span<const std::int32_t> first)
-    : graph_(graph),
-      incident_(segment_voronoi::build::SegmentDiagram{graph.points, graph.segments, {}, {}, {}, {}}),
-      seeds_(seeds),
-      start_(start),
-      segment_(segment),
-      first_(first) {
+    : graph_(graph), incident_(graph), seeds_(seeds), start_(start), segment_(segment), first_(first) {
   for (std::size_t s = 0; s < first.size(); ++s) {
     if (first[s] != static_cast<std::int32_t>(s)) extra_.push_back({first[s], segment[s]});
   }
@@ -60,15 +54,15 @@ std::int32_t SampleLabels::piece_between(std::int32_t p, std::int32_t q) const {
     if (inside(q) != segment || (p - q != 1 && q - p != 1)) return -1;
     return first_piece(segment) + std::max(p, q) - begin;
   }
-  if (graph_.ends(segment)[0] == q && p == begin) return first_piece(segment);
-  if (graph_.ends(segment)[1] == q && p == end - 1) return first_piece(segment + 1) - 1;
+  if (graph_.segments[at(segment)][0] == q && p == begin) return first_piece(segment);
+  if (graph_.segments[at(segment)][1] == q && p == end - 1) return first_piece(segment + 1) - 1;
   return -1;
 }
 
 std::pair<std::int32_t, bool> SampleLabels::segment_of_piece(std::int32_t p, std::int32_t q) const {
-  if (!is_point(p)) return {inside(p), is_point(q) ? graph_.ends(inside(p))[1] == q : p < q};
+  if (!is_point(p)) return {inside(p), is_point(q) ? graph_.segments[at(inside(p))][1] == q : p < q};
   const std::int32_t segment = is_point(q) ? segment_between(p, q) : inside(q);
-  return {segment, graph_.ends(segment)[0] == p};
+  return {segment, graph_.segments[at(segment)][0] == p};
 }
 
 EdgePiece SampleLabels::piece(std::int32_t number) const {
@@ -79,12 +73,12 @@ EdgePiece SampleLabels::piece(std::int32_t number) const {
     (first_piece(middle) <= number ? low : high) = middle;
   }
   const std::int32_t k = number - first_piece(low), begin = start_[at(low)], end = start_[at(low) + 1];
-  const auto [a, b] = graph_.ends(low);
+  const auto [a, b] = graph_.segments[at(low)];
   return {first(k == 0 ? a : begin + k - 1), first(k == end - begin ? b : begin + k), low};
 }
 
 std::int32_t SampleLabels::piece_at(std::int32_t segment, double share) const {
-  const kernel::LatticeSite site = graph_.site(segment);
+  const kernel::LatticeSite site = graph_.segment(at(segment));
   const kernel::LatticeVector along = site.b - site.a;
   const double ux = static_cast<double>(along.x), uy = static_cast<double>(along.y);
   const double wanted = share * (ux * ux + uy * uy);
@@ -99,7 +93,7 @@ std::int32_t SampleLabels::piece_at(std::int32_t segment, double share) const {
 
 std::int32_t SampleLabels::seed_beside(std::int32_t end, std::int32_t segment) const {
   const std::int32_t begin = start_[at(segment)], stop = start_[at(segment) + 1];
-  const auto [a, b] = graph_.ends(segment);
+  const auto [a, b] = graph_.segments[at(segment)];
   if (begin == stop) return end == a ? b : a;
   return first(end == a ? begin : stop - 1);
 }

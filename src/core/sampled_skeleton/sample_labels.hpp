@@ -7,7 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/arrangement/planar_graph_view.hpp"
+#include "core/base/indices.hpp"
+#include "core/kernel/planar_graph_view.hpp"
 #include "core/kernel/point.hpp"
 #include "core/segment_voronoi/build/incident_segments.hpp"
 
@@ -25,11 +26,11 @@ class SampleLabels {
   // `first` names for each of the seeds the first one at the same place. Nearly all are that themselves;
   // seeds on segments that meet at a very small angle may be rounded to one place, and the first then has all
   // labels.
-  SampleLabels(const arrangement::PlanarGraphView& graph, std::span<const kernel::Point> seeds,
+  SampleLabels(const kernel::PlanarGraphView& graph, std::span<const kernel::Point> seeds,
                std::span<const std::int32_t> start, std::span<const std::int32_t> segment,
                std::span<const std::int32_t> first);
 
-  const arrangement::PlanarGraphView& graph() const { return graph_; }
+  const kernel::PlanarGraphView& graph() const { return graph_; }
   const segment_voronoi::build::IncidentSegments& incident() const { return incident_; }
   std::size_t piece_count() const { return start_.size() - 1 + segment_.size() - graph_.points.size(); }
 
@@ -82,12 +83,13 @@ class SampleLabels {
     return site < 0 ? -1 : site - static_cast<std::int32_t>(graph_.points.size());
   }
   bool is_end(std::int32_t point, std::int32_t segment) const {
-    return graph_.ends(segment)[0] == point || graph_.ends(segment)[1] == point;
+    const auto [a, b] = graph_.segments[base::at(segment)];
+    return a == point || b == point;
   }
   std::span<const ExtraLabel> extra(std::int32_t seed) const;
   std::int32_t piece_at(std::int32_t segment, double share) const;
 
-  arrangement::PlanarGraphView graph_;
+  kernel::PlanarGraphView graph_;
   segment_voronoi::build::IncidentSegments incident_;
   std::span<const kernel::Point> seeds_;
   std::span<const std::int32_t> start_, segment_, first_;

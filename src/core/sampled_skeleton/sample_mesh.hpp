@@ -1,6 +1,6 @@
 // The Delaunay triangulation of seeds, side by side, and differences of seeds.
 //
-// Side 3 t + k of triangle t is opposite to its corner k; t is on its left. Its Voronoi edge goes from the
+// A side has its triangle on its left. Its Voronoi edge goes from the
 // circumcentre of t to that of the neighbour across it, or to infinity.
 #pragma once
 
@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <span>
 
+#include "core/base/indices.hpp"
+#include "core/delaunay/half_edge.hpp"
 #include "core/kernel/point.hpp"
 #include "core/numbers/int128.hpp"
 #include "core/numbers/sign.hpp"
@@ -16,7 +18,7 @@
 
 namespace vorotool::core::sampled_skeleton {
 
-using Side = std::int32_t;
+using Side = delaunay::HalfEdge;  // opposite to its corner
 using Triangle = std::int32_t;
 
 // Flags of the Voronoi edge of a side; 0: it is kept.
@@ -35,16 +37,17 @@ struct SampleMesh {
   const kernel::Point& seed(std::int32_t i) const { return seeds[static_cast<std::size_t>(i)]; }
 
   static Triangle triangle_of(Side s) { return s / 3; }
-  std::int32_t corner(Triangle t, int k) const { return triangles[static_cast<std::size_t>(3 * t + k % 3)]; }
-  std::int32_t origin(Side s) const {
-    return triangles[static_cast<std::size_t>(s % 3 == 2 ? s - 2 : s + 1)];
+  std::int32_t origin(Side s) const { return apex(delaunay::following(s)); }
+  std::int32_t target(Side s) const { return apex(delaunay::preceding(s)); }
+  std::int32_t apex(Side s) const { return triangles[base::at(s)]; }
+  // The side of a triangle that is opposite to one of its corners.
+  Side opposite(Triangle t, std::int32_t corner) const {
+    Side s = 3 * t;
+    while (apex(s) != corner) ++s;
+    return s;
   }
-  std::int32_t target(Side s) const {
-    return triangles[static_cast<std::size_t>(s % 3 == 0 ? s + 2 : s - 1)];
-  }
-  std::int32_t apex(Side s) const { return triangles[static_cast<std::size_t>(s)]; }
   // The triangle across a side, or -1.
-  Triangle across(Side s) const { return neighbours[static_cast<std::size_t>(s)]; }
+  Triangle across(Side s) const { return neighbours[base::at(s)]; }
   // The same side of the triangle across it, or -1.
   Side twin(Side s) const {
     const Triangle u = across(s);

@@ -14,10 +14,10 @@
 namespace vorotool::core::sampled_skeleton {
 
 using base::Monitor;
+using kernel::Point;
 using skeleton::GraphArc;
 using skeleton::LatticeToInput;
 using skeleton::OrderedArc;
-using skeleton::Place;
 using skeleton::SkeletonArrays;
 
 namespace {
@@ -95,9 +95,8 @@ class Writer {
     for (const OrderedArc& ordered : order_.arcs) {
       const kernel::Point& seed = diagram_.mesh().seed(graph_arc(ordered).left);
       for (const std::int32_t node : {ordered.source, ordered.target}) {
-        const Place& place = arcs_.place(order_.nodes[static_cast<std::size_t>(node)]);
-        const double x = place[0] - seed.x, y = place[1] - seed.y;
-        out.arrays.radius[static_cast<std::size_t>(node)] = place_.scale * std::sqrt(x * x + y * y);
+        const Point& place = arcs_.place(order_.nodes[static_cast<std::size_t>(node)]);
+        out.arrays.radius[static_cast<std::size_t>(node)] = place_.scale * norm(place - seed);
       }
     }
   }
@@ -106,12 +105,9 @@ class Writer {
   const GraphArc& graph_arc(const OrderedArc& ordered) const {
     return arcs_.arcs()[static_cast<std::size_t>(ordered.arc)];
   }
-  Place placed(const Place& p) const {
-    return {place_.origin_x + place_.scale * p[0], place_.origin_y + place_.scale * p[1]};
-  }
 
   void write_node(std::size_t i, SkeletonArrays& a) const {
-    a.vertices[i] = placed(arcs_.place(order_.nodes[i]));
+    a.vertices[i] = place_(arcs_.place(order_.nodes[i]));
     a.side[i] = static_cast<std::int8_t>(arcs_.side(order_.nodes[i]));
   }
 
@@ -132,9 +128,8 @@ class Writer {
     }
     a.group[i] = arc.group;
     a.branch[i] = ordered.branch;
-    const Place &source = arcs_.place(arc.source), &target = arcs_.place(arc.target);
-    const double x = target[0] - source[0], y = target[1] - source[1];
-    a.length[i] = place_.scale * std::sqrt(x * x + y * y);
+    const Point &source = arcs_.place(arc.source), &target = arcs_.place(arc.target);
+    a.length[i] = place_.scale * norm(target - source);
   }
 
   const SampleDiagram& diagram_;

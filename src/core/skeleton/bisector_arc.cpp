@@ -1,5 +1,6 @@
 #include "core/skeleton/bisector_arc.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "core/kernel/lattice.hpp"
@@ -7,6 +8,7 @@
 namespace vorotool::core::skeleton {
 
 using kernel::LatticeSite;
+using kernel::Point;
 
 namespace {
 
@@ -56,24 +58,24 @@ BisectorArc::BisectorArc(const LatticeSite& left, const LatticeSite& right)
 }
 
 double Parabola::parameter(const ArcEnd& end) const {
-  const double x = end.place[0] - focus[0], y = end.place[1] - focus[1];
+  const double x = end.place.x - focus.x, y = end.place.y - focus.y;
   const double t = ux * x + uy * y;
   // t^2 = h (2 r - h): r is wrong by an ulp or so, which moves t by about h r ulp / |t|.
-  if (h * end.radius >= std::abs(t) * (std::abs(end.place[0]) + std::abs(end.place[1]))) return t;
+  if (h * end.radius >= std::abs(t) * (std::abs(end.place.x) + std::abs(end.place.y))) return t;
   return std::copysign(std::sqrt(std::fmax(0.0, h * (2 * end.radius - h))), t);
 }
 
-Place Parabola::place(double t) const {
+Point Parabola::place(double t) const {
   const double n = radius(t) - h;  // from the focus, away from the directrix
-  return {focus[0] + (t * ux - n * uy), focus[1] + (t * uy + n * ux)};
+  return {focus.x + (t * ux - n * uy), focus.y + (t * uy + n * ux)};
 }
 
 // Along the directrix it is half-way. Across, the parabola's chord is half-way too, and the control point is
 // (t1 - t0)^2 / (4 h) below that: a small difference for a short arc.
-Place control_point(const Parabola& p, const ArcEnd& source, const ArcEnd& target) {
+Point control_point(const Parabola& p, const ArcEnd& source, const ArcEnd& target) {
   const double below = squared(p.parameter(target) - p.parameter(source)) / (4 * p.h);
-  return {(source.place[0] + target.place[0]) / 2 + below * p.uy,
-          (source.place[1] + target.place[1]) / 2 - below * p.ux};
+  return {(source.place.x + target.place.x) / 2 + below * p.uy,
+          (source.place.y + target.place.y) / 2 - below * p.ux};
 }
 
 double arc_length(const Parabola& p, const ArcEnd& source, const ArcEnd& target) {
@@ -92,8 +94,8 @@ double arc_length(double h, double from, double to) {
   return h / 2 * (step * products + inverse_sinh(step * (1 + outer) / (w0 + w1)));
 }
 
-double distance_to(const LatticeSite& site, const Place& place) {
-  const double x = place[0] - site.a.x, y = place[1] - site.a.y;
+double distance_to(const LatticeSite& site, const Point& place) {
+  const double x = place.x - site.a.x, y = place.y - site.a.y;
   if (site.is_point()) return std::sqrt(x * x + y * y);
   const kernel::LatticeVector along = site.b - site.a;
   const double ux = static_cast<double>(along.x), uy = static_cast<double>(along.y);

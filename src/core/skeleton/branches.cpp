@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace vorotool::core::skeleton {
-namespace {
+#include "core/base/indices.hpp"
 
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
+namespace vorotool::core::skeleton {
+
+using base::at;
+
+namespace {
 
 // Numbers of the arcs, group by group.
 std::vector<std::int32_t> by_group(std::span<const GraphArc> arcs) {

@@ -6,28 +6,26 @@
 #include <string>
 
 #include "core/base/disjoint_sets.hpp"
+#include "core/base/indices.hpp"
 #include "core/base/large_array.hpp"
 #include "core/base/parallel.hpp"
 #include "core/segment_voronoi/build/wanted_faces.hpp"
 
 namespace vorotool::core::skeleton {
 
-using segment_voronoi::build::SegmentDiagram;
+using base::at;
+using base::IndexPair;
+using segment_voronoi::build::DiagramView;
 
 namespace {
 
-using Pair = std::array<std::int32_t, 2>;
 constexpr std::int32_t unknown = -1, deleted = -2;
 constexpr std::size_t grain = 1 << 15;  // edges a piece: some 0.5 ms
 
-std::size_t at(std::int32_t index) { return static_cast<std::size_t>(index); }
-
 class FaceFinder {
  public:
-  FaceFinder(const SegmentDiagram& diagram, std::span<const Pair> faces)
-      : diagram_(diagram),
-        faces_(faces),
-        point_face_(segment_voronoi::build::point_faces(diagram.points, diagram.segments, faces)) {}
+  explicit FaceFinder(const DiagramView& diagram)
+      : diagram_(diagram), point_face_(segment_voronoi::build::point_faces(diagram)) {}
 
   // The face of an edge as far as its own sites and ends tell.
   std::int32_t face(std::size_t edge) const {
@@ -45,29 +43,26 @@ class FaceFinder {
 
  private:
   bool is_own_end(std::int32_t site, std::int32_t other) const {
-    if (!diagram_.is_point(site) || diagram_.is_point(other)) return false;
-    const Pair& ends = diagram_.ends(other);
-    return ends[0] == site || ends[1] == site;
+    return diagram_.is_point(site) && !diagram_.is_point(other) && diagram_.is_end(site, other);
   }
 
   std::int32_t common_end(std::int32_t one, std::int32_t other) const {
-    const Pair &a = diagram_.ends(one), &b = diagram_.ends(other);
+    const IndexPair &a = diagram_.ends(one), &b = diagram_.ends(other);
     return a[0] == b[0] || a[0] == b[1] ? a[0] : a[1];
   }
 
   // As seen from an end of the segment along it.
   std::int32_t face_right_of(std::int32_t segment, std::int32_t end) const {
-    return faces_[at(segment) - diagram_.points.size()][diagram_.ends(segment)[0] == end ? 1 : 0];
+    return diagram_.faces[diagram_.segment_of(segment)][diagram_.ends(segment)[0] == end ? 1 : 0];
   }
 
-  const SegmentDiagram& diagram_;
-  std::span<const Pair> faces_;
+  const DiagramView& diagram_;
   std::vector<std::int32_t> point_face_;
 };
 
 // Edges between segments, and between points without segments, are in the face of the edges that they meet at
 // vertices which are no corners: a path inside a face leads to each of them.
-void spread_faces(const SegmentDiagram& diagram, base::LargeArray<std::int32_t>& face) {
+void spread_faces(const DiagramView& diagram, base::LargeArray<std::int32_t>& face) {
   std::vector<std::int32_t> of_vertex(diagram.radius.size(), unknown);
   std::vector<std::size_t> left_over;
   for (std::size_t e = 0; e < face.size(); ++e) {
@@ -92,10 +87,9 @@ void spread_faces(const SegmentDiagram& diagram, base::LargeArray<std::int32_t>&
 
 }  // namespace
 
-SkeletonEdges skeleton_edges(const SegmentDiagram& diagram, std::span<const Pair> segment_faces,
-                             unsigned threads, const base::Monitor& monitor) {
+SkeletonEdges skeleton_edges(const DiagramView& diagram, unsigned threads, const base::Monitor& monitor) {
   const std::size_t count = diagram.edges.size();
-  const FaceFinder finder(diagram, segment_faces);
+  const FaceFinder finder(diagram);
   base::LargeArray<std::int32_t> face(count);
   base::parallel_for(
       base::piece_count(count, grain), threads,

@@ -1,7 +1,6 @@
 // Which edges of a segment Voronoi diagram are the skeleton's (paper, section 3.2), and where they lie.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -17,13 +16,12 @@ struct SkeletonEdges {
 };
 
 // All edges but those between a segment and its own end: what the paper deletes by its labels. Each lies in
-// one face, since it meets segments only where it ends in a corner. `segment_faces` are those left and right
-// of each segment; face 0 is the unbounded one.
+// one face, since it meets segments only where it ends in a corner. The faces are those of the diagram's
+// graph.
 //
 // No coordinate of a vertex is looked at: a point's cell is in its sector over 180 degrees, an edge from a
 // corner between two segments, an unbounded edge in face 0; the rest is in the faces of its neighbours.
-SkeletonEdges skeleton_edges(const segment_voronoi::build::SegmentDiagram& diagram,
-                             std::span<const std::array<std::int32_t, 2>> segment_faces, unsigned threads,
+SkeletonEdges skeleton_edges(const segment_voronoi::build::DiagramView& diagram, unsigned threads,
                              const base::Monitor& monitor);
 
 }  // namespace vorotool::core::skeleton

@@ -32,7 +32,7 @@ class ArrayWriter {
 
   void write_node(std::size_t i) {
     const ArcEnd end = graph_.end(order_.nodes[i]);
-    out_.vertices[i] = placed(end.place);
+    out_.vertices[i] = place_(end.place);
     out_.radius[i] = place_.scale * end.radius;
     out_.side[i] = static_cast<std::int8_t>(graph_.side(order_.nodes[i]));
   }
@@ -48,22 +48,17 @@ class ArrayWriter {
     const ArcEnd source = graph_.end(arc.source), target = graph_.end(arc.target);
     const BisectorArc bisector = graph_.bisector(arc);
     if (bisector.is_parabola) {
-      out_.control[i] = placed(control_point(bisector.parabola, source, target));
+      out_.control[i] = place_(control_point(bisector.parabola, source, target));
       out_.length[i] = place_.scale * arc_length(bisector.parabola, source, target);
     } else {
-      const double x = target.place[0] - source.place[0], y = target.place[1] - source.place[1];
       out_.control[i] = {nan, nan};
-      out_.length[i] = place_.scale * std::sqrt(x * x + y * y);
+      out_.length[i] = place_.scale * norm(target.place - source.place);
     }
   }
 
   SkeletonArrays take() { return std::move(out_); }
 
  private:
-  Place placed(const Place& p) const {
-    return {place_.origin_x + place_.scale * p[0], place_.origin_y + place_.scale * p[1]};
-  }
-
   const SkeletonGraph& graph_;
   const SkeletonOrder& order_;
   const LatticeToInput& place_;
@@ -83,7 +78,7 @@ void for_each(std::size_t count, unsigned threads, const base::Monitor& monitor,
 
 }  // namespace
 
-SkeletonArrays extract_skeleton(const segment_voronoi::build::SegmentDiagram& diagram,
+SkeletonArrays extract_skeleton(const segment_voronoi::build::DiagramView& diagram,
                                 std::span<const std::int32_t> edges, std::span<const std::int32_t> groups,
                                 const std::optional<ClippedGroup>& clipped, const JoinedGroups& joined,
                                 const LatticeToInput& place, unsigned threads, const base::Monitor& monitor) {

@@ -9,6 +9,8 @@
 #include "core/kernel/lattice.hpp"
 
 namespace vorotool::core::skeleton {
+using kernel::Point;
+
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -47,9 +49,9 @@ class Clipper {
     if (arc.source >= 0 && arc.target >= 0) {
       // from the nearer end: the other one may be so far away that its rounding would move what is in the
       // frame
-      const Place a = graph_.end(arc.source).place, b = graph_.end(arc.target).place;
-      const Place way{b[0] - a[0], b[1] - a[1]};
-      const auto size = [](const Place& p) { return std::max(std::abs(p[0]), std::abs(p[1])); };
+      const Point a = graph_.end(arc.source).place, b = graph_.end(arc.target).place;
+      const Point way{b.x - a.x, b.y - a.y};
+      const auto size = [](const Point& p) { return std::max(std::abs(p.x), std::abs(p.y)); };
       return size(a) <= size(b) ? Line{a, way, 0, 1} : Line{b, way, -1, 0};
     }
     const kernel::LatticeSite left = graph_.diagram().site(arc.left),
@@ -61,12 +63,11 @@ class Clipper {
     };
     const kernel::LatticeVector across{middle_of(left).x - middle_of(right).x,
                                        middle_of(left).y - middle_of(right).y};
-    const Place way{static_cast<double>(across.y), -static_cast<double>(across.x)};
-    const Place middle{(static_cast<double>(p.x) + q.x) / 2, (static_cast<double>(p.y) + q.y) / 2};
+    const Point way{static_cast<double>(across.y), -static_cast<double>(across.x)};
+    const Point middle{(static_cast<double>(p.x) + q.x) / 2, (static_cast<double>(p.y) + q.y) / 2};
     const auto parameter = [&](std::int32_t node) {
-      const Place end = graph_.end(node).place;
-      return ((end[0] - middle[0]) * way[0] + (end[1] - middle[1]) * way[1]) /
-             (way[0] * way[0] + way[1] * way[1]);
+      const Point end = graph_.end(node).place;
+      return dot(end - middle, way) / dot(way, way);
     };
     return {middle, way, arc.source >= 0 ? parameter(arc.source) : -infinity,
             arc.target >= 0 ? parameter(arc.target) : infinity};
@@ -78,7 +79,7 @@ class Clipper {
     const auto& [first, last] = *cuts;
     const auto node = [&](const Cut& cut, std::int32_t own) {
       if (cut.side == FrameSide::none) return own;
-      const Place place = line.place(cut.t);
+      const Point place = line.place(cut.t);
       return graph_.add_node({place, distance_to(graph_.diagram().site(arc.left), place)}, cut.side);
     };
     kept_.push_back({node(first, arc.source), node(last, arc.target), arc.left, arc.right, arc.group});
@@ -89,10 +90,10 @@ class Clipper {
     const double from = p.parameter(source), to = p.parameter(target);
     std::vector<Cut> cuts{{from, FrameSide::none}, {to, FrameSide::none}};
     const double half = p.h / 2;
-    add_cuts(-p.uy / (2 * p.h), p.ux, p.focus[0] + p.uy * half, frame_.least_x, FrameSide::least_x, cuts);
-    add_cuts(-p.uy / (2 * p.h), p.ux, p.focus[0] + p.uy * half, frame_.most_x, FrameSide::most_x, cuts);
-    add_cuts(p.ux / (2 * p.h), p.uy, p.focus[1] - p.ux * half, frame_.least_y, FrameSide::least_y, cuts);
-    add_cuts(p.ux / (2 * p.h), p.uy, p.focus[1] - p.ux * half, frame_.most_y, FrameSide::most_y, cuts);
+    add_cuts(-p.uy / (2 * p.h), p.ux, p.focus.x + p.uy * half, frame_.least_x, FrameSide::least_x, cuts);
+    add_cuts(-p.uy / (2 * p.h), p.ux, p.focus.x + p.uy * half, frame_.most_x, FrameSide::most_x, cuts);
+    add_cuts(p.ux / (2 * p.h), p.uy, p.focus.y - p.ux * half, frame_.least_y, FrameSide::least_y, cuts);
+    add_cuts(p.ux / (2 * p.h), p.uy, p.focus.y - p.ux * half, frame_.most_y, FrameSide::most_y, cuts);
     std::erase_if(cuts, [&](const Cut& c) {
       return c.side != FrameSide::none && (c.t <= std::min(from, to) || c.t >= std::max(from, to));
     });

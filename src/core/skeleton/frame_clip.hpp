@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/monitor.hpp"
+#include "core/kernel/point.hpp"
 #include "core/skeleton/graph.hpp"
 
 namespace vorotool::core::skeleton {
@@ -14,8 +15,8 @@ namespace vorotool::core::skeleton {
 struct Frame {
   double least_x, most_x, least_y, most_y;
 
-  bool holds(const Place& p) const {
-    return p[0] >= least_x && p[0] <= most_x && p[1] >= least_y && p[1] <= most_y;
+  bool holds(const kernel::Point& p) const {
+    return p.x >= least_x && p.x <= most_x && p.y >= least_y && p.y <= most_y;
   }
 };
 
@@ -27,25 +28,25 @@ struct Cut {
 
 // A straight arc, or a ray, or a whole line: base + t way.
 struct Line {
-  Place base, way;
+  kernel::Point base, way;
   double from, to;
 
-  Place place(double t) const { return {base[0] + t * way[0], base[1] + t * way[1]}; }
+  kernel::Point place(double t) const { return {base.x + t * way.x, base.y + t * way.y}; }
 };
 
 // Where the part of a line in the frame begins and ends; nothing if there is none.
 inline std::optional<std::pair<Cut, Cut>> cut_line(const Line& line, const Frame& frame) {
   Cut first{line.from, FrameSide::none}, last{line.to, FrameSide::none};
+  const double base[2] = {line.base.x, line.base.y}, way[2] = {line.way.x, line.way.y};
   const double least[2] = {frame.least_x, frame.least_y}, most[2] = {frame.most_x, frame.most_y};
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    const double base = line.base[axis], way = line.way[axis];
-    if (way == 0) {
-      if (base < least[axis] || base > most[axis]) return {};
+    if (way[axis] == 0) {
+      if (base[axis] < least[axis] || base[axis] > most[axis]) return {};
       continue;
     }
-    Cut enter{(least[axis] - base) / way, axis == 0 ? FrameSide::least_x : FrameSide::least_y};
-    Cut leave{(most[axis] - base) / way, axis == 0 ? FrameSide::most_x : FrameSide::most_y};
-    if (way < 0) std::swap(enter, leave);
+    Cut enter{(least[axis] - base[axis]) / way[axis], axis == 0 ? FrameSide::least_x : FrameSide::least_y};
+    Cut leave{(most[axis] - base[axis]) / way[axis], axis == 0 ? FrameSide::most_x : FrameSide::most_y};
+    if (way[axis] < 0) std::swap(enter, leave);
     if (enter.t > first.t) first = enter;
     if (leave.t < last.t) last = leave;
   }

@@ -5,7 +5,9 @@
 
 namespace vorotool::core::skeleton {
 
-SkeletonGraph::SkeletonGraph(const segment_voronoi::build::SegmentDiagram& diagram,
+using kernel::Point;
+
+SkeletonGraph::SkeletonGraph(const segment_voronoi::build::DiagramView& diagram,
                              std::span<const std::int32_t> edges, std::span<const std::int32_t> groups)
     : diagram_(diagram) {
   arcs.reserve(edges.size());
@@ -24,11 +26,13 @@ std::int32_t SkeletonGraph::node_at(std::int32_t vertex) {
 
 void SkeletonGraph::join_corners(std::int32_t first, std::int32_t last) {
   struct Corner {
-    Place place;
+    Point place;
     std::int32_t group;
     std::int32_t* node;
   };
-  const auto key = [](const Corner& corner) { return std::tie(corner.place, corner.group); };
+  const auto key = [](const Corner& corner) {
+    return std::tie(corner.place.x, corner.place.y, corner.group);
+  };
   std::vector<Corner> corners;
   for (GraphArc& arc : arcs) {
     if (arc.group < first || arc.group >= last) continue;
@@ -37,7 +41,7 @@ void SkeletonGraph::join_corners(std::int32_t first, std::int32_t last) {
     }
   }
   std::sort(corners.begin(), corners.end(), [&](const Corner& a, const Corner& b) {
-    return std::tie(a.place, a.group, *a.node) < std::tie(b.place, b.group, *b.node);
+    return std::tuple_cat(key(a), std::tie(*a.node)) < std::tuple_cat(key(b), std::tie(*b.node));
   });
   for (std::size_t k = 1; k < corners.size(); ++k) {
     if (key(corners[k]) == key(corners[k - 1])) *corners[k].node = *corners[k - 1].node;

@@ -23,10 +23,10 @@ struct GraphArc {
 // ends there, and ends on a frame.
 class SkeletonGraph {
  public:
-  SkeletonGraph(const segment_voronoi::build::SegmentDiagram& diagram, std::span<const std::int32_t> edges,
+  SkeletonGraph(const segment_voronoi::build::DiagramView& diagram, std::span<const std::int32_t> edges,
                 std::span<const std::int32_t> groups);
 
-  const segment_voronoi::build::SegmentDiagram& diagram() const { return diagram_; }
+  const segment_voronoi::build::DiagramView& diagram() const { return diagram_; }
   std::size_t node_count() const { return diagram_.radius.size() + extra_.size(); }
 
   ArcEnd end(std::int32_t node) const {
@@ -59,7 +59,7 @@ class SkeletonGraph {
   // Different sectors of a corner have nothing in common but the corner: each arc gets its own node there.
   std::int32_t node_at(std::int32_t vertex);
 
-  const segment_voronoi::build::SegmentDiagram& diagram_;
+  const segment_voronoi::build::DiagramView& diagram_;
   std::vector<ExtraNode> extra_;
 };
 

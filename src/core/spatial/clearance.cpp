@@ -10,16 +10,16 @@
 
 namespace vorotool::core::spatial {
 
-double closed_distance(const kernel::LatticeSite& site, const std::array<double, 2>& place) {
-  double x = place[0] - site.a.x, y = place[1] - site.a.y;
+double closed_distance(const kernel::LatticeSite& site, const kernel::Point& place) {
+  double x = place.x - site.a.x, y = place.y - site.a.y;
   if (!site.is_point()) {
     const kernel::LatticeVector along = site.b - site.a;
     const double ux = static_cast<double>(along.x), uy = static_cast<double>(along.y);
     const double square = static_cast<double>(kernel::norm2(along));
     const double t = ux * x + uy * y;
     if (t >= square) {
-      x = place[0] - site.b.x;
-      y = place[1] - site.b.y;
+      x = place.x - site.b.x;
+      y = place.y - site.b.y;
     } else if (t > 0) {
       return std::abs(ux * y - uy * x) / std::sqrt(square);
     }
@@ -28,7 +28,7 @@ double closed_distance(const kernel::LatticeSite& site, const std::array<double,
 }
 
 std::vector<double> clearances(std::span<const kernel::LatticeSite> sites,
-                               std::span<const std::array<double, 2>> places, std::span<const double> reach,
+                               std::span<const kernel::Point> places, std::span<const double> reach,
                                unsigned threads, const base::Monitor& monitor) {
   constexpr std::size_t grain = 1 << 12;  // places a piece: some milliseconds
   std::vector<double> found(places.size(), std::numeric_limits<double>::infinity());
@@ -38,7 +38,7 @@ std::vector<double> clearances(std::span<const kernel::LatticeSite> sites,
       [&](std::size_t piece) {
         const std::size_t last = std::min(places.size(), (piece + 1) * grain);
         for (std::size_t i = piece * grain; i < last; ++i) {
-          hierarchy.near(places[i][0], places[i][1], reach[i], [&](std::uint32_t site) {
+          hierarchy.near(places[i].x, places[i].y, reach[i], [&](std::uint32_t site) {
             found[i] = std::min(found[i], closed_distance(sites[site], places[i]));
             return true;
           });

@@ -52,7 +52,7 @@ class KdTree {
       sites_[i] = {x[i], y[i], labels[i], static_cast<std::uint32_t>(i)};
     }
     std::size_t leaves = 1;
-    while (leaves * kLeaf < sites_.size()) leaves *= 2;
+    while (leaves * leaf_size < sites_.size()) leaves *= 2;
     boxes_.resize(2 * leaves - 1);
     first_leaf_ = leaves - 1;
     if (!sites_.empty()) build(0, 0, sites_.size(), monitor);
@@ -77,7 +77,7 @@ class KdTree {
   }
 
  private:
-  static constexpr std::size_t kLeaf = 8;  // sites a leaf at most
+  static constexpr std::size_t leaf_size = 8;  // sites a leaf at most
 
   // Node k has the children 2k + 1 and 2k + 2, which halve its range of sites.
   struct Box {

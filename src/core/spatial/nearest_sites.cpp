@@ -12,12 +12,12 @@ std::vector<NearestOther> nearest_other_sites(std::span<const double> x, std::sp
                                               std::span<const std::uint32_t> labels, unsigned threads,
                                               const base::Monitor& monitor) {
   using Tree = KdTree<double, double>;
-  constexpr std::size_t kPiece = 4096;
+  constexpr std::size_t piece_size = 4096;
   const Tree tree(x, y, labels, monitor);
   std::vector<NearestOther> result(tree.size());
   // In the order of the tree, where neighbours share most of their paths.
   auto query = [&](std::size_t piece) {
-    for (std::size_t i = piece * kPiece; i < std::min(tree.size(), (piece + 1) * kPiece); ++i) {
+    for (std::size_t i = piece * piece_size; i < std::min(tree.size(), (piece + 1) * piece_size); ++i) {
       const Tree::Site& site = tree.site(static_cast<std::ptrdiff_t>(i));
       const Tree::Nearest found = tree.nearest(site.x, site.y, {}, site.index);
       NearestOther& other = result[site.index];
@@ -28,7 +28,7 @@ std::vector<NearestOther> nearest_other_sites(std::span<const double> x, std::sp
       }
     }
   };
-  base::parallel_for(base::piece_count(tree.size(), kPiece), threads, query, monitor);
+  base::parallel_for(base::piece_count(tree.size(), piece_size), threads, query, monitor);
   return result;
 }
 

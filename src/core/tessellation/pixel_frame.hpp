@@ -8,7 +8,7 @@
 namespace vorotool::core::tessellation {
 
 // Coordinates of seeds and pixels on the lattice may have this magnitude.
-constexpr std::int64_t kLatticeLimit = std::int64_t{1} << 40;
+constexpr std::int64_t lattice_limit = std::int64_t{1} << 40;
 
 // Seeds on a lattice of `scale` steps a pixel; several may share a label. Labels are at least 1.
 struct LatticeSeeds {

@@ -64,8 +64,8 @@ class Sweep {
   Envelope<Arithmetic> envelope_;
 
   std::vector<std::int32_t> nearest_;  // [columns] the nearest site of a column, while a band starts
-  std::vector<std::int32_t>
-      follows_;  // site - offset_ -> the seed that is live below it in its column, or gone
+  // Site - offset_ -> the seed that is live below it in its column, or gone
+  std::vector<std::int32_t> follows_;
   std::vector<Birth> births_;
   std::int32_t offset_ = 0;
   std::int32_t next_site_ = 0;

@@ -35,8 +35,8 @@ struct Sites {
   std::vector<std::int64_t> y;       // [n] relative to the middle of the frame, not decreasing
   std::vector<std::int32_t> column;  // [n] index into column_x; increasing where y is equal
   std::vector<std::uint32_t> label;  // [n]
-  std::vector<std::int64_t>
-      column_x;                     // [columns] distinct x, increasing, relative to the middle of the frame
+  // [columns] distinct x, increasing, relative to the middle of the frame
+  std::vector<std::int64_t> column_x;
   std::int64_t largest_coordinate;  // N of sweep_arithmetic.hpp: bounds seeds and frame
   std::size_t duplicates;           // seeds that were left out
 

@@ -117,7 +117,7 @@ struct Extent {
 // Of the seeds and of the pixels along one axis.
 Extent extent(std::span<const std::int64_t> seeds, std::int64_t origin, std::size_t size,
               std::int64_t scale) {
-  const std::int64_t most = kLatticeLimit / scale;
+  const std::int64_t most = lattice_limit / scale;
   if (origin < -most || origin > most || size > static_cast<std::size_t>(most - origin) + 1) {
     throw std::out_of_range("the frame reaches beyond 2^40 lattice steps");
   }
@@ -126,7 +126,7 @@ Extent extent(std::span<const std::int64_t> seeds, std::int64_t origin, std::siz
     all.low = std::min(all.low, coordinate);
     all.high = std::max(all.high, coordinate);
   }
-  if (all.low < -kLatticeLimit || all.high > kLatticeLimit) {
+  if (all.low < -lattice_limit || all.high > lattice_limit) {
     throw std::out_of_range("a seed lies beyond 2^40 lattice steps");
   }
   return all;
@@ -141,8 +141,8 @@ WrongPixels verify_tessellation(std::span<const Label> image, const PixelFrame& 
   if (image.empty()) return {};
   const Extent x = extent(seeds.x, frame.x, frame.width, seeds.scale);
   const Extent y = extent(seeds.y, frame.y, frame.height, seeds.scale);
-  constexpr std::int64_t kNarrow = std::int64_t{1} << 31;  // see KdTree
-  if (x.high - x.low <= kNarrow && y.high - y.low <= kNarrow) {
+  constexpr std::int64_t narrow = std::int64_t{1} << 31;  // see KdTree
+  if (x.high - x.low <= narrow && y.high - y.low <= narrow) {
     return verify<std::uint64_t>(image, frame, seeds, limit, threads, monitor);
   }
   return verify<uint128>(image, frame, seeds, limit, threads, monitor);

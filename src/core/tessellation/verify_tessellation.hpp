@@ -22,7 +22,7 @@ struct WrongPixels {
 // Compares every pixel with the label of the lexicographic minimum of (squared distance, label) over all
 // seeds; with `limit`, a pixel whose squared lattice distance exceeds it must be 0. Exact: squared distances
 // are at most 2^83, and are computed in 64 bits where coordinates differ by at most 2^31, else in 128.
-// Throws std::out_of_range beyond kLatticeLimit.
+// Throws std::out_of_range beyond lattice_limit.
 template <class Label>
 WrongPixels verify_tessellation(std::span<const Label> image, const PixelFrame& frame,
                                 const LatticeSeeds& seeds, std::optional<numbers::uint128> limit,

@@ -14,9 +14,9 @@ using base::Monitor;
 
 namespace {
 
-constexpr std::size_t kPieceBytes = std::size_t{1} << 18;  // about a millisecond of parsing
-constexpr std::size_t kUnwanted = std::numeric_limits<std::size_t>::max();
-constexpr std::size_t kQuotedBytes = 40;
+constexpr std::size_t piece_bytes = std::size_t{1} << 18;  // about a millisecond of parsing
+constexpr std::size_t unwanted = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t quoted_bytes = 40;
 
 // The text after the header, cut into pieces, and the row with which each piece begins.
 struct Plan {
@@ -39,7 +39,7 @@ Plan make_plan(std::string_view text, const TextLayout& layout, unsigned threads
   Record record;
   for (std::size_t i = 0; i < layout.header_records; ++i) reader.next(record);
   Plan plan;
-  plan.pieces = split_records(text.substr(reader.position()), layout.delimiter, reader.line(), kPieceBytes);
+  plan.pieces = split_records(text.substr(reader.position()), layout.delimiter, reader.line(), piece_bytes);
   std::vector<std::size_t> counts(plan.pieces.size() + 1);
   base::parallel_for(
       plan.pieces.size(), threads,
@@ -53,9 +53,9 @@ Plan make_plan(std::string_view text, const TextLayout& layout, unsigned threads
   return plan;
 }
 
-// For each field of a record the place of its value in the result, or kUnwanted.
+// For each field of a record the place of its value in the result, or unwanted.
 std::vector<std::size_t> places_of_fields(const TextLayout& layout, std::size_t fields) {
-  std::vector<std::size_t> places(fields, kUnwanted);
+  std::vector<std::size_t> places(fields, unwanted);
   for (std::size_t i = 0; i < layout.columns.size(); ++i) {
     if (layout.columns[i] >= fields) {
       throw std::out_of_range("column " + std::to_string(layout.columns[i] + 1) + " of records of " +
@@ -67,7 +67,7 @@ std::vector<std::size_t> places_of_fields(const TextLayout& layout, std::size_t 
 }
 
 TextError field_error(TextError::Kind kind, const Record& record, std::size_t column, const Field& field) {
-  return {kind, record.first_line, column, std::string(field.text.substr(0, kQuotedBytes))};
+  return {kind, record.first_line, column, std::string(field.text.substr(0, quoted_bytes))};
 }
 
 // Calls take(row, place, record, column, field) for each wanted field of a piece.
@@ -81,7 +81,7 @@ void read_piece(const TextPiece& piece, Delimiter delimiter, const std::vector<s
     std::size_t column = 0;
     for (; fields.next(field); ++column) {
       if (field.broken) throw field_error(TextError::Kind::open_quote, record, column, field);
-      if (column < places.size() && places[column] != kUnwanted) {
+      if (column < places.size() && places[column] != unwanted) {
         take(row, places[column], record, column, field);
       }
     }

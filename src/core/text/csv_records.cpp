@@ -5,7 +5,7 @@
 namespace vorotool::core::text {
 namespace {
 
-constexpr auto kNone = std::string_view::npos;
+constexpr auto none = std::string_view::npos;
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
@@ -45,7 +45,7 @@ std::string_view trimmed(std::string_view text) {
 
 std::size_t find_line_end(std::string_view text, std::size_t begin) {
   const std::size_t found = text.find('\n', begin);
-  return found == kNone ? text.size() : found;
+  return found == none ? text.size() : found;
 }
 
 // Offset of the quote that closes the one at `open`, or npos when there is none or more than blanks stand
@@ -55,13 +55,13 @@ std::size_t closing_quote(std::string_view text, std::size_t open, Delimiter del
   std::size_t close = open + 1;
   for (;; close += 2) {
     close = text.find('"', close);
-    if (close == kNone) return kNone;
+    if (close == none) return none;
     if (close + 1 >= text.size() || text[close + 1] != '"') break;
   }
   std::size_t next = close + 1;
   if (delimiter != Delimiter::whitespace) next = skip_padding(text, next, delimiter);
   const bool ends = next >= text.size() || text[next] == '\n' || separates(text[next], delimiter);
-  return ends ? close : kNone;
+  return ends ? close : none;
 }
 
 bool is_comment_or_blank(std::string_view line) {
@@ -72,7 +72,7 @@ bool is_comment_or_blank(std::string_view line) {
 }  // namespace
 
 RecordReader::RecordReader(std::string_view text, Delimiter delimiter, std::size_t first_line)
-    : text_(text), delimiter_(delimiter), line_(first_line), has_quotes_(text.find('"') != kNone) {}
+    : text_(text), delimiter_(delimiter), line_(first_line), has_quotes_(text.find('"') != none) {}
 
 bool RecordReader::next(Record& record) {
   while (position_ < text_.size()) {
@@ -96,7 +96,7 @@ std::size_t RecordReader::record_end(std::size_t begin, std::size_t line_end) co
     if (begin < line_end && text_[begin] == '#' && delimiter_ == Delimiter::whitespace) return line_end;
     if (begin < line_end && text_[begin] == '"') {
       const std::size_t close = closing_quote(text_, begin, delimiter_);
-      if (close != kNone) begin = close + 1;
+      if (close != none) begin = close + 1;
       if (begin > line_end) line_end = find_line_end(text_, begin);
     }
     begin = find_separator(text_, begin, line_end, delimiter_) + 1;
@@ -115,7 +115,7 @@ bool FieldReader::next(Field& field) {
   std::size_t begin = 0;
   if (!rest_.empty() && rest_.front() == '"') {
     const std::size_t close = closing_quote(rest_, 0, delimiter_);
-    field.quoted = close != kNone;
+    field.quoted = close != none;
     field.broken = !field.quoted;
     if (field.quoted) {
       field.text = rest_.substr(1, close - 1);
@@ -139,14 +139,14 @@ std::vector<Field> split_fields(std::string_view record, Delimiter delimiter) {
 std::string field_value(const Field& field) {
   std::string value(field.text);
   if (!field.quoted) return value;
-  for (std::size_t at = value.find("\"\""); at != kNone; at = value.find("\"\"", at + 1)) value.erase(at, 1);
+  for (std::size_t at = value.find("\"\""); at != none; at = value.find("\"\"", at + 1)) value.erase(at, 1);
   return value;
 }
 
 std::vector<TextPiece> split_records(std::string_view text, Delimiter delimiter, std::size_t first_line,
                                      std::size_t grain) {
   std::vector<TextPiece> pieces;
-  if (text.find('"') == kNone) {
+  if (text.find('"') == none) {
     while (!text.empty()) {
       const std::size_t end = text.size() <= grain ? text.size() : find_line_end(text, grain);
       const std::size_t size = std::min(end + 1, text.size());

@@ -3,7 +3,7 @@
 namespace vorotool::core::text {
 namespace {
 
-constexpr auto kNone = std::string_view::npos;
+constexpr auto none = std::string_view::npos;
 
 // Offset of the quote that ends the JSON string opened at `open`, or the end of the text.
 std::size_t string_end(std::string_view text, std::size_t open) {
@@ -26,7 +26,7 @@ std::size_t find_too_deep(std::string_view text, std::size_t limit) {
       --depth;
     }
   }
-  return kNone;
+  return none;
 }
 
 }  // namespace vorotool::core::text

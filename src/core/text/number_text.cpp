@@ -20,8 +20,8 @@ namespace {
 
 // Plain notation needs at most 5 zeros and 17 digits, or 16 digits and a sign; an exponent needs 24
 // characters. `precision` is cut to 17 digits, which every double can bear.
-constexpr std::size_t kNumberSize = 48;
-constexpr int kMostDigits = 17;
+constexpr std::size_t number_size = 48;
+constexpr int most_digits = 17;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -68,7 +68,7 @@ std::string shortest_by_stream(double value, bool plain) {
   do {
     text = streamed(value, std::ios_base::scientific, ++decimals);
     parse_number(text, back);
-  } while (back != value && decimals + 1 < kMostDigits);
+  } while (back != value && decimals + 1 < most_digits);
   if (!plain) return text;
   const int exponent = std::stoi(text.substr(text.find('e') + 1));
   return streamed(value, std::ios_base::fixed, std::max(0, decimals - exponent));
@@ -93,12 +93,12 @@ NumberStatus parse_number(std::string_view text, double& value) {
 }
 
 void append_number(std::string& out, double value, int precision) {
-  precision = std::min(precision, kMostDigits);
+  precision = std::min(precision, most_digits);
   const double size = std::abs(value);
   const bool plain = size == 0.0 || (size >= 1e-5 && size < 1e16);
 #if defined(VOROTOOL_EXACT_CHARS)
-  char buffer[kNumberSize];
-  char* const end = buffer + kNumberSize;
+  char buffer[number_size];
+  char* const end = buffer + number_size;
   const auto form = plain ? std::chars_format::fixed : std::chars_format::scientific;
   const auto result = precision > 0 ? std::to_chars(buffer, end, value, std::chars_format::general, precision)
                                     : std::to_chars(buffer, end, value, form);
@@ -110,26 +110,26 @@ void append_number(std::string& out, double value, int precision) {
 }
 
 void append_number(std::string& out, std::int64_t value) {
-  char buffer[kNumberSize];
-  out.append(buffer, std::to_chars(buffer, buffer + kNumberSize, value).ptr);
+  char buffer[number_size];
+  out.append(buffer, std::to_chars(buffer, buffer + number_size, value).ptr);
 }
 
 void append_number(std::string& out, std::uint64_t value) {
-  char buffer[kNumberSize];
-  out.append(buffer, std::to_chars(buffer, buffer + kNumberSize, value).ptr);
+  char buffer[number_size];
+  out.append(buffer, std::to_chars(buffer, buffer + number_size, value).ptr);
 }
 
 NumberTexts::NumberTexts(std::span<const double> values, int precision, unsigned threads,
                          const base::Monitor& monitor)
-    : blocks_(base::piece_count(values.size(), kBlock)), ends_(values.size()) {
+    : blocks_(base::piece_count(values.size(), block_size)), ends_(values.size()) {
   base::parallel_for(
       blocks_.size(), threads,
       [&](std::size_t block) {
         std::string text;
-        const std::size_t end = std::min(values.size(), (block + 1) * kBlock);
-        for (std::size_t i = block * kBlock; i < end; ++i) {
+        const std::size_t end = std::min(values.size(), (block + 1) * block_size);
+        for (std::size_t i = block * block_size; i < end; ++i) {
           if (std::isfinite(values[i])) append_number(text, values[i], precision);
-          ends_[i] = static_cast<std::uint32_t>(text.size());  // at most kBlock texts of 48 bytes
+          ends_[i] = static_cast<std::uint32_t>(text.size());  // at most block_size texts of 48 bytes
         }
         text.shrink_to_fit();
         blocks_[block] = std::move(text);

@@ -38,14 +38,14 @@ class NumberTexts {
   std::size_t size() const { return ends_.size(); }
 
   std::string_view operator[](std::size_t i) const {
-    const std::size_t begin = i % kBlock == 0 ? 0 : ends_[i - 1];
-    return {blocks_[i / kBlock].data() + begin, ends_[i] - begin};
+    const std::size_t begin = i % block_size == 0 ? 0 : ends_[i - 1];
+    return {blocks_[i / block_size].data() + begin, ends_[i] - begin};
   }
 
  private:
-  static constexpr std::size_t kBlock = std::size_t{1} << 13;
+  static constexpr std::size_t block_size = std::size_t{1} << 13;
 
-  std::vector<std::string> blocks_;  // texts of kBlock numbers, one after the other
+  std::vector<std::string> blocks_;  // texts of block_size numbers, one after the other
   std::vector<std::uint32_t> ends_;  // of each text in its block
 };
 

@@ -9,7 +9,7 @@
 namespace vorotool::core::text {
 namespace {
 
-constexpr std::size_t kBlockRows = std::size_t{1} << 13;
+constexpr std::size_t block_rows = std::size_t{1} << 13;
 
 // Writes a field and tells whether it exists.
 struct FieldWriter {
@@ -112,12 +112,12 @@ RowShape csv_shape(std::size_t columns) {
 std::vector<std::string> format_rows(std::span<const TextColumn> columns, const RowShape& shape,
                                      int precision, unsigned threads, const base::Monitor& monitor) {
   const std::size_t rows = columns.empty() ? 0 : row_count(columns.front());
-  std::vector<std::string> blocks(base::piece_count(rows, kBlockRows));
+  std::vector<std::string> blocks(base::piece_count(rows, block_rows));
   base::parallel_for(
       blocks.size(), threads,
       [&](std::size_t block) {
-        const std::size_t end = std::min(rows, (block + 1) * kBlockRows);
-        for (std::size_t row = block * kBlockRows; row < end; ++row) {
+        const std::size_t end = std::min(rows, (block + 1) * block_rows);
+        for (std::size_t row = block * block_rows; row < end; ++row) {
           if (row > 0) blocks[block] += shape.separator;
           append_row(blocks[block], columns, row, shape, precision);
         }

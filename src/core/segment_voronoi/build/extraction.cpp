@@ -96,7 +96,7 @@ void refine_discs(const SegmentSites& sites, VoronoiRecords& records, const Vert
 // engine.
 class VertexWriter {
  public:
-  VertexWriter(VoronoiRecords& records, const VertexMerging& numbers, DiagramArrays& out,
+  VertexWriter(VoronoiRecords& records, const VertexMerging& numbers, Diagram& out,
                LargeArray<std::int32_t>& targets)
       : records_(records), numbers_(numbers), out_(out), targets_(targets) {}
 
@@ -108,7 +108,7 @@ class VertexWriter {
 
   VoronoiRecords& records_;
   const VertexMerging& numbers_;
-  DiagramArrays& out_;
+  Diagram& out_;
   LargeArray<std::int32_t>& targets_;
 };
 
@@ -185,7 +185,7 @@ std::vector<Edge> edges_without_vertex(const VoronoiRecords& records, const Vert
 // Writes edges from the rings of vertices, and then the rings in the numbers of the input.
 class EdgeWriter {
  public:
-  EdgeWriter(LargeArray<std::int32_t>& targets, std::span<const std::int32_t> given, DiagramArrays& out)
+  EdgeWriter(LargeArray<std::int32_t>& targets, std::span<const std::int32_t> given, Diagram& out)
       : targets_(targets), given_(given), out_(out) {}
 
   void run(const std::vector<Edge>& without_vertex, unsigned threads, const Monitor& monitor);
@@ -204,7 +204,7 @@ class EdgeWriter {
 
   LargeArray<std::int32_t>& targets_;
   std::span<const std::int32_t> given_;
-  DiagramArrays& out_;
+  Diagram& out_;
 };
 
 void EdgeWriter::run(const std::vector<Edge>& without_vertex, unsigned threads, const Monitor& monitor) {
@@ -260,9 +260,8 @@ void EdgeWriter::put(std::size_t place, const Edge& edge) {
 
 }  // namespace
 
-DiagramArrays extract_diagram(SegmentSites sites, VoronoiRecords records, std::span<const std::int32_t> given,
-                              std::span<const std::uint8_t> unwanted, unsigned threads,
-                              const Monitor& monitor) {
+Diagram extract_diagram(SegmentSites sites, VoronoiRecords records, std::span<const std::int32_t> given,
+                        std::span<const std::uint8_t> unwanted, unsigned threads, const Monitor& monitor) {
   std::vector<std::uint8_t> own_unwanted;  // by the numbers of the engine
   if (!unwanted.empty()) {
     own_unwanted.resize(given.size());
@@ -272,7 +271,7 @@ DiagramArrays extract_diagram(SegmentSites sites, VoronoiRecords records, std::s
   records.corner_of_point = std::vector<discs::Corner>();
   const std::size_t in_use = records.all.size() * sizeof(VoronoiRecord);
   base::return_freed_memory(in_use);
-  DiagramArrays out;
+  Diagram out;
   LargeArray<std::int32_t> targets;  // [sites around vertices] where the edge before each leads
   std::vector<Edge> without_vertex;
   {

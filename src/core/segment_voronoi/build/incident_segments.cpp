@@ -2,18 +2,11 @@
 
 #include <algorithm>
 
-#include "core/kernel/lattice.hpp"
-
 namespace vorotool::core::segment_voronoi::build {
 
 using kernel::LatticeVector;
 
 namespace {
-
-LatticeVector way_from(const SegmentDiagram& in, std::int32_t point, std::int32_t segment) {
-  const auto& [a, b] = in.ends(segment);
-  return in.point(a == point ? b : a) - in.point(point);
-}
 
 bool is_lower(const LatticeVector& v) { return v.y < 0 || (v.y == 0 && v.x < 0); }
 
@@ -23,16 +16,16 @@ bool earlier(const LatticeVector& v, const LatticeVector& w) {
 
 }  // namespace
 
-IncidentSegments::IncidentSegments(const SegmentDiagram& diagram)
-    : in_(diagram), start_(diagram.points.size() + 1), segments_(2 * diagram.segments.size()) {
-  for (const auto& ends : in_.segments) {
+IncidentSegments::IncidentSegments(const kernel::PlanarGraphView& graph)
+    : graph_(graph), start_(graph.points.size() + 1), segments_(2 * graph.segments.size()) {
+  for (const auto& ends : graph_.segments) {
     for (const std::int32_t end : ends) ++start_[static_cast<std::size_t>(end) + 1];
   }
   for (std::size_t i = 1; i < start_.size(); ++i) start_[i] += start_[i - 1];
   std::vector<std::size_t> next(start_.begin(), start_.end());
-  for (std::size_t j = 0; j < in_.segments.size(); ++j) {
-    for (const std::int32_t end : in_.segments[j]) {
-      segments_[next[static_cast<std::size_t>(end)]++] = static_cast<std::int32_t>(in_.points.size() + j);
+  for (std::size_t j = 0; j < graph_.segments.size(); ++j) {
+    for (const std::int32_t end : graph_.segments[j]) {
+      segments_[next[static_cast<std::size_t>(end)]++] = static_cast<std::int32_t>(graph_.points.size() + j);
     }
   }
   for (std::size_t p = 0; p + 1 < start_.size(); ++p) {
@@ -40,7 +33,7 @@ IncidentSegments::IncidentSegments(const SegmentDiagram& diagram)
     std::sort(segments_.begin() + static_cast<std::ptrdiff_t>(start_[p]),
               segments_.begin() + static_cast<std::ptrdiff_t>(start_[p + 1]),
               [&](std::int32_t s, std::int32_t t) {
-                return earlier(way_from(in_, point, s), way_from(in_, point, t));
+                return earlier(graph_.way_from(point, s), graph_.way_from(point, t));
               });
   }
 }
@@ -48,7 +41,7 @@ IncidentSegments::IncidentSegments(const SegmentDiagram& diagram)
 std::int32_t IncidentSegments::between(std::int32_t p, std::int32_t q) const {
   const std::int32_t fewer = at(p).size() < at(q).size() ? p : q, other = fewer == p ? q : p;
   for (const std::int32_t segment : at(fewer)) {
-    if (in_.is_end(other, segment)) return segment;
+    if (graph_.is_end(other, segment)) return segment;
   }
   return -1;
 }
@@ -56,7 +49,7 @@ std::int32_t IncidentSegments::between(std::int32_t p, std::int32_t q) const {
 bool IncidentSegments::wide_gap_after(std::int32_t point, std::size_t i) const {
   const auto segments = at(point);
   const std::int32_t following = segments[(i + 1) % segments.size()];
-  return kernel::cross(way_from(in_, point, segments[i]), way_from(in_, point, following)) <= 0;
+  return kernel::cross(graph_.way_from(point, segments[i]), graph_.way_from(point, following)) <= 0;
 }
 
 bool IncidentSegments::has_no_cell(std::int32_t point) const {

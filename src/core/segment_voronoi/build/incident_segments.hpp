@@ -6,14 +6,13 @@
 #include <span>
 #include <vector>
 
-#include "core/segment_voronoi/build/diagram.hpp"
+#include "core/kernel/planar_graph_view.hpp"
 
 namespace vorotool::core::segment_voronoi::build {
 
 class IncidentSegments {
  public:
-  // Of the diagram only points and segments are read.
-  explicit IncidentSegments(const SegmentDiagram& diagram);
+  explicit IncidentSegments(const kernel::PlanarGraphView& graph);
 
   // Site numbers of the segments at a point, counter-clockwise from the positive x axis.
   std::span<const std::int32_t> at(std::int32_t point) const {
@@ -34,7 +33,7 @@ class IncidentSegments {
   // Where the gap after segment i at a point is 180 degrees or more.
   bool wide_gap_after(std::int32_t point, std::size_t i) const;
 
-  SegmentDiagram in_;
+  kernel::PlanarGraphView graph_;
   std::vector<std::size_t> start_;
   std::vector<std::int32_t> segments_;
 };

@@ -6,7 +6,6 @@
 // foot strictly between p and q. Touching is no conflict.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "core/segment_voronoi/discs/records.hpp"

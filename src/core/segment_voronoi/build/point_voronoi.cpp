@@ -4,10 +4,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/indices.hpp"
 #include "core/base/parallel.hpp"
 
 namespace vorotool::core::segment_voronoi::build {
 
+using base::at;
 using base::Monitor;
 using delaunay::RingVertex;
 using delaunay::Vertex;
@@ -74,7 +76,6 @@ class Dual {
     base::parallel_for(base::piece_count(vertices_.size(), piece_size), threads, run_piece, monitor);
   }
 
-  static std::size_t at(Vertex v) { return static_cast<std::size_t>(v); }
   std::span<const Vertex> ring(Vertex v) const {
     return {vertices_[at(v)].ring(), vertices_[at(v)].degree()};
   }

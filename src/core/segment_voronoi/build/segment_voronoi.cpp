@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "core/base/indices.hpp"
 #include "core/base/memory_release.hpp"
 #include "core/delaunay/divide_and_conquer.hpp"
 #include "core/delaunay/spatial_sort.hpp"
@@ -14,18 +15,18 @@
 
 namespace vorotool::core::segment_voronoi::build {
 
+using base::IndexPair;
 using base::Monitor;
 using delaunay::MortonOrder;
 using kernel::LatticePoint;
+using kernel::PlanarGraphView;
 
 namespace {
 
 // Of n sites there are at most 2 n - 2 vertices, each with four corner numbers in 31 bits.
 constexpr std::size_t most_sites = (std::size_t{1} << 28) - 1;
 
-using Segment = std::array<std::int32_t, 2>;
-
-void check(const SegmentGraph& graph) {
+void check(const PlanarGraphView& graph) {
   const std::size_t points = graph.points.size();
   if (points + graph.segments.size() > most_sites) throw std::length_error("more than 268435455 sites");
   for (std::size_t j = 0; j < graph.segments.size(); ++j) {
@@ -41,14 +42,15 @@ void check(const SegmentGraph& graph) {
   }
 }
 
-MortonOrder ordered(const SegmentGraph& graph, unsigned threads, const Monitor& monitor) {
+MortonOrder ordered(const PlanarGraphView& graph, const std::optional<spatial::Bounds>& within,
+                    unsigned threads, const Monitor& monitor) {
   const std::span<const LatticePoint> points = graph.points;
   std::vector<kernel::Point> places;
   places.reserve(points.size());
   for (const LatticePoint& p : points) places.push_back({static_cast<double>(p.x), static_cast<double>(p.y)});
   std::vector<std::int32_t> first(points.size());
   MortonOrder order =
-      delaunay::morton_order(places, first, delaunay::FineOrder::of_places, threads, monitor, graph.within);
+      delaunay::morton_order(places, first, delaunay::FineOrder::of_places, threads, monitor, within);
   for (std::size_t i = 0; i < first.size(); ++i) {
     if (static_cast<std::size_t>(first[i]) == i) continue;
     throw std::invalid_argument("points " + std::to_string(first[i]) + " and " + std::to_string(i) +
@@ -58,7 +60,7 @@ MortonOrder ordered(const SegmentGraph& graph, unsigned threads, const Monitor& 
 }
 
 // The segments by their ends in the numbers of the sites, the first of the two ends first.
-std::vector<std::uint32_t> along_points(std::span<const Segment> segments,
+std::vector<std::uint32_t> along_points(std::span<const IndexPair> segments,
                                         std::span<const std::int32_t> rank) {
   const auto ends = [&](std::size_t j) {
     const std::int32_t a = rank[static_cast<std::size_t>(segments[j][0])];
@@ -80,9 +82,10 @@ std::vector<std::uint32_t> along_points(std::span<const Segment> segments,
 
 }  // namespace
 
-SegmentVoronoi::SegmentVoronoi(const SegmentGraph& graph, unsigned threads, const Monitor& monitor) {
+SegmentVoronoi::SegmentVoronoi(const PlanarGraphView& graph, const std::optional<spatial::Bounds>& within,
+                               unsigned threads, const Monitor& monitor) {
   check(graph);
-  make_point_diagram(graph, threads, monitor);
+  make_point_diagram(graph, within, threads, monitor);
   base::return_freed_memory(records_->all.size() * sizeof(discs::VoronoiRecord));
   ParallelInsertion rounds(sites_, *records_, threads);
   try {
@@ -93,8 +96,8 @@ SegmentVoronoi::SegmentVoronoi(const SegmentGraph& graph, unsigned threads, cons
   counts_ = rounds.counts();
 }
 
-DiagramArrays SegmentVoronoi::take_arrays(std::span<const std::uint8_t> unwanted, unsigned threads,
-                                          const Monitor& monitor) {
+Diagram SegmentVoronoi::take_arrays(std::span<const std::uint8_t> unwanted, unsigned threads,
+                                    const Monitor& monitor) {
   if (!unwanted.empty() && unwanted.size() != given_.size())
     throw std::invalid_argument("each site must have its unwanted sides");
   if (!records_) throw std::logic_error("the arrays of the diagram were taken before");
@@ -104,8 +107,10 @@ DiagramArrays SegmentVoronoi::take_arrays(std::span<const std::uint8_t> unwanted
 }
 
 // The triangulation is gone when segments are inserted.
-void SegmentVoronoi::make_point_diagram(const SegmentGraph& graph, unsigned threads, const Monitor& monitor) {
-  MortonOrder order = ordered(graph, threads, monitor);
+void SegmentVoronoi::make_point_diagram(const PlanarGraphView& graph,
+                                        const std::optional<spatial::Bounds>& within, unsigned threads,
+                                        const Monitor& monitor) {
+  MortonOrder order = ordered(graph, within, threads, monitor);
   const std::span<delaunay::RingVertex> vertices{order.vertices.data(), order.index.size()};
   delaunay::Subdivision mesh =
       delaunay::divide_and_conquer({vertices, order.index, order.code, order.fine}, threads, monitor);
@@ -116,7 +121,7 @@ void SegmentVoronoi::make_point_diagram(const SegmentGraph& graph, unsigned thre
 }
 
 // Points in the order of the triangulation, and the segments along them.
-void SegmentVoronoi::number_sites(const SegmentGraph& graph, std::span<const std::uint32_t> order) {
+void SegmentVoronoi::number_sites(const PlanarGraphView& graph, std::span<const std::uint32_t> order) {
   const std::size_t points = graph.points.size(), segments = graph.segments.size();
   given_.resize(points + segments);
   std::vector<std::int32_t> rank(points);
@@ -127,9 +132,9 @@ void SegmentVoronoi::number_sites(const SegmentGraph& graph, std::span<const std
     places[i] = graph.points[order[i]];
   }
   const std::vector<std::uint32_t> along = along_points(graph.segments, rank);
-  std::vector<Segment> ends(segments);
+  std::vector<IndexPair> ends(segments);
   for (std::size_t j = 0; j < segments; ++j) {
-    const Segment& s = graph.segments[along[j]];
+    const IndexPair& s = graph.segments[along[j]];
     ends[j] = {rank[static_cast<std::size_t>(s[0])], rank[static_cast<std::size_t>(s[1])]};
     given_[points + j] = static_cast<std::int32_t>(points + along[j]);
   }

@@ -2,7 +2,6 @@
 // order that depends on the input only.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -10,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/indices.hpp"
 #include "core/base/large_array.hpp"
 #include "core/base/monitor.hpp"
 #include "core/segment_voronoi/build/segment_insertion.hpp"
@@ -61,9 +61,8 @@ class VertexMerging {
     std::int32_t record;
     auto operator<=>(const Key&) const = default;
   };
-  using Pair = std::array<std::int32_t, 2>;
   struct Found {
-    std::vector<Pair> coincident;  // neighbours
+    std::vector<base::IndexPair> coincident;  // neighbours
     std::vector<std::int32_t> infinite;
   };
 

@@ -14,7 +14,7 @@ namespace vorotool::core::segment_voronoi::verify {
 // All sites as closed sets: the segments, and the points where none ends.
 class ClosedSites {
  public:
-  ClosedSites(const build::RingedDiagram& arrays, const build::IncidentSegments& incident, unsigned threads,
+  ClosedSites(const build::DiagramView& arrays, const build::IncidentSegments& incident, unsigned threads,
               const base::Monitor& monitor);
 
   // Calls visit(site number), see ObbTree.

@@ -5,21 +5,23 @@
 #include <span>
 #include <unordered_map>
 
+#include "core/base/fault.hpp"
 #include "core/kernel/lattice.hpp"
 
 namespace vorotool::core::segment_voronoi::verify {
 
+using base::Fault;
+using build::DiagramView;
 using build::IncidentSegments;
-using build::RingedDiagram;
 using kernel::LatticePoint;
 
 namespace {
 
-using Fault = std::optional<std::string>;
 using Site = std::int32_t;
 
 constexpr std::size_t none = static_cast<std::size_t>(-1);
 
+// As kernel::lexicographic_less, written again: a checker shares no order with what it checks.
 bool comes_before(const LatticePoint& a, const LatticePoint& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
 
 // From the lexicographically first point counter-clockwise, with all points on the sides; a chain there and
@@ -49,7 +51,7 @@ std::vector<Site> hull_of(std::span<const LatticePoint> points) {
 
 }  // namespace
 
-std::vector<Site> cells_at_infinity(const RingedDiagram& arrays, const IncidentSegments& incident) {
+std::vector<Site> cells_at_infinity(const DiagramView& arrays, const IncidentSegments& incident) {
   const std::vector<Site> hull = hull_of(arrays.points);
   std::vector<Site> cells;
   for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -67,7 +69,7 @@ namespace {
 // Half-edge 2 k leaves the source of edge k, 2 k + 1 its target; the other half is its twin.
 class Map {
  public:
-  Map(const RingedDiagram& arrays, const IncidentSegments& incident)
+  Map(const DiagramView& arrays, const IncidentSegments& incident)
       : in_(arrays),
         incident_(incident),
         at_infinity_(cells_at_infinity(arrays, incident)),
@@ -212,7 +214,7 @@ class Map {
            std::to_string(edges) + " edges, " + std::to_string(cells_) + " cells";
   }
 
-  const RingedDiagram& in_;
+  const DiagramView& in_;
   const IncidentSegments& incident_;
   std::vector<Site> at_infinity_;
   std::vector<std::size_t> half_at_;  // [ring places] the half-edge that leaves after a site of a ring
@@ -224,7 +226,7 @@ class Map {
 
 }  // namespace
 
-Fault find_map_fault(const RingedDiagram& arrays, const IncidentSegments& incident) {
+Fault find_map_fault(const DiagramView& arrays, const IncidentSegments& incident) {
   return Map(arrays, incident).check();
 }
 

@@ -7,7 +7,8 @@
 #include <map>
 #include <vector>
 
-#include "core/base/first_fault.hpp"
+#include "core/base/fault.hpp"
+#include "core/base/indices.hpp"
 #include "core/base/radix_sort.hpp"
 #include "core/kernel/lattice.hpp"
 #include "core/numbers/sign.hpp"
@@ -17,18 +18,19 @@
 
 namespace vorotool::core::segment_voronoi::verify {
 
+using base::Fault;
 using base::Keyed;
+using build::DiagramView;
 using build::IncidentSegments;
-using build::RingedDiagram;
 using kernel::cross;
 using kernel::LatticePoint;
 using kernel::LatticeSite;
 using kernel::LatticeVector;
 using kernel::left_of;
+using kernel::Point;
 
 namespace {
 
-using Fault = std::optional<std::string>;
 using Site = std::int32_t;
 
 std::string edge_text(std::size_t edge) { return "edge " + std::to_string(edge); }
@@ -38,7 +40,7 @@ std::string edge_text(std::size_t edge) { return "edge " + std::to_string(edge);
 // The edges between the cells of two sites, each taken with the smaller number on its left.
 class Bisector {
  public:
-  Bisector(const RingedDiagram& arrays, const IncidentSegments& incident, std::size_t edge)
+  Bisector(const DiagramView& arrays, const IncidentSegments& incident, std::size_t edge)
       : in_(arrays),
         incident_(incident),
         left_(std::min(arrays.edge_sites[edge][0], arrays.edge_sites[edge][1])),
@@ -86,7 +88,7 @@ class Bisector {
     double place[2], size = 0;
     for (int i = 0; i < 2; ++i) {
       const auto k = static_cast<std::size_t>(i == 0 ? v : w);
-      const double x = in_.vertices[k][0], y = in_.vertices[k][1];
+      const double x = in_.vertices[k].x, y = in_.vertices[k].y;
       place[i] = ux * x + uy * y;
       size += std::abs(x) + std::abs(y) + in_.radius[k];
     }
@@ -111,11 +113,11 @@ class Bisector {
     const auto k = static_cast<std::size_t>(vertex);
     if (in_.radius[k] == 0) return side_at_corner(s);
     const LatticeVector u = s.b - s.a;
-    const double x = in_.vertices[k][0] - s.a.x, y = in_.vertices[k][1] - s.a.y;
+    const double x = in_.vertices[k].x - s.a.x, y = in_.vertices[k].y - s.a.y;
     const double ux = static_cast<double>(u.x), uy = static_cast<double>(u.y);
     const double height = ux * y - uy * x;
-    const double size = std::abs(in_.vertices[k][0]) + std::abs(in_.vertices[k][1]) + std::abs(x) +
-                        std::abs(y) + in_.radius[k];
+    const double size =
+        std::abs(in_.vertices[k].x) + std::abs(in_.vertices[k].y) + std::abs(x) + std::abs(y) + in_.radius[k];
     if (std::abs(height) > 0x1p-46 * size * (std::abs(ux) + std::abs(uy))) return height > 0 ? 1 : -1;
     const LatticeVector across = left_of(u);
     const discs::ExactDisc end{std::make_shared<numbers::SqrtTower>(), s.a, 0, 0, 1, 0};
@@ -141,14 +143,14 @@ class Bisector {
     return cross(u, left.a - right.a) > 0 ? u : -u;
   }
 
-  const RingedDiagram& in_;
+  const DiagramView& in_;
   const IncidentSegments& incident_;
   Site left_, right_;
 };
 
 }  // namespace
 
-Fault find_order_fault(const RingedDiagram& arrays, const IncidentSegments& incident) {
+Fault find_order_fault(const DiagramView& arrays, const IncidentSegments& incident) {
   const std::uint64_t sites = arrays.site_count();
   std::vector<Keyed> keys;
   keys.reserve(arrays.edges.size());
@@ -171,13 +173,9 @@ namespace {
 
 // ---- points inside edges ----
 
-struct Place {
-  double x, y;
-};
-
 class InnerPoints {
  public:
-  InnerPoints(const RingedDiagram& arrays, const ClosedSites& index) : in_(arrays), index_(index) {
+  InnerPoints(const DiagramView& arrays, const ClosedSites& index) : in_(arrays), index_(index) {
     for (const LatticePoint& p : arrays.points) {
       extent_ = std::max({extent_, std::abs(static_cast<double>(p.x)), std::abs(static_cast<double>(p.y))});
     }
@@ -186,21 +184,18 @@ class InnerPoints {
   Fault check(std::size_t edge) const {
     const auto [source, target] = in_.edges[edge];
     for (const double part : {0.375, 0.75}) {
-      const Place place = source < 0 || target < 0 ? place_on_ray(edge, part) : place_between(edge, part);
+      const Point place = source < 0 || target < 0 ? place_on_ray(edge, part) : place_between(edge, part);
       if (Fault fault = check_place(edge, place)) return fault;
     }
     return {};
   }
 
  private:
-  Place centre(Site vertex) const {
-    const auto k = static_cast<std::size_t>(vertex);
-    return {in_.vertices[k][0], in_.vertices[k][1]};
-  }
+  const Point& centre(Site vertex) const { return in_.vertices[base::at(vertex)]; }
 
-  Place place_between(std::size_t edge, double part) const {
+  Point place_between(std::size_t edge, double part) const {
     const auto [left, right] = in_.edge_sites[edge];
-    const Place a = centre(in_.edges[edge][0]), b = centre(in_.edges[edge][1]);
+    const Point a = centre(in_.edges[edge][0]), b = centre(in_.edges[edge][1]);
     if (in_.is_point(left) != in_.is_point(right)) {
       const Site point = in_.is_point(left) ? left : right, segment = point == left ? right : left;
       if (!in_.is_end(point, segment)) return place_on_parabola(point, segment, a, b, part);
@@ -209,21 +204,21 @@ class InnerPoints {
   }
 
   // With the segment along the x axis and the point at (0, h): y = (x^2 + h^2) / (2 h).
-  Place place_on_parabola(Site point, Site segment, const Place& from, const Place& to, double part) const {
+  Point place_on_parabola(Site point, Site segment, const Point& from, const Point& to, double part) const {
     const LatticeSite s = in_.site(segment);
     const LatticePoint& p = in_.point(point);
     const LatticeVector u = s.b - s.a;
     const double length = std::sqrt(static_cast<double>(kernel::norm2(u)));
     const double ux = static_cast<double>(u.x) / length, uy = static_cast<double>(u.y) / length;
     const double h = static_cast<double>(cross(u, p - s.a)) / length;
-    auto along = [&](const Place& c) { return ux * (c.x - p.x) + uy * (c.y - p.y); };
+    auto along = [&](const Point& c) { return ux * (c.x - p.x) + uy * (c.y - p.y); };
     const double x = along(from) + part * (along(to) - along(from));
     const double up = (x * x / h - h) / 2;  // y less h
     return {p.x + ux * x - uy * up, p.y + uy * x + ux * up};
   }
 
   // Edges go to infinity across the line of two points, or across a segment from its end.
-  Place place_on_ray(std::size_t edge, double part) const {
+  Point place_on_ray(std::size_t edge, double part) const {
     const auto [left, right] = in_.edge_sites[edge];
     const LatticeSite l = in_.site(left), r = in_.site(right);
     const auto outwards_x = static_cast<double>((l.a - r.a).y + (l.b - r.b).y);
@@ -231,11 +226,11 @@ class InnerPoints {
     const auto [source, target] = in_.edges[edge];
     const double scale = extent_ * 4 * (part - (source < 0 && target < 0 ? 0.4 : 0)) *
                          (source < 0 && target >= 0 ? -1 : 1) / length(outwards_x, outwards_y);
-    const Place start = source >= 0 ? centre(source) : target >= 0 ? centre(target) : middle(left, right);
+    const Point start = source >= 0 ? centre(source) : target >= 0 ? centre(target) : middle(left, right);
     return {start.x + scale * outwards_x, start.y + scale * outwards_y};
   }
 
-  Place middle(Site left, Site right) const {
+  Point middle(Site left, Site right) const {
     if (!in_.is_point(left)) return middle(right, left);
     const LatticePoint &p = in_.point(left), &q = in_.is_point(right) ? in_.point(right) : p;
     return {0.5 * p.x + 0.5 * q.x, 0.5 * p.y + 0.5 * q.y};
@@ -243,7 +238,7 @@ class InnerPoints {
 
   static double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
-  double distance(const Place& c, Site site) const {
+  double distance(const Point& c, Site site) const {
     const LatticeSite s = in_.site(site);
     if (s.is_point()) return length(c.x - s.a.x, c.y - s.a.y);
     const auto ux = static_cast<double>((s.b - s.a).x), uy = static_cast<double>((s.b - s.a).y);
@@ -254,7 +249,7 @@ class InnerPoints {
   }
 
   // The ends of the edge are wrong by `value_error_bound`, the rest by a few roundings.
-  Fault check_place(std::size_t edge, const Place& place) const {
+  Fault check_place(std::size_t edge, const Point& place) const {
     const auto [left, right] = in_.edge_sites[edge];
     const double r = distance(place, left), other = distance(place, right);
     double size = std::abs(place.x) + std::abs(place.y) + r + extent_;
@@ -276,20 +271,20 @@ class InnerPoints {
     return found;
   }
 
-  Fault fault(std::size_t edge, const Place& place, const std::string& what) const {
+  Fault fault(std::size_t edge, const Point& place, const std::string& what) const {
     const auto [left, right] = in_.edge_sites[edge];
     return edge_text(edge) + " of sites " + std::to_string(left) + " and " + std::to_string(right) +
            ": its inner point (" + std::to_string(place.x) + ", " + std::to_string(place.y) + ") " + what;
   }
 
-  const RingedDiagram& in_;
+  const DiagramView& in_;
   const ClosedSites& index_;
   double extent_ = 1;
 };
 
 }  // namespace
 
-Fault find_inner_point_fault(const RingedDiagram& arrays, const ClosedSites& index, unsigned threads,
+Fault find_inner_point_fault(const DiagramView& arrays, const ClosedSites& index, unsigned threads,
                              const base::Monitor& monitor) {
   const InnerPoints points(arrays, index);
   return base::first_fault(

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-#include "core/base/first_fault.hpp"
+#include "core/base/fault.hpp"
 #include "core/segment_voronoi/build/incident_segments.hpp"
 #include "core/segment_voronoi/verify/combinatorial_map.hpp"
 #include "core/segment_voronoi/verify/verify_edges.hpp"
@@ -13,18 +13,18 @@
 
 namespace vorotool::core::segment_voronoi::verify {
 
-using build::RingedDiagram;
+using base::Fault;
+using build::DiagramView;
 
 namespace {
 
-using Fault = std::optional<std::string>;
 using Site = std::int32_t;
 
 std::string text(const char* what, std::size_t number) { return what + std::to_string(number); }
 
 bool in_range(Site value, std::size_t count) { return value >= 0 && static_cast<std::size_t>(value) < count; }
 
-Fault check_sites(const RingedDiagram& in) {
+Fault check_sites(const DiagramView& in) {
   for (std::size_t i = 0; i < in.points.size(); ++i) {
     const auto& [x, y] = in.points[i];
     if (std::abs(std::int64_t{x}) > kernel::lattice_limit ||
@@ -48,7 +48,7 @@ Fault check_sites(const RingedDiagram& in) {
   return {};
 }
 
-Fault check_ring(const RingedDiagram& in, std::size_t vertex) {
+Fault check_ring(const DiagramView& in, std::size_t vertex) {
   const auto ring = in.ring(vertex);
   std::vector<Site> sorted(ring.begin(), ring.end());
   std::sort(sorted.begin(), sorted.end());
@@ -60,12 +60,12 @@ Fault check_ring(const RingedDiagram& in, std::size_t vertex) {
     return text("a site is twice at vertex ", vertex);
   }
   if (ring.front() != sorted.front()) return text("the smallest site is not the first at vertex ", vertex);
-  const bool finite = std::isfinite(in.vertices[vertex][0]) && std::isfinite(in.vertices[vertex][1]) &&
+  const bool finite = std::isfinite(in.vertices[vertex].x) && std::isfinite(in.vertices[vertex].y) &&
                       std::isfinite(in.radius[vertex]);
   return finite ? Fault() : text("a value is not finite at vertex ", vertex);
 }
 
-Fault check_indices(const RingedDiagram& in, unsigned threads, const base::Monitor& monitor) {
+Fault check_indices(const DiagramView& in, unsigned threads, const base::Monitor& monitor) {
   const auto& start = in.vertex_start;
   if (start.front() != 0 || static_cast<std::size_t>(start.back()) != in.vertex_sites.size()) {
     return "vertex_start does not span vertex_sites";
@@ -88,7 +88,7 @@ Fault check_indices(const RingedDiagram& in, unsigned threads, const base::Monit
 }
 
 // No two vertices have one ring: with rings that are right, that makes the vertices distinct.
-Fault check_distinct(const RingedDiagram& in) {
+Fault check_distinct(const DiagramView& in) {
   std::vector<std::size_t> order(in.vertex_count());
   std::iota(order.begin(), order.end(), std::size_t{0});
   auto less = [&](std::size_t v, std::size_t w) {
@@ -110,7 +110,7 @@ Fault check_distinct(const RingedDiagram& in) {
 // and every vertex adds at least 1: none is missing. Then along each bisector the places where edges leave
 // and where they arrive are the true ones, and the edges that follow each other without overlap join them as
 // the true ones do. The points inside edges are looked at in spite of that.
-Fault find_fault(const RingedDiagram& arrays, unsigned threads, const base::Monitor& monitor) {
+Fault find_fault(const DiagramView& arrays, unsigned threads, const base::Monitor& monitor) {
   if (Fault fault = check_sites(arrays)) return fault;
   if (Fault fault = check_indices(arrays, threads, monitor)) return fault;
   if (Fault fault = check_distinct(arrays)) return fault;

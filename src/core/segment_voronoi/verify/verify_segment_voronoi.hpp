@@ -1,9 +1,7 @@
 // An exact check of a segment Voronoi diagram that knows its arrays only, not how they were made.
 #pragma once
 
-#include <optional>
-#include <string>
-
+#include "core/base/fault.hpp"
 #include "core/base/monitor.hpp"
 #include "core/segment_voronoi/build/diagram.hpp"
 
@@ -19,7 +17,6 @@ inline constexpr double value_error_bound = 0x1p-48;
 //
 // That points are distinct is checked; that segments do not cross and hold no point inside is taken for
 // granted.
-std::optional<std::string> find_fault(const build::RingedDiagram& arrays, unsigned threads,
-                                      const base::Monitor& monitor);
+base::Fault find_fault(const build::DiagramView& arrays, unsigned threads, const base::Monitor& monitor);
 
 }  // namespace vorotool::core::segment_voronoi::verify

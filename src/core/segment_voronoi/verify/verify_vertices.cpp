@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/fault.hpp"
 #include "core/kernel/lattice.hpp"
 #include "core/numbers/int128.hpp"
 #include "core/segment_voronoi/discs/certified_disc.hpp"
@@ -17,8 +18,9 @@
 
 namespace vorotool::core::segment_voronoi::verify {
 
+using base::Fault;
+using build::DiagramView;
 using build::IncidentSegments;
-using build::RingedDiagram;
 using discs::DiscCondition;
 using discs::ExactDisc;
 using discs::touches;
@@ -31,7 +33,6 @@ using numbers::int128;
 
 namespace {
 
-using Fault = std::optional<std::string>;
 using Site = std::int32_t;
 
 std::string number_text(double value) {
@@ -49,7 +50,7 @@ double diamond_angle(double x, double y) {
 
 class Vertex {
  public:
-  Vertex(const RingedDiagram& arrays, const IncidentSegments& incident, const ClosedSites* index,
+  Vertex(const DiagramView& arrays, const IncidentSegments& incident, const ClosedSites* index,
          std::size_t vertex)
       : in_(arrays), incident_(incident), index_(index), vertex_(vertex), ring_(arrays.ring(vertex)) {
     if (ring_.size() > 16) {
@@ -124,7 +125,7 @@ class Vertex {
     if (!std::ranges::equal(ring_, right))
       return fault("has radius 0, but these are not the cells at one corner");
     const LatticePoint& p = in_.point(point);
-    if (in_.vertices[vertex_][0] == p.x && in_.vertices[vertex_][1] == p.y) return {};
+    if (in_.vertices[vertex_].x == p.x && in_.vertices[vertex_].y == p.y) return {};
     return fault("has radius 0, but is not at point " + std::to_string(point));
   }
 
@@ -166,7 +167,7 @@ class Vertex {
   // Which of the discs tangent to the base the certified one is, is settled by the order of its contacts and
   // by their feet; the exact one is right from the start.
   Fault locate() {
-    const double x = in_.vertices[vertex_][0], y = in_.vertices[vertex_][1], r = in_.radius[vertex_];
+    const double x = in_.vertices[vertex_].x, y = in_.vertices[vertex_].y, r = in_.radius[vertex_];
     const auto found =
         discs::certify_disc({condition(base_[0]), condition(base_[1]), condition(base_[2])}, x, y, r);
     if (found) {
@@ -183,7 +184,7 @@ class Vertex {
   }
 
   Fault check_values() {
-    const double x = in_.vertices[vertex_][0], y = in_.vertices[vertex_][1], r = in_.radius[vertex_];
+    const double x = in_.vertices[vertex_].x, y = in_.vertices[vertex_].y, r = in_.radius[vertex_];
     const double r_bound = value_error_bound * disc_.radius.head;
     const double bound = std::max(
         {r_bound, value_error_bound * std::abs(disc_.x.head), value_error_bound * std::abs(disc_.y.head)});
@@ -331,8 +332,7 @@ class Vertex {
   // disc as given is the true one.
   bool touches_as_given(Site site) const {
     constexpr double unit = 0x1p10, limit = 0x1p31;
-    const std::array<double, 3> given{in_.vertices[vertex_][0], in_.vertices[vertex_][1],
-                                      in_.radius[vertex_]};
+    const std::array<double, 3> given{in_.vertices[vertex_].x, in_.vertices[vertex_].y, in_.radius[vertex_]};
     std::array<std::int64_t, 3> whole;
     for (std::size_t i = 0; i < 3; ++i) {
       if (!(std::abs(given[i]) < limit) || std::rint(unit * given[i]) != unit * given[i]) return false;
@@ -399,7 +399,7 @@ class Vertex {
     return check_exactly(site);
   }
 
-  const RingedDiagram& in_;
+  const DiagramView& in_;
   const IncidentSegments& incident_;
   const ClosedSites* index_;  // null where others do not matter
   std::size_t vertex_;
@@ -415,12 +415,12 @@ class Vertex {
 
 }  // namespace
 
-Fault find_vertex_fault(const RingedDiagram& arrays, const IncidentSegments& incident,
-                        const ClosedSites& index, std::size_t vertex) {
+Fault find_vertex_fault(const DiagramView& arrays, const IncidentSegments& incident, const ClosedSites& index,
+                        std::size_t vertex) {
   return Vertex(arrays, incident, &index, vertex).check();
 }
 
-ExactDisc exact_disc_of(const RingedDiagram& arrays, const IncidentSegments& incident, std::size_t vertex) {
+ExactDisc exact_disc_of(const DiagramView& arrays, const IncidentSegments& incident, std::size_t vertex) {
   return Vertex(arrays, incident, nullptr, vertex).exact_disc();
 }
 

@@ -2,9 +2,8 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
-#include <string>
 
+#include "core/base/fault.hpp"
 #include "core/segment_voronoi/build/diagram.hpp"
 #include "core/segment_voronoi/build/incident_segments.hpp"
 #include "core/segment_voronoi/discs/exact_disc.hpp"
@@ -17,12 +16,11 @@ namespace vorotool::core::segment_voronoi::verify {
 // its values are right to `value_error_bound`.
 //
 // Floating point with error bounds decides nearly everything; exact numbers decide the rest.
-std::optional<std::string> find_vertex_fault(const build::RingedDiagram& arrays,
-                                             const build::IncidentSegments& incident,
-                                             const ClosedSites& index, std::size_t vertex);
+base::Fault find_vertex_fault(const build::DiagramView& arrays, const build::IncidentSegments& incident,
+                              const ClosedSites& index, std::size_t vertex);
 
 // The disc of a vertex without faults.
-discs::ExactDisc exact_disc_of(const build::RingedDiagram& arrays, const build::IncidentSegments& incident,
+discs::ExactDisc exact_disc_of(const build::DiagramView& arrays, const build::IncidentSegments& incident,
                                std::size_t vertex);
 
 }  // namespace vorotool::core::segment_voronoi::verify

@@ -1,4 +1,4 @@
-// The fault of the smallest index, whatever the number of threads.
+// What checkers find.
 #pragma once
 
 #include <algorithm>
@@ -13,10 +13,12 @@
 
 namespace vorotool::core::base {
 
-// check(i) gives a fault of item i, or none.
+// What is wrong, in words; nothing if all is right.
+using Fault = std::optional<std::string>;
+
+// The fault of the smallest index, whatever the number of threads: check(i) gives that of item i.
 template <class Check>
-std::optional<std::string> first_fault(std::size_t count, const Check& check, unsigned threads,
-                                       const Monitor& monitor) {
+Fault first_fault(std::size_t count, const Check& check, unsigned threads, const Monitor& monitor) {
   constexpr std::size_t grain = 1 << 11, none = std::numeric_limits<std::size_t>::max();
   std::atomic<std::size_t> found{none};
   const auto search = [&](std::size_t piece) {
