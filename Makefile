@@ -58,6 +58,11 @@ format: $(BUILD)/.tests ## rewrite the sources in the project's format
 	$(BIN)/ruff format .
 	$(BIN)/clang-format -i $(filter %.cpp %.hpp,$(CORE_SOURCES))
 
+STUBS := src/vorotool
+.PHONY: stubs
+stubs: build ## write the types of the compiled core (src/vorotool/_core/*.pyi) anew, from the core itself
+	$(RUN) -m nanobind.stubgen --quiet --recursive --module vorotool._core --output-dir $(STUBS)
+
 .PHONY: bench
 bench: build $(BUILD)/.tests ## measure beside the peers, in one run
 	$(BIN)/$(PIP) $$($(NEEDED) bench)

@@ -26,7 +26,7 @@ if [ ! -x "$work/venv/bin/python" ]; then
         > "$("$work/venv/bin/python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')/libraries.pth"
 fi
 "$work/venv/bin/python" -m pip install --quiet --disable-pip-version-check --no-build-isolation --no-deps \
-    --force-reinstall -C install.strip=false -C cmake.define.VOROTOOL_SANITIZE=ON \
+    --force-reinstall -C install.strip=false -C cmake.define.VOROTOOL_SANITIZE=ON -C cmake.define.VOROTOOL_TESTING=ON \
     -C build-dir="$work/build" . 2> "$work/install.log" || { cat "$work/install.log"; exit 1; }
 
 # Python itself is not instrumented: its leaks are not ours, and the runtime has to be loaded first, in the processes

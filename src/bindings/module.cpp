@@ -1,27 +1,47 @@
-// The extension module vorotool._core: conversions only; the algorithms are in src/core.
-#include "bindings.hpp"
+// The extension module vorotool._core, a submodule a room of the core: conversions only; the algorithms are
+// in src/core.
+#include "bindings/rooms.hpp"
+
+namespace {
+
+struct Room {
+  const char* name;
+  void (*bind)(nanobind::module_&);
+  const char* doc;
+};
+
+using namespace vorotool::bindings;
+constexpr Room rooms[] = {
+    {"alpha", bind_alpha,
+     "Alpha complexes, shapes and curves: a side is a triangle or -1, ranks are places in the spectrum."},
+    {"arrangement", bind_arrangement, "Placement on the lattice, planar graphs, and their check."},
+    {"cells", bind_cells,
+     "Voronoi cells, and what is computed of them: a frame is left, bottom, right, top."},
+    {"compression", bind_compression, "Compressed bytes of TIFF files."},
+    {"delaunay", bind_delaunay, "Delaunay triangulations, and their check: points are finite."},
+    {"digital", bind_digital, "The digital triangulation, to the letter and repaired."},
+    {"graphs", bind_graphs, "Paths in graphs of arcs, which are pairs of nodes, and colours of graphs."},
+    {"kernel", bind_kernel, "The exact predicates, and each of their levels alone."},
+    {"label_images", bind_label_images,
+     "Measures, diagrams, outlines and connected components of label images and masks."},
+    {"offsets", bind_offsets, "Offset curves, from segment Voronoi diagrams."},
+    {"pruning", bind_pruning, "Critical values of skeletons, and what is left for a threshold."},
+    {"sampled_skeleton", bind_sampled_skeleton,
+     "Approximate skeletons, from the Voronoi diagram of seeds on the edges of a planar graph."},
+    {"segment_voronoi", bind_segment_voronoi, "Segment Voronoi diagrams, and their check."},
+    {"skeleton", bind_skeleton, "From segment Voronoi diagrams to skeletons."},
+    {"spatial", bind_spatial, "What is nearest, and which boxes are disjoint."},
+    {"tessellation", bind_tessellation, "The tessellation of frames, and its check."},
+    {"text", bind_text,
+     "Numbers, fields and polygons as text, read and written: a delimiter is one of , ; tab and blank."},
+};
+
+}  // namespace
 
 NB_MODULE(_core, module) {
   module.doc() = "Compiled core of vorotool (private: use the functions of the package).";
-  vorotool::bindings::bind_text(module);
-  vorotool::bindings::bind_packed_bytes(module);
-  vorotool::bindings::bind_tessellation(module);
-  vorotool::bindings::bind_regions(module);
-  vorotool::bindings::bind_components(module);
-  vorotool::bindings::bind_predicates(module);
-  vorotool::bindings::bind_delaunay(module);
-  vorotool::bindings::bind_alpha(module);
-  vorotool::bindings::bind_digital(module);
-  vorotool::bindings::bind_cells(module);
-  vorotool::bindings::bind_paths(module);
-  vorotool::bindings::bind_planar_graph(module);
-  vorotool::bindings::bind_pruning(module);
-  vorotool::bindings::bind_exact_signs(module);
-  vorotool::bindings::bind_insertion_predicates(module);
-  vorotool::bindings::bind_outlines(module);
-  vorotool::bindings::bind_skeleton(module);
-  vorotool::bindings::bind_offsets(module);
-  vorotool::bindings::bind_sampled_skeleton(module);
-  vorotool::bindings::bind_segment_verification(module);
-  vorotool::bindings::bind_segment_voronoi(module);
+  for (const Room& room : rooms) {
+    nanobind::module_ made = module.def_submodule(room.name, room.doc);
+    room.bind(made);
+  }
 }

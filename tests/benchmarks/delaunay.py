@@ -125,8 +125,8 @@ def measure(name: str, n: int, threads: int, runs: int, peers: list[str]) -> str
     n = len(points)
     row = f"| {name} | {n:,} |"
     for count in sorted({1, threads}):
-        mesh = _core.DelaunayTriangulation(points, count, None)
-        made = nanoseconds(lambda count=count: _core.DelaunayTriangulation(points, count, None), n, runs)
+        mesh = _core.delaunay.DelaunayTriangulation(points, count, None)
+        made = nanoseconds(lambda count=count: _core.delaunay.DelaunayTriangulation(points, count, None), n, runs)
         written = nanoseconds(lambda mesh=mesh, count=count: mesh.arrays(count, None), n, runs)
         whole = nanoseconds(lambda count=count: vorotool.delaunay(points, threads=count), n, runs)
         row += f" {made:.0f} + {written:.0f} | {whole:.0f} |"

@@ -106,7 +106,7 @@ def boost_measures(program: Path, points: np.ndarray, segments: np.ndarray, runs
 def measure(name: str, n: int, threads: int, runs: int, boost: Path | None) -> str:
     """One row of the table, from a process of its own."""
     points, segments = graph(name, n)
-    small = _core.SegmentVoronoi(points[:3].copy(), segments[:0].copy(), threads, None)
+    small = _core.segment_voronoi.SegmentVoronoi(points[:3].copy(), segments[:0].copy(), threads, None)
     small.take_arrays(None, threads, None)
     reset_peak()
     before = peak()
@@ -114,7 +114,7 @@ def measure(name: str, n: int, threads: int, runs: int, boost: Path | None) -> s
     memory = whole_memory = 0  # of the first run: what is freed may be kept for the next one
     for _ in range(runs):
         start = time.perf_counter()
-        diagram = _core.SegmentVoronoi(points, segments, threads, None)
+        diagram = _core.segment_voronoi.SegmentVoronoi(points, segments, threads, None)
         engine.append(time.perf_counter() - start)
         memory = memory or peak() - before
         start = time.perf_counter()
@@ -151,7 +151,9 @@ def growth_row(name: str) -> str:
             points, segments = graph(name, n)
         except AssertionError:  # so many do not fit the lattice
             break
-        visited.append(_core.SegmentVoronoi(points, segments, 1, None).counts["visited"] / len(segments))
+        visited.append(
+            _core.segment_voronoi.SegmentVoronoi(points, segments, 1, None).counts["visited"] / len(segments)
+        )
     mean = (visited[-1] - visited[0]) / (len(visited) - 1)
     ratio = f"{(visited[-1] - visited[-2]) / mean:.2f}" if mean > 0.5 else ""
     cells = [f"{value:.1f}" for value in visited] + [""] * (len(GROWTH) - len(visited))

@@ -20,7 +20,7 @@ from scipy.ndimage import distance_transform_edt
 from skimage.segmentation import expand_labels
 
 import vorotool
-from vorotool import _core
+from vorotool import _core, _core_testing
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.geometry.pixel_frame import Frame
 
@@ -64,8 +64,8 @@ def measure(m: int, n: int, threads: int, runs: int, *, sub_pixel: bool, peers: 
     """One row of the table."""
     seeds, frame = seed_set(m, n, sub_pixel=sub_pixel), Frame(0, 0, m, m)
     out = np.zeros((m, m), np.int32)
-    floor = best(lambda: _core.stream_fill(out, threads), runs)
-    touch = best(lambda: _core.stream_fill(np.empty((m, m), np.int32), threads), runs)
+    floor = best(lambda: _core_testing.tessellation.stream_fill(out, threads), runs)
+    touch = best(lambda: _core_testing.tessellation.stream_fill(np.empty((m, m), np.int32), threads), runs)
     ours = best(lambda: Tessellator(seeds, frame, threads=threads).labels(out=out), runs)
     sweep = Tessellator(seeds, frame, threads=threads)
     rows = best(lambda: sweep.labels(out=out), runs)
@@ -92,7 +92,8 @@ def main() -> None:
     arguments = parser.parse_args()
     warnings.simplefilter("ignore")
     cv2.setNumThreads(arguments.threads)
-    print(f"milliseconds, {arguments.threads} threads, {_core.widest_simd()}; in brackets: how many times ours\n")
+    widest = _core.tessellation.widest_simd()
+    print(f"milliseconds, {arguments.threads} threads, {widest}; in brackets: how many times ours\n")
     print("| image | seeds | floor | ours | ours / floor | rows alone / floor | fresh / its floor |", end="")
     print("".join(f" {name} |" for name in PEERS))
     print("|---" * (7 + len(PEERS)) + "|")

@@ -59,7 +59,7 @@ def wrong_insertion(points: np.ndarray, rng: np.random.Generator, local: Counter
     count = int(rng.integers(min(len(outermost), len(points)), len(points) + 1))
     mesh, right = delaunay(points[:count], threads=1), delaunay(points, threads=1)
     hints = rng.integers(0, count, len(points) - count if rng.random() < 0.3 else 0).astype(np.int32)
-    made = _core.insert_points(
+    made = _core.delaunay.insert_points(
         points, mesh.triangles, mesh.neighbours, mesh.edges, mesh.hull, mesh.first, hints, 1, None
     )
     local["inserted" if made is not None else "made anew"] += 1

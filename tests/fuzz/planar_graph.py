@@ -26,7 +26,7 @@ def graph_of(vertices: np.ndarray, rings: list[tuple[int, int, int, int]]) -> Pl
     """The graph of vertices that are on the lattice: placed so that one unit is one step."""
     columns = np.array(rings).reshape(-1, 4)
     shapes = PolygonSet(vertices, [0, *columns[:, 1]], columns[:, 2], columns[:, 3])
-    made = _core.make_planar_graph(vertices, shapes.ring_start, shapes.ring_kind, shapes.ring_polygon, None)
+    made = _core.arrangement.make_planar_graph(vertices, shapes.ring_start, shapes.ring_kind, shapes.ring_polygon, None)
     counts = [count for count, _, _ in made.pop("repairs")]
     made.pop("is_repaired")
     made["point_holes"] = made["point_holes"].reshape(-1, 3)

@@ -26,7 +26,7 @@ def check(rng: np.random.Generator, name: str, n: int, decided: Counter[str]) ->
     """Check one batch on every level; give the number of wrong signs and add to what the levels decided."""
     points = np.ascontiguousarray(FAMILIES[name](rng, BATCH, n))
     right = exact_signs(points)
-    predicate = _core.orient2d if n == 3 else _core.incircle
+    predicate = _core.kernel.orient2d if n == 3 else _core.kernel.incircle
     wrong = 0
     for level in LEVELS:
         signs = predicate(points, level)

@@ -31,7 +31,7 @@ def check(rng: np.random.Generator, side: int) -> tuple[str, int, int]:
     name, x, y, labels, scale, frame = random_case(rng, side)
     right = nearest_labels(x, y, labels, frame, scale)
     wrong = np.zeros(right.shape, dtype=bool)
-    for level in SIMD_LEVELS[: SIMD_LEVELS.index(_core.widest_simd()) + 1]:
+    for level in SIMD_LEVELS[: SIMD_LEVELS.index(_core.tessellation.widest_simd()) + 1]:
         os.environ["VOROTOOL_SIMD"] = level
         sweep = Tessellator(SeedSet(x, y, labels, scale=scale), Frame(*frame), threads=int(rng.integers(1, 6)))
         for dtype in (None, np.int32):

@@ -121,7 +121,7 @@ def test_centroids_between_the_lattice(run, folder):
 
 
 def test_a_failed_certificate_is_said(run, monkeypatch):
-    monkeypatch.setattr(engine._core, "triangulation_fault", lambda *_: "a side is wrong")
+    monkeypatch.setattr(engine._core.delaunay, "find_fault", lambda *_: "a side is wrong")
     done = run("delaunay", DOTS, *FRAME, "--method", "digital-valid", "--stats", "stats.json")
     assert done.code == 0
     assert done.err.startswith("warning: the digital triangulation could not be repaired")

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from support.core_testing import alpha as core
 from support.oracles.alpha_oracle import rounded_root
-from vorotool import _core
 
 finite = st.floats(allow_nan=False, allow_infinity=False)
 ordinary = st.floats(-1e3, 1e3)
@@ -47,7 +47,7 @@ def edge_of(support):
 def test_correctly_rounded(support, is_edge):
     support = edge_of(support) if is_edge else support
     square = squared(support)
-    found = _core.critical_radii(np.array([support]))[0]
+    found = core.critical_radii(np.array([support]))[0]
     assert found == (np.inf if square is None else rounded_root(square))
 
 
@@ -58,7 +58,7 @@ def test_many_correctly_rounded(scale):
     triangles[:1000, 4:] = triangles[:1000, :2] + (triangles[:1000, 2:4] - triangles[:1000, :2]) * rng.choice(
         [0.5, 2.0, -1.0], (1000, 1)
     )  # flat but for rounding
-    found = _core.critical_radii(triangles)
+    found = core.critical_radii(triangles)
     for support, radius in zip(triangles.tolist(), found.tolist(), strict=True):
         square = squared(support)
         assert radius == (np.inf if square is None else rounded_root(square))
@@ -81,7 +81,7 @@ def test_compared_exactly(p, q, case, is_edge):
     a, b = squared(p), squared(q)
     right = (a is None) - (b is None) if a is None or b is None else sign(a - b)
     for one, other, expected in ((p, q, right), (q, p, -right)):
-        assert _core.compare_radii(np.array([one]), np.array([other]))[0] == expected
+        assert core.compare_radii(np.array([one]), np.array([other]))[0] == expected
 
 
 def test_equal_radii_of_different_triangles():
@@ -93,8 +93,8 @@ def test_equal_radii_of_different_triangles():
         for k in range(2, 6):
             other = np.concatenate([points[k - 1], points[k], points[k + 1]])
             right = sign(squared(first) - squared(other))
-            assert _core.compare_radii(first[None], other[None])[0] == right
+            assert core.compare_radii(first[None], other[None])[0] == right
             assert factor == 0.1 or right == 0
     edge = np.array([-5.0, 0, 5, 0, -5, 0])
     triangle = np.array([5.0, 0, 3, 4, 0, 5])
-    assert _core.compare_radii(edge[None], triangle[None])[0] == 0
+    assert core.compare_radii(edge[None], triangle[None])[0] == 0

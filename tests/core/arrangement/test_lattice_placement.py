@@ -13,7 +13,7 @@ LIMIT = 2**30 - 1
 
 
 def place(points, threads=1):
-    return _core.place_on_lattice(np.array(points, dtype=np.float64).reshape(-1, 2), threads, None)
+    return _core.arrangement.place_on_lattice(np.array(points, dtype=np.float64).reshape(-1, 2), threads, None)
 
 
 def check(points):

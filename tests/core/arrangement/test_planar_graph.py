@@ -15,7 +15,7 @@ from vorotool import _core
 
 def make(vertices, rings):
     _begin, end, kind, polygon = (list(column) for column in zip(*rings, strict=True))
-    return _core.make_planar_graph(
+    return _core.arrangement.make_planar_graph(
         np.ascontiguousarray(vertices, dtype=np.int32),
         np.array([0, *end], dtype=np.int64),
         np.array(kind, dtype=np.int8),
@@ -25,7 +25,7 @@ def make(vertices, rings):
 
 
 def fault(graph):
-    return _core.planar_graph_fault(graph["points"], graph["segments"], graph["segment_faces"], None)
+    return _core.arrangement.find_fault(graph["points"], graph["segments"], graph["segment_faces"], None)
 
 
 def described(graph):
@@ -226,14 +226,14 @@ def test_the_checker_finds_faults(change, message):
     points, segments, faces = change(graph["points"], graph["segments"], graph["segment_faces"])
     points, segments = (np.ascontiguousarray(a, dtype=np.int32) for a in (points, segments))
     faces = None if faces is None else np.ascontiguousarray(faces, dtype=np.int32)
-    assert re.search(message, _core.planar_graph_fault(points, segments, faces, None))
+    assert re.search(message, _core.arrangement.find_fault(points, segments, faces, None))
 
 
 def test_the_checker_compares_new_neighbours():
     """Two segments cross above the end of a third one between them, and nothing else happens."""
     points = np.array([[0, 0], [10, 10], [10, 0], [0, 10], [5, 0], [5, 2]], dtype=np.int32)
     segments = np.array([[0, 1], [2, 3], [4, 5]], dtype=np.int32)
-    assert "segments 0 and 1 cross" in _core.planar_graph_fault(points, segments, None, None)
+    assert "segments 0 and 1 cross" in _core.arrangement.find_fault(points, segments, None, None)
 
 
 def test_the_checker_agrees_with_brute_force():
@@ -246,7 +246,7 @@ def test_the_checker_agrees_with_brute_force():
         n = len(points)
         pairs = np.array([(i, j) for i in range(n) for j in range(n) if i != j], dtype=np.int32).reshape(-1, 2)
         chosen = pairs[rng.permutation(len(pairs))[: int(rng.integers(0, 4))]]
-        ours = _core.planar_graph_fault(points, np.ascontiguousarray(chosen), None, None)
+        ours = _core.arrangement.find_fault(points, np.ascontiguousarray(chosen), None, None)
         theirs = oracle.fault([tuple(p) for p in points.tolist()], chosen.tolist())
         assert (ours is None) == (theirs is None), (points, chosen, ours, theirs)
         seen[ours is None] += 1

@@ -21,7 +21,7 @@ def sheared(points):
 def made(vertices, rings):
     _begin, end, kind, polygon = (list(column) for column in zip(*rings, strict=True))
     columns = np.array([0, *end], dtype=np.int64), np.array(kind, dtype=np.int8), np.array(polygon, dtype=np.int32)
-    return _core.make_planar_graph(np.ascontiguousarray(vertices, dtype=np.int32), *columns, None)
+    return _core.arrangement.make_planar_graph(np.ascontiguousarray(vertices, dtype=np.int32), *columns, None)
 
 
 def checked(vertices, rings):

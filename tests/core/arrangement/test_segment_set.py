@@ -14,4 +14,4 @@ def test_first_at_place(count, size, step):
     points[count // 2 :] = points[: count - count // 2][::-1]
     first = {}
     expected = [first.setdefault(tuple(point), k) for k, point in enumerate(points.tolist())]
-    assert _core.first_at_place(points, None).tolist() == expected
+    assert _core.arrangement.first_at_place(points, None).tolist() == expected

@@ -14,7 +14,7 @@ graphs = st.integers(2, 30).flatmap(
 def colour_graph(vertices, edges):
     edges = np.array(edges, dtype=np.uint32).reshape(-1, 2)
     a, b = (np.ascontiguousarray(edges[:, k]) for k in (0, 1))
-    colours = _core.colour_graph(vertices, a, b, None)
+    colours = _core.graphs.colour_graph(vertices, a, b, None)
     assert (colours[a] != colours[b]).all()
     assert vertices == 0 or sorted(set(colours.tolist())) == list(range(1, colours.max() + 1))
     return colours

@@ -13,7 +13,7 @@ from vorotool import _core
 
 UNDECIDED = 2
 CALLS = 400
-PREDICATES = {3: _core.orient2d, 4: _core.incircle}
+PREDICATES = {3: _core.kernel.orient2d, 4: _core.kernel.incircle}
 sizes = pytest.mark.parametrize("n", [3, 4], ids=["orient2d", "incircle"])
 families = pytest.mark.parametrize("name", cases.FAMILIES)
 
@@ -104,9 +104,9 @@ def test_powers_of_two_mirrors_and_quarter_turns(n, name):
 
 def test_orientation_and_inside():
     triangle = [[0, 0], [1, 0], [0, 1]]
-    assert _core.orient2d(np.array([triangle], dtype=float)).tolist() == [1]
+    assert _core.kernel.orient2d(np.array([triangle], dtype=float)).tolist() == [1]
     fourth = [[0.5, 0.5], [1, 1], [1.5, 1], [-1, -1]]
-    assert _core.incircle(np.array([[*triangle, p] for p in fourth], dtype=float)).tolist() == [1, 0, -1, -1]
+    assert _core.kernel.incircle(np.array([[*triangle, p] for p in fourth], dtype=float)).tolist() == [1, 0, -1, -1]
 
 
 def test_the_grid_of_kettner():
@@ -115,27 +115,27 @@ def test_the_grid_of_kettner():
     x, y = np.meshgrid(steps, steps)
     grid = 0.5 + np.stack([x.ravel(), y.ravel()], axis=-1) * 2.0**-53
     points = np.stack([grid, np.full_like(grid, 12), np.full_like(grid, 24)], axis=1)
-    np.testing.assert_array_equal(_core.orient2d(points), np.sign(grid[:, 1] - grid[:, 0]))
+    np.testing.assert_array_equal(_core.kernel.orient2d(points), np.sign(grid[:, 1] - grid[:, 0]))
 
 
 @pytest.mark.parametrize("scale", [5e-324, 1e-320, 1e-308, 1e-160, 1e-77, 1.0, 1e77, 1e150, 1e308])
 def test_named_magnitudes(scale):
     square = np.array([[0, 0], [scale, 0], [scale, scale], [0, scale]])
-    assert _core.orient2d(square[None, :3]).tolist() == [1]
-    assert _core.orient2d(np.array([[-square[2], square[0], square[2]]])).tolist() == [0]
-    assert _core.incircle(square[None]).tolist() == [0]
+    assert _core.kernel.orient2d(square[None, :3]).tolist() == [1]
+    assert _core.kernel.orient2d(np.array([[-square[2], square[0], square[2]]])).tolist() == [0]
+    assert _core.kernel.incircle(square[None]).tolist() == [0]
     inside = np.nextafter(scale, 0)
-    assert _core.incircle(np.array([[*square[:3], [0, inside]]])).tolist() == [1 if inside > 0 else 0]
-    assert _core.incircle(np.array([[*square[:3], [-5e-324, scale]]])).tolist() == [-1]
+    assert _core.kernel.incircle(np.array([[*square[:3], [0, inside]]])).tolist() == [1 if inside > 0 else 0]
+    assert _core.kernel.incircle(np.array([[*square[:3], [-5e-324, scale]]])).tolist() == [-1]
 
 
 def test_huge_and_tiny_in_one_call():
     huge, tiny = np.finfo(float).max, 5e-324
     line = [[-huge, -huge], [huge, huge]]
     calls = np.array([[*line, p] for p in ([0, tiny], [tiny, 0], [tiny, tiny])])
-    assert _core.orient2d(calls).tolist() == [1, -1, 0]
+    assert _core.kernel.orient2d(calls).tolist() == [1, -1, 0]
     circle = [[huge, 0], [0, huge], [-huge, 0]]
-    assert _core.incircle(np.array([[*circle, p] for p in ([0, -huge], [tiny, -huge])])).tolist() == [0, -1]
+    assert _core.kernel.incircle(np.array([[*circle, p] for p in ([0, -huge], [tiny, -huge])])).tolist() == [0, -1]
 
 
 coordinates = st.floats(allow_nan=False, allow_infinity=False) | st.integers(-3, 3).map(float)
@@ -151,4 +151,4 @@ def test_any_doubles(n, data):
 
 def test_unknown_level_is_refused():
     with pytest.raises(ValueError, match="no level of the predicates is called 'magic'"):
-        _core.orient2d(np.zeros((1, 3, 2)), "magic")
+        _core.kernel.orient2d(np.zeros((1, 3, 2)), "magic")

@@ -12,7 +12,7 @@ from vorotool import _core
 
 def components(mask, corners):
     out = np.full(mask.shape, 99, np.uint32)
-    count = _core.label_components(mask.astype(np.uint8), corners, out, None)
+    count = _core.label_images.label_components(mask.astype(np.uint8), corners, out, None)
     return count, out
 
 

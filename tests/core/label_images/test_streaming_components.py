@@ -15,7 +15,7 @@ STRUCTURE = {False: [[0, 1, 0], [1, 1, 1], [0, 1, 0]], True: np.ones((3, 3))}
 def streamed(mask, corners, heights):
     """Numbers of a mask whose rows come in bands of these heights, in turn."""
     bits = mask.astype(np.uint8)
-    components = _core.StreamingComponents(mask.shape[1], corners)
+    components = _core.label_images.StreamingComponents(mask.shape[1], corners)
     row, bands = 0, []
     above = np.zeros(mask.shape[1], np.uint32)
     while row < len(mask):
@@ -29,7 +29,7 @@ def streamed(mask, corners, heights):
     made = []
     for band, above, start, end in reversed(bands):  # in any order
         out = np.full(band.shape, 99, np.uint32)
-        _core.number_band(band, corners, number[above], number[start + 1 : end + 1], out, None)
+        _core.label_images.number_band(band, corners, number[above], number[start + 1 : end + 1], out, None)
         made.append(out)
     return count, np.concatenate(made[::-1])
 
@@ -41,7 +41,7 @@ def check(mask, heights):
         assert count == most
         np.testing.assert_array_equal(found, expected)  # which numbers by first pixels, too
         whole = np.empty(mask.shape, np.uint32)
-        _core.label_components(mask.astype(np.uint8), corners, whole, None)
+        _core.label_images.label_components(mask.astype(np.uint8), corners, whole, None)
         np.testing.assert_array_equal(found, whole)
 
 
@@ -69,10 +69,10 @@ def test_arrays_that_do_not_fit_are_refused():
     out = np.zeros((2, 3), np.uint32)
     for fresh in ([], [1, 2]):
         with pytest.raises(ValueError, match="components than numbers"):
-            _core.number_band(mask, True, row, np.array(fresh, np.uint32), out, None)
+            _core.label_images.number_band(mask, True, row, np.array(fresh, np.uint32), out, None)
     with pytest.raises(ValueError, match="do not fit together"):
-        _core.number_band(mask, True, row[:2], row, out, None)
+        _core.label_images.number_band(mask, True, row[:2], row, out, None)
     with pytest.raises(ValueError, match="do not fit together"):
-        _core.StreamingComponents(4, True).add(mask, out, None)
+        _core.label_images.StreamingComponents(4, True).add(mask, out, None)
     with pytest.raises(ValueError, match="do not fit together"):
-        _core.StreamingComponents(3, True).settle(row)
+        _core.label_images.StreamingComponents(3, True).settle(row)

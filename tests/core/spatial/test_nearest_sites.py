@@ -9,7 +9,7 @@ from vorotool import _core
 
 def nearest_other(x, y, labels, threads=1):
     x, y = (np.ascontiguousarray(v, dtype=np.float64) for v in (x, y))
-    return _core.nearest_other_sites(x, y, np.ascontiguousarray(labels, dtype=np.uint32), threads, None)
+    return _core.spatial.nearest_other_sites(x, y, np.ascontiguousarray(labels, dtype=np.uint32), threads, None)
 
 
 @given(

@@ -75,11 +75,13 @@ NOT_FINITE = ["nan", "NaN", "-nan", "inf", "-Inf", "Infinity", "+inf", "1e309", 
 
 
 def parse(text, delimiter=",", columns=(0, 1), **options):
-    return _core.parse_numbers(text.encode() if isinstance(text, str) else text, delimiter, list(columns), **options)
+    return _core.text.parse_numbers(
+        text.encode() if isinstance(text, str) else text, delimiter, list(columns), **options
+    )
 
 
 def error_of(text, *arguments, **options):
-    with pytest.raises(_core.TextError) as caught:
+    with pytest.raises(_core.text.TextError) as caught:
         parse(text, *arguments, **options)
     return caught.value.args
 
@@ -166,10 +168,10 @@ def test_open_quotes():
 
 def test_quoted_fields_may_hold_anything():
     text = b'1,"a, ""b""\n# no comment",2\n3, plain "5" ,4\n5,x,oops\n'
-    assert _core.parse_fields(text, ",", [1]) == [['a, "b"\n# no comment', 'plain "5"', "x"]]
+    assert _core.text.parse_fields(text, ",", [1]) == [['a, "b"\n# no comment', 'plain "5"', "x"]]
     assert error_of(text, columns=[0, 2]) == ("not_number", 4, 2, "oops", 0, 0)
-    assert _core.line_of_row(text, ",", 0, 1) == 3
-    assert _core.line_of_row(text, ",", 0, 3) == 0
+    assert _core.text.line_of_row(text, ",", 0, 1) == 3
+    assert _core.text.line_of_row(text, ",", 0, 3) == 0
 
 
 @settings(deadline=None)
@@ -177,7 +179,7 @@ def test_quoted_fields_may_hold_anything():
 def test_quoted_text_reads_as_the_csv_module_reads_it(rows):
     out = io.StringIO()
     csv.writer(out, quoting=csv.QUOTE_ALL, lineterminator="\n").writerows(rows)
-    read = _core.parse_fields(out.getvalue().encode("utf-8", "replace"), ",", [0, 1, 2])
+    read = _core.text.parse_fields(out.getvalue().encode("utf-8", "replace"), ",", [0, 1, 2])
     expected = [[text.encode("utf-8", "replace").decode() for text in column] for column in zip(*rows, strict=True)]
     assert read == expected
 
@@ -201,9 +203,9 @@ def test_results_do_not_depend_on_threads(quotes):
     np.testing.assert_array_equal(results[0][:, 0], np.arange(rows))
     for result in results[1:]:
         np.testing.assert_array_equal(result, results[0])
-    fields = [_core.parse_fields(text, ",", [2], threads=threads) for threads in (1, 3)]
+    fields = [_core.text.parse_fields(text, ",", [2], threads=threads) for threads in (1, 3)]
     assert fields[0] == fields[1]
-    assert {_core.count_rows(text, ",", threads=threads) for threads in (1, 2, 5)} == {rows}
+    assert {_core.text.count_rows(text, ",", threads=threads) for threads in (1, 2, 5)} == {rows}
 
 
 @pytest.mark.parametrize("quotes", [False, True])
@@ -230,17 +232,17 @@ def test_a_text_as_long_as_a_piece(size, end):
 
 
 def test_nesting():
-    assert _core.find_too_deep(b"[[1], [2]]", 2) is None
-    assert _core.find_too_deep(b"[[1], [[2]]]", 2) == 7
-    assert _core.find_too_deep(rb'["[[[\"[[[", "(\\"]', 1) is None
-    assert _core.find_too_deep(b"]]]][", 1) is None
-    assert _core.find_too_deep(b"(" * 10**6, 100) == 100
-    assert _core.find_too_deep(b'["' + b"\\", 1) is None
+    assert _core.text.find_too_deep(b"[[1], [2]]", 2) is None
+    assert _core.text.find_too_deep(b"[[1], [[2]]]", 2) == 7
+    assert _core.text.find_too_deep(rb'["[[[\"[[[", "(\\"]', 1) is None
+    assert _core.text.find_too_deep(b"]]]][", 1) is None
+    assert _core.text.find_too_deep(b"(" * 10**6, 100) == 100
+    assert _core.text.find_too_deep(b'["' + b"\\", 1) is None
 
 
 def format_text(values, missing=None, **options):
     masks = missing or [None] * len(values)
-    return b"".join(_core.format_rows(values, masks, **options)).decode()
+    return b"".join(_core.text.format_rows(values, masks, **options)).decode()
 
 
 def test_format_of_each_type():
@@ -298,7 +300,7 @@ def _digits(text):
 
 def test_text_does_not_depend_on_threads():
     values = np.random.default_rng(5).normal(size=(2, 50000))
-    texts = [b"".join(_core.format_rows([*values], [None, None], 0, threads)) for threads in (1, 2, 3, 8)]
+    texts = [b"".join(_core.text.format_rows([*values], [None, None], 0, threads)) for threads in (1, 2, 3, 8)]
     assert len(set(texts)) == 1
     assert texts[0].count(b"\n") == 50000
     np.testing.assert_array_equal(parse(texts[0]), values.T)
@@ -315,7 +317,7 @@ def test_format_refuses_columns_of_other_types_and_lengths():
 
 def rows(*columns, around=None, separator="", missing=""):
     shape = None if around is None else (around, separator, missing)
-    return b"".join(_core.format_rows(list(columns), [None] * len(columns), 0, 2, shape)).decode()
+    return b"".join(_core.text.format_rows(list(columns), [None] * len(columns), 0, 2, shape)).decode()
 
 
 def test_rows_of_any_shape():
@@ -336,7 +338,7 @@ def test_separators_stand_between_all_rows_of_all_blocks():
 def test_columns_that_look_up():
     values = np.array([0.25, -1e300, 1 / 3])
     index = np.array([[2, 0], [1, 1], [0, 2], [2, 2]], dtype=np.int32)
-    texts = _core.NumberTexts(values)
+    texts = _core.text.NumberTexts(values)
     assert len(texts) == 3
     for column in (values, texts):
         shown = rows((column, index[:, 0]), (column, index[:, 1])).split()  # columns of a matrix: strided
@@ -353,14 +355,14 @@ def test_texts_of_numbers_are_those_of_columns():
     for precision in (0, 3):
         expected = format_text([values[index]], precision=precision)
         for threads in (1, 3):
-            texts = _core.NumberTexts(values, precision, threads)
+            texts = _core.text.NumberTexts(values, precision, threads)
             assert format_text([(texts, index)], precision=precision) == expected
 
 
 @pytest.mark.parametrize("bad", [-1, 3, 2**31 - 1])
 def test_an_index_out_of_range_is_refused(bad):
     index = np.array([0, bad], dtype=np.int32)
-    for values in (np.arange(3), _core.NumberTexts(np.arange(3.0)), ["a", "b", "c"]):
+    for values in (np.arange(3), _core.text.NumberTexts(np.arange(3.0)), ["a", "b", "c"]):
         with pytest.raises(IndexError, match="out of range"):
             rows((values, index))
     with pytest.raises(ValueError, match="one length"):

@@ -57,7 +57,7 @@ def check_by_cutting(points, frame):
             return
         rounded = [p for k, p in enumerate(rounded) if p != rounded[k - 1]]
         if not ours:  # a cell without area, as rounded if not before
-            assert all(_core.orient2d(np.array([[*rounded[0], *rounded[1], *p]]))[0] == 0 for p in rounded[2:])
+            assert all(_core.kernel.orient2d(np.array([[*rounded[0], *rounded[1], *p]]))[0] == 0 for p in rounded[2:])
             continue
         start = rounded.index(min(rounded))
         assert [p for p in ours if p in rounded] == rounded[start:] + rounded[:start]

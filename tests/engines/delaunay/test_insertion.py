@@ -47,7 +47,7 @@ def outermost_first(points):
 def always_local(monkeypatch):
     """Insert however many points there are, and count how often that was done."""
     done = []
-    kernel = _core.insert_points
+    kernel = _core.delaunay.insert_points
 
     def counted(*arguments):
         result = kernel(*arguments)
@@ -55,7 +55,7 @@ def always_local(monkeypatch):
         return result
 
     monkeypatch.setattr(insertion, "MANY", 1000.0)
-    monkeypatch.setattr(insertion._core, "insert_points", counted)
+    monkeypatch.setattr(insertion._core.delaunay, "insert_points", counted)
     return done
 
 

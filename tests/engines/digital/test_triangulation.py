@@ -87,7 +87,7 @@ def test_a_fourth_label_of_background_is_none():
 
 def test_triangles_turn_counter_clockwise():
     found = digital_triangulation(random_seeds(1, 200, 300), shape=(200, 200))
-    signs = _core.orient2d(np.ascontiguousarray(found.points[found.triangles]))
+    signs = _core.kernel.orient2d(np.ascontiguousarray(found.points[found.triangles]))
     assert (signs >= 0).all()
     assert (found.triangles[:, 0] == found.triangles.min(axis=1)).all()
 
@@ -109,7 +109,7 @@ def test_many_rows_in_pieces():
     """More pixels than a piece of work, of labels at random."""
     image = np.random.default_rng(3).integers(1, 40, (900, 900)).astype(np.uint8)
     found = digital_triangulation(LabelImage(image), threads=2)
-    scan = _core.DigitalTriangulationScan()
+    scan = _core.digital.DigitalTriangulationScan()
     for y in range(899):
         scan.add_rows(image[y : y + 2], 1, None)
     one_by_one = scan.finish()
@@ -233,8 +233,8 @@ def test_insertion_alone_is_exact():
     for case in range(40):
         _, x, y, _, scale, _ = random_case(np.random.default_rng(1000 + case), 60)
         points = np.stack([x, y], axis=1) / scale
-        expected = _core.DelaunayTriangulation(points, 1, None)
-        core = _core.inserted_mesh(points, 1, None)
+        expected = _core.delaunay.DelaunayTriangulation(points, 1, None)
+        core = _core.digital.inserted_mesh(points, 1, None)
         for one, other in zip(core.arrays(1, None), expected.arrays(1, None), strict=True):
             np.testing.assert_array_equal(one, other)
         np.testing.assert_array_equal(core.hull, expected.hull)
@@ -281,7 +281,7 @@ def test_each_step_is_needed():
 
 def test_a_failed_certificate_is_said(monkeypatch):
     faults = iter(["triangle 0 is not counter-clockwise"])
-    monkeypatch.setattr(engine._core, "triangulation_fault", lambda *_: next(faults))
+    monkeypatch.setattr(engine._core.delaunay, "find_fault", lambda *_: next(faults))
     with pytest.warns(
         VorotoolWarning, match=r"the certificate failed .triangle 0 is not .*: all 4 sites were inserted"
     ):

@@ -195,7 +195,9 @@ def test_translation_and_scale(name):
 def test_visited_vertices_grow_as_log_n(name):
     """Every doubling adds at most 4. Teeth see all the others: in a plain spatial order the work is quadratic."""
     graphs = [draw(name, n, 2) for n in (256, 2_048, 16_384)]
-    visited = [_core.SegmentVoronoi(*graph, 1, None).counts["visited"] / len(graph[1]) for graph in graphs]
+    visited = [
+        _core.segment_voronoi.SegmentVoronoi(*graph, 1, None).counts["visited"] / len(graph[1]) for graph in graphs
+    ]
     assert (np.diff(visited) < 4 * np.log2(8)).all()
 
 
@@ -250,6 +252,6 @@ def test_a_callback_that_raises_stops_the_work():
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        _core.SegmentVoronoi(points, segments, 1, stop)
+        _core.segment_voronoi.SegmentVoronoi(points, segments, 1, stop)
     assert len(called) == 1
     assert time.perf_counter() - called[0] < 0.2

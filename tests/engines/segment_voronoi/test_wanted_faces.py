@@ -93,4 +93,6 @@ def test_a_byte_for_each_site_is_needed():
     with pytest.raises(ValueError, match="unwanted sides"):
         segment_voronoi(graph.points, graph.segments, unwanted=np.zeros(5, dtype=np.uint8))
     with pytest.raises(ValueError, match="out of range"):
-        _core.unwanted_sides(graph.points, graph.segments, graph.segment_faces, np.ones(1, dtype=np.uint8))
+        _core.segment_voronoi.unwanted_sides(
+            graph.points, graph.segments, graph.segment_faces, np.ones(1, dtype=np.uint8)
+        )

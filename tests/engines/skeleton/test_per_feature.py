@@ -160,7 +160,7 @@ def test_many_boxes_over_each_other_are_divided_fast():
     count = 20000
     low = rng.integers(0, 1 << 20, (count, 2))
     size = (2.0 ** rng.uniform(0, 20, (count, 2))).astype(np.int64)
-    sheet = _core.disjoint_sheets(np.hstack([low, low + size]), None)
+    sheet = _core.spatial.disjoint_sheets(np.hstack([low, low + size]), None)
     assert sorted(set(sheet.tolist())) == list(range(int(sheet.max()) + 1))
     boxes = shapely.box(*low.T, *(low + size).T)
     one, other = shapely.STRtree(boxes).query(boxes, predicate="intersects")

@@ -22,7 +22,7 @@ from vorotool.errors import InputError, LimitError, UsageError, VerificationErro
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.seed_set import SeedSet
 
-LEVELS = SIMD_LEVELS[: SIMD_LEVELS.index(_core.widest_simd()) + 1]
+LEVELS = SIMD_LEVELS[: SIMD_LEVELS.index(_core.tessellation.widest_simd()) + 1]
 
 
 @pytest.fixture(params=LEVELS)

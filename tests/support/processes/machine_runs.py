@@ -53,7 +53,7 @@ def factors() -> dict[str, list[dict[str, str]]]:
     from vorotool.engines.tessellation.frames import SIMD_LEVELS
 
     narrow = ["AVX512F", "AVX512VL", "AVX512BW", "AVX512DQ", "FMA", "FMA4", "AVX2", "AVX"]
-    wide = SIMD_LEVELS[: SIMD_LEVELS.index(_core.widest_simd()) + 1]
+    wide = SIMD_LEVELS[: SIMD_LEVELS.index(_core.tessellation.widest_simd()) + 1]
     return {
         "numpy": [{}, *({"NPY_DISABLE_CPU_FEATURES": level} for level in numpy_levels())],
         "linear algebra": [{}, *({"OPENBLAS_CORETYPE": name} for name in ("Haswell", "Nehalem", "Prescott"))],

@@ -110,7 +110,7 @@ def alpha_complex(
         edges, sides = _edges_and_sides(mesh, threads, progress)
     if len(mesh.points) - mesh.duplicates < 2:
         report_too_few(len(mesh.points), allow_empty=allows_empty(points, allow_empty), strict=strict)
-    arrays = _core.alpha_complex(mesh.points, mesh.triangles, edges, sides, rule == "printed", threads, progress)
+    arrays = _core.alpha.alpha_complex(mesh.points, mesh.triangles, edges, sides, rule == "printed", threads, progress)
     return AlphaComplex(mesh, edges, sides, rule=rule, **arrays)
 
 
@@ -119,7 +119,7 @@ def _edges_and_sides(
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     if not len(mesh.triangles):
         return mesh.edges, np.full(mesh.edges.shape, -1, dtype=np.int32)
-    return _core.edges_of_triangles(mesh.triangles, mesh.neighbours, threads, progress)
+    return _core.alpha.edges_of_triangles(mesh.triangles, mesh.neighbours, threads, progress)
 
 
 def alpha_edges(
@@ -160,7 +160,7 @@ def _scan(
     family: AlphaComplex, reached: int, entered: int, threads: int, progress: Progress
 ) -> tuple[NDArray[np.int32], NDArray[np.uint8]]:
     ranks = family.rank_min, family.rank_mid, family.rank_max
-    return _core.shape_edges(*ranks, reached, entered, threads, progress)
+    return _core.alpha.shape_edges(*ranks, reached, entered, threads, progress)
 
 
 def chosen_radius(r: Any, alpha: Any, automatic: bool = False) -> Radius | None:
@@ -306,10 +306,10 @@ def _shape(
 ) -> AlphaShape:
     index, kind = scanned
     inside = family.triangle_rank < reached
-    component = _core.connected_triangles(inside.view(np.uint8), family.sides, progress)
+    component = _core.alpha.connected_triangles(inside.view(np.uint8), family.sides, progress)
     if thresholds != (None, None):
         inside = fill_and_drop(family, inside, component, *thresholds, progress)
-        component = _core.connected_triangles(inside.view(np.uint8), family.sides, progress)
+        component = _core.alpha.connected_triangles(inside.view(np.uint8), family.sides, progress)
         index, kind = _reclassified(family, inside, index[kind == 1])
     region = np.where(inside, component, np.int32(-1))
     cavities = int(component[~inside].max(initial=-1)) + 1
@@ -335,7 +335,7 @@ def _polygons(family: AlphaComplex, region: NDArray[np.int32], progress: Progres
     t, k = np.nonzero((region[:, None] >= 0) & (across < 0)) if len(region) else (np.empty(0, np.intp),) * 2
     a = np.ascontiguousarray(mesh.triangles[t, (k + 1) % 3], dtype=np.int32)
     b = np.ascontiguousarray(mesh.triangles[t, (k + 2) % 3], dtype=np.int32)
-    vertex, start, of, is_hole = _core.trace_rings(mesh.points, a, b, np.ascontiguousarray(region[t]), progress)
+    vertex, start, of, is_hole = _core.alpha.trace_rings(mesh.points, a, b, np.ascontiguousarray(region[t]), progress)
     order = np.lexsort((is_hole, of))  # a shell, then its holes
     sizes = np.diff(start)[order]
     starts = np.append(0, np.cumsum(sizes))
@@ -412,7 +412,7 @@ def alpha_curves(family: AlphaComplex, *, progress: Progress = None) -> Table:
     """
     if family.rule != "corrected":
         raise UsageError("curves and the automatic radius are those of the corrected rule: leave out rule=printed")
-    curves = _core.alpha_curves(
+    curves = _core.alpha.alpha_curves(
         len(family.spectrum),
         family.triangle_rank,
         family.rank_min,

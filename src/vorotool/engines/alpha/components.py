@@ -46,7 +46,7 @@ def fill_and_drop(
     if hole_threshold is not None:
         holes = np.where(inside, np.int32(-1), component)
         inside = inside | _in_small(mesh, holes, hole_threshold)
-        component = _core.connected_triangles(inside.view(np.uint8), family.sides, progress)
+        component = _core.alpha.connected_triangles(inside.view(np.uint8), family.sides, progress)
     if region_threshold is not None:
         regions = np.where(inside, component, np.int32(-1))
         inside = inside & ~_in_small(mesh, regions, region_threshold)

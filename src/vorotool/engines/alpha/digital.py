@@ -36,7 +36,7 @@ def linked_digital(found: DigitalTriangulation) -> tuple[Triangulation, NDArray[
     ([[0, 1], [0, 2], [1, 2]], [[0, -1], [-1, 0], [0, -1]])
     """
     points = found.points
-    turn = _core.orient2d(np.ascontiguousarray(points[found.triangles]))
+    turn = _core.kernel.orient2d(np.ascontiguousarray(points[found.triangles]))
     triangles = np.ascontiguousarray(found.triangles[turn > 0])
     edges = np.unique(np.concatenate([np.sort(found.edges, axis=1), found.sides()]), axis=0).astype(np.int32)
     count = len(points)
@@ -68,4 +68,4 @@ def linked_digital(found: DigitalTriangulation) -> tuple[Triangulation, NDArray[
 def _is_nearer(points: NDArray[np.float64], triangles: NDArray[np.int32], held: int, corner: int) -> bool:
     """Whether a corner is strictly inside the circle of the triangle that an edge has so far."""
     four = np.ascontiguousarray(points[[*triangles[held], corner]][None])
-    return bool(_core.incircle(four)[0] > 0)
+    return bool(_core.kernel.incircle(four)[0] > 0)

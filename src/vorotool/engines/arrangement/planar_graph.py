@@ -130,7 +130,7 @@ class Placement:
 
 def placed_vertices(polygons: PolygonSet, *, threads: int = 0, progress: Progress = None) -> Placement:
     """Place the vertices of polygons on the lattice; arguments as of `planar_graph`."""
-    return Placement(*_core.place_on_lattice(polygons.xy, checked_threads(threads), progress))
+    return Placement(*_core.arrangement.place_on_lattice(polygons.xy, checked_threads(threads), progress))
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,10 +156,10 @@ def arranged(given: PolygonSet, placement: Placement, *, progress: Progress = No
     """Make the planar graph of polygons whose vertices are placed, without a word about repairs."""
     rings = given.ring_start, given.ring_kind, given.ring_polygon
     try:
-        made = _core.make_planar_graph(placement.vertices, *rings, progress)
-    except _core.TooManyCrossingsError:
+        made = _core.arrangement.make_planar_graph(placement.vertices, *rings, progress)
+    except _core.arrangement.TooManyCrossingsError:
         raise LimitError(f"the edges meet more than {MOST_VERTICES} times: simplify or split the polygons") from None
-    except _core.TooManyOverlapsError:
+    except _core.arrangement.TooManyOverlapsError:
         raise LimitError(f"the polygons overlap or nest more than {MOST_OVERLAPS} times: split them") from None
     found = dict(zip(REPAIRS, made.pop("repairs"), strict=True))
     is_repaired, point_holes = made.pop("is_repaired") != 0, made.pop("point_holes").reshape(-1, 3)
@@ -277,7 +277,7 @@ def verify_planar_graph(graph: PlanarGraph, *, progress: Progress = None) -> Non
         ...
     vorotool.errors.VerificationError: segments 0 and 1 cross near (536870912, -536870912)
     """
-    fault = _core.planar_graph_fault(graph.points, graph.segments, graph.segment_faces, progress)
+    fault = _core.arrangement.find_fault(graph.points, graph.segments, graph.segment_faces, progress)
     fault = fault or _face_fault(graph) or (_source_fault(graph) if graph.polygons is not None else None)
     if fault is not None:
         raise VerificationError(fault)
@@ -318,7 +318,7 @@ def _source_fault(graph: PlanarGraph) -> str | None:
     """Check what the graph says of the input: each pair of a segment and an edge that it is said to be part of."""
     given = graph.polygons
     assert given is not None
-    vertices, origin, exponent, _ = _core.place_on_lattice(given.xy, 0, None)
+    vertices, origin, exponent, _ = _core.arrangement.place_on_lattice(given.xy, 0, None)
     if (origin, math.ldexp(1.0, exponent)) != (tuple(graph.origin), graph.scale):
         return "this is not the lattice of the input"
     known = graph.point_vertex >= 0

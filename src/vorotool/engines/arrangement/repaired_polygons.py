@@ -73,7 +73,7 @@ def repaired_polygons(graph: PlanarGraph) -> RepairedPolygons:
 
 
 def _borders(graph: PlanarGraph) -> _Rings:
-    found = _core.boundary_rings(
+    found = _core.arrangement.boundary_rings(
         graph.points, graph.segments, graph.segment_faces, graph.face_start, graph.face_polygon, None
     )
     return _Rings(

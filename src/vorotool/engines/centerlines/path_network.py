@@ -23,7 +23,7 @@ Place = tuple[float, float]
 
 def geometry_of(skeleton: Skeleton, arc: Indices, first: Floats, last: Floats) -> dict[str, Floats]:
     """Places, radii, control points and lengths of parts of arcs, by the parameters of their ends."""
-    return _core.part_geometry(skeleton_arrays(skeleton), arc, first, last)
+    return _core.pruning.part_geometry(skeleton_arrays(skeleton), arc, first, last)
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +103,9 @@ class Network:
         count = len(self.skeleton.polygons)
         polygon = np.ascontiguousarray(self.skeleton.polygon[self.arc])
         tie = TIE if self.by_edge else 0.0
-        start, arcs, targets = _core.longest_paths(self.ends, self.length, polygon, count, self.nodes, tie, progress)
+        start, arcs, targets = _core.graphs.longest_paths(
+            self.ends, self.length, polygon, count, self.nodes, tie, progress
+        )
         path = np.repeat(np.arange(count), np.diff(start))
         length = np.bincount(path, self.length[arcs], minlength=count)
         kept = (length > 0)[path]
@@ -117,7 +119,7 @@ class Network:
         polygon = self.skeleton.polygon[self.arc]
         at_ends = ((self.ends == first) | (self.ends == last)).any(axis=1)
         own = np.flatnonzero(np.isin(polygon, polygon[at_ends]))  # no other is looked at
-        found = _core.path_from(self.ends[own], self.length[own], self.nodes, first, last, progress)
+        found = _core.graphs.path_from(self.ends[own], self.length[own], self.nodes, first, last, progress)
         if found is None:
             return None
         return self._with_sources(np.array([0, len(found[0])]), own[found[0]].astype(np.int32), found[1])

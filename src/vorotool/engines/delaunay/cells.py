@@ -78,7 +78,7 @@ def voronoi_cells(
     area = None if clip is None else _clip_area(clip)
     box = _box(frame, mesh, area)
     try:
-        coordinates, starts = _core.voronoi_cells(
+        coordinates, starts = _core.cells.voronoi_cells(
             mesh.points,
             mesh.triangles,
             mesh.neighbours,
@@ -140,7 +140,7 @@ def cell_colours(mesh: Triangulation, *, progress: Progress = None) -> NDArray[n
     [3, 2, 1]
     """
     a, b = (np.ascontiguousarray(mesh.edges[:, side].astype(np.uint32)) for side in (0, 1))
-    return _core.colour_graph(len(mesh.points), a, b, progress)
+    return _core.graphs.colour_graph(len(mesh.points), a, b, progress)
 
 
 # ---- clipping to polygons ----------------------------------------------------------------------------------
@@ -268,7 +268,7 @@ def verify_cells(cells: CellSet, *, threads: int = 0, progress: Progress = None)
         raise InputError("cells clipped to polygons cannot be checked: check them before they are clipped")
     if not (np.isfinite(cells.sites).all() and np.isfinite(cells.coordinates).all()):
         raise VerificationError("a coordinate is not finite")
-    fault = _core.cell_fault(
+    fault = _core.cells.find_cell_fault(
         cells.sites, cells.coordinates, cells.starts, cells.frame.sides, checked_threads(threads), progress
     )
     if fault is not None:

@@ -40,7 +40,7 @@ class CocircularTies:
         a, b = (mesh.triangles[one, (corner + k) % 3] for k in (1, 2))
         apex = mesh.triangles[other].sum(axis=1, dtype=np.int64) - a - b
         quads = np.concatenate([mesh.triangles[one], apex[:, None]], axis=1)
-        tie = _core.incircle(np.ascontiguousarray(mesh.points[quads])) == 0
+        tie = _core.kernel.incircle(np.ascontiguousarray(mesh.points[quads])) == 0
         polygon = _components(len(mesh), one[tie], other[tie])
         self.unique_triangles = np.bincount(polygon, minlength=len(mesh))[polygon] == 1
         diagonals = np.sort(np.stack([a, b], axis=1)[tie], axis=1)

@@ -68,7 +68,7 @@ def delaunay(points: Any, *, strict: bool = False, threads: int = 0, progress: P
     if len(given) > MOST_POINTS:
         raise LimitError(f"there are {len(given)} points, more than {MOST_POINTS}: triangulate them in parts")
     threads = checked_threads(threads)
-    core = _core.DelaunayTriangulation(given.xy, threads, progress)
+    core = _core.delaunay.DelaunayTriangulation(given.xy, threads, progress)
     triangles, neighbours, edges = core.arrays(threads, progress)
     mesh = Triangulation(
         given.xy,
@@ -151,6 +151,6 @@ def triangulation_fault(mesh: Triangulation, threads: int, progress: Progress) -
     >>> triangulation_fault(delaunay([[0, 0], [4, 0], [0, 3]]), 1, None) is None
     True
     """
-    return _core.triangulation_fault(
+    return _core.delaunay.find_fault(
         mesh.points, mesh.triangles, mesh.neighbours, mesh.edges, mesh.hull, mesh.first, threads, progress
     )

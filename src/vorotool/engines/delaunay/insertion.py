@@ -114,7 +114,7 @@ def _inserted(
     mesh: Triangulation, xy: NDArray[np.float64], hints: NDArray[np.int32], threads: int, progress: Progress
 ) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]] | None:
     try:
-        return _core.insert_points(
+        return _core.delaunay.insert_points(
             xy, mesh.triangles, mesh.neighbours, mesh.edges, mesh.hull, mesh.first, hints, threads, progress
         )
     except ValueError as error:

@@ -71,7 +71,7 @@ def site_table(
         raise InputError("the cells are not those of the triangulation's points: give cells made from it")
     threads = checked_threads(threads)
     labels = np.ascontiguousarray(mesh.label_array, dtype=np.int64)
-    nearest, neighbours = _core.nearest_neighbours(mesh.points, mesh.edges, labels, progress)
+    nearest, neighbours = _core.delaunay.nearest_neighbours(mesh.points, mesh.edges, labels, progress)
     repeated = mesh.first != np.arange(len(mesh.first))
     alone = nearest < 0
     with np.errstate(over="ignore"):  # beyond the largest double: infinite
@@ -80,7 +80,7 @@ def site_table(
     on_hull = np.zeros(len(mesh.points), dtype=bool)
     on_hull[mesh.hull] = True
     rings, polygons, of_cells = cells.nesting
-    area, perimeter, reach, touches = _core.measure_cells(
+    area, perimeter, reach, touches = _core.cells.measure_cells(
         cells.sites, cells.coordinates, rings, polygons[of_cells], cells.frame.sides, threads, progress
     )
     columns: dict[str, Any] = {

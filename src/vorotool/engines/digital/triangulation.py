@@ -123,7 +123,7 @@ def _read(
     threads: int,
     progress: Progress,
 ) -> DigitalTriangulation:
-    scan = _core.DigitalTriangulationScan()
+    scan = _core.digital.DigitalTriangulationScan()
     for rows in bands:
         scan.add_rows(rows, threads, progress)
     found = scan.finish()
@@ -156,7 +156,7 @@ def _indices(known: NDArray[np.uint32], *columns: NDArray[np.uint32]) -> NDArray
 
 
 def _counter_clockwise(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.int32]:
-    clockwise = _core.orient2d(np.ascontiguousarray(points[triangles])) < 0
+    clockwise = _core.kernel.orient2d(np.ascontiguousarray(points[triangles])) < 0
     triangles[clockwise] = triangles[clockwise][:, [0, 2, 1]]
     return triangles
 
@@ -301,11 +301,11 @@ def repair_digital(
     points, labels = _sites_of_seeds(seeds)
     points = np.ascontiguousarray(points)
     sweep = Tessellator(ranked, frame, threads=threads, strict=strict, progress=progress)
-    core, counts = _core.digital_mesh(
+    core, counts = _core.digital.digital_mesh(
         points, ranked.x, ranked.y, seeds.scale, sweep.labels(dtype=np.uint32), frame.x, frame.y, threads, progress
     )
 
-    def mesh_of(core: _core.DelaunayTriangulation) -> Triangulation:
+    def mesh_of(core: _core.delaunay.DelaunayTriangulation) -> Triangulation:
         arrays = core.arrays(threads, progress)
         return Triangulation(
             points, *arrays, core.hull, core.first, labels=labels.astype(np.int64), properties=seeds.properties
@@ -315,7 +315,7 @@ def repair_digital(
     fault = triangulation_fault(mesh, threads, progress)
     if fault is not None:
         counts |= {"route": "rebuilt", "inserted": len(points)}
-        mesh = mesh_of(_core.inserted_mesh(points, threads, progress))
+        mesh = mesh_of(_core.digital.inserted_mesh(points, threads, progress))
     repair = DigitalRepair(**counts, fault=fault)
     _report_rebuilt(repair)
     return mesh, repair

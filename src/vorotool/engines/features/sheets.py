@@ -100,7 +100,7 @@ def sheets_of_boxes(
     first = features.vertex_start[:-1]
     low, high = (bound.reduceat(vertices, first, axis=0).astype(np.int64) for bound in (np.minimum, np.maximum))
     wide = (APART if reach is None else reach + APART) * np.ones((len(features), 1), dtype=np.int64)
-    return _core.disjoint_sheets(np.hstack([low - wide, high + wide]), progress)
+    return _core.spatial.disjoint_sheets(np.hstack([low - wide, high + wide]), progress)
 
 
 def sheets_of_cracks(
@@ -124,7 +124,7 @@ def sheets_of_cracks(
     if len(pairs):
         touching, index = np.unique(pairs, return_inverse=True)
         a, b = np.ascontiguousarray(index.reshape(-1, 2).T.astype(np.uint32))
-        sheet[touching] = _core.colour_graph(len(touching), a, b, progress).astype(np.int32) - 1
+        sheet[touching] = _core.graphs.colour_graph(len(touching), a, b, progress).astype(np.int32) - 1
     return sheet
 
 
@@ -133,7 +133,7 @@ def touching_features(features: Features, vertices: NDArray[np.int32], *, progre
 
     Of several at one place each is in a pair with every other.
     """
-    first = _core.first_at_place(vertices, progress)
+    first = _core.arrangement.first_at_place(vertices, progress)
     again = np.flatnonzero(first != np.arange(len(first)))
     if not again.size:
         return np.empty((0, 2), dtype=np.int64)

@@ -49,7 +49,7 @@ def label_places(
     if not len(known):
         return known, np.empty((0, 2), np.int64), np.empty(0)
     squares = _squares_to_outermost(array, threads)
-    largest = _core.max_by_label(array, squares, known, threads, None)
+    largest = _core.label_images.max_by_label(array, squares, known, threads, None)
     row, column = np.nonzero(array)
     region = np.searchsorted(known, array[row, column])
     deepest = squares[row, column] == largest[region]

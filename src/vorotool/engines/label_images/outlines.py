@@ -186,9 +186,9 @@ def _traced(
     labels = np.array(labels, order="C")  # a copy: vertices are counted, then filled in, and links followed
     labels = labels.view(np.uint8) if labels.dtype == bool else labels
     most = min(max_sites, MOST_VERTICES)
-    count = _core.count_crack_vertices(labels, threads, progress)
+    count = _core.label_images.count_crack_vertices(labels, threads, progress)
     if count > most:
         raise LimitError(
             f"the outlines have {count} vertices, more than --max-sites {most}: smooth the image, or use a larger limit"
         )
-    return _core.trace_cracks(labels, rule, threads, progress)
+    return _core.label_images.trace_cracks(labels, rule, threads, progress)

@@ -75,7 +75,7 @@ def measure_regions(image: LabelImage | NDArray[Any], *, threads: int = 0, progr
     ([3, 3], [3])
     """
     image = as_label_image(image)
-    found = _core.measure_regions(label_array(image.labels), checked_threads(threads), progress)
+    found = _core.label_images.measure_regions(label_array(image.labels), checked_threads(threads), progress)
     labels = found.pop("labels")
     _refuse_negative(image, int(labels.max(initial=0)))
     borders = np.stack([found.pop("border_a"), found.pop("border_b")], axis=1)
@@ -268,7 +268,7 @@ def voronoi_diagram(
     elif described(out) != f"uint8 of shape {labels.shape}" or not out.flags.c_contiguous:
         raise InputError(f"out must be a C-contiguous uint8 array of shape {labels.shape}, but is {described(out)}")
     rows = [next_row(row, name, labels) for row, name in ((above, "above"), (below, "below"))]
-    _core.mark_diagram(labels, rows[0], rows[1], out, checked_threads(threads), progress)
+    _core.label_images.mark_diagram(labels, rows[0], rows[1], out, checked_threads(threads), progress)
     return out
 
 
@@ -308,7 +308,7 @@ def region_colours(
     """
     measures = measures or measure_regions(image, threads=threads, progress=progress)
     a, b = (np.ascontiguousarray(measures.borders[:, side]) for side in (0, 1))
-    return measures.labels, _core.colour_graph(len(measures.labels), a, b, progress)
+    return measures.labels, _core.graphs.colour_graph(len(measures.labels), a, b, progress)
 
 
 def colour_regions(
@@ -408,7 +408,7 @@ def _nearest(
     labels: NDArray[np.uint32], sites: NDArray[np.float64], threads: int, progress: Progress
 ) -> tuple[Any, Any]:
     x, y = (np.ascontiguousarray(sites[:, axis]) for axis in (0, 1))
-    index, distance = _core.nearest_other_sites(x, y, np.ascontiguousarray(labels), threads, progress)
+    index, distance = _core.spatial.nearest_other_sites(x, y, np.ascontiguousarray(labels), threads, progress)
     alone = index < 0
     label = labels.astype(np.int64)[index] if len(labels) else index
     return np.ma.array(np.where(alone, 0, label), mask=alone), np.ma.array(np.where(alone, 0.0, distance), mask=alone)
@@ -446,7 +446,9 @@ def _max_distance(
     wide = np.uint64 if values.dtype.itemsize == 8 else np.uint32
     if scale is None:
         scale = image.seeds.scale if image.seeds is not None else 1
-    largest = _core.max_by_label(label_array(image.labels), values.astype(wide, copy=False), labels, threads, progress)
+    largest = _core.label_images.max_by_label(
+        label_array(image.labels), values.astype(wide, copy=False), labels, threads, progress
+    )
     return np.sqrt(largest.astype(np.float64)) / scale
 
 

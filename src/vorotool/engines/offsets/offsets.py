@@ -235,7 +235,7 @@ def curves_of(shapes: ShapeDiagram, distances: list[float], threads: int, progre
     polygon = np.insert(placed.sites.polygon, count, more)
     assert placed.polygons.feature is not None
     feature = np.append(placed.polygons.feature, -1).astype(np.int32)
-    found: list[Curves] = _core.offset_curves(
+    found: list[Curves] = _core.offsets.offset_curves(
         *diagram_arrays(diagram),
         diagram.vertex_start,
         diagram.vertex_sites,

@@ -210,7 +210,7 @@ def _clearances(places: Floats, reach: Floats, graph: PlanarGraph, threads: int,
         apart = np.sqrt(np.square(places[:, None] - graph.coordinates()[None]).sum(axis=2))
         return np.asarray(apart.min(axis=1, initial=np.inf))
     lattice = np.ascontiguousarray((places - graph.origin) / graph.scale)
-    found = _core.clearances(graph.points, graph.segments, lattice, reach / graph.scale, threads, progress)
+    found = _core.spatial.clearances(graph.points, graph.segments, lattice, reach / graph.scale, threads, progress)
     return np.asarray(graph.scale * found)
 
 

@@ -174,7 +174,7 @@ def _pruned_part(
     """The rest of some arcs, in arrays of a skeleton."""
     arcs, nodes = part
     own = _arrays_of_part(arrays, arcs, nodes)
-    left: dict[str, Any] = _core.prune_skeleton(own, number, compared, group[arcs], progress)
+    left: dict[str, Any] = _core.pruning.prune_skeleton(own, number, compared, group[arcs], progress)
     original, is_reversed = left.pop("original"), left.pop("is_reversed") != 0
     for name in ("polygon", "side", "error_bound"):
         left[name] = getattr(skeleton, name)[arcs][original]
@@ -213,7 +213,7 @@ def critical_values(skeleton: Skeleton, criterion: str, *, progress: Progress = 
     """
     if criterion not in CRITERIA:
         raise UsageError(f"unknown criterion {criterion!r}: choose one of {', '.join(CRITERIA)}")
-    ends, most, kept_arc, kept_place = _core.critical_values(
+    ends, most, kept_arc, kept_place = _core.pruning.critical_values(
         skeleton_arrays(skeleton, has_sites=criterion != "scale"), CRITERIA.index(criterion), progress
     )
     if criterion == "angle":
@@ -240,7 +240,7 @@ def arc_profiles(skeleton: Skeleton) -> ArcProfiles:
     >>> arc_profiles(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])).kind.tolist()
     [0, 0, 0, 0, 0]
     """
-    return ArcProfiles(*_core.arc_profiles(skeleton_arrays(skeleton)))
+    return ArcProfiles(*_core.pruning.arc_profiles(skeleton_arrays(skeleton)))
 
 
 def default_pruning_for_masks() -> tuple[str, float]:

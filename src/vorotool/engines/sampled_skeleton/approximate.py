@@ -182,7 +182,7 @@ def sampled_graph(
     """Sample a graph by a step, and compute the Voronoi diagram of the seeds."""
     try:
         return diagram_by_step(graph, placed, options, SampleGroups(), most=most, threads=threads, progress=progress)
-    except _core.TooManySeedsError as error:
+    except _core.sampled_skeleton.TooManySeedsError as error:
         raise LimitError(f"a step of {options.step:g} gives {error}, more than {most}: use a larger one") from None
 
 
@@ -199,16 +199,16 @@ def diagram_by_step(
     """Sample a graph by a step, and compute the Voronoi diagrams; TooManySeedsError is the core's."""
     assert options.step is not None
     step = options.step / graph.scale
-    if step < _core.LEAST_SAMPLE_GAP:
+    if step < _core.sampled_skeleton.LEAST_SAMPLE_GAP:
         raise LimitError(
             f"a step of {options.step:g} is too fine to tell samples apart on the lattice that polygons are placed on: "
-            f"use at least {_core.LEAST_SAMPLE_GAP * graph.scale!r}"
+            f"use at least {_core.sampled_skeleton.LEAST_SAMPLE_GAP * graph.scale!r}"
         )
     if options.is_symmetric:
-        steps = _core.corner_steps(*graph_arrays(graph), step, True, most)
-        made = _core.sample_from_corners(*graph_arrays(graph), steps, most, threads, progress)
+        steps = _core.sampled_skeleton.corner_steps(*graph_arrays(graph), step, True, most)
+        made = _core.sampled_skeleton.sample_from_corners(*graph_arrays(graph), steps, most, threads, progress)
     else:
-        made = _core.sample_by_step(*graph_arrays(graph), step, most, threads, progress)
+        made = _core.sampled_skeleton.sample_by_step(*graph_arrays(graph), step, most, threads, progress)
     return diagram_of_samples(graph, placed, made, groups, threads=threads, progress=progress)
 
 
@@ -228,7 +228,9 @@ def diagram_of_samples(
 ) -> SampledShapes:
     """Compute the Voronoi diagram of seeds, or of each group of them."""
     samples = BoundarySamples(*made, graph, placed.sites, placed.polygons)
-    diagram = _core.SampledDiagram(*graph_arrays(graph), *made, groups.of_point, groups.within, threads, progress)
+    diagram = _core.sampled_skeleton.SampledDiagram(
+        *graph_arrays(graph), *made, groups.of_point, groups.within, threads, progress
+    )
     return SampledShapes(graph, placed, samples, diagram, groups)
 
 

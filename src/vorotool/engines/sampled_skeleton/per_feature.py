@@ -147,7 +147,7 @@ def feature_approximation(
     def work(shapes: BatchShapes, threads: int, poll: Progress) -> ApproximateSkeleton:
         try:
             found = _inside(shapes, options, complete=complete, most=most, threads=threads, progress=poll)
-        except _core.TooManySeedsError:
+        except _core.sampled_skeleton.TooManySeedsError:
             raise budget.error() from None
         budget.take(len(found.shapes.samples))
         return found

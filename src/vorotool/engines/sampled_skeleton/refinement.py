@@ -94,7 +94,7 @@ def skeleton_within(
             threads=checked_threads(threads),
             progress=progress,
         )
-    except _core.TooManySeedsError as error:
+    except _core.sampled_skeleton.TooManySeedsError as error:
         raise LimitError(
             f"errors of at most {tolerance:g} take more than {most} seeds ({error}): use a larger tolerance, or allow "
             "more seeds"
@@ -127,15 +127,15 @@ def refined_skeleton(
         )
     arrays = graph_arrays(graph)
     common: dict[str, Any] = {"threads": threads, "progress": progress}
-    steps = _core.corner_steps(*arrays, COARSEST * _extent(graph, groups), False, most)
+    steps = _core.sampled_skeleton.corner_steps(*arrays, COARSEST * _extent(graph, groups), False, most)
     for _ in range(MOST_ROUNDS):
-        made = _core.sample_from_corners(*arrays, steps, most, threads, progress)
+        made = _core.sampled_skeleton.sample_from_corners(*arrays, steps, most, threads, progress)
         shapes = diagram_of_samples(graph, placed, made, groups, **common)
         found = skeleton_of_samples(shapes, side=side, frame=frame, complete=complete, tolerance=tolerance, **common)
         parts = _parts(shapes, found, tolerance)
         if (parts == 1).all():
             break
-        refined = _core.refined_steps(*arrays, steps, made[2], parts, most)
+        refined = _core.sampled_skeleton.refined_steps(*arrays, steps, made[2], parts, most)
         if len(refined[1]) == len(steps[1]):  # what is to be divided is as short as gaps may be
             break
         steps = refined

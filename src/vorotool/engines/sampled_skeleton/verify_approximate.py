@@ -231,7 +231,7 @@ def _check_radii(found: ApproximateSkeleton, threads: int, progress: Progress) -
     error = _place_error(skeleton, found.shapes.samples)
     lattice = np.ascontiguousarray((skeleton.vertices - graph.origin) / graph.scale)
     reach = np.ascontiguousarray((skeleton.radius + error) / graph.scale)
-    least = graph.scale * _core.clearances(graph.points, graph.segments, lattice, reach, threads, progress)
+    least = graph.scale * _core.spatial.clearances(graph.points, graph.segments, lattice, reach, threads, progress)
     at = first_wrong(~(skeleton.radius >= least - error))
     if at is not None:
         fail(f"node {at} is {least[at]} from the shapes, but its radius is {skeleton.radius[at]}")

@@ -87,7 +87,7 @@ def segment_voronoi(
     places, ends = _on_lattice(rows[0], "points"), _on_lattice(rows[1], "segments")
     threads = checked_threads(threads)
     try:
-        core = _core.SegmentVoronoi(places, ends, threads, progress, within)
+        core = _core.segment_voronoi.SegmentVoronoi(places, ends, threads, progress, within)
     except ValueError as error:
         raise InputError(f"{error}: place the input on the lattice first") from None
     except RuntimeError as error:
@@ -189,7 +189,9 @@ def unwanted_sides(graph: PlanarGraph, is_wanted: NDArray[np.bool_]) -> NDArray[
     >>> [len(segment_voronoi(graph.points, graph.segments, unwanted=unwanted)) for unwanted in (None, sides)]
     [9, 7]
     """
-    return _core.unwanted_sides(graph.points, graph.segments, graph.segment_faces, is_wanted.view(np.uint8))
+    return _core.segment_voronoi.unwanted_sides(
+        graph.points, graph.segments, graph.segment_faces, is_wanted.view(np.uint8)
+    )
 
 
 def _explained(symptom: str, points: NDArray[np.int32], segments: NDArray[np.int32]) -> VorotoolError:

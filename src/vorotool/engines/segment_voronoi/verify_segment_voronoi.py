@@ -49,7 +49,7 @@ def verify_segment_voronoi(diagram: SegmentVoronoiDiagram, *, threads: int = 0, 
         ...
     vorotool.errors.VerificationError: edge 1 between the cells of 0 and 1 does not fit the ring of its source
     """
-    fault = _core.segment_voronoi_fault(
+    fault = _core.segment_voronoi.find_fault(
         diagram.points,
         diagram.segments,
         diagram.vertices,

@@ -163,7 +163,7 @@ def kept_edges(
     shapes: ShapeDiagram, *, threads: int = 0, progress: Progress = None
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Edges of the diagram that are not deleted, and the face of the graph that each is in."""
-    return _core.skeleton_edges(
+    return _core.skeleton.skeleton_edges(
         *diagram_arrays(shapes.diagram), shapes.graph.segment_faces, checked_threads(threads), progress
     )
 
@@ -246,7 +246,7 @@ def assembled(
     outside = len(placed.polygons)
     frame = (frame or default_frame(placed.polygons)) if clips else None
     clipped = None if frame is None else (outside, on_lattice(frame, graph))
-    made: dict[str, Any] = _core.extract_skeleton(
+    made: dict[str, Any] = _core.skeleton.extract_skeleton(
         *diagram_arrays(diagram),
         edges,
         group,

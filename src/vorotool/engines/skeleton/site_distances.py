@@ -124,7 +124,7 @@ def check_nothing_nearer(
     )
     lattice = np.ascontiguousarray((places - graph.origin) / graph.scale)
     reach = np.ascontiguousarray(distance / graph.scale)
-    nearest = graph.scale * _core.clearances(graph.points, graph.segments, lattice, reach, threads, progress)
+    nearest = graph.scale * _core.spatial.clearances(graph.points, graph.segments, lattice, reach, threads, progress)
     at = first_wrong(nearest < distance - sites.tolerance)
     if at is not None:
         what = f"node {nodes[at]}" if at < len(nodes) else f"arc {(at - len(nodes)) % len(skeleton)}"

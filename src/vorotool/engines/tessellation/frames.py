@@ -178,7 +178,7 @@ def check_out(out: Any, shape: tuple[int, int]) -> None:
 
 def simd_level() -> str:
     """Name the instruction set of the kernels: the widest of this machine, or ``VOROTOOL_SIMD``."""
-    widest: str = _core.widest_simd()
+    widest: str = _core.tessellation.widest_simd()
     wanted = os.environ.get("VOROTOOL_SIMD") or widest
     available = SIMD_LEVELS[: SIMD_LEVELS.index(widest) + 1]
     if wanted not in available:

@@ -78,7 +78,7 @@ def propagate(
         check_out(out, frame.shape)
     kind = label_dtype(seeds.largest_label, dtype if out is None else out.dtype)
     labels = np.empty(frame.shape, np.uint32)
-    _core.propagate(x, y, seeds.labels, passes, labels, progress)
+    _core.tessellation.propagate(x, y, seeds.labels, passes, labels, progress)
     if out is None:
         return LabelImage(labels.astype(kind, copy=False), frame, seeds)
     out[...] = labels

@@ -210,7 +210,7 @@ def numbered_components(values: NDArray[Any], connectivity: int = 8) -> NDArray[
     [[1, 0, 2], [1, 0, 2]]
     """
     components = np.empty(values.shape, np.uint32)
-    _core.label_components((values != 0).view(np.uint8), connectivity == 8, components, None)
+    _core.label_images.label_components((values != 0).view(np.uint8), connectivity == 8, components, None)
     return components
 
 
@@ -272,7 +272,7 @@ def _fragments(labels: NDArray[Any]) -> tuple[int, int]:
     """Count the values of an image, and the 4-connected pieces of those that are not 0."""
     steps = sum(int(np.count_nonzero(row[1:] != row[:-1])) for row in labels)
     if 8 * steps < labels.size:  # the borders between the regions of noise would take more memory than labels do
-        found = _core.measure_regions(np.ascontiguousarray(labels), 0, None)
+        found = _core.label_images.measure_regions(np.ascontiguousarray(labels), 0, None)
         return len(found["labels"]) + bool((labels == 0).any()), int(found["components"].sum())
     from skimage.measure import label
 

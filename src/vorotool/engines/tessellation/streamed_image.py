@@ -154,7 +154,7 @@ class ObjectBand:
             return _numbered_pixels(mask, self.start)
         numbers = np.empty(mask.shape, np.uint32)
         row_above = np.frombuffer(zlib.decompress(self.row_above), np.uint32)
-        _core.number_band(mask, source.connectivity == 8, row_above, self.fresh, numbers, None)
+        _core.label_images.number_band(mask, source.connectivity == 8, row_above, self.fresh, numbers, None)
         return numbers
 
 
@@ -288,7 +288,7 @@ class StreamedImage:
         self._max_sites = max_sites
         self._corner: tuple[int, int] | None = None
         self._bands: list[ObjectBand] = []
-        self._components = _core.StreamingComponents(width, source.connectivity == 8)
+        self._components = _core.label_images.StreamingComponents(width, source.connectivity == 8)
         self._scan(progress)
         if not self.pixels:
             report_no_foreground(strict=strict)

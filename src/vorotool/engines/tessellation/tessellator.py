@@ -112,7 +112,7 @@ class Tessellator:
         self.duplicates: int = self._core.duplicates
         report_duplicates(self.duplicates, len(seeds), strict=strict)
 
-    def _prepare(self) -> _core.Tessellation | _NothingLabelled:
+    def _prepare(self) -> _core.tessellation.Tessellation | _NothingLabelled:
         seeds, frame = self.seeds, self.frame
         self._paints = False
         if not len(seeds):
@@ -121,7 +121,7 @@ class Tessellator:
         self._paints = needed is not None
         chosen = slice(None) if needed is None else needed
         try:
-            return _core.Tessellation(
+            return _core.tessellation.Tessellation(
                 seeds.x[chosen],
                 seeds.y[chosen],
                 seeds.labels[chosen],
@@ -132,7 +132,7 @@ class Tessellator:
                 seeds.scale,
                 self.simd,
             )
-        except _core.SeedTooFarError as error:
+        except _core.tessellation.SeedTooFarError as error:
             (index,) = error.args  # from 0, of the seeds that the core was given
             raise self._too_far(index if needed is None else int(needed[index])) from None
 

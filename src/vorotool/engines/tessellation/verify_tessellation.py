@@ -64,7 +64,7 @@ def verify_label_image(
     image = LabelImage(labels, frame)
     high, low = _split_limit(max_distance2)
     try:
-        count, column, row, _, right = _core.verify_tessellation(
+        count, column, row, _, right = _core.tessellation.verify_tessellation(
             label_array(image.labels),
             frame.x,
             frame.y,

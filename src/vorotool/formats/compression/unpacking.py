@@ -81,12 +81,12 @@ def unpack_lzw(data: Packed, limit: int) -> bytes:
     """Undo LZW as TIFF has it."""
     if data[:1] == b"\0" and len(data) > 1 and data[1] & 1:
         raise ValueError("its LZW has the order of bits from before TIFF 5.0: save it with deflate")
-    return _core.unpack_lzw(bytes(data), limit + 1).data  # type: ignore[return-value]
+    return _core.compression.unpack_lzw(bytes(data), limit + 1).data  # type: ignore[return-value]
 
 
 def unpack_packbits(data: Packed, limit: int) -> bytes:
     """Undo PackBits."""
-    return _core.unpack_packbits(bytes(data), limit + 1).data  # type: ignore[return-value]
+    return _core.compression.unpack_packbits(bytes(data), limit + 1).data  # type: ignore[return-value]
 
 
 def unpack_lz4(data: Packed, limit: int) -> bytes:

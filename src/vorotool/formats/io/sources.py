@@ -180,7 +180,7 @@ def check_nesting(text: str | bytes, limit: int = NESTING_LIMIT, name: str = "th
     vorotool.errors.InputError: deep.wkt, line 1: brackets are nested more than 100 deep; check the brackets
     """
     data = text.encode("utf-8", "replace") if isinstance(text, str) else text
-    offset = _core.find_too_deep(data, limit)
+    offset = _core.text.find_too_deep(data, limit)
     if offset is not None:
         line = data.count(b"\n", 0, offset) + 1
         raise InputError(f"{name}, line {line}: brackets are nested more than {limit} deep; check the brackets")

@@ -69,12 +69,12 @@ def read_text(source: Source, options: PointOptions) -> PointSet:
     data = _plain_lines(source.data)
     wanted = None if options.columns is None else _parse_columns(options.columns)
     delimiter = _guess_delimiter(data)
-    first = _core.first_record(data, delimiter)
+    first = _core.text.first_record(data, delimiter)
     if first is None:
         return PointSet(no_points())
     layout = _choose_layout(source.name, data, delimiter, first, wanted, options)
     if options.max_sites is not None and data.count(b"\n") >= options.max_sites:
-        rows = _core.count_rows(data, delimiter, layout.header_records, options.threads)
+        rows = _core.text.count_rows(data, delimiter, layout.header_records, options.threads)
         options.check_sites(source.name, rows)
     return _read_rows(layout, options)
 
@@ -88,7 +88,7 @@ def header_fields(data: bytes) -> list[str]:
     ['id', 'WKT']
     """
     data = _plain_lines(data)
-    first = _core.first_record(data, _guess_delimiter(data))
+    first = _core.text.first_record(data, _guess_delimiter(data))
     return [] if first is None else first[2]
 
 
@@ -98,7 +98,7 @@ def _plain_lines(data: bytes) -> bytes:
 
 
 def _guess_delimiter(data: bytes) -> str:
-    first = _core.first_record(data, ",")
+    first = _core.text.first_record(data, ",")
     text = "" if first is None else _QUOTED.sub("", first[1]).strip()
     return next((delimiter for delimiter in ("\t", ";", ",") if delimiter in text), " ")
 
@@ -265,10 +265,10 @@ def _read_rows(layout: _Layout, options: PointOptions) -> PointSet:
     fields = len(layout.first_record)
     advice = "correct it, or choose other columns with --columns"
     try:
-        values = _core.parse_numbers(
+        values = _core.text.parse_numbers(
             layout.data, layout.delimiter, columns, layout.header_records, fields, options.threads
         )
-    except _core.TextError as error:
+    except _core.text.TextError as error:
         raise explain(layout.name, error, layout.described, _counted_by(layout), advice) from None
     options.check_sites(layout.name, len(values))
     labels = None if layout.label is None else _labels(layout, values[:, 2])
@@ -297,7 +297,7 @@ def _labels(layout: _Layout, values: NDArray[np.float64]) -> NDArray[np.int64]:
     bad = np.flatnonzero((values != np.floor(values)) | (values < 1) | (values > LARGEST_LABEL))
     if bad.size:
         row = int(bad[0])
-        line = _core.line_of_row(layout.data, layout.delimiter, layout.header_records, row)
+        line = _core.text.line_of_row(layout.data, layout.delimiter, layout.header_records, row)
         raise InputError(
             f"{layout.name}, line {line}: the label {values[row]:.17g} is not a whole number from 1 to "
             f"{LARGEST_LABEL}; correct it, or leave the label out of --columns"
@@ -311,7 +311,7 @@ def _properties(layout: _Layout, columns: list[int], threads: int) -> dict[str, 
     _check_utf8(layout)
     header = layout.header_records
     fields = len(layout.first_record)
-    texts = _core.parse_fields(layout.data, layout.delimiter, columns, header, fields, threads)
+    texts = _core.text.parse_fields(layout.data, layout.delimiter, columns, header, fields, threads)
     result: dict[str, list[str]] = {}
     for column, values in zip(columns, texts, strict=True):
         name = (layout.first_record[column] if layout.header else "") or f"column_{column + 1}"
@@ -339,7 +339,7 @@ def _check_utf8(layout: _Layout) -> None:
 
 def explain(
     name: str,
-    error: _core.TextError,
+    error: _core.text.TextError,
     described: Callable[[int], str],
     counted_by: str,
     advice: str = "correct it, or remove the line",

@@ -31,14 +31,14 @@ class _Header:
 
 def read_node(source: Source, options: PointOptions) -> PointSet:
     """Read vertices; attributes and boundary markers become properties, numbering may begin at 0 or 1."""
-    first = _core.first_record(source.data, " ")
+    first = _core.text.first_record(source.data, " ")
     if first is None:
         raise InputError(f"{source.name}: the file is empty; a .node file begins with {_FORM}")
     header = _read_header(source.name, first)
     options.check_sites(source.name, header.vertices)
     try:
-        values = _core.parse_numbers(source.data, " ", [0, 1, 2], 1, header.fields, options.threads)
-    except _core.TextError as error:
+        values = _core.text.parse_numbers(source.data, " ", [0, 1, 2], 1, header.fields, options.threads)
+    except _core.text.TextError as error:
         counted_by = f"each vertex after the header (line {header.line})"
         raise explain(source.name, error, _described, counted_by) from None
     _check_count(source.name, header, len(values))
@@ -78,7 +78,7 @@ def _checked_numbering(source: Source, indices: NDArray[np.float64]) -> int:
     bad = np.flatnonzero(indices != np.arange(base, base + len(indices)))
     if bad.size:
         row = int(bad[0])
-        line = _core.line_of_row(source.data, " ", 1, row)
+        line = _core.text.line_of_row(source.data, " ", 1, row)
         raise InputError(
             f"{source.name}, line {line}: vertex {indices[row]:.17g} stands where {row + base} is due; "
             "number the vertices from 0 or 1 without gaps"
@@ -91,5 +91,5 @@ def _properties(source: Source, header: _Header, options: PointOptions) -> dict[
     if not names or not options.properties:
         return {}
     columns = list(range(3, header.fields))
-    texts = _core.parse_fields(source.data, " ", columns, 1, header.fields, options.threads)
+    texts = _core.text.parse_fields(source.data, " ", columns, 1, header.fields, options.threads)
     return dict(zip(names, texts, strict=True))

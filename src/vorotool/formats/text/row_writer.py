@@ -145,7 +145,7 @@ def write_rows(
     def formatted(part: slice) -> list[bytes]:
         parts = [column.part(part) for column in columns]
         values = [_core_values(column, texts) for column in parts]
-        return _core.format_rows(values, [column.missing for column in parts], digits, 1, shape)
+        return _core.text.format_rows(values, [column.missing for column in parts], digits, 1, shape)
 
     between = b"" if shape is None else shape.separator.encode()
     for number, blocks in enumerate(in_order(formatted, slices(rows, SLICE_ROWS), threads if rows > SLICE_ROWS else 1)):
@@ -179,22 +179,22 @@ def slices(rows: int, size: int) -> list[slice]:
     return [slice(begin, min(begin + size, rows)) for begin in range(0, rows, size)]
 
 
-def _lookup_texts(columns: Sequence[Column], digits: int, threads: int) -> dict[int, _core.NumberTexts]:
+def _lookup_texts(columns: Sequence[Column], digits: int, threads: int) -> dict[int, _core.text.NumberTexts]:
     """Texts of the numbers that lookups show, by the identity of their arrays: each array once."""
     arrays = {id(c.values.values): c.values.values for c in columns if isinstance(c.values, Lookup)}
     return {
-        key: _core.NumberTexts(array, digits, threads)
+        key: _core.text.NumberTexts(array, digits, threads)
         for key, array in arrays.items()
         if isinstance(array, np.ndarray) and array.dtype.kind == "f"
     }
 
 
-def _core_values(column: Column, texts: dict[int, _core.NumberTexts]) -> Any:
+def _core_values(column: Column, texts: dict[int, _core.text.NumberTexts]) -> Any:
     values = column.values
     if isinstance(values, Lookup):
         return (texts.get(id(values.values), values.values), values.index)
     if isinstance(values, list | Computed):
         return values[:]
-    if isinstance(values, _core.PolygonTexts):
+    if isinstance(values, _core.text.PolygonTexts):
         return values
     return values.astype(np.int64) if values.dtype.kind == "b" else values

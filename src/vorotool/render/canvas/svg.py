@@ -100,7 +100,7 @@ def _parts(layer: Layer, page: Page, threads: int) -> Iterator[bytes]:
 
 
 def _rows(columns: list[Any], around: tuple[str, ...], threads: int, separator: str = "") -> list[bytes]:
-    return _core.format_rows(columns, [None] * len(columns), 0, threads, (around, separator, ""))
+    return _core.text.format_rows(columns, [None] * len(columns), 0, threads, (around, separator, ""))
 
 
 def _chunks(count: int, size: int) -> Iterator[slice]:
@@ -108,7 +108,7 @@ def _chunks(count: int, size: int) -> Iterator[slice]:
 
 
 def _lines(layer: Lines, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
-    across, down = _core.NumberTexts(x, 0, threads), _core.NumberTexts(y, 0, threads)
+    across, down = _core.text.NumberTexts(x, 0, threads), _core.text.NumberTexts(y, 0, threads)
     yield f'<g id="{_escaped(layer.name)}" fill="none" {_stroke(layer.colour, layer.width)}>\n'.encode()
     for rows in _chunks(len(layer.pairs), PATH_ROWS):
         a, b = layer.pairs[rows].T
@@ -120,7 +120,7 @@ def _lines(layer: Lines, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iter
 
 def _curves(layer: Curves, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iterator[bytes]:
     """One row a place: M before the begin of a path, Q before a control point, then L or nothing before an end."""
-    across, down = _core.NumberTexts(x, 0, threads), _core.NumberTexts(y, 0, threads)
+    across, down = _core.text.NumberTexts(x, 0, threads), _core.text.NumberTexts(y, 0, threads)
     dashes = f' stroke-dasharray="{DASH:g}"' if layer.is_broken else ""
     yield f'<g id="{_escaped(layer.name)}" fill="none" {_stroke(layer.colour, layer.width)}{dashes}>\n'.encode()
     for rows in _chunks(len(layer.pairs), PATH_ROWS):
@@ -146,7 +146,7 @@ _COMMANDS = ["M", "L", "Q", " "]
 
 def _polygons(layer: Polygons, x: NDArray[Any], y: NDArray[Any], style: str, threads: int) -> Iterator[bytes]:
     """One row a corner: what stands before it is L, the end of a ring, or the end of a path and another's begin."""
-    across, down = _core.NumberTexts(x, 0, threads), _core.NumberTexts(y, 0, threads)
+    across, down = _core.text.NumberTexts(x, 0, threads), _core.text.NumberTexts(y, 0, threads)
     stroke = "" if layer.edge is None else f" {_stroke(layer.edge, layer.width)}"
     yield f'<g id="{_escaped(layer.name)}" fill-rule="evenodd"{style}{stroke}>\n'.encode()
     texts, before = _openings(layer)

@@ -72,11 +72,11 @@ def covered(polygons: PolygonSet) -> NDArray[np.bool_] | None:
     """
     if len(polygons) < 2 or polygons.connectivity is not None or polygons.is_line.all():
         return None
-    placed, *_ = _core.place_on_lattice(polygons.xy, 0, None)
+    placed, *_ = _core.arrangement.place_on_lattice(polygons.xy, 0, None)
     rings = polygons.ring_start, polygons.ring_kind, polygons.ring_polygon
     try:
-        graph = _core.make_planar_graph(placed, *rings, None)
-    except (_core.TooManyCrossingsError, _core.TooManyOverlapsError):
+        graph = _core.arrangement.make_planar_graph(placed, *rings, None)
+    except (_core.arrangement.TooManyCrossingsError, _core.arrangement.TooManyOverlapsError):
         return np.ones(len(polygons), dtype=bool)
     counts = np.diff(graph["face_start"])
     several = graph["face_polygon"][np.repeat(counts > 1, counts)]

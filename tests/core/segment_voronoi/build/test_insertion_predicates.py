@@ -5,8 +5,8 @@ import random
 
 import numpy as np
 
+from support.core_testing import segment_voronoi as core
 from support.families import segment_cases
-from vorotool import _core
 
 CASES = 4000
 
@@ -33,13 +33,13 @@ def collinear(sites):
 
 
 def clearance_signs(discs, queries):
-    return _core.segment_clearance_signs(np.concatenate([discs, queries[:, None]], axis=1))
+    return core.clearance_signs(np.concatenate([discs, queries[:, None]], axis=1))
 
 
 def have_discs(triples):
     """Whether the discs have a positive radius, and touch their segments within these."""
     triples = np.ascontiguousarray(triples)
-    found = _core.segment_discs(triples)[:, 2] > 0
+    found = core.discs(triples)[:, 2] > 0
     for k in range(3):
         found &= clearance_signs(triples, triples[:, k]) == 0
     return found
@@ -50,8 +50,8 @@ def test_every_level_tells_what_the_exact_one_does():
     given = rows(cases)
     for end in ([0, 1, 0, 1], [2, 3, 2, 3]):  # no disc of a diagram holds an end of a segment
         given = np.ascontiguousarray(given[clearance_signs(given[:, :3], given[:, 3, end]) >= 0])
-    got, level = _core.segment_conflicts(given).T
-    signs = _core.segment_clearance_signs(given)
+    got, level = core.conflicts(given).T
+    signs = core.clearance_signs(given)
     np.testing.assert_array_equal(got, signs < 0)
     ties = np.bincount(level[signs == 0], minlength=4)
     assert ties[1] > 100  # told by integers
@@ -66,6 +66,6 @@ def test_vertices_coincide_where_their_discs_are_one():
         pairs += [[*case[:3], *other] for other in others]
     given = rows(pairs)
     given = np.ascontiguousarray(given[have_discs(given[:, 3:])])
-    right = _core.segment_same_disc(given)
-    np.testing.assert_array_equal(_core.segment_coincidences(given), right)
+    right = core.same_disc(given)
+    np.testing.assert_array_equal(core.coincidences(given), right)
     assert right.sum() > 100

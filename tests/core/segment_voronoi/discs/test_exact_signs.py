@@ -6,6 +6,7 @@ import random
 import numpy as np
 import pytest
 
+from support.core_testing import segment_voronoi as core
 from support.families import segment_cases
 from support.oracles import segment_oracle
 from support.oracles.tangent_discs import (
@@ -18,7 +19,6 @@ from support.oracles.tangent_discs import (
     tangent_circles,
     touches,
 )
-from vorotool import _core
 
 NO_DISC = 2
 CASES = 250
@@ -61,10 +61,10 @@ def test_signs_and_values_against_many_digits(seed):
             assert len(discs) == 1, f"{sites}: the order of contact does not tell which disc"
             (disc,) = discs
             case = [sites[k] for k in order] + sites[3:]
-            (got,) = _core.segment_clearance_signs(rows(case))
+            (got,) = core.clearance_signs(rows(case))
             assert got == clearance_sign(disc, sites[3]), case
             right = np.array([float(disc.x), float(disc.y), float(disc.r)])
-            np.testing.assert_allclose(_core.segment_discs(rows(case[:3]))[0], right, rtol=2.0**-52, atol=0)
+            np.testing.assert_allclose(core.discs(rows(case[:3]))[0], right, rtol=2.0**-52, atol=0)
             seen += 1
     assert seen > CASES // 3
 
@@ -72,7 +72,7 @@ def test_signs_and_values_against_many_digits(seed):
 def test_the_start_of_the_order_does_not_matter():
     for sites in segment_cases.cases(11, 100):
         turns = rows(sites, [*sites[1:3], sites[0], sites[3]], [sites[2], *sites[:2], sites[3]])
-        assert len(set(_core.segment_clearance_signs(turns).tolist())) == 1
+        assert len(set(core.clearance_signs(turns).tolist())) == 1
 
 
 def test_turned_and_mirrored_sites_give_the_same_signs():
@@ -81,16 +81,16 @@ def test_turned_and_mirrored_sites_give_the_same_signs():
         turned = given[..., [1, 0, 3, 2]] * np.array([-1, 1, -1, 1], dtype=np.int32)
         mirrored = given[:, [2, 1, 0, 3]] * np.array([-1, 1, -1, 1], dtype=np.int32)
         swapped = given[..., [2, 3, 0, 1]]
-        right = _core.segment_clearance_signs(given)
+        right = core.clearance_signs(given)
         for image in (turned, mirrored, swapped):
-            np.testing.assert_array_equal(_core.segment_clearance_signs(np.ascontiguousarray(image)), right)
+            np.testing.assert_array_equal(core.clearance_signs(np.ascontiguousarray(image)), right)
 
 
 def test_a_disc_touches_its_own_sites():
     for sites in segment_cases.cases(13, 200):
         for order in discs_in_order(sites[:3]):
             case = [sites[k] for k in order]
-            assert _core.segment_clearance_signs(rows(*([*case, s] for s in case))).tolist() == [0, 0, 0]
+            assert core.clearance_signs(rows(*([*case, s] for s in case))).tolist() == [0, 0, 0]
 
 
 def point(x, y):
@@ -104,7 +104,7 @@ def segment(ax, ay, bx, by):
 def test_corners_have_radius_0():
     corner, x_axis, y_axis, up = point(0, 0), segment(0, 0, 5, 0), segment(0, 7, 0, 0), segment(0, 0, -3, 3)
     for case in itertools.permutations([corner, x_axis, y_axis]):
-        np.testing.assert_array_equal(_core.segment_discs(rows(case)), [[0, 0, 0]])
+        np.testing.assert_array_equal(core.discs(rows(case)), [[0, 0, 0]])
     for case in itertools.permutations([up, x_axis, y_axis]):
         queries = [
             [*case, point(0, 1)],
@@ -112,32 +112,32 @@ def test_corners_have_radius_0():
             [*case, segment(-2, -2, 0, 0)],
             [*case, segment(0, -1, 1, -1)],
         ]
-        assert _core.segment_clearance_signs(rows(*queries)).tolist() == [1, 0, 0, 1]
+        assert core.clearance_signs(rows(*queries)).tolist() == [1, 0, 0, 1]
 
 
 def test_collinear_segments_touch_at_their_common_end():
     left, right, end, above = segment(-9, 0, 0, 0), segment(0, 0, 5, 0), point(0, 0), point(3, 4)
     # the centre is (0, h) with h² = 9 + (4 - h)²
     for case in ([left, right, above], [left, end, above], [end, right, above]):
-        np.testing.assert_array_equal(_core.segment_discs(rows(case)), [[0, 3.125, 3.125]])
-        assert _core.segment_clearance_signs(rows([case[1], case[0], case[2], end])).tolist() == [NO_DISC]
-    assert np.isnan(_core.segment_discs(rows([left, right, end], [left, end, right]))).all()
+        np.testing.assert_array_equal(core.discs(rows(case)), [[0, 3.125, 3.125]])
+        assert core.clearance_signs(rows([case[1], case[0], case[2], end])).tolist() == [NO_DISC]
+    assert np.isnan(core.discs(rows([left, right, end], [left, end, right]))).all()
 
 
 def test_parallel_segments():
     bottom, top = segment(-9, 0, 9, 0), segment(-9, 2, 9, 2)
     case = [bottom, point(4, 1), top]
-    np.testing.assert_array_equal(_core.segment_discs(rows(case, case[::-1])), [[3, 1, 1], [5, 1, 1]])
-    assert np.isnan(_core.segment_discs(rows([bottom, top, segment(-9, 4, 9, 4)]))).all()
+    np.testing.assert_array_equal(core.discs(rows(case, case[::-1])), [[3, 1, 1], [5, 1, 1]])
+    assert np.isnan(core.discs(rows([bottom, top, segment(-9, 4, 9, 4)]))).all()
 
 
 def test_coordinates_beyond_the_lattice_are_refused():
     with pytest.raises(IndexError):
-        _core.segment_discs(rows([point(2**30, 0), point(0, 1), point(2, 2)]))
+        core.discs(rows([point(2**30, 0), point(0, 1), point(2, 2)]))
 
 
 def has_disc(sites):
-    return not np.isnan(_core.segment_discs(rows(sites))).any()
+    return not np.isnan(core.discs(rows(sites))).any()
 
 
 def test_the_same_disc():
@@ -156,7 +156,7 @@ def test_the_same_disc():
         pairs = list(itertools.combinations(triples, 2))
         right = [int(v == w) for (v, _), (w, _) in pairs]
         if pairs:
-            got = _core.segment_same_disc(rows(*(first + second for (_, first), (_, second) in pairs)))
+            got = core.same_disc(rows(*(first + second for (_, first), (_, second) in pairs)))
             assert got.tolist() == right
         for same in right:
             seen[same] += 1
@@ -217,11 +217,11 @@ def test_the_middle_of_edges_against_diagrams(seed):
             chosen = [corner_order(old[k].ring, sites, (left, right)) for k in (v, w)]
             if None in chosen or any(old[k].disc.r == 0 for k in (v, w)):
                 continue
-            if _core.segment_clearance_signs(rows(*([*case, sites[-1]] for case in chosen))).tolist() != [-1, -1]:
+            if core.clearance_signs(rows(*([*case, sites[-1]] for case in chosen))).tolist() != [-1, -1]:
                 continue
             case = [sites[left], sites[right], *chosen[0], *chosen[1], sites[-1]]
             right_sign = survivors(sites, left, right, old[v], old[w], new, new_edges)
-            assert _core.segment_edge_clearance_signs(rows(case)).tolist() == [right_sign], (points, edges, v, w)
+            assert core.edge_clearance_signs(rows(case)).tolist() == [right_sign], (points, edges, v, w)
             seen[right_sign] += 1
     assert seen[-1] > 10
     assert seen[1] > 0

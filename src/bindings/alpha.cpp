@@ -1,0 +1,149 @@
+// Alpha complexes, alpha shapes and their curves.
+#include <cstdint>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "bindings/rooms.hpp"
+#include "bindings/support/arrays.hpp"
+#include "bindings/support/mesh_arrays.hpp"
+#include "bindings/support/monitor.hpp"
+#include "core/alpha/alpha_complex.hpp"
+#include "core/alpha/alpha_curves.hpp"
+#include "core/alpha/alpha_shape.hpp"
+
+namespace vorotool::bindings {
+namespace {
+
+namespace nb = nanobind;
+using namespace nb::literals;
+using core::base::Monitor;
+using Values = Vector<const double>;
+
+// The binding trusts nobody with indices: a wrong one would read elsewhere.
+void check_indices(std::span<const std::int32_t> values, std::int64_t least, std::size_t end) {
+  for (const std::int32_t value : values) {
+    if (value < least || value >= static_cast<std::int64_t>(end))
+      throw std::invalid_argument("an index is out of range");
+  }
+}
+
+auto edges_of_triangles(const IndexRows& triangles, const IndexRows& neighbours, unsigned threads,
+                        const Progress& progress) {
+  if (triangles.shape(0) != neighbours.shape(0))
+    throw std::invalid_argument("each triangle must have neighbours");
+  check_indices(rows_of(neighbours, 3), -1, neighbours.shape(0));
+  core::alpha::EdgeArrays found = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::alpha::edges_of_triangles(rows_of(triangles, 3), rows_of(neighbours, 3), threads, monitor);
+  });
+  const std::size_t rows = found.ends.size() / 2;
+  return std::make_tuple(to_numpy(std::move(found.ends), {rows, 2}),
+                         to_numpy(std::move(found.sides), {rows, 2}));
+}
+
+Columns alpha_complex(const Matrix<const double>& points, const IndexRows& triangles, const IndexRows& edges,
+                      const IndexRows& sides, bool printed, unsigned threads, const Progress& progress) {
+  const core::alpha::AlphaInput input{as_points(points), rows_of(triangles, 3), rows_of(edges, 2),
+                                      rows_of(sides, 2)};
+  if (edges.shape(0) != sides.shape(0)) throw std::invalid_argument("each edge must have sides");
+  check_indices(input.triangles, 0, input.points.size());
+  check_indices(input.edges, 0, input.points.size());
+  check_indices(input.sides, -1, triangles.shape(0));
+  const auto rule = printed ? core::alpha::AlphaRule::printed : core::alpha::AlphaRule::corrected;
+  core::alpha::AlphaArrays found = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::alpha::alpha_complex(input, rule, threads, monitor);
+  });
+  Columns out;
+  const auto put = [&](const char* name, auto& values) {
+    const std::size_t size = values.size();
+    out[name] = to_numpy(std::move(values), {size});
+  };
+  put("r_min", found.r_min);
+  put("r_mid", found.r_mid);
+  put("r_max", found.r_max);
+  put("rank_min", found.rank_min);
+  put("rank_mid", found.rank_mid);
+  put("rank_max", found.rank_max);
+  put("triangle_rank", found.triangle_rank);
+  put("spectrum", found.spectrum);
+  put("witness", found.witness);
+  return out;
+}
+
+core::alpha::EdgeRanks ranks_of(const Indices& min, const Indices& mid, const Indices& max) {
+  if (min.size() != mid.size() || min.size() != max.size())
+    throw std::invalid_argument("ranks differ in length");
+  return {view(min), view(mid), view(max)};
+}
+
+auto shape_edges(const Indices& min, const Indices& mid, const Indices& max, std::int32_t reached,
+                 std::int32_t entered, unsigned threads, const Progress& progress) {
+  const core::alpha::EdgeRanks ranks = ranks_of(min, mid, max);
+  core::alpha::ShapeEdges found = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::alpha::shape_edges(ranks, reached, entered, threads, monitor);
+  });
+  return std::make_tuple(to_numpy(std::move(found.edge), {found.count}),
+                         to_numpy(std::move(found.kind), {found.count}));
+}
+
+auto connected_triangles(const Vector<const std::uint8_t>& inside, const IndexRows& sides,
+                         const Progress& progress) {
+  check_indices(rows_of(sides, 2), -1, inside.size());
+  return to_numpy(run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::alpha::connected_triangles(view(inside), rows_of(sides, 2), monitor);
+  }));
+}
+
+auto trace_rings(const Matrix<const double>& points, const Indices& a, const Indices& b,
+                 const Indices& region, const Progress& progress) {
+  if (a.size() != b.size() || a.size() != region.size())
+    throw std::invalid_argument("columns differ in length");
+  check_indices(view(a), 0, points.shape(0));
+  check_indices(view(b), 0, points.shape(0));
+  core::alpha::Rings rings = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::alpha::trace_rings(as_points(points), view(a), view(b), view(region), monitor);
+  });
+  return std::make_tuple(to_numpy(std::move(rings.vertex)), to_numpy(std::move(rings.start)),
+                         to_numpy(std::move(rings.region)), to_numpy(std::move(rings.is_hole)));
+}
+
+Columns alpha_curves(std::size_t spectrum, const Indices& triangle_rank, const Indices& min,
+                     const Indices& mid, const Indices& max, const IndexRows& sides, const Values& area,
+                     const Values& length, const Progress& progress) {
+  const core::alpha::CurveInput input{spectrum,          view(triangle_rank), ranks_of(min, mid, max),
+                                      rows_of(sides, 2), view(area),          view(length)};
+  if (area.size() != triangle_rank.size() || length.size() != min.size() || sides.shape(0) != min.size()) {
+    throw std::invalid_argument("columns differ in length");
+  }
+  for (const auto ranks : {input.triangle_rank, input.edges.min, input.edges.mid, input.edges.max}) {
+    check_indices(ranks, 0, spectrum + 1);
+  }
+  check_indices(input.sides, -1, triangle_rank.size());
+  core::alpha::Curves found = run_interruptible(
+      progress, [&](const Monitor& monitor) { return core::alpha::alpha_curves(input, monitor); });
+  Columns out;
+  out["area"] = to_numpy(std::move(found.area), {spectrum});
+  out["perimeter"] = to_numpy(std::move(found.perimeter), {spectrum});
+  out["regions"] = to_numpy(std::move(found.regions), {spectrum});
+  out["cavities"] = to_numpy(std::move(found.cavities), {spectrum});
+  out["edges"] = to_numpy(std::move(found.edges), {spectrum});
+  return out;
+}
+
+}  // namespace
+
+void bind_alpha(nb::module_& room) {
+  room.def("edges_of_triangles", &edges_of_triangles, "triangles"_a, "neighbours"_a, "threads"_a,
+           "progress"_a.none(), "Edges, and the triangles on their sides.");
+  room.def("alpha_complex", &alpha_complex, "points"_a, "triangles"_a, "edges"_a, "sides"_a, "printed"_a,
+           "threads"_a, "progress"_a.none());
+  room.def("shape_edges", &shape_edges, "rank_min"_a, "rank_mid"_a, "rank_max"_a, "reached"_a, "entered"_a,
+           "threads"_a, "progress"_a.none(), "Edges of a shape, and the kind of each.");
+  room.def("connected_triangles", &connected_triangles, "inside"_a, "sides"_a, "progress"_a.none());
+  room.def("trace_rings", &trace_rings, "points"_a, "a"_a, "b"_a, "region"_a, "progress"_a.none(),
+           "Vertices of all rings, where each begins, its region, and whether it is a hole.");
+  room.def("alpha_curves", &alpha_curves, "spectrum"_a, "triangle_rank"_a, "rank_min"_a, "rank_mid"_a,
+           "rank_max"_a, "sides"_a, "area"_a, "length"_a, "progress"_a.none());
+}
+
+}  // namespace vorotool::bindings

@@ -1,0 +1,147 @@
+// Placement on the lattice, the planar graph of polygons and lines, and its check.
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bindings/rooms.hpp"
+#include "bindings/support/arrays.hpp"
+#include "bindings/support/monitor.hpp"
+#include "core/arrangement/boundary_rings.hpp"
+#include "core/arrangement/lattice_placement.hpp"
+#include "core/arrangement/planar_graph.hpp"
+#include "core/arrangement/segment_set.hpp"
+#include "core/arrangement/verify_planar_graph.hpp"
+
+namespace vorotool::bindings {
+namespace {
+
+namespace nb = nanobind;
+using namespace nb::literals;
+using core::base::IndexPair;
+using core::base::Monitor;
+using core::kernel::LatticePoint;
+using IndexRows = Matrix<const std::int32_t>;
+
+static_assert(sizeof(LatticePoint) == 2 * sizeof(std::int32_t));
+
+std::span<const LatticePoint> as_lattice_points(const IndexRows& array) {
+  if (array.shape(1) != 2) throw std::invalid_argument("points must have two columns");
+  return {reinterpret_cast<const LatticePoint*>(array.data()), array.shape(0)};
+}
+
+// An (n, 2) array of the values, which come in pairs.
+auto pairs(std::span<const std::int32_t> values) {
+  core::base::LargeArray<std::int32_t> kept(values.size());
+  std::copy(values.begin(), values.end(), kept.data());
+  return to_numpy(std::move(kept), {values.size() / 2, 2});
+}
+
+auto pairs(const std::vector<LatticePoint>& points) {
+  return pairs({reinterpret_cast<const std::int32_t*>(points.data()), 2 * points.size()});
+}
+
+// Lattice points, origin, exponent and the largest move.
+auto place_on_lattice(const Matrix<const double>& array, unsigned threads, const Progress& progress) {
+  if (array.shape(1) != 2) throw std::invalid_argument("points must have two columns");
+  const std::span<const core::kernel::Point> points{
+      reinterpret_cast<const core::kernel::Point*>(array.data()), array.shape(0)};
+  const core::arrangement::Placement placed = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::arrangement::place_on_lattice(points, threads, monitor);
+  });
+  return std::make_tuple(pairs(placed.points), std::make_tuple(placed.origin_x, placed.origin_y),
+                         placed.exponent, placed.largest_move);
+}
+
+auto first_at_place(const IndexRows& points, const Progress& progress) {
+  const std::span<const LatticePoint> vertices = as_lattice_points(points);
+  return to_numpy(run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::arrangement::first_at_place(vertices, monitor);
+  }));
+}
+
+Columns make_planar_graph(const IndexRows& array, const Vector<const std::int64_t>& ring_start,
+                          const Vector<const std::int8_t>& ring_kind,
+                          const Vector<const std::int32_t>& ring_polygon, const Progress& progress) {
+  const std::span<const LatticePoint> vertices = as_lattice_points(array);
+  const core::arrangement::Rings rings{view(ring_start), view(ring_kind), view(ring_polygon)};
+  if (rings.start.size() != rings.kind.size() + 1 || rings.kind.size() != rings.polygon.size() ||
+      static_cast<std::size_t>(rings.start.back()) != vertices.size()) {
+    throw std::invalid_argument("the arrays of rings have lengths that do not go together");
+  }
+  core::arrangement::PlanarGraph graph = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::arrangement::make_planar_graph(vertices, rings, monitor);
+  });
+  Columns result;
+  result["points"] = pairs(graph.points);
+  result["point_vertex"] = to_numpy(std::move(graph.point_vertex));
+  result["segments"] = two_columns(std::move(graph.segments));
+  result["source_start"] = to_numpy(std::move(graph.source_start));
+  result["source_edge"] = to_numpy(std::move(graph.source_edge));
+  result["segment_faces"] = two_columns(std::move(graph.segment_faces));
+  result["face_start"] = to_numpy(std::move(graph.face_polygons.start));
+  result["face_polygon"] = to_numpy(std::move(graph.face_polygons.polygon));
+  result["point_holes"] = to_numpy(std::move(graph.point_holes));
+  nb::list repairs;
+  for (const core::arrangement::RepairCount& repair : graph.repairs) {
+    repairs.append(nb::make_tuple(repair.count, repair.edge, repair.other));
+  }
+  result["repairs"] = repairs;
+  result["is_repaired"] = to_numpy(std::move(graph.is_repaired));
+  return result;
+}
+
+Columns boundary_rings(const IndexRows& points, const IndexRows& segments, const IndexRows& segment_faces,
+                       const Vector<const std::int32_t>& face_start,
+                       const Vector<const std::int32_t>& face_polygon, const Progress& progress) {
+  const core::kernel::PlanarGraphView graph{as_lattice_points(points), rows<IndexPair>(segments),
+                                            rows<IndexPair>(segment_faces)};
+  if (graph.faces.size() != graph.segments.size() || face_start.size() == 0) {
+    throw std::invalid_argument("the arrays of a planar graph have lengths that do not go together");
+  }
+  core::arrangement::BoundaryRings rings = run_interruptible(progress, [&](const Monitor&) {
+    return core::arrangement::find_boundary_rings(graph, view(face_start), view(face_polygon));
+  });
+  Columns result;
+  result["start"] = to_numpy(std::move(rings.start));
+  result["point"] = to_numpy(std::move(rings.point));
+  result["segment"] = to_numpy(std::move(rings.segment));
+  result["is_hole"] = to_numpy(std::move(rings.is_hole));
+  result["ring_part"] = to_numpy(std::move(rings.ring_part));
+  result["part_polygon"] = to_numpy(std::move(rings.part_polygon));
+  return result;
+}
+
+std::optional<std::string> find_fault(const IndexRows& points, const IndexRows& segments,
+                                      const std::optional<IndexRows>& faces, const Progress& progress) {
+  if (segments.shape(1) != 2 || (faces && (faces->shape(1) != 2 || faces->size() != segments.size()))) {
+    throw std::invalid_argument("segments and their faces must have two columns and as many rows");
+  }
+  core::kernel::PlanarGraphView graph{as_lattice_points(points), rows<IndexPair>(segments), {}};
+  if (faces) graph.faces = rows<IndexPair>(*faces);
+  return run_interruptible(
+      progress, [&](const Monitor& monitor) { return core::arrangement::find_fault(graph, monitor); });
+}
+
+}  // namespace
+
+void bind_arrangement(nb::module_& room) {
+  nb::exception<core::arrangement::TooManyCrossings>(room, "TooManyCrossingsError", PyExc_ValueError);
+  nb::exception<core::arrangement::TooManyOverlaps>(room, "TooManyOverlapsError", PyExc_ValueError);
+  room.def("place_on_lattice", &place_on_lattice, "points"_a, "threads"_a, "progress"_a.none(),
+           "Lattice points, origin, exponent of the step and the largest move; the points must be finite.");
+  room.def("first_at_place", &first_at_place, "points"_a, "progress"_a.none(),
+           "For each lattice point the smallest index of one at the same place.");
+  room.def("make_planar_graph", &make_planar_graph, "vertices"_a, "ring_start"_a, "ring_kind"_a,
+           "ring_polygon"_a, "progress"_a.none(),
+           "Arrays of a PlanarGraph; repairs: of each kind the count, an edge, and what meets it or -1.");
+  room.def("boundary_rings", &boundary_rings, "points"_a, "segments"_a, "segment_faces"_a, "face_start"_a,
+           "face_polygon"_a, "progress"_a.none(), "The indices must be in range.");
+  room.def("find_fault", &find_fault, "points"_a, "segments"_a, "faces"_a.none(), "progress"_a.none());
+}
+
+}  // namespace vorotool::bindings

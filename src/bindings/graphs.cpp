@@ -1,0 +1,100 @@
+// Paths in graphs of arcs, and colours of graphs.
+#include <array>
+#include <optional>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "bindings/rooms.hpp"
+#include "bindings/support/arrays.hpp"
+#include "bindings/support/monitor.hpp"
+#include "core/graphs/graph_colouring.hpp"
+#include "core/graphs/longest_paths.hpp"
+
+namespace vorotool::bindings {
+namespace {
+
+namespace nb = nanobind;
+using namespace nb::literals;
+using core::base::Monitor;
+using core::graphs::GraphPath;
+using Pair = std::array<std::int32_t, 2>;
+
+std::span<const Pair> checked(const Matrix<const std::int32_t>& arcs, const Vector<const double>& length,
+                              std::size_t nodes) {
+  const std::span<const Pair> pairs = rows<Pair>(arcs);
+  if (pairs.size() != length.size()) throw std::invalid_argument("each arc must have a length");
+  for (const Pair& pair : pairs) {
+    for (const std::int32_t node : pair) {
+      if (node < 0 || static_cast<std::size_t>(node) >= nodes)
+        throw std::invalid_argument("a node is out of range");
+    }
+  }
+  return pairs;
+}
+
+auto longest_paths(const Matrix<const std::int32_t>& arcs, const Vector<const double>& length,
+                   const Vector<const std::int32_t>& group, std::size_t groups, std::size_t nodes, double tie,
+                   const Progress& progress) {
+  const std::span<const Pair> pairs = checked(arcs, length, nodes);
+  if (group.size() != pairs.size()) throw std::invalid_argument("each arc must have a group");
+  for (const std::int32_t number : view(group)) {
+    if (number < 0 || static_cast<std::size_t>(number) >= groups)
+      throw std::invalid_argument("a group is out of range");
+  }
+  std::vector<GraphPath> paths = run_interruptible(progress, [&](const Monitor& monitor) {
+    const std::vector<std::int64_t> whole = core::graphs::whole_lengths(view(length), view(group), groups);
+    return core::graphs::longest_paths(pairs, whole, view(group), groups, nodes, tie, monitor);
+  });
+  std::vector<std::int64_t> start{0};
+  std::vector<std::int32_t> path_arcs, path_nodes;
+  for (const GraphPath& path : paths) {
+    path_arcs.insert(path_arcs.end(), path.arcs.begin(), path.arcs.end());
+    if (!path.nodes.empty()) path_nodes.insert(path_nodes.end(), path.nodes.begin() + 1, path.nodes.end());
+    start.push_back(static_cast<std::int64_t>(path_arcs.size()));
+  }
+  return std::make_tuple(to_numpy(std::move(start)), to_numpy(std::move(path_arcs)),
+                         to_numpy(std::move(path_nodes)));
+}
+
+auto path_from(const Matrix<const std::int32_t>& arcs, const Vector<const double>& length, std::size_t nodes,
+               std::int32_t first, std::int32_t last, const Progress& progress) {
+  const std::span<const Pair> pairs = checked(arcs, length, nodes);
+  if (first < 0 || static_cast<std::size_t>(first) >= nodes ||
+      (last >= 0 && static_cast<std::size_t>(last) >= nodes)) {
+    throw std::invalid_argument("a node is out of range");
+  }
+  GraphPath path = run_interruptible(progress, [&](const Monitor& monitor) {
+    const std::vector<std::int32_t> group(pairs.size());
+    return core::graphs::path_from(pairs, core::graphs::whole_lengths(view(length), group, 1), nodes, first,
+                                   last, monitor);
+  });
+  std::optional<std::tuple<Array<std::int32_t>, Array<std::int32_t>>> found;
+  if (path.nodes.empty()) return found;
+  path.nodes.erase(path.nodes.begin());
+  found.emplace(to_numpy(std::move(path.arcs)), to_numpy(std::move(path.nodes)));
+  return found;
+}
+
+auto colour_graph(std::size_t vertices, Vector<const std::uint32_t> a, Vector<const std::uint32_t> b,
+                  const Progress& progress) {
+  std::vector<core::graphs::Edge> edges(a.size());
+  for (std::size_t k = 0; k < edges.size(); ++k) edges[k] = {a.data()[k], b.data()[k]};
+  return to_numpy(run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::graphs::colour_graph(vertices, edges, monitor);
+  }));
+}
+
+}  // namespace
+
+void bind_graphs(nb::module_& room) {
+  room.def("longest_paths", &longest_paths, "arcs"_a, "length"_a, "group"_a, "groups"_a, "nodes"_a, "tie"_a,
+           "progress"_a.none(),
+           "Where the arcs of each group's path begin, the arcs, and the node that each leads to.");
+  room.def("path_from", &path_from, "arcs"_a, "length"_a, "nodes"_a, "first"_a, "last"_a, "progress"_a.none(),
+           "Arcs of the shortest path, and the node that each leads to; with last -1 to the farthest leaf.");
+  room.def("colour_graph", &colour_graph, "vertices"_a, "a"_a, "b"_a, "progress"_a.none());
+}
+
+}  // namespace vorotool::bindings

@@ -1,0 +1,95 @@
+// From segment Voronoi diagrams to skeletons.
+#include <array>
+#include <optional>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include "bindings/rooms.hpp"
+#include "bindings/support/arrays.hpp"
+#include "bindings/support/diagram_arrays.hpp"
+#include "bindings/support/monitor.hpp"
+#include "core/base/parallel.hpp"
+#include "core/skeleton/edges.hpp"
+#include "core/skeleton/extraction.hpp"
+
+namespace vorotool::bindings {
+namespace {
+
+namespace nb = nanobind;
+using namespace nb::literals;
+using core::base::Monitor;
+
+auto skeleton_edges(const IndexRows& points, const IndexRows& segments, const Places& vertices,
+                    const Vector<const double>& radius, const IndexRows& edges, const IndexRows& edge_sites,
+                    const IndexRows& segment_faces, unsigned threads, const Progress& progress) {
+  const DiagramArrays arrays{points, segments, vertices, radius, edges, edge_sites};
+  core::segment_voronoi::build::DiagramView diagram = arrays.diagram();
+  diagram.faces = rows<Pair>(segment_faces);
+  if (diagram.faces.size() != diagram.segments.size())
+    throw std::invalid_argument("each segment must have two faces");
+  core::skeleton::SkeletonEdges kept = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::skeleton::skeleton_edges(diagram, core::base::resolve_threads(threads), monitor);
+  });
+  return std::make_tuple(to_numpy(std::move(kept.edge)), to_numpy(std::move(kept.face)));
+}
+
+using Box = std::tuple<double, double, double, double>;
+
+Columns extract_skeleton(const IndexRows& points, const IndexRows& segments, const Places& vertices,
+                         const Vector<const double>& radius, const IndexRows& edges,
+                         const IndexRows& edge_sites, const Vector<const std::int32_t>& kept,
+                         const Vector<const std::int32_t>& groups,
+                         const std::optional<std::pair<std::int32_t, Box>>& clipped,
+                         const std::pair<std::int32_t, std::int32_t>& joined, double origin_x,
+                         double origin_y, double scale, unsigned threads, const Progress& progress) {
+  const DiagramArrays arrays{points, segments, vertices, radius, edges, edge_sites};
+  const core::segment_voronoi::build::DiagramView diagram = arrays.diagram();
+  if (kept.size() != groups.size()) throw std::invalid_argument("each edge must have one group");
+  std::optional<core::skeleton::ClippedGroup> frame;
+  if (clipped) {
+    const auto [least_x, most_x, least_y, most_y] = clipped->second;
+    frame = core::skeleton::ClippedGroup{clipped->first, {least_x, most_x, least_y, most_y}};
+  }
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    const std::int32_t edge = view(kept)[k], group = view(groups)[k];
+    if (edge < 0 || static_cast<std::size_t>(edge) >= diagram.edges.size() || group < 0) {
+      throw std::invalid_argument("an edge or a group is out of range");
+    }
+    const Pair& ends = diagram.edges[static_cast<std::size_t>(edge)];
+    if ((ends[0] < 0 || ends[1] < 0) && !(frame && frame->group == group)) {
+      throw std::invalid_argument("an unbounded edge is in no frame");
+    }
+  }
+  core::skeleton::SkeletonArrays made = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::skeleton::extract_skeleton(diagram, view(kept), view(groups), frame,
+                                            {joined.first, joined.second}, {origin_x, origin_y, scale},
+                                            core::base::resolve_threads(threads), monitor);
+  });
+  Columns result;
+  result["vertices"] = two_columns(std::move(made.vertices));
+  result["radius"] = to_numpy(std::move(made.radius));
+  result["frame_side"] = to_numpy(std::move(made.side));
+  result["arcs"] = two_columns(std::move(made.arcs));
+  result["control"] = two_columns(std::move(made.control));
+  result["sites"] = two_columns(std::move(made.sites));
+  result["group"] = to_numpy(std::move(made.group));
+  result["branch"] = to_numpy(std::move(made.branch));
+  result["length"] = to_numpy(std::move(made.length));
+  return result;
+}
+
+}  // namespace
+
+void bind_skeleton(nb::module_& room) {
+  room.def("skeleton_edges", &skeleton_edges, "points"_a, "segments"_a, "vertices"_a, "radius"_a, "edges"_a,
+           "edge_sites"_a, "segment_faces"_a, "threads"_a, "progress"_a.none(),
+           "Edges that are not deleted, and the face that each lies in.");
+  room.def("extract_skeleton", &extract_skeleton, "points"_a, "segments"_a, "vertices"_a, "radius"_a,
+           "edges"_a, "edge_sites"_a, "kept"_a, "groups"_a, "clipped"_a.none(), "joined"_a, "origin_x"_a,
+           "origin_y"_a, "scale"_a, "threads"_a, "progress"_a.none(),
+           "Frames are least x, most x, least y, most y on the lattice; joined are groups from one to before "
+           "another.");
+}
+
+}  // namespace vorotool::bindings

@@ -1,0 +1,76 @@
+// What is nearest, and which boxes are disjoint.
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include "bindings/rooms.hpp"
+#include "bindings/support/arrays.hpp"
+#include "bindings/support/diagram_arrays.hpp"
+#include "bindings/support/monitor.hpp"
+#include "core/base/parallel.hpp"
+#include "core/spatial/clearance.hpp"
+#include "core/spatial/disjoint_boxes.hpp"
+#include "core/spatial/nearest_sites.hpp"
+
+namespace vorotool::bindings {
+namespace {
+
+namespace nb = nanobind;
+using namespace nb::literals;
+using core::base::Monitor;
+using core::spatial::NearestOther;
+
+auto nearest_other_sites(Vector<const double> x, Vector<const double> y, Vector<const std::uint32_t> labels,
+                         unsigned threads, const Progress& progress) {
+  const auto found = run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::spatial::nearest_other_sites(view(x), view(y), view(labels), threads, monitor);
+  });
+  return std::make_tuple(column<std::int64_t>(found, [](const NearestOther& n) { return n.index; }),
+                         column<double>(found, [](const NearestOther& n) { return n.distance; }));
+}
+
+// Distances of places on the lattice from the nearest of points and segments.
+auto clearances(const IndexRows& points, const IndexRows& segments, const Places& places,
+                const Vector<const double>& reach, unsigned threads, const Progress& progress) {
+  const std::span<const LatticePoint> all = rows<LatticePoint>(points);
+  const std::span<const Pair> ends = rows<Pair>(segments);
+  if (places.shape(0) != reach.size()) throw std::invalid_argument("each place must have one reach");
+  for (const Pair& pair : ends) {
+    for (const std::int32_t end : pair) {
+      if (end < 0 || static_cast<std::size_t>(end) >= all.size()) {
+        throw std::invalid_argument("an end of a segment is out of range");
+      }
+    }
+  }
+  std::vector<double> found = run_interruptible(progress, [&](const Monitor& monitor) {
+    std::vector<core::kernel::LatticeSite> sites;
+    sites.reserve(all.size() + ends.size());
+    for (const LatticePoint& point : all) sites.push_back({point, point});
+    for (const auto& [a, b] : ends) {
+      sites.push_back({all[static_cast<std::size_t>(a)], all[static_cast<std::size_t>(b)]});
+    }
+    return core::spatial::clearances(sites, rows<core::kernel::Point>(places), view(reach),
+                                     core::base::resolve_threads(threads), monitor);
+  });
+  return to_numpy(std::move(found));
+}
+
+// The sheet of each box, with the columns least x, least y, most x, most y.
+auto disjoint_sheets(const Matrix<const std::int64_t>& boxes, const Progress& progress) {
+  const std::span<const core::spatial::ClosedBox> closed = rows<core::spatial::ClosedBox, 4>(boxes);
+  return to_numpy(run_interruptible(
+      progress, [&](const Monitor& monitor) { return core::spatial::disjoint_sheets(closed, monitor); }));
+}
+
+}  // namespace
+
+void bind_spatial(nb::module_& room) {
+  room.def("nearest_other_sites", &nearest_other_sites, "x"_a, "y"_a, "labels"_a, "threads"_a,
+           "progress"_a.none(), "Of each site the nearest with another label, and its distance.");
+  room.def("clearances", &clearances, "points"_a, "segments"_a, "places"_a, "reach"_a, "threads"_a,
+           "progress"_a.none(), "Of the nearest site within reach; infinite where there is none.");
+  room.def("disjoint_sheets", &disjoint_sheets, "boxes"_a, "progress"_a.none(),
+           "Of boxes with the columns least x, least y, most x, most y.");
+}
+
+}  // namespace vorotool::bindings

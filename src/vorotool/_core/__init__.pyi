@@ -1,0 +1,21 @@
+"""Compiled core of vorotool (private: use the functions of the package)."""
+
+from vorotool._core import (
+    alpha as alpha,
+    arrangement as arrangement,
+    cells as cells,
+    compression as compression,
+    delaunay as delaunay,
+    digital as digital,
+    graphs as graphs,
+    kernel as kernel,
+    label_images as label_images,
+    offsets as offsets,
+    pruning as pruning,
+    sampled_skeleton as sampled_skeleton,
+    segment_voronoi as segment_voronoi,
+    skeleton as skeleton,
+    spatial as spatial,
+    tessellation as tessellation,
+    text as text
+)

@@ -1,0 +1,27 @@
+"""
+Alpha complexes, shapes and curves: a side is a triangle or -1, ranks are places in the spectrum.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy
+import numpy.typing
+
+
+def edges_of_triangles(triangles: numpy.typing.NDArray[numpy.int32], neighbours: numpy.typing.NDArray[numpy.int32], threads: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
+    """Edges, and the triangles on their sides."""
+
+def alpha_complex(points: numpy.typing.NDArray[numpy.float64], triangles: numpy.typing.NDArray[numpy.int32], edges: numpy.typing.NDArray[numpy.int32], sides: numpy.typing.NDArray[numpy.int32], printed: bool, threads: int, progress: Callable[[float], object] | None) -> dict[str, Any]: ...
+
+def shape_edges(rank_min: numpy.typing.NDArray[numpy.int32], rank_mid: numpy.typing.NDArray[numpy.int32], rank_max: numpy.typing.NDArray[numpy.int32], reached: int, entered: int, threads: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.uint8]]:
+    """Edges of a shape, and the kind of each."""
+
+def connected_triangles(inside: numpy.typing.NDArray[numpy.uint8], sides: numpy.typing.NDArray[numpy.int32], progress: Callable[[float], object] | None) -> numpy.typing.NDArray[numpy.int32]: ...
+
+def trace_rings(points: numpy.typing.NDArray[numpy.float64], a: numpy.typing.NDArray[numpy.int32], b: numpy.typing.NDArray[numpy.int32], region: numpy.typing.NDArray[numpy.int32], progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.uint8]]:
+    """
+    Vertices of all rings, where each begins, its region, and whether it is a hole.
+    """
+
+def alpha_curves(spectrum: int, triangle_rank: numpy.typing.NDArray[numpy.int32], rank_min: numpy.typing.NDArray[numpy.int32], rank_mid: numpy.typing.NDArray[numpy.int32], rank_max: numpy.typing.NDArray[numpy.int32], sides: numpy.typing.NDArray[numpy.int32], area: numpy.typing.NDArray[numpy.float64], length: numpy.typing.NDArray[numpy.float64], progress: Callable[[float], object] | None) -> dict[str, Any]: ...

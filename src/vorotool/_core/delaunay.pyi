@@ -1,0 +1,31 @@
+"""Delaunay triangulations, and their check: points are finite."""
+
+from collections.abc import Callable
+
+import numpy
+import numpy.typing
+
+
+class DelaunayTriangulation:
+    def __init__(self, points: numpy.typing.NDArray[numpy.float64], threads: int, progress: Callable[[float], object] | None) -> None: ...
+
+    @property
+    def first(self) -> numpy.typing.NDArray[numpy.int32]: ...
+
+    @property
+    def hull(self) -> numpy.typing.NDArray[numpy.int32]: ...
+
+    def arrays(self, threads: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
+        """Triangles, their neighbours, and edges."""
+
+def insert_points(points: numpy.typing.NDArray[numpy.float64], triangles: numpy.typing.NDArray[numpy.int32], neighbours: numpy.typing.NDArray[numpy.int32], edges: numpy.typing.NDArray[numpy.int32], hull: numpy.typing.NDArray[numpy.int32], first: numpy.typing.NDArray[numpy.int32], hints: numpy.typing.NDArray[numpy.int32], threads: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]] | None:
+    """
+    Triangles, neighbours, edges, hull, first; None where the order of triangles that stay would change.
+    """
+
+def find_fault(points: numpy.typing.NDArray[numpy.float64], triangles: numpy.typing.NDArray[numpy.int32], neighbours: numpy.typing.NDArray[numpy.int32], edges: numpy.typing.NDArray[numpy.int32], hull: numpy.typing.NDArray[numpy.int32], first: numpy.typing.NDArray[numpy.int32], threads: int, progress: Callable[[float], object] | None) -> str | None: ...
+
+def nearest_neighbours(points: numpy.typing.NDArray[numpy.float64], edges: numpy.typing.NDArray[numpy.int32], labels: numpy.typing.NDArray[numpy.int64], progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
+    """
+    Index of the nearest point of each, -1 without any, and its number of neighbours.
+    """

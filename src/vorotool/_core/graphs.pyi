@@ -1,0 +1,21 @@
+"""
+Paths in graphs of arcs, which are pairs of nodes, and colours of graphs.
+"""
+
+from collections.abc import Callable
+
+import numpy
+import numpy.typing
+
+
+def longest_paths(arcs: numpy.typing.NDArray[numpy.int32], length: numpy.typing.NDArray[numpy.float64], group: numpy.typing.NDArray[numpy.int32], groups: int, nodes: int, tie: float, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.int64], numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
+    """
+    Where the arcs of each group's path begin, the arcs, and the node that each leads to.
+    """
+
+def path_from(arcs: numpy.typing.NDArray[numpy.int32], length: numpy.typing.NDArray[numpy.float64], nodes: int, first: int, last: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]] | None:
+    """
+    Arcs of the shortest path, and the node that each leads to; with last -1 to the farthest leaf.
+    """
+
+def colour_graph(vertices: int, a: numpy.typing.NDArray[numpy.uint32], b: numpy.typing.NDArray[numpy.uint32], progress: Callable[[float], object] | None) -> numpy.typing.NDArray[numpy.uint32]: ...

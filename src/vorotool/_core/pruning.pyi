@@ -1,0 +1,25 @@
+"""Critical values of skeletons, and what is left for a threshold."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy
+import numpy.typing
+
+
+def critical_values(skeleton: tuple[Any, ...], criterion: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.float64]]:
+    """
+    Values at the ends of arcs and the largest of each; arcs on which a place is kept, and where. Of the angle: the tangent of half of it.
+    """
+
+def prune_skeleton(skeleton: tuple[Any, ...], criterion: int, threshold: float, group: numpy.typing.NDArray[numpy.int32], progress: Callable[[float], object] | None) -> dict[str, Any]: ...
+
+def arc_profiles(skeleton: tuple[Any, ...]) -> tuple[numpy.typing.NDArray[numpy.int8], numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64]]:
+    """
+    Kinds (between lines, between points, parabola), x at the ends, and h or the tangent of half the angle.
+    """
+
+def part_geometry(skeleton: tuple[Any, ...], arc: numpy.typing.NDArray[numpy.int32], first: numpy.typing.NDArray[numpy.float64], last: numpy.typing.NDArray[numpy.float64]) -> dict[str, Any]:
+    """
+    Places and radii of both ends, control points and lengths of parts of arcs.
+    """
