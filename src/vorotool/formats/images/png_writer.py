@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import LimitError
-from vorotool.formats.io.row_bands import blocks, check_fits, in_order
+from vorotool.formats.io.row_bands import blocks, check_fits
+from vorotool.geometry.parallel import in_order
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 LARGEST_SIDE = 2**31 - 1
