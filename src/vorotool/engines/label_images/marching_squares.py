@@ -1,4 +1,8 @@
-"""Contours of marching squares, from the cracks between the pixels inside and outside."""
+"""Contours of marching squares, from the cracks between the pixels inside and outside.
+
+scikit-image's `find_contours` takes 11 times as long for a mask (`tests/benchmarks/libraries.py contours`), for labels
+each by itself, and does not tell which contour is a hole in which.
+"""
 
 from __future__ import annotations
 

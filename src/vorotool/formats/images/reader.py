@@ -13,6 +13,7 @@ from vorotool.errors import InputError
 from vorotool.formats.images import npy, png_reader, pnm_reader, tiff_reader
 from vorotool.formats.images.picture_reader import PICTURES, is_lossy, picture_format, read_picture_file
 from vorotool.formats.io.limits import SourceLike, check_pixels
+from vorotool.formats.io.npy_arrays import MAGIC, npy_header
 from vorotool.formats.parsing.format_names import IMAGE_NAMES, known_input_format
 from vorotool.geometry.pixel_frame import MAX_PIXELS
 from vorotool.geometry.points.raster import Raster
@@ -24,7 +25,7 @@ _MAGIC = (
     (b"MM\x00*", "tiff"),
     (b"II+\x00", "tiff"),
     (b"MM\x00+", "tiff"),
-    (npy.MAGIC, "npy"),
+    (MAGIC, "npy"),
 )
 
 
@@ -44,7 +45,7 @@ def is_image(source: SourceLike) -> bool:
     kind = _by_content(source.data) or _EXTENSIONS.get(_extension(source))
     if kind == "npy":
         try:
-            shape = npy.npy_header(source).shape
+            shape = npy_header(source).shape
         except InputError:
             return False
         return len(shape) in (2, 3) and shape[1] != 2
@@ -157,7 +158,7 @@ def _check_page(source: SourceLike, page: int | None) -> None:
 
 def _npy_shape(source: SourceLike) -> tuple[int, ...]:
     """Shape of an NPY image: (H, W), or (H, W, C) with at most 4 channels."""
-    shape = npy.npy_header(source).shape
+    shape = npy_header(source).shape
     if len(shape) not in (2, 3) or (len(shape) == 3 and not 1 <= shape[2] <= 4):
         raise InputError(f"{source.name} has the shape {shape}: an image is (H, W), or (H, W, C) with C from 1 to 4")
     return shape
