@@ -14,7 +14,7 @@ geometry/points -> geometry
 geometry/polygons -> geometry
 engines/common -> geometry, geometry/points, geometry/polygons
 formats/parsing -> formats/io, geometry, geometry/points, geometry/polygons
-formats/zarr -> formats/compression, formats/io
+formats/zarr -> formats/compression, formats/io, geometry
 geometry/curves -> geometry, geometry/polygons
 engines/tessellation -> engines/common, geometry, geometry/curves, geometry/points
 formats/images -> formats/compression, formats/io, formats/parsing, formats/zarr, geometry, geometry/points
@@ -22,11 +22,11 @@ formats/points -> formats/io, formats/parsing, geometry, geometry/points
 geometry/mesh -> geometry, geometry/curves
 geometry/skeleton -> geometry, geometry/curves, geometry/polygons
 render/canvas -> geometry, geometry/curves
-engines/arrangement -> engines/common, geometry, geometry/polygons, geometry/skeleton
+engines/arrangement -> engines/common, geometry, geometry/curves, geometry/polygons, geometry/skeleton
 engines/delaunay -> engines/common, geometry, geometry/curves, geometry/mesh, geometry/points
 engines/label_images -> engines/common, engines/tessellation, geometry, geometry/points, geometry/polygons
 engines/segment_voronoi -> engines/common, geometry, geometry/polygons, geometry/skeleton
-formats/text -> formats/io, geometry, geometry/skeleton
+formats/text -> geometry, geometry/skeleton
 geometry/alpha -> geometry, geometry/curves, geometry/mesh, geometry/polygons
 render/label_images -> geometry, geometry/points, render/canvas
 batch -> engines/tessellation, formats/io, formats/text, formats/zarr
@@ -37,7 +37,7 @@ engines/digital -> engines/common, engines/delaunay, engines/label_images, engin
 engines/features -> engines/arrangement, engines/common, geometry, geometry/polygons, geometry/skeleton
 formats/polygons -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/polygons
 geometry/any -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton
-render/layers -> geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton, render/canvas,
+render/layers -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton, render/canvas,
     render/label_images
 render/pages -> geometry, geometry/alpha, geometry/curves, geometry/skeleton, render/canvas
 engines/skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, geometry,
@@ -48,7 +48,7 @@ engines/from_skeleton -> engines/arrangement, engines/skeleton, geometry, geomet
     geometry/skeleton
 engines/offsets -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, engines/skeleton,
     geometry, geometry/curves, geometry/polygons, geometry/skeleton
-engines/pruning -> engines/common, engines/skeleton, geometry, geometry/curves, geometry/skeleton
+engines/pruning -> engines/common, geometry, geometry/curves, geometry/skeleton
 engines/sampled_skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi,
     engines/skeleton, geometry, geometry/curves, geometry/polygons, geometry/skeleton
 formats -> formats/images, formats/io, formats/parsing, formats/points, formats/polygons, formats/results,
@@ -153,3 +153,14 @@ def test_each_arrow_is_used():
         if (room := room_of(path)) in used:
             used[room] |= {room_named(name) for name in imported_modules(path)} - {None, room, *FOR_ALL}
     assert used == ALLOWED
+
+
+def test_checkers_share_nothing_with_makers():
+    """From a module that checks others take its checks alone: what both need is in a module of its own."""
+    for path in SOURCES:
+        if path.stem.startswith("verify_"):
+            continue
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and node.module.rpartition(".")[2].startswith("verify_"):
+                taken = [alias.name for alias in node.names if not alias.name.startswith("verify_")]
+                assert not taken, f"{path} takes {taken} from {node.module}"

@@ -47,12 +47,12 @@ def read(
     geometry : {"points", "polygons"}, optional
         What must be in a file that is no image; by default its content tells.
     input_format : str, optional
-        One of csv, node, npy, geojson, wkt, json, poly, png, tiff, pnm and zarr (or another usual extension of one),
-        where extension and content leave it unclear.
+        One of csv, node, npy, geojson, wkt, json, poly, png, tiff, pnm, zarr, jpeg, bmp, gif, webp and avif (or another
+        usual extension of one), where extension and content leave it unclear.
     columns : str, optional
         ``X,Y[,LABEL]`` of a point list, by name or number from 1.
     page : int, optional
-        Page of an image stack, from 0.
+        Page of an image stack, from 0; picture of an animation.
     max_pixels, max_sites : int
         Larger inputs are refused before memory is taken.
     properties : bool
@@ -138,6 +138,7 @@ def _read(
     from vorotool.formats.images.band_reader import is_zarr, open_rows, read_rows
     from vorotool.formats.images.reader import is_image, read_image
     from vorotool.formats.io.sources import read_source
+    from vorotool.formats.parsing.format_names import IMAGE_NAMES
 
     if is_zarr(name, input_format):
         _refuse_crs(crs)
@@ -154,11 +155,10 @@ def _read(
         if says_offsets(source.data):
             return read_offsets(source, properties=properties, max_sites=max_sites, note=note)
     is_points = columns is not None and source.data.startswith(NPY_MAGIC)  # the one format that holds either
-    if input_format in ("png", "tiff", "pnm", "zarr") or (
-        input_format in (None, "npy") and not is_points and is_image(source)
-    ):
+    is_said = input_format in IMAGE_NAMES.values() and input_format != "npy"
+    if is_said or (input_format in (None, "npy") and not is_points and is_image(source)):
         _refuse_crs(crs)
-        return read_image(source, input_format=input_format, page=page, max_pixels=max_pixels)
+        return read_image(source, input_format=input_format, page=page, max_pixels=max_pixels, note=note)
     from vorotool.formats.points.reader import read_points
     from vorotool.formats.polygons.reader import read_polygons, recognise
 

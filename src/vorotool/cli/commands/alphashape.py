@@ -82,7 +82,7 @@ def command(**options: Any) -> None:
     Example:
       vorotool alphashape data/dots.csv -r 60 -o shape.csv
 
-    INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, PBM,
+    INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, JPEG,
     NPY), whose components or labels count as points at their centroids; - is standard input. Label i is the i-th
     point; labels of the input are kept.
 

@@ -21,7 +21,6 @@ from vorotool.geometry.points.raster import Raster
 
 LabelFormat = Literal["png", "tiff", "npy", "text"]
 
-LARGEST_PNG_LABEL = 65_535
 _LARGEST_LABEL = 2**32 - 1
 
 
@@ -166,6 +165,8 @@ def label_image_of(image: Raster, name: str) -> LabelImage:
     values = image.values
     if values.ndim != 2:
         raise InputError(f"{name} has {values.shape[2]} channels: labels need a single one")
+    if image.is_lossy:
+        raise InputError(f"{name} keeps values nearly, so that they are no labels: give a PNG, TIFF or NPY file")
     if values.dtype.kind not in "bui":
         raise InputError(f"{name} holds {values.dtype} values: labels need integers")
     return LabelImage(values.view(np.uint8) if values.dtype == np.bool_ else _as_labels(values, name))

@@ -179,19 +179,12 @@ def write_polygons(out: BinaryIO, polygons: PolygonSet, fmt: str, *, precision: 
 
     Parameters
     ----------
-    out : binary file object
-        Need not be seekable.
+    out, precision
+        As of `vorotool.formats.text.tables.write_table`.
     polygons : PolygonSet
         What to write.
     fmt : {"json", "geojson", "wkt", "poly"}
         The format.
-    precision : int, optional
-        Significant digits of coordinates; by default the shortest text that reads back the same.
-
-    Raises
-    ------
-    UsageError
-        If the format is unknown or ``precision`` is not from 1 to 17.
 
     Examples
     --------

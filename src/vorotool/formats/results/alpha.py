@@ -36,18 +36,14 @@ def write_shape(
 
     Parameters
     ----------
-    out : binary file object
-        Need not be seekable.
+    out, precision, threads
+        As of `vorotool.formats.text.tables.write_table`.
     value : AlphaShape or AlphaComplex
         A family has the table of its radii only.
     fmt : {"csv", "json", "npz", "geojson", "wkt", "poly"}
         The format.
     what : {"edges", "polygons", "family"}, optional
         By default polygons where the format is for these, else edges.
-    precision : int, optional
-        Significant digits; by default the shortest that reads back the same.
-    threads : int
-        0 for all.
 
     Raises
     ------
@@ -83,16 +79,12 @@ def write_shape_edges(
 
     Parameters
     ----------
-    out : binary file object
-        Need not be seekable.
+    out, precision, threads
+        As of `vorotool.formats.text.tables.write_table`.
     shape : AlphaShape
         Whose edges.
     interior : bool
         Interior ones too.
-    precision : int, optional
-        Significant digits; by default the shortest that reads back the same.
-    threads : int
-        0 for all.
 
     Examples
     --------
@@ -118,14 +110,12 @@ def write_general(out: BinaryIO, shape: AlphaShape, fmt: str, *, precision: int 
 
     Parameters
     ----------
-    out : binary file object
-        Need not be seekable.
+    out, precision
+        As of `vorotool.formats.text.tables.write_table`.
     shape : AlphaShape
         What to write.
     fmt : {"geojson", "wkt"}
         In GeoJSON each part tells its class, and its region, labels or label.
-    precision : int, optional
-        Significant digits; by default the shortest that reads back the same.
 
     Raises
     ------
@@ -155,12 +145,10 @@ def write_hull_geojson(out: BinaryIO, hull: AlphaHull, *, precision: int | None 
 
     Parameters
     ----------
-    out : binary file object
-        Need not be seekable.
+    out, precision
+        As of `vorotool.formats.text.tables.write_table`.
     hull : AlphaHull
         What to write.
-    precision : int, optional
-        Significant digits; by default the shortest that reads back the same.
 
     Examples
     --------

@@ -7,7 +7,7 @@ from typing import BinaryIO
 from vorotool.formats.polygons.polylines import geojson_wording, wkt_wording, write_polylines
 from vorotool.formats.text.refusals import check_format
 from vorotool.formats.text.tables import TABLE_FORMATS, write_table
-from vorotool.geometry.curves.flatten_tolerance import checked_flatten
+from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.skeleton.centerline import Centerlines, centerline_table
 
 CENTERLINE_FORMATS = ("geojson", *TABLE_FORMATS, "wkt")
@@ -30,19 +30,14 @@ def write_centerlines(
 
     Parameters
     ----------
-    out : binary file object
-        Need not be seekable.
+    out, precision, threads
+        As of `vorotool.formats.text.tables.write_table`.
     lines : Centerlines
         What to write.
     fmt : {"geojson", "csv", "json", "npz", "wkt"}
         The format.
-    flatten, precision, threads : optional
-        As of :func:`vorotool.formats.results.skeletons.write_skeleton`.
-
-    Raises
-    ------
-    UsageError
-        If there is no such format of them.
+    flatten : float, optional
+        As of `vorotool.formats.results.skeletons.write_skeleton`.
 
     Examples
     --------

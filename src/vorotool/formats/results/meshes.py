@@ -47,23 +47,14 @@ def write_mesh(
 
     Parameters
     ----------
-    out : binary file object
-        Need not be seekable.
+    out, precision, threads
+        As of `vorotool.formats.text.tables.write_table`.
     mesh : Triangulation or DigitalTriangulation
         Rows are in the order of its arrays.
     fmt : {"csv", "json", "geojson", "npz", "edge", "ele", "node", "obj"}
         Edges are LineStrings in GeoJSON and lines in OBJ, triangles are Polygons and faces.
     what : {"edges", "triangles", "table"}
         What to write; the table has one row a point.
-    precision : int, optional
-        Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
-    threads : int
-        0 for all.
-
-    Raises
-    ------
-    UsageError
-        If there is no such format of them.
 
     Examples
     --------
@@ -111,8 +102,8 @@ def write_features(
 
     Parameters
     ----------
-    out : binary file object
-        Need not be seekable.
+    out, precision, threads
+        As of `vorotool.formats.text.tables.write_table`.
     columns : mapping of str to column
         Properties, as in a `Table`.
     points : (n, 2) float64 array
@@ -121,10 +112,6 @@ def write_features(
         Points of each edge, which becomes a LineString, or triangle, which becomes a Polygon.
     crs : object, optional
         The ``crs`` member.
-    precision : int, optional
-        Significant digits; by default the shortest that reads back the same.
-    threads : int
-        0 for all.
     """
     x, y = np.ascontiguousarray(points.T)
     ring = [*rows.T, *([rows[:, 0]] if rows.shape[1] == 3 else [])]

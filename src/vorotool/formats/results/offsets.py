@@ -10,7 +10,7 @@ from vorotool.formats.polygons.reader import write_polygons
 from vorotool.formats.results.offset_json import write_json
 from vorotool.formats.text.refusals import check_format
 from vorotool.formats.text.tables import write_arrays, write_table
-from vorotool.geometry.curves.flatten_tolerance import checked_flatten
+from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.skeleton.offsets import Offsets
 
 OFFSET_FORMATS = ("json", "csv", "geojson", "npz", "wkt")
@@ -32,8 +32,8 @@ def write_offsets(
 
     Parameters
     ----------
-    out : binary file object
-        Need not be seekable.
+    out, precision, threads
+        As of `vorotool.formats.text.tables.write_table`.
     offsets : Offsets
         What to write, in its order.
     fmt : {"json", "csv", "geojson", "npz", "wkt"}
@@ -41,10 +41,6 @@ def write_offsets(
     flatten : float, optional
         How far a chord may be from its arc, in input units; by default 1/4096 of the larger side of the bounds of the
         polygons.
-    precision : int, optional
-        Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
-    threads : int
-        0 for all.
 
     Raises
     ------

@@ -32,8 +32,8 @@ def write_skeleton_points(
 
     Parameters
     ----------
-    out : binary file object
-        Need not be seekable.
+    out, precision, threads
+        As of `vorotool.formats.text.tables.write_table`.
     points : SkeletonPoints
         What to write, in its order.
     fmt : {"csv", "json", "npz", "geojson", "wkt"}
@@ -41,15 +41,6 @@ def write_skeleton_points(
         ``r`` and ``width``.
     what : {"points", "transects"}
         What to write.
-    precision : int, optional
-        Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
-    threads : int
-        0 for all.
-
-    Raises
-    ------
-    UsageError
-        If there is no such format of them.
 
     Examples
     --------

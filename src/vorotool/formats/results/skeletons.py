@@ -13,7 +13,7 @@ from vorotool.formats.polygons.polylines import Wording, geojson_wording, wkt_wo
 from vorotool.formats.results.skeleton_json import write_json
 from vorotool.formats.text.refusals import check_format, check_what
 from vorotool.formats.text.tables import TABLE_FORMATS, write_arrays, write_table
-from vorotool.geometry.curves.flatten_tolerance import checked_flatten
+from vorotool.geometry.curves.flatten import chained, checked_flatten
 from vorotool.geometry.skeleton.skeleton import SIDES, Skeleton
 from vorotool.geometry.skeleton.tables import arc_table, branch_table, element_table, polygon_table
 
@@ -39,8 +39,8 @@ def write_skeleton(
 
     Parameters
     ----------
-    out : binary file object
-        Need not be seekable.
+    out, precision, threads
+        As of `vorotool.formats.text.tables.write_table`.
     skeleton : Skeleton
         What to write, in its order.
     fmt : {"json", "csv", "geojson", "npz", "wkt", "graphml"}
@@ -51,15 +51,6 @@ def write_skeleton(
         How far a polyline may be from its parabola, in input units; by default 1/4096 of the larger side of the bounds.
     columns : mapping of str to array, optional
         Further columns of the table, one value a polygon.
-    precision : int, optional
-        Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
-    threads : int
-        0 for all.
-
-    Raises
-    ------
-    UsageError
-        If there is no such format of them.
 
     Examples
     --------
@@ -92,9 +83,11 @@ def write_skeleton(
 
         write_graphml(out, skeleton, flatten=flatten, precision=precision, threads=threads)
     else:
-        points, start, first_arcs = _branch_polylines(skeleton, checked_flatten(flatten, skeleton.polygons))
+        first_arcs = np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
+        arcs = skeleton.flattened(checked_flatten(flatten, skeleton.polygons))
+        points, start = chained(*arcs, first_arcs)
         wording = _wording(skeleton, fmt, first_arcs, threads)
-        write_polylines(out, points, start, wording, precision=precision, threads=threads)
+        write_polylines(out, points, start[:-1], wording, precision=precision, threads=threads)
 
 
 def skeleton_arrays(skeleton: Skeleton) -> dict[str, NDArray[Any]]:
@@ -141,18 +134,6 @@ def skeleton_arrays(skeleton: Skeleton) -> dict[str, NDArray[Any]]:
 
 
 # ---- polylines -----------------------------------------------------------------------------------
-def _branch_polylines(
-    skeleton: Skeleton, tolerance: float
-) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
-    """Points of branches, where each branch begins among them, and its first arc."""
-    points, start = skeleton.flattened(tolerance)
-    first_arcs = np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
-    kept = np.ones(len(points), dtype=bool)  # an arc's first point is the last one of the arc before
-    kept[start[:-1]] = False
-    kept[start[first_arcs]] = True
-    return points[kept], (np.cumsum(kept) - 1)[start[first_arcs]], first_arcs
-
-
 def _wording(skeleton: Skeleton, fmt: str, first_arcs: NDArray[np.int64], threads: int) -> Wording:
     if fmt == "wkt":
         return wkt_wording(len(first_arcs))

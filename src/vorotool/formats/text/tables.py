@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
-from vorotool.formats.io.row_bands import in_order
 from vorotool.formats.text.row_writer import Column, RowShape, check_precision, slices, write_list_rows, write_rows
+from vorotool.geometry.parallel import in_order
 from vorotool.geometry.table import Computed, Lookup, Table
 
 TABLE_FORMATS = ("csv", "json", "npz")
