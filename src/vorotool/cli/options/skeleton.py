@@ -20,7 +20,7 @@ from vorotool.cli.options.shared import (
     what_option,
 )
 from vorotool.formats.parsing.format_names import NAMES_WITH
-from vorotool.jobs.names import ALL_SKELETON_LAYERS, SKELETON_FORMATS
+from vorotool.products.registry import formats_of, layers_of
 
 ENDS = ("middle", "corner", "none")
 """As `vorotool.engines.centerlines.centerline` has them, which ``--help`` does not import."""
@@ -70,8 +70,8 @@ class Distances(ParameterType[tuple[float, ...]]):
 
 _BEFORE: tuple[Decorator, ...] = (
     inputs_argument(NAMES_WITH["polygons"]),
-    output_options(SKELETON_FORMATS),
-    what_option(tuple(SKELETON_FORMATS)),
+    output_options(formats_of("skeleton-exact")),
+    what_option(tuple(formats_of("skeleton-exact"))),
     click.option(
         "--side",
         type=click.Choice(["interior", "exterior", "both"]),
@@ -141,6 +141,6 @@ _READING: tuple[Decorator, ...] = (
 """Options before a command's own, and after them."""
 
 
-def skeleton_options(*own: Decorator, layers: tuple[str, ...] = ALL_SKELETON_LAYERS) -> Decorator:
+def skeleton_options(*own: Decorator, layers: tuple[str, ...] = layers_of("skeleton-exact")) -> Decorator:
     """Add the options that skeletons have in common, and a command's own among them."""
     return together(*_BEFORE, *own, *_READING, result_options(layers))
