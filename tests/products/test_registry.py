@@ -82,8 +82,8 @@ READ = {
 EXPECTED = {
     "help": "html, drawing,",
     "documents": "| `offset` | JSON (`.json`), CSV (`.csv`), GeoJSON (`.geojson`), NPZ (`.npz`), WKT (`.wkt`), "
-    "Drawing (`.drw`)",
-    "refusal": "offset cannot be written as obj: use one of json, csv, geojson, npz, wkt, drawing, svg, png",
+    "JSON lines (`.jsonl`, `.ndjson`), Drawing (`.drw`)",
+    "refusal": "offset cannot be written as obj: use one of json, csv, geojson, npz, wkt, jsonl, drawing, svg, png",
     "writing": " curves\n",
     "library": "1 curves\n",
 }

@@ -87,6 +87,7 @@ _ALL = (
     Format("wkt", "WKT", has_digits=True, flattens=True),
     Format("poly", "Triangle", has_digits=True),
     Format("graphml", "GraphML", has_digits=True, flattens=True, writers={"skeleton": _GRAPHML}),
+    _of_objects("jsonl", "JSON lines", ("jsonl", "ndjson"), "formats.text.json_lines:JsonLines"),
     Format("html", "HTML"),
     Format("zarr", "Zarr", is_text=False, is_image=True),
 )
