@@ -9,7 +9,7 @@ import pytest
 
 import vorotool
 from vorotool.products.formats import EXTENSIONS, FORMATS, PICTURES, TABLE_WRITER
-from vorotool.products.registry import PRODUCTS, formats_of, layers_of
+from vorotool.products.registry import PRODUCTS, all_layers, formats_of
 from vorotool.products.writing import resolved
 
 ROOT = Path(__file__).parents[2]
@@ -45,10 +45,10 @@ def test_extensions_stand_for_one_format_each():
     assert all(ending == ending.lower() and ending.startswith(".") for ending in EXTENSIONS)
 
 
-def test_the_layers_of_a_command_are_those_of_its_pictures():
+def test_the_all_layers_a_command_are_those_of_its_pictures():
     for command, own in PRODUCTS.items():
         shown = {layer for each in own.values() for layers in each.layers.values() for layer in layers}
-        assert set(layers_of(command)) == shown
+        assert set(all_layers(command)) == shown
 
 
 # ---- a format more -------------------------------------------------------------------------------

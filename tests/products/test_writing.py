@@ -13,10 +13,11 @@ SQUARE = [[0, 0], [4, 0], [4, 4], [0, 4]]
 
 
 def values():
-    """A value of each type that can be written, but of the tessellation."""
+    """A value of each type that can be written."""
     mesh, shape = vorotool.delaunay(POINTS), vorotool.alpha_shape(POINTS, r=4)
     skeleton = vorotool.skeleton_exact(SQUARE)
     found = [
+        vorotool.tessellate(POINTS, shape=(6, 6)),
         vorotool.edge_table(mesh),
         mesh,
         vorotool.digital_triangulation([[1, 1], [5, 3], [2, 6]], shape=(8, 8)),
@@ -37,7 +38,7 @@ VALUES = values()
 
 
 def test_there_is_a_value_of_each_type():
-    assert {*VALUES, "LabelImage"} == set(public_types())
+    assert set(VALUES) == set(public_types())
 
 
 @pytest.mark.parametrize("name", VALUES)
@@ -50,7 +51,7 @@ def test_every_part_in_every_format(name, tmp_path):
             path = tmp_path / f"{what}.{fmt}"
             vorotool.write(value, path, what=what)
             assert path.stat().st_size > 0
-            if fmt in product.written:
+            if fmt in product.written and fmt != "zarr":
                 assert path.read_bytes() == written(value, fmt, what)
 
 

@@ -32,7 +32,7 @@ def check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     check_picture_options(
         o,
         pictures,
-        dict.fromkeys(PICTURES, layers_of("skeleton-approx")),
+        layers_of(_command(o)),
         png_has_width=True,
         has_page="html" in formats,
     )

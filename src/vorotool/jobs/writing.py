@@ -181,13 +181,14 @@ def _draw(value: Any, wanted: _Picture) -> None:
 def _draw_labels(image: LabelImage, wanted: _Picture) -> None:
     from vorotool.engines.label_images.object_colours import object_colours
     from vorotool.formats.io.atomic_output import open_output
-    from vorotool.jobs.pictures import write_label_picture
+    from vorotool.jobs.pictures import default_layers, write_label_picture
 
-    if wanted.what not in (None, "colour", "color"):
+    if wanted.what not in (None, "colour", "color", "labels"):
         raise UsageError(f"what={wanted.what!r} is no picture of a LabelImage: use colour, or leave it out")
     if wanted.fmt == "png" and wanted.width is not None:
         raise UsageError("the PNG of a label image has its own size: leave width out, or use fmt='svg'")
-    seeds = ("seeds",) if image.seeds is not None else ()
+    usual = parts_of(image)["labels" if wanted.what == "labels" else "colour"].usual_layers
+    shown = [layer for layer in default_layers(image, usual) if layer != "seeds" or image.seeds is not None]
     colours = object_colours(image, threads=wanted.threads)
     with open_output(wanted.path, binary=wanted.fmt == "png") as out:
         write_label_picture(
@@ -195,7 +196,7 @@ def _draw_labels(image: LabelImage, wanted: _Picture) -> None:
             image,
             colours,
             fmt=wanted.fmt,
-            layers=wanted.layers or ("cells", *seeds),
+            layers=wanted.layers or shown,
             width=wanted.width or 1000,
             y_up=bool(wanted.y_up),
             threads=wanted.threads,

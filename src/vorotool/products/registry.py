@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 from vorotool.products.formats import FORMATS, PICTURES, TABLE_WRITER, TABLES, Format, Writer
 
@@ -47,10 +48,8 @@ class Product:
     @property
     def written(self) -> tuple[str, ...]:
         """Formats of data: its own, and those that name it or can be made from one of its own."""
-        return (
-            *self.data,
-            *(each.name for each in FORMATS.values() if each.name not in self.data and self._fits(each)),
-        )
+        more = (each.name for each in FORMATS.values() if self._fits(each))
+        return tuple(dict.fromkeys([*self.data, *more]))
 
     def _fits(self, each: Format) -> bool:
         return self.what in each.writers or any(name in self.data for name in each.made_from)
@@ -62,206 +61,110 @@ class Product:
         return tuple(dict.fromkeys((*self.written, *self.layers, *pages)))
 
 
-def _pictures(*layers: str) -> dict[str, Sequence[str]]:
-    return dict.fromkeys(PICTURES, layers)
+def _product(
+    what: str,
+    types: str = "",
+    data: str = "",
+    writer: Writer | None = None,
+    layers: Mapping[str, Sequence[str]] | None = None,
+    usual_layers: str = "",
+    **more: Any,
+) -> Product:
+    """Give an entry of the lists below, in which blanks separate names."""
+    shown = tuple(usual_layers.split())
+    return Product(what, tuple(types.split()), tuple(data.split()), writer, layers or {}, shown, **more)
 
+
+def _pictures(layers: str) -> dict[str, Sequence[str]]:
+    return dict.fromkeys(PICTURES, tuple(layers.split()))
+
+
+_TABLES = " ".join(TABLES)
 
 # ---- tessellate ----------------------------------------------------------------------------------
-_IMAGES = ("png", "tiff", "npy", "text")
+_IMAGES = "png tiff npy text"
+_LABELS = Writer("formats.images.label_images:write_labels", ("fmt", "threads"))
 _COLOURED = {"png": ("cells", "diagram", "seeds", "labels"), "svg": ("cells", "labels", "seeds")}
 _TESSELLATE = (
-    Product(
-        "labels",
-        ("LabelImage",),
-        (*_IMAGES, "zarr"),
-        Writer("formats.images.label_images:write_labels", ("fmt", "threads")),
-        layers={"svg": _COLOURED["svg"]},
-        usual_layers=("cells", "seeds", "labels"),
-    ),
-    Product("diagram", (), _IMAGES, layers={"png": _COLOURED["png"]}, usual_layers=("diagram",)),
-    Product("colour", ("LabelImage",), layers=_COLOURED, usual_layers=("cells", "seeds")),
-    Product("distance", (), ("tiff", "npy", "zarr")),
-    Product("distance2", (), ("tiff", "npy", "zarr", "text")),
-    Product("table", ("Table",), TABLES, TABLE_WRITER),
-    Product("neighbours", (), TABLES, TABLE_WRITER),
+    _product("labels", "LabelImage", f"{_IMAGES} zarr", _LABELS, {"svg": _COLOURED["svg"]}, "cells seeds labels"),
+    _product("diagram", "", _IMAGES, None, {"png": _COLOURED["png"]}, "diagram"),
+    _product("colour", "LabelImage", "", None, _COLOURED, "cells seeds"),
+    _product("distance", "", "tiff npy zarr"),
+    _product("distance2", "", "tiff npy zarr text"),
+    _product("table", "Table", _TABLES, TABLE_WRITER),
+    _product("neighbours", "", _TABLES, TABLE_WRITER),
 )
 
 # ---- delaunay ------------------------------------------------------------------------------------
 _MESH = Writer("formats.results.meshes:write_mesh")
-_MESHES = ("Triangulation", "DigitalTriangulation")
-_MESH_LAYERS = _pictures("cells", "triangles", "diagram", "edges", "points", "labels")
+_CELLS = Writer("formats.results.cells:write_cells", ("fmt", "precision", "threads"))
+_MESHES = "Triangulation DigitalTriangulation"
+_MESH_LAYERS = _pictures("cells triangles diagram edges points labels")
 _DELAUNAY = (
-    Product(
-        "edges",
-        _MESHES,
-        ("csv", "json", "geojson", "npz", "edge", "obj"),
-        _MESH,
-        _MESH_LAYERS,
-        usual_layers=("edges", "points"),
-    ),
-    Product(
-        "triangles",
-        _MESHES,
-        ("csv", "json", "geojson", "npz", "ele", "obj"),
-        _MESH,
-        _MESH_LAYERS,
-        usual_layers=("triangles", "edges", "points"),
-    ),
-    Product(
-        "cells",
-        ("CellSet",),
-        ("geojson", "csv", "json", "npz", "wkt"),
-        Writer("formats.results.cells:write_cells", ("fmt", "precision", "threads")),
-        _MESH_LAYERS,
-        usual_layers=("cells", "points"),
-    ),
-    Product("table", _MESHES, (*TABLES, "node"), _MESH),
-    Product("compare", (), TABLES, TABLE_WRITER),
+    _product("edges", _MESHES, "csv json geojson npz edge obj", _MESH, _MESH_LAYERS, "edges points"),
+    _product("triangles", _MESHES, "csv json geojson npz ele obj", _MESH, _MESH_LAYERS, "triangles edges points"),
+    _product("cells", "CellSet", "geojson csv json npz wkt", _CELLS, _MESH_LAYERS, "cells points"),
+    _product("table", _MESHES, f"{_TABLES} node", _MESH),
+    _product("compare", "", _TABLES, TABLE_WRITER),
 )
 
 # ---- alphashape ----------------------------------------------------------------------------------
 _SHAPE = Writer("formats.results.alpha:write_shape")
-_SHAPE_LAYERS = _pictures("polygons", "delaunay", "interior", "boundary", "singular", "hull", "points", "labels")
-_EDGE_FORMATS = ("csv", "json", "geojson", "npz")
+_SHAPE_LAYERS = _pictures("polygons delaunay interior boundary singular hull points labels")
+_EDGES = ("AlphaShape", "csv json geojson npz", _SHAPE, _SHAPE_LAYERS)
+_POLYGONS = ("AlphaShape", "geojson wkt json poly", _SHAPE, _SHAPE_LAYERS)
+_GENERAL = ("AlphaShape", "geojson wkt", _SHAPE, _SHAPE_LAYERS)
 _ALPHASHAPE = (
-    Product(
-        "edges",
-        ("AlphaShape",),
-        _EDGE_FORMATS,
-        _SHAPE,
-        _SHAPE_LAYERS,
-        usual_layers=("boundary", "singular", "points"),
-        has_page=True,
-    ),
-    Product(
-        "polygons",
-        ("AlphaShape",),
-        ("geojson", "wkt", "json", "poly"),
-        _SHAPE,
-        _SHAPE_LAYERS,
-        usual_layers=("polygons",),
-        has_page=True,
-        usual_for=("geojson", "wkt", "poly"),
-    ),
-    Product(
-        "complex",
-        ("AlphaShape",),
-        _EDGE_FORMATS,
-        _SHAPE,
-        _SHAPE_LAYERS,
-        usual_layers=("interior", "boundary", "singular", "points"),
-        has_page=True,
-    ),
-    Product(
-        "general",
-        ("AlphaShape",),
-        ("geojson", "wkt"),
-        _SHAPE,
-        _SHAPE_LAYERS,
-        usual_layers=("polygons", "boundary", "singular", "points"),
-        has_page=True,
-    ),
-    Product("family", ("AlphaComplex",), TABLES, _SHAPE, has_page=True),
-    Product("spectrum", ("AlphaComplex",), TABLES, _SHAPE),
-    Product("curves", (), TABLES, TABLE_WRITER, layers={"svg": ()}, has_page=True),
-    Product("hull", ("AlphaHull",), ("geojson", *TABLES), _SHAPE, _SHAPE_LAYERS, usual_layers=("hull", "points")),
-    Product("points", ("AlphaShape",), TABLES, _SHAPE),
-    Product("table", ("AlphaShape",), TABLES, _SHAPE),
+    _product("edges", *_EDGES, "boundary singular points", has_page=True),
+    _product("polygons", *_POLYGONS, "polygons", has_page=True, usual_for=("geojson", "wkt", "poly")),
+    _product("complex", *_EDGES, "interior boundary singular points", has_page=True),
+    _product("general", *_GENERAL, "polygons boundary singular points", has_page=True),
+    _product("family", "AlphaComplex", _TABLES, _SHAPE, has_page=True),
+    _product("spectrum", "AlphaComplex", _TABLES, _SHAPE),
+    _product("curves", "", _TABLES, TABLE_WRITER, {"svg": ()}, has_page=True),
+    _product("hull", "AlphaHull", f"geojson {_TABLES}", _SHAPE, _SHAPE_LAYERS, "hull points"),
+    _product("points", "AlphaShape", _TABLES, _SHAPE),
+    _product("table", "AlphaShape", _TABLES, _SHAPE),
 )
 
 # ---- skeletons -----------------------------------------------------------------------------------
-_SKELETON = Writer("formats.results.skeletons:write_skeleton", ("fmt", "what", "flatten", "precision", "threads"))
-_POINTS = Writer("formats.results.points_along:write_skeleton_points")
 _LINES = ("fmt", "flatten", "precision", "threads")
-_SKELETON_FORMATS = ("json", "csv", "geojson", "npz", "wkt")
-_SKELETON_LAYERS = _pictures("polygons", "elements", "points", "skeleton", "nodes", "labels")
-_OF_POINTS = _pictures("polygons", "skeleton", "transects", "points")
+_SKELETON = Writer("formats.results.skeletons:write_skeleton", ("what", *_LINES))
+_CENTERLINES = Writer("formats.results.centerlines:write_centerlines", _LINES)
+_OFFSETS = Writer("formats.results.offsets:write_offsets", _LINES)
+_RINGS = Writer("formats.polygons.reader:write_polygons", ("fmt", "precision"))
+_POINTS = Writer("formats.results.points_along:write_skeleton_points")
+_CURVES = "json csv geojson npz wkt"
+_ARCS = _pictures("polygons elements points skeleton nodes labels")
+_ALONG = _pictures("polygons skeleton transects points")
 _SKELETONS = (
-    Product(
-        "skeleton",
-        ("Skeleton",),
-        _SKELETON_FORMATS,
-        _SKELETON,
-        _SKELETON_LAYERS,
-        usual_layers=("polygons", "skeleton"),
-        has_page=True,
-        is_curved=True,
+    _product("skeleton", "Skeleton", _CURVES, _SKELETON, _ARCS, "polygons skeleton", has_page=True, is_curved=True),
+    _product("diagram", "", _CURVES, _SKELETON, _ARCS, "polygons elements points skeleton", is_curved=True),
+    _product("elements", "Skeleton", _TABLES, _SKELETON, _ARCS, "polygons elements points"),
+    _product(
+        "centerline", "Centerlines", f"geojson {_TABLES} wkt", _CENTERLINES, _ARCS, "polygons skeleton", is_curved=True
     ),
-    Product(
-        "diagram",
-        (),
-        _SKELETON_FORMATS,
-        _SKELETON,
-        _SKELETON_LAYERS,
-        usual_layers=("polygons", "elements", "points", "skeleton"),
-        is_curved=True,
-    ),
-    Product(
-        "elements",
-        ("Skeleton",),
-        TABLES,
-        _SKELETON,
-        _SKELETON_LAYERS,
-        usual_layers=("polygons", "elements", "points"),
-    ),
-    Product(
-        "centerline",
-        ("Centerlines",),
-        ("geojson", *TABLES, "wkt"),
-        Writer("formats.results.centerlines:write_centerlines", _LINES),
-        _SKELETON_LAYERS,
-        usual_layers=("polygons", "skeleton"),
-        is_curved=True,
-    ),
-    Product(
-        "offset",
-        ("Offsets",),
-        _SKELETON_FORMATS,
-        Writer("formats.results.offsets:write_offsets", _LINES),
-        _pictures("polygons", "offset"),
-        usual_layers=("polygons", "offset"),
-        is_curved=True,
-    ),
-    Product(
-        "shape",
-        ("PolygonSet",),
-        ("json", "geojson", "wkt", "poly"),
-        Writer("formats.polygons.reader:write_polygons", ("fmt", "precision")),
-        _pictures("shape"),
-        usual_layers=("shape",),
-    ),
-    Product(
-        "points",
-        ("SkeletonPoints",),
-        (*TABLES, "geojson", "wkt"),
-        _POINTS,
-        _OF_POINTS,
-        usual_layers=("polygons", "skeleton", "points"),
-    ),
-    Product(
-        "transects",
-        ("SkeletonPoints",),
-        ("geojson", "wkt", *TABLES),
-        _POINTS,
-        _OF_POINTS,
-        usual_layers=("polygons", "skeleton", "transects"),
-    ),
-    Product("branches", ("Skeleton",), TABLES, _SKELETON),
-    Product("table", ("Skeleton",), TABLES, _SKELETON),
+    _product("offset", "Offsets", _CURVES, _OFFSETS, _pictures("polygons offset"), "polygons offset", is_curved=True),
+    _product("shape", "PolygonSet", "json geojson wkt poly", _RINGS, _pictures("shape"), "shape"),
+    _product("points", "SkeletonPoints", f"{_TABLES} geojson wkt", _POINTS, _ALONG, "polygons skeleton points"),
+    _product("transects", "SkeletonPoints", f"geojson wkt {_TABLES}", _POINTS, _ALONG, "polygons skeleton transects"),
+    _product("branches", "Skeleton", _TABLES, _SKELETON),
+    _product("table", "Skeleton", _TABLES, _SKELETON),
 )
 
 
 def _beside_exact(product: Product) -> Product:
     """Beside approximate skeletons pictures can show exact ones."""
-    shown = product.layers is _SKELETON_LAYERS
-    return replace(product, layers=_pictures(*_SKELETON_LAYERS["svg"], "exact")) if shown else product
+    shown = {fmt: (*layers, "exact") for fmt, layers in _ARCS.items()}
+    return replace(product, layers=shown) if product.layers is _ARCS else product
 
 
 def _drawn() -> Product:
     """The picture of a result that was written before: the layers of all that is read again."""
     of_labels = {"png": ("cells", "diagram"), "svg": ("cells",)}
-    of_lines = (*_SKELETON_LAYERS["svg"], "offset", "shape")
-    return Product("picture", layers={fmt: (*layers, *of_lines) for fmt, layers in of_labels.items()})
+    return Product(
+        "picture", layers={fmt: (*layers, *_ARCS[fmt], "offset", "shape") for fmt, layers in of_labels.items()}
+    )
 
 
 _BY_COMMAND: dict[str, Sequence[Product]] = {
@@ -287,18 +190,28 @@ def formats_of(command: str) -> dict[str, tuple[str, ...]]:
     return {what: product.formats for what, product in PRODUCTS[command].items()}
 
 
-def layers_of(command: str) -> tuple[str, ...]:
-    """Give the layers of all pictures of a command.
+def layers_of(command: str) -> dict[str, tuple[str, ...]]:
+    """Give the layers of all pictures of a command, by their format.
 
     Examples
     --------
-    >>> layers_of("tessellate")
+    >>> layers_of("tessellate")["svg"]
+    ('cells', 'labels', 'seeds')
+    """
+    own = PRODUCTS[command].values()
+    return {fmt: tuple(dict.fromkeys(name for each in own for name in each.layers.get(fmt, ()))) for fmt in PICTURES}
+
+
+def all_layers(command: str) -> tuple[str, ...]:
+    """Give the layers that a picture of a command can have, whatever its format.
+
+    Examples
+    --------
+    >>> all_layers("tessellate")
     ('cells', 'diagram', 'seeds', 'labels')
     """
-    products = PRODUCTS[command].values()
-    return tuple(
-        dict.fromkeys(name for fmt in ("png", "svg") for each in products for name in each.layers.get(fmt, ()))
-    )
+    by_format = layers_of(command)
+    return tuple(dict.fromkeys([*by_format["png"], *by_format["svg"]]))
 
 
 def is_of(value: object, *types: str) -> bool:

@@ -16,12 +16,12 @@ from PIL import Image
 
 import vorotool
 from vorotool.geometry.alpha.complex import CLASSES
-from vorotool.products.registry import PRODUCTS, formats_of, layers_of
+from vorotool.products.registry import PRODUCTS, all_layers, formats_of
 from vorotool.render.layers import alpha as alpha_layers
 
 DATA = Path(__file__).parents[3] / "data"
 DOTS = DATA / "dots.csv"
-LAYERS = layers_of("alphashape")
+LAYERS = all_layers("alphashape")
 FAMILY = vorotool.alpha_complex(vorotool.read(DOTS))
 SHAPE = vorotool.alpha_shape(FAMILY, r=60)
 

@@ -15,7 +15,7 @@ from PIL import Image
 
 import vorotool
 from support.processes.leftovers import leftovers
-from vorotool.products.registry import PRODUCTS, formats_of, layers_of
+from vorotool.products.registry import PRODUCTS, all_layers, formats_of
 from vorotool.render.layers import cells as cell_layers
 from vorotool.render.layers import mesh as mesh_layers
 
@@ -357,8 +357,8 @@ def test_pictures(run, folder):
 
 
 def test_layers_are_those_of_the_renderer():
-    assert set(layers_of("delaunay")) == {*mesh_layers.LAYERS, *cell_layers.LAYERS}
-    assert all(set(each.usual_layers) <= set(layers_of("delaunay")) for each in PRODUCTS["delaunay"].values())
+    assert set(all_layers("delaunay")) == {*mesh_layers.LAYERS, *cell_layers.LAYERS}
+    assert all(set(each.usual_layers) <= set(all_layers("delaunay")) for each in PRODUCTS["delaunay"].values())
 
 
 def test_broken_pipe_is_quiet(process, folder):

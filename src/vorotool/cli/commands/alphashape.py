@@ -25,15 +25,15 @@ from vorotool.jobs.names import METHODS, OF_ONE_SHAPE
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
 from vorotool.products.formats import PICTURES, format_named
-from vorotool.products.registry import PRODUCTS, formats_of, layers_of
+from vorotool.products.registry import PRODUCTS, all_layers, formats_of, layers_of
 
 if TYPE_CHECKING:
     from vorotool.jobs.alpha_shape import ShapeProducts
 
 FORMATS = formats_of("alphashape")
+_OF_POLYGONS = ", ".join(PRODUCTS["alphashape"]["polygons"].usual_for)
 OF_DIGITAL_RULE = frozenset({"edges", "complex", "family", "spectrum"})
 """Results that need no more than edges and the triangles beside them."""
-PICTURE_LAYERS = dict.fromkeys(PICTURES, layers_of("alphashape"))
 
 
 @click.command("alphashape")
@@ -44,7 +44,7 @@ PICTURE_LAYERS = dict.fromkeys(PICTURES, layers_of("alphashape"))
 @click.option("--regions", type=click.IntRange(min=1), metavar="K", help="Regions that --auto allows; by default 1.")
 @output_options(FORMATS)
 @click.option("--what", type=Names(tuple(FORMATS)), help=f"What to write: {', '.join(FORMATS)}; several separated by "
-              "commas. By default edges; polygons for GeoJSON and WKT.")  # fmt: skip
+              f"commas. By default edges; polygons for {_OF_POLYGONS}.")  # fmt: skip
 @click.option(
     "--rule",
     type=click.Choice(["corrected", "printed"]),
@@ -61,7 +61,7 @@ PICTURE_LAYERS = dict.fromkeys(PICTURES, layers_of("alphashape"))
     show_default=True,
     help="How points are triangulated, as in delaunay.",
 )
-@site_options(layers_of("alphashape"))
+@site_options(all_layers("alphashape"))
 def command(**options: Any) -> None:
     """Find the alpha shape of points: edges that an empty disc of radius r touches at both ends, and what they bound.
 
@@ -114,7 +114,7 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     plots = ["svg"] if ("curves", "svg") in {(target.what, target.fmt) for target in targets} else []
     if o.y_up is not None and plots and not pictures and "html" not in formats:
         raise UsageError("--y-up and --y-down are for pictures of a shape, but curves are a plot: leave them out")
-    check_picture_options(o, pictures or plots, PICTURE_LAYERS, png_has_width=True, has_page="html" in formats)
+    check_picture_options(o, pictures or plots, layers_of("alphashape"), png_has_width=True, has_page="html" in formats)
 
 
 def _check_method(o: SimpleNamespace, formats: set[str]) -> None:

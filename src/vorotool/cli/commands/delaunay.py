@@ -24,7 +24,7 @@ from vorotool.jobs.names import METHODS
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
 from vorotool.products.formats import PICTURES
-from vorotool.products.registry import formats_of, layers_of
+from vorotool.products.registry import all_layers, formats_of, layers_of
 
 if TYPE_CHECKING:
     from vorotool.jobs.triangulation import MeshProducts
@@ -34,7 +34,6 @@ OF_TRIANGULATIONS = frozenset(
     {("edges", "edge"), ("triangles", "ele")} | {(what, fmt) for what in ("cells", "table") for fmt in FORMATS[what]}
 )
 """Results and formats that what the digital rule finds has no place in."""
-PICTURE_LAYERS = dict.fromkeys(PICTURES, layers_of("delaunay"))
 
 
 @click.command("delaunay")
@@ -60,7 +59,7 @@ PICTURE_LAYERS = dict.fromkeys(PICTURES, layers_of("delaunay"))
     help="File of polygons that cells are clipped to as well.",
     shell_complete=files(POLYGON_NAMES),
 )
-@site_options(layers_of("delaunay"))
+@site_options(all_layers("delaunay"))
 def command(**options: Any) -> None:
     """Triangulate points exactly: no circle through a triangle's vertices holds another point.
 
@@ -115,7 +114,7 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     pictures = sorted(formats & set(PICTURES))
     if o.layers is not None and not pictures:
         raise UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
-    check_picture_options(o, pictures, PICTURE_LAYERS, png_has_width=True)
+    check_picture_options(o, pictures, layers_of("delaunay"), png_has_width=True)
 
 
 def _check_method(o: SimpleNamespace, targets: list[Target]) -> None:

@@ -13,7 +13,7 @@ from vorotool.formats.parsing.format_names import DRAWN_NAMES
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
-from vorotool.products.registry import formats_of, layers_of
+from vorotool.products.registry import all_layers, formats_of
 
 if TYPE_CHECKING:
     from vorotool.jobs.drawing import Picture
@@ -25,7 +25,7 @@ FORMATS = formats_of("draw")
 @inputs_argument(DRAWN_NAMES)
 @output_options(FORMATS)
 @shared("input-format", "page")
-@layers_option(layers_of("draw"))
+@layers_option(all_layers("draw"))
 @shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "max-pixels")
 @batch_options(table=False)
 @shared("no-clobber", "quiet", "verbose")

@@ -30,7 +30,7 @@ from vorotool.jobs.inputs import (
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
-from vorotool.products.registry import PRODUCTS, formats_of, layers_of
+from vorotool.products.registry import PRODUCTS, all_layers, formats_of, layers_of
 
 if TYPE_CHECKING:
     from vorotool.geometry.points.seed_set import SeedSet
@@ -66,7 +66,7 @@ _PICTURES = {(what, fmt) for what, each in PRODUCTS["tessellate"].items() for fm
     type=Size(),
     help="Columns x rows of the chunks of a Zarr store; by default 2048x512, fewer rows if wide.",
 )
-@site_options(layers_of("tessellate"))
+@site_options(all_layers("tessellate"))
 def command(**options: Any) -> None:
     """Label every pixel with its nearest seed, exactly; ties go to the smallest label.
 
@@ -104,7 +104,7 @@ def _check_output_options(o: SimpleNamespace, outputs: set[tuple[str, str]]) -> 
     if o.layers is not None and not outputs & _PICTURES:
         raise UsageError("--layers is for pictures: --what colour, labels as SVG, or the diagram as PNG")
     pictures = sorted(outputs & _PICTURES - ({("diagram", "png")} if o.layers is None and o.overlay is None else set()))
-    check_picture_options(o, [fmt for _, fmt in pictures], PRODUCTS["tessellate"]["colour"].layers)
+    check_picture_options(o, [fmt for _, fmt in pictures], layers_of("tessellate"))
 
 
 def _read_seeds(run: Run, o: SimpleNamespace, source: str) -> SeedSet:
