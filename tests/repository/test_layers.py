@@ -9,6 +9,7 @@ PACKAGE = Path(__file__).parents[2] / "src" / "vorotool"
 ARROWS = """
 formats/compression ->
 geometry ->
+products ->
 formats/io -> geometry
 geometry/points -> geometry
 geometry/polygons -> geometry
@@ -43,7 +44,7 @@ render/pages -> geometry, geometry/alpha, geometry/curves, geometry/skeleton, re
 engines/skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, geometry,
     geometry/curves, geometry/polygons, geometry/skeleton
 formats/results -> formats/io, formats/parsing, formats/points, formats/polygons, formats/text, geometry,
-    geometry/alpha, geometry/curves, geometry/mesh, geometry/polygons, geometry/skeleton
+    geometry/alpha, geometry/curves, geometry/mesh, geometry/polygons, geometry/skeleton, products
 engines/from_skeleton -> engines/arrangement, engines/skeleton, geometry, geometry/curves, geometry/polygons,
     geometry/skeleton
 engines/offsets -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, engines/skeleton,
@@ -51,9 +52,8 @@ engines/offsets -> engines/arrangement, engines/common, engines/features, engine
 engines/pruning -> engines/common, geometry, geometry/curves, geometry/skeleton
 engines/sampled_skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi,
     engines/skeleton, geometry, geometry/curves, geometry/polygons, geometry/skeleton
-formats -> formats/images, formats/io, formats/parsing, formats/points, formats/polygons, formats/results,
-    formats/text, formats/zarr, geometry, geometry/alpha, geometry/mesh, geometry/points, geometry/polygons,
-    geometry/skeleton
+formats -> formats/images, formats/io, formats/parsing, formats/points, formats/polygons, formats/results, geometry,
+    geometry/points, geometry/polygons, geometry/skeleton
 engines -> engines/arrangement, engines/common, engines/sampled_skeleton, engines/skeleton, geometry,
     geometry/polygons, geometry/skeleton
 engines/centerlines -> engines/common, engines/from_skeleton, engines/pruning, geometry, geometry/polygons,
@@ -63,11 +63,11 @@ jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines,
     engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, formats,
     formats/images, formats/io, formats/parsing, formats/points, formats/polygons, formats/results, formats/text,
     formats/zarr, geometry, geometry/alpha, geometry/any, geometry/mesh, geometry/points, geometry/polygons,
-    geometry/skeleton, render/canvas, render/label_images, render/layers, render/pages
-cli/options -> engines/offsets, engines/pruning, formats/parsing, geometry, jobs
-cli/batch -> batch, cli/options, formats/io, formats/parsing, jobs
+    geometry/skeleton, products, render/canvas, render/label_images, render/layers, render/pages
+cli/options -> engines/offsets, engines/pruning, formats/parsing, geometry, jobs, products
+cli/batch -> batch, cli/options, formats/io, formats/parsing, jobs, products
 cli/commands -> cli/batch, cli/options, engines/alpha, engines/tessellation, formats/parsing, geometry/points,
-    geometry/polygons, jobs
+    geometry/polygons, jobs, products
 cli -> cli/commands, jobs
 """
 """Rooms of the package from below, and what each may import; `errors` and `signals` are for all."""

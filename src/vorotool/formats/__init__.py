@@ -1,10 +1,9 @@
-"""Reading and writing files: one call for all formats."""
+"""Reading files: one call for all formats."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from os import PathLike, fspath
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from vorotool.errors import InputError, UsageError
@@ -13,7 +12,6 @@ from vorotool.geometry.pixel_frame import MAX_PIXELS
 NPY_MAGIC = b"\x93NUMPY"
 
 if TYPE_CHECKING:
-    from vorotool.geometry.points.label_image import LabelImage
     from vorotool.geometry.points.point_set import PointSet
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -186,184 +184,3 @@ def _read(
 def _refuse_crs(crs: Any) -> None:
     if crs is not None:
         raise UsageError("--input-crs is for points, polygons and lines, but the input is an image: leave it out")
-
-
-def write(
-    value: Any,
-    path: str | PathLike[str],
-    *,
-    fmt: str | None = None,
-    what: str | None = None,
-    flatten: float | None = None,
-    precision: int | None = None,
-    threads: int = 0,
-) -> None:
-    """Write a value that is no picture: see `vorotool.write`.
-
-    Raises
-    ------
-    OutputError
-        If the file cannot be written; an older one is untouched.
-    UsageError
-        If the value cannot be written in this format.
-
-    Examples
-    --------
-    >>> import vorotool
-    >>> write(vorotool.delaunay([[0, 0], [4, 0], [0, 3]]), "build/triangles.geojson", what="triangles")
-    """
-    from vorotool.formats.io.atomic_output import open_output
-    from vorotool.geometry.checks import checked_threads
-    from vorotool.geometry.points.label_image import LabelImage
-
-    name = (fmt or Path(path).suffix).lower().lstrip(".")
-    chosen: Any = {"tif": "tiff", "txt": "text"}.get(name, name)
-    threads = checked_threads(threads)
-    if isinstance(value, LabelImage):
-        if what is not None:
-            raise UsageError(f"what={what!r} is for what has parts: leave it out with a LabelImage")
-        _write_image(value, fspath(path), chosen, threads)
-        return
-    writer, options = _writer_of(value, chosen, what, flatten, threads)
-    with open_output(fspath(path), binary=chosen == "npz") as out:
-        writer(out, value, chosen, precision=precision, **options)
-
-
-def to_geojson(value: Any, *, what: str | None = None, flatten: float | None = None) -> dict[str, Any]:
-    """Give polygons, cells, a triangulation, an alpha shape, a skeleton, points along one, or offsets as GeoJSON.
-
-    Parameters
-    ----------
-    value : PolygonSet, CellSet, Triangulation, AlphaShape, Skeleton, SkeletonPoints, Offsets or Centerlines
-        With ids and properties, if it has any.
-    what, flatten : optional
-        As of `write`.
-
-    Returns
-    -------
-    dict
-        A FeatureCollection.
-
-    Raises
-    ------
-    UsageError
-        If it cannot be written so.
-
-    Examples
-    --------
-    >>> import vorotool
-    >>> square = vorotool.skeleton_exact([[0, 0], [4, 0], [4, 4], [0, 4]])
-    >>> to_geojson(square)["features"][0]["geometry"]
-    {'type': 'LineString', 'coordinates': [[0, 0], [2, 2]]}
-    """
-    import io
-
-    import orjson
-
-    out = io.BytesIO()
-    writer, options = _writer_of(value, "geojson", what, flatten, 0)
-    writer(out, value, "geojson", precision=None, **options)
-    made: dict[str, Any] = orjson.loads(out.getvalue())
-    return made
-
-
-def _writer_of(
-    value: Any, fmt: str, what: str | None, flatten: float | None, threads: int
-) -> tuple[Callable[..., None], dict[str, Any]]:
-    """Give the function that writes a value, and its further options."""
-    from vorotool.geometry.alpha.complex import AlphaComplex
-    from vorotool.geometry.alpha.shape import AlphaShape
-    from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
-    from vorotool.geometry.mesh.triangulation import Triangulation
-    from vorotool.geometry.skeleton.centerline import Centerlines
-    from vorotool.geometry.skeleton.offsets import Offsets
-    from vorotool.geometry.skeleton.points_along import SkeletonPoints
-    from vorotool.geometry.skeleton.skeleton import Skeleton
-
-    if flatten is not None and not isinstance(value, Centerlines | Skeleton | Offsets):
-        raise UsageError(f"flatten is for skeletons and offsets: leave it out with a {type(value).__name__}")
-    if isinstance(value, Skeleton):
-        from vorotool.formats.results.skeletons import write_skeleton
-
-        return write_skeleton, {"what": what or "skeleton", "flatten": flatten, "threads": threads}
-    if isinstance(value, SkeletonPoints):
-        from vorotool.formats.results.points_along import write_skeleton_points
-
-        return write_skeleton_points, {"what": what or "points", "threads": threads}
-    if isinstance(value, AlphaComplex | AlphaShape):
-        from vorotool.formats.results.alpha import write_shape
-
-        return write_shape, {"what": what, "threads": threads}
-    if isinstance(value, Triangulation | DigitalTriangulation):
-        from vorotool.formats.results.meshes import write_mesh
-
-        return write_mesh, {"what": what or {"ele": "triangles", "node": "table"}.get(fmt, "edges"), "threads": threads}
-    if what is not None:
-        raise UsageError(
-            f"what={what!r} is for triangulations, alpha shapes and skeletons: "
-            f"leave it out with a {type(value).__name__}"
-        )
-    return _line_writer(value, flatten, threads) or _plain_writer(value, threads)
-
-
-def _line_writer(value: Any, flatten: float | None, threads: int) -> tuple[Callable[..., None], dict[str, Any]] | None:
-    """Give the function that writes curves, which some formats flatten."""
-    from vorotool.geometry.skeleton.centerline import Centerlines
-    from vorotool.geometry.skeleton.offsets import Offsets
-
-    if isinstance(value, Centerlines):
-        from vorotool.formats.results.centerlines import write_centerlines
-
-        return write_centerlines, {"flatten": flatten, "threads": threads}
-    if isinstance(value, Offsets):
-        from vorotool.formats.results.offsets import write_offsets
-
-        return write_offsets, {"flatten": flatten, "threads": threads}
-    return None
-
-
-def _plain_writer(value: Any, threads: int) -> tuple[Callable[..., None], dict[str, Any]]:
-    """Give the function that writes a value of which there is one thing to write."""
-    from vorotool.geometry.mesh.cells import CellSet
-    from vorotool.geometry.polygons.polygon_set import PolygonSet
-    from vorotool.geometry.table import Table
-
-    if isinstance(value, Table):
-        from vorotool.formats.text.tables import write_table
-
-        return write_table, {"threads": threads}
-    if isinstance(value, PolygonSet):
-        from vorotool.formats.polygons.reader import write_polygons
-
-        return write_polygons, {}
-    if isinstance(value, CellSet):
-        from vorotool.formats.results.cells import write_cells
-
-        return write_cells, {"threads": threads}
-    raise UsageError(
-        f"a {type(value).__name__} cannot be written: give a LabelImage, Table, PolygonSet, CellSet, Triangulation, "
-        "AlphaShape, Skeleton, SkeletonPoints, Offsets or Centerlines"
-    )
-
-
-def _write_image(image: LabelImage, path: str, fmt: Any, threads: int) -> None:
-    from vorotool.formats.images.label_images import write_label_image
-    from vorotool.formats.io.atomic_output import open_output
-
-    if fmt == "zarr":
-        from vorotool.formats.zarr.arrays import write_zarr
-
-        write_zarr(path, image.labels, threads=threads)
-        return
-    if fmt == "svg":
-        raise UsageError("an SVG is a picture: write the labels as PNG or NPY, and draw them with vorotool draw")
-    with open_output(path, binary=fmt != "text") as out:
-        write_label_image(
-            out,
-            [image.labels],
-            shape=image.shape,
-            dtype=image.labels.dtype,
-            fmt=fmt,
-            largest_label=int(image.labels.max()),
-            threads=threads,
-        )

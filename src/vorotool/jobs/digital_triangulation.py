@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict, replace
 from functools import cached_property
 from types import SimpleNamespace
-from typing import Any, BinaryIO
+from typing import Any
 
 from vorotool.engines.digital.comparison import compare_digital
 from vorotool.engines.digital.triangulation import DigitalRepair, digital_triangulation, repair_digital
@@ -58,11 +58,10 @@ class DigitalProducts(MeshProducts):
         if self.comparison.suggestion:
             self.run.note(self.comparison.suggestion)
 
-    def _write_compare(self, out: BinaryIO, fmt: str) -> None:
-        from vorotool.formats.text.tables import write_table
-
-        table = table_in_units(self.options, self.comparison.table)
-        write_table(out, table, fmt, precision=self.options.precision, threads=self.options.threads)
+    def _value(self, what: str, fmt: str) -> Any:
+        if what == "compare":
+            return table_in_units(self.options, self.comparison.table)
+        return super()._value(what, fmt)
 
     def _shape(self) -> str:
         return f"of {len(self.mesh.points)} regions too few touch"

@@ -10,11 +10,9 @@ from typing import Any, NamedTuple, TypeVar
 
 from vorotool.errors import UsageError
 from vorotool.jobs.targets import Target
+from vorotool.products.formats import FORMATS
 
 Value = TypeVar("Value")
-
-WITHOUT_UNITS = frozenset({"png", "tiff", "npy", "text", "svg"})
-"""Formats of images and pictures; only the plot of curves has units."""
 
 
 class PixelSize(NamedTuple):
@@ -30,11 +28,11 @@ def check_units(o: SimpleNamespace, targets: Sequence[Target]) -> None:
     Raises
     ------
     UsageError
-        If all outputs are images or pictures.
+        If all outputs are images or pictures; only the plot of curves has units.
     """
     if getattr(o, "pixel_size", None) is None:
         return
-    if all(target.fmt in WITHOUT_UNITS and target.what != "curves" for target in targets):
+    if all(FORMATS[target.fmt].is_image and target.what != "curves" for target in targets):
         raise UsageError("--pixel-size is for tables and vectors: use --what table, or leave it out")
 
 

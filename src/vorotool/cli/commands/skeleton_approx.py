@@ -10,7 +10,7 @@ import click
 from vorotool.cli.commands.skeletons import run_skeletons
 from vorotool.cli.options.skeleton import Length, skeleton_options
 from vorotool.errors import UsageError
-from vorotool.jobs.names import APPROXIMATE_LAYERS
+from vorotool.products.registry import all_layers
 
 if TYPE_CHECKING:
     from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -45,7 +45,7 @@ if TYPE_CHECKING:
         help="Join corners by lines along their bisectors; by default with --tolerance.",
     ),
     click.option("--compare", is_flag=True, help="Say how far the exact skeleton is, both ways; in --stats, too."),
-    layers=APPROXIMATE_LAYERS,
+    layers=all_layers("skeleton-approx"),
 )
 def command(**options: Any) -> None:
     """Approximate the skeleton of polygons by samples of their edges, with a certified error of each arc.

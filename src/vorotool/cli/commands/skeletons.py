@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 from vorotool.cli.batch.dispatch import run_command
 from vorotool.jobs.inputs import naming
 from vorotool.jobs.job import Recipe
-from vorotool.jobs.names import SKELETON_FORMATS
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeleton_checks import check_options
 from vorotool.jobs.skeleton_input import read_polygons
+from vorotool.products.registry import formats_of
 
 if TYPE_CHECKING:
     from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -24,7 +24,7 @@ def run_skeletons(
     name: str, o: SimpleNamespace, make: Callable[[PolygonSet, SimpleNamespace, Run], SkeletonProducts]
 ) -> None:
     """Read polygons, make what a command makes of them, check it, and write it."""
-    run_command(Recipe(name, SKELETON_FORMATS, check_options, partial(_products, make), "polygons"), o)
+    run_command(Recipe(name, formats_of(name), check_options, partial(_products, make), "polygons"), o)
 
 
 def _products(

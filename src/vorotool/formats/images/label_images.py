@@ -96,6 +96,23 @@ def write_label_image(
         raise UsageError(f"{fmt!r} is no format of label images: use png, tiff, npy or text")
 
 
+def write_labels(out: BinaryIO, image: LabelImage, fmt: LabelFormat, *, threads: int = 0) -> None:
+    r"""Write the labels of an image that is in memory; see `write_label_image`.
+
+    Examples
+    --------
+    >>> import io
+    >>> out = io.BytesIO()
+    >>> write_labels(out, LabelImage(np.array([[1, 1, 2]], dtype=np.uint16)), "text")
+    >>> out.getvalue()
+    b'1 1 2\n'
+    """
+    kind, largest = image.labels.dtype, int(image.labels.max())
+    write_label_image(
+        out, [image.labels], shape=image.shape, dtype=kind, fmt=fmt, largest_label=largest, threads=threads
+    )
+
+
 def check_png(kind: np.dtype[Any], largest: int, depth: int = 16) -> None:
     """Refuse values that a PNG does not hold.
 

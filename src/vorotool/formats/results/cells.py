@@ -10,14 +10,11 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.formats.text.feature_collection import write_collection
-from vorotool.formats.text.refusals import check_format
 from vorotool.formats.text.row_writer import Column, RowShape, write_list_rows, write_rows
 from vorotool.formats.text.tables import json_column, json_text, object_shape, write_npz, write_table
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.ragged import owners, within
 from vorotool.geometry.table import Computed, Lookup, Table
-
-CELL_FORMATS = ("geojson", "csv", "json", "npz", "wkt")
 
 
 def write_cells(out: BinaryIO, cells: CellSet, fmt: str, *, precision: int | None = None, threads: int = 0) -> None:
@@ -46,7 +43,6 @@ def write_cells(out: BinaryIO, cells: CellSet, fmt: str, *, precision: int | Non
     >>> print(out.getvalue().decode().splitlines()[1])
     1,1,1,"POLYGON ((0 0, 2 0, 2 2, 0 2, 0 0))"
     """
-    check_format(fmt, CELL_FORMATS, "cells")
     _WRITERS[fmt](out, cells, precision, threads)
 
 

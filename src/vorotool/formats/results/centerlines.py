@@ -5,12 +5,10 @@ from __future__ import annotations
 from typing import BinaryIO
 
 from vorotool.formats.polygons.polylines import geojson_wording, wkt_wording, write_polylines
-from vorotool.formats.text.refusals import check_format
-from vorotool.formats.text.tables import TABLE_FORMATS, write_table
+from vorotool.formats.text.tables import write_table
 from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.skeleton.centerline import Centerlines, centerline_table
-
-CENTERLINE_FORMATS = ("geojson", *TABLE_FORMATS, "wkt")
+from vorotool.products.formats import TABLES
 
 
 def write_centerlines(
@@ -49,8 +47,7 @@ def write_centerlines(
     >>> out.getvalue()
     b'LINESTRING (0 1, 4 1)\n'
     """
-    check_format(fmt, CENTERLINE_FORMATS, "centerlines")
-    if fmt in TABLE_FORMATS:
+    if fmt in TABLES:
         write_table(out, centerline_table(lines), fmt, precision=precision, threads=threads)
         return
     points, start = lines.flattened(checked_flatten(flatten, lines.path.polygons))

@@ -10,18 +10,14 @@ from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
 from vorotool.formats.text.feature_collection import write_collection
-from vorotool.formats.text.refusals import check_format, check_what
 from vorotool.formats.text.row_writer import Column, RowShape, write_rows
-from vorotool.formats.text.tables import TABLE_FORMATS, json_column, object_shape, write_table
+from vorotool.formats.text.tables import json_column, object_shape, write_table
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
 from vorotool.geometry.mesh.tables import edge_table, point_table, triangle_table
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.table import Lookup, Table
+from vorotool.products.formats import TABLES
 
-EDGE_FORMATS = ("csv", "json", "geojson", "npz", "edge", "obj")
-TRIANGLE_FORMATS = ("csv", "json", "geojson", "npz", "ele", "obj")
-POINT_FORMATS = (*TABLE_FORMATS, "node")
-_FORMATS = {"edges": EDGE_FORMATS, "triangles": TRIANGLE_FORMATS, "table": POINT_FORMATS}
 _TABLES: dict[str, Callable[[Any], Table]] = {
     "edges": edge_table,
     "triangles": triangle_table,
@@ -64,16 +60,12 @@ def write_mesh(
     >>> out.getvalue()
     b'1 3 0\n1 1 2 3\n'
     """
-    check_what(what, _FORMATS, "a triangulation is")
-    if fmt in ("svg", "png"):
-        raise UsageError(f"{fmt.upper()} is for pictures: draw it with vorotool delaunay -o picture.{fmt}")
-    check_format(fmt, _FORMATS[what], what)
     if isinstance(mesh, DigitalTriangulation) and (what == "table" or fmt in ("edge", "ele")):
         raise UsageError(
             f"{what} as {fmt!r} is for triangulations: what a digital tessellation shows need not be one; write its "
             "edges or triangles as csv, json, geojson, npz or obj"
         )
-    if fmt in TABLE_FORMATS:
+    if fmt in TABLES:
         write_table(out, _TABLES[what](mesh), fmt, precision=precision, threads=threads)
     else:
         _WRITERS[fmt](out, mesh, what, precision, threads)

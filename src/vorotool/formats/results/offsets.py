@@ -8,12 +8,9 @@ from numpy.typing import NDArray
 
 from vorotool.formats.polygons.reader import write_polygons
 from vorotool.formats.results.offset_json import write_json
-from vorotool.formats.text.refusals import check_format
 from vorotool.formats.text.tables import write_arrays, write_table
 from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.skeleton.offsets import Offsets
-
-OFFSET_FORMATS = ("json", "csv", "geojson", "npz", "wkt")
 
 
 def write_offsets(
@@ -45,7 +42,7 @@ def write_offsets(
     Raises
     ------
     UsageError
-        If there is no such format of them, or the tolerance is not positive.
+        If the tolerance is not positive.
 
     Examples
     --------
@@ -56,7 +53,6 @@ def write_offsets(
     >>> out.getvalue()
     b'POLYGON ((1 1, 3 1, 3 3, 1 3, 1 1))\n'
     """
-    check_format(fmt, OFFSET_FORMATS, "offset curves")
     if fmt == "csv":
         write_table(out, offsets.table(), fmt, precision=precision, threads=threads)
     elif fmt == "json":
