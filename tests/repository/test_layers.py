@@ -23,19 +23,19 @@ formats/points -> formats/io, formats/parsing, geometry, geometry/points
 geometry/mesh -> geometry, geometry/curves
 geometry/skeleton -> geometry, geometry/curves, geometry/polygons
 render/canvas -> geometry, geometry/curves
-engines/arrangement -> engines/common, geometry, geometry/curves, geometry/polygons, geometry/skeleton
+engines/arrangement -> geometry, geometry/curves, geometry/polygons, geometry/skeleton
 engines/delaunay -> engines/common, geometry, geometry/curves, geometry/mesh, geometry/points
 engines/label_images -> engines/common, engines/tessellation, geometry, geometry/points, geometry/polygons
-engines/segment_voronoi -> engines/common, geometry, geometry/polygons, geometry/skeleton
+engines/segment_voronoi -> geometry, geometry/polygons, geometry/skeleton
 formats/text -> geometry, geometry/skeleton
 geometry/alpha -> geometry, geometry/curves, geometry/mesh, geometry/polygons
 render/label_images -> geometry, geometry/points, render/canvas
 batch -> engines/tessellation, formats/io, formats/text, formats/zarr
-engines/alpha -> engines/common, engines/delaunay, geometry, geometry/alpha, geometry/curves, geometry/mesh,
-    geometry/points, geometry/polygons
+engines/alpha -> engines/delaunay, geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points,
+    geometry/polygons
 engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry,
     geometry/curves, geometry/mesh, geometry/points
-engines/features -> engines/arrangement, engines/common, geometry, geometry/polygons, geometry/skeleton
+engines/features -> engines/arrangement, geometry, geometry/polygons, geometry/skeleton
 formats/polygons -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/polygons
 geometry/any -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton
 render/layers -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton, render/canvas,
@@ -54,10 +54,8 @@ engines/sampled_skeleton -> engines/arrangement, engines/common, engines/feature
     engines/skeleton, geometry, geometry/curves, geometry/polygons, geometry/skeleton
 formats -> formats/images, formats/io, formats/parsing, formats/points, formats/polygons, formats/results, geometry,
     geometry/points, geometry/polygons, geometry/skeleton
-engines -> engines/arrangement, engines/common, engines/sampled_skeleton, engines/skeleton, geometry,
-    geometry/polygons, geometry/skeleton
-engines/centerlines -> engines/common, engines/from_skeleton, engines/pruning, geometry, geometry/polygons,
-    geometry/skeleton
+engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/polygons, geometry/skeleton
+engines/centerlines -> engines/from_skeleton, engines/pruning, geometry, geometry/polygons, geometry/skeleton
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
     engines/features, engines/from_skeleton, engines/label_images, engines/offsets, engines/pruning,
     engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, formats,
@@ -65,9 +63,8 @@ jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines,
     formats/zarr, geometry, geometry/alpha, geometry/any, geometry/mesh, geometry/points, geometry/polygons,
     geometry/skeleton, products, render/canvas, render/label_images, render/layers, render/pages
 cli/options -> engines/offsets, engines/pruning, formats/parsing, geometry, jobs, products
-cli/batch -> batch, cli/options, formats/io, formats/parsing, jobs, products
-cli/commands -> cli/batch, cli/options, engines/alpha, engines/tessellation, formats/parsing, geometry/points,
-    geometry/polygons, jobs, products
+cli/batch -> batch, cli/options, formats/io, formats/parsing, geometry, jobs, products
+cli/commands -> cli/batch, cli/options, formats/parsing, jobs, products
 cli -> cli/commands, jobs
 """
 """Rooms of the package from below, and what each may import; `errors` and `signals` are for all."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import asdict, replace
 from functools import cached_property
-from types import SimpleNamespace
 from typing import Any
 
 from vorotool.engines.digital.comparison import compare_digital
@@ -15,21 +14,24 @@ from vorotool.geometry.mesh.digital_comparison import DigitalComparison
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.jobs.inputs import window_of
+from vorotool.geometry.progress import Progress
+from vorotool.jobs.inputs import JobInput, window_of
+from vorotool.jobs.options import TriangulationOptions
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.triangulation import MeshProducts
+from vorotool.jobs.triangulation import MeshProducts, ReadPoints
 from vorotool.jobs.units import table_in_units
 
 
 class DigitalProducts(MeshProducts):
     """Results of the paper's rule (``--method digital``), and of its comparison with the exact triangulation."""
 
-    def __init__(self, points: PointSet | SeedSet, options: SimpleNamespace, run: Run) -> None:
+    def __init__(self, run: Run, options: TriangulationOptions, given: JobInput, read: ReadPoints) -> None:
+        points = read.points
         if isinstance(points, SeedSet):
             self.seeds = points
         else:
             self.seeds = seeds_from_points(points, strict=options.strict, check=lambda seeds: window_of(options, seeds))
-        super().__init__(points, options, run)
+        super().__init__(run, options, given, read)
         if "compare" in options.what:
             with run.phase("compare"):
                 self._tell_comparison()
@@ -39,8 +41,7 @@ class DigitalProducts(MeshProducts):
         """Options of the engines: the frame, and the threads."""
         return {"window": window_of(self.options, self.seeds), "threads": self.options.threads}
 
-    def _triangulate(self, points: PointSet | SeedSet) -> AnyTriangulation:
-        progress = self.run.progress("triangulating")
+    def _triangulate(self, points: PointSet | SeedSet, progress: Progress) -> AnyTriangulation:
         return self._as_input(
             points, digital_triangulation(self.seeds, **self.where, strict=self.options.strict, progress=progress)
         )
@@ -60,15 +61,15 @@ class DigitalProducts(MeshProducts):
 
     def _value(self, what: str, fmt: str) -> Any:
         if what == "compare":
-            return table_in_units(self.options, self.comparison.table)
+            return table_in_units(self.options.pixel_size, self.comparison.table)
         return super()._value(what, fmt)
 
     def _shape(self) -> str:
         return f"of {len(self.mesh.points)} regions too few touch"
 
-    def verify(self) -> None:
+    def verify(self, progress: Progress) -> None:
         """Check labels, edges and triangles by another way."""
-        found = digital_triangulation(self.seeds, **self.where)
+        found = digital_triangulation(self.seeds, **self.where, progress=progress)
         verify_digital_triangulation(found, self.seeds, **self.where)
 
     def stats(self) -> dict[str, Any]:
@@ -97,9 +98,8 @@ class RepairedProducts(DigitalProducts):
 
     repair: DigitalRepair
 
-    def _triangulate(self, points: PointSet | SeedSet) -> AnyTriangulation:
+    def _triangulate(self, points: PointSet | SeedSet, progress: Progress) -> AnyTriangulation:
         o = self.options
-        progress = self.run.progress("triangulating")
         mesh, self.repair = repair_digital(
             self.seeds, **self.where, strict=o.strict, max_pixels=o.max_pixels, progress=progress
         )
@@ -110,9 +110,9 @@ class RepairedProducts(DigitalProducts):
     def _shape(self) -> str:
         return MeshProducts._shape(self)
 
-    def verify(self) -> None:
+    def verify(self, progress: Progress) -> None:
         """Check the triangulation exactly, once more."""
-        MeshProducts.verify(self)
+        MeshProducts.verify(self, progress)
 
     def stats(self) -> dict[str, Any]:
         """Counts, and what each step of the repair did."""

@@ -7,20 +7,23 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import cached_property
-from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import Kind, Message, RepairWarning, VorotoolWarning
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import EXTERIOR, Skeleton
+from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.names import DERIVED
+from vorotool.jobs.options import Place, SkeletonOptions
 from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.pruning_choice import CRITERIA, Pruning, chosen_pruning
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeleton_extras import Derived
+from vorotool.jobs.skeleton_input import read_polygons
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units
 from vorotool.products.formats import PICTURES
@@ -33,27 +36,28 @@ if TYPE_CHECKING:
     from vorotool.geometry.skeleton.centerline import Centerlines
     from vorotool.render.canvas.layers import Page
 
-Place = tuple[float, float]
+Options = TypeVar("Options", bound=SkeletonOptions)
 
 
-class SkeletonProducts(ABC):
+class SkeletonProducts(ABC, Generic[Options]):
     """Results of one skeleton, however it is made.
 
     Parameters
     ----------
-    polygons : PolygonSet
-        Of what.
-    options : namespace
-        Options of the command line.
     run : Run
         Takes notes and seconds.
+    options : SkeletonOptions
+        Of the command line.
+    given : JobInput
+        With the image that pictures are drawn over.
     """
 
-    def __init__(self, polygons: PolygonSet, options: SimpleNamespace, run: Run) -> None:
-        self._polygons = polygons
+    def __init__(self, run: Run, options: Options, given: JobInput) -> None:
+        self.run, self.options, self.backdrop = run, options, given.backdrop
+        with run.phase("read"):
+            self._polygons, self.is_mask = read_polygons(run, options, given)
         self._is_told = False  # what was repaired, once
-        self.options, self.run = options, run
-        self.derived = Derived(options, run, lambda: self.skeleton, self._shapes)
+        self.derived = Derived(run, options, self.backdrop, lambda: self.skeleton, self._shapes)
 
     @contextmanager
     def telling_once(self) -> Iterator[None]:
@@ -64,11 +68,6 @@ class SkeletonProducts(ABC):
             yield
         self._is_told = True
 
-    @property
-    def wants_skeleton(self) -> bool:
-        """Whether a result shows anything of the skeleton: offset curves are of the whole diagram."""
-        return bool(set(self.options.what) != {"offset"})
-
     @cached_property
     def whole(self) -> Skeleton:
         """Of the side that is asked for, before it is pruned."""
@@ -78,7 +77,7 @@ class SkeletonProducts(ABC):
     @cached_property
     def pruning(self) -> Pruning:
         """What is removed."""
-        return chosen_pruning(self.options.prune, is_mask=self.options.is_mask)
+        return chosen_pruning(self.options.prune, is_mask=self.is_mask)
 
     @cached_property
     def skeleton(self) -> Skeleton:
@@ -89,8 +88,8 @@ class SkeletonProducts(ABC):
 
         whole = self.whole
         threshold: dict[str, Any] = {self.pruning.criterion: self.pruning.threshold}
-        with self.run.phase("prune"):
-            return prune(whole, **threshold, threads=self.options.threads, progress=self.run.progress("pruning"))
+        with self.run.phase("prune") as progress:
+            return prune(whole, **threshold, threads=self.options.threads, progress=progress)
 
     @cached_property
     def centerlines(self) -> Centerlines:
@@ -110,9 +109,8 @@ class SkeletonProducts(ABC):
         from vorotool.engines.centerlines.centerline import centerline
 
         skeleton = self.skeleton
-        with self.run.phase("centerline"):
-            ends: Any = self.options.ends or "middle"
-            return centerline(skeleton, start=start, end=end, ends=ends, progress=self.run.progress("centerlines"))
+        with self.run.phase("centerline") as progress:
+            return centerline(skeleton, start=start, end=end, ends=self.options.ends or "middle", progress=progress)
 
     @cached_property
     def diagram(self) -> Skeleton:
@@ -139,8 +137,8 @@ class SkeletonProducts(ABC):
         """The exact diagram of the shapes."""
         from vorotool.engines.skeleton.exact import diagram_of_graph
 
-        with self.run.phase("diagram"):
-            return diagram_of_graph(self.graph, threads=self.options.threads, progress=self.run.progress("diagram"))
+        with self.run.phase("diagram") as progress:
+            return diagram_of_graph(self.graph, threads=self.options.threads, progress=progress)
 
     def _points(self, what: str) -> NDArray[np.float64] | None:
         """What pictures of a result show as points, if not the ends of edges."""
@@ -151,19 +149,19 @@ class SkeletonProducts(ABC):
         """What pictures show beside an approximate skeleton."""
         return None
 
-    def verify(self) -> None:
+    def verify(self, progress: Progress) -> None:
         """Check the diagram and the skeleton, from their arrays alone, and what pruning left of it."""
-        self.derived.verify()
-        if not self.wants_skeleton:
+        self.derived.verify(progress)
+        if not self.options.wants_skeleton:
             return
-        self._verify_whole()
+        self._verify_whole(progress)
         if self.pruning.criterion is not None:
             from vorotool.engines.pruning.verify_pruning import verify_pruning
 
             verify_pruning(self.skeleton, self.whole)
 
     @abstractmethod
-    def _verify_whole(self) -> None: ...
+    def _verify_whole(self, progress: Progress) -> None: ...
 
     def _value(self, what: str) -> Skeleton:
         if what == "centerline":
@@ -210,45 +208,46 @@ class SkeletonProducts(ABC):
             self._written(target.what),
             PRODUCTS["skeleton-exact"][target.what],
             target.fmt,
-            flatten=length_in_units(o, o.flatten),
+            flatten=length_in_units(o.pixel_size, o.flatten),
             precision=o.precision,
             threads=o.threads,
         )
 
     def _written(self, what: str) -> Any:
         """What a result is written from, in the units of files: the table tells of centerlines, too."""
-        o = self.options
+        size = self.options.pixel_size
         if what in DERIVED:
-            return in_units(o, self.derived.value(what))
+            return in_units(size, self.derived.value(what))
         if what == "centerline":
-            return in_units(o, self.centerlines)
-        value = in_units(o, self._value(what))
+            return in_units(size, self.centerlines)
+        value = in_units(size, self._value(what))
         if what != "table":
             return value
         from vorotool.geometry.skeleton.centerline import centerline_columns
         from vorotool.geometry.skeleton.tables import polygon_table
 
-        return polygon_table(value, columns=centerline_columns(in_units(o, self._longest)), threads=o.threads)
+        columns = centerline_columns(in_units(size, self._longest))
+        return polygon_table(value, columns=columns, threads=self.options.threads)
 
     def _write_html(self, out: BinaryIO) -> None:
         """A page of all prunings, which begins with that which is asked for."""
         from vorotool.engines.pruning.pruning import arc_profiles, critical_values
         from vorotool.render.pages.skeleton_html import write_skeleton_html
 
-        whole, (_, criterion, threshold) = in_units(self.options, self.whole), self.pruning
+        whole, (_, criterion, threshold) = in_units(self.options.pixel_size, self.whole), self.pruning
         values = [critical_values(whole, name) for name in CRITERIA]
         shown = None
         if criterion is not None:
             is_length = criterion in ("chord", "length")
-            shown = (criterion, length_in_units(self.options, threshold) if is_length else threshold)
+            shown = (criterion, length_in_units(self.options.pixel_size, threshold) if is_length else threshold)
         write_skeleton_html(out, whole, values, arc_profiles(whole), shown=shown, y_up=self.options.y_up)
 
     def _page(self, value: Skeleton) -> Page:
         from vorotool.render.canvas.layers import ImagePage
         from vorotool.render.layers.skeleton import skeleton_page
 
-        if self.options.backdrop is not None:
-            return ImagePage(self.options.backdrop)
+        if self.backdrop is not None:
+            return ImagePage(self.backdrop)
         return skeleton_page(value, width=self.options.width or 1000, y_up=self.options.y_up)
 
     def _write_picture(self, out: BinaryIO, target: Target) -> None:
@@ -267,7 +266,7 @@ class SkeletonProducts(ABC):
     def _layers(self, what: str) -> Sequence[str]:
         """Layers of a picture: over an image the shapes are to be seen already."""
         usual = PRODUCTS["skeleton-exact"][what].usual_layers
-        if self.options.layers is not None or self.options.backdrop is None:
+        if self.options.layers is not None or self.backdrop is None:
             return self.options.layers or usual
         return [layer for layer in usual if layer != "polygons"]
 
@@ -279,9 +278,9 @@ class SkeletonProducts(ABC):
             "side": self.options.side,
             "threads": self.options.threads,
         }
-        if self.options.is_mask:
+        if self.is_mask:
             found |= {"outline": self.options.outline or "crack", "connectivity": int(self.options.connectivity or 8)}
-        if self.wants_skeleton:
+        if self.options.wants_skeleton:
             found |= self._skeleton_stats(self.skeleton)
         return found | self.derived.stats()
 

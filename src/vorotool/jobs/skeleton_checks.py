@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-
 from vorotool.errors import UsageError
+from vorotool.jobs.options import ApproximateSkeletonOptions, ExactSkeletonOptions, SkeletonOptions
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
 from vorotool.products.formats import FORMATS, PICTURES
 from vorotool.products.registry import PRODUCTS, formats_of, layers_of
 
 
-def check_options(o: SimpleNamespace, targets: list[Target]) -> None:
+def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
     """Refuse what does not go together, or what no output would show."""
     formats = {target.fmt for target in targets}
     products = PRODUCTS[_command(o)]
@@ -45,11 +44,11 @@ def _check_frame(frame: tuple[float, ...]) -> None:
         raise UsageError(f"--frame goes too far to compute with: use numbers of at most {LARGEST:g}")
 
 
-def _command(o: SimpleNamespace) -> str:
-    return "skeleton-approx" if hasattr(o, "compare") else "skeleton-exact"
+def _command(o: SkeletonOptions) -> str:
+    return "skeleton-approx" if isinstance(o, ApproximateSkeletonOptions) else "skeleton-exact"
 
 
-def _check_layers(o: SimpleNamespace, targets: list[Target]) -> None:
+def _check_layers(o: SkeletonOptions, targets: list[Target]) -> None:
     """Each picture has each of the layers."""
     for target in (target for target in targets if target.fmt in PICTURES):
         own = PRODUCTS[_command(o)][target.what].layers[target.fmt]
@@ -60,7 +59,7 @@ def _check_layers(o: SimpleNamespace, targets: list[Target]) -> None:
             )
 
 
-def _check_centerline(o: SimpleNamespace) -> None:
+def _check_centerline(o: SkeletonOptions) -> None:
     if "centerline" in o.what and o.side == "exterior":
         raise UsageError("centerlines are inside polygons: use --side interior or both")
     if o.ends is not None and not {"centerline", "table"} & set(o.what):
@@ -71,7 +70,7 @@ def _check_centerline(o: SimpleNamespace) -> None:
         raise UsageError("--from and --to are ends of centerlines: use --what centerline, or leave them out")
 
 
-def _check_measures(o: SimpleNamespace) -> None:
+def _check_measures(o: SkeletonOptions) -> None:
     """Distances and steps are there where they are needed, and only there."""
     for name, value, users in (("-d", o.distance, {"offset"}), ("--every", o.every, {"points", "transects"})):
         wanted = users & set(o.what)
@@ -82,11 +81,11 @@ def _check_measures(o: SimpleNamespace) -> None:
             raise UsageError(f"{name} is for other results: use {what}, or leave it out")
 
 
-def _check_shapes(o: SimpleNamespace) -> None:
+def _check_shapes(o: SkeletonOptions) -> None:
     """Shapes are rebuilt from what is inside them; offset curves are of the shapes, whatever the skeleton is."""
     if "shape" in o.what and o.side == "exterior":
         raise UsageError("shapes are rebuilt from inside: use --side interior or both")
-    has_gap = bool(getattr(o, "gap", None))
+    has_gap = isinstance(o, ExactSkeletonOptions) and o.gap > 0
     if "shape" in o.what and has_gap:
         raise UsageError("a skeleton with a gap leaves the corners out: use --what shape without --gap")
     given = {"--side": o.side != "interior", "--prune": o.prune is not None, "--gap": has_gap}

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
-from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 from vorotool.engines.delaunay.cells import cell_colours, verify_cells, voronoi_cells
 from vorotool.engines.delaunay.delaunay import delaunay, verify_triangulation
 from vorotool.engines.delaunay.site_table import site_table
 from vorotool.errors import Kind, Message
+from vorotool.formats.io.sources import reading
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.progress import Progress
+from vorotool.jobs.inputs import JobInput, read_clip, read_sites
+from vorotool.jobs.options import Rectangle, TriangulationOptions
 from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
@@ -23,8 +25,40 @@ from vorotool.products.registry import PRODUCTS
 from vorotool.products.writing import write_product
 
 if TYPE_CHECKING:
+    from vorotool.geometry.box import Box
     from vorotool.geometry.mesh.cells import CellSet
     from vorotool.render.canvas.layers import Layer, Page
+
+
+class ReadPoints(NamedTuple):
+    """What is triangulated, and what its cells are clipped to.
+
+    Parameters
+    ----------
+    points : PointSet or SeedSet
+        Of the input.
+    clip : sequence of shapely geometry, optional
+        The polygons of ``--clip``.
+    """
+
+    points: PointSet | SeedSet
+    clip: Sequence[Any] | None
+
+
+def products(run: Run, o: TriangulationOptions, given: JobInput) -> MeshProducts:
+    """Read points, or find those of an image, and triangulate them."""
+    is_digital = o.triangulated_by != "exact"
+    with run.phase("read"):
+        properties = bool({"table", "cells"} & set(o.what))
+        read = ReadPoints(read_sites(run, o, given, properties=properties, is_digital=is_digital), None)
+    if o.clip is not None:
+        with reading(o.clip), run.phase("read polygons"):
+            read = ReadPoints(*read_clip(run, o.clip, read.points, given, threads=o.threads))
+    if not is_digital:
+        return MeshProducts(run, o, given, read)
+    from vorotool.jobs.digital_triangulation import DigitalProducts, RepairedProducts
+
+    return (RepairedProducts if o.triangulated_by == "digital-valid" else DigitalProducts)(run, o, given, read)
 
 
 class MeshProducts:
@@ -32,27 +66,31 @@ class MeshProducts:
 
     Parameters
     ----------
-    points : PointSet or SeedSet
-        What to triangulate.
-    options : namespace
-        Options of the command line.
     run : Run
         Takes notes and seconds.
+    options : TriangulationOptions
+        Of the command line.
+    given : JobInput
+        With the image that pictures are drawn over.
+    read : ReadPoints
+        What was read of it.
     """
 
-    def __init__(self, points: PointSet | SeedSet, options: SimpleNamespace, run: Run) -> None:
-        self.options, self.run = options, run
+    def __init__(self, run: Run, options: TriangulationOptions, given: JobInput, read: ReadPoints) -> None:
+        self.run, self.options = run, options
+        self.backdrop, self.clip = given.backdrop, read.clip
+        self._cells: CellSet | None = None
+        points = read.points
         if self.wants_mesh:
-            with run.phase("triangulate"):
-                self.mesh: Any = self._triangulate(points)
+            with run.phase("triangulate") as progress:
+                self.mesh: Any = self._triangulate(points, progress)
 
     @property
     def wants_mesh(self) -> bool:
         """Whether a result shows the triangulation itself."""
-        return bool(self.options.what != ("compare",))
+        return self.options.what != ("compare",)
 
-    def _triangulate(self, points: PointSet | SeedSet) -> AnyTriangulation:
-        progress = self.run.progress("triangulating")
+    def _triangulate(self, points: PointSet | SeedSet, progress: Progress) -> AnyTriangulation:
         return delaunay(points, strict=self.options.strict, threads=self.options.threads, progress=progress)
 
     def check(self, target: Target) -> None:
@@ -88,22 +126,26 @@ class MeshProducts:
         """What a result is written from, in the units of files: the table tells of cells, too."""
         if what == "table" and fmt != "node":
             table = site_table(self.mesh, self.cells, threads=self.options.threads)
-            return table_in_units(self.options, table, properties=self.mesh.properties)
-        return in_units(self.options, self.cells if what == "cells" else self.mesh)
+            return table_in_units(self.options.pixel_size, table, properties=self.mesh.properties)
+        return in_units(self.options.pixel_size, self.cells if what == "cells" else self.mesh)
 
-    @cached_property
+    @property
     def cells(self) -> CellSet:
-        """The Voronoi cells of the points, clipped."""
-        with self.run.phase("cells"):
-            return self._cells_in(self.options.frame, clip=self.options.clip)
+        """The Voronoi cells of the points, clipped; they are made once."""
+        if self._cells is None:
+            with self.run.phase("cells") as progress:
+                self._cells = self._cells_in(self.options.frame, progress, clip=self.clip)
+        return self._cells
 
-    def _cells_in(self, frame: Any, *, clip: Any = None) -> CellSet:
+    def _cells_in(
+        self, frame: Box | Rectangle | None, progress: Progress, *, clip: Sequence[Any] | None = None
+    ) -> CellSet:
         return voronoi_cells(
             self.mesh,
             frame=frame,
             clip=clip,
             threads=self.options.threads,
-            progress=self.run.progress("making cells"),
+            progress=progress,
         )
 
     def _layers(self, what: str) -> Sequence[str]:
@@ -114,8 +156,8 @@ class MeshProducts:
         from vorotool.render.canvas.layers import ImagePage
         from vorotool.render.layers.mesh import mesh_page
 
-        if self.options.backdrop is not None:
-            return ImagePage(self.options.backdrop)
+        if self.backdrop is not None:
+            return ImagePage(self.backdrop)
         bounds = self.cells.frame.sides if {"cells", "diagram"} & set(self._layers(what)) else None
         return mesh_page(self.mesh, width=self.options.width or 1000, y_up=self.options.y_up, bounds=bounds)
 
@@ -133,20 +175,19 @@ class MeshProducts:
         layers = [made[name] for name in PRODUCTS["delaunay"][what].layers[fmt] if name in made]
         write_layers(out, layers, page, fmt=fmt, threads=self.options.threads)
 
-    def verify(self) -> None:
+    def verify(self, progress: Progress) -> None:
         """Check the triangulation exactly, from its arrays alone; and cells before they are clipped to polygons."""
-        progress = self.run.progress("verifying")
         verify_triangulation(self.mesh, threads=self.options.threads, progress=progress)
         if {"cells", "table"} & set(self.options.what):
-            cells = self.cells if self.options.clip is None else self._cells_in(self.cells.frame)
+            cells = self.cells if self.clip is None else self._cells_in(self.cells.frame, progress)
             verify_cells(cells, threads=self.options.threads, progress=progress)
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""
         mesh = self.mesh
         cells: dict[str, Any] = {}
-        if "cells" in self.__dict__:
-            cells = {"frame": self.cells.frame.extent, "empty_cells": int(self.cells.is_empty.sum())}
+        if self._cells is not None:
+            cells = {"frame": self._cells.frame.extent, "empty_cells": int(self._cells.is_empty.sum())}
         return {
             **cells,
             "points": len(mesh.points),

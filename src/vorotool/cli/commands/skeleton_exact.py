@@ -2,30 +2,26 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from vorotool.cli.commands.skeletons import run_skeletons
+from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.skeleton import Length, skeleton_options
 from vorotool.errors import UsageError
+from vorotool.jobs.inputs import JobInput
+from vorotool.jobs.job import Recipe
+from vorotool.jobs.options import ExactSkeletonOptions
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.skeleton_checks import check_options
+from vorotool.products.registry import formats_of
 
 if TYPE_CHECKING:
-    from vorotool.geometry.polygons.polygon_set import PolygonSet
     from vorotool.jobs.exact_skeleton import ExactProducts
-    from vorotool.jobs.run_log import Run
 
 
 @click.command("skeleton-exact")
 @skeleton_options(
-    click.option(
-        "--features",
-        type=click.Choice(["separate", "together"]),
-        default="separate",
-        help="Take each feature as if there were no others, whatever lies in it or over it (default), or all as one "
-        "drawing.",
-    ),
     click.option(
         "--gap",
         type=Length(zero=True),
@@ -52,13 +48,16 @@ def command(**options: Any) -> None:
     Voronoi diagram of vertices and open edges, the edges between an edge and its own end are left out. What is drawn
     inside polygons comes first, polygon by polygon; arcs of a branch follow each other.
     """
-    o = SimpleNamespace(**options)
+    o = ExactSkeletonOptions(**options)
     if o.complete is not None and not o.gap:
         raise UsageError("nothing is missing without a gap: use --gap STEP, or leave --complete out")
-    run_skeletons("skeleton-exact", o, _products)
+    run_command(RECIPE, o)
 
 
-def _products(polygons: PolygonSet, o: SimpleNamespace, run: Run) -> ExactProducts:
+def _products(run: Run, o: ExactSkeletonOptions, given: JobInput) -> ExactProducts:
     from vorotool.jobs.exact_skeleton import ExactProducts
 
-    return ExactProducts(polygons, o, run)
+    return ExactProducts(run, o, given)
+
+
+RECIPE = Recipe("skeleton-exact", formats_of("skeleton-exact"), check_options, _products, "polygons")

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import owners, ranges, starts_of
 
 Indices = NDArray[np.int64]

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.common.faults import fail, first_wrong
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.sampled_skeleton.approximate import ApproximateSkeleton
 from vorotool.engines.sampled_skeleton.hausdorff import distances_to, exact_skeleton, places_on_arcs, widened
 from vorotool.engines.skeleton.verify_skeleton import check_arrays, check_branches
@@ -18,6 +17,7 @@ from vorotool.errors import VorotoolWarning
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.polygons.conversion import to_shapely
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import owners
 from vorotool.geometry.skeleton.boundary_samples import BoundarySamples
 from vorotool.geometry.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton

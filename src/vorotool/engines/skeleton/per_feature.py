@@ -9,12 +9,12 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.features.batches import BatchShapes, FeatureShapes, in_batches
 from vorotool.engines.features.order import InputOrder, Places, stacked
 from vorotool.engines.segment_voronoi.segment_voronoi import NEITHER, segment_voronoi
 from vorotool.engines.skeleton.exact import ShapeDiagram, interior_skeleton, sides_not_interior, warn_empty
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import starts_of
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
@@ -43,7 +43,7 @@ class FeatureSkeleton(Generic[Seen]):
 def feature_skeleton(
     polygons: PolygonSet,
     *,
-    look: Callable[[ShapeDiagram], Seen] | None = None,
+    look: Callable[[ShapeDiagram, Skeleton], Seen] | None = None,
     strict: bool = False,
     threads: int = 0,
     progress: Progress = None,
@@ -55,7 +55,7 @@ def feature_skeleton(
     polygons : PolygonSet
         What `PolygonSet.feature` is the same of is one feature, and has one skeleton.
     look : callable, optional
-        Called with the whole diagram of each batch, which otherwise has no vertices outside.
+        Called with the whole diagram of each batch, which otherwise has no vertices outside, and its skeleton.
     strict, threads, progress
         As of `vorotool.skeleton_exact`, as are errors and warnings.
 
@@ -70,8 +70,8 @@ def feature_skeleton(
 
     def work(shapes: BatchShapes, threads: int, poll: Progress) -> tuple[Skeleton, list[Seen]]:
         diagram = batch_diagram(shapes, is_whole=look is not None, threads=threads, progress=poll)
-        seen = [] if look is None else [look(diagram)]
-        return _without_beyond(interior_skeleton(diagram, threads=threads, progress=poll), shapes), seen
+        made = interior_skeleton(diagram, threads=threads, progress=poll)
+        return _without_beyond(made, shapes), [] if look is None else [look(diagram, made)]
 
     whole, made = in_batches(polygons, work, strict=strict, threads=threads, progress=progress)
     if not whole.polygon_count:

@@ -6,9 +6,9 @@ import numpy as np
 
 from vorotool import _core
 from vorotool.engines.common.faults import fail, first_wrong
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.skeleton.site_distances import Floats, SitePlaces
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
 _INSIDE = (0.25, 0.5, 0.75)
