@@ -13,6 +13,7 @@ import click
 
 from vorotool import __version__
 from vorotool.cli.main import COMMANDS, vorotool
+from vorotool.cli.options.help_page import GroupedCommand
 
 FOLDER = Path(__file__).parents[1] / "man/man1"
 
@@ -80,12 +81,19 @@ def description(text: str) -> Iterator[str]:
 
 
 def options(command: click.Command, context: click.Context) -> Iterator[str]:
-    """Each option with its value, and what it is for."""
-    for parameter in command.get_params(context):
-        record = parameter.get_help_record(context) if isinstance(parameter, click.Option) else None
-        if record is not None:
-            names, text = record
-            yield from (".TP", " ".join(map(bold, names.split(" "))), quoted(text))
+    """Each option with its value, and what it is for, in the groups of the help."""
+    if isinstance(command, GroupedCommand):
+        for title, rows in command.grouped(context).items():
+            yield from (f".SS {title}", *listed(rows))
+    else:
+        records = (parameter.get_help_record(context) for parameter in command.get_params(context))
+        yield from listed([record for record in records if record is not None and record[0].startswith("-")])
+
+
+def listed(rows: list[tuple[str, str]]) -> Iterator[str]:
+    """Paragraphs of options."""
+    for names, text in rows:
+        yield from (".TP", " ".join(map(bold, names.split(" "))), quoted(text))
 
 
 def bold(word: str) -> str:

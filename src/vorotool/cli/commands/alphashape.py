@@ -9,6 +9,7 @@ import click
 
 from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.groups import site_options
+from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.shared import (
     Decimal,
     Names,
@@ -36,7 +37,7 @@ OF_DIGITAL_RULE = frozenset({"edges", "complex", "family", "spectrum"})
 """Results that need no more than edges and the triangles beside them."""
 
 
-@click.command("alphashape")
+@click.command("alphashape", cls=GroupedCommand)
 @inputs_argument(NAMES_WITH["points"])
 @click.option("-r", "r", type=Radius(), help="Radius, in units of the input; inf gives the convex hull.")
 @click.option("--alpha", type=Decimal(), metavar="A", help="The paper's α = −1/r, negative.")
@@ -47,7 +48,7 @@ OF_DIGITAL_RULE = frozenset({"edges", "complex", "family", "spectrum"})
               f"commas. By default edges; polygons for {_OF_POLYGONS}.")  # fmt: skip
 @click.option(
     "--rule",
-    type=click.Choice(["corrected", "printed"]),
+    type=click.Choice(["corrected", "printed"], case_sensitive=False),
     default="corrected",
     show_default=True,
     help="printed: r_min and open intervals to the letter of the paper.",
@@ -56,7 +57,7 @@ OF_DIGITAL_RULE = frozenset({"edges", "complex", "family", "spectrum"})
 @click.option("--region-threshold", type=Decimal(), metavar="AREA", help="Then leave out regions of at most this area.")
 @click.option(
     "--method",
-    type=click.Choice(METHODS),
+    type=click.Choice(METHODS, case_sensitive=False),
     default="exact",
     show_default=True,
     help="How points are triangulated, as in delaunay.",

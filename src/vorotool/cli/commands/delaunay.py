@@ -8,6 +8,7 @@ import click
 
 from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.groups import site_options
+from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.shared import (
     Rectangle,
     inputs_argument,
@@ -36,13 +37,13 @@ OF_TRIANGULATIONS = frozenset(
 """Results and formats that what the digital rule finds has no place in."""
 
 
-@click.command("delaunay")
+@click.command("delaunay", cls=GroupedCommand)
 @inputs_argument(NAMES_WITH["points"])
 @output_options(FORMATS)
 @what_option(tuple(FORMATS))
 @click.option(
     "--method",
-    type=click.Choice(METHODS),
+    type=click.Choice(METHODS, case_sensitive=False),
     default="exact",
     show_default=True,
     help="digital: the paper's rule, to the letter, on the digital tessellation of a frame; digital-valid: its "

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from vorotool.cli.batch.dispatch import run_command
+from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.shared import batch_options, inputs_argument, layers_option, output_options, shared
 from vorotool.formats.parsing.format_names import DRAWN_NAMES
 from vorotool.jobs.inputs import JobInput
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 FORMATS = formats_of("draw")
 
 
-@click.command("draw")
+@click.command("draw", cls=GroupedCommand)
 @inputs_argument(DRAWN_NAMES)
 @output_options(FORMATS)
 @shared("input-format", "page")

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from vorotool.cli.batch.dispatch import run_command
+from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.skeleton import Length, skeleton_options
 from vorotool.errors import UsageError
 from vorotool.jobs.inputs import JobInput
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from vorotool.jobs.approximate_skeleton import ApproximateProducts
 
 
-@click.command("skeleton-approx")
+@click.command("skeleton-approx", cls=GroupedCommand)
 @skeleton_options(
     click.option("--step", type=Length(zero=False), metavar="H", help="Sample the edges at this distance."),
     click.option(
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
     ),
     click.option(
         "--sampling",
-        type=click.Choice(["paper", "symmetric"]),
+        type=click.Choice(["paper", "symmetric"], case_sensitive=False),
         help="From the first end of each edge (default with --step), or from both ends alike (with --tolerance).",
     ),
     click.option(

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from vorotool.cli.batch.dispatch import run_command
+from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.skeleton import Length, skeleton_options
 from vorotool.errors import UsageError
 from vorotool.jobs.inputs import JobInput
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from vorotool.jobs.exact_skeleton import ExactProducts
 
 
-@click.command("skeleton-exact")
+@click.command("skeleton-exact", cls=GroupedCommand)
 @skeleton_options(
     click.option(
         "--gap",

@@ -8,6 +8,7 @@ import click
 
 from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.groups import site_options
+from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.shared import (
     Decimal,
     Size,
@@ -32,25 +33,27 @@ FORMATS = formats_of("tessellate")
 _PICTURES = {(what, fmt) for what, each in PRODUCTS["tessellate"].items() for fmt in each.layers}
 
 
-@click.command("tessellate")
+@click.command("tessellate", cls=GroupedCommand)
 @inputs_argument(NAMES_WITH["points"])
 @output_options(FORMATS)
 @what_option(tuple(FORMATS))
 @click.option(
     "--method",
-    type=click.Choice(["exact", "propagation"]),
+    type=click.Choice(["exact", "propagation"], case_sensitive=False),
     default="exact",
     show_default=True,
     help="propagation: the paper's two passes to the letter, nearly exact.",
 )
-@click.option("--passes", type=click.IntRange(1, 2), help="Passes of the propagation; by default 2.")
+@click.option("--passes", type=click.IntRange(1, 2), metavar="N", help="Passes of the propagation; by default 2.")
 @click.option(
     "--max-distance",
     type=Decimal(),
-    help="Label pixels up to this distance from a seed; beyond: 0. Distances stay whole.",
+    help="Label only pixels within this distance of a seed: others get 0; distances are not cut.",
 )
 @click.option(
-    "--dtype", type=click.Choice(["uint8", "uint16", "uint32", "int32"]), help="Type of labels in TIFF, NPY, Zarr."
+    "--dtype",
+    type=click.Choice(["uint8", "uint16", "uint32", "int32"], case_sensitive=False),
+    help="Type of labels in TIFF, NPY, Zarr.",
 )
 @click.option(
     "--chunk",

@@ -19,3 +19,7 @@ else:
         def __class_getitem__(cls, converted: Any) -> type[ParameterType]:
             """Give the class itself: what it converts to is for readers and type checkers."""
             return cls
+
+        def get_metavar(self, param: click.Parameter, ctx: click.Context | None = None) -> str:
+            """Give the name as it is written: ``WxH``, not ``WXH``."""
+            return self.name

@@ -168,7 +168,8 @@ class Names(ParameterType[tuple[str, ...]]):
         """Split, accept both spellings, refuse what is not in the list."""
         if isinstance(value, tuple):
             return value
-        names = tuple(SPELLINGS.get(name.strip(), name.strip()) for name in value.split(","))
+        given = (name.strip().lower() for name in value.split(","))
+        names = tuple(SPELLINGS.get(name, name) for name in given)
         for name in names:
             if name not in self.choices:
                 self.fail(f"{name!r} is not one of {', '.join(self.choices)}", param, ctx)
@@ -212,7 +213,9 @@ OPTIONS: dict[str, Decorator] = {
         help="Folder for outputs named after the inputs.",
         shell_complete=folders,
     ),
-    "jobs": click.option("-j", "--jobs", type=click.IntRange(0, 1024), help="Worker processes; 0 uses all cores."),
+    "jobs": click.option(
+        "-j", "--jobs", type=click.IntRange(0, 1024), metavar="N", help="Worker processes; 0 uses all cores."
+    ),
     "table": click.option(
         "--table",
         metavar="FILE",
@@ -234,10 +237,15 @@ OPTIONS: dict[str, Decorator] = {
         "--cluster", metavar="ADDRESS|local", help="Work on a Dask cluster.", shell_complete=words(("local",))
     ),
     "threads": click.option(
-        "--threads", type=click.IntRange(0, 1024), default=0, show_default=True, help="Threads; 0 uses all."
+        "--threads",
+        type=click.IntRange(0, 1024),
+        metavar="N",
+        default=0,
+        show_default=True,
+        help="Threads; 0 uses all.",
     ),
-    "quiet": click.option("-q", "--quiet", is_flag=True, help="No notes, warnings or progress."),
-    "verbose": click.option("-v", "--verbose", is_flag=True, help="Say what takes how long."),
+    "quiet": click.option("-q", "--quiet", is_flag=True, help="Print no notes, warnings or progress."),
+    "verbose": click.option("-v", "--verbose", is_flag=True, help="Report the time of each phase."),
     "stats": click.option(
         "--stats",
         metavar="FILE|-",
@@ -247,17 +255,26 @@ OPTIONS: dict[str, Decorator] = {
     "verify": click.option("--verify", is_flag=True, help="Check the result independently; exit 1 if it is wrong."),
     "strict": click.option("--strict", is_flag=True, help="Refuse what would be repaired or snapped."),
     "precision": click.option(
-        "--precision", type=click.IntRange(1, 17), help="Significant digits; by default the shortest that round-trips."
+        "--precision",
+        type=click.IntRange(1, 17),
+        metavar="N",
+        help="Significant digits; by default the shortest that round-trips.",
     ),
     "max-pixels": click.option(
-        "--max-pixels", type=click.IntRange(min=1), default=2**31, show_default=True, help="Most pixels in memory."
+        "--max-pixels",
+        type=click.IntRange(min=1),
+        metavar="N",
+        default=2**31,
+        show_default=True,
+        help="Maximum number of pixels held in memory.",
     ),
     "max-sites": click.option(
         "--max-sites",
         type=click.IntRange(min=1),
+        metavar="N",
         default=2**31 - 1,
         show_default=True,
-        help="Most seeds, samples or vertices.",
+        help="Maximum number of seeds, samples or vertices.",
     ),
     "no-clobber": click.option("--no-clobber", is_flag=True, help="Refuse to replace an existing file."),
     "safe-csv": click.option(
@@ -276,11 +293,13 @@ OPTIONS: dict[str, Decorator] = {
     "page": click.option("--page", type=click.IntRange(min=0), metavar="N", help="Page of an image stack, from 0."),
     "seeds": click.option(
         "--seeds",
-        type=click.Choice(["pixels", "components", "labels", "centroids"]),
+        type=click.Choice(["pixels", "components", "labels", "centroids"], case_sensitive=False),
         help="What an image's seeds are; by default components of a mask (0, and 1 or 255 or all bits), else labels.",
     ),
     "connectivity": click.option(
-        "--connectivity", type=click.Choice(["8", "4"]), help="Of the components of an image; by default 8."
+        "--connectivity",
+        type=click.Choice(["8", "4"], case_sensitive=False),
+        help="Connectivity of the components of an image; by default 8.",
     ),
     "threshold": click.option("--threshold", type=Threshold(), help="Foreground is what is brighter than this."),
     "invert": click.option("--invert", is_flag=True, help="Exchange foreground and background."),
@@ -289,6 +308,7 @@ OPTIONS: dict[str, Decorator] = {
     "width": click.option(
         "--width",
         type=click.IntRange(16, 2**31 - 1),
+        metavar="PIXELS",
         help="Pixels across a picture that is not the size of an image; by default 1000.",
     ),
     "overlay": click.option(

@@ -76,18 +76,18 @@ _BEFORE: tuple[Decorator, ...] = (
     what_option(tuple(formats_of("skeleton-exact"))),
     click.option(
         "--side",
-        type=click.Choice(["interior", "exterior", "both"]),
+        type=click.Choice(["interior", "exterior", "both"], case_sensitive=False),
         default="interior",
         show_default=True,
         help="Inside polygons, outside all of them, or both.",
     ),
     click.option(
-        "--frame", type=Rectangle(), help="Cuts what is outside; by default the bounds and a tenth around them."
+        "--frame", type=Rectangle(), help="Clip to this rectangle; by default the bounds and a tenth around them."
     ),
     click.option(
         "--prune",
         type=PruningType(),
-        help=f"Remove pieces that hang on the rest and matter less than a threshold: {FORMS}. "
+        help=f"Remove side branches whose significance is below a threshold: {FORMS}. "
         "By default mask for images, none for polygons.",
     ),
     click.option(
@@ -96,13 +96,13 @@ _BEFORE: tuple[Decorator, ...] = (
     click.option("--to", "end", type=Place(), help="End it at the nearest place."),
     click.option(
         "--ends",
-        type=click.Choice(ENDS),
+        type=click.Choice(ENDS, case_sensitive=False),
         help="Where centerlines end: in the middle of the edge that the skeleton forks to (default), in a corner, or "
         "where it forks.",
     ),
     click.option(
         "--features",
-        type=click.Choice(["separate", "together"]),
+        type=click.Choice(["separate", "together"], case_sensitive=False),
         default="separate",
         help="Take each feature as if there were no others, whatever lies in it or over it (default), or all as one "
         "drawing.",
@@ -113,13 +113,13 @@ _READING: tuple[Decorator, ...] = (
         "-d",
         "--distance",
         type=Distances(),
-        help="Of --what offset: above 0 outwards, below 0 inwards; several separated by commas.",
+        help="Distances of --what offset, separated by commas: positive outwards, negative inwards.",
     ),
     click.option(
         "--every",
         type=Length(zero=False),
         metavar="D",
-        help="Of --what points and transects: the step along branches.",
+        help="Step along branches, of --what points and transects.",
     ),
     click.option(
         "--flatten",
@@ -137,12 +137,12 @@ _READING: tuple[Decorator, ...] = (
     shared("input-format", "input-crs", "page"),
     click.option(
         "--outline",
-        type=click.Choice(["crack", "contour"]),
+        type=click.Choice(["crack", "contour"], case_sensitive=False),
         help="Of an image: around pixels (default), or half-way between the centres of pixels.",
     ),
     click.option(
         "--seeds",
-        type=click.Choice(["components", "labels"]),
+        type=click.Choice(["components", "labels"], case_sensitive=False),
         help="What an image's objects are; by default components of a mask (0, and 1 or 255 or all bits), else labels.",
     ),
     shared("connectivity", "threshold", "invert"),

@@ -1,0 +1,90 @@
+"""Help of commands: all options in groups by ``--help``, the common ones by ``-h``."""
+
+from __future__ import annotations
+
+import inspect
+from typing import Any
+
+import click
+
+from vorotool.cli.options.shared import Names
+
+_GROUPS = {
+    "Output": "output format what dtype chunk flatten precision no_properties safe_csv no_clobber",
+    "Method": "method passes max_distance r alpha auto regions rule hole_threshold region_threshold step tolerance "
+    "sampling compare side gap complete features prune start end ends distance every",
+    "Input": "columns input_format input_crs page pixel_size seeds connectivity threshold invert outline simplify",
+    "Frame": "size window frame clip",
+    "Pictures": "layers overlay width y_up",
+    "Many inputs": "out_dir files_from null jobs keep_going dry_run resume shard table cluster",
+    "Checks and resources": "verify strict stats threads max_pixels max_sites quiet verbose",
+}
+GROUPS = {title: names.split() for title, names in _GROUPS.items()}
+"""Names of parameters under the titles of their groups."""
+
+_COMMON = "output format what size r step tolerance side prune distance seeds threshold layers out_dir jobs"
+COMMON = _COMMON.split(" ")
+"""Parameters from which the short page takes the first ten that a command has."""
+
+MOST, MOST_NAMES = 10, 5
+
+
+class GroupedCommand(click.Command):
+    """A command whose ``--help`` has groups, and whose ``-h`` is a short page."""
+
+    def __init__(self, *arguments: Any, **options: Any) -> None:
+        super().__init__(*arguments, **options)
+        self.context_settings = {"help_option_names": ["--help"]}
+        short = click.Option(
+            ["-h", "short_help_page"],
+            is_flag=True,
+            is_eager=True,
+            expose_value=False,
+            help="Show the most common options and exit.",
+            callback=self._show_short,
+        )
+        self.params.append(short)
+
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the options under the titles of their groups."""
+        for title, rows in self.grouped(ctx).items():
+            with formatter.section(title):
+                formatter.write_dl(rows)
+
+    def grouped(self, ctx: click.Context) -> dict[str, list[tuple[str, str]]]:
+        """Options and what they are for, under the titles of their groups."""
+        records = self._records(ctx)
+        groups = {title: [records.pop(name) for name in [*records] if name in names] for title, names in GROUPS.items()}
+        return {title: rows for title, rows in groups.items() if rows} | {"Help": list(records.values())}
+
+    def _records(self, ctx: click.Context) -> dict[str, tuple[str, str]]:
+        """Left and right columns of the options by their names."""
+        options = [param for param in self.get_params(ctx) if isinstance(param, click.Option)]
+        made = ((param.name or "", param.get_help_record(ctx)) for param in options)
+        return {name: record for name, record in made if record is not None}
+
+    def _shortened(self, name: str, record: tuple[str, str]) -> tuple[str, str]:
+        """Name the first of many products only."""
+        kind = next(param.type for param in self.params if param.name == name)
+        if name != "what" or not isinstance(kind, Names) or len(kind.choices) <= MOST_NAMES:
+            return record
+        first = ", ".join(kind.choices[:MOST_NAMES])
+        return record[0], f"What to write: {first}, and {len(kind.choices) - MOST_NAMES} more."
+
+    def _show_short(self, ctx: click.Context, _param: click.Parameter, value: bool) -> None:
+        if not value or ctx.resilient_parsing:
+            return
+        formatter = ctx.make_formatter()
+        self.format_usage(ctx, formatter)
+        first, example, *_ = inspect.cleandoc(self.help or "").split("\n\n")
+        for text in (first, example):
+            formatter.write_paragraph()
+            with formatter.indentation():
+                formatter.write_text(text)
+        records = self._records(ctx)
+        with formatter.section("Common options"):
+            formatter.write_dl([self._shortened(name, records[name]) for name in COMMON if name in records][:MOST])
+        formatter.write_paragraph()
+        formatter.write_text(f"All options: {ctx.command_path} --help")
+        click.echo(formatter.getvalue().rstrip("\n"), color=ctx.color)
+        ctx.exit()
