@@ -54,8 +54,8 @@ engines/sampled_skeleton -> engines/arrangement, engines/common, engines/feature
 formats -> formats/images, formats/io, formats/parsing, formats/points, formats/polygons, formats/results,
     formats/text, formats/zarr, geometry, geometry/alpha, geometry/mesh, geometry/points, geometry/polygons,
     geometry/skeleton
-engines -> engines/arrangement, engines/common, engines/sampled_skeleton, engines/skeleton, geometry,
-    geometry/polygons, geometry/skeleton
+engines -> engines/common, engines/sampled_skeleton, engines/skeleton, geometry, geometry/polygons,
+    geometry/skeleton
 engines/centerlines -> engines/common, engines/from_skeleton, engines/pruning, geometry, geometry/polygons,
     geometry/skeleton
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
@@ -66,8 +66,7 @@ jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines,
     geometry/skeleton, render/canvas, render/label_images, render/layers, render/pages
 cli/options -> engines/offsets, engines/pruning, formats/parsing, geometry, jobs
 cli/batch -> batch, cli/options, formats/io, formats/parsing, jobs
-cli/commands -> cli/batch, cli/options, engines/alpha, engines/tessellation, formats/parsing, geometry/points,
-    geometry/polygons, jobs
+cli/commands -> cli/batch, cli/options, formats/parsing, jobs
 cli -> cli/commands, jobs
 """
 """Rooms of the package from below, and what each may import; `errors` and `signals` are for all."""

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from typing import Any
 
-from vorotool.engines.arrangement.lattice_rings import placed_shapes
-from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
 from vorotool.engines.common.label_arrays import Progress
-from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, approximate_skeleton, sampled_graph
-from vorotool.engines.sampled_skeleton.per_feature import approximation_of_sides, feature_approximation
-from vorotool.engines.sampled_skeleton.refinement import skeleton_within
-from vorotool.engines.skeleton.both_sides import skeleton_of_sides
-from vorotool.engines.skeleton.exact import Frame, check_features, check_skeleton_options, diagram_of_graph, skeleton_of
-from vorotool.engines.skeleton.feature_elements import skeleton_with_gap
-from vorotool.engines.skeleton.per_feature import feature_skeleton
-from vorotool.engines.skeleton.shortened_edges import element_diagram, skeleton_of_elements
+from vorotool.engines.sampled_skeleton.approximate import SamplingOptions
+from vorotool.engines.sampled_skeleton.per_feature import approximation
+from vorotool.engines.skeleton.diagrams import (
+    diagram_of_all,
+    is_of_single_features,
+    skeleton_in,
+    skeleton_inside,
+)
+from vorotool.engines.skeleton.exact import Frame, check_features, check_skeleton_options
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.magnitude import check_lengths
 from vorotool.geometry.polygons.conversion import as_polygons
@@ -97,21 +96,11 @@ def skeleton_exact(
     check_features(features)
     check_lengths(frame or (), "frame's coordinate")
     given = as_polygons(polygons)
-    common: dict[str, Any] = {"strict": strict, "threads": checked_threads(threads), "progress": progress}
-    if gap and features == "together":
-        elements = element_diagram(given, gap, **common)
-        common.pop("strict")
-        return skeleton_of_elements(elements, side=side, complete=complete, frame=frame, **common)
-    if gap:
-        return skeleton_with_gap(given, gap, side=side, complete=complete, frame=frame, **common)
-    if features == "separate":
-        if side == "interior":
-            return feature_skeleton(given, **common).skeleton
-        return skeleton_of_sides(given, side=side, frame=frame, **common)
-    graph = graph_for_skeletons(given, **common)
-    common.pop("strict")
-    shapes = diagram_of_graph(graph, interior_only=side == "interior", **common)
-    return skeleton_of(shapes, side=side, frame=frame, **common)
+    common: dict[str, Any] = {"threads": checked_threads(threads), "progress": progress}
+    if is_of_single_features(side, features):
+        return skeleton_inside(given, gap, complete=complete, strict=strict, **common).skeleton
+    diagram = diagram_of_all(given, gap, features=features, interior_only=side == "interior", strict=strict, **common)
+    return skeleton_in(diagram, side=side, features=features, complete=complete, frame=frame, **common)
 
 
 def skeleton_approx(
@@ -198,19 +187,14 @@ def skeleton_approx(
     check_features(features)
     check_lengths(frame or (), "frame's coordinate")
     complete = (tolerance is not None) if complete is None else complete
-    common: dict[str, Any] = {"threads": checked_threads(threads), "progress": progress}
-    if features == "separate":
-        given = as_polygons(polygons)
-        if side == "interior":
-            return feature_approximation(given, options, complete=complete, strict=strict, **common).skeleton
-        made = approximation_of_sides(
-            given, options, side=side, frame=frame, complete=complete, strict=strict, **common
-        )
-        return made.skeleton
-    graph = graph_for_skeletons(polygons, strict=strict, **common)
-    placed = placed_shapes(graph, threads=threads)
-    if options.tolerance is not None:
-        shapes = skeleton_within(graph, placed, options.tolerance, side=side, frame=frame, complete=complete, **common)
-        return shapes.skeleton
-    shapes_sampled = sampled_graph(graph, placed, options, **common)
-    return approximate_skeleton(shapes_sampled, side=side, frame=frame, complete=complete, **common).skeleton
+    return approximation(
+        as_polygons(polygons),
+        options,
+        side=side,
+        features=features,
+        complete=complete,
+        frame=frame,
+        strict=strict,
+        threads=checked_threads(threads),
+        progress=progress,
+    ).skeleton

@@ -9,10 +9,15 @@ from decimal import Decimal, localcontext
 from fractions import Fraction
 from functools import cached_property
 from math import inf
-from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, BinaryIO
 
-from vorotool.engines.alpha.alpha_shape import alpha_complex, alpha_curves, alpha_edges, alpha_shape
+from vorotool.engines.alpha.alpha_shape import (
+    alpha_complex,
+    alpha_curves,
+    alpha_edges,
+    alpha_shape,
+    chosen_radius,
+)
 from vorotool.engines.alpha.few_points import unjoined
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.alpha.complex import AlphaComplex, Radius
@@ -22,8 +27,9 @@ from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.table import Table
-from vorotool.jobs.inputs import window_of
+from vorotool.jobs.inputs import JobInput, read_sites, window_of
 from vorotool.jobs.names import OF_ONE_SHAPE
+from vorotool.jobs.options import AlphaShapeOptions
 from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
@@ -44,21 +50,40 @@ DEFAULT_LAYERS = {
 """Layers of the picture of each result."""
 
 
+def products(run: Run, o: AlphaShapeOptions, given: JobInput) -> ShapeProducts:
+    """Read points, or find those of an image, and what their shapes of all radii are made of."""
+    radius = chosen_radius(o.r, o.alpha, o.auto)
+    with run.phase("read"):
+        points = read_sites(run, o, given, properties="points" in o.what, is_digital=o.method != "exact")
+    return ShapeProducts(run, o, given, points, radius)
+
+
 class ShapeProducts:
     """Results of the alpha shapes of one list of points.
 
     Parameters
     ----------
-    points : PointSet or SeedSet
-        The points.
-    options : namespace
-        Options of the command line; ``radius`` is the one asked for, or None.
     run : Run
         Takes notes and seconds.
+    options : AlphaShapeOptions
+        Of the command line.
+    given : JobInput
+        With the image that pictures are drawn over.
+    points : PointSet or SeedSet
+        The points.
+    radius : float or Fraction, optional
+        The one asked for.
     """
 
-    def __init__(self, points: PointSet | SeedSet, options: SimpleNamespace, run: Run) -> None:
-        self.options, self.run = options, run
+    def __init__(
+        self,
+        run: Run,
+        options: AlphaShapeOptions,
+        given: JobInput,
+        points: PointSet | SeedSet,
+        radius: Radius | None,
+    ) -> None:
+        self.run, self.options, self.backdrop, self.radius = run, options, given.backdrop, radius
         self._empty: dict[str, Any] = {"strict": options.strict, "allow_empty": isinstance(points, SeedSet)}
         with run.phase("triangulate"):
             mesh = self._triangulation(points)
@@ -67,10 +92,11 @@ class ShapeProducts:
             self.family = alpha_complex(
                 mesh, rule=options.rule, **self._empty, threads=options.threads, progress=progress
             )
-        if set(options.what) & OF_ONE_SHAPE:
+        self.has_shape = bool(set(options.what) & OF_ONE_SHAPE)
+        if self.has_shape:
             with run.phase("shape"):
                 self.shape = self._shape()
-            if options.radius is None and not self.is_unjoined:
+            if radius is None and not self.is_unjoined:
                 regions = "one region" if options.regions in (None, 1) else f"at most {options.regions} regions"
                 run.note(f"r = {radius_text(self.shape.r)}, the smallest whose shape is {regions} with every point")
 
@@ -99,10 +125,11 @@ class ShapeProducts:
     def _shape(self) -> AlphaShape:
         o = self.options
         if o.method == "digital":
-            return self._edges_only(o.radius)
+            assert self.radius is not None  # the command refuses the automatic one
+            return self._edges_only(self.radius)
         return alpha_shape(
             self.family,
-            r=o.radius,
+            r=self.radius,
             regions=o.regions or 1,
             hole_threshold=o.hole_threshold,
             region_threshold=o.region_threshold,
@@ -114,7 +141,7 @@ class ShapeProducts:
     @cached_property
     def is_unjoined(self) -> bool:
         """Whether the radius was to be found, but none gives a region that holds every point."""
-        return self.options.radius is None and unjoined(self.family) is not None
+        return self.radius is None and unjoined(self.family) is not None
 
     def _edges_only(self, r: Radius) -> AlphaShape:
         """The shape of triangles that need not fit together: each is a region of its own, and nothing is traced."""
@@ -141,18 +168,17 @@ class ShapeProducts:
     @property
     def written(self) -> AlphaShape:
         """The shape in the units of files."""
-        return in_units(self.options, self.shape)
+        return in_units(self.options.pixel_size, self.shape)
 
     @property
     def written_family(self) -> AlphaComplex:
         """The family in the units of files."""
-        return in_units(self.options, self.family)
+        return in_units(self.options.pixel_size, self.family)
 
     @property
     def written_curves(self) -> Table:
         """The curves in the units of files."""
-        table: Table = table_in_units(self.options, self.curves)
-        return table
+        return table_in_units(self.options.pixel_size, self.curves)
 
     def check(self, target: Target) -> None:
         """Refuse what cannot be written, and say what will be empty, before anything is written."""
@@ -242,9 +268,9 @@ class ShapeProducts:
         from vorotool.formats.results.alpha import write_hull_geojson
 
         if fmt == "geojson":
-            write_hull_geojson(out, in_units(self.options, self.hull), precision=self.options.precision)
+            write_hull_geojson(out, in_units(self.options.pixel_size, self.hull), precision=self.options.precision)
         else:
-            self._write_table_of(out, in_units(self.options, self.hull).table(), fmt)
+            self._write_table_of(out, in_units(self.options.pixel_size, self.hull).table(), fmt)
 
     def _write_points(self, out: BinaryIO, fmt: str) -> None:
         from vorotool.geometry.alpha.tables import shape_point_table
@@ -259,8 +285,8 @@ class ShapeProducts:
     def _write_html(self, out: BinaryIO) -> None:
         from vorotool.render.pages.alpha_html import write_alpha_html
 
-        r = self.shape.r if hasattr(self, "shape") else self.options.radius
-        r = None if r is None else length_in_units(self.options, r)
+        r = self.shape.r if self.has_shape else self.radius
+        r = None if r is None else length_in_units(self.options.pixel_size, r)
         write_alpha_html(out, self.written_family, self.written_curves, r=r, y_up=self.options.y_up)
 
     @cached_property
@@ -269,8 +295,8 @@ class ShapeProducts:
         from vorotool.render.canvas.layers import ImagePage
         from vorotool.render.layers.mesh import mesh_page
 
-        if self.options.backdrop is not None:
-            return ImagePage(self.options.backdrop)
+        if self.backdrop is not None:
+            return ImagePage(self.backdrop)
         return mesh_page(self.family.mesh, width=self.options.width or 1000, y_up=self.options.y_up)
 
     def _write_picture(self, out: BinaryIO, fmt: str, layers: Sequence[str]) -> None:
@@ -285,7 +311,7 @@ class ShapeProducts:
         """Check the shape exactly, from its triangulation."""
         from vorotool.engines.alpha.verify_alpha import verify_alpha_shape
 
-        shape = self.shape if hasattr(self, "shape") else alpha_shape(self.family, r=inf, threads=self.options.threads)
+        shape = self.shape if self.has_shape else alpha_shape(self.family, r=inf, threads=self.options.threads)
         verify_alpha_shape(shape, threads=self.options.threads, progress=self.run.progress("verifying"))
 
     def stats(self) -> dict[str, Any]:
@@ -301,13 +327,13 @@ class ShapeProducts:
             "method": self.options.method,
             "threads": self.options.threads,
         }
-        if not hasattr(self, "shape"):
+        if not self.has_shape:
             return counts
         shape = self.shape
         chosen: dict[str, Any] = {
             "r": None if self.is_unjoined else _json_number(shape.r),
             "alpha": None if self.is_unjoined else shape.alpha,
-            "automatic": self.options.radius is None,
+            "automatic": self.radius is None,
         }
         kinds = {"singular_edges": int((shape.kind == 1).sum()), "boundary_edges": int((shape.kind == 2).sum())}
         if self.options.method == "digital":

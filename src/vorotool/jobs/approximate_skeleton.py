@@ -4,35 +4,26 @@ from __future__ import annotations
 
 import warnings
 from functools import cached_property
-from types import SimpleNamespace
 from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.arrangement.lattice_rings import placed_shapes
 from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
 from vorotool.engines.features.batches import together
 from vorotool.engines.sampled_skeleton.approximate import (
     MOST_SEEDS,
-    ApproximateSkeleton,
     SampledShapes,
     SamplingOptions,
-    approximate_skeleton,
-    sampled_graph,
     whole_sampled_diagram,
 )
-from vorotool.engines.sampled_skeleton.per_feature import (
-    FeatureApproximation,
-    approximation_of_sides,
-    feature_approximation,
-    of_one_part,
-)
+from vorotool.engines.sampled_skeleton.per_feature import FeatureApproximation, approximation, samples_of_graph
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.boundary_samples import sample_table
 from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.jobs.inputs import JobInput
+from vorotool.jobs.options import ApproximateSkeletonOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeleton import SkeletonProducts
 from vorotool.jobs.targets import Target
@@ -41,76 +32,52 @@ ALL_TOGETHER = {"diagram", "elements"}
 """What is of all features together, however they are taken."""
 
 
-class ApproximateProducts(SkeletonProducts):
-    """Results of one approximate skeleton.
+class ApproximateProducts(SkeletonProducts[ApproximateSkeletonOptions]):
+    """Results of one approximate skeleton: see `SkeletonProducts`."""
 
-    Parameters
-    ----------
-    polygons : PolygonSet
-        Of what.
-    options : namespace
-        Options of the command line.
-    run : Run
-        Takes notes and seconds.
-    """
-
-    def __init__(self, polygons: PolygonSet, options: SimpleNamespace, run: Run) -> None:
-        super().__init__(polygons, options, run)
+    def __init__(self, run: Run, options: ApproximateSkeletonOptions, given: JobInput) -> None:
+        super().__init__(run, options, given)
         self._common: dict[str, Any] = {"threads": options.threads, "progress": run.progress("skeleton")}
         self._sampling = SamplingOptions(options.step, options.tolerance, options.sampling)
-        self._most = min(options.max_sites, MOST_SEEDS)
-        self._found: ApproximateSkeleton | None = None
+        self._complete = (options.tolerance is not None) if options.complete is None else options.complete
+        self._wanted: dict[str, Any] = {
+            "side": options.side,
+            "complete": self._complete,
+            "frame": options.frame,
+            "most": min(options.max_sites, MOST_SEEDS),
+            **self._common,
+        }
         self._apart: dict[str, Any] | None = None
         # what is refused is refused here, where the input has its name
-        if options.features == "together" or set(options.what) & ALL_TOGETHER:
+        if set(options.what) & ALL_TOGETHER:
             _ = self.shapes
-        if self.wants_skeleton and options.features == "separate":
-            _ = self.found
-        elif not self.wants_skeleton:
-            _ = self.derived.offset
+        _ = self.found if options.wants_skeleton else self.derived.offset
 
     @cached_property
     def graph(self) -> PlanarGraph:
         """The shapes as they were placed, all of them together."""
         o = self.options
+        if o.features == "together" and o.wants_skeleton:
+            return self.shapes.graph
+        graph_of = graph_for_skeletons if o.features == "together" else together
         with self.run.phase("place"), self.telling_once():
-            if o.features == "together":
-                return graph_for_skeletons(self._polygons, strict=o.strict, **self._common)
-            return together(self._polygons, strict=o.strict, **self._common)
+            return graph_of(self._polygons, strict=o.strict, **self._common)
 
     @cached_property
     def shapes(self) -> SampledShapes:
         """Samples of all features and their one diagram."""
-        o = self.options
-        placed = placed_shapes(self.graph, threads=o.threads)
+        if self.options.features == "together":
+            return self.found.parts[0].shapes
+        graph = self.graph
         with self.run.phase("diagram"):
-            if o.tolerance is None:
-                return sampled_graph(self.graph, placed, self._sampling, most=self._most, **self._common)
-            from vorotool.engines.sampled_skeleton.refinement import skeleton_within
-
-            self._found = skeleton_within(
-                self.graph, placed, o.tolerance, **self._wanted, most=self._most, **self._common
-            )
-            return self._found.shapes
-
-    @property
-    def _wanted(self) -> dict[str, Any]:
-        o = self.options
-        complete = (o.tolerance is not None) if o.complete is None else o.complete
-        return {"side": o.side, "frame": o.frame, "complete": complete}
+            return samples_of_graph(graph, self._sampling, **self._wanted)
 
     @cached_property
     def found(self) -> FeatureApproximation:
         """The skeleton, and what it was made of."""
-        wanted = self._wanted
-        if self.options.features == "together":
-            shapes = self.shapes
-            return of_one_part(self._found or approximate_skeleton(shapes, **wanted, **self._common))
-        common: dict[str, Any] = {"strict": self.options.strict, "most": self._most, **self._common}
+        o = self.options
         with self.run.phase("diagram"), self.telling_once():
-            if wanted["side"] != "interior":
-                return approximation_of_sides(self._polygons, self._sampling, **wanted, **common)
-            return feature_approximation(self._polygons, self._sampling, complete=wanted["complete"], **common)
+            return approximation(self._polygons, self._sampling, features=o.features, strict=o.strict, **self._wanted)
 
     def _make_skeleton(self) -> Skeleton:
         return self.found.skeleton
@@ -150,7 +117,7 @@ class ApproximateProducts(SkeletonProducts):
             verify_approximate(part, step=self.options.step, threads=self.options.threads, progress=progress)
 
     def _shape_stats(self) -> dict[str, Any]:
-        inside = self.found.inside if self.options.side == "interior" and self.wants_skeleton else None
+        inside = self.found.inside if self.options.side == "interior" and self.options.wants_skeleton else None
         return super()._shape_stats() if inside is None else inside.counts()
 
     def _diagram_stats(self) -> dict[str, Any]:
@@ -162,7 +129,7 @@ class ApproximateProducts(SkeletonProducts):
             "step": o.step,
             "tolerance": o.tolerance,
             "sampling": "symmetric" if SamplingOptions(o.step, o.tolerance, o.sampling).is_symmetric else "paper",
-            "complete": self._wanted["complete"],
+            "complete": self._complete,
             "open_corners": self.found.open_corners,
         }
         if o.stats is None and not o.compare:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import asdict, replace
 from functools import cached_property
-from types import SimpleNamespace
 from typing import Any, BinaryIO
 
 from vorotool.engines.digital.comparison import compare_digital
@@ -15,21 +14,23 @@ from vorotool.geometry.mesh.digital_comparison import DigitalComparison
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.jobs.inputs import window_of
+from vorotool.jobs.inputs import JobInput, window_of
+from vorotool.jobs.options import TriangulationOptions
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.triangulation import MeshProducts
+from vorotool.jobs.triangulation import MeshProducts, ReadPoints
 from vorotool.jobs.units import table_in_units
 
 
 class DigitalProducts(MeshProducts):
     """Results of the paper's rule (``--method digital``), and of its comparison with the exact triangulation."""
 
-    def __init__(self, points: PointSet | SeedSet, options: SimpleNamespace, run: Run) -> None:
+    def __init__(self, run: Run, options: TriangulationOptions, given: JobInput, read: ReadPoints) -> None:
+        points = read.points
         if isinstance(points, SeedSet):
             self.seeds = points
         else:
             self.seeds = seeds_from_points(points, strict=options.strict, check=lambda seeds: window_of(options, seeds))
-        super().__init__(points, options, run)
+        super().__init__(run, options, given, read)
         if "compare" in options.what:
             with run.phase("compare"):
                 self._tell_comparison()
@@ -61,7 +62,7 @@ class DigitalProducts(MeshProducts):
     def _write_compare(self, out: BinaryIO, fmt: str) -> None:
         from vorotool.formats.text.tables import write_table
 
-        table = table_in_units(self.options, self.comparison.table)
+        table = table_in_units(self.options.pixel_size, self.comparison.table)
         write_table(out, table, fmt, precision=self.options.precision, threads=self.options.threads)
 
     def _shape(self) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from types import SimpleNamespace
 from typing import Any, BinaryIO
 
 from vorotool.errors import InputError, Kind, Message
@@ -24,8 +23,9 @@ from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.skeleton import Skeleton
-from vorotool.jobs.inputs import note_other_size, refuse
+from vorotool.jobs.inputs import JobInput, note_other_size, refuse
 from vorotool.jobs.names import DERIVED, SKELETON_LAYERS
+from vorotool.jobs.options import DrawingOptions
 from vorotool.jobs.pictures import default_layers, drawing_of, write_label_picture, write_layers
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options
@@ -47,24 +47,23 @@ class Picture:
     ----------
     run : Run
         Takes notes and seconds.
-    options : namespace
-        Options of the command line.
-    source : str
-        The input; ``-`` is standard input.
+    options : DrawingOptions
+        Of the command line.
+    given : JobInput
+        The input, and the image that it is drawn over.
     """
 
-    def __init__(self, run: Run, options: SimpleNamespace, source: str) -> None:
-        self._run, self._options, self._source = run, options, source
+    def __init__(self, run: Run, options: DrawingOptions, given: JobInput) -> None:
+        self._run, self._options, self._given = run, options, given
+        with reading(given.path), run.phase("read"):
+            self._value = _read(run, options, given)
 
     def check(self, target: Target) -> None:
-        """Read the input, and prepare what draws it."""
-        run, o = self._run, self._options
-        with reading(self._source), run.phase("read"):
-            value = _read(run, o, self._source)
-        if isinstance(value, LabelImage):
-            self._draw, self._counts = _of_labels(run, o, value, target.fmt)
+        """Prepare what draws the input."""
+        if isinstance(self._value, LabelImage):
+            self._draw, self._counts = _of_labels(self._run, self._options, self._given, self._value, target.fmt)
         else:
-            self._draw, self._counts = _of_layers(run, o, value, target.fmt)
+            self._draw, self._counts = _of_layers(self._run, self._options, self._given, self._value, target.fmt)
 
     def verify(self) -> None:
         """There is nothing to check in a picture."""
@@ -80,9 +79,9 @@ class Picture:
         return self._counts
 
 
-def _read(run: Run, o: SimpleNamespace, path: str) -> LabelImage | Lined:
+def _read(run: Run, o: DrawingOptions, given: JobInput) -> LabelImage | Lined:
     """Read whatever is drawn: its content tells what it is, where the options do not."""
-    fmt = known_input_format(o.input_format, DRAWN_NAMES)
+    path, fmt = given.path, known_input_format(o.input_format, DRAWN_NAMES)
     if is_zarr(path, fmt):
         rows = open_rows(path, input_format=fmt, page=o.page)
         assert rows is not None
@@ -118,11 +117,11 @@ def _note(run: Run, message: str) -> None:
         run.note(message)
 
 
-def _of_labels(run: Run, o: SimpleNamespace, image: LabelImage, fmt: str) -> Drawing:
+def _of_labels(run: Run, o: DrawingOptions, given: JobInput, image: LabelImage, fmt: str) -> Drawing:
     from vorotool.engines.label_images.object_colours import object_colours
 
     check_picture_options(o, [fmt], LABEL_LAYERS)
-    note_other_size(run, o, image.shape)
+    note_other_size(run, o, given, image.shape)
     image = _objects(run, image)
     with run.phase("colour"):
         colours = object_colours(image, threads=o.threads)
@@ -134,7 +133,7 @@ def _of_labels(run: Run, o: SimpleNamespace, image: LabelImage, fmt: str) -> Dra
         layers=o.layers or default_layers(image, ("cells", "labels") if fmt == "svg" else ("cells",)),
         width=o.width or 1000,
         y_up=bool(o.y_up),
-        backdrop=o.backdrop,
+        backdrop=given.backdrop,
         threads=o.threads,
     )
     return draw, {"shape": image.shape, "colours": int(colours[1].max(initial=0))}
@@ -153,16 +152,16 @@ def _objects(run: Run, image: LabelImage) -> LabelImage:
     return LabelImage(objects, image.frame)
 
 
-def _of_layers(run: Run, o: SimpleNamespace, value: Lined, fmt: str) -> Drawing:
+def _of_layers(run: Run, o: DrawingOptions, given: JobInput, value: Lined, fmt: str) -> Drawing:
     from vorotool.render.canvas.png import check_picture_size
 
     kind, layers, counts = _described(value)
     in_format = {"svg": layers, "png": layers}
     check_picture_options(o, [fmt], in_format, png_has_width=True)
-    refuse(o, ("page",), f"is for images, but the input is {kind}")
+    refuse({"page": o.page}, f"is for images, but the input is {kind}")
     if not len(value):
         run.warn(f"the picture is empty: the input is {kind}, but there are none in it")
-    drawing = drawing_of(value, layers=o.layers, width=o.width or 1000, y_up=o.y_up, backdrop=o.backdrop)
+    drawing = drawing_of(value, layers=o.layers, width=o.width or 1000, y_up=o.y_up, backdrop=given.backdrop)
     if fmt == "png":
         check_picture_size(drawing.page, o.max_pixels)
     return partial(write_layers, layers=drawing.layers, page=drawing.page, fmt=fmt, threads=o.threads), counts

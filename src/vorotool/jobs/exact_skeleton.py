@@ -2,29 +2,28 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
-from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from vorotool.engines.features.batches import together
-from vorotool.engines.skeleton.both_sides import sides_of
-from vorotool.engines.skeleton.exact import (
-    ShapeDiagram,
-    diagram_of_graph,
-    shape_diagram,
-    skeleton_of,
-    whole_diagram,
+from vorotool.engines.skeleton.diagrams import (
+    AnyDiagram,
+    all_edges,
+    diagram_of_all,
+    is_of_single_features,
+    skeleton_in,
+    skeleton_inside,
 )
-from vorotool.engines.skeleton.per_feature import FeatureSkeleton, feature_skeleton
+from vorotool.engines.skeleton.exact import ShapeDiagram
+from vorotool.engines.skeleton.parts import outside_of
+from vorotool.engines.skeleton.per_feature import FeatureSkeleton
+from vorotool.engines.skeleton.shortened_edges import ElementDiagram, exact_for, exact_inside, gap_deviation
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.jobs.inputs import JobInput
+from vorotool.jobs.options import ExactSkeletonOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeleton import SkeletonProducts
-
-if TYPE_CHECKING:
-    from vorotool.engines.skeleton.shortened_edges import ElementDiagram
 
 
 @dataclass(frozen=True)
@@ -44,126 +43,84 @@ class Seen:
     deviation: float = 0.0
 
 
-class ExactProducts(SkeletonProducts):
-    """Results of one exact skeleton, or of one with a gap.
+class ExactProducts(SkeletonProducts[ExactSkeletonOptions]):
+    """Results of one exact skeleton, or of one with a gap: see `SkeletonProducts`."""
 
-    Parameters
-    ----------
-    polygons : PolygonSet
-        Of what.
-    options : namespace
-        Options of the command line.
-    run : Run
-        Takes notes and seconds.
-    """
-
-    def __init__(self, polygons: PolygonSet, options: SimpleNamespace, run: Run) -> None:
-        super().__init__(polygons, options, run)
+    def __init__(self, run: Run, options: ExactSkeletonOptions, given: JobInput) -> None:
+        super().__init__(run, options, given)
         # what is refused is refused here, where the input has its name
         if not self._is_inside_only:
-            _ = self.graph
-        elif self.wants_skeleton:
+            _ = self.of_all
+        elif options.wants_skeleton:
             _ = self.whole
         else:
             _ = self.derived.offset
 
+    @property
+    def _is_inside_only(self) -> bool:
+        """Whether no diagram of all features together is needed."""
+        return is_of_single_features(self.options.side, self.options.features) and "diagram" not in self.options.what
+
+    @property
+    def _is_looked_at(self) -> bool:
+        """Whether somebody asks for more of a diagram than the skeleton in it."""
+        return self.options.verify or self.options.stats is not None
+
+    @property
+    def _common(self) -> dict[str, Any]:
+        o = self.options
+        return {"strict": o.strict, "threads": o.threads, "progress": self.run.progress("diagram")}
+
     @cached_property
-    def shapes(self) -> ShapeDiagram:
-        """The diagram of all."""
+    def of_all(self) -> AnyDiagram:
+        """The diagram of all features."""
+        o = self.options
+        is_whole = self._is_looked_at or o.side != "interior" or bool({"diagram", "offset"} & set(o.what))
         with self.run.phase("diagram"), self.telling_once():
-            strict = self.options.strict
-            if self.options.features == "together":
-                return shape_diagram(self._polygons, strict=strict, **self._common)
-            return diagram_of_graph(together(self._polygons, strict=strict, **self._common), **self._common)
+            return diagram_of_all(
+                self._polygons, o.gap, features=o.features, interior_only=not is_whole, **self._common
+            )
 
     @cached_property
     def inside(self) -> FeatureSkeleton[Seen]:
         """What is inside each feature by itself, and what was seen of each diagram that is looked at."""
-        o = self.options
-        looks = o.verify or o.stats is not None
+        o, look = self.options, self._look if self._is_looked_at else None
         with self.telling_once():
-            if not o.gap:
-                look = self._look if looks else None
-                return feature_skeleton(self._polygons, look=look, strict=o.strict, **self._common)
-            from vorotool.engines.skeleton.feature_elements import feature_elements
+            return skeleton_inside(self._polygons, o.gap, complete=o.complete is not False, look=look, **self._common)
 
-            return feature_elements(
-                self._polygons,
-                o.gap,
-                complete=o.complete is not False,
-                look=self._look_at_elements if looks else None,
-                strict=o.strict,
-                **self._common,
-            )
-
-    def _look(self, shapes: ShapeDiagram | ElementDiagram) -> Seen:
+    def _look(self, diagram: AnyDiagram, made: Skeleton) -> Seen:
         if self.options.verify:
             from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
 
-            verify_segment_voronoi(shapes.diagram, threads=1)
-        return Seen(len(shapes.diagram), len(shapes.diagram.edges))
-
-    def _look_at_elements(self, elements: ElementDiagram, made: Skeleton) -> Seen:
-        seen = self._look(elements)
-        if self.options.stats is None:
-            return seen
-        from vorotool.engines.skeleton.shortened_edges import exact_inside, gap_deviation
-
-        return replace(seen, deviation=gap_deviation(made, exact_inside(elements)))
-
-    @cached_property
-    def elements(self) -> ElementDiagram:
-        """That of shortened edges."""
-        from vorotool.engines.skeleton.shortened_edges import element_diagram, elements_of_graph
-
-        o = self.options
-        with self.run.phase("diagram"), self.telling_once():
-            if o.features == "together":
-                return element_diagram(self._polygons, o.gap, strict=o.strict, **self._common)
-            return elements_of_graph(together(self._polygons, strict=o.strict, **self._common), o.gap, **self._common)
-
-    @property
-    def _common(self) -> dict[str, Any]:
-        return {"threads": self.options.threads, "progress": self.run.progress("diagram")}
-
-    @property
-    def _is_inside_only(self) -> bool:
-        """Whether no diagram of all features together is needed."""
-        o = self.options
-        return o.side == "interior" and o.features == "separate" and "diagram" not in o.what
+            verify_segment_voronoi(diagram.diagram, threads=1)
+        deviation = 0.0
+        if isinstance(diagram, ElementDiagram) and self.options.stats is not None:
+            deviation = gap_deviation(made, exact_inside(diagram))
+        return Seen(len(diagram.diagram), len(diagram.diagram.edges), deviation)
 
     def _make_skeleton(self) -> Skeleton:
         o = self.options
-        wanted: dict[str, Any] = {"side": o.side, "frame": o.frame, "threads": o.threads}
-        if o.features == "separate" and o.side == "interior":
+        if is_of_single_features(o.side, o.features):
             return self.inside.skeleton
-        if not o.gap:
-            return (skeleton_of if o.features == "together" else sides_of)(self.shapes, **wanted)
-        from vorotool.engines.skeleton.feature_elements import sides_of_elements
-        from vorotool.engines.skeleton.shortened_edges import skeleton_of_elements
-
-        made = skeleton_of_elements if o.features == "together" else sides_of_elements
-        return made(self.elements, complete=o.complete is not False, **wanted)
+        return skeleton_in(
+            self.of_all,
+            side=o.side,
+            features=o.features,
+            complete=o.complete is not False,
+            frame=o.frame,
+            threads=o.threads,
+        )
 
     def _make_diagram(self) -> Skeleton:
-        o = self.options
-        if not o.gap:
-            return whole_diagram(self.shapes, frame=o.frame, threads=o.threads)
-        from vorotool.engines.skeleton.shortened_edges import whole_element_diagram
-
-        return whole_element_diagram(self.elements, frame=o.frame, threads=o.threads)
+        return all_edges(self.of_all, frame=self.options.frame, threads=self.options.threads)
 
     def _shape_diagram(self) -> ShapeDiagram:
-        return super()._shape_diagram() if self.options.gap else self.shapes
-
-    @property
-    def _part(self) -> ShapeDiagram | ElementDiagram:
-        return self.elements if self.options.gap else self.shapes
+        return self.of_all if isinstance(self.of_all, ShapeDiagram) else super()._shape_diagram()
 
     @property
     def graph(self) -> PlanarGraph:
         """The shapes as they were placed."""
-        return self.elements.shapes if self.options.gap else self.shapes.graph
+        return self.of_all.graph if isinstance(self.of_all, ShapeDiagram) else self.of_all.shapes
 
     def _verify_whole(self) -> None:
         """Check the diagram and the skeleton, from their arrays alone."""
@@ -172,9 +129,9 @@ class ExactProducts(SkeletonProducts):
 
         progress = self.run.progress("verifying")
         if not self._is_inside_only:  # or else each batch was looked at
-            verify_segment_voronoi(self._part.diagram, threads=self.options.threads, progress=progress)
-        if not self.options.gap and self.options.side != "interior":
-            verify_exterior(self.shapes, threads=self.options.threads)
+            verify_segment_voronoi(self.of_all.diagram, threads=self.options.threads, progress=progress)
+        if self.options.side != "interior" and isinstance(self.of_all, ShapeDiagram):
+            verify_exterior(self.of_all, threads=self.options.threads)
         verify_skeleton(self.whole, threads=self.options.threads, progress=progress)
 
     def _shape_stats(self) -> dict[str, Any]:
@@ -187,7 +144,7 @@ class ExactProducts(SkeletonProducts):
                 "diagram_vertices": sum(each.vertices for each in seen),
                 "diagram_edges": sum(each.edges for each in seen),
             }
-        diagram = self._part.diagram
+        diagram = self.of_all.diagram
         return {"diagram_vertices": len(diagram), "diagram_edges": len(diagram.edges)}
 
     def _more_stats(self) -> dict[str, Any]:
@@ -202,13 +159,11 @@ class ExactProducts(SkeletonProducts):
 
     def _gap_deviation(self) -> float:
         o = self.options
-        from vorotool.engines.skeleton.parts import outside_of
-        from vorotool.engines.skeleton.shortened_edges import exact_for, gap_deviation
-
         made, side, inside = self.whole, o.side, 0.0
         if o.features == "separate" and side != "exterior":
             inside = max((seen.deviation for seen in self.inside.seen), default=0.0)
             if side == "interior":
                 return inside
             made, side = outside_of(made), "exterior"
-        return max(inside, gap_deviation(made, exact_for(self.elements, side, frame=made.frame, threads=o.threads)))
+        assert isinstance(self.of_all, ElementDiagram)  # there is a gap
+        return max(inside, gap_deviation(made, exact_for(self.of_all, side, frame=made.frame, threads=o.threads)))

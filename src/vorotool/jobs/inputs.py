@@ -2,27 +2,61 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import partial
-from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.jobs.run_log import Run
 
 if TYPE_CHECKING:
+    from vorotool.engines.tessellation.seeding import SeedMode
     from vorotool.geometry.pixel_frame import Frame
     from vorotool.geometry.points.point_set import PointSet
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.points.seed_set import SeedSet
     from vorotool.geometry.polygons.polygon_set import PolygonSet
+    from vorotool.jobs.options import ComputingOptions, JobOptions, SiteOptions
     from vorotool.render.canvas.layers import Backdrop
 
-IMAGE_OPTIONS = ("page", "seeds", "connectivity", "threshold", "invert")
+
+class JobInput(NamedTuple):
+    """What one job is about.
+
+    Parameters
+    ----------
+    path : str
+        The input; ``-`` is standard input.
+    backdrop : Backdrop, optional
+        The image that pictures of it are drawn over.
+    """
+
+    path: str
+    backdrop: Backdrop | None = None
+
+    @property
+    def name(self) -> str:
+        """What messages call it."""
+        return "standard input" if self.path == "-" else self.path
 
 
-def read_seed_input(run: Run, o: SimpleNamespace, source: str, *, properties: bool) -> PointSet | Raster:
+class Foreground(NamedTuple):
+    """What of an image is foreground: what is larger than the threshold, or else what is not.
+
+    Parameters
+    ----------
+    threshold : float, optional
+        None where values tell.
+    invert : bool
+        Exchange foreground and background.
+    """
+
+    threshold: float | None
+    invert: bool
+
+
+def read_seed_input(run: Run, o: SiteOptions, given: JobInput, *, properties: bool) -> PointSet | Raster:
     """Read points or an image, as the options say.
 
     Raises
@@ -35,7 +69,7 @@ def read_seed_input(run: Run, o: SimpleNamespace, source: str, *, properties: bo
     from vorotool.geometry.points.raster import Raster
 
     value = read(
-        source,
+        given.path,
         geometry="points",
         input_format=o.input_format,
         columns=o.columns,
@@ -48,68 +82,76 @@ def read_seed_input(run: Run, o: SimpleNamespace, source: str, *, properties: bo
         crs=o.input_crs,
     )
     if isinstance(value, PointSet):
-        refuse(o, IMAGE_OPTIONS, "is for images, but the input is a list of points")
+        refuse(o.for_images(), "is for images, but the input is a list of points")
         return value
     assert isinstance(value, Raster)  # what is asked for is points, or an image
-    note_other_size(run, o, value.values.shape)
+    note_other_size(run, o, given, value.values.shape)
     return value
 
 
-def settle_threshold(run: Run, o: SimpleNamespace, image: Raster) -> None:
+def settled_foreground(run: Run, o: ComputingOptions, image: Raster) -> Foreground:
     """Find the threshold of Otsu's method if it is asked for: as a number it is said, and in the statistics."""
-    if o.threshold == "otsu":
-        from vorotool.engines.tessellation.raster_objects import counted_values, is_flat, settled_threshold
+    if o.threshold != "otsu":
+        if o.threshold is not None:
+            run.stats["threshold"] = o.threshold
+        return Foreground(o.threshold, o.invert)
+    from vorotool.engines.tessellation.raster_objects import counted_values, is_flat, settled_threshold
 
-        o.threshold, o.invert = settled_threshold(image, "otsu", invert=o.invert)
-        if is_flat(counted_values(image)):
-            run.note(f"all pixels have the value {o.threshold:.17g}: Otsu's method finds no foreground")
-            run.stats["threshold"] = None
-            return
-        run.note(f"threshold {o.threshold:.17g}, by Otsu's method")
-    if o.threshold is not None:
-        run.stats["threshold"] = o.threshold
+    found = Foreground(*settled_threshold(image, "otsu", invert=o.invert))
+    if is_flat(counted_values(image)):
+        run.note(f"all pixels have the value {found.threshold:.17g}: Otsu's method finds no foreground")
+        run.stats["threshold"] = None
+    else:
+        run.note(f"threshold {found.threshold:.17g}, by Otsu's method")
+        run.stats["threshold"] = found.threshold
+    return found
 
 
-def check_components(o: SimpleNamespace) -> None:
+def check_components(o: SiteOptions) -> None:
     """Refuse ``--connectivity`` where no components are made."""
     if o.connectivity is not None and o.seeds in ("pixels", "labels"):
         raise UsageError(f"--connectivity is for components: leave it out with --seeds {o.seeds}")
 
 
-def check_frame_options(o: SimpleNamespace, *, is_digital: bool) -> None:
+def check_frame_options(o: SiteOptions, *, is_digital: bool) -> None:
     """Refuse two frames, and any where nothing is tessellated."""
     if o.size is not None and o.window is not None:
         raise UsageError("give --size or --window, not both")
     if not is_digital:
-        refuse(o, ("size", "window"), "is the frame of a tessellation: use --method digital or digital-valid")
+        refuse(o.of_frame(), "is the frame of a tessellation: use --method digital or digital-valid")
 
 
-def read_sites(run: Run, o: SimpleNamespace, source: str, *, properties: bool, is_digital: bool) -> PointSet | SeedSet:
+def read_sites(run: Run, o: SiteOptions, given: JobInput, *, properties: bool, is_digital: bool) -> PointSet | SeedSet:
     """Read points to triangulate, or find those of an image, as the options say."""
-    from vorotool.engines.tessellation.seeding import seeds_from_raster
     from vorotool.geometry.points.point_set import PointSet
 
-    value = read_seed_input(run, o, source, properties=properties)
+    value = read_seed_input(run, o, given, properties=properties)
     if isinstance(value, PointSet):
         return value
-    refuse(o, ("columns",), "is for lists of points, but the input is an image")
-    refuse(o, ("size", "window"), "is for lists of points, but the input is an image, which brings its own frame")
-    settle_threshold(run, o, value)
+    refuse({"columns": o.columns}, "is for lists of points, but the input is an image")
+    refuse(o.of_frame(), "is for lists of points, but the input is an image, which brings its own frame")
     # The sites of objects are their centroids, but their regions are not those of the centroids.
-    mode = None if o.seeds == "centroids" and not is_digital else o.seeds
+    return seeds_of_image(run, o, value, None if o.seeds == "centroids" and not is_digital else o.seeds)
+
+
+def seeds_of_image(run: Run, o: SiteOptions, image: Raster, mode: SeedMode | None) -> SeedSet:
+    """Find the seeds of an image, as the options say."""
+    from vorotool.engines.tessellation.seeding import seeds_from_raster
+
+    threshold, invert = settled_foreground(run, o, image)
     return seeds_from_raster(
-        value,
+        image,
         mode=mode,
         connectivity=int(o.connectivity or 8),
-        threshold=o.threshold,
-        invert=o.invert,
+        threshold=threshold,
+        invert=invert,
         strict=o.strict,
         max_sites=o.max_sites,
         note=run.note,
     )
 
 
-def frame_of(o: SimpleNamespace, seeds: SeedSet) -> Frame | None:
+def frame_of(o: SiteOptions, seeds: SeedSet) -> Frame | None:
     """Give the frame that is asked for, else the one that the seeds bring or need; None where there are no seeds."""
     from vorotool.engines.tessellation.frames import default_frame
     from vorotool.geometry.pixel_frame import Frame
@@ -123,25 +165,25 @@ def frame_of(o: SimpleNamespace, seeds: SeedSet) -> Frame | None:
     return default_frame(seeds, how="give one with --size WxH or --window X,Y,W,H", instead="delaunay --what cells")
 
 
-def window_of(o: SimpleNamespace, seeds: SeedSet) -> tuple[int, int, int, int] | None:
+def window_of(o: SiteOptions, seeds: SeedSet) -> tuple[int, int, int, int] | None:
     """Give the same as the engines take it."""
     frame = frame_of(o, seeds)
     return None if frame is None else (frame.x, frame.y, frame.width, frame.height)
 
 
 def read_clip(
-    run: Run, o: SimpleNamespace, path: str, points: PointSet | SeedSet, source: str
-) -> tuple[Sequence[Any], PointSet | SeedSet]:
+    run: Run, path: str, points: PointSet | SeedSet, given: JobInput, *, threads: int
+) -> tuple[PointSet | SeedSet, Sequence[Any]]:
     """Read the polygons of ``--clip``, as shapely geometry; lines are left out with a note.
 
     Of polygons and points that name no coordinate reference system, the ones are taken to be in that of the others.
 
     Returns
     -------
-    polygons : sequence of shapely geometry
-        To clip to.
     points : PointSet or SeedSet
         The points, in a system if the polygons are in one.
+    polygons : sequence of shapely geometry
+        To clip to.
 
     Raises
     ------
@@ -152,16 +194,16 @@ def read_clip(
     from vorotool.geometry.polygons.conversion import to_shapely
     from vorotool.geometry.polygons.polygon_set import PolygonSet
 
-    value = read(path, geometry="polygons", properties=False, threads=o.threads, note=partial(_note_of_clip, run))
+    value = read(path, geometry="polygons", properties=False, threads=threads, note=partial(_note_of_clip, run))
     if not isinstance(value, PolygonSet):
         raise InputError(f"{path} is an image: give --clip a file of polygons")
-    points = _in_one_crs(run, (path, value), (source, points))
+    points = _in_one_crs(run, (path, value), (given.name, points))
     lines = int(value.is_line.sum())
     if lines:
         run.note(f"{path}: {lines} open lines are left out of --clip")
     if lines == len(value):
         raise InputError(f"{path} holds no polygons: give --clip a file that does")
-    return list(to_shapely(value)[~value.is_line]), points
+    return points, list(to_shapely(value)[~value.is_line])
 
 
 def _note_of_clip(run: Run, message: str) -> None:
@@ -172,7 +214,6 @@ def _note_of_clip(run: Run, message: str) -> None:
 
 def _in_one_crs(run: Run, clip: tuple[str, PolygonSet], data: tuple[str, PointSet | SeedSet]) -> PointSet | SeedSet:
     """Check that polygons and points are in one coordinate reference system, as far as they name any."""
-    from vorotool.formats.io.sources import STANDARD_INPUT
     from vorotool.formats.parsing.reference_systems import with_crs
     from vorotool.geometry.crs import crs_name, same_crs
     from vorotool.geometry.points.point_set import PointSet
@@ -180,7 +221,6 @@ def _in_one_crs(run: Run, clip: tuple[str, PolygonSet], data: tuple[str, PointSe
     (path, polygons), (source, points) = clip, data
     if not isinstance(points, PointSet) or (points.crs is None and polygons.crs is None):
         return points
-    source = STANDARD_INPUT if source == "-" else source
     if points.crs is None or polygons.crs is None:
         unnamed, named, crs = (source, path, polygons.crs) if points.crs is None else (path, source, points.crs)
         _check_they_meet(points, polygons, f"{unnamed} names no coordinate reference system", f"{named} is in", crs)
@@ -210,7 +250,7 @@ def _check_they_meet(points: PointSet, polygons: PolygonSet, unnamed: str, named
         )
 
 
-def read_backdrop(o: SimpleNamespace) -> Backdrop | None:
+def read_backdrop(o: JobOptions) -> Backdrop | None:
     """Read the image of ``--overlay``, if there is one."""
     if o.overlay is None:
         return None
@@ -233,32 +273,32 @@ def read_backdrop(o: SimpleNamespace) -> Backdrop | None:
     return Backdrop(pixels, encode)
 
 
-def note_other_size(run: Run, o: SimpleNamespace, shape: Sequence[int]) -> None:
+def note_other_size(run: Run, o: JobOptions, given: JobInput, shape: Sequence[int]) -> None:
     """Say that the image of ``--overlay`` is not of the size of the input, whose pixels are those of the picture."""
-    if o.overlay is None or o.backdrop.pixels.shape[:2] == tuple(shape[:2]):
+    if given.backdrop is None or given.backdrop.pixels.shape[:2] == tuple(shape[:2]):
         return
-    height, width = o.backdrop.pixels.shape[:2]
+    height, width = given.backdrop.pixels.shape[:2]
     run.note(
         f"{o.overlay} has {width} x {height} pixels, the input {shape[1]} x {shape[0]}: both begin in one corner, and "
         "what lies beside the overlay is not drawn"
     )
 
 
-def refuse(o: SimpleNamespace, names: tuple[str, ...], reason: str) -> None:
+def refuse(options: Mapping[str, Any], reason: str) -> None:
     """Refuse options that are given although they mean nothing here."""
-    for name in names:
-        if getattr(o, name) is not None and getattr(o, name) is not False:  # 0 is given, too
+    for name, value in options.items():
+        if value is not None and value is not False:  # 0 is given, too
             raise UsageError(f"--{name} {reason}")
 
 
 @contextmanager
-def naming(source: str) -> Iterator[None]:
+def naming(given: JobInput) -> Iterator[None]:
     """Let messages about the content of the input begin with its name, unless they name an input already."""
     try:
         yield
     except InputError as error:
         if error.source is not None:
             raise
-        named = InputError(f"{'standard input' if source == '-' else source}: {error}")
-        named.source = source
+        named = InputError(f"{given.name}: {error}")
+        named.source = given.path
         raise named from error

@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from types import SimpleNamespace
-from typing import Any, Protocol
+from typing import Any, Generic, Protocol, TypeVar
 
-from vorotool.jobs.inputs import read_backdrop
+from vorotool.jobs.inputs import JobInput, naming, read_backdrop
+from vorotool.jobs.options import ComputingOptions, JobOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_targets
 from vorotool.jobs.units import unit_stats
 from vorotool.signals import end_by_exceptions
+
+Options = TypeVar("Options", bound=JobOptions)
 
 
 class Products(Protocol):
@@ -32,7 +34,7 @@ class Products(Protocol):
 
 
 @dataclass(frozen=True)
-class Recipe:
+class Recipe(Generic[Options]):
     """A command, as far as it is about one input.
 
     Parameters
@@ -44,7 +46,7 @@ class Recipe:
     check_options : callable
         ``check_options(options, targets)`` refuses options that do not go together, or that no output would show.
     make : callable
-        ``make(run, options, source)`` reads an input and gives its products. It may change the options.
+        ``make(run, options, given)`` reads an input and gives its products.
     geometry : {"points", "polygons"}, optional
         What it reads beside images.
 
@@ -53,12 +55,12 @@ class Recipe:
 
     name: str
     formats: Mapping[str, Sequence[str]]
-    check_options: Callable[[SimpleNamespace, list[Target]], None]
-    make: Callable[[Run, SimpleNamespace, str], Products]
+    check_options: Callable[[Options, list[Target]], None]
+    make: Callable[[Run, Options, JobInput], Products]
     geometry: str | None = None
 
 
-def process_input(recipe: Recipe, run: Run, o: SimpleNamespace, source: str, targets: Sequence[Target]) -> None:
+def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str, targets: Sequence[Target]) -> None:
     """Read one input, compute, check and write its results.
 
     Parameters
@@ -67,9 +69,9 @@ def process_input(recipe: Recipe, run: Run, o: SimpleNamespace, source: str, tar
         Of the command.
     run : Run
         Takes notes, warnings, seconds and statistics.
-    o : namespace
-        Options of the command line.
-    source : str
+    options : JobOptions
+        Of the command line.
+    path : str
         The input; ``-`` is standard input.
     targets : sequence of Target
         The outputs.
@@ -77,21 +79,23 @@ def process_input(recipe: Recipe, run: Run, o: SimpleNamespace, source: str, tar
     from vorotool.formats.io.atomic_output import make_folder
     from vorotool.formats.text.tables import safe_texts
 
-    check_targets(o, targets, source)
+    computing = options if isinstance(options, ComputingOptions) else None
+    check_targets(options, targets, path)
     with run.phase("read"):
-        o.backdrop = read_backdrop(o)
-    products = recipe.make(run, o, source)
+        given = JobInput(path, read_backdrop(options))
+    with naming(given):
+        products = recipe.make(run, options, given)
     for target in targets:
         products.check(target)
-    if getattr(o, "verify", False):
+    if computing is not None and computing.verify:
         with run.phase("verify"):
             products.verify()
     end_by_exceptions()
     for target in targets:
-        if o.out_dir is not None:
+        if options.out_dir is not None:
             make_folder(Path(target.path).parent)
-        with run.phase(f"write {target.what}"), safe_texts(getattr(o, "safe_csv", False)):
-            products.write(target, inputs=(source,))
-    if o.stats is not None:
+        with run.phase(f"write {target.what}"), safe_texts(computing is not None and computing.safe_csv):
+            products.write(target, inputs=(path,))
+    if options.stats is not None:
         with run.phase("count"):
-            run.stats.update({**products.stats(), **unit_stats(o)})
+            run.stats.update({**products.stats(), **unit_stats(options.unit)})

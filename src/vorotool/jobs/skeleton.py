@@ -7,8 +7,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import cached_property
-from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO, Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,11 +15,14 @@ from numpy.typing import NDArray
 from vorotool.errors import Kind, Message, RepairWarning, VorotoolWarning
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.skeleton.skeleton import EXTERIOR, Skeleton
+from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.names import DERIVED
+from vorotool.jobs.options import Place, SkeletonOptions
 from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.pruning_choice import CRITERIA, Pruning, chosen_pruning
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeleton_extras import Derived
+from vorotool.jobs.skeleton_input import read_polygons
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units
 
@@ -30,7 +32,7 @@ if TYPE_CHECKING:
     from vorotool.geometry.skeleton.centerline import Centerlines
     from vorotool.render.canvas.layers import Page
 
-Place = tuple[float, float]
+Options = TypeVar("Options", bound=SkeletonOptions)
 
 DEFAULT_LAYERS = {
     "skeleton": ("polygons", "skeleton"),
@@ -41,24 +43,25 @@ DEFAULT_LAYERS = {
 """Layers of the picture of each result."""
 
 
-class SkeletonProducts(ABC):
+class SkeletonProducts(ABC, Generic[Options]):
     """Results of one skeleton, however it is made.
 
     Parameters
     ----------
-    polygons : PolygonSet
-        Of what.
-    options : namespace
-        Options of the command line.
     run : Run
         Takes notes and seconds.
+    options : SkeletonOptions
+        Of the command line.
+    given : JobInput
+        With the image that pictures are drawn over.
     """
 
-    def __init__(self, polygons: PolygonSet, options: SimpleNamespace, run: Run) -> None:
-        self._polygons = polygons
+    def __init__(self, run: Run, options: Options, given: JobInput) -> None:
+        self.run, self.options, self.backdrop = run, options, given.backdrop
+        with run.phase("read"):
+            self._polygons, self.is_mask = read_polygons(run, options, given)
         self._is_told = False  # what was repaired, once
-        self.options, self.run = options, run
-        self.derived = Derived(options, run, lambda: self.skeleton, self._shapes)
+        self.derived = Derived(run, options, self.backdrop, lambda: self.skeleton, self._shapes)
 
     @contextmanager
     def telling_once(self) -> Iterator[None]:
@@ -69,11 +72,6 @@ class SkeletonProducts(ABC):
             yield
         self._is_told = True
 
-    @property
-    def wants_skeleton(self) -> bool:
-        """Whether a result shows anything of the skeleton: offset curves are of the whole diagram."""
-        return bool(set(self.options.what) != {"offset"})
-
     @cached_property
     def whole(self) -> Skeleton:
         """Of the side that is asked for, before it is pruned."""
@@ -83,7 +81,7 @@ class SkeletonProducts(ABC):
     @cached_property
     def pruning(self) -> Pruning:
         """What is removed."""
-        return chosen_pruning(self.options.prune, is_mask=self.options.is_mask)
+        return chosen_pruning(self.options.prune, is_mask=self.is_mask)
 
     @cached_property
     def skeleton(self) -> Skeleton:
@@ -116,8 +114,8 @@ class SkeletonProducts(ABC):
 
         skeleton = self.skeleton
         with self.run.phase("centerline"):
-            ends: Any = self.options.ends or "middle"
-            return centerline(skeleton, start=start, end=end, ends=ends, progress=self.run.progress("centerlines"))
+            ends, progress = self.options.ends or "middle", self.run.progress("centerlines")
+            return centerline(skeleton, start=start, end=end, ends=ends, progress=progress)
 
     @cached_property
     def diagram(self) -> Skeleton:
@@ -159,7 +157,7 @@ class SkeletonProducts(ABC):
     def verify(self) -> None:
         """Check the diagram and the skeleton, from their arrays alone, and what pruning left of it."""
         self.derived.verify()
-        if not self.wants_skeleton:
+        if not self.options.wants_skeleton:
             return
         self._verify_whole()
         if self.pruning.criterion is not None:
@@ -217,11 +215,11 @@ class SkeletonProducts(ABC):
         has_table = target.what == "table"
         write_skeleton(
             out,
-            in_units(self.options, self._value(target.what)),
+            in_units(self.options.pixel_size, self._value(target.what)),
             target.fmt,
             what="skeleton" if target.what == "diagram" else target.what,
-            flatten=length_in_units(self.options, self.options.flatten),
-            columns=centerline_columns(in_units(self.options, self._longest)) if has_table else None,
+            flatten=length_in_units(self.options.pixel_size, self.options.flatten),
+            columns=centerline_columns(in_units(self.options.pixel_size, self._longest)) if has_table else None,
             precision=self.options.precision,
             threads=self.options.threads,
         )
@@ -231,9 +229,9 @@ class SkeletonProducts(ABC):
 
         write_centerlines(
             out,
-            in_units(self.options, self.centerlines),
+            in_units(self.options.pixel_size, self.centerlines),
             fmt,
-            flatten=length_in_units(self.options, self.options.flatten),
+            flatten=length_in_units(self.options.pixel_size, self.options.flatten),
             precision=self.options.precision,
             threads=self.options.threads,
         )
@@ -243,20 +241,20 @@ class SkeletonProducts(ABC):
         from vorotool.engines.pruning.pruning import arc_profiles, critical_values
         from vorotool.render.pages.skeleton_html import write_skeleton_html
 
-        whole, (_, criterion, threshold) = in_units(self.options, self.whole), self.pruning
+        whole, (_, criterion, threshold) = in_units(self.options.pixel_size, self.whole), self.pruning
         values = [critical_values(whole, name) for name in CRITERIA]
         shown = None
         if criterion is not None:
             is_length = criterion in ("chord", "length")
-            shown = (criterion, length_in_units(self.options, threshold) if is_length else threshold)
+            shown = (criterion, length_in_units(self.options.pixel_size, threshold) if is_length else threshold)
         write_skeleton_html(out, whole, values, arc_profiles(whole), shown=shown, y_up=self.options.y_up)
 
     def _page(self, value: Skeleton) -> Page:
         from vorotool.render.canvas.layers import ImagePage
         from vorotool.render.layers.skeleton import skeleton_page
 
-        if self.options.backdrop is not None:
-            return ImagePage(self.options.backdrop)
+        if self.backdrop is not None:
+            return ImagePage(self.backdrop)
         return skeleton_page(value, width=self.options.width or 1000, y_up=self.options.y_up)
 
     def _write_picture(self, out: BinaryIO, target: Target) -> None:
@@ -274,7 +272,7 @@ class SkeletonProducts(ABC):
 
     def _layers(self, what: str) -> Sequence[str]:
         """Layers of a picture: over an image the shapes are to be seen already."""
-        if self.options.layers is not None or self.options.backdrop is None:
+        if self.options.layers is not None or self.backdrop is None:
             return self.options.layers or DEFAULT_LAYERS[what]
         return [layer for layer in DEFAULT_LAYERS[what] if layer != "polygons"]
 
@@ -286,9 +284,9 @@ class SkeletonProducts(ABC):
             "side": self.options.side,
             "threads": self.options.threads,
         }
-        if self.options.is_mask:
+        if self.is_mask:
             found |= {"outline": self.options.outline or "crack", "connectivity": int(self.options.connectivity or 8)}
-        if self.wants_skeleton:
+        if self.options.wants_skeleton:
             found |= self._skeleton_stats(self.skeleton)
         return found | self.derived.stats()
 

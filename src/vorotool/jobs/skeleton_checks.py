@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-
 from vorotool.errors import UsageError
 from vorotool.jobs.names import DERIVED, PICTURE_LAYERS, PICTURES, SKELETON_LAYERS
+from vorotool.jobs.options import ApproximateSkeletonOptions, ExactSkeletonOptions, SkeletonOptions
 from vorotool.jobs.targets import Target, check_picture_options
 
 _WITHOUT_DIGITS = frozenset({"npz", "html", *PICTURES})
@@ -13,7 +12,7 @@ _WITHOUT_CURVES = frozenset({"geojson", "wkt", "graphml"})
 _CURVED = frozenset({"skeleton", "diagram", "centerline", "offset"})
 
 
-def check_options(o: SimpleNamespace, targets: list[Target]) -> None:
+def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
     """Refuse what does not go together, or what no output would show."""
     formats = {target.fmt for target in targets}
     if o.precision is not None and formats <= _WITHOUT_DIGITS:
@@ -42,9 +41,9 @@ def _check_frame(frame: tuple[float, ...]) -> None:
         raise UsageError(f"--frame goes too far to compute with: use numbers of at most {LARGEST:g}")
 
 
-def _check_layers(o: SimpleNamespace, targets: list[Target]) -> None:
+def _check_layers(o: SkeletonOptions, targets: list[Target]) -> None:
     """Each picture has each of the layers."""
-    usual = (*SKELETON_LAYERS, "exact") if hasattr(o, "compare") else SKELETON_LAYERS
+    usual = (*SKELETON_LAYERS, "exact") if isinstance(o, ApproximateSkeletonOptions) else SKELETON_LAYERS
     for target in (target for target in targets if target.fmt in PICTURES):
         own = DERIVED.get(target.what, usual)
         for layer in (layer for layer in o.layers or () if layer not in own):
@@ -54,7 +53,7 @@ def _check_layers(o: SimpleNamespace, targets: list[Target]) -> None:
             )
 
 
-def _check_centerline(o: SimpleNamespace) -> None:
+def _check_centerline(o: SkeletonOptions) -> None:
     if "centerline" in o.what and o.side == "exterior":
         raise UsageError("centerlines are inside polygons: use --side interior or both")
     if o.ends is not None and not {"centerline", "table"} & set(o.what):
@@ -65,7 +64,7 @@ def _check_centerline(o: SimpleNamespace) -> None:
         raise UsageError("--from and --to are ends of centerlines: use --what centerline, or leave them out")
 
 
-def _check_measures(o: SimpleNamespace) -> None:
+def _check_measures(o: SkeletonOptions) -> None:
     """Distances and steps are there where they are needed, and only there."""
     for name, value, users in (("-d", o.distance, {"offset"}), ("--every", o.every, {"points", "transects"})):
         wanted = users & set(o.what)
@@ -76,11 +75,11 @@ def _check_measures(o: SimpleNamespace) -> None:
             raise UsageError(f"{name} is for other results: use {what}, or leave it out")
 
 
-def _check_shapes(o: SimpleNamespace) -> None:
+def _check_shapes(o: SkeletonOptions) -> None:
     """Shapes are rebuilt from what is inside them; offset curves are of the shapes, whatever the skeleton is."""
     if "shape" in o.what and o.side == "exterior":
         raise UsageError("shapes are rebuilt from inside: use --side interior or both")
-    has_gap = bool(getattr(o, "gap", None))
+    has_gap = isinstance(o, ExactSkeletonOptions) and o.gap > 0
     if "shape" in o.what and has_gap:
         raise UsageError("a skeleton with a gap leaves the corners out: use --what shape without --gap")
     given = {"--side": o.side != "interior", "--prune": o.prune is not None, "--gap": has_gap}

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property
-from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from vorotool.errors import Kind, Message
@@ -12,6 +11,7 @@ from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.jobs.options import SkeletonOptions
 from vorotool.jobs.pictures import Drawing, drawing_of, write_layers
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
@@ -19,6 +19,7 @@ from vorotool.jobs.units import in_units, length_in_units
 
 if TYPE_CHECKING:
     from vorotool.engines.skeleton.exact import ShapeDiagram
+    from vorotool.render.canvas.layers import Backdrop
 
 
 class Derived:
@@ -26,23 +27,31 @@ class Derived:
 
     Parameters
     ----------
-    options : namespace
-        Options of the command line.
     run : Run
         Takes seconds.
+    options : SkeletonOptions
+        Of the command line.
+    backdrop : Backdrop, optional
+        The image that pictures are drawn over.
     skeleton, shapes : callable
         Give the skeleton, and the shapes or their exact diagram.
     """
 
     def __init__(
         self,
-        options: SimpleNamespace,
         run: Run,
+        options: SkeletonOptions,
+        backdrop: Backdrop | None,
         skeleton: Callable[[], Skeleton],
         shapes: Callable[[], ShapeDiagram | PolygonSet],
     ) -> None:
-        self.options, self.run = options, run
+        self.run, self.options, self.backdrop = run, options, backdrop
         self._skeleton, self._shapes = skeleton, shapes
+
+    @property
+    def distances(self) -> tuple[float, ...]:
+        """Of the offset curves."""
+        return self.options.distance or ()
 
     @cached_property
     def offset(self) -> Offsets:
@@ -53,9 +62,9 @@ class Derived:
         with self.run.phase("offset"):
             progress = self.run.progress("offset")
             made = offset(
-                shapes, o.distance, features=o.features, strict=o.strict, threads=o.threads, progress=progress
+                shapes, self.distances, features=o.features, strict=o.strict, threads=o.threads, progress=progress
             )
-        empty = [f"{distance:g}" for distance in self.options.distance if distance not in made.distance]
+        empty = [f"{distance:g}" for distance in self.distances if distance not in made.distance]
         if empty:
             self.run.warn(Message(f"nothing is left at the distance {', '.join(empty)}", Kind.EMPTY_RESULT))
         return made
@@ -74,9 +83,10 @@ class Derived:
         """At equal steps along the branches."""
         from vorotool.engines.from_skeleton.points_along import points_along
 
-        skeleton = self._skeleton()
+        skeleton, every = self._skeleton(), self.options.every
+        assert every is not None  # the command refuses points without it
         with self.run.phase("points"):
-            return points_along(skeleton, every=self.options.every)
+            return points_along(skeleton, every=every)
 
     def value(self, what: str) -> Any:
         """Of a result by its name."""
@@ -98,7 +108,7 @@ class Derived:
             layers=o.layers,
             width=o.width or 1000,
             y_up=o.y_up,
-            backdrop=o.backdrop,
+            backdrop=self.backdrop,
         )
 
     def write(self, out: BinaryIO, target: Target) -> None:
@@ -108,7 +118,7 @@ class Derived:
             drawing = self._drawing(target.what)
             write_layers(out, drawing.layers, drawing.page, fmt=target.fmt, threads=o.threads)
             return
-        value = in_units(o, self.value(target.what))
+        value = in_units(o.pixel_size, self.value(target.what))
         if isinstance(value, PolygonSet):
             from vorotool.formats.polygons.reader import write_polygons
 
@@ -116,7 +126,7 @@ class Derived:
         elif isinstance(value, Offsets):
             from vorotool.formats.results.offsets import write_offsets
 
-            flatten = length_in_units(o, o.flatten)
+            flatten = length_in_units(o.pixel_size, o.flatten)
             write_offsets(out, value, target.fmt, flatten=flatten, precision=o.precision, threads=o.threads)
         else:
             from vorotool.formats.results.points_along import write_skeleton_points
@@ -128,18 +138,16 @@ class Derived:
         if "offset" in self.options.what:
             from vorotool.engines.offsets.verify_offsets import verify_offsets
 
-            distances = self.options.distance
             progress = self.run.progress("verifying")
-            verify_offsets(self.offset, distances=distances, threads=self.options.threads, progress=progress)
+            verify_offsets(self.offset, distances=self.distances, threads=self.options.threads, progress=progress)
 
     def stats(self) -> dict[str, Any]:
         """Counts of what was made."""
-        made = self.__dict__
         found: dict[str, Any] = {}
-        if "offset" in made:
+        if "offset" in self.options.what:
             offsets = self.offset
-            found["distances"] = list(self.options.distance)
+            found["distances"] = list(self.distances)
             found |= {"shapes": len(offsets), "rings": len(offsets.ring_kind), "pieces": len(offsets.site)}
-        if "points" in made:
+        if {"points", "transects"} & set(self.options.what):
             found |= {"every": self.options.every, "points": len(self.points)}
         return found

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from vorotool.jobs.inputs import IMAGE_OPTIONS, note_other_size, refuse, settle_threshold
+from vorotool.jobs.inputs import JobInput, note_other_size, refuse, settled_foreground
+from vorotool.jobs.options import SkeletonOptions
 from vorotool.jobs.run_log import Run
 
 if TYPE_CHECKING:
@@ -13,14 +13,29 @@ if TYPE_CHECKING:
     from vorotool.geometry.polygons.polygon_set import PolygonSet
 
 
-def read_polygons(run: Run, o: SimpleNamespace, source: str) -> PolygonSet:
-    """Read polygons, or the outlines of an image; ``o.is_mask`` tells which it was."""
+class ReadPolygons(NamedTuple):
+    """What skeletons are made of.
+
+    Parameters
+    ----------
+    polygons : PolygonSet
+        Those of the input, or outlines.
+    is_mask : bool
+        Whether they are the outlines of an image.
+    """
+
+    polygons: PolygonSet
+    is_mask: bool
+
+
+def read_polygons(run: Run, o: SkeletonOptions, given: JobInput) -> ReadPolygons:
+    """Read polygons, or the outlines of an image."""
     from vorotool.formats import read
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.polygons.polygon_set import PolygonSet
 
     value = read(
-        source,
+        given.path,
         geometry="polygons",
         input_format=o.input_format,
         page=o.page,
@@ -31,27 +46,26 @@ def read_polygons(run: Run, o: SimpleNamespace, source: str) -> PolygonSet:
         note=run.note,
         crs=o.input_crs,
     )
-    o.is_mask = isinstance(value, Raster)
     if isinstance(value, Raster):
-        return _outlines(run, o, value)
+        note_other_size(run, o, given, value.values.shape)
+        return ReadPolygons(_outlines(run, o, value), is_mask=True)
     assert isinstance(value, PolygonSet)  # what is asked for is polygons, or an image
-    refuse(o, (*IMAGE_OPTIONS, "outline"), "is for images, but the input is polygons or lines")
-    return value if o.simplify is None else _simplified(run, o, value)
+    refuse(o.for_images(), "is for images, but the input is polygons or lines")
+    return ReadPolygons(value if o.simplify is None else _simplified(run, o, value, o.simplify), is_mask=False)
 
 
-def _outlines(run: Run, o: SimpleNamespace, image: Raster) -> PolygonSet:
+def _outlines(run: Run, o: SkeletonOptions, image: Raster) -> PolygonSet:
     from vorotool.engines.label_images.outlines import outlines
 
-    note_other_size(run, o, image.values.shape)
-    settle_threshold(run, o, image)
+    threshold, invert = settled_foreground(run, o, image)
     with run.phase("outline"):
         return outlines(
             image,
             outline=o.outline or "crack",
             mode=o.seeds,
             connectivity=int(o.connectivity or 8),
-            threshold=o.threshold,
-            invert=o.invert,
+            threshold=threshold,
+            invert=invert,
             simplify=o.simplify,
             strict=o.strict,
             max_sites=o.max_sites,
@@ -61,7 +75,7 @@ def _outlines(run: Run, o: SimpleNamespace, image: Raster) -> PolygonSet:
         )
 
 
-def _simplified(run: Run, o: SimpleNamespace, polygons: PolygonSet) -> PolygonSet:
+def _simplified(run: Run, o: SkeletonOptions, polygons: PolygonSet, tolerance: float) -> PolygonSet:
     """Simplify polygons once they are cut where they meet."""
     from vorotool.engines.arrangement.lattice_rings import placed_shapes
     from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
@@ -69,4 +83,4 @@ def _simplified(run: Run, o: SimpleNamespace, polygons: PolygonSet) -> PolygonSe
 
     with run.phase("simplify"):
         graph = graph_for_skeletons(polygons, strict=o.strict, threads=o.threads)
-        return simplified_polygons(placed_shapes(graph, threads=o.threads).polygons, o.simplify)
+        return simplified_polygons(placed_shapes(graph, threads=o.threads).polygons, tolerance)

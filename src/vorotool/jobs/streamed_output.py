@@ -6,7 +6,6 @@ import io
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -16,6 +15,7 @@ from vorotool.engines.tessellation.bands import Band
 from vorotool.engines.tessellation.frames import band_limits
 from vorotool.errors import LimitError
 from vorotool.geometry.pixel_frame import Frame
+from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 
@@ -73,7 +73,7 @@ class Stream:
         )
 
 
-def check_chunks(o: SimpleNamespace, frame: Frame, dtype: np.dtype[Any]) -> tuple[int, int]:
+def check_chunks(o: TessellationOptions, frame: Frame, dtype: np.dtype[Any]) -> tuple[int, int]:
     """Choose rows and columns of the chunks of a store.
 
     Raises
@@ -95,7 +95,7 @@ def check_chunks(o: SimpleNamespace, frame: Frame, dtype: np.dtype[Any]) -> tupl
     return chunks
 
 
-def write_file(out: Any, o: SimpleNamespace, target: Target, stream: Stream) -> None:
+def write_file(out: Any, o: TessellationOptions, target: Target, stream: Stream) -> None:
     """Write an image to a file that is open, if there is room for it."""
     from vorotool.formats.io.disk_space import check_space
 
@@ -111,7 +111,7 @@ def write_file(out: Any, o: SimpleNamespace, target: Target, stream: Stream) -> 
     stream.write(out, fmt, stream.bands(), frame.height, threads=o.threads)
 
 
-def write_store(run: Run, o: SimpleNamespace, target: Target, stream: Stream, inputs: Sequence[str]) -> None:
+def write_store(run: Run, o: TessellationOptions, target: Target, stream: Stream, inputs: Sequence[str]) -> None:
     """Write an image to a Zarr store, if there is room for it: here, or on a cluster."""
     from vorotool.formats.io.disk_space import check_space
     from vorotool.formats.zarr.arrays import create_array, write_rows
@@ -130,20 +130,20 @@ def write_store(run: Run, o: SimpleNamespace, target: Target, stream: Stream, in
         array = create_array(folder, frame.shape, dtype=dtype, chunks=chunks)
         limits = [(first, min(chunks[0], frame.height - first)) for first in range(0, frame.height, chunks[0])]
         if o.cluster is not None and o.out_dir is None:
-            _write_on_cluster(run, o, folder, stream, limits)
+            _write_on_cluster(run, folder, stream, limits, address=o.cluster, jobs=o.jobs)
             return
         for first, count in limits:
             write_rows(array, first, stream.rows_of(first, count), threads=o.threads)
 
 
 def _write_on_cluster(
-    run: Run, o: SimpleNamespace, folder: Path, stream: Stream, limits: Sequence[tuple[int, int]]
+    run: Run, folder: Path, stream: Stream, limits: Sequence[tuple[int, int]], *, address: str, jobs: int | None
 ) -> None:
     from vorotool.batch.dask_bands import write_bands
 
     show = run.progress("tessellating")
     bands = ((first, stream.band(first, count)) for first, count in limits)
-    for done, _ in enumerate(write_bands(folder, bands, address=o.cluster, jobs=o.jobs), start=1):
+    for done, _ in enumerate(write_bands(folder, bands, address=address, jobs=jobs), start=1):
         if show is not None:
             show(done / len(limits))
 

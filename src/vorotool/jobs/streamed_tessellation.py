@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from functools import cached_property, partial
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -15,7 +14,9 @@ from vorotool.engines.tessellation.bands import Quantity
 from vorotool.engines.tessellation.frames import label_dtype
 from vorotool.engines.tessellation.streamed_image import ObjectRows, StreamedImage
 from vorotool.errors import UsageError
-from vorotool.jobs.inputs import refuse
+from vorotool.formats.images.band_reader import TiffRows, ZarrRows
+from vorotool.jobs.inputs import JobInput, refuse
+from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.streamed_output import Stream, check_chunks, write_file, write_store
 from vorotool.jobs.targets import Target
@@ -30,18 +31,18 @@ STREAMED = frozenset({"labels", "distance", "distance2"})
 """What can be written of an image that is not held."""
 
 
-def open_large(o: SimpleNamespace, source: str) -> Any:
+def open_large(o: TessellationOptions, given: JobInput) -> ZarrRows | TiffRows | None:
     """Open an image band by band, if it is large or its bands go to a cluster, and the options allow that."""
     from vorotool.formats.images.band_reader import open_rows
     from vorotool.formats.io.sources import reading
     from vorotool.formats.parsing.format_names import NAMES_WITH, known_input_format
 
     held = o.verify or o.seeds == "centroids" or o.threshold == "otsu" or o.method != "exact" or o.columns is not None
-    if source == "-" or held or not set(o.what) <= STREAMED:
+    if given.path == "-" or held or not set(o.what) <= STREAMED:
         return None
     fmt = known_input_format(o.input_format, NAMES_WITH["points"])
-    with reading(source):
-        rows = open_rows(source, input_format=fmt, page=o.page)
+    with reading(given.path):
+        rows = open_rows(given.path, input_format=fmt, page=o.page)
         if rows is None:
             return None
         height, width = rows.shape
@@ -56,17 +57,19 @@ class StreamedProducts:
     ----------
     run : Run
         Takes seconds.
-    options : namespace
-        Options of the command line.
-    image : ImageRows
+    options : TessellationOptions
+        Of the command line.
+    image : ZarrRows or TiffRows
         The input.
     """
 
-    def __init__(self, run: Run, options: SimpleNamespace, image: Any) -> None:
-        refuse(options, ("size", "window"), "is for lists of points, but the input is an image, which brings its own")
+    def __init__(self, run: Run, options: TessellationOptions, image: ZarrRows | TiffRows) -> None:
+        refuse(options.of_frame(), "is for lists of points, but the input is an image, which brings its own")
         self.run, self.options, self.resolution = run, options, image.resolution
         from vorotool.formats.zarr.arrays import CHUNK
 
+        assert options.seeds != "centroids"  # of such images, and of those with Otsu's threshold, all is held
+        assert options.threshold != "otsu"
         source = ObjectRows(
             image,
             options.seeds,

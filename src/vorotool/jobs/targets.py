@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from vorotool.errors import UsageError
 from vorotool.formats.io.atomic_output import is_same_file, spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
+
+if TYPE_CHECKING:
+    from vorotool.jobs.options import JobOptions
 
 EXTENSIONS = {
     ".png": "png",
@@ -110,46 +113,28 @@ def plan_targets(
     return [target]
 
 
-FILES_READ = ("clip", "overlay", "files_from")
-"""Options that name files which are read, and so are never replaced."""
-
-
-def files_read(options: Any) -> dict[str, str]:
-    """Give the files that options name to be read, by the option.
-
-    Examples
-    --------
-    >>> from types import SimpleNamespace
-    >>> files_read(SimpleNamespace(clip="land.geojson", overlay=None))
-    {'--clip': 'land.geojson'}
-    """
-    given = {f"--{name.replace('_', '-')}": getattr(options, name, None) for name in FILES_READ}
-    return {option: path for option, path in given.items() if path is not None}
-
-
-def check_stats(stats: str | None, targets: Sequence[Target], source: str, further: Mapping[str, str]) -> None:
+def check_stats(options: JobOptions, targets: Sequence[Target], source: str) -> None:
     """Refuse statistics that would go where the input, another file that is read, or a result is.
 
     Parameters
     ----------
-    stats : str, optional
-        As given.
+    options : JobOptions
+        Which name the statistics and further files.
     targets : sequence of Target
         The results.
     source : str
         The input.
-    further : mapping of str to str
-        As of `files_read`.
 
     Raises
     ------
     UsageError
         If they would.
     """
+    stats = options.stats
     if stats is None:
         return
     is_open = stats == STANDARD or descriptor_of(stats) is not None
-    for role, path in () if is_open else (("the input", source), *further.items()):
+    for role, path in () if is_open else (("the input", source), *options.files_read().items()):
         if is_same_file(Path(stats), path):
             raise UsageError(f"--stats {stats} is also {role}, which is never replaced: choose another name")
     for target in targets:
@@ -161,7 +146,7 @@ def check_stats(stats: str | None, targets: Sequence[Target], source: str, furth
 
 
 def check_picture_options(
-    options: Any,
+    options: JobOptions,
     pictures: Sequence[str],
     layers: Mapping[str, Sequence[str]] = PICTURE_LAYERS,
     *,
@@ -172,8 +157,8 @@ def check_picture_options(
 
     Parameters
     ----------
-    options : namespace
-        With ``layers``, ``width``, ``overlay`` and ``y_up`` as given, or None.
+    options : JobOptions
+        Of the command line.
     pictures : sequence of str
         Formats of the pictures that are to be written.
     layers : mapping of str to sequence of str
@@ -204,7 +189,7 @@ def check_picture_options(
                 )
 
 
-def _check_overlay(options: Any, pictures: Sequence[str]) -> None:
+def _check_overlay(options: JobOptions, pictures: Sequence[str]) -> None:
     if not pictures:
         raise UsageError("--overlay is for pictures: use -f svg or -f png, or leave it out")
     if options.width is not None:
@@ -213,13 +198,13 @@ def _check_overlay(options: Any, pictures: Sequence[str]) -> None:
         raise UsageError("a picture over an image has y downwards: leave out --y-up, --y-down or --overlay")
 
 
-def check_targets(options: Any, targets: Sequence[Target], source: str) -> None:
+def check_targets(options: JobOptions, targets: Sequence[Target], source: str) -> None:
     """Find out before any work whether the outputs and the statistics can be written.
 
     Parameters
     ----------
-    options : namespace
-        With ``stats``, ``out_dir``, ``no_clobber``, ``overlay`` and perhaps ``clip``.
+    options : JobOptions
+        Of the command line.
     targets : sequence of Target
         The outputs.
     source : str
@@ -228,9 +213,9 @@ def check_targets(options: Any, targets: Sequence[Target], source: str) -> None:
     from vorotool.formats.io.atomic_output import check_output
     from vorotool.formats.zarr.store import check_store
 
-    rules = {
+    rules: dict[str, Any] = {
         "no_clobber": options.no_clobber,
-        "inputs": (source, *files_read(options).values()),
+        "inputs": (source, *options.files_read().values()),
         "makes_folder": options.out_dir is not None,
     }
     for target in targets:

@@ -5,8 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 from functools import cached_property, partial
-from types import SimpleNamespace
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,12 +21,20 @@ from vorotool.engines.label_images.regions import (
 from vorotool.engines.tessellation.bands import Band, Quantity, SeedBand, SeedBands
 from vorotool.engines.tessellation.frames import label_dtype, require_memory
 from vorotool.engines.tessellation.propagation import PropagatedRows
-from vorotool.engines.tessellation.tessellate import verify_rows
+from vorotool.engines.tessellation.seeding import seeds_from_points
+from vorotool.engines.tessellation.tessellate import labelled_rows, verify_rows
 from vorotool.engines.tessellation.tessellator import Tessellator
+from vorotool.errors import LimitError
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.label_image import LabelImage
+from vorotool.geometry.points.point_set import PointSet
+from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.table import Table
+from vorotool.jobs.inputs import JobInput, frame_of, read_seed_input, refuse, seeds_of_image
+from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.streamed_output import RowsOf, Stream, check_chunks, write_file, write_store
+from vorotool.jobs.streamed_tessellation import StreamedProducts, open_large
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import table_in_units
 
@@ -38,21 +45,91 @@ DARK_LABELS = 1024
 """Labels up to here look black in a 16-bit image."""
 
 
+class ReadSeeds(NamedTuple):
+    """Seeds, and what else an input says.
+
+    Parameters
+    ----------
+    seeds : SeedSet
+        Of the input.
+    y_up : bool
+        Whether y of its points goes upwards.
+    resolution : tuple, optional
+        Pixels a unit of the image.
+    """
+
+    seeds: SeedSet
+    y_up: bool = False
+    resolution: tuple[float, float, str] | None = None
+
+
+def products(run: Run, o: TessellationOptions, given: JobInput) -> Products | StreamedProducts:
+    """Read points or an image, and prepare what labels any rows."""
+    with run.phase("read"):
+        large = open_large(o, given)
+        if large is not None:
+            return StreamedProducts(run, o, large)
+        read = _read_seeds(run, o, given)
+    with run.phase("prepare" if o.method == "exact" else "tessellate"):
+        return Products(run, o, given, read, _rows_of(run, o, read.seeds))
+
+
+def _read_seeds(run: Run, o: TessellationOptions, given: JobInput) -> ReadSeeds:
+    value = read_seed_input(run, o, given, properties="table" in o.what)
+    if isinstance(value, PointSet):
+        seeds = seeds_from_points(value, strict=o.strict, check=lambda seeds: frame_of(o, seeds))
+        return ReadSeeds(seeds, value.y_up)
+    alone = {"columns": o.columns, **o.of_frame()}
+    refuse(alone, "is for lists of points, but the input is an image, which brings its own")
+    return ReadSeeds(seeds_of_image(run, o, value, o.seeds), resolution=value.resolution)
+
+
+def _rows_of(run: Run, o: TessellationOptions, seeds: SeedSet) -> Tessellator | PropagatedRows:
+    if len(seeds) > o.max_sites:
+        raise LimitError(f"there are {len(seeds)} seeds, more than --max-sites {o.max_sites}")
+    rows = labelled_rows(
+        seeds,
+        frame_of(o, seeds),
+        method=o.method,
+        passes=o.passes or 2,
+        max_distance=o.max_distance,
+        strict=o.strict,
+        threads=o.threads,
+        max_pixels=o.max_pixels,
+        progress=run.progress("tessellating"),
+    )
+    if isinstance(rows, Tessellator) and {"distance", "distance2"} & set(o.what):
+        rows.check_distances()
+    return rows
+
+
 class Products:
     """Results of one tessellation.
 
     Parameters
     ----------
-    rows : Tessellator or PropagatedRows
-        Gives any rows of labels.
-    options : namespace
-        Options of the command line.
     run : Run
         Takes notes and seconds.
+    options : TessellationOptions
+        Of the command line.
+    given : JobInput
+        With the image that pictures are drawn over.
+    read : ReadSeeds
+        What was read of it.
+    rows : Tessellator or PropagatedRows
+        Gives any rows of labels.
     """
 
-    def __init__(self, rows: Tessellator | PropagatedRows, options: SimpleNamespace, run: Run) -> None:
-        self.rows, self.options, self.run = rows, options, run
+    def __init__(
+        self,
+        run: Run,
+        options: TessellationOptions,
+        given: JobInput,
+        read: ReadSeeds,
+        rows: Tessellator | PropagatedRows,
+    ) -> None:
+        self.run, self.options, self.read, self.rows = run, options, read, rows
+        self.backdrop = given.backdrop
         self.dtype = label_dtype(rows.seeds.largest_label, options.dtype)
 
     @cached_property
@@ -111,7 +188,7 @@ class Products:
 
     def _is_picture(self, target: Target) -> bool:
         """Whether it is drawn from the whole image."""
-        layered = bool(self.options.layers or self.options.backdrop)
+        layered = bool(self.options.layers or self.backdrop)
         return (
             target.what == "colour"
             or target.fmt == "svg"
@@ -144,9 +221,8 @@ class Products:
         return self._streamed(what, rows.squared_distances, rows.square_dtype, largest)
 
     def _streamed(self, what: Any, rows_of: RowsOf, dtype: np.dtype[Any], largest: int, **kind: Any) -> Stream:
-        resolution = getattr(self.options, "resolution", None)
         band = partial(self._band, what, dtype)
-        return Stream(self.rows.frame, rows_of, dtype, largest, band, {"resolution": resolution, **kind})
+        return Stream(self.rows.frame, rows_of, dtype, largest, band, {"resolution": self.read.resolution, **kind})
 
     def _band(self, what: Quantity, dtype: np.dtype[Any], first: int, rows: int) -> Band:
         """Give some rows as what computes them anywhere."""
@@ -164,17 +240,17 @@ class Products:
         labels = self._labels(first - above, rows + above + below)
         return voronoi_diagram(labels, threads=self.options.threads)[above : above + rows]
 
-    def _table(self) -> Any:
+    def _table(self) -> Table:
         image, measures = self.image, self.measures  # refuses a frame that is too large, before distances are taken
         has_distances = isinstance(self.rows, Tessellator) and len(self.rows.seeds)
         squares = self._exact_rows().squared_distances() if has_distances else None
         table = region_table(image, distance2=squares, measures=measures, threads=self.options.threads)
-        return table_in_units(self.options, table, properties=self.rows.seeds.properties)
+        return table_in_units(self.options.pixel_size, table, properties=self.rows.seeds.properties)
 
-    def _neighbours(self) -> Any:
-        return table_in_units(self.options, neighbour_table(self.image, measures=self.measures))
+    def _neighbours(self) -> Table:
+        return table_in_units(self.options.pixel_size, neighbour_table(self.image, measures=self.measures))
 
-    def _write_columns(self, out: BinaryIO, fmt: str, table: Any) -> None:
+    def _write_columns(self, out: BinaryIO, fmt: str, table: Table) -> None:
         from vorotool.formats.text.tables import write_table
 
         write_table(out, table, fmt, precision=self.options.precision, threads=self.options.threads)
@@ -189,8 +265,8 @@ class Products:
             fmt=target.fmt,
             layers=self.options.layers or default_layers(self.image, PICTURE[target.what]),
             width=self.options.width or 1000,
-            y_up=bool(self.options.y_up) and self.options.backdrop is None,
-            backdrop=self.options.backdrop,
+            y_up=self.backdrop is None and (self.read.y_up if self.options.y_up is None else self.options.y_up),
+            backdrop=self.backdrop,
             threads=self.options.threads,
         )
 

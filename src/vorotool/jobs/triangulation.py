@@ -3,25 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property
-from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 from vorotool.engines.delaunay.cells import cell_colours, verify_cells, voronoi_cells
 from vorotool.engines.delaunay.delaunay import delaunay, verify_triangulation
 from vorotool.engines.delaunay.site_table import site_table
 from vorotool.errors import Kind, Message
+from vorotool.formats.io.sources import reading
 from vorotool.formats.text.tables import TABLE_FORMATS, write_table
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.jobs.inputs import JobInput, read_clip, read_sites
 from vorotool.jobs.names import MESH_LAYERS
+from vorotool.jobs.options import Rectangle, TriangulationOptions
 from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, table_in_units
 
 if TYPE_CHECKING:
+    from vorotool.geometry.box import Box
     from vorotool.geometry.mesh.cells import CellSet
     from vorotool.render.canvas.layers import Layer, Page
 
@@ -33,21 +35,57 @@ DEFAULT_LAYERS = {
 """Layers of the picture of each result."""
 
 
+class ReadPoints(NamedTuple):
+    """What is triangulated, and what its cells are clipped to.
+
+    Parameters
+    ----------
+    points : PointSet or SeedSet
+        Of the input.
+    clip : sequence of shapely geometry, optional
+        The polygons of ``--clip``.
+    """
+
+    points: PointSet | SeedSet
+    clip: Sequence[Any] | None
+
+
+def products(run: Run, o: TriangulationOptions, given: JobInput) -> MeshProducts:
+    """Read points, or find those of an image, and triangulate them."""
+    is_digital = o.triangulated_by != "exact"
+    with run.phase("read"):
+        properties = bool({"table", "cells"} & set(o.what))
+        read = ReadPoints(read_sites(run, o, given, properties=properties, is_digital=is_digital), None)
+    if o.clip is not None:
+        with reading(o.clip), run.phase("read polygons"):
+            read = ReadPoints(*read_clip(run, o.clip, read.points, given, threads=o.threads))
+    if not is_digital:
+        return MeshProducts(run, o, given, read)
+    from vorotool.jobs.digital_triangulation import DigitalProducts, RepairedProducts
+
+    return (RepairedProducts if o.triangulated_by == "digital-valid" else DigitalProducts)(run, o, given, read)
+
+
 class MeshProducts:
     """Results of one triangulation.
 
     Parameters
     ----------
-    points : PointSet or SeedSet
-        What to triangulate.
-    options : namespace
-        Options of the command line.
     run : Run
         Takes notes and seconds.
+    options : TriangulationOptions
+        Of the command line.
+    given : JobInput
+        With the image that pictures are drawn over.
+    read : ReadPoints
+        What was read of it.
     """
 
-    def __init__(self, points: PointSet | SeedSet, options: SimpleNamespace, run: Run) -> None:
-        self.options, self.run = options, run
+    def __init__(self, run: Run, options: TriangulationOptions, given: JobInput, read: ReadPoints) -> None:
+        self.run, self.options = run, options
+        self.backdrop, self.clip = given.backdrop, read.clip
+        self._cells: CellSet | None = None
+        points = read.points
         if self.wants_mesh:
             with run.phase("triangulate"):
                 self.mesh: Any = self._triangulate(points)
@@ -55,7 +93,7 @@ class MeshProducts:
     @property
     def wants_mesh(self) -> bool:
         """Whether a result shows the triangulation itself."""
-        return bool(self.options.what != ("compare",))
+        return self.options.what != ("compare",)
 
     def _triangulate(self, points: PointSet | SeedSet) -> AnyTriangulation:
         progress = self.run.progress("triangulating")
@@ -96,7 +134,7 @@ class MeshProducts:
             self._write_mesh(out, fmt, "table")
             return
         table = site_table(self.mesh, self.cells, threads=self.options.threads)
-        table = table_in_units(self.options, table, properties=self.mesh.properties)
+        table = table_in_units(self.options.pixel_size, table, properties=self.mesh.properties)
         write_table(out, table, fmt, precision=self.options.precision, threads=self.options.threads)
 
     def _write_cells(self, out: BinaryIO, fmt: str) -> None:
@@ -105,7 +143,7 @@ class MeshProducts:
         if fmt in ("svg", "png"):
             self._write_picture(out, fmt, "cells")
             return
-        cells = in_units(self.options, self.cells)
+        cells = in_units(self.options.pixel_size, self.cells)
         write_cells(out, cells, fmt, precision=self.options.precision, threads=self.options.threads)
 
     def _write_mesh(self, out: BinaryIO, fmt: str, what: str) -> None:
@@ -114,16 +152,18 @@ class MeshProducts:
         if fmt in ("svg", "png"):
             self._write_picture(out, fmt, what)
             return
-        mesh = in_units(self.options, self.mesh)
+        mesh = in_units(self.options.pixel_size, self.mesh)
         write_mesh(out, mesh, fmt, what=what, precision=self.options.precision, threads=self.options.threads)
 
-    @cached_property
+    @property
     def cells(self) -> CellSet:
-        """The Voronoi cells of the points, clipped."""
-        with self.run.phase("cells"):
-            return self._cells_in(self.options.frame, clip=self.options.clip)
+        """The Voronoi cells of the points, clipped; they are made once."""
+        if self._cells is None:
+            with self.run.phase("cells"):
+                self._cells = self._cells_in(self.options.frame, clip=self.clip)
+        return self._cells
 
-    def _cells_in(self, frame: Any, *, clip: Any = None) -> CellSet:
+    def _cells_in(self, frame: Box | Rectangle | None, *, clip: Sequence[Any] | None = None) -> CellSet:
         return voronoi_cells(
             self.mesh,
             frame=frame,
@@ -140,8 +180,8 @@ class MeshProducts:
         from vorotool.render.canvas.layers import ImagePage
         from vorotool.render.layers.mesh import mesh_page
 
-        if self.options.backdrop is not None:
-            return ImagePage(self.options.backdrop)
+        if self.backdrop is not None:
+            return ImagePage(self.backdrop)
         bounds = self.cells.frame.sides if {"cells", "diagram"} & set(self._layers(what)) else None
         return mesh_page(self.mesh, width=self.options.width or 1000, y_up=self.options.y_up, bounds=bounds)
 
@@ -164,15 +204,15 @@ class MeshProducts:
         progress = self.run.progress("verifying")
         verify_triangulation(self.mesh, threads=self.options.threads, progress=progress)
         if {"cells", "table"} & set(self.options.what):
-            cells = self.cells if self.options.clip is None else self._cells_in(self.cells.frame)
+            cells = self.cells if self.clip is None else self._cells_in(self.cells.frame)
             verify_cells(cells, threads=self.options.threads, progress=progress)
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""
         mesh = self.mesh
         cells: dict[str, Any] = {}
-        if "cells" in self.__dict__:
-            cells = {"frame": self.cells.frame.extent, "empty_cells": int(self.cells.is_empty.sum())}
+        if self._cells is not None:
+            cells = {"frame": self._cells.frame.extent, "empty_cells": int(self._cells.is_empty.sum())}
         return {
             **cells,
             "points": len(mesh.points),

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from fractions import Fraction
-from types import SimpleNamespace
-from typing import Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from vorotool.errors import UsageError
-from vorotool.jobs.targets import Target
+
+if TYPE_CHECKING:
+    from vorotool.geometry.table import Table
+    from vorotool.jobs.targets import Target
 
 Value = TypeVar("Value")
 
@@ -24,7 +26,7 @@ class PixelSize(NamedTuple):
     unit: str | None
 
 
-def check_units(o: SimpleNamespace, targets: Sequence[Target]) -> None:
+def check_units(size: PixelSize | None, targets: Sequence[Target]) -> None:
     """Refuse a size of pixels that nothing shows.
 
     Raises
@@ -32,31 +34,29 @@ def check_units(o: SimpleNamespace, targets: Sequence[Target]) -> None:
     UsageError
         If all outputs are images or pictures.
     """
-    if getattr(o, "pixel_size", None) is None:
-        return
-    if all(target.fmt in WITHOUT_UNITS and target.what != "curves" for target in targets):
+    if size is not None and all(target.fmt in WITHOUT_UNITS and target.what != "curves" for target in targets):
         raise UsageError("--pixel-size is for tables and vectors: use --what table, or leave it out")
 
 
-def in_units(o: SimpleNamespace, value: Value) -> Value:
+def in_units(size: PixelSize | None, value: Value) -> Value:
     """Give a result in the units of the pixel size, if there is one."""
-    if o.pixel_size is None:
+    if size is None:
         return value
     from vorotool.geometry.any.scaling import scaled
 
     with _within_doubles():
-        result: Value = scaled(value, o.pixel_size.factor)
+        result: Value = scaled(value, size.factor)
     return result
 
 
-def table_in_units(o: SimpleNamespace, table: Any, *, properties: Collection[str] = ()) -> Any:
+def table_in_units(size: PixelSize | None, table: Table, *, properties: Collection[str] = ()) -> Table:
     """Give a table in the units of the pixel size, if there is one; the input's own columns stay as they are."""
-    if o.pixel_size is None:
+    if size is None:
         return table
     from vorotool.geometry.any.scaling import scaled_table
 
     with _within_doubles():
-        return scaled_table(table, o.pixel_size.factor, properties=properties)
+        return scaled_table(table, size.factor, properties=properties)
 
 
 @contextmanager
@@ -71,14 +71,13 @@ def _within_doubles() -> Iterator[None]:
         raise UsageError("--pixel-size makes coordinates or areas too large for numbers: use a smaller one") from None
 
 
-def length_in_units(o: SimpleNamespace, length: Any) -> Any:
+def length_in_units(size: PixelSize | None, length: Any) -> Any:
     """Give a number of pixels, or None, in the units of the pixel size, if there is one."""
-    if o.pixel_size is None or length is None:
+    if size is None or length is None:
         return length
-    return length * (o.pixel_size.factor if isinstance(length, Fraction) else float(o.pixel_size.factor))
+    return length * (size.factor if isinstance(length, Fraction) else float(size.factor))
 
 
-def unit_stats(o: SimpleNamespace) -> dict[str, Any]:
+def unit_stats(size: PixelSize | None) -> dict[str, Any]:
     """What statistics say of the size."""
-    size: PixelSize | None = getattr(o, "pixel_size", None)
     return {} if size is None else {"pixel_size": float(size.factor), "unit": size.unit}

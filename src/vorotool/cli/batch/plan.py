@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
-from types import SimpleNamespace
+from typing import Any, Generic
 
 import click
 from click.core import ParameterSource
@@ -20,8 +20,9 @@ from vorotool.cli.options.shared import BATCH_OPTIONS
 from vorotool.errors import UsageError
 from vorotool.formats.io.atomic_output import spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
-from vorotool.jobs.job import Recipe
-from vorotool.jobs.targets import EXTENSIONS, Target, files_read, plan_targets
+from vorotool.jobs.job import Options, Recipe
+from vorotool.jobs.options import ComputingOptions, JobOptions
+from vorotool.jobs.targets import EXTENSIONS, Target, plan_targets
 from vorotool.jobs.units import check_units
 
 WITHOUT_EFFECT = frozenset(
@@ -29,44 +30,61 @@ WITHOUT_EFFECT = frozenset(
 )
 """Options that change no byte of an output."""
 
-INPUT_FILES = ("clip", "overlay")
-"""Options that name files which are read."""
+
+@dataclass(frozen=True)
+class JointTable:
+    """The table of all inputs.
+
+    Parameters
+    ----------
+    path, fmt : str
+        Where it is written, and how.
+    is_safe : bool
+        Texts are no formulas.
+    """
+
+    path: str
+    fmt: str
+    is_safe: bool
 
 
 @dataclass(frozen=True)
-class Plan:
+class Plan(Generic[Options]):
     """What is to be done.
 
     Parameters
     ----------
+    options : JobOptions
+        Of the command line, but ``what`` tells what is computed, and files of one part of the inputs have its name.
     tasks : list of Task
         One an input.
     targets : list of Target
         What each gives, in which format; the paths are those of no input.
-    table : str, optional
-        Format of the table of all inputs.
+    table : JointTable, optional
+        Of all inputs.
     manifest : Manifest, optional
         Where it is recorded what was done.
     notes : list of str
         What is said before the work begins.
     """
 
+    options: Options
     tasks: list[Task]
     targets: list[Target]
-    table: str | None
+    table: JointTable | None
     manifest: Manifest | None
     notes: list[str]
 
 
-def plan_batch(recipe: Recipe, o: SimpleNamespace) -> Plan:
+def plan_batch(recipe: Recipe[Options], o: Options) -> Plan[Options]:
     """Lay out a batch; nothing is written.
 
     Parameters
     ----------
     recipe : Recipe
         Of the command.
-    o : namespace
-        Options of the command line; ``what`` is made to tell what is computed.
+    o : JobOptions
+        Of the command line.
 
     Raises
     ------
@@ -76,11 +94,11 @@ def plan_batch(recipe: Recipe, o: SimpleNamespace) -> Plan:
         If there are no inputs, or outputs would replace something that they must not.
     """
     _check_options(o)
-    notes = _name_files_of_shard(o)
-    table = _table_format(o)
+    o, notes = _named_for_shard(o)
+    table = _joint_table(o)
     if o.out_dir is None:
         _check_table_only(o)
-        o.what = ()
+        o = replace(o, what=())
     targets = [] if o.out_dir is None else plan_targets(
         recipe.formats, o.what, output=None, fmt=o.format, out_dir=o.out_dir, source="input"
     )  # fmt: skip
@@ -89,15 +107,15 @@ def plan_batch(recipe: Recipe, o: SimpleNamespace) -> Plan:
     if manifest is not None:
         tasks = [replace(task, done=manifest.done_before(task.source, history)) for task in tasks]
     if table is not None:
-        o.what = tuple(dict.fromkeys((*o.what, "table")))
-        targets.append(Target("table", f"part.{table}", table))
+        o = replace(o, what=tuple(dict.fromkeys((*o.what, "table"))))
+        targets.append(Target("table", f"part.{table.fmt}", table.fmt))
     recipe.check_options(o, targets)
-    check_units(o, targets)
-    return Plan(tasks, targets, table, manifest, notes)
+    check_units(o.unit, targets)
+    return Plan(o, tasks, targets, table, manifest, notes)
 
 
-def _check_options(o: SimpleNamespace) -> None:
-    table = getattr(o, "table", None)
+def _check_options(o: JobOptions) -> None:
+    table = o.table_of_all
     inputs = f"{len(o.inputs)} inputs are given" if len(o.inputs) > 1 else "many inputs are asked for"
     if o.output is not None:
         raise UsageError(f"{inputs}, but -o names one output: name a folder for all with --out-dir")
@@ -105,9 +123,8 @@ def _check_options(o: SimpleNamespace) -> None:
         raise UsageError(f"{inputs}: name a folder for their outputs with --out-dir")
     if o.out_dir is None and o.resume:
         raise UsageError("--resume needs --out-dir DIR, where it is recorded what was done")
-    for name in INPUT_FILES:
-        given = getattr(o, name, None)
-        if given is not None and (kind := stream_kind(given)) is not None:
+    for name, given in o.files_of_inputs().items():
+        if (kind := stream_kind(given)) is not None:
             what = "standard input" if given == STANDARD else kind
             raise UsageError(f"--{name} {given} is {what}, which not every input can read: name a file")
     if o.null and o.files_from is None:
@@ -120,16 +137,16 @@ def _check_options(o: SimpleNamespace) -> None:
         raise UsageError("-j is for this machine: a cluster has the workers that it has")
 
 
-def _name_files_of_shard(o: SimpleNamespace) -> list[str]:
+def _named_for_shard(o: Options) -> tuple[Options, list[str]]:
     """Give the table and the statistics of a part names of their own: parts would replace those of each other."""
-    notes = []
-    for option in ("table", "stats"):
-        path = getattr(o, option, None)
-        own = path if path is None or o.shard is None else name_of_part(path, *o.shard)
-        if own != path:
-            setattr(o, option, own)
-            notes.append(f"--{option} of part {o.shard[0]} of {o.shard[1]} is {own}")
-    return notes
+    if o.shard is None:
+        return o, []
+    own: dict[str, Any] = {}
+    for option, path in (("table", o.table_of_all), ("stats", o.stats)):
+        if path is not None and name_of_part(path, *o.shard) != path:
+            own[option] = name_of_part(path, *o.shard)
+    part, parts = o.shard
+    return replace(o, **own), [f"--{option} of part {part} of {parts} is {name}" for option, name in own.items()]
 
 
 def name_of_part(path: str, part: int, parts: int) -> str:
@@ -146,34 +163,34 @@ def name_of_part(path: str, part: int, parts: int) -> str:
     return str(name.with_name(f"{name.stem}.{mark}{name.suffix}"))
 
 
-def _check_table_only(o: SimpleNamespace) -> None:
+def _check_table_only(o: JobOptions) -> None:
     source = click.get_current_context().get_parameter_source("what")
     if source != ParameterSource.DEFAULT and o.what != ("table",):
         raise UsageError(f"--what {','.join(o.what)} needs --out-dir DIR: --table is a file of tables alone")
 
 
-def _table_format(o: SimpleNamespace) -> str | None:
-    """Format of the table of all inputs: what its name says, unless there is no other output for -f."""
-    path = getattr(o, "table", None)
-    if path is None:
+def _joint_table(o: JobOptions) -> JointTable | None:
+    """The table of all inputs; its format is what its name says, unless there is no other output for -f."""
+    if not isinstance(o, ComputingOptions) or o.table is None:
         return None
+    path = o.table
     if o.out_dir is None and o.format is not None:
         fmt = o.format.lower()
     else:
         fmt = EXTENSIONS.get(Path(path).suffix.lower(), "" if stream_kind(path) is None else "csv")
     if fmt not in TABLE_FORMATS:
         raise UsageError(f"--table {path} is written as CSV or JSON: name it .csv or .json")
-    return str(fmt)
+    return JointTable(path, fmt, o.safe_csv)
 
 
-def _record(recipe: Recipe, o: SimpleNamespace, targets: list[Target]) -> tuple[Manifest | None, History]:
+def _record(recipe: Recipe[Options], o: Options, targets: list[Target]) -> tuple[Manifest | None, History]:
     """Give where it is recorded what is done, and what was done before by the same options."""
     if o.out_dir is None:
         return None, History()
     digest = digest_of_values(
         {
-            "options": {name: value for name, value in vars(o).items() if name not in WITHOUT_EFFECT},
-            "files": {name: digest_of(getattr(o, name)) for name in INPUT_FILES if getattr(o, name, None)},
+            "options": {name: getattr(o, name) for field in fields(o) if (name := field.name) not in WITHOUT_EFFECT},
+            "files": {name: digest_of(path) for name, path in o.files_of_inputs().items()},
             "outputs": [(target.what, target.fmt) for target in targets],
         }
     )
@@ -184,19 +201,20 @@ def _record(recipe: Recipe, o: SimpleNamespace, targets: list[Target]) -> tuple[
     return manifest, history
 
 
-def _tasks(recipe: Recipe, o: SimpleNamespace, targets: list[Target], note: Callable[[str], None]) -> list[Task]:
+def _tasks(recipe: Recipe[Options], o: Options, targets: list[Target], note: Callable[[str], None]) -> list[Task]:
     inputs = _inputs(recipe, o, note)
-    endings = [target.path.removeprefix(str(Path(o.out_dir) / "input")) for target in targets]
-    tasks = [Task(each.source, output_paths(each.name, endings, o.out_dir or "")) for each in inputs]
-    written = {"--stats": o.stats, "--table": getattr(o, "table", None)}
-    check_outputs(tasks, o.out_dir or "", others=written, read=files_read(o))
+    folder = o.out_dir or ""  # without one there are no targets
+    endings = [target.path.removeprefix(str(Path(folder) / "input")) for target in targets]
+    tasks = [Task(each.source, output_paths(each.name, endings, folder)) for each in inputs]
+    written = {"--stats": o.stats, "--table": o.table_of_all}
+    check_outputs(tasks, folder, others=written, read=o.files_read())
     if o.shard is None:
         return tasks
     chosen = {each.source for each in share(inputs, *o.shard)}
     return [task for task in tasks if task.source in chosen]
 
 
-def _inputs(recipe: Recipe, o: SimpleNamespace, note: Callable[[str], None]) -> list[Input]:
+def _inputs(recipe: Recipe[Options], o: Options, note: Callable[[str], None]) -> list[Input]:
     from vorotool.formats.parsing.format_names import DRAWN_NAMES, NAMES_WITH
 
     known = DRAWN_NAMES if recipe.geometry is None else NAMES_WITH[recipe.geometry]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -19,9 +18,10 @@ from vorotool.cli.options.shared import (
 )
 from vorotool.errors import UsageError
 from vorotool.formats.parsing.format_names import NAMES_WITH
-from vorotool.jobs.inputs import check_components, check_frame_options, naming, read_sites
+from vorotool.jobs.inputs import JobInput, check_components, check_frame_options
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.names import METHODS, OF_ONE_SHAPE, PICTURES, TABLES
+from vorotool.jobs.options import AlphaShapeOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options
 
@@ -88,28 +88,23 @@ def command(**options: Any) -> None:
 
     --what family, spectrum and curves are about the shapes of all radii. -f html makes a page with a slider over r.
     """
-    o = SimpleNamespace(**options)
-    o.what = o.what or (_default_what(o),)
-    run_command(RECIPE, o)
+    if options["what"] is None:
+        options["what"] = (_default_what(options["format"], options["output"]),)
+    run_command(RECIPE, AlphaShapeOptions(**options))
 
 
-def _products(run: Run, o: SimpleNamespace, source: str) -> ShapeProducts:
-    from vorotool.engines.alpha.alpha_shape import chosen_radius
-    from vorotool.jobs.alpha_shape import ShapeProducts
+def _products(run: Run, o: AlphaShapeOptions, given: JobInput) -> ShapeProducts:
+    from vorotool.jobs.alpha_shape import products
 
-    o.radius = chosen_radius(o.r, o.alpha, o.auto)
-    with naming(source), run.phase("read"):
-        points = read_sites(run, o, source, properties="points" in o.what, is_digital=o.method != "exact")
-    with naming(source):
-        return ShapeProducts(points, o, run)
+    return products(run, o, given)
 
 
-def _default_what(o: SimpleNamespace) -> str:
-    name = o.format or Path(o.output or "").suffix
+def _default_what(fmt: str | None, output: str | None) -> str:
+    name = fmt or Path(output or "").suffix
     return "polygons" if name.lower().lstrip(".") in ("geojson", "wkt") else "edges"
 
 
-def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
+def _check_options(o: AlphaShapeOptions, targets: list[Target]) -> None:
     check_components(o)
     if o.regions is not None and (o.r is not None or o.alpha is not None):
         raise UsageError("--regions is for the automatic choice of r: leave out -r and --alpha")
@@ -130,7 +125,7 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     check_picture_options(o, pictures or plots, PICTURE_LAYERS, png_has_width=True, has_page="html" in formats)
 
 
-def _check_method(o: SimpleNamespace, formats: set[str]) -> None:
+def _check_method(o: AlphaShapeOptions, formats: set[str]) -> None:
     """Refuse what the way of triangulating or the rule cannot give, or would not look at."""
     check_frame_options(o, is_digital=o.method != "exact")
     is_automatic = o.r is None and o.alpha is None
@@ -143,7 +138,7 @@ def _check_method(o: SimpleNamespace, formats: set[str]) -> None:
         _check_digital_rule(o, formats)
 
 
-def _check_digital_rule(o: SimpleNamespace, formats: set[str]) -> None:
+def _check_digital_rule(o: AlphaShapeOptions, formats: set[str]) -> None:
     if "html" in formats:
         raise UsageError("--method digital has no curves for a page: use --method exact or digital-valid")
     for name in o.what:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -18,9 +17,10 @@ from vorotool.cli.options.shared import (
 from vorotool.cli.options.suggestions import files
 from vorotool.errors import UsageError
 from vorotool.formats.parsing.format_names import NAMES_WITH, POLYGON_NAMES
-from vorotool.jobs.inputs import check_components, check_frame_options, naming, read_clip, read_sites
+from vorotool.jobs.inputs import JobInput, check_components, check_frame_options
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.names import MESH_LAYERS, METHODS, PICTURES, TABLES
+from vorotool.jobs.options import TriangulationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options
 
@@ -80,42 +80,22 @@ def command(**options: Any) -> None:
 
     --what compare lists where the digital rule differs from the exact triangulation, each with its cause.
     """
-    run_command(RECIPE, SimpleNamespace(**options))
+    run_command(RECIPE, TriangulationOptions(**options))
 
 
-def _products(run: Run, o: SimpleNamespace, source: str) -> MeshProducts:
-    with naming(source), run.phase("read"):
-        properties = bool({"table", "cells"} & set(o.what))
-        points = read_sites(run, o, source, properties=properties, is_digital=_is_digital(o))
-    if o.clip is not None:
-        with run.phase("read polygons"):
-            o.clip, points = read_clip(run, o, o.clip, points, source)
-    with naming(source):
-        return _kind(o)(points, o, run)
+def _products(run: Run, o: TriangulationOptions, given: JobInput) -> MeshProducts:
+    from vorotool.jobs.triangulation import products
+
+    return products(run, o, given)
 
 
-def _kind(o: SimpleNamespace) -> type[MeshProducts]:
-    """Give the maker of the results that are wanted."""
-    if not _is_digital(o):
-        from vorotool.jobs.triangulation import MeshProducts
-
-        return MeshProducts
-    from vorotool.jobs.digital_triangulation import DigitalProducts, RepairedProducts
-
-    return RepairedProducts if o.method == "digital-valid" else DigitalProducts
-
-
-def _is_digital(o: SimpleNamespace) -> bool:
-    return o.method != "exact" or "compare" in o.what
-
-
-def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
+def _check_options(o: TriangulationOptions, targets: list[Target]) -> None:
     _check_method(o, targets)
     check_components(o)
     formats = {target.fmt for target in targets}
     with_cells = {"cells", "diagram"} & set(o.layers or ()) or {"cells", "table"} & set(o.what)
-    for name in ("frame", "clip"):
-        if getattr(o, name) is not None and not with_cells:
+    for name, given in (("frame", o.frame), ("clip", o.clip)):
+        if given is not None and not with_cells:
             raise UsageError(f"--{name} is for cells: use --what cells or table, or leave it out")
     if o.precision is not None and formats <= _WITHOUT_DIGITS:
         raise UsageError("--precision is for numbers in text: use -f csv, json, geojson or obj, or leave it out")
@@ -125,17 +105,15 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     check_picture_options(o, pictures, PICTURE_LAYERS, png_has_width=True)
 
 
-def _check_method(o: SimpleNamespace, targets: list[Target]) -> None:
+def _check_method(o: TriangulationOptions, targets: list[Target]) -> None:
     """Refuse what the way of triangulating cannot give, or would not look at."""
-    check_frame_options(o, is_digital=_is_digital(o))
-    if "compare" in o.what:
-        if o.method == "digital-valid" or (o.method == "exact" and len(o.what) > 1):
-            raise UsageError("--what compare is about the digital rule: use --method digital")
-        o.method = "digital"
-    if o.method == "digital" and {"cells", "diagram"} & set(o.layers or ()):
+    check_frame_options(o, is_digital=o.triangulated_by != "exact")
+    if "compare" in o.what and (o.method == "digital-valid" or (o.method == "exact" and len(o.what) > 1)):
+        raise UsageError("--what compare is about the digital rule: use --method digital")
+    if o.triangulated_by == "digital" and {"cells", "diagram"} & set(o.layers or ()):
         raise UsageError("--layers cells and diagram are of the exact cells: use --method exact or digital-valid")
     for target in targets:
-        if o.method == "digital" and (target.what, target.fmt) in OF_TRIANGULATIONS:
+        if o.triangulated_by == "digital" and (target.what, target.fmt) in OF_TRIANGULATIONS:
             raise UsageError(
                 f"--method digital finds edges and triangles that need be no triangulation: {target.what} as "
                 f"{target.fmt} needs --method exact or digital-valid"

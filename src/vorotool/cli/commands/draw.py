@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -10,8 +9,10 @@ import click
 from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.shared import batch_options, inputs_argument, layers_option, output_options, shared
 from vorotool.formats.parsing.format_names import DRAWN_NAMES
+from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.names import DERIVED, SKELETON_LAYERS
+from vorotool.jobs.options import DrawingOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 
@@ -42,16 +43,16 @@ def command(**options: Any) -> None:
     curves, or shapes: polygons and lines (GeoJSON, WKT, JSON, Triangle .poly), such as centerlines and alpha shapes;
     - is standard input.
     """
-    run_command(RECIPE, SimpleNamespace(**options, what=("picture",)))
+    run_command(RECIPE, DrawingOptions(**options))
 
 
-def _products(run: Run, o: SimpleNamespace, source: str) -> Picture:
+def _products(run: Run, o: DrawingOptions, given: JobInput) -> Picture:
     from vorotool.jobs.drawing import Picture
 
-    return Picture(run, o, source)
+    return Picture(run, o, given)
 
 
-def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
+def _check_options(o: DrawingOptions, targets: list[Target]) -> None:
     """What there can be in a picture depends on the input."""
 
 

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from vorotool.cli.commands.skeletons import run_skeletons
+from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.skeleton import Length, skeleton_options
 from vorotool.errors import UsageError
-from vorotool.jobs.names import APPROXIMATE_LAYERS
+from vorotool.jobs.inputs import JobInput
+from vorotool.jobs.job import Recipe
+from vorotool.jobs.names import APPROXIMATE_LAYERS, SKELETON_FORMATS
+from vorotool.jobs.options import ApproximateSkeletonOptions
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.skeleton_checks import check_options
 
 if TYPE_CHECKING:
-    from vorotool.geometry.polygons.polygon_set import PolygonSet
     from vorotool.jobs.approximate_skeleton import ApproximateProducts
-    from vorotool.jobs.run_log import Run
 
 
 @click.command("skeleton-approx")
@@ -58,15 +60,18 @@ def command(**options: Any) -> None:
     left out, and those that the shapes cross. No point of an arc is farther from the exact skeleton than its
     error_bound.
     """
-    o = SimpleNamespace(**options)
+    o = ApproximateSkeletonOptions(**options)
     if (o.step is None) == (o.tolerance is None):
         raise UsageError("use either --step H or --tolerance E")
     if o.tolerance is not None and o.sampling == "paper":
         raise UsageError("--sampling paper has one step everywhere: use it with --step, or leave it out")
-    run_skeletons("skeleton-approx", o, _products)
+    run_command(RECIPE, o)
 
 
-def _products(polygons: PolygonSet, o: SimpleNamespace, run: Run) -> ApproximateProducts:
+def _products(run: Run, o: ApproximateSkeletonOptions, given: JobInput) -> ApproximateProducts:
     from vorotool.jobs.approximate_skeleton import ApproximateProducts
 
-    return ApproximateProducts(polygons, o, run)
+    return ApproximateProducts(run, o, given)
+
+
+RECIPE = Recipe("skeleton-approx", SKELETON_FORMATS, check_options, _products, "polygons")

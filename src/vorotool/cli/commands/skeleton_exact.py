@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from vorotool.cli.commands.skeletons import run_skeletons
+from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.skeleton import Length, skeleton_options
 from vorotool.errors import UsageError
+from vorotool.jobs.inputs import JobInput
+from vorotool.jobs.job import Recipe
+from vorotool.jobs.names import SKELETON_FORMATS
+from vorotool.jobs.options import ExactSkeletonOptions
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.skeleton_checks import check_options
 
 if TYPE_CHECKING:
-    from vorotool.geometry.polygons.polygon_set import PolygonSet
     from vorotool.jobs.exact_skeleton import ExactProducts
-    from vorotool.jobs.run_log import Run
 
 
 @click.command("skeleton-exact")
@@ -52,13 +55,16 @@ def command(**options: Any) -> None:
     Voronoi diagram of vertices and open edges, the edges between an edge and its own end are left out. What is drawn
     inside polygons comes first, polygon by polygon; arcs of a branch follow each other.
     """
-    o = SimpleNamespace(**options)
+    o = ExactSkeletonOptions(**options)
     if o.complete is not None and not o.gap:
         raise UsageError("nothing is missing without a gap: use --gap STEP, or leave --complete out")
-    run_skeletons("skeleton-exact", o, _products)
+    run_command(RECIPE, o)
 
 
-def _products(polygons: PolygonSet, o: SimpleNamespace, run: Run) -> ExactProducts:
+def _products(run: Run, o: ExactSkeletonOptions, given: JobInput) -> ExactProducts:
     from vorotool.jobs.exact_skeleton import ExactProducts
 
-    return ExactProducts(polygons, o, run)
+    return ExactProducts(run, o, given)
+
+
+RECIPE = Recipe("skeleton-exact", SKELETON_FORMATS, check_options, _products, "polygons")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -18,22 +17,14 @@ from vorotool.cli.options.shared import (
 )
 from vorotool.errors import UsageError
 from vorotool.formats.parsing.format_names import NAMES_WITH
-from vorotool.jobs.inputs import (
-    check_components,
-    check_frame_options,
-    frame_of,
-    naming,
-    read_seed_input,
-    refuse,
-    settle_threshold,
-)
+from vorotool.jobs.inputs import JobInput, check_components, check_frame_options
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.names import TABLES
+from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options
 
 if TYPE_CHECKING:
-    from vorotool.geometry.points.seed_set import SeedSet
     from vorotool.jobs.streamed_tessellation import StreamedProducts
     from vorotool.jobs.tessellation import Products
 
@@ -86,10 +77,10 @@ def command(**options: Any) -> None:
     INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, PBM,
     NPY, Zarr); - is standard input. Label i is the i-th point; an image's own labels are kept.
     """
-    run_command(RECIPE, SimpleNamespace(**options))
+    run_command(RECIPE, TessellationOptions(**options))
 
 
-def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
+def _check_options(o: TessellationOptions, targets: list[Target]) -> None:
     check_frame_options(o, is_digital=True)
     if o.method == "propagation" and o.max_distance is not None:
         raise UsageError("--max-distance needs --method exact")
@@ -103,7 +94,7 @@ def _check_options(o: SimpleNamespace, targets: list[Target]) -> None:
     _check_output_options(o, {(target.what, target.fmt) for target in targets})
 
 
-def _check_output_options(o: SimpleNamespace, outputs: set[tuple[str, str]]) -> None:
+def _check_output_options(o: TessellationOptions, outputs: set[tuple[str, str]]) -> None:
     """Refuse options that no output would show."""
     if o.dtype is not None and not outputs & {("labels", fmt) for fmt in ("tiff", "npy", "zarr")}:
         raise UsageError("--dtype is for labels in TIFF, NPY and Zarr: use -f tiff or -f npy, or leave it out")
@@ -118,63 +109,10 @@ def _check_output_options(o: SimpleNamespace, outputs: set[tuple[str, str]]) -> 
     check_picture_options(o, [fmt for _, fmt in pictures])
 
 
-def _read_seeds(run: Run, o: SimpleNamespace, source: str) -> SeedSet:
-    from vorotool.engines.tessellation.seeding import seeds_from_points, seeds_from_raster
-    from vorotool.geometry.points.point_set import PointSet
+def _products(run: Run, o: TessellationOptions, given: JobInput) -> Products | StreamedProducts:
+    from vorotool.jobs.tessellation import products
 
-    value = read_seed_input(run, o, source, properties="table" in o.what)
-    if isinstance(value, PointSet):
-        o.y_up = value.y_up if o.y_up is None else o.y_up
-        return seeds_from_points(value, strict=o.strict, check=lambda seeds: frame_of(o, seeds))
-    refuse(o, ("columns", "size", "window"), "is for lists of points, but the input is an image, which brings its own")
-    o.resolution = value.resolution
-    settle_threshold(run, o, value)
-    return seeds_from_raster(
-        value,
-        mode=o.seeds,
-        connectivity=int(o.connectivity or 8),
-        threshold=o.threshold,
-        invert=o.invert,
-        strict=o.strict,
-        max_sites=o.max_sites,
-        note=run.note,
-    )
-
-
-def _products(run: Run, o: SimpleNamespace, source: str) -> Products | StreamedProducts:
-    from vorotool.jobs.streamed_tessellation import StreamedProducts, open_large
-
-    with naming(source), run.phase("read"):
-        large = open_large(o, source)
-        if large is not None:
-            return StreamedProducts(run, o, large)
-    with naming(source), run.phase("read"):
-        seeds = _read_seeds(run, o, source)
-    with naming(source), run.phase("prepare"):
-        return _prepare(run, o, seeds)
-
-
-def _prepare(run: Run, o: SimpleNamespace, seeds: SeedSet) -> Products:
-    from vorotool.engines.tessellation.propagation import PropagatedRows
-    from vorotool.engines.tessellation.tessellator import Tessellator
-    from vorotool.errors import LimitError
-    from vorotool.jobs.tessellation import Products
-
-    if len(seeds) > o.max_sites:
-        raise LimitError(f"there are {len(seeds)} seeds, more than --max-sites {o.max_sites}")
-    frame = frame_of(o, seeds)
-    progress = run.progress("tessellating")
-    rows: Tessellator | PropagatedRows
-    if o.method == "exact":
-        rows = Tessellator(
-            seeds, frame, max_distance=o.max_distance, threads=o.threads, strict=o.strict, progress=progress
-        )
-        if {"distance", "distance2"} & set(o.what):
-            rows.check_distances()
-    else:
-        with run.phase("tessellate"):
-            rows = PropagatedRows(seeds, frame, passes=o.passes or 2, max_pixels=o.max_pixels, progress=progress)
-    return Products(rows, o, run)
+    return products(run, o, given)
 
 
 RECIPE = Recipe("tessellate", FORMATS, _check_options, _products, "points")

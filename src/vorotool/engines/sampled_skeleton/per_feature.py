@@ -13,13 +13,14 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.arrangement.lattice_rings import placed_shapes
-from vorotool.engines.arrangement.planar_graph import arranged, placed_vertices
+from vorotool.engines.arrangement.planar_graph import arranged, graph_for_skeletons, placed_vertices
 from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.features.batches import BatchShapes, FeatureShapes, in_batches, together
 from vorotool.engines.features.order import Places
 from vorotool.engines.sampled_skeleton.approximate import (
     MOST_SEEDS,
     ApproximateSkeleton,
+    SampledShapes,
     SampleGroups,
     SamplingOptions,
     approximate_skeleton,
@@ -111,6 +112,42 @@ def of_one_part(found: ApproximateSkeleton) -> FeatureApproximation:
     return FeatureApproximation(found.skeleton, found.seeds, [found], [np.arange(len(found.skeleton))], None)
 
 
+def approximation(
+    polygons: PolygonSet,
+    options: SamplingOptions,
+    *,
+    side: str = "interior",
+    features: str = "separate",
+    complete: bool = False,
+    frame: Frame | None = None,
+    strict: bool = False,
+    most: int = MOST_SEEDS,
+    threads: int = 0,
+    progress: Progress = None,
+) -> FeatureApproximation:
+    """Approximate the skeleton of polygons; arguments, errors and warnings as of `vorotool.skeleton_approx`.
+
+    Parameters
+    ----------
+    polygons : PolygonSet
+        What `PolygonSet.feature` is the same of is one feature.
+    options : SamplingOptions
+        How edges are sampled.
+    side, features, complete, frame, strict, threads, progress
+        As of `vorotool.skeleton_approx`.
+    most : int
+        The most seeds of all features.
+    """
+    common: dict[str, Any] = {"threads": threads, "progress": progress}
+    wanted: dict[str, Any] = {"complete": complete, "most": most, **common}
+    if features == "together":
+        graph = graph_for_skeletons(polygons, strict=strict, **common)
+        return of_one_part(_of_graph(graph, options, side=side, frame=frame, **wanted))
+    if side == "interior":
+        return feature_approximation(polygons, options, strict=strict, **wanted)
+    return approximation_of_sides(polygons, options, side=side, frame=frame, strict=strict, **wanted)
+
+
 def feature_approximation(
     polygons: PolygonSet,
     options: SamplingOptions,
@@ -179,7 +216,7 @@ def approximation_of_sides(
     common: dict[str, Any] = {"most": most, "threads": threads, "progress": progress}
     graph = together(polygons, strict=strict, threads=threads, progress=progress)
     if side == "exterior":
-        found = _outside(graph, options, frame=frame, complete=complete, **common)
+        found = _of_graph(graph, options, side=side, frame=frame, complete=complete, **common)
         return of_one_part(found)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", VorotoolWarning)  # repairs were told where all were put together
@@ -188,7 +225,7 @@ def approximation_of_sides(
         warn_empty(polygons, side)
     placement = placed_vertices(inside.skeleton.polygons, threads=threads, progress=progress)
     again = arranged(inside.skeleton.polygons, placement, progress=progress).graph
-    outside = _outside(again, options, frame=frame, complete=complete, **common)
+    outside = _of_graph(again, options, side="exterior", frame=frame, complete=complete, **common)
     skeleton = joined_sides(inside.skeleton, outside.skeleton, outside.shapes.placed, again)
     parts = [*inside.parts, outside]
     arcs = [*inside.arcs, len(inside.skeleton) + np.arange(len(outside.skeleton))]
@@ -207,10 +244,11 @@ def _inside(
     return skeleton_of_samples(sampled, tolerance=0.0, **wanted, **common)
 
 
-def _outside(
+def _of_graph(
     graph: PlanarGraph,
     options: SamplingOptions,
     *,
+    side: str,
     frame: Frame | None,
     complete: bool,
     most: int,
@@ -218,11 +256,31 @@ def _outside(
     progress: Progress,
 ) -> ApproximateSkeleton:
     common: dict[str, Any] = {"threads": threads, "progress": progress}
-    wanted: dict[str, Any] = {"side": "exterior", "frame": frame, "complete": complete}
+    wanted: dict[str, Any] = {"side": side, "frame": frame, "complete": complete}
     placed = placed_shapes(graph, threads=threads)
     if options.tolerance is not None:
         return skeleton_within(graph, placed, options.tolerance, most=most, **wanted, **common)
     return approximate_skeleton(sampled_graph(graph, placed, options, most=most, **common), **wanted, **common)
+
+
+def samples_of_graph(
+    graph: PlanarGraph,
+    options: SamplingOptions,
+    *,
+    side: str = "interior",
+    frame: Frame | None = None,
+    complete: bool = False,
+    most: int = MOST_SEEDS,
+    threads: int = 0,
+    progress: Progress = None,
+) -> SampledShapes:
+    """Sample a graph as its skeleton needs it, and compute the Voronoi diagram of the seeds."""
+    placed = placed_shapes(graph, threads=threads)
+    common: dict[str, Any] = {"most": most, "threads": threads, "progress": progress}
+    if options.tolerance is None:
+        return sampled_graph(graph, placed, options, **common)
+    wanted: dict[str, Any] = {"side": side, "frame": frame, "complete": complete, **common}
+    return skeleton_within(graph, placed, options.tolerance, **wanted).shapes
 
 
 def _groups(shapes: BatchShapes) -> SampleGroups:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vorotool.engines.arrangement.lattice_rings import PlacedShapes
 from vorotool.engines.arrangement.planar_graph import arranged, placed_vertices
 from vorotool.engines.common.label_arrays import Progress
-from vorotool.engines.features.batches import are_apart, together
+from vorotool.engines.features.batches import are_apart
 from vorotool.engines.skeleton.exact import Frame, ShapeDiagram, diagram_of_graph, skeleton_of, warn_empty
 from vorotool.engines.skeleton.parts import PER_ARC
 from vorotool.engines.skeleton.per_feature import feature_skeleton
@@ -20,24 +20,6 @@ from vorotool.errors import VorotoolWarning
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.skeleton import EDGE, SiteTable, Skeleton
-
-
-def skeleton_of_sides(
-    polygons: PolygonSet,
-    *,
-    side: str,
-    frame: Frame | None = None,
-    strict: bool = False,
-    threads: int = 0,
-    progress: Progress = None,
-) -> Skeleton:
-    """Compute what is outside of all polygons, and with both sides what is inside each feature, too.
-
-    Arguments, errors and warnings are as of `vorotool.skeleton_exact`.
-    """
-    common: dict[str, Any] = {"threads": threads, "progress": progress}
-    shapes = diagram_of_graph(together(polygons, strict=strict, **common), **common)
-    return sides_of(shapes, side=side, frame=frame, **common)
 
 
 def sides_of(

@@ -12,7 +12,7 @@ import numpy as np
 from vorotool.engines.arrangement.lattice_rings import placed_shapes
 from vorotool.engines.arrangement.planar_graph import arranged, placed_vertices
 from vorotool.engines.common.label_arrays import Progress
-from vorotool.engines.features.batches import BatchShapes, FeatureShapes, in_batches, together
+from vorotool.engines.features.batches import BatchShapes, FeatureShapes, in_batches
 from vorotool.engines.features.order import InputOrder
 from vorotool.engines.skeleton.both_sides import joined_sides
 from vorotool.engines.skeleton.exact import Frame, warn_empty
@@ -20,7 +20,6 @@ from vorotool.engines.skeleton.per_feature import FeatureSkeleton, Seen, joined_
 from vorotool.engines.skeleton.short_edges import ShortEdges
 from vorotool.engines.skeleton.shortened_edges import (
     ElementDiagram,
-    elements_of_graph,
     elements_of_shapes,
     skeleton_of_elements,
 )
@@ -97,28 +96,6 @@ def _refuse(whole: FeatureShapes, parts: Sequence[tuple[BatchShapes, ShortEdges]
         np.concatenate([short.length for _, short in parts]),
     )
     short.refuse(order.polygons, order.site_table, gap)
-
-
-def skeleton_with_gap(
-    polygons: PolygonSet,
-    gap: float,
-    *,
-    side: str,
-    complete: bool = True,
-    frame: Frame | None = None,
-    strict: bool = False,
-    threads: int = 0,
-    progress: Progress = None,
-) -> Skeleton:
-    """Compute a skeleton by the paper's decomposition; arguments, errors and warnings as of `vorotool.skeleton_exact`.
-
-    What is outside is of all features.
-    """
-    common: dict[str, Any] = {"threads": threads, "progress": progress}
-    if side == "interior":
-        return feature_elements(polygons, gap, complete=complete, strict=strict, **common).skeleton
-    elements = elements_of_graph(together(polygons, strict=strict, **common), gap, **common)
-    return sides_of_elements(elements, side=side, complete=complete, frame=frame, **common)
 
 
 def sides_of_elements(

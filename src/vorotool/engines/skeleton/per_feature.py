@@ -42,7 +42,7 @@ class FeatureSkeleton(Generic[Seen]):
 def feature_skeleton(
     polygons: PolygonSet,
     *,
-    look: Callable[[ShapeDiagram], Seen] | None = None,
+    look: Callable[[ShapeDiagram, Skeleton], Seen] | None = None,
     strict: bool = False,
     threads: int = 0,
     progress: Progress = None,
@@ -54,7 +54,7 @@ def feature_skeleton(
     polygons : PolygonSet
         What `PolygonSet.feature` is the same of is one feature, and has one skeleton.
     look : callable, optional
-        Called with the whole diagram of each batch, which otherwise has no vertices outside.
+        Called with the whole diagram of each batch, which otherwise has no vertices outside, and its skeleton.
     strict, threads, progress
         As of `vorotool.skeleton_exact`, as are errors and warnings.
 
@@ -69,8 +69,8 @@ def feature_skeleton(
 
     def work(shapes: BatchShapes, threads: int, poll: Progress) -> tuple[Skeleton, list[Seen]]:
         diagram = batch_diagram(shapes, is_whole=look is not None, threads=threads, progress=poll)
-        seen = [] if look is None else [look(diagram)]
-        return _without_beyond(interior_skeleton(diagram, threads=threads, progress=poll), shapes), seen
+        made = interior_skeleton(diagram, threads=threads, progress=poll)
+        return _without_beyond(made, shapes), [] if look is None else [look(diagram, made)]
 
     whole, made = in_batches(polygons, work, strict=strict, threads=threads, progress=progress)
     if not whole.polygon_count:

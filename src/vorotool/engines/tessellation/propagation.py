@@ -32,8 +32,6 @@ def propagate(
     frame: Frame | None = None,
     *,
     passes: int = 2,
-    dtype: Any = None,
-    out: NDArray[Any] | None = None,
     progress: Progress = None,
 ) -> LabelImage:
     """Run the paper's two passes to the letter (section 2.2), with an implicit frame of zero labels.
@@ -74,15 +72,9 @@ def propagate(
             f"seed {i + 1} at ({seeds.x[i]}, {seeds.y[i]}) is outside the frame, and the paper's propagation starts "
             f"from its pixels: use a larger --size or --window, or --method exact"
         )
-    if out is not None:
-        check_out(out, frame.shape)
-    kind = label_dtype(seeds.largest_label, dtype if out is None else out.dtype)
     labels = np.empty(frame.shape, np.uint32)
     _core.tessellation.propagate(x, y, seeds.labels, passes, labels, progress)
-    if out is None:
-        return LabelImage(labels.astype(kind, copy=False), frame, seeds)
-    out[...] = labels
-    return LabelImage(out, frame, seeds)
+    return LabelImage(labels.astype(label_dtype(seeds.largest_label), copy=False), frame, seeds)
 
 
 class PropagatedRows:
@@ -92,6 +84,8 @@ class PropagatedRows:
     ----------
     seeds, frame, passes, progress
         As for `propagate`.
+    strict : bool
+        Refuse several seeds at one place.
     max_pixels : int
         Larger frames are refused before memory is taken.
 
@@ -108,6 +102,7 @@ class PropagatedRows:
         frame: Frame | None = None,
         *,
         passes: int = 2,
+        strict: bool = False,
         max_pixels: int = MAX_PIXELS,
         progress: Progress = None,
     ) -> None:
@@ -120,13 +115,19 @@ class PropagatedRows:
             warnings.simplefilter("ignore")
             self._exact = Tessellator(seeds, self.frame)
         self.duplicates = self._exact.duplicates
-        report_duplicates(self.duplicates, len(seeds), strict=False)
+        report_duplicates(self.duplicates, len(seeds), strict=strict)
 
-    def labels(self, first: int = 0, rows: int | None = None, *, dtype: Any = None) -> NDArray[Any]:
+    def labels(
+        self, first: int = 0, rows: int | None = None, *, dtype: Any = None, out: NDArray[Any] | None = None
+    ) -> NDArray[Any]:
         """Labels of some rows, as `Tessellator.labels` gives them."""
-        rows = self.frame.height - first if rows is None else rows
-        kind = label_dtype(self.seeds.largest_label, dtype)
-        return self._labels[first : first + rows].astype(kind, copy=False)
+        found = self._labels[first : self.frame.height if rows is None else first + rows]
+        if out is None:
+            return found.astype(label_dtype(self.seeds.largest_label, dtype), copy=False)
+        check_out(out, found.shape)
+        label_dtype(self.seeds.largest_label, out.dtype)
+        out[...] = found
+        return out
 
     def compare_with_exact(self) -> dict[str, Any]:
         """Count the pixels that differ from the exact tessellation, and name the first in raster order.

@@ -16,7 +16,7 @@ from vorotool.engines.tessellation.frames import (
     require_memory,
     squared_limit,
 )
-from vorotool.engines.tessellation.propagation import PropagatedRows, propagate
+from vorotool.engines.tessellation.propagation import PropagatedRows
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.engines.tessellation.verify_tessellation import verify_label_image
 from vorotool.errors import UsageError
@@ -99,16 +99,54 @@ def tessellate(
             require_memory(frame or default_frame(made), max_pixels)
 
     seed_set = as_seeds(seeds, check=require_frame)
+    rows = labelled_rows(
+        seed_set,
+        frame,
+        method=method,
+        passes=passes,
+        max_distance=max_distance,
+        threads=threads,
+        max_pixels=max_pixels,
+        progress=progress,
+    )
+    return LabelImage(rows.labels(dtype=dtype, out=out), rows.frame, seed_set)
+
+
+def labelled_rows(
+    seeds: SeedSet,
+    frame: Frame | None = None,
+    *,
+    method: Method = "exact",
+    passes: int = 2,
+    max_distance: float | Fraction | None = None,
+    strict: bool = False,
+    threads: int = 0,
+    max_pixels: int = MAX_PIXELS,
+    progress: Progress = None,
+) -> Tessellator | PropagatedRows:
+    """Prepare what gives any rows of a tessellation; arguments and errors as of `tessellate`.
+
+    Parameters
+    ----------
+    frame : Frame, optional
+        By default what just holds the seeds.
+    strict : bool
+        Refuse several seeds at one place.
+
+    Examples
+    --------
+    >>> labelled_rows(as_seeds([[0, 0], [2, 1]]), Frame(0, 0, 3, 2)).labels(1).tolist()
+    [[1, 2, 2]]
+    """
     if method == "propagation":
         if max_distance is not None:
             raise UsageError("max_distance needs method='exact': the paper's propagation has no distance limit")
-        return propagate(seed_set, frame, passes=passes, dtype=dtype, out=out, progress=progress)
+        return PropagatedRows(seeds, frame, passes=passes, strict=strict, max_pixels=max_pixels, progress=progress)
     if method != "exact":
         raise UsageError(f"method is {method!r}: it must be 'exact' or 'propagation'")
     if whole_number(passes, "passes") != 2:
         raise UsageError(f"passes is {shown_number(passes)}, which needs method='propagation'")
-    sweep = Tessellator(seed_set, frame, max_distance=max_distance, threads=threads, progress=progress)
-    return LabelImage(sweep.labels(dtype=dtype, out=out), sweep.frame, seed_set)
+    return Tessellator(seeds, frame, max_distance=max_distance, threads=threads, strict=strict, progress=progress)
 
 
 def verify_rows(rows: Tessellator | PropagatedRows, *, threads: int = 0) -> None:

@@ -1,0 +1,109 @@
+"""What skeletons are made of: the diagrams of single features, or that of all of them, with or without a gap."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
+from vorotool.engines.common.label_arrays import Progress
+from vorotool.engines.features.batches import together
+from vorotool.engines.skeleton.both_sides import sides_of
+from vorotool.engines.skeleton.exact import Frame, ShapeDiagram, diagram_of_graph, skeleton_of, whole_diagram
+from vorotool.engines.skeleton.feature_elements import feature_elements, sides_of_elements
+from vorotool.engines.skeleton.per_feature import FeatureSkeleton, Seen, feature_skeleton
+from vorotool.engines.skeleton.shortened_edges import (
+    ElementDiagram,
+    elements_of_graph,
+    skeleton_of_elements,
+    whole_element_diagram,
+)
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.skeleton.skeleton import Skeleton
+
+AnyDiagram = ShapeDiagram | ElementDiagram
+
+
+def is_of_single_features(side: str, features: str) -> bool:
+    """Whether a skeleton takes no diagram of all features: `skeleton_inside` makes it."""
+    return side == "interior" and features == "separate"
+
+
+def skeleton_inside(
+    polygons: PolygonSet,
+    gap: float = 0.0,
+    *,
+    complete: bool = True,
+    look: Callable[[AnyDiagram, Skeleton], Seen] | None = None,
+    strict: bool = False,
+    threads: int = 0,
+    progress: Progress = None,
+) -> FeatureSkeleton[Seen]:
+    """Compute the skeleton inside each feature by itself.
+
+    Parameters
+    ----------
+    polygons, gap, complete, strict, threads, progress
+        As of `vorotool.skeleton_exact`, as are errors and warnings.
+    look : callable, optional
+        Called with the whole diagram of each batch of features, which otherwise has no vertices outside, and with the
+        skeleton in it.
+
+    Examples
+    --------
+    >>> from vorotool.geometry.polygons.conversion import as_polygons
+    >>> square = as_polygons([[0, 0], [8, 0], [8, 8], [0, 8]])
+    >>> len(skeleton_inside(square).skeleton), len(skeleton_inside(square, 1.0).skeleton)
+    (4, 12)
+    """
+    if not gap:
+        return feature_skeleton(polygons, look=look, strict=strict, threads=threads, progress=progress)
+    return feature_elements(
+        polygons, gap, complete=complete, look=look, strict=strict, threads=threads, progress=progress
+    )
+
+
+def diagram_of_all(
+    polygons: PolygonSet,
+    gap: float = 0.0,
+    *,
+    features: str,
+    interior_only: bool = False,
+    strict: bool = False,
+    threads: int = 0,
+    progress: Progress = None,
+) -> AnyDiagram:
+    """Compute the diagram of all features; arguments, errors and warnings as of `vorotool.skeleton_exact`.
+
+    If only the interior is asked for, vertices outside are left out where there is no gap.
+    """
+    graph_of = graph_for_skeletons if features == "together" else together
+    graph = graph_of(polygons, strict=strict, threads=threads, progress=progress)
+    if gap:
+        return elements_of_graph(graph, gap, threads=threads, progress=progress)
+    return diagram_of_graph(graph, interior_only=interior_only, threads=threads, progress=progress)
+
+
+def skeleton_in(
+    diagram: AnyDiagram,
+    *,
+    side: str,
+    features: str,
+    complete: bool = True,
+    frame: Frame | None = None,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Skeleton:
+    """Take the skeleton out of the diagram of all features; arguments as of `vorotool.skeleton_exact`."""
+    is_one = features == "together"
+    if isinstance(diagram, ShapeDiagram):
+        of_shapes = skeleton_of if is_one else sides_of
+        return of_shapes(diagram, side=side, frame=frame, threads=threads, progress=progress)
+    of_elements = skeleton_of_elements if is_one else sides_of_elements
+    return of_elements(diagram, side=side, complete=complete, frame=frame, threads=threads, progress=progress)
+
+
+def all_edges(diagram: AnyDiagram, *, frame: Frame | None = None, threads: int = 0) -> Skeleton:
+    """Give all edges of a diagram as arcs, cut by a frame: what it is before anything is deleted."""
+    if isinstance(diagram, ShapeDiagram):
+        return whole_diagram(diagram, frame=frame, threads=threads)
+    return whole_element_diagram(diagram, frame=frame, threads=threads)

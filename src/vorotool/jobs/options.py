@@ -1,0 +1,231 @@
+"""Options of the commands: one frozen value a job, made once from what the command line gives.
+
+A field is called as its option is, and ``--help`` says what it means; one that is None was not given.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, Literal
+
+if TYPE_CHECKING:
+    from vorotool.engines.centerlines.centerline import Ends
+    from vorotool.engines.tessellation.seeding import SeedMode
+    from vorotool.jobs.pruning_choice import Pruning
+    from vorotool.jobs.units import PixelSize
+
+Place = tuple[float, float]
+Rectangle = tuple[float, float, float, float]
+Method = Literal["exact", "digital", "digital-valid"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JobOptions:
+    """What each command has: outputs, pictures, many inputs, and what is said."""
+
+    inputs: tuple[str, ...]
+    input_format: str | None
+    page: int | None
+    what: tuple[str, ...]
+    output: str | None
+    format: str | None
+    out_dir: str | None
+    no_clobber: bool
+    stats: str | None
+    layers: tuple[str, ...] | None
+    overlay: str | None
+    width: int | None
+    y_up: bool | None
+    max_pixels: int
+    threads: int
+    quiet: bool
+    verbose: bool
+    files_from: str | None
+    null: bool
+    jobs: int | None
+    keep_going: bool
+    dry_run: bool
+    resume: bool
+    shard: tuple[int, int] | None
+    cluster: str | None
+
+    @property
+    def unit(self) -> PixelSize | None:
+        """The side of a pixel, of what has lengths."""
+        return None
+
+    @property
+    def table_of_all(self) -> str | None:
+        """The file of the tables of all inputs, of what has tables."""
+        return None
+
+    @property
+    def is_of_many(self) -> bool:
+        """Whether there are options that make a batch of one input, too."""
+        given = (self.files_from, self.null, self.keep_going, self.dry_run, self.resume, self.shard, self.table_of_all)
+        return any(given)
+
+    def files_of_inputs(self) -> dict[str, str]:
+        """Give the files that are read beside each input, by the names of the options."""
+        return {"overlay": self.overlay} if self.overlay else {}
+
+    def files_read(self) -> dict[str, str]:
+        """Give the files that are read beside the inputs, and so are never replaced, as the user names them."""
+        files = {f"--{name}": path for name, path in self.files_of_inputs().items()}
+        return {"--files-from": self.files_from, **files} if self.files_from else files
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DrawingOptions(JobOptions):
+    """Of ``draw``, which has one result."""
+
+    what: tuple[str, ...] = ("picture",)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ComputingOptions(JobOptions):
+    """What each command has that computes something of points, polygons or an image."""
+
+    input_crs: str | None
+    connectivity: Literal["8", "4"] | None
+    threshold: float | Literal["otsu"] | None
+    invert: bool
+    strict: bool
+    verify: bool
+    precision: int | None
+    pixel_size: PixelSize | None
+    table: str | None
+    no_properties: bool
+    safe_csv: bool
+    max_sites: int
+
+    @property
+    def unit(self) -> PixelSize | None:
+        """The side of a pixel."""
+        return self.pixel_size
+
+    @property
+    def table_of_all(self) -> str | None:
+        """The file of the tables of all inputs."""
+        return self.table
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SiteOptions(ComputingOptions):
+    """What each command has whose sites are points, or the seeds of an image."""
+
+    columns: str | None
+    seeds: SeedMode | None
+    size: tuple[int, int] | None
+    window: tuple[int, int, int, int] | None
+
+    def for_images(self) -> dict[str, Any]:
+        """Give the options that mean nothing for a list of points, by their names."""
+        return {
+            "page": self.page,
+            "seeds": self.seeds,
+            "connectivity": self.connectivity,
+            "threshold": self.threshold,
+            "invert": self.invert,
+        }
+
+    def of_frame(self) -> dict[str, Any]:
+        """Give the options of the frame that lists of points are tessellated in, by their names."""
+        return {"size": self.size, "window": self.window}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TessellationOptions(SiteOptions):
+    """Of ``tessellate``."""
+
+    method: Literal["exact", "propagation"]
+    passes: Literal[1, 2] | None
+    max_distance: Fraction | None
+    dtype: Literal["uint8", "uint16", "uint32", "int32"] | None
+    chunk: tuple[int, int] | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TriangulationOptions(SiteOptions):
+    """Of ``delaunay``."""
+
+    method: Method
+    frame: Rectangle | None
+    clip: str | None
+
+    @property
+    def triangulated_by(self) -> Method:
+        """What the method comes to: it is the digital rule that is compared with the exact triangulation."""
+        return "digital" if "compare" in self.what else self.method
+
+    def files_of_inputs(self) -> dict[str, str]:
+        """Give the files that are read beside each input, by the names of the options."""
+        return ({"clip": self.clip} if self.clip else {}) | JobOptions.files_of_inputs(self)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AlphaShapeOptions(SiteOptions):
+    """Of ``alphashape``."""
+
+    method: Method
+    r: Fraction | float | None
+    alpha: Fraction | None
+    auto: bool
+    regions: int | None
+    rule: Literal["corrected", "printed"]
+    hole_threshold: Fraction | None
+    region_threshold: Fraction | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SkeletonOptions(ComputingOptions):
+    """What the commands have that make skeletons."""
+
+    side: Literal["interior", "exterior", "both"]
+    features: Literal["separate", "together"]
+    complete: bool | None
+    frame: Rectangle | None
+    prune: Pruning | None
+    start: Place | None
+    end: Place | None
+    ends: Ends | None
+    distance: tuple[float, ...] | None
+    every: float | None
+    flatten: float | None
+    simplify: float | None
+    outline: Literal["crack", "contour"] | None
+    seeds: Literal["components", "labels"] | None
+
+    @property
+    def wants_skeleton(self) -> bool:
+        """Whether a result shows anything of the skeleton: offset curves are of the whole diagram."""
+        return set(self.what) != {"offset"}
+
+    def for_images(self) -> dict[str, Any]:
+        """Give the options that mean nothing for polygons and lines, by their names."""
+        return {
+            "page": self.page,
+            "seeds": self.seeds,
+            "connectivity": self.connectivity,
+            "threshold": self.threshold,
+            "invert": self.invert,
+            "outline": self.outline,
+        }
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ExactSkeletonOptions(SkeletonOptions):
+    """Of ``skeleton-exact``."""
+
+    gap: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ApproximateSkeletonOptions(SkeletonOptions):
+    """Of ``skeleton-approx``."""
+
+    step: float | None
+    tolerance: float | None
+    sampling: Literal["paper", "symmetric"] | None
+    compare: bool
