@@ -22,16 +22,16 @@ formats/points -> formats/io, formats/parsing, geometry, geometry/points
 geometry/mesh -> geometry, geometry/curves
 geometry/skeleton -> geometry, geometry/curves, geometry/polygons
 render/canvas -> geometry, geometry/curves
-engines/arrangement -> engines/common, geometry, geometry/polygons, geometry/skeleton
+engines/arrangement -> geometry, geometry/polygons, geometry/skeleton
 engines/delaunay -> engines/common, geometry, geometry/curves, geometry/mesh, geometry/points
 engines/label_images -> engines/common, engines/tessellation, geometry, geometry/points, geometry/polygons
-engines/segment_voronoi -> engines/common, geometry, geometry/polygons, geometry/skeleton
+engines/segment_voronoi -> geometry, geometry/polygons, geometry/skeleton
 formats/text -> formats/io, geometry, geometry/skeleton
 geometry/alpha -> geometry, geometry/curves, geometry/mesh, geometry/polygons
 render/label_images -> geometry, geometry/points, render/canvas
 batch -> engines/tessellation, formats/io, formats/text, formats/zarr
-engines/alpha -> engines/common, engines/delaunay, geometry, geometry/alpha, geometry/curves, geometry/mesh,
-    geometry/points, geometry/polygons
+engines/alpha -> engines/delaunay, geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points,
+    geometry/polygons
 engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry,
     geometry/curves, geometry/mesh, geometry/points
 engines/features -> engines/arrangement, engines/common, geometry, geometry/polygons, geometry/skeleton
@@ -40,24 +40,22 @@ geometry/any -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geom
 render/layers -> geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton, render/canvas,
     render/label_images
 render/pages -> geometry, geometry/alpha, geometry/curves, geometry/skeleton, render/canvas
-engines/skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, geometry,
-    geometry/curves, geometry/polygons, geometry/skeleton
+engines/skeleton -> engines/arrangement, engines/features, engines/segment_voronoi, geometry, geometry/curves,
+    geometry/polygons, geometry/skeleton
 formats/results -> formats/io, formats/parsing, formats/points, formats/polygons, formats/text, geometry,
     geometry/alpha, geometry/curves, geometry/mesh, geometry/polygons, geometry/skeleton
 engines/from_skeleton -> engines/arrangement, engines/skeleton, geometry, geometry/curves, geometry/polygons,
     geometry/skeleton
-engines/offsets -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, engines/skeleton,
-    geometry, geometry/curves, geometry/polygons, geometry/skeleton
+engines/offsets -> engines/arrangement, engines/features, engines/segment_voronoi, engines/skeleton, geometry,
+    geometry/curves, geometry/polygons, geometry/skeleton
 engines/pruning -> engines/common, engines/skeleton, geometry, geometry/curves, geometry/skeleton
-engines/sampled_skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi,
-    engines/skeleton, geometry, geometry/curves, geometry/polygons, geometry/skeleton
+engines/sampled_skeleton -> engines/arrangement, engines/features, engines/segment_voronoi, engines/skeleton,
+    geometry, geometry/curves, geometry/polygons, geometry/skeleton
 formats -> formats/images, formats/io, formats/parsing, formats/points, formats/polygons, formats/results,
     formats/text, formats/zarr, geometry, geometry/alpha, geometry/mesh, geometry/points, geometry/polygons,
     geometry/skeleton
-engines -> engines/common, engines/sampled_skeleton, engines/skeleton, geometry, geometry/polygons,
-    geometry/skeleton
-engines/centerlines -> engines/common, engines/from_skeleton, engines/pruning, geometry, geometry/polygons,
-    geometry/skeleton
+engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/polygons, geometry/skeleton
+engines/centerlines -> engines/from_skeleton, engines/pruning, geometry, geometry/polygons, geometry/skeleton
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
     engines/features, engines/from_skeleton, engines/label_images, engines/offsets, engines/pruning,
     engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, formats,
@@ -65,7 +63,7 @@ jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines,
     formats/zarr, geometry, geometry/alpha, geometry/any, geometry/mesh, geometry/points, geometry/polygons,
     geometry/skeleton, render/canvas, render/label_images, render/layers, render/pages
 cli/options -> engines/offsets, engines/pruning, formats/parsing, geometry, jobs
-cli/batch -> batch, cli/options, formats/io, formats/parsing, jobs
+cli/batch -> batch, cli/options, formats/io, formats/parsing, geometry, jobs
 cli/commands -> cli/batch, cli/options, formats/parsing, jobs
 cli -> cli/commands, jobs
 """

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions
 from vorotool.engines.sampled_skeleton.per_feature import approximation
 from vorotool.engines.skeleton.diagrams import (
@@ -17,6 +16,7 @@ from vorotool.engines.skeleton.exact import Frame, check_features, check_skeleto
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.magnitude import check_lengths
 from vorotool.geometry.polygons.conversion import as_polygons
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
 

@@ -26,6 +26,7 @@ from vorotool.geometry.numbers import nearest_double
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.table import Table
 from vorotool.jobs.inputs import JobInput, read_sites, window_of
 from vorotool.jobs.names import OF_ONE_SHAPE
@@ -85,29 +86,28 @@ class ShapeProducts:
     ) -> None:
         self.run, self.options, self.backdrop, self.radius = run, options, given.backdrop, radius
         self._empty: dict[str, Any] = {"strict": options.strict, "allow_empty": isinstance(points, SeedSet)}
-        with run.phase("triangulate"):
-            mesh = self._triangulation(points)
-        with run.phase("alpha complex"):
-            progress = run.progress("computing radii")
+        with run.phase("triangulate") as progress:
+            mesh = self._triangulation(points, progress)
+        with run.phase("alpha complex") as progress:
             self.family = alpha_complex(
                 mesh, rule=options.rule, **self._empty, threads=options.threads, progress=progress
             )
         self.has_shape = bool(set(options.what) & OF_ONE_SHAPE)
         if self.has_shape:
-            with run.phase("shape"):
-                self.shape = self._shape()
+            with run.phase("shape") as progress:
+                self.shape = self._shape(progress)
             if radius is None and not self.is_unjoined:
                 regions = "one region" if options.regions in (None, 1) else f"at most {options.regions} regions"
                 run.note(f"r = {radius_text(self.shape.r)}, the smallest whose shape is {regions} with every point")
 
-    def _triangulation(self, points: PointSet | SeedSet) -> AnyTriangulation | SeedSet:
+    def _triangulation(self, points: PointSet | SeedSet, progress: Progress) -> AnyTriangulation | SeedSet:
         if isinstance(points, SeedSet) and points.is_empty_image:
             return points
         from vorotool.engines.delaunay.delaunay import delaunay
         from vorotool.engines.digital.triangulation import digital_triangulation, repair_digital
         from vorotool.engines.tessellation.seeding import seeds_from_points
 
-        o, progress = self.options, self.run.progress("triangulating")
+        o = self.options
         if o.method == "exact":
             return delaunay(points, strict=o.strict, threads=o.threads, progress=progress)
         if isinstance(points, SeedSet):
@@ -122,7 +122,7 @@ class ShapeProducts:
             mesh, _ = repair_digital(seeds, **frame, max_pixels=o.max_pixels, progress=progress)
         return replace(mesh, y_up=points.y_up, crs=points.crs) if isinstance(points, PointSet) else mesh
 
-    def _shape(self) -> AlphaShape:
+    def _shape(self, progress: Progress) -> AlphaShape:
         o = self.options
         if o.method == "digital":
             assert self.radius is not None  # the command refuses the automatic one
@@ -135,7 +135,7 @@ class ShapeProducts:
             region_threshold=o.region_threshold,
             **self._empty,
             threads=o.threads,
-            progress=self.run.progress("computing the shape"),
+            progress=progress,
         )
 
     @cached_property
@@ -156,7 +156,7 @@ class ShapeProducts:
     @cached_property
     def curves(self) -> Table:
         """Area, perimeter, regions, cavities and edges of all radii."""
-        return alpha_curves(self.family, progress=self.run.progress("sweeping over r"))
+        return alpha_curves(self.family, progress=self.run.progress("curves"))
 
     @cached_property
     def hull(self) -> AlphaHull:
@@ -307,12 +307,12 @@ class ShapeProducts:
         drawn = alpha_layers(self.shape, self.page, chosen, hull=hull)
         write_layers(out, drawn, self.page, fmt=fmt, threads=self.options.threads)
 
-    def verify(self) -> None:
+    def verify(self, progress: Progress) -> None:
         """Check the shape exactly, from its triangulation."""
         from vorotool.engines.alpha.verify_alpha import verify_alpha_shape
 
         shape = self.shape if self.has_shape else alpha_shape(self.family, r=inf, threads=self.options.threads)
-        verify_alpha_shape(shape, threads=self.options.threads, progress=self.run.progress("verifying"))
+        verify_alpha_shape(shape, threads=self.options.threads, progress=progress)
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""

@@ -20,6 +20,7 @@ from vorotool.engines.sampled_skeleton.approximate import (
 from vorotool.engines.sampled_skeleton.per_feature import FeatureApproximation, approximation, samples_of_graph
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.boundary_samples import sample_table
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.jobs.inputs import JobInput
@@ -37,7 +38,6 @@ class ApproximateProducts(SkeletonProducts[ApproximateSkeletonOptions]):
 
     def __init__(self, run: Run, options: ApproximateSkeletonOptions, given: JobInput) -> None:
         super().__init__(run, options, given)
-        self._common: dict[str, Any] = {"threads": options.threads, "progress": run.progress("skeleton")}
         self._sampling = SamplingOptions(options.step, options.tolerance, options.sampling)
         self._complete = (options.tolerance is not None) if options.complete is None else options.complete
         self._wanted: dict[str, Any] = {
@@ -45,7 +45,7 @@ class ApproximateProducts(SkeletonProducts[ApproximateSkeletonOptions]):
             "complete": self._complete,
             "frame": options.frame,
             "most": min(options.max_sites, MOST_SEEDS),
-            **self._common,
+            "threads": options.threads,
         }
         self._apart: dict[str, Any] | None = None
         # what is refused is refused here, where the input has its name
@@ -60,8 +60,8 @@ class ApproximateProducts(SkeletonProducts[ApproximateSkeletonOptions]):
         if o.features == "together" and o.wants_skeleton:
             return self.shapes.graph
         graph_of = graph_for_skeletons if o.features == "together" else together
-        with self.run.phase("place"), self.telling_once():
-            return graph_of(self._polygons, strict=o.strict, **self._common)
+        with self.run.phase("place") as progress, self.telling_once():
+            return graph_of(self._polygons, strict=o.strict, threads=o.threads, progress=progress)
 
     @cached_property
     def shapes(self) -> SampledShapes:
@@ -69,15 +69,17 @@ class ApproximateProducts(SkeletonProducts[ApproximateSkeletonOptions]):
         if self.options.features == "together":
             return self.found.parts[0].shapes
         graph = self.graph
-        with self.run.phase("diagram"):
-            return samples_of_graph(graph, self._sampling, **self._wanted)
+        with self.run.phase("diagram") as progress:
+            return samples_of_graph(graph, self._sampling, **self._wanted, progress=progress)
 
     @cached_property
     def found(self) -> FeatureApproximation:
         """The skeleton, and what it was made of."""
         o = self.options
-        with self.run.phase("diagram"), self.telling_once():
-            return approximation(self._polygons, self._sampling, features=o.features, strict=o.strict, **self._wanted)
+        with self.run.phase("diagram") as progress, self.telling_once():
+            return approximation(
+                self._polygons, self._sampling, features=o.features, strict=o.strict, **self._wanted, progress=progress
+            )
 
     def _make_skeleton(self) -> Skeleton:
         return self.found.skeleton
@@ -108,11 +110,10 @@ class ApproximateProducts(SkeletonProducts[ApproximateSkeletonOptions]):
         o = self.options
         write_table(out, sample_table(self.shapes.samples), target.fmt, precision=o.precision, threads=o.threads)
 
-    def _verify_whole(self) -> None:
+    def _verify_whole(self, progress: Progress) -> None:
         """Check the samples and the skeleton, from their arrays alone."""
         from vorotool.engines.sampled_skeleton.verify_approximate import verify_approximate
 
-        progress = self.run.progress("verifying")
         for part in self.found.parts:
             verify_approximate(part, step=self.options.step, threads=self.options.threads, progress=progress)
 

@@ -14,6 +14,7 @@ from vorotool.geometry.mesh.digital_comparison import DigitalComparison
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.progress import Progress
 from vorotool.jobs.inputs import JobInput, window_of
 from vorotool.jobs.options import TriangulationOptions
 from vorotool.jobs.run_log import Run
@@ -40,8 +41,7 @@ class DigitalProducts(MeshProducts):
         """Options of the engines: the frame, and the threads."""
         return {"window": window_of(self.options, self.seeds), "threads": self.options.threads}
 
-    def _triangulate(self, points: PointSet | SeedSet) -> AnyTriangulation:
-        progress = self.run.progress("triangulating")
+    def _triangulate(self, points: PointSet | SeedSet, progress: Progress) -> AnyTriangulation:
         return self._as_input(
             points, digital_triangulation(self.seeds, **self.where, strict=self.options.strict, progress=progress)
         )
@@ -68,9 +68,9 @@ class DigitalProducts(MeshProducts):
     def _shape(self) -> str:
         return f"of {len(self.mesh.points)} regions too few touch"
 
-    def verify(self) -> None:
+    def verify(self, progress: Progress) -> None:
         """Check labels, edges and triangles by another way."""
-        found = digital_triangulation(self.seeds, **self.where)
+        found = digital_triangulation(self.seeds, **self.where, progress=progress)
         verify_digital_triangulation(found, self.seeds, **self.where)
 
     def stats(self) -> dict[str, Any]:
@@ -99,9 +99,8 @@ class RepairedProducts(DigitalProducts):
 
     repair: DigitalRepair
 
-    def _triangulate(self, points: PointSet | SeedSet) -> AnyTriangulation:
+    def _triangulate(self, points: PointSet | SeedSet, progress: Progress) -> AnyTriangulation:
         o = self.options
-        progress = self.run.progress("triangulating")
         mesh, self.repair = repair_digital(
             self.seeds, **self.where, strict=o.strict, max_pixels=o.max_pixels, progress=progress
         )
@@ -112,9 +111,9 @@ class RepairedProducts(DigitalProducts):
     def _shape(self) -> str:
         return MeshProducts._shape(self)
 
-    def verify(self) -> None:
+    def verify(self, progress: Progress) -> None:
         """Check the triangulation exactly, once more."""
-        MeshProducts.verify(self)
+        MeshProducts.verify(self, progress)
 
     def stats(self) -> dict[str, Any]:
         """Counts, and what each step of the repair did."""

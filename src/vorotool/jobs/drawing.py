@@ -21,6 +21,7 @@ from vorotool.formats.results.offset_json import read_offsets, says_offsets
 from vorotool.formats.results.skeleton_json import read_skeleton, says_skeleton
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.jobs.inputs import JobInput, note_other_size, refuse
@@ -65,7 +66,7 @@ class Picture:
         else:
             self._draw, self._counts = _of_layers(self._run, self._options, self._given, self._value, target.fmt)
 
-    def verify(self) -> None:
+    def verify(self, progress: Progress) -> None:
         """There is nothing to check in a picture."""
 
     def write(self, target: Target, *, inputs: Sequence[str]) -> None:

@@ -19,6 +19,7 @@ from vorotool.engines.skeleton.parts import outside_of
 from vorotool.engines.skeleton.per_feature import FeatureSkeleton
 from vorotool.engines.skeleton.shortened_edges import ElementDiagram, exact_for, exact_inside, gap_deviation
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.options import ExactSkeletonOptions
@@ -66,27 +67,36 @@ class ExactProducts(SkeletonProducts[ExactSkeletonOptions]):
         """Whether somebody asks for more of a diagram than the skeleton in it."""
         return self.options.verify or self.options.stats is not None
 
-    @property
-    def _common(self) -> dict[str, Any]:
-        o = self.options
-        return {"strict": o.strict, "threads": o.threads, "progress": self.run.progress("diagram")}
-
     @cached_property
     def of_all(self) -> AnyDiagram:
         """The diagram of all features."""
         o = self.options
         is_whole = self._is_looked_at or o.side != "interior" or bool({"diagram", "offset"} & set(o.what))
-        with self.run.phase("diagram"), self.telling_once():
+        with self.run.phase("diagram") as progress, self.telling_once():
             return diagram_of_all(
-                self._polygons, o.gap, features=o.features, interior_only=not is_whole, **self._common
+                self._polygons,
+                o.gap,
+                features=o.features,
+                interior_only=not is_whole,
+                strict=o.strict,
+                threads=o.threads,
+                progress=progress,
             )
 
     @cached_property
     def inside(self) -> FeatureSkeleton[Seen]:
         """What is inside each feature by itself, and what was seen of each diagram that is looked at."""
         o, look = self.options, self._look if self._is_looked_at else None
-        with self.telling_once():
-            return skeleton_inside(self._polygons, o.gap, complete=o.complete is not False, look=look, **self._common)
+        with self.run.phase("skeleton") as progress, self.telling_once():
+            return skeleton_inside(
+                self._polygons,
+                o.gap,
+                complete=o.complete is not False,
+                look=look,
+                strict=o.strict,
+                threads=o.threads,
+                progress=progress,
+            )
 
     def _look(self, diagram: AnyDiagram, made: Skeleton) -> Seen:
         if self.options.verify:
@@ -122,12 +132,11 @@ class ExactProducts(SkeletonProducts[ExactSkeletonOptions]):
         """The shapes as they were placed."""
         return self.of_all.graph if isinstance(self.of_all, ShapeDiagram) else self.of_all.shapes
 
-    def _verify_whole(self) -> None:
+    def _verify_whole(self, progress: Progress) -> None:
         """Check the diagram and the skeleton, from their arrays alone."""
         from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
         from vorotool.engines.skeleton.verify_skeleton import verify_exterior, verify_skeleton
 
-        progress = self.run.progress("verifying")
         if not self._is_inside_only:  # or else each batch was looked at
             verify_segment_voronoi(self.of_all.diagram, threads=self.options.threads, progress=progress)
         if self.options.side != "interior" and isinstance(self.of_all, ShapeDiagram):

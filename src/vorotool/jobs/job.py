@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Generic, Protocol, TypeVar
 
+from vorotool.geometry.progress import Progress
 from vorotool.jobs.inputs import JobInput, naming, read_backdrop
 from vorotool.jobs.options import ComputingOptions, JobOptions
 from vorotool.jobs.run_log import Run
@@ -23,7 +24,7 @@ class Products(Protocol):
     def check(self, target: Target) -> None:
         """Refuse what cannot be written, before anything is."""
 
-    def verify(self) -> None:
+    def verify(self, progress: Progress) -> None:
         """Check the results by another way."""
 
     def write(self, target: Target, *, inputs: Sequence[str]) -> None:
@@ -88,8 +89,8 @@ def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str
     for target in targets:
         products.check(target)
     if computing is not None and computing.verify:
-        with run.phase("verify"):
-            products.verify()
+        with run.phase("verify") as progress:
+            products.verify(progress)
     end_by_exceptions()
     for target in targets:
         if options.out_dir is not None:

@@ -8,30 +8,19 @@ import warnings
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, ExitStack, contextmanager
 from types import TracebackType
-from typing import Any, Protocol
+from typing import Any
 
 from vorotool import __version__
 from vorotool.errors import Kind, Message, VorotoolWarning
+from vorotool.geometry.progress import Progress, Report
 from vorotool.signals import end_by_exceptions
 
 PROGRESS_AFTER = 1.0
 """Seconds before a progress bar appears on a terminal."""
 
 
-class Bar(Protocol):
-    """What shows how far the work is."""
-
-    pos: int
-
-    def update(self, n_steps: int) -> None:
-        """Go on by so many steps."""
-
-
-MakeBar = Callable[[str], AbstractContextManager[Bar]]
-"""Make a bar of `STEPS` steps with a label."""
-
-STEPS = 1000
-"""Steps of a bar."""
+MakeBar = Callable[[str], AbstractContextManager[Report]]
+"""Make a bar with a label."""
 
 
 def tell(message: str) -> None:
@@ -126,25 +115,25 @@ class Run:
             tell(f"warning: {message}")
 
     @contextmanager
-    def phase(self, name: str) -> Iterator[None]:
-        """Measure a part of the run; time spent in a part of this part counts there only."""
+    def phase(self, name: str) -> Iterator[Progress]:
+        """Measure a part of the run, and give its progress; time spent in a part of this part counts there only."""
         start = time.perf_counter()
         self._inner.append(0.0)
         try:
-            yield
+            yield self.progress(name)
         finally:
             elapsed = time.perf_counter() - start
             self.seconds[name] = self.seconds.get(name, 0.0) + elapsed - self._inner.pop()
             if self._inner:
                 self._inner[-1] += elapsed
 
-    def progress(self, label: str) -> Callable[[float], None] | None:
-        """Make a callback that shows a bar on a terminal, once the work has taken a second."""
+    def progress(self, label: str) -> Progress:
+        """Give what shows a bar on a terminal, once the work has taken a second; a phase has its own."""
         make_bar = self._make_bar
         if make_bar is None or not sys.stderr.isatty():
             return None
         start = time.monotonic()
-        bar: list[Bar] = []
+        bar: list[Report] = []
 
         def show(fraction: float) -> None:
             if not bar:
@@ -152,7 +141,7 @@ class Run:
                     return
                 end_by_exceptions()  # a bar that is left as it is hides the cursor
                 bar.append(self._stack.enter_context(make_bar(label)))
-            bar[0].update(int(STEPS * fraction) - bar[0].pos)
+            bar[0](fraction)
 
         return show
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import Kind, Message, RepairWarning, VorotoolWarning
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import EXTERIOR, Skeleton
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.names import DERIVED
@@ -92,8 +93,8 @@ class SkeletonProducts(ABC, Generic[Options]):
 
         whole = self.whole
         threshold: dict[str, Any] = {self.pruning.criterion: self.pruning.threshold}
-        with self.run.phase("prune"):
-            return prune(whole, **threshold, threads=self.options.threads, progress=self.run.progress("pruning"))
+        with self.run.phase("prune") as progress:
+            return prune(whole, **threshold, threads=self.options.threads, progress=progress)
 
     @cached_property
     def centerlines(self) -> Centerlines:
@@ -113,9 +114,8 @@ class SkeletonProducts(ABC, Generic[Options]):
         from vorotool.engines.centerlines.centerline import centerline
 
         skeleton = self.skeleton
-        with self.run.phase("centerline"):
-            ends, progress = self.options.ends or "middle", self.run.progress("centerlines")
-            return centerline(skeleton, start=start, end=end, ends=ends, progress=progress)
+        with self.run.phase("centerline") as progress:
+            return centerline(skeleton, start=start, end=end, ends=self.options.ends or "middle", progress=progress)
 
     @cached_property
     def diagram(self) -> Skeleton:
@@ -142,8 +142,8 @@ class SkeletonProducts(ABC, Generic[Options]):
         """The exact diagram of the shapes."""
         from vorotool.engines.skeleton.exact import diagram_of_graph
 
-        with self.run.phase("diagram"):
-            return diagram_of_graph(self.graph, threads=self.options.threads, progress=self.run.progress("diagram"))
+        with self.run.phase("diagram") as progress:
+            return diagram_of_graph(self.graph, threads=self.options.threads, progress=progress)
 
     def _points(self, what: str) -> NDArray[np.float64] | None:
         """What pictures of a result show as points, if not the ends of edges."""
@@ -154,19 +154,19 @@ class SkeletonProducts(ABC, Generic[Options]):
         """What pictures show beside an approximate skeleton."""
         return None
 
-    def verify(self) -> None:
+    def verify(self, progress: Progress) -> None:
         """Check the diagram and the skeleton, from their arrays alone, and what pruning left of it."""
-        self.derived.verify()
+        self.derived.verify(progress)
         if not self.options.wants_skeleton:
             return
-        self._verify_whole()
+        self._verify_whole(progress)
         if self.pruning.criterion is not None:
             from vorotool.engines.pruning.verify_pruning import verify_pruning
 
             verify_pruning(self.skeleton, self.whole)
 
     @abstractmethod
-    def _verify_whole(self) -> None: ...
+    def _verify_whole(self, progress: Progress) -> None: ...
 
     def _value(self, what: str) -> Skeleton:
         if what == "centerline":

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 
 from vorotool.errors import Kind, Message
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import Skeleton
@@ -59,8 +60,7 @@ class Derived:
         from vorotool.engines.offsets.offsets import offset
 
         shapes, o = self._shapes(), self.options
-        with self.run.phase("offset"):
-            progress = self.run.progress("offset")
+        with self.run.phase("offset") as progress:
             made = offset(
                 shapes, self.distances, features=o.features, strict=o.strict, threads=o.threads, progress=progress
             )
@@ -133,12 +133,11 @@ class Derived:
 
             write_skeleton_points(out, value, target.fmt, what=target.what, precision=o.precision, threads=o.threads)
 
-    def verify(self) -> None:
+    def verify(self, progress: Progress) -> None:
         """Check the offset curves, if there are any."""
         if "offset" in self.options.what:
             from vorotool.engines.offsets.verify_offsets import verify_offsets
 
-            progress = self.run.progress("verifying")
             verify_offsets(self.offset, distances=self.distances, threads=self.options.threads, progress=progress)
 
     def stats(self) -> dict[str, Any]:

@@ -58,7 +58,7 @@ def _outlines(run: Run, o: SkeletonOptions, image: Raster) -> PolygonSet:
     from vorotool.engines.label_images.outlines import outlines
 
     threshold, invert = settled_foreground(run, o, image)
-    with run.phase("outline"):
+    with run.phase("outline") as progress:
         return outlines(
             image,
             outline=o.outline or "crack",
@@ -70,7 +70,7 @@ def _outlines(run: Run, o: SkeletonOptions, image: Raster) -> PolygonSet:
             strict=o.strict,
             max_sites=o.max_sites,
             threads=o.threads,
-            progress=run.progress("outlines"),
+            progress=progress,
             note=run.note,
         )
 

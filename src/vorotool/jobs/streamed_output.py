@@ -141,7 +141,7 @@ def _write_on_cluster(
 ) -> None:
     from vorotool.batch.dask_bands import write_bands
 
-    show = run.progress("tessellating")
+    show = run.progress("tessellate")
     bands = ((first, stream.band(first, count)) for first, count in limits)
     for done, _ in enumerate(write_bands(folder, bands, address=address, jobs=jobs), start=1):
         if show is not None:

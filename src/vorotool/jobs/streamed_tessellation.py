@@ -15,6 +15,7 @@ from vorotool.engines.tessellation.frames import label_dtype
 from vorotool.engines.tessellation.streamed_image import ObjectRows, StreamedImage
 from vorotool.errors import UsageError
 from vorotool.formats.images.band_reader import TiffRows, ZarrRows
+from vorotool.geometry.progress import Progress
 from vorotool.jobs.inputs import JobInput, refuse
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
@@ -82,7 +83,7 @@ class StreamedProducts:
             source,
             max_sites=options.max_sites,
             strict=options.strict,
-            progress=run.progress("reading"),
+            progress=run.progress("read"),
             note=run.note,
         )
         if set(options.what) & {"distance", "distance2"}:
@@ -101,7 +102,7 @@ class StreamedProducts:
         if target.fmt == "zarr":
             check_chunks(self.options, stream.frame, stream.dtype)
 
-    def verify(self) -> None:
+    def verify(self, progress: Progress) -> None:
         """Nothing: with ``--verify`` an image is held."""
 
     def write(self, target: Target, *, inputs: Sequence[str]) -> None:
@@ -142,8 +143,8 @@ class StreamedProducts:
         return limit if what == "labels" else None
 
     @cached_property
-    def _progress(self) -> Any:
-        return self.run.progress("tessellating")
+    def _progress(self) -> Progress:
+        return self.run.progress("tessellate")
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""

@@ -29,6 +29,7 @@ from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.table import Table
 from vorotool.jobs.inputs import JobInput, frame_of, read_seed_input, refuse, seeds_of_image
 from vorotool.jobs.options import TessellationOptions
@@ -96,7 +97,7 @@ def _rows_of(run: Run, o: TessellationOptions, seeds: SeedSet) -> Tessellator | 
         strict=o.strict,
         threads=o.threads,
         max_pixels=o.max_pixels,
-        progress=run.progress("tessellating"),
+        progress=run.progress("tessellate"),
     )
     if isinstance(rows, Tessellator) and {"distance", "distance2"} & set(o.what):
         rows.check_distances()
@@ -274,7 +275,7 @@ class Products:
         assert isinstance(self.rows, Tessellator)  # the command refuses distances of the propagation
         return self.rows
 
-    def verify(self) -> None:
+    def verify(self, progress: Progress) -> None:
         """Check the labels of every band against an independent nearest-seed search."""
         verify_rows(self.rows, threads=self.options.threads)
 

@@ -14,6 +14,7 @@ from vorotool.formats.text.tables import TABLE_FORMATS, write_table
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.progress import Progress
 from vorotool.jobs.inputs import JobInput, read_clip, read_sites
 from vorotool.jobs.names import MESH_LAYERS
 from vorotool.jobs.options import Rectangle, TriangulationOptions
@@ -87,16 +88,15 @@ class MeshProducts:
         self._cells: CellSet | None = None
         points = read.points
         if self.wants_mesh:
-            with run.phase("triangulate"):
-                self.mesh: Any = self._triangulate(points)
+            with run.phase("triangulate") as progress:
+                self.mesh: Any = self._triangulate(points, progress)
 
     @property
     def wants_mesh(self) -> bool:
         """Whether a result shows the triangulation itself."""
         return self.options.what != ("compare",)
 
-    def _triangulate(self, points: PointSet | SeedSet) -> AnyTriangulation:
-        progress = self.run.progress("triangulating")
+    def _triangulate(self, points: PointSet | SeedSet, progress: Progress) -> AnyTriangulation:
         return delaunay(points, strict=self.options.strict, threads=self.options.threads, progress=progress)
 
     def check(self, target: Target) -> None:
@@ -159,17 +159,19 @@ class MeshProducts:
     def cells(self) -> CellSet:
         """The Voronoi cells of the points, clipped; they are made once."""
         if self._cells is None:
-            with self.run.phase("cells"):
-                self._cells = self._cells_in(self.options.frame, clip=self.clip)
+            with self.run.phase("cells") as progress:
+                self._cells = self._cells_in(self.options.frame, progress, clip=self.clip)
         return self._cells
 
-    def _cells_in(self, frame: Box | Rectangle | None, *, clip: Sequence[Any] | None = None) -> CellSet:
+    def _cells_in(
+        self, frame: Box | Rectangle | None, progress: Progress, *, clip: Sequence[Any] | None = None
+    ) -> CellSet:
         return voronoi_cells(
             self.mesh,
             frame=frame,
             clip=clip,
             threads=self.options.threads,
-            progress=self.run.progress("making cells"),
+            progress=progress,
         )
 
     def _layers(self, what: str) -> Sequence[str]:
@@ -199,12 +201,11 @@ class MeshProducts:
         layers = [made[name] for name in MESH_LAYERS if name in made]
         write_layers(out, layers, page, fmt=fmt, threads=self.options.threads)
 
-    def verify(self) -> None:
+    def verify(self, progress: Progress) -> None:
         """Check the triangulation exactly, from its arrays alone; and cells before they are clipped to polygons."""
-        progress = self.run.progress("verifying")
         verify_triangulation(self.mesh, threads=self.options.threads, progress=progress)
         if {"cells", "table"} & set(self.options.what):
-            cells = self.cells if self.clip is None else self._cells_in(self.cells.frame)
+            cells = self.cells if self.clip is None else self._cells_in(self.cells.frame, progress)
             verify_cells(cells, threads=self.options.threads, progress=progress)
 
     def stats(self) -> dict[str, Any]:

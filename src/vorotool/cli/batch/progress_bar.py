@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import sys
-from contextlib import AbstractContextManager
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import click
 
-from vorotool.jobs.run_log import STEPS, Bar
+from vorotool.geometry.progress import Report
+
+STEPS = 1000
+"""Steps of a bar."""
 
 
-def progress_bar(label: str) -> AbstractContextManager[Bar]:
-    """Make a bar of `STEPS` steps on standard error."""
-    return click.progressbar(length=STEPS, label=label, file=sys.stderr)
+@contextmanager
+def progress_bar(label: str = "") -> Iterator[Report]:
+    """Show a bar on standard error, and give what is called with the fraction done."""
+    with click.progressbar(length=STEPS, label=label, file=sys.stderr) as bar:
+        yield lambda fraction: bar.update(int(STEPS * fraction) - bar.pos)

@@ -12,7 +12,9 @@ from typing import Any
 import click
 
 from vorotool.batch.tasks import Outcome, Task
+from vorotool.cli.batch.progress_bar import progress_bar
 from vorotool.errors import BatchError, Message
+from vorotool.geometry.progress import Progress
 from vorotool.jobs.run_log import Run
 
 NO_COUNTS = frozenset({"threads", "passes", "steps_per_pixel", "largest_label"})
@@ -35,7 +37,7 @@ class Report:
     def __init__(self, run: Run, total: int, *, quiet: bool) -> None:
         self._run, self._total, self._quiet = run, total, quiet
         self._stack = ExitStack()
-        self._bar: Any = None
+        self._progress: Progress = None
         self._counts: Counter[str] = Counter()
         self._totals: Counter[str] = Counter()
         self._failures: list[dict[str, Any]] = []
@@ -43,7 +45,7 @@ class Report:
     def __enter__(self) -> Report:
         """Show the bar."""
         if not self._quiet and sys.stderr.isatty():
-            self._bar = self._stack.enter_context(click.progressbar(length=self._total, file=sys.stderr))
+            self._progress = self._stack.enter_context(progress_bar())
         return self
 
     def __exit__(
@@ -56,15 +58,15 @@ class Report:
         """Say and count what became of an input."""
         status = "kept" if outcome.kept else "failed" if outcome.code else "done"
         self._counts[status] += 1
-        if self._bar is not None and (outcome.warnings or outcome.code):
+        if self._progress is not None and (outcome.warnings or outcome.code):
             click.echo("\r\033[K", err=True, nl=False)  # in the place of the bar, which is drawn again below
         for warning in outcome.warnings:
             self._run.warn(_named(task.source, Message.of(warning)))
         if outcome.code:
             self._failures.append({"input": task.source, "exit": outcome.code, "error": outcome.message})
             click.echo(f"error: {_named(task.source, Message.of(outcome.message))}", err=True)
-        if self._bar is not None:
-            self._bar.update(1)
+        if self._progress is not None:
+            self._progress(self._counts.total() / self._total)
         elif not self._quiet:
             click.echo(f"{self._counts.total()}/{self._total} {task.source}: {status}", err=True)
         for name, seconds in outcome.seconds.items():

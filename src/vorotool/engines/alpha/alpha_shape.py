@@ -20,7 +20,6 @@ from vorotool.engines.alpha.few_points import (
     report_too_few,
     unjoined,
 )
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.delaunay.delaunay import delaunay
 from vorotool.errors import InputError, UsageError
 from vorotool.geometry.alpha.complex import AlphaComplex, Radius, checked_radius
@@ -30,6 +29,7 @@ from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.numbers import real_number, shown_number, whole_number
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.table import Table
 
 RULES = ("corrected", "printed")

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.geometry.alpha.complex import AlphaComplex
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.numbers import nearest_double
+from vorotool.geometry.progress import Progress
 
 
 def fill_and_drop(

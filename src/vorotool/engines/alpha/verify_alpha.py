@@ -8,12 +8,12 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.delaunay.delaunay import verify_triangulation
 from vorotool.errors import VerificationError
 from vorotool.geometry.alpha.complex import CLASSES, AlphaComplex, Radius
 from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.mesh.triangulation import Triangulation
+from vorotool.geometry.progress import Progress
 
 # Relative error of a squared radius in floating point: a few roundings, and those of the cross product many times as
 # much where it cancels. What is closer to r than this is decided in rational numbers.

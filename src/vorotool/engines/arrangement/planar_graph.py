@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.arrangement.flat_rings import flat_holes, with_flat_shells_as_lines
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.errors import InputError, LimitError, RepairWarning, VerificationError
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.magnitude import check_magnitude
 from vorotool.geometry.polygons.conversion import as_polygons
 from vorotool.geometry.polygons.planar_graph import REPAIRS, PlanarGraph
 from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
+from vorotool.geometry.progress import Progress
 
 MOST_VERTICES = 2**28
 """Segments are numbered in 31 bits, and crossings make more of them."""

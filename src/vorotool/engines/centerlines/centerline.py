@@ -14,10 +14,10 @@ from vorotool.engines.centerlines.boundary_rays import first_hits
 from vorotool.engines.centerlines.ends import Unforked, forked, middles_ahead, unforked
 from vorotool.engines.centerlines.oblique_ends import led_to_oblique_ends
 from vorotool.engines.centerlines.path_network import Network, Paths, geometry_of
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.errors import InputError, UsageError, VorotoolWarning
 from vorotool.geometry.magnitude import check_lengths
 from vorotool.geometry.numbers import pair_of_doubles
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.centerline import Centerlines, without_centerline
 from vorotool.geometry.skeleton.skeleton import Skeleton
 

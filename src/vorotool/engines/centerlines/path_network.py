@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.centerlines.edge_comparisons import TIE
 from vorotool.engines.centerlines.ends import Unforked
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.from_skeleton.nearest_point import nearest_place
 from vorotool.engines.pruning.pruning import skeleton_arrays
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
 Floats = NDArray[np.float64]

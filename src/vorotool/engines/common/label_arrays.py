@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -10,9 +9,6 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.geometry.points.label_image import LabelImage
-
-Progress = Callable[[float], object] | None
-"""Called now and then with the fraction done; what it raises stops the work."""
 
 
 def label_array(labels: NDArray[Any]) -> NDArray[Any]:

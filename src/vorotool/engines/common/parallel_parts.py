@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.common.label_arrays import Progress
+from vorotool.geometry.progress import Progress
 
 Result = TypeVar("Result")
 

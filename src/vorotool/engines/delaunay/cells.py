@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.delaunay.delaunay import delaunay
 from vorotool.errors import InputError, UsageError, VerificationError, VorotoolWarning
 from vorotool.geometry.box import Box
@@ -18,6 +17,7 @@ from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.numbers import finite_double, shown_number
+from vorotool.geometry.progress import Progress
 
 
 def voronoi_cells(

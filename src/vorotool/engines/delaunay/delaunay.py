@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 
 from vorotool import _core
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.common.point_input import as_points
 from vorotool.errors import InputError, LimitError, VerificationError, VorotoolWarning
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.progress import Progress
 
 MOST_POINTS = 2**28
 """Half-edges, six a point, are counted in 32 bits."""

@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.common.point_input import as_points
 from vorotool.engines.delaunay.delaunay import MOST_POINTS, delaunay, report_duplicates
 from vorotool.errors import InputError, LimitError
 from vorotool.geometry.checks import checked_threads, whole_numbers
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.points.point_set import PointSet
+from vorotool.geometry.progress import Progress
 
 MANY = 0.25
 """Of the points there are: more further ones are triangulated sooner along with these, from the beginning."""

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 
 from vorotool import _core
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.delaunay.cells import voronoi_cells
 from vorotool.errors import InputError
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.mesh.triangulation import Triangulation
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.table import Table
 
 

@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.delaunay.cocircular_ties import CocircularTies
 from vorotool.engines.delaunay.delaunay import delaunay
 from vorotool.engines.digital.causes import SHORT, Causes, Members, members_of
@@ -23,6 +22,7 @@ from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.mesh.digital_comparison import DigitalComparison
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 from vorotool.geometry.points.label_image import LabelImage
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.table import Table
 
 COVERED = 0.75

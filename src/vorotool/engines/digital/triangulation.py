@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.label_arrays import Progress, label_array
+from vorotool.engines.common.label_arrays import label_array
 from vorotool.engines.delaunay.delaunay import MOST_POINTS, delaunay, triangulation_fault
 from vorotool.engines.label_images.regions import measure_regions
 from vorotool.engines.tessellation.frames import (
@@ -29,6 +29,7 @@ from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.pixel_frame import MAX_PIXELS
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.progress import Progress
 
 
 def digital_triangulation(

@@ -22,7 +22,6 @@ from vorotool.engines.arrangement.planar_graph import (
     placed_vertices,
     report_repairs,
 )
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.common.parallel_parts import in_threads
 from vorotool.engines.features.crack_corners import OwnCorners, own_corners
 from vorotool.engines.features.sheets import Features, batches_of, sheets_of_boxes, sheets_of_cracks, touching_features
@@ -33,6 +32,7 @@ from vorotool.geometry.magnitude import check_magnitude
 from vorotool.geometry.polygons.planar_graph import REPAIRS, PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.polygons.ring_arrays import RingArrays
+from vorotool.geometry.progress import Progress
 
 Indices = NDArray[np.int64]
 Result = TypeVar("Result")

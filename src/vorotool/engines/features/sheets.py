@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.polygons.ring_arrays import ranges
+from vorotool.geometry.progress import Progress
 
 Indices = NDArray[np.int64]
 

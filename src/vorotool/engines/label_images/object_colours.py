@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.common.label_arrays import Progress, label_array
+from vorotool.engines.common.label_arrays import label_array
 from vorotool.engines.label_images.regions import region_colours
 from vorotool.engines.tessellation.interior_seeds import surrounded_pixels
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.progress import Progress
 
 
 def object_colours(

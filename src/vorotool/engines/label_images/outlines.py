@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.label_images.marching_squares import grey_contours, grey_level, half_way_contours
 from vorotool.engines.label_images.simplification import simplified_polygons
 from vorotool.engines.tessellation.raster_objects import (
@@ -27,6 +26,7 @@ from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.progress import Progress
 
 KINDS = ("crack", "contour")
 MOST_VERTICES = 2**28

@@ -9,12 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.label_arrays import Progress, as_label_image, described, label_array, next_row
+from vorotool.engines.common.label_arrays import as_label_image, described, label_array, next_row
 from vorotool.errors import InputError, LimitError
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.numbers import finite_double
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.table import Table
 
 LARGEST_COLOUR_TABLE = 1 << 28

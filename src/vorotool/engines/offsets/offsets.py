@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import arranged, placed_vertices
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.features.batches import BatchShapes, are_apart, in_batches, together
 from vorotool.engines.features.order import InputOrder
 from vorotool.engines.skeleton.both_sides import joined_sites
@@ -32,6 +31,7 @@ from vorotool.geometry.numbers import finite_double
 from vorotool.geometry.polygons.conversion import as_polygons
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.polygons.ring_arrays import ranges, starts_before
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.skeleton import SiteTable, Skeleton
 

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import planar_graph
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.features.batches import BatchShapes, in_batches
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
 from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
@@ -24,6 +23,7 @@ from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import SHELL
 from vorotool.geometry.polygons.ring_arrays import ranges, starts_before
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.skeleton import EDGE, ends_of_sites
 

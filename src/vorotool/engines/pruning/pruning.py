@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.common.parallel_parts import in_threads, stacked, starts_of
 from vorotool.errors import UsageError
 from vorotool.geometry.checks import available_threads, checked_threads
 from vorotool.geometry.curves.inverse_functions import inverse_sine
 from vorotool.geometry.numbers import finite_double, shown_number
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.critical_values import CRITERIA, ArcProfiles, CriticalValues
 from vorotool.geometry.skeleton.skeleton import Skeleton
 

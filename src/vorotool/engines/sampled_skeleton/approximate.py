@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.arrangement.lattice_rings import PlacedShapes, placed_shapes
 from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.skeleton.exact import (
     Frame,
     check_skeleton_options,
@@ -27,6 +26,7 @@ from vorotool.errors import LimitError, UsageError
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.numbers import finite_double, shown_number
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.boundary_samples import BoundarySamples
 from vorotool.geometry.skeleton.skeleton import Skeleton
 

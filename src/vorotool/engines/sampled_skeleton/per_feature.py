@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.arrangement.lattice_rings import placed_shapes
 from vorotool.engines.arrangement.planar_graph import arranged, graph_for_skeletons, placed_vertices
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.features.batches import BatchShapes, FeatureShapes, in_batches, together
 from vorotool.engines.features.order import Places
 from vorotool.engines.sampled_skeleton.approximate import (
@@ -36,6 +35,7 @@ from vorotool.errors import LimitError, VorotoolWarning
 from vorotool.geometry.box import bounds
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
 Indices = NDArray[np.int64]

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.arrangement.lattice_rings import PlacedShapes
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.sampled_skeleton.approximate import (
     MOST_SEEDS,
     ApproximateSkeleton,
@@ -24,6 +23,7 @@ from vorotool.engines.skeleton.exact import Frame, warn_empty
 from vorotool.errors import LimitError
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
 COARSEST = 2.0**-4

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.sampled_skeleton.approximate import ApproximateSkeleton
 from vorotool.engines.sampled_skeleton.hausdorff import distances_to, exact_skeleton, places_on_arcs, widened
 from vorotool.engines.skeleton.site_distances import fail, first_wrong
@@ -18,6 +17,7 @@ from vorotool.errors import VorotoolWarning
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.polygons.conversion import to_shapely
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.boundary_samples import BoundarySamples
 from vorotool.geometry.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
 

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.errors import InputError, LimitError, VerificationError, VorotoolError
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.segment_voronoi import LATTICE_LIMIT, SegmentVoronoiDiagram
 
 MOST_SITES = 2**28 - 1

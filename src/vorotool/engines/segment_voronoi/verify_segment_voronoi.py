@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from vorotool import _core
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.errors import VerificationError
 from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
 
 

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from vorotool.engines.arrangement.lattice_rings import PlacedShapes
 from vorotool.engines.arrangement.planar_graph import arranged, placed_vertices
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.features.batches import are_apart
 from vorotool.engines.skeleton.exact import Frame, ShapeDiagram, diagram_of_graph, skeleton_of, warn_empty
 from vorotool.engines.skeleton.parts import PER_ARC
@@ -19,6 +18,7 @@ from vorotool.engines.skeleton.per_feature import feature_skeleton
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import EDGE, SiteTable, Skeleton
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.features.batches import together
 from vorotool.engines.skeleton.both_sides import sides_of
 from vorotool.engines.skeleton.exact import Frame, ShapeDiagram, diagram_of_graph, skeleton_of, whole_diagram
@@ -18,6 +17,7 @@ from vorotool.engines.skeleton.shortened_edges import (
     whole_element_diagram,
 )
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
 AnyDiagram = ShapeDiagram | ElementDiagram

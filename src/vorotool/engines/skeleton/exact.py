@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.arrangement.lattice_rings import PlacedShapes, placed_shapes
 from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
 from vorotool.errors import Kind, Message, UsageError, VorotoolWarning
 from vorotool.geometry.box import bounds
@@ -20,6 +19,7 @@ from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.numbers import finite_double, shown_number
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
 from vorotool.geometry.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
 

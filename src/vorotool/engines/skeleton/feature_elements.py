@@ -11,7 +11,6 @@ import numpy as np
 
 from vorotool.engines.arrangement.lattice_rings import placed_shapes
 from vorotool.engines.arrangement.planar_graph import arranged, placed_vertices
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.features.batches import BatchShapes, FeatureShapes, in_batches
 from vorotool.engines.features.order import InputOrder
 from vorotool.engines.skeleton.both_sides import joined_sides
@@ -26,6 +25,7 @@ from vorotool.engines.skeleton.shortened_edges import (
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.box import bounds
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
 

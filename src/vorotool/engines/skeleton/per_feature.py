@@ -9,12 +9,12 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.features.batches import BatchShapes, FeatureShapes, in_batches
 from vorotool.engines.features.order import InputOrder, Places, stacked
 from vorotool.engines.segment_voronoi.segment_voronoi import NEITHER, segment_voronoi
 from vorotool.engines.skeleton.exact import ShapeDiagram, interior_skeleton, sides_not_interior, warn_empty
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
 Seen = TypeVar("Seen")

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from vorotool.engines.arrangement.lattice_rings import PlacedShapes, placed_shapes
 from vorotool.engines.arrangement.planar_graph import Placement, arranged, graph_for_skeletons, placed_vertices
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, segment_voronoi_of_groups
 from vorotool.engines.skeleton.exact import (
     Frame,
@@ -30,6 +29,7 @@ from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.curves.inverse_functions import angle_of, hypotenuse
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
 from vorotool.geometry.skeleton.skeleton import Skeleton
 

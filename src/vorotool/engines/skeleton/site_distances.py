@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.errors import VerificationError
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import EDGE, Skeleton
 
 Floats = NDArray[np.float64]

@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 
 from vorotool.engines.arrangement.planar_graph import planar_graph
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.features.batches import BatchShapes, in_batches
 from vorotool.engines.skeleton.exact import ShapeDiagram, kept_edges
 from vorotool.engines.skeleton.parts import PER_ARC, outside_of, with_arcs, with_polygons
@@ -23,6 +22,7 @@ from vorotool.engines.skeleton.verify_regions import SkeletonRegions, border_com
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
+from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.skeleton import INTERIOR, Skeleton
 from vorotool.geometry.skeleton.tables import connected_roots
 

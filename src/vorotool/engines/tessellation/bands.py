@@ -9,10 +9,10 @@ from typing import Any, Literal, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.progress import Progress
 
 Quantity = Literal["labels", "distance", "distance2"]
 

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.tessellation.frames import (
     band_limits,
     check_out,
@@ -25,6 +24,7 @@ from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.progress import Progress
 
 
 def propagate(

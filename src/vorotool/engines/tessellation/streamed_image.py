@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.tessellation.bands import Quantity, SeedBand
 from vorotool.engines.tessellation.column_envelope import ColumnEnvelope, first_seeds, last_seeds
 from vorotool.engines.tessellation.interior_seeds import surrounded_pixels
@@ -30,6 +29,7 @@ from vorotool.errors import LimitError
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.progress import Progress
 
 StreamedMode = Literal["pixels", "components", "labels"]
 

@@ -7,7 +7,6 @@ from typing import Any, Literal
 
 from numpy.typing import NDArray
 
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.tessellation.frames import (
     as_seeds,
     asked_frame,
@@ -24,6 +23,7 @@ from vorotool.geometry.numbers import shown_number, whole_number
 from vorotool.geometry.pixel_frame import MAX_PIXELS, Frame
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.progress import Progress
 
 Method = Literal["exact", "propagation"]
 

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.label_arrays import Progress
 from vorotool.engines.tessellation.frames import (
     check_out,
     default_frame,
@@ -27,6 +26,7 @@ from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.pixel_frame import MAX_SIDE, Frame
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.progress import Progress
 
 
 class _NothingLabelled:

@@ -7,12 +7,13 @@ from typing import Any
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.label_arrays import Progress, label_array
+from vorotool.engines.common.label_arrays import label_array
 from vorotool.errors import InputError, UsageError, VerificationError
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.progress import Progress
 
 
 def verify_label_image(
