@@ -56,23 +56,26 @@ class Foreground(NamedTuple):
     invert: bool
 
 
-def read_seed_input(run: Run, o: SiteOptions, given: JobInput, *, properties: bool) -> PointSet | Raster:
-    """Read points or an image, as the options say.
-
-    Raises
-    ------
-    UsageError
-        If the input is a list of points and an option for images is given.
-    """
+def read_input(
+    run: Run,
+    o: ComputingOptions,
+    given: JobInput,
+    geometry: str,
+    *,
+    columns: str | None = None,
+    properties: bool = True,
+) -> PointSet | PolygonSet | Raster:
+    """Read points or polygons, or an image, as the options say."""
     from vorotool.formats import read
     from vorotool.geometry.points.point_set import PointSet
     from vorotool.geometry.points.raster import Raster
+    from vorotool.geometry.polygons.polygon_set import PolygonSet
 
     value = read(
         given.path,
-        geometry="points",
+        geometry=geometry,
         input_format=o.input_format,
-        columns=o.columns,
+        columns=columns,
         page=o.page,
         max_pixels=o.max_pixels,
         max_sites=o.max_sites,
@@ -81,11 +84,28 @@ def read_seed_input(run: Run, o: SiteOptions, given: JobInput, *, properties: bo
         note=run.note,
         crs=o.input_crs,
     )
+    assert isinstance(value, PointSet | PolygonSet | Raster)  # others are read where no geometry is asked for
+    if isinstance(value, Raster):
+        note_other_size(run, o, given, value.values.shape)
+    return value
+
+
+def read_seed_input(run: Run, o: SiteOptions, given: JobInput, *, properties: bool) -> PointSet | Raster:
+    """Read points or an image, as the options say.
+
+    Raises
+    ------
+    UsageError
+        If the input is a list of points and an option for images is given.
+    """
+    from vorotool.geometry.points.point_set import PointSet
+    from vorotool.geometry.points.raster import Raster
+
+    value = read_input(run, o, given, "points", columns=o.columns, properties=properties)
     if isinstance(value, PointSet):
         refuse(o.for_images(), "is for images, but the input is a list of points")
         return value
     assert isinstance(value, Raster)  # what is asked for is points, or an image
-    note_other_size(run, o, given, value.values.shape)
     return value
 
 

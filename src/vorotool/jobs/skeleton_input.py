@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from vorotool.jobs.inputs import JobInput, note_other_size, refuse, settled_foreground
+from vorotool.jobs.inputs import JobInput, read_input, refuse, settled_foreground
 from vorotool.jobs.options import SkeletonOptions
 from vorotool.jobs.run_log import Run
 
@@ -30,24 +30,11 @@ class ReadPolygons(NamedTuple):
 
 def read_polygons(run: Run, o: SkeletonOptions, given: JobInput) -> ReadPolygons:
     """Read polygons, or the outlines of an image."""
-    from vorotool.formats import read
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.polygons.polygon_set import PolygonSet
 
-    value = read(
-        given.path,
-        geometry="polygons",
-        input_format=o.input_format,
-        page=o.page,
-        max_pixels=o.max_pixels,
-        max_sites=o.max_sites,
-        properties=not o.no_properties,
-        threads=o.threads,
-        note=run.note,
-        crs=o.input_crs,
-    )
+    value = read_input(run, o, given, "polygons")
     if isinstance(value, Raster):
-        note_other_size(run, o, given, value.values.shape)
         return ReadPolygons(_outlines(run, o, value), is_mask=True)
     assert isinstance(value, PolygonSet)  # what is asked for is polygons, or an image
     refuse(o.for_images(), "is for images, but the input is polygons or lines")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -94,7 +95,7 @@ class SeedSet:
         """Whether these are the seeds of an image without foreground: no list of points brings a frame."""
         return not len(self) and self.frame is not None
 
-    @property
+    @cached_property
     def largest_label(self) -> int:
         """The largest label, 0 for no seeds."""
         return int(self.labels.max(initial=0))
