@@ -22,13 +22,6 @@ if TYPE_CHECKING:
 
 @click.command("skeleton-approx")
 @skeleton_options(
-    click.option(
-        "--features",
-        type=click.Choice(["separate", "together"]),
-        default="separate",
-        help="Take each feature as if there were no others, whatever lies in it or over it (default), or all as one "
-        "drawing.",
-    ),
     click.option("--step", type=Length(zero=False), metavar="H", help="Sample the edges at this distance."),
     click.option(
         "--tolerance",

@@ -23,13 +23,6 @@ if TYPE_CHECKING:
 @click.command("skeleton-exact")
 @skeleton_options(
     click.option(
-        "--features",
-        type=click.Choice(["separate", "together"]),
-        default="separate",
-        help="Take each feature as if there were no others, whatever lies in it or over it (default), or all as one "
-        "drawing.",
-    ),
-    click.option(
         "--gap",
         type=Length(zero=True),
         metavar="STEP",

@@ -98,6 +98,13 @@ _BEFORE: tuple[Decorator, ...] = (
         help="Where centerlines end: in the middle of the edge that the skeleton forks to (default), in a corner, or "
         "where it forks.",
     ),
+    click.option(
+        "--features",
+        type=click.Choice(["separate", "together"]),
+        default="separate",
+        help="Take each feature as if there were no others, whatever lies in it or over it (default), or all as one "
+        "drawing.",
+    ),
 )
 _READING: tuple[Decorator, ...] = (
     click.option(
