@@ -75,6 +75,7 @@ bench: build $(BUILD)/.tests ## measure beside the peers, in one run
 	$(RUN) tests/benchmarks/masks.py
 	$(RUN) tests/benchmarks/segment_voronoi.py
 	$(RUN) tests/benchmarks/batch.py
+	$(RUN) tests/benchmarks/libraries.py
 
 .PHONY: fuzz
 fuzz: build $(BUILD)/.tests ## all comparisons and harnesses: for MINUTES=... in all, or by counts (PIXELS=..., CASES=..., FAULTS=..., SEED=...)

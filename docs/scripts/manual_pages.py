@@ -1,4 +1,8 @@
-"""Write the manual pages, made from the commands themselves: `docs/scripts/manual_pages.py [FOLDER]`."""
+"""Write the manual pages, made from the commands themselves: `docs/scripts/manual_pages.py [FOLDER]`.
+
+click-man 0.6 writes one page, that of the group: it looks for commands that are loaded already. It knows no exit codes,
+environment or examples.
+"""
 
 import re
 import sys

@@ -32,7 +32,7 @@ _HOME = {
     "Table": "vorotool.geometry.table",
     "Triangulation": "vorotool.geometry.mesh.triangulation",
     "read": "vorotool.formats",
-    "to_geojson": "vorotool.formats",
+    "to_geojson": "vorotool.jobs.writing",
     "write": "vorotool.jobs.writing",
     "seeds_from_points": "vorotool.engines.tessellation.seeding",
     "seeds_from_raster": "vorotool.engines.tessellation.seeding",

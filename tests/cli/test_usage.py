@@ -110,12 +110,12 @@ def test_names_of_formats(run, folder, name):
 
 
 def test_layers_are_those_that_are_drawn():
-    from vorotool.jobs.targets import PICTURE_LAYERS
+    from vorotool.products.registry import layers_of
     from vorotool.render.label_images import png as label_png
     from vorotool.render.label_images import svg as label_svg
 
     assert {"png": set(label_png.LAYERS), "svg": set(label_svg.LAYERS)} == {
-        fmt: set(layers) for fmt, layers in PICTURE_LAYERS.items()
+        fmt: set(layers) for fmt, layers in layers_of("tessellate").items()
     }
 
 

@@ -25,7 +25,7 @@ LONGEST = 2**22
 """Pixels of an image that a command is given: one that passes by in bands may have any number, and takes its time."""
 
 READ, REFUSED, LIMIT, WRONG = "read", "refused", "limit", "wrong"
-IMAGES = {"png", "tiff", "npy", "pnm", "zarr"}
+IMAGES = {"png", "tiff", "npy", "pnm", "zarr", "jpeg", "bmp", "gif", "webp", "avif"}
 SHAPES = {"json", "geojson", "wkt", "poly", "skeleton"}
 COMMANDS = {
     "images": (

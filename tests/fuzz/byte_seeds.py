@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import tifffile
-from PIL import Image
+from PIL import Image, features
 
 import vorotool
 from support.families.tiff_files import LONG, SHORT, grey, tiff_file
@@ -35,7 +35,7 @@ def seeds() -> list[Bundle]:
     """All of them, in the same order on every run."""
     return [
         Bundle(kind, name, {name: data})
-        for kind, name, data in (*_pngs(), *_tiffs(), *_arrays(), *_maps(), *_texts(), *_results())
+        for kind, name, data in (*_pngs(), *_tiffs(), *_pictures(), *_arrays(), *_maps(), *_texts(), *_results())
     ] + _stores()
 
 
@@ -55,6 +55,23 @@ def _pngs() -> list[tuple[str, str, bytes]]:
     text = b"iTXtComment\0\1\0\0\0" + zlib.compress(b"a comment " * 9)
     chunk = (len(text) - 4).to_bytes(4, "big") + text + zlib.crc32(text).to_bytes(4, "big")
     return [("png", "a.png", data) for data in (*files, files[0][:33] + chunk + files[0][33:])]
+
+
+def _pictures() -> list[tuple[str, str, bytes]]:
+    grey, palette = Image.fromarray(GREY * 20), Image.fromarray(GREY)
+    palette.putpalette(list(range(27)))
+    turned = Image.Exif()
+    turned[274] = 6  # the orientation
+    animation = {"save_all": True, "append_images": [palette.rotate(180), grey]}
+    kinds: dict[str, list[tuple[Image.Image, dict[str, object]]]] = {
+        "jpeg": [(grey, {}), (grey.convert("RGB"), {"progressive": True, "exif": turned}), (grey.convert("CMYK"), {})],
+        "bmp": [(grey, {}), (grey.convert("1"), {}), (palette, {}), (grey.convert("RGBA"), {})],
+        "gif": [(grey, {}), (palette, {"transparency": 2, "interlace": 1}), (palette, animation)],
+        "webp": [(grey, {}), (grey, {"lossless": True, "exif": turned}), (grey.convert("RGBA"), animation)],
+        "avif": [(grey, {"exif": turned}), (grey.convert("RGBA"), {})],
+    }
+    known = [kind for kind in kinds if kind != "avif" or "avif" in features.get_supported()]
+    return [(k, f"a.{k}", _saved(image, k.upper(), **options)) for k in known for image, options in kinds[k]]
 
 
 def _tiffs() -> list[tuple[str, str, bytes]]:

@@ -19,6 +19,7 @@ import shapely
 from PIL import Image
 
 import vorotool
+from vorotool.engines.arrangement.corner_sectors import corner_sectors
 from vorotool.engines.arrangement.lattice_rings import placed_shapes
 from vorotool.engines.arrangement.planar_graph import planar_graph
 from vorotool.engines.sampled_skeleton.approximate import (
@@ -29,7 +30,6 @@ from vorotool.engines.sampled_skeleton.approximate import (
 )
 from vorotool.engines.sampled_skeleton.hausdorff import deviation, distances_to, exact_skeleton, places_on_arcs
 from vorotool.engines.sampled_skeleton.refinement import skeleton_within
-from vorotool.engines.skeleton.verify_regions import corner_sectors
 from vorotool.geometry.polygons.conversion import to_shapely
 
 DATA = Path(__file__).parents[2] / "data"

@@ -9,12 +9,13 @@ PACKAGE = Path(__file__).parents[2] / "src" / "vorotool"
 ARROWS = """
 formats/compression ->
 geometry ->
+products ->
 formats/io -> geometry
 geometry/points -> geometry
 geometry/polygons -> geometry
 engines/common -> geometry, geometry/points, geometry/polygons
 formats/parsing -> formats/io, geometry, geometry/points, geometry/polygons
-formats/zarr -> formats/compression, formats/io
+formats/zarr -> formats/compression, formats/io, geometry
 geometry/curves -> geometry, geometry/polygons
 engines/tessellation -> engines/common, geometry, geometry/curves, geometry/points
 formats/images -> formats/compression, formats/io, formats/parsing, formats/zarr, geometry, geometry/points
@@ -22,11 +23,11 @@ formats/points -> formats/io, formats/parsing, geometry, geometry/points
 geometry/mesh -> geometry, geometry/curves
 geometry/skeleton -> geometry, geometry/curves, geometry/polygons
 render/canvas -> geometry, geometry/curves
-engines/arrangement -> geometry, geometry/polygons, geometry/skeleton
+engines/arrangement -> geometry, geometry/curves, geometry/polygons, geometry/skeleton
 engines/delaunay -> engines/common, geometry, geometry/curves, geometry/mesh, geometry/points
 engines/label_images -> engines/common, engines/tessellation, geometry, geometry/points, geometry/polygons
 engines/segment_voronoi -> geometry, geometry/polygons, geometry/skeleton
-formats/text -> formats/io, geometry, geometry/skeleton
+formats/text -> geometry, geometry/skeleton
 geometry/alpha -> geometry, geometry/curves, geometry/mesh, geometry/polygons
 render/label_images -> geometry, geometry/points, render/canvas
 batch -> engines/tessellation, formats/io, formats/text, formats/zarr
@@ -34,26 +35,25 @@ engines/alpha -> engines/delaunay, geometry, geometry/alpha, geometry/curves, ge
     geometry/polygons
 engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry,
     geometry/curves, geometry/mesh, geometry/points
-engines/features -> engines/arrangement, engines/common, geometry, geometry/polygons, geometry/skeleton
+engines/features -> engines/arrangement, geometry, geometry/polygons, geometry/skeleton
 formats/polygons -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/polygons
 geometry/any -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton
-render/layers -> geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton, render/canvas,
+render/layers -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton, render/canvas,
     render/label_images
 render/pages -> geometry, geometry/alpha, geometry/curves, geometry/skeleton, render/canvas
-engines/skeleton -> engines/arrangement, engines/features, engines/segment_voronoi, geometry, geometry/curves,
-    geometry/polygons, geometry/skeleton
+engines/skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, geometry,
+    geometry/curves, geometry/polygons, geometry/skeleton
 formats/results -> formats/io, formats/parsing, formats/points, formats/polygons, formats/text, geometry,
-    geometry/alpha, geometry/curves, geometry/mesh, geometry/polygons, geometry/skeleton
+    geometry/alpha, geometry/curves, geometry/mesh, geometry/polygons, geometry/skeleton, products
 engines/from_skeleton -> engines/arrangement, engines/skeleton, geometry, geometry/curves, geometry/polygons,
     geometry/skeleton
-engines/offsets -> engines/arrangement, engines/features, engines/segment_voronoi, engines/skeleton, geometry,
-    geometry/curves, geometry/polygons, geometry/skeleton
-engines/pruning -> engines/common, engines/skeleton, geometry, geometry/curves, geometry/skeleton
-engines/sampled_skeleton -> engines/arrangement, engines/features, engines/segment_voronoi, engines/skeleton,
+engines/offsets -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, engines/skeleton,
     geometry, geometry/curves, geometry/polygons, geometry/skeleton
-formats -> formats/images, formats/io, formats/parsing, formats/points, formats/polygons, formats/results,
-    formats/text, formats/zarr, geometry, geometry/alpha, geometry/mesh, geometry/points, geometry/polygons,
-    geometry/skeleton
+engines/pruning -> engines/common, geometry, geometry/curves, geometry/skeleton
+engines/sampled_skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi,
+    engines/skeleton, geometry, geometry/curves, geometry/polygons, geometry/skeleton
+formats -> formats/images, formats/io, formats/parsing, formats/points, formats/polygons, formats/results, geometry,
+    geometry/points, geometry/polygons, geometry/skeleton
 engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/polygons, geometry/skeleton
 engines/centerlines -> engines/from_skeleton, engines/pruning, geometry, geometry/polygons, geometry/skeleton
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
@@ -61,10 +61,10 @@ jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines,
     engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, formats,
     formats/images, formats/io, formats/parsing, formats/points, formats/polygons, formats/results, formats/text,
     formats/zarr, geometry, geometry/alpha, geometry/any, geometry/mesh, geometry/points, geometry/polygons,
-    geometry/skeleton, render/canvas, render/label_images, render/layers, render/pages
-cli/options -> engines/offsets, engines/pruning, formats/parsing, geometry, jobs
-cli/batch -> batch, cli/options, formats/io, formats/parsing, geometry, jobs
-cli/commands -> cli/batch, cli/options, formats/parsing, jobs
+    geometry/skeleton, products, render/canvas, render/label_images, render/layers, render/pages
+cli/options -> engines/offsets, engines/pruning, formats/parsing, geometry, jobs, products
+cli/batch -> batch, cli/options, formats/io, formats/parsing, geometry, jobs, products
+cli/commands -> cli/batch, cli/options, formats/parsing, jobs, products
 cli -> cli/commands, jobs
 """
 """Rooms of the package from below, and what each may import; `errors` and `signals` are for all."""
@@ -150,3 +150,14 @@ def test_each_arrow_is_used():
         if (room := room_of(path)) in used:
             used[room] |= {room_named(name) for name in imported_modules(path)} - {None, room, *FOR_ALL}
     assert used == ALLOWED
+
+
+def test_checkers_share_nothing_with_makers():
+    """From a module that checks others take its checks alone: what both need is in a module of its own."""
+    for path in SOURCES:
+        if path.stem.startswith("verify_"):
+            continue
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and node.module.rpartition(".")[2].startswith("verify_"):
+                taken = [alias.name for alias in node.names if not alias.name.startswith("verify_")]
+                assert not taken, f"{path} takes {taken} from {node.module}"

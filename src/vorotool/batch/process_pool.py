@@ -1,4 +1,8 @@
-"""Processes of this machine that do the tasks of a batch."""
+"""Processes of this machine that do the tasks of a batch.
+
+`ProcessPoolExecutor`, and loky like it, give up all tasks when one process dies: of 8, one of which kills its process,
+7 are done here and 3 there (`tests/benchmarks/libraries.py pool`). Nor do they end a task that runs at an interrupt.
+"""
 
 from __future__ import annotations
 

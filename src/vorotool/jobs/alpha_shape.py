@@ -35,20 +35,14 @@ from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units, table_in_units
+from vorotool.products.formats import PICTURES
+from vorotool.products.registry import PRODUCTS
+from vorotool.products.writing import write_product
 
 if TYPE_CHECKING:
     from vorotool.geometry.alpha.hull import AlphaHull
     from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
     from vorotool.render.canvas.layers import Page
-
-DEFAULT_LAYERS = {
-    "edges": ("boundary", "singular", "points"),
-    "polygons": ("polygons",),
-    "complex": ("interior", "boundary", "singular", "points"),
-    "general": ("polygons", "boundary", "singular", "points"),
-    "hull": ("hull", "points"),
-}
-"""Layers of the picture of each result."""
 
 
 def products(run: Run, o: AlphaShapeOptions, given: JobInput) -> ShapeProducts:
@@ -214,73 +208,27 @@ class ShapeProducts:
         ) as out:
             if target.fmt == "html":
                 self._write_html(out)
-            elif target.fmt in ("svg", "png") and target.what in DEFAULT_LAYERS:
-                self._write_picture(out, target.fmt, DEFAULT_LAYERS[target.what])
+            elif target.fmt in PICTURES and target.what == "curves":
+                self._write_plot(out)
+            elif target.fmt in PICTURES:
+                self._write_picture(out, target)
             else:
-                getattr(self, f"_write_{target.what}")(out, target.fmt)
+                o, value = self.options, self._value(target.what)
+                product = PRODUCTS["alphashape"][target.what]
+                write_product(out, value, product, target.fmt, precision=o.precision, threads=o.threads)
 
-    def _write_table_of(self, out: BinaryIO, table: Table, fmt: str) -> None:
-        from vorotool.formats.text.tables import write_table
+    def _value(self, what: str) -> Any:
+        """What a result is written from, in the units of files."""
+        if what == "curves":
+            return self.written_curves
+        if what == "hull":
+            return in_units(self.options.pixel_size, self.hull)
+        return self.written if what in OF_ONE_SHAPE else self.written_family
 
-        write_table(out, table, fmt, precision=self.options.precision, threads=self.options.threads)
+    def _write_plot(self, out: BinaryIO) -> None:
+        from vorotool.render.pages.alpha_plot import write_curves_svg
 
-    def _write_edges(self, out: BinaryIO, fmt: str, *, interior: bool = False) -> None:
-        from vorotool.formats.results.alpha import write_shape_edges
-        from vorotool.geometry.alpha.tables import shape_edge_table
-
-        if fmt == "geojson":
-            o = self.options
-            write_shape_edges(out, self.written, interior=interior, precision=o.precision, threads=o.threads)
-        else:
-            self._write_table_of(out, shape_edge_table(self.written, interior=interior), fmt)
-
-    def _write_complex(self, out: BinaryIO, fmt: str) -> None:
-        self._write_edges(out, fmt, interior=True)
-
-    def _write_polygons(self, out: BinaryIO, fmt: str) -> None:
-        from vorotool.formats.polygons.reader import write_polygons
-        from vorotool.geometry.alpha.tables import described_polygons
-
-        write_polygons(out, described_polygons(self.written), fmt, precision=self.options.precision)
-
-    def _write_general(self, out: BinaryIO, fmt: str) -> None:
-        from vorotool.formats.results.alpha import write_general
-
-        write_general(out, self.written, fmt, precision=self.options.precision)
-
-    def _write_family(self, out: BinaryIO, fmt: str) -> None:
-        from vorotool.geometry.alpha.tables import family_table
-
-        self._write_table_of(out, family_table(self.written_family), fmt)
-
-    def _write_spectrum(self, out: BinaryIO, fmt: str) -> None:
-        self._write_table_of(out, Table({"r": self.written_family.spectrum}), fmt)
-
-    def _write_curves(self, out: BinaryIO, fmt: str) -> None:
-        if fmt == "svg":
-            from vorotool.render.pages.alpha_plot import write_curves_svg
-
-            write_curves_svg(out, self.written_curves, width=self.options.width or 1000)
-        else:
-            self._write_table_of(out, self.written_curves, fmt)
-
-    def _write_hull(self, out: BinaryIO, fmt: str) -> None:
-        from vorotool.formats.results.alpha import write_hull_geojson
-
-        if fmt == "geojson":
-            write_hull_geojson(out, in_units(self.options.pixel_size, self.hull), precision=self.options.precision)
-        else:
-            self._write_table_of(out, in_units(self.options.pixel_size, self.hull).table(), fmt)
-
-    def _write_points(self, out: BinaryIO, fmt: str) -> None:
-        from vorotool.geometry.alpha.tables import shape_point_table
-
-        self._write_table_of(out, shape_point_table(self.written), fmt)
-
-    def _write_table(self, out: BinaryIO, fmt: str) -> None:
-        from vorotool.geometry.alpha.tables import region_table
-
-        self._write_table_of(out, region_table(self.written), fmt)
+        write_curves_svg(out, self.written_curves, width=self.options.width or 1000)
 
     def _write_html(self, out: BinaryIO) -> None:
         from vorotool.render.pages.alpha_html import write_alpha_html
@@ -299,13 +247,13 @@ class ShapeProducts:
             return ImagePage(self.backdrop)
         return mesh_page(self.family.mesh, width=self.options.width or 1000, y_up=self.options.y_up)
 
-    def _write_picture(self, out: BinaryIO, fmt: str, layers: Sequence[str]) -> None:
+    def _write_picture(self, out: BinaryIO, target: Target) -> None:
         from vorotool.render.layers.alpha import alpha_layers
 
-        chosen = self.options.layers or layers
+        chosen = self.options.layers or PRODUCTS["alphashape"][target.what].usual_layers
         hull = self.hull if "hull" in chosen else None
         drawn = alpha_layers(self.shape, self.page, chosen, hull=hull)
-        write_layers(out, drawn, self.page, fmt=fmt, threads=self.options.threads)
+        write_layers(out, drawn, self.page, fmt=target.fmt, threads=self.options.threads)
 
     def verify(self, progress: Progress) -> None:
         """Check the shape exactly, from its triangulation."""

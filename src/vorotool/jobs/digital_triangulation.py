@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict, replace
 from functools import cached_property
-from typing import Any, BinaryIO
+from typing import Any
 
 from vorotool.engines.digital.comparison import compare_digital
 from vorotool.engines.digital.triangulation import DigitalRepair, digital_triangulation, repair_digital
@@ -59,11 +59,10 @@ class DigitalProducts(MeshProducts):
         if self.comparison.suggestion:
             self.run.note(self.comparison.suggestion)
 
-    def _write_compare(self, out: BinaryIO, fmt: str) -> None:
-        from vorotool.formats.text.tables import write_table
-
-        table = table_in_units(self.options.pixel_size, self.comparison.table)
-        write_table(out, table, fmt, precision=self.options.precision, threads=self.options.threads)
+    def _value(self, what: str, fmt: str) -> Any:
+        if what == "compare":
+            return table_in_units(self.options.pixel_size, self.comparison.table)
+        return super()._value(what, fmt)
 
     def _shape(self) -> str:
         return f"of {len(self.mesh.points)} regions too few touch"

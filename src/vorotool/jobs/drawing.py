@@ -25,13 +25,15 @@ from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.jobs.inputs import JobInput, note_other_size, refuse
-from vorotool.jobs.names import DERIVED, SKELETON_LAYERS
 from vorotool.jobs.options import DrawingOptions
 from vorotool.jobs.pictures import default_layers, drawing_of, write_label_picture, write_layers
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options
+from vorotool.products.registry import PRODUCTS, Product
 
-LABEL_LAYERS = {"png": ("cells", "diagram", "labels"), "svg": ("cells", "labels")}
+_SKELETONS = PRODUCTS["skeleton-exact"]
+_COLOURED = PRODUCTS["tessellate"]["colour"].layers
+LABEL_LAYERS = {fmt: [layer for layer in layers if layer != "seeds"] for fmt, layers in _COLOURED.items()}
 """A label image from a file has no seeds."""
 
 Lined = Skeleton | Offsets | PolygonSet
@@ -156,9 +158,8 @@ def _objects(run: Run, image: LabelImage) -> LabelImage:
 def _of_layers(run: Run, o: DrawingOptions, given: JobInput, value: Lined, fmt: str) -> Drawing:
     from vorotool.render.canvas.png import check_picture_size
 
-    kind, layers, counts = _described(value)
-    in_format = {"svg": layers, "png": layers}
-    check_picture_options(o, [fmt], in_format, png_has_width=True)
+    kind, product, counts = _described(value)
+    check_picture_options(o, [fmt], product.layers, png_has_width=True)
     refuse({"page": o.page}, f"is for images, but the input is {kind}")
     if not len(value):
         run.warn(f"the picture is empty: the input is {kind}, but there are none in it")
@@ -168,14 +169,14 @@ def _of_layers(run: Run, o: DrawingOptions, given: JobInput, value: Lined, fmt: 
     return partial(write_layers, layers=drawing.layers, page=drawing.page, fmt=fmt, threads=o.threads), counts
 
 
-def _described(value: Lined) -> tuple[str, tuple[str, ...], dict[str, Any]]:
-    """What it is called, the layers that there are of it, and how much it is."""
+def _described(value: Lined) -> tuple[str, Product, dict[str, Any]]:
+    """What it is called, what wrote it, and how much it is."""
     if isinstance(value, Skeleton):
-        return "arcs of a skeleton", SKELETON_LAYERS, {"arcs": len(value), "nodes": len(value.vertices)}
+        return "arcs of a skeleton", _SKELETONS["skeleton"], {"arcs": len(value), "nodes": len(value.vertices)}
     if isinstance(value, Offsets):
-        return "offset curves", DERIVED["offset"], {"shapes": len(value), "pieces": len(value.site)}
+        return "offset curves", _SKELETONS["offset"], {"shapes": len(value), "pieces": len(value.site)}
     return (
         "polygons or lines",
-        DERIVED["shape"],
+        _SKELETONS["shape"],
         {"polygons": int((~value.is_line).sum()), "lines": int(value.is_line.sum())},
     )

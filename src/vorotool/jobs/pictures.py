@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
 from vorotool.geometry.points.label_image import LabelImage
+from vorotool.products.registry import parts_of
 
 if TYPE_CHECKING:
     from vorotool.geometry.mesh.cells import CellSet
@@ -197,10 +198,9 @@ def drawing_of(
     value : value of the library
         A triangulation, cells, an alpha shape or hull, polygons, a skeleton, points along one, or offset curves.
     what : str, optional
-        Of a triangulation ``edges`` or ``triangles``, of an alpha shape ``edges`` or ``polygons``, of a skeleton
-        ``skeleton`` or ``elements``, of points along one ``points`` or ``transects``.
+        Which part, by its name in the registry of products; by default the first that is drawn.
     layers : sequence of str, optional
-        Which; by default those of `DEFAULT_LAYERS`, over an image without the polygons.
+        Which; by default the usual ones of the part, over an image without the polygons.
     width : int
         Of the page, in px.
     y_up : bool, optional
@@ -221,43 +221,28 @@ def drawing_of(
     """
     from vorotool.render.canvas.layers import ImagePage
 
-    for kind, name, page_of, layers_of in _drawings():
+    drawn = {name: each for name, each in parts_of(value).items() if each.usual_layers}
+    for kind, page_of, layers_of in _drawings() if drawn else ():
         if not isinstance(value, kind):
             continue
-        own = DEFAULT_LAYERS[name]
-        chosen = what or next(iter(own))
-        if chosen not in own:
-            raise UsageError(f"what={what!r} is no picture of a {type(value).__name__}: use {' or '.join(own)}")
+        chosen = what or next(iter(drawn))
+        if chosen not in drawn:
+            raise UsageError(f"what={what!r} is no picture of a {type(value).__name__}: use {' or '.join(drawn)}")
         page = page_of(value, width=width, y_up=y_up) if backdrop is None else ImagePage(backdrop)
-        usual = [layer for layer in own[chosen] if backdrop is None or layer != "polygons"]
+        usual = [layer for layer in drawn[chosen].usual_layers if backdrop is None or layer != "polygons"]
         return Drawing(layers_of(value, page, layers or usual), page)
     raise UsageError(f"there is no picture of a {type(value).__name__}: write it as a table")
 
 
-DEFAULT_LAYERS: dict[str, dict[str, tuple[str, ...]]] = {
-    "mesh": {"edges": ("edges", "points"), "triangles": ("triangles", "edges", "points")},
-    "cells": {"cells": ("cells", "points")},
-    "shape": {"edges": ("boundary", "singular", "points"), "polygons": ("polygons",)},
-    "hull": {"hull": ("hull", "points")},
-    "polygons": {"polygons": ("shape",)},
-    "skeleton": {"skeleton": ("polygons", "skeleton"), "elements": ("polygons", "elements", "points")},
-    "points": {
-        "points": ("polygons", "skeleton", "points"),
-        "transects": ("polygons", "skeleton", "transects"),
-    },
-    "offsets": {"offset": ("polygons", "offset")},
-}
-"""Of each kind of values, of what it is drawn as: the first is the default."""
-
-
-def _drawings() -> list[tuple[Any, str, Callable[..., Page], Callable[..., list[Layer]]]]:
-    """The types that there are pictures of, their names, and what makes their pages and layers."""
+def _drawings() -> list[tuple[Any, Callable[..., Page], Callable[..., list[Layer]]]]:
+    """The types that there are pictures of, and what makes their pages and layers."""
     from vorotool.geometry.alpha.hull import AlphaHull
     from vorotool.geometry.alpha.shape import AlphaShape
     from vorotool.geometry.mesh.cells import CellSet
     from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
     from vorotool.geometry.mesh.triangulation import Triangulation
     from vorotool.geometry.polygons.polygon_set import PolygonSet
+    from vorotool.geometry.skeleton.centerline import Centerlines
     from vorotool.geometry.skeleton.offsets import Offsets
     from vorotool.geometry.skeleton.points_along import SkeletonPoints
     from vorotool.geometry.skeleton.skeleton import Skeleton
@@ -267,22 +252,26 @@ def _drawings() -> list[tuple[Any, str, Callable[..., Page], Callable[..., list[
     from vorotool.render.layers.offsets import offset_layers, offset_page
     from vorotool.render.layers.points_along import point_page, skeleton_point_layers
     from vorotool.render.layers.polygons import polygon_page, shape_layers
-    from vorotool.render.layers.skeleton import skeleton_layers, skeleton_page
+    from vorotool.render.layers.skeleton import centerline_layers, skeleton_layers, skeleton_page
 
     return [
-        ((Triangulation, DigitalTriangulation), "mesh", mesh_page, mesh_layers),
-        (CellSet, "cells", cells_page, _cell_layers),
-        (AlphaShape, "shape", lambda value, **options: mesh_page(value.family.mesh, **options), alpha_layers),
+        ((Triangulation, DigitalTriangulation), mesh_page, mesh_layers),
+        (CellSet, cells_page, _cell_layers),
+        (AlphaShape, lambda value, **options: mesh_page(value.family.mesh, **options), alpha_layers),
         (
             AlphaHull,
-            "hull",
             lambda value, **options: mesh_page(value.shape.family.mesh, **options),
             lambda value, page, layers: alpha_layers(value.shape, page, layers, hull=value),
         ),
-        (PolygonSet, "polygons", polygon_page, shape_layers),
-        (Skeleton, "skeleton", skeleton_page, skeleton_layers),
-        (SkeletonPoints, "points", point_page, skeleton_point_layers),
-        (Offsets, "offsets", offset_page, offset_layers),
+        (PolygonSet, polygon_page, shape_layers),
+        (Skeleton, skeleton_page, skeleton_layers),
+        (
+            Centerlines,
+            lambda value, **options: skeleton_page(value.path, **options),
+            centerline_layers,
+        ),
+        (SkeletonPoints, point_page, skeleton_point_layers),
+        (Offsets, offset_page, offset_layers),
     ]
 
 

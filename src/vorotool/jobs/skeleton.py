@@ -26,6 +26,9 @@ from vorotool.jobs.skeleton_extras import Derived
 from vorotool.jobs.skeleton_input import read_polygons
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units
+from vorotool.products.formats import PICTURES
+from vorotool.products.registry import PRODUCTS
+from vorotool.products.writing import write_product
 
 if TYPE_CHECKING:
     from vorotool.engines.skeleton.exact import ShapeDiagram
@@ -34,14 +37,6 @@ if TYPE_CHECKING:
     from vorotool.render.canvas.layers import Page
 
 Options = TypeVar("Options", bound=SkeletonOptions)
-
-DEFAULT_LAYERS = {
-    "skeleton": ("polygons", "skeleton"),
-    "diagram": ("polygons", "elements", "points", "skeleton"),
-    "elements": ("polygons", "elements", "points"),
-    "centerline": ("polygons", "skeleton"),
-}
-"""Layers of the picture of each result."""
 
 
 class SkeletonProducts(ABC, Generic[Options]):
@@ -197,43 +192,42 @@ class SkeletonProducts(ABC, Generic[Options]):
         with open_output(
             target.path, binary=target.is_binary, no_clobber=self.options.no_clobber, inputs=inputs
         ) as out:
-            if target.what in DERIVED:
-                self.derived.write(out, target)
-            elif target.fmt in ("svg", "png"):
-                self._write_picture(out, target)
-            elif target.fmt == "html":
+            if target.fmt == "html":
                 self._write_html(out)
-            elif target.what == "centerline":
-                self._write_centerlines(out, target.fmt)
-            else:
+            elif target.fmt not in PICTURES:
                 self._write_data(out, target)
+            elif target.what in DERIVED:
+                self.derived.write_picture(out, target)
+            else:
+                self._write_picture(out, target)
 
     def _write_data(self, out: BinaryIO, target: Target) -> None:
-        from vorotool.formats.results.skeletons import write_skeleton
-        from vorotool.geometry.skeleton.centerline import centerline_columns
-
-        has_table = target.what == "table"
-        write_skeleton(
+        o = self.options
+        write_product(
             out,
-            in_units(self.options.pixel_size, self._value(target.what)),
+            self._written(target.what),
+            PRODUCTS["skeleton-exact"][target.what],
             target.fmt,
-            what="skeleton" if target.what == "diagram" else target.what,
-            flatten=length_in_units(self.options.pixel_size, self.options.flatten),
-            columns=centerline_columns(in_units(self.options.pixel_size, self._longest)) if has_table else None,
-            precision=self.options.precision,
-            threads=self.options.threads,
+            flatten=length_in_units(o.pixel_size, o.flatten),
+            precision=o.precision,
+            threads=o.threads,
         )
 
-    def _write_centerlines(self, out: BinaryIO, fmt: str) -> None:
-        from vorotool.formats.results.centerlines import write_centerlines
+    def _written(self, what: str) -> Any:
+        """What a result is written from, in the units of files: the table tells of centerlines, too."""
+        o = self.options
+        if what in DERIVED:
+            return in_units(o.pixel_size, self.derived.value(what))
+        if what == "centerline":
+            return in_units(o.pixel_size, self.centerlines)
+        value = in_units(o.pixel_size, self._value(what))
+        if what != "table":
+            return value
+        from vorotool.geometry.skeleton.centerline import centerline_columns
+        from vorotool.geometry.skeleton.tables import polygon_table
 
-        write_centerlines(
-            out,
-            in_units(self.options.pixel_size, self.centerlines),
-            fmt,
-            flatten=length_in_units(self.options.pixel_size, self.options.flatten),
-            precision=self.options.precision,
-            threads=self.options.threads,
+        return polygon_table(
+            value, columns=centerline_columns(in_units(o.pixel_size, self._longest)), threads=o.threads
         )
 
     def _write_html(self, out: BinaryIO) -> None:
@@ -272,9 +266,10 @@ class SkeletonProducts(ABC, Generic[Options]):
 
     def _layers(self, what: str) -> Sequence[str]:
         """Layers of a picture: over an image the shapes are to be seen already."""
+        usual = PRODUCTS["skeleton-exact"][what].usual_layers
         if self.options.layers is not None or self.backdrop is None:
-            return self.options.layers or DEFAULT_LAYERS[what]
-        return [layer for layer in DEFAULT_LAYERS[what] if layer != "polygons"]
+            return self.options.layers or usual
+        return [layer for layer in usual if layer != "polygons"]
 
     def stats(self) -> dict[str, Any]:
         """Counts and sizes."""

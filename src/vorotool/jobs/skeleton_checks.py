@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 from vorotool.errors import UsageError
-from vorotool.jobs.names import DERIVED, PICTURE_LAYERS, PICTURES, SKELETON_LAYERS
 from vorotool.jobs.options import ApproximateSkeletonOptions, ExactSkeletonOptions, SkeletonOptions
-from vorotool.jobs.targets import Target, check_picture_options
-
-_WITHOUT_DIGITS = frozenset({"npz", "html", *PICTURES})
-_WITHOUT_CURVES = frozenset({"geojson", "wkt", "graphml"})
-_CURVED = frozenset({"skeleton", "diagram", "centerline", "offset"})
+from vorotool.jobs.targets import Target, check_picture_options, check_precision
+from vorotool.products.formats import FORMATS, PICTURES
+from vorotool.products.registry import PRODUCTS, formats_of, layers_of
 
 
 def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
     """Refuse what does not go together, or what no output would show."""
     formats = {target.fmt for target in targets}
-    if o.precision is not None and formats <= _WITHOUT_DIGITS:
-        raise UsageError("--precision is for numbers in text: use -f json, csv, geojson or wkt, or leave it out")
-    curved = any(target.what in _CURVED and target.fmt in _WITHOUT_CURVES for target in targets)
+    products = PRODUCTS[_command(o)]
+    check_precision(o, formats_of(_command(o)), targets)
+    curved = any(products[target.what].is_curved and FORMATS[target.fmt].flattens for target in targets)
     if o.flatten is not None and not curved and "shape" not in o.what:
         raise UsageError("--flatten is for what has no curves: use -f geojson, -f wkt or --what shape, or leave it out")
     _check_measures(o)
@@ -31,7 +28,13 @@ def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
     if o.layers is not None and not pictures:
         raise UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
     _check_layers(o, targets)
-    check_picture_options(o, pictures, PICTURE_LAYERS, png_has_width=True, has_page="html" in formats)
+    check_picture_options(
+        o,
+        pictures,
+        layers_of(_command(o)),
+        png_has_width=True,
+        has_page="html" in formats,
+    )
 
 
 def _check_frame(frame: tuple[float, ...]) -> None:
@@ -41,11 +44,14 @@ def _check_frame(frame: tuple[float, ...]) -> None:
         raise UsageError(f"--frame goes too far to compute with: use numbers of at most {LARGEST:g}")
 
 
+def _command(o: SkeletonOptions) -> str:
+    return "skeleton-approx" if isinstance(o, ApproximateSkeletonOptions) else "skeleton-exact"
+
+
 def _check_layers(o: SkeletonOptions, targets: list[Target]) -> None:
     """Each picture has each of the layers."""
-    usual = (*SKELETON_LAYERS, "exact") if isinstance(o, ApproximateSkeletonOptions) else SKELETON_LAYERS
     for target in (target for target in targets if target.fmt in PICTURES):
-        own = DERIVED.get(target.what, usual)
+        own = PRODUCTS[_command(o)][target.what].layers[target.fmt]
         for layer in (layer for layer in o.layers or () if layer not in own):
             raise UsageError(
                 f"--layers {layer}: a picture of {target.what} in {target.fmt.upper()} has {', '.join(own)}; "

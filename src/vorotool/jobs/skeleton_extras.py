@@ -16,7 +16,6 @@ from vorotool.jobs.options import SkeletonOptions
 from vorotool.jobs.pictures import Drawing, drawing_of, write_layers
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
-from vorotool.jobs.units import in_units, length_in_units
 
 if TYPE_CHECKING:
     from vorotool.engines.skeleton.exact import ShapeDiagram
@@ -104,34 +103,17 @@ class Derived:
         o = self.options
         return drawing_of(
             self.value(what),
-            what=what if what in ("points", "transects") else None,
+            what=what,
             layers=o.layers,
             width=o.width or 1000,
             y_up=o.y_up,
             backdrop=self.backdrop,
         )
 
-    def write(self, out: BinaryIO, target: Target) -> None:
-        """Write one result, as a picture or in units."""
-        o = self.options
-        if target.fmt in ("svg", "png"):
-            drawing = self._drawing(target.what)
-            write_layers(out, drawing.layers, drawing.page, fmt=target.fmt, threads=o.threads)
-            return
-        value = in_units(o.pixel_size, self.value(target.what))
-        if isinstance(value, PolygonSet):
-            from vorotool.formats.polygons.reader import write_polygons
-
-            write_polygons(out, value, target.fmt, precision=o.precision)
-        elif isinstance(value, Offsets):
-            from vorotool.formats.results.offsets import write_offsets
-
-            flatten = length_in_units(o.pixel_size, o.flatten)
-            write_offsets(out, value, target.fmt, flatten=flatten, precision=o.precision, threads=o.threads)
-        else:
-            from vorotool.formats.results.points_along import write_skeleton_points
-
-            write_skeleton_points(out, value, target.fmt, what=target.what, precision=o.precision, threads=o.threads)
+    def write_picture(self, out: BinaryIO, target: Target) -> None:
+        """Draw one result."""
+        drawing = self._drawing(target.what)
+        write_layers(out, drawing.layers, drawing.page, fmt=target.fmt, threads=self.options.threads)
 
     def verify(self, progress: Progress) -> None:
         """Check the offset curves, if there are any."""

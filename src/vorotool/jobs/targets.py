@@ -10,39 +10,10 @@ from typing import TYPE_CHECKING, Any
 from vorotool.errors import UsageError
 from vorotool.formats.io.atomic_output import is_same_file, spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
+from vorotool.products.formats import EXTENSIONS, FORMATS, format_named, with_digits
 
 if TYPE_CHECKING:
-    from vorotool.jobs.options import JobOptions
-
-EXTENSIONS = {
-    ".png": "png",
-    ".tif": "tiff",
-    ".tiff": "tiff",
-    ".npy": "npy",
-    ".txt": "text",
-    ".svg": "svg",
-    ".csv": "csv",
-    ".json": "json",
-    ".npz": "npz",
-    ".geojson": "geojson",
-    ".edge": "edge",
-    ".ele": "ele",
-    ".node": "node",
-    ".obj": "obj",
-    ".wkt": "wkt",
-    ".poly": "poly",
-    ".graphml": "graphml",
-    ".html": "html",
-    ".zarr": "zarr",
-}
-FORMATS = tuple(dict.fromkeys(EXTENSIONS.values()))
-TEXT_FORMATS = frozenset(FORMATS) - {"png", "tiff", "npy", "npz", "zarr"}
-TRIANGLE_FILES = frozenset({"node", "edge", "ele"})
-_EXTENSION_OF = {"tiff": "tif", "text": "txt"}
-
-
-PICTURE_LAYERS = {"png": ("cells", "diagram", "seeds", "labels"), "svg": ("cells", "labels", "seeds")}
-"""Layers of pictures by format, as `vorotool.render` draws them."""
+    from vorotool.jobs.options import ComputingOptions, JobOptions
 
 
 @dataclass(frozen=True)
@@ -56,7 +27,7 @@ class Target:
     @property
     def is_binary(self) -> bool:
         """Whether it must not go to a terminal."""
-        return self.fmt not in TEXT_FORMATS
+        return not FORMATS[self.fmt].is_text
 
 
 def plan_targets(
@@ -148,7 +119,7 @@ def check_stats(options: JobOptions, targets: Sequence[Target], source: str) -> 
 def check_picture_options(
     options: JobOptions,
     pictures: Sequence[str],
-    layers: Mapping[str, Sequence[str]] = PICTURE_LAYERS,
+    layers: Mapping[str, Sequence[str]],
     *,
     png_has_width: bool = False,
     has_page: bool = False,
@@ -187,6 +158,33 @@ def check_picture_options(
                 raise UsageError(
                     f"--layers {layer}: a picture in {fmt.upper()} has {', '.join(layers[fmt])}; choose of these"
                 )
+
+
+def check_precision(options: ComputingOptions, formats: Mapping[str, Sequence[str]], targets: Sequence[Target]) -> None:
+    """Refuse a number of digits that no output would show.
+
+    Parameters
+    ----------
+    options : ComputingOptions
+        Of the command line.
+    formats : mapping of str to sequence of str
+        Formats of each result.
+    targets : sequence of Target
+        The outputs.
+
+    Raises
+    ------
+    UsageError
+        If it is given, and no format has numbers in text.
+    """
+    if options.precision is None or with_digits(target.fmt for target in targets):
+        return
+    possible = with_digits(dict.fromkeys(fmt for target in targets for fmt in formats[target.what]))
+    if not possible:
+        raise UsageError("--precision is for tables and vectors: use --what table, or leave it out")
+    *others, last = possible
+    instead = f"{', '.join(others)} or {last}" if others else last
+    raise UsageError(f"--precision is for numbers in text: use -f {instead}, or leave it out")
 
 
 def _check_overlay(options: JobOptions, pictures: Sequence[str]) -> None:
@@ -232,11 +230,11 @@ def _known_format(fmt: str | None, formats: Mapping[str, Sequence[str]]) -> str 
     """Return the format that a name stands for; one of another command is refused where its result is known."""
     if fmt is None:
         return None
-    known = {**{name: name for name in FORMATS}, **{ext[1:]: name for ext, name in EXTENSIONS.items()}}
-    if fmt.lower() not in known:
+    found = format_named(fmt)
+    if found is None:
         possible = dict.fromkeys(each for those in formats.values() for each in those)
         raise UsageError(f"-f {fmt} is no format: use one of {', '.join(possible)}")
-    return known[fmt.lower()]
+    return found
 
 
 def _chosen(formats: Mapping[str, Sequence[str]], what: str, fmt: str | None, extension: str | None) -> str:
@@ -254,13 +252,11 @@ def _chosen(formats: Mapping[str, Sequence[str]], what: str, fmt: str | None, ex
 
 
 def _several_format(formats: Mapping[str, Sequence[str]], what: str, fmt: str | None, given: str | None) -> str:
-    """With several results the extension of -o holds for those that can be written so.
-
-    The files of Triangle are one format: each result goes to its own kind.
-    """
+    """With several results the extension of -o holds for those that can be written so, or in a format of its family."""
     wanted = fmt or given
-    if wanted in TRIANGLE_FILES and wanted not in formats[what]:
-        fmt = next((own for own in formats[what] if own in TRIANGLE_FILES), fmt)
+    family = FORMATS[wanted].family if wanted else ""
+    if family and wanted not in formats[what]:
+        fmt = next((own for own in formats[what] if FORMATS[own].family == family), fmt)
     if fmt is None and given in formats[what]:
         return str(given)
     return _chosen(formats, what, fmt, None)
@@ -268,8 +264,8 @@ def _several_format(formats: Mapping[str, Sequence[str]], what: str, fmt: str | 
 
 def _named(stem: Path, what: str | None, fmt: str) -> str:
     middle = f".{what}" if what else ""
-    return f"{stem}{middle}.{_EXTENSION_OF.get(fmt, fmt)}"
+    return f"{stem}{middle}{FORMATS[fmt].endings[0]}"
 
 
 def _text(possible: Sequence[str]) -> str:
-    return next((fmt for fmt in possible if fmt in TEXT_FORMATS), possible[0])
+    return next((fmt for fmt in possible if FORMATS[fmt].is_text), possible[0])

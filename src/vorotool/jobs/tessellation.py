@@ -38,9 +38,8 @@ from vorotool.jobs.streamed_output import RowsOf, Stream, check_chunks, write_fi
 from vorotool.jobs.streamed_tessellation import StreamedProducts, open_large
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import table_in_units
-
-PICTURE = {"labels": ("cells", "seeds", "labels"), "diagram": ("diagram",), "colour": ("cells", "seeds")}
-"""Layers of pictures, unless they are chosen."""
+from vorotool.products.registry import PRODUCTS
+from vorotool.products.writing import write_product
 
 DARK_LABELS = 1024
 """Labels up to here look black in a 16-bit image."""
@@ -183,7 +182,8 @@ class Products:
             if self._is_picture(target):
                 self._write_picture(out, target)
             elif what in ("table", "neighbours"):
-                self._write_columns(out, target.fmt, getattr(self, f"_{what}")())
+                table, product = getattr(self, f"_{what}")(), PRODUCTS["tessellate"][what]
+                write_product(out, table, product, target.fmt, precision=o.precision, threads=o.threads)
             else:
                 write_file(out, o, target, self._stream(what))
 
@@ -251,11 +251,6 @@ class Products:
     def _neighbours(self) -> Table:
         return table_in_units(self.options.pixel_size, neighbour_table(self.image, measures=self.measures))
 
-    def _write_columns(self, out: BinaryIO, fmt: str, table: Table) -> None:
-        from vorotool.formats.text.tables import write_table
-
-        write_table(out, table, fmt, precision=self.options.precision, threads=self.options.threads)
-
     def _write_picture(self, out: BinaryIO, target: Target) -> None:
         from vorotool.jobs.pictures import default_layers, write_label_picture
 
@@ -264,7 +259,7 @@ class Products:
             self.image,
             self.colours,
             fmt=target.fmt,
-            layers=self.options.layers or default_layers(self.image, PICTURE[target.what]),
+            layers=self.options.layers or default_layers(self.image, PRODUCTS["tessellate"][target.what].usual_layers),
             width=self.options.width or 1000,
             y_up=self.backdrop is None and (self.read.y_up if self.options.y_up is None else self.options.y_up),
             backdrop=self.backdrop,

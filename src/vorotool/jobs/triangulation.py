@@ -10,30 +10,24 @@ from vorotool.engines.delaunay.delaunay import delaunay, verify_triangulation
 from vorotool.engines.delaunay.site_table import site_table
 from vorotool.errors import Kind, Message
 from vorotool.formats.io.sources import reading
-from vorotool.formats.text.tables import TABLE_FORMATS, write_table
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
 from vorotool.jobs.inputs import JobInput, read_clip, read_sites
-from vorotool.jobs.names import MESH_LAYERS
 from vorotool.jobs.options import Rectangle, TriangulationOptions
 from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, table_in_units
+from vorotool.products.formats import PICTURES
+from vorotool.products.registry import PRODUCTS
+from vorotool.products.writing import write_product
 
 if TYPE_CHECKING:
     from vorotool.geometry.box import Box
     from vorotool.geometry.mesh.cells import CellSet
     from vorotool.render.canvas.layers import Layer, Page
-
-DEFAULT_LAYERS = {
-    "edges": ("edges", "points"),
-    "triangles": ("triangles", "edges", "points"),
-    "cells": ("cells", "points"),
-}
-"""Layers of the picture of each result."""
 
 
 class ReadPoints(NamedTuple):
@@ -121,39 +115,19 @@ class MeshProducts:
         with open_output(
             target.path, binary=target.is_binary, no_clobber=self.options.no_clobber, inputs=inputs
         ) as out:
-            getattr(self, f"_write_{target.what}")(out, target.fmt)
+            if target.fmt in PICTURES:
+                self._write_picture(out, target.fmt, target.what)
+                return
+            o, value = self.options, self._value(target.what, target.fmt)
+            product = PRODUCTS["delaunay"][target.what]
+            write_product(out, value, product, target.fmt, precision=o.precision, threads=o.threads)
 
-    def _write_edges(self, out: BinaryIO, fmt: str) -> None:
-        self._write_mesh(out, fmt, "edges")
-
-    def _write_triangles(self, out: BinaryIO, fmt: str) -> None:
-        self._write_mesh(out, fmt, "triangles")
-
-    def _write_table(self, out: BinaryIO, fmt: str) -> None:
-        if fmt not in TABLE_FORMATS:
-            self._write_mesh(out, fmt, "table")
-            return
-        table = site_table(self.mesh, self.cells, threads=self.options.threads)
-        table = table_in_units(self.options.pixel_size, table, properties=self.mesh.properties)
-        write_table(out, table, fmt, precision=self.options.precision, threads=self.options.threads)
-
-    def _write_cells(self, out: BinaryIO, fmt: str) -> None:
-        from vorotool.formats.results.cells import write_cells
-
-        if fmt in ("svg", "png"):
-            self._write_picture(out, fmt, "cells")
-            return
-        cells = in_units(self.options.pixel_size, self.cells)
-        write_cells(out, cells, fmt, precision=self.options.precision, threads=self.options.threads)
-
-    def _write_mesh(self, out: BinaryIO, fmt: str, what: str) -> None:
-        from vorotool.formats.results.meshes import write_mesh
-
-        if fmt in ("svg", "png"):
-            self._write_picture(out, fmt, what)
-            return
-        mesh = in_units(self.options.pixel_size, self.mesh)
-        write_mesh(out, mesh, fmt, what=what, precision=self.options.precision, threads=self.options.threads)
+    def _value(self, what: str, fmt: str) -> Any:
+        """What a result is written from, in the units of files: the table tells of cells, too."""
+        if what == "table" and fmt != "node":
+            table = site_table(self.mesh, self.cells, threads=self.options.threads)
+            return table_in_units(self.options.pixel_size, table, properties=self.mesh.properties)
+        return in_units(self.options.pixel_size, self.cells if what == "cells" else self.mesh)
 
     @property
     def cells(self) -> CellSet:
@@ -175,7 +149,7 @@ class MeshProducts:
         )
 
     def _layers(self, what: str) -> Sequence[str]:
-        return self.options.layers or DEFAULT_LAYERS[what]
+        return self.options.layers or PRODUCTS["delaunay"][what].usual_layers
 
     def _page(self, what: str) -> Page:
         """Where the picture of a result shows what: the frame of cells, where it has any."""
@@ -198,7 +172,7 @@ class MeshProducts:
             made["cells"] = cell_polygons(self.cells, cell_colours(self.mesh), page)
         if "diagram" in wanted:
             made["diagram"] = cell_lines(self.cells, page)
-        layers = [made[name] for name in MESH_LAYERS if name in made]
+        layers = [made[name] for name in PRODUCTS["delaunay"][what].layers[fmt] if name in made]
         write_layers(out, layers, page, fmt=fmt, threads=self.options.threads)
 
     def verify(self, progress: Progress) -> None:

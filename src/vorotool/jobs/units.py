@@ -8,15 +8,13 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from vorotool.errors import UsageError
+from vorotool.products.formats import FORMATS
 
 if TYPE_CHECKING:
     from vorotool.geometry.table import Table
     from vorotool.jobs.targets import Target
 
 Value = TypeVar("Value")
-
-WITHOUT_UNITS = frozenset({"png", "tiff", "npy", "text", "svg"})
-"""Formats of images and pictures; only the plot of curves has units."""
 
 
 class PixelSize(NamedTuple):
@@ -32,9 +30,9 @@ def check_units(size: PixelSize | None, targets: Sequence[Target]) -> None:
     Raises
     ------
     UsageError
-        If all outputs are images or pictures.
+        If all outputs are images or pictures; only the plot of curves has units.
     """
-    if size is not None and all(target.fmt in WITHOUT_UNITS and target.what != "curves" for target in targets):
+    if size is not None and all(FORMATS[target.fmt].is_image and target.what != "curves" for target in targets):
         raise UsageError("--pixel-size is for tables and vectors: use --what table, or leave it out")
 
 

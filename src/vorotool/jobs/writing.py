@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from vorotool.errors import UsageError
 from vorotool.geometry.numbers import shown_number, whole_number
 from vorotool.geometry.pixel_frame import MAX_SIDE
+from vorotool.products.formats import FORMATS, PICTURES, format_named
+from vorotool.products.registry import Product, is_of, parts_of
+from vorotool.products.writing import chosen_part, write_product
 
 if TYPE_CHECKING:
     from vorotool.geometry.points.label_image import LabelImage
-
-PICTURE_FORMATS = ("svg", "png")
 
 
 def write(
@@ -35,21 +36,17 @@ def write(
     Parameters
     ----------
     value : value of the library
-        What to write: a `LabelImage` as PNG, TIFF, NPY or text, a `Table` as CSV, JSON or NPZ, a `PolygonSet` as JSON,
-        GeoJSON, WKT or .poly, a `CellSet` as GeoJSON, CSV, JSON, NPZ or WKT, a `Triangulation` or a
-        `DigitalTriangulation` as a table, GeoJSON, OBJ, or a file of Triangle, an `AlphaShape` as a table or GeoJSON of
-        its edges or as polygons, an `AlphaComplex` as a table, a `Skeleton` as JSON, CSV, GeoJSON, WKT, NPZ or GraphML,
-        `Offsets` as JSON, CSV, GeoJSON, WKT or NPZ, and `SkeletonPoints` as a table, GeoJSON or WKT. All but tables and
-        an `AlphaComplex` are drawn as SVG or PNG, and an `AlphaHull` too; the PNG of a `LabelImage` holds its labels.
+        What to write: any result of the library, in the formats that its command writes it in. The PNG of a
+        `LabelImage` holds its labels.
     path : str or path
         The file, replaced atomically.
     fmt : str, optional
         Format, or a usual extension of it; by default that of the path.
     what : str, optional
-        Of a triangulation or an alpha shape ``edges``, ``triangles``, ``table``, ``polygons`` or ``family``, by default
-        what the format is for, else its edges; of a skeleton ``skeleton`` (the default), ``elements``, ``branches`` or
-        ``table``; of points along one ``points`` (the default) or ``transects``; of a label image ``colour``, its
-        picture as PNG.
+        Which part, by the name that ``--what`` has for it: of a triangulation ``edges``, ``triangles`` or ``table``,
+        of an alpha shape ``edges``, ``polygons``, ``complex``, ``general``, ``points`` or ``table``, of a skeleton
+        ``skeleton``, ``elements``, ``branches`` or ``table``, of points along one ``points`` or ``transects``, of a
+        label image ``labels`` or ``colour``, its picture as PNG. By default what the format is for, else the first.
     flatten : float, optional
         Of a skeleton or offsets in formats without curves: how far lines may be from them.
     precision : int, optional
@@ -80,23 +77,77 @@ def write(
     >>> write(vorotool.alpha_shape([[0, 0], [4, 0], [0, 3]], r=2.5), "build/shape.geojson")
     >>> write(vorotool.skeleton_exact([[0, 0], [4, 0], [0, 3]]), "build/skeleton.svg")
     """
-    from vorotool import formats
     from vorotool.geometry.checks import checked_threads
 
-    name = (fmt or Path(path).suffix).lower().lstrip(".")
-    if name not in PICTURE_FORMATS or _is_image_of_labels(value, name, what):
-        given = {"layers": layers, "width": width, "y_up": y_up}
-        for option, chosen in given.items():
-            if chosen is not None:
+    name = fmt or Path(path).suffix
+    chosen = format_named(name) or name.lower().removeprefix(".")
+    threads = checked_threads(threads)
+    if chosen not in PICTURES or (is_of(value, "LabelImage") and chosen == "png" and what in (None, "labels")):
+        for option, given in (("layers", layers), ("width", width), ("y_up", y_up)):
+            if given is not None:
                 raise UsageError(f"{option} is for pictures: use fmt='svg' or fmt='png', or leave it out")
-        formats.write(value, path, fmt=fmt, what=what, flatten=flatten, precision=precision, threads=threads)
+        _write_data(value, fspath(path), chosen, what, flatten, precision, threads)
         return
     for option, number in (("flatten", flatten), ("precision", precision)):
         if number is not None:
             raise UsageError(f"{option} is for numbers in text: leave it out of pictures")
     if width is not None and not 0 <= whole_number(width, "width") <= MAX_SIDE:
         raise UsageError(f"width is {shown_number(width)}: give a number of pixels up to {MAX_SIDE}")
-    _draw(value, _Picture(fspath(path), name, what, layers, width, y_up, checked_threads(threads)))
+    _draw(value, _Picture(fspath(path), chosen, what, layers, width, y_up, threads))
+
+
+def to_geojson(value: Any, *, what: str | None = None, flatten: float | None = None) -> dict[str, Any]:
+    """Give a value as GeoJSON, with ids and properties, if it has any.
+
+    Parameters
+    ----------
+    value : value of the library
+        Polygons, cells, a triangulation, an alpha shape or hull, a skeleton, points along one, offsets or centerlines.
+    what, flatten : optional
+        As of `write`.
+
+    Raises
+    ------
+    UsageError
+        If it cannot be written so.
+
+    Examples
+    --------
+    >>> import vorotool
+    >>> square = vorotool.skeleton_exact([[0, 0], [4, 0], [4, 4], [0, 4]])
+    >>> to_geojson(square)["features"][0]["geometry"]
+    {'type': 'LineString', 'coordinates': [[0, 0], [2, 2]]}
+    """
+    import io
+
+    import orjson
+
+    out = io.BytesIO()
+    write_product(out, value, _part(value, "geojson", what, flatten), "geojson", flatten=flatten)
+    made: dict[str, Any] = orjson.loads(out.getvalue())
+    return made
+
+
+def _part(value: Any, fmt: str, what: str | None, flatten: float | None) -> Product:
+    """Choose what is written; only curves are flattened."""
+    if flatten is not None and not any(each.is_curved for each in parts_of(value).values()):
+        raise UsageError(f"flatten is for skeletons and offsets: leave it out with a {type(value).__name__}")
+    return chosen_part(value, fmt, what)
+
+
+def _write_data(
+    value: Any, path: str, fmt: str, what: str | None, flatten: float | None, precision: int | None, threads: int
+) -> None:
+    from vorotool.formats.io.atomic_output import open_output
+
+    product = _part(value, fmt, what, flatten)
+    if fmt == "zarr":
+        from vorotool.formats.zarr.arrays import write_zarr
+
+        write_zarr(path, value.labels, threads=threads)
+        return
+    with open_output(path, binary=not FORMATS[fmt].is_text) as out:
+        write_product(out, value, product, fmt, flatten=flatten, precision=precision, threads=threads)
 
 
 class _Picture(NamedTuple):
@@ -111,20 +162,13 @@ class _Picture(NamedTuple):
     threads: int
 
 
-def _is_image_of_labels(value: Any, fmt: str, what: str | None) -> bool:
-    from vorotool.geometry.points.label_image import LabelImage
-
-    return isinstance(value, LabelImage) and fmt == "png" and what is None
-
-
 def _draw(value: Any, wanted: _Picture) -> None:
     from vorotool.formats.io.atomic_output import open_output
     from vorotool.geometry.pixel_frame import MAX_PIXELS
-    from vorotool.geometry.points.label_image import LabelImage
     from vorotool.jobs.pictures import drawing_of, write_layers
     from vorotool.render.canvas.png import check_picture_size
 
-    if isinstance(value, LabelImage):
+    if is_of(value, "LabelImage"):
         _draw_labels(value, wanted)
         return
     drawing = drawing_of(value, what=wanted.what, layers=wanted.layers, width=wanted.width or 1000, y_up=wanted.y_up)
@@ -137,13 +181,14 @@ def _draw(value: Any, wanted: _Picture) -> None:
 def _draw_labels(image: LabelImage, wanted: _Picture) -> None:
     from vorotool.engines.label_images.object_colours import object_colours
     from vorotool.formats.io.atomic_output import open_output
-    from vorotool.jobs.pictures import write_label_picture
+    from vorotool.jobs.pictures import default_layers, write_label_picture
 
-    if wanted.what not in (None, "colour", "color"):
+    if wanted.what not in (None, "colour", "color", "labels"):
         raise UsageError(f"what={wanted.what!r} is no picture of a LabelImage: use colour, or leave it out")
     if wanted.fmt == "png" and wanted.width is not None:
         raise UsageError("the PNG of a label image has its own size: leave width out, or use fmt='svg'")
-    seeds = ("seeds",) if image.seeds is not None else ()
+    usual = parts_of(image)["labels" if wanted.what == "labels" else "colour"].usual_layers
+    shown = [layer for layer in default_layers(image, usual) if layer != "seeds" or image.seeds is not None]
     colours = object_colours(image, threads=wanted.threads)
     with open_output(wanted.path, binary=wanted.fmt == "png") as out:
         write_label_picture(
@@ -151,7 +196,7 @@ def _draw_labels(image: LabelImage, wanted: _Picture) -> None:
             image,
             colours,
             fmt=wanted.fmt,
-            layers=wanted.layers or ("cells", *seeds),
+            layers=wanted.layers or shown,
             width=wanted.width or 1000,
             y_up=bool(wanted.y_up),
             threads=wanted.threads,

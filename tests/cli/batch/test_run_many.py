@@ -247,7 +247,7 @@ def test_shards_have_tables_and_statistics_of_their_own(run, inputs):
         ("points --out-dir=", 2, "'' is no name: name a folder, or . for this one"),
         ("points/p0.csv --out-dir=", 2, "'' is no name: name a folder, or . for this one"),
         ("points/*.png --out-dir out", 3, "no file matches points/*.png"),
-        ("nothing --out-dir out", 3, "nothing holds no file that is read here (csv, "),
+        ("nothing --out-dir out", 3, "nothing holds no file that is read here (avif, bmp, csv, "),
         ("points --out-dir points/p0.csv", 4, "points/p0.csv"),
         ("points --table no/such/all.csv", 4, "no/such/all.csv"),
         ("points --out-dir out --stats no/such/s.json", 4, "no/such/s.json"),

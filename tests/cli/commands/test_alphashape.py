@@ -15,13 +15,13 @@ import shapely
 from PIL import Image
 
 import vorotool
-from vorotool.cli.commands.alphashape import FORMATS, LAYERS
 from vorotool.geometry.alpha.complex import CLASSES
-from vorotool.jobs.alpha_shape import DEFAULT_LAYERS, ShapeProducts
+from vorotool.products.registry import PRODUCTS, all_layers, formats_of
 from vorotool.render.layers import alpha as alpha_layers
 
 DATA = Path(__file__).parents[3] / "data"
 DOTS = DATA / "dots.csv"
+LAYERS = all_layers("alphashape")
 FAMILY = vorotool.alpha_complex(vorotool.read(DOTS))
 SHAPE = vorotool.alpha_shape(FAMILY, r=60)
 
@@ -44,14 +44,13 @@ def test_edges_go_to_standard_output(run):
     assert float(rows[0]["length"]) == pytest.approx(np.hypot(*np.diff(SHAPE.points[SHAPE.edges[0]], axis=0)[0]))
 
 
-@pytest.mark.parametrize("what", FORMATS)
+@pytest.mark.parametrize("what", formats_of("alphashape"))
 def test_every_format_is_written(run, folder, what):
-    for fmt in FORMATS[what]:
+    for fmt in formats_of("alphashape")[what]:
         done = run("alphashape", DOTS, "-r", 60, "--what", what, "-f", fmt, "-o", f"out.{fmt}")
         assert (done.code, done.err) == (0, ""), fmt
         assert (folder / f"out.{fmt}").stat().st_size > 0
-    assert hasattr(ShapeProducts, f"_write_{what}")
-    assert set(DEFAULT_LAYERS.get(what, ())) <= set(LAYERS) == set(alpha_layers.LAYERS)
+    assert set(PRODUCTS["alphashape"][what].usual_layers) <= set(LAYERS) == set(alpha_layers.LAYERS)
 
 
 def polygons_of(path):

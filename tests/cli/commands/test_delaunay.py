@@ -15,10 +15,7 @@ from PIL import Image
 
 import vorotool
 from support.processes.leftovers import leftovers
-from vorotool.cli.commands.delaunay import FORMATS
-from vorotool.jobs.digital_triangulation import DigitalProducts
-from vorotool.jobs.names import MESH_LAYERS
-from vorotool.jobs.triangulation import DEFAULT_LAYERS
+from vorotool.products.registry import PRODUCTS, all_layers, formats_of
 from vorotool.render.layers import cells as cell_layers
 from vorotool.render.layers import mesh as mesh_layers
 
@@ -55,15 +52,14 @@ def test_scipy_finds_the_same_triangles(run):
     assert found == set(map(frozenset, Delaunay(MESH.points).simplices.tolist()))
 
 
-@pytest.mark.parametrize("what", FORMATS)
+@pytest.mark.parametrize("what", formats_of("delaunay"))
 def test_every_format_is_written(run, folder, what):
-    for fmt in FORMATS[what]:
+    for fmt in formats_of("delaunay")[what]:
         assert run("delaunay", DOTS, "--what", what, "-o", f"a.{fmt}").code == 0
         assert run("delaunay", DOTS, "--what", what, "-f", fmt, "-o", "b").code == 0
         assert (folder / f"a.{fmt}").read_bytes() == (folder / "b").read_bytes()
         assert (folder / "b").stat().st_size > 500
-    assert hasattr(DigitalProducts, f"_write_{what}")
-    assert run("delaunay", DOTS, "--what", what).out == (folder / f"a.{FORMATS[what][0]}").read_text()
+    assert run("delaunay", DOTS, "--what", what).out == (folder / f"a.{formats_of('delaunay')[what][0]}").read_text()
 
 
 POINTS = [[2, 1], [7, 5], [1, 6], [9, 9.5]]
@@ -361,8 +357,8 @@ def test_pictures(run, folder):
 
 
 def test_layers_are_those_of_the_renderer():
-    assert set(MESH_LAYERS) == {*mesh_layers.LAYERS, *cell_layers.LAYERS}
-    assert all(set(layers) <= set(MESH_LAYERS) for layers in DEFAULT_LAYERS.values())
+    assert set(all_layers("delaunay")) == {*mesh_layers.LAYERS, *cell_layers.LAYERS}
+    assert all(set(each.usual_layers) <= set(all_layers("delaunay")) for each in PRODUCTS["delaunay"].values())
 
 
 def test_broken_pipe_is_quiet(process, folder):

@@ -11,7 +11,8 @@ from PIL import Image
 
 import vorotool
 from support.processes.leftovers import leftovers
-from vorotool.jobs.names import DERIVED, SKELETON_FORMATS, SKELETON_LAYERS
+from vorotool.jobs.names import DERIVED
+from vorotool.products.registry import PRODUCTS, formats_of
 from vorotool.render.layers import offsets as offset_layers
 from vorotool.render.layers import points_along as skeleton_point_layers
 from vorotool.render.layers import polygons as polygon_layers
@@ -36,9 +37,9 @@ def test_json_goes_to_standard_output(run, folder):
 NEEDED = {"offset": ["-d", "-20,5"], "points": ["--every", "20"], "transects": ["--every", "20"]}
 
 
-@pytest.mark.parametrize("what", SKELETON_FORMATS)
+@pytest.mark.parametrize("what", formats_of("skeleton-exact"))
 def test_every_format_is_written(run, folder, what):
-    for fmt in SKELETON_FORMATS[what]:
+    for fmt in formats_of("skeleton-exact")[what]:
         options = ["--what", what, *NEEDED.get(what, [])]
         assert run("skeleton-exact", SHAPES, *options, "-o", f"a.{fmt}").code == 0
         assert run("skeleton-exact", SHAPES, *options, "-f", fmt, "-o", "b").code == 0
@@ -47,9 +48,13 @@ def test_every_format_is_written(run, folder, what):
 
 
 def test_layers_are_those_of_the_pictures():
-    assert [layer for layer in skeleton_layers.LAYERS if layer != "exact"] == list(SKELETON_LAYERS)
+    assert [layer for layer in skeleton_layers.LAYERS if layer != "exact"] == list(
+        PRODUCTS["skeleton-exact"]["skeleton"].layers["svg"]
+    )
     drawn = {"offset": offset_layers.LAYERS, "shape": polygon_layers.SHAPE_LAYERS}
-    assert {**drawn, **dict.fromkeys(["points", "transects"], skeleton_point_layers.LAYERS)} == DERIVED
+    assert {**drawn, **dict.fromkeys(["points", "transects"], skeleton_point_layers.LAYERS)} == {
+        what: PRODUCTS["skeleton-exact"][what].layers["svg"] for what in DERIVED
+    }
 
 
 @pytest.mark.parametrize("side", ["interior", "exterior", "both"])

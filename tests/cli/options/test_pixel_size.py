@@ -3,13 +3,12 @@
 import csv
 import io
 import json
-from importlib import import_module
 
 import numpy as np
 import pytest
 
-from vorotool.jobs.names import SKELETON_FORMATS
-from vorotool.jobs.units import WITHOUT_UNITS
+from vorotool.products.formats import FORMATS
+from vorotool.products.registry import formats_of
 
 XY = np.array([[0, 0], [9, 1], [4, 7], [12, 8], [2, 3], [7, 4], [11, 2], [1, 9], [5, 2], [8, 9]])
 SHAPES = [
@@ -48,9 +47,8 @@ def write_inputs(folder, command, factor):
 
 def outputs(run, command, folder, options, *, r, more=()):
     """Bytes of all results in all formats with units, by their names."""
-    is_skeleton = command.startswith("skeleton")
-    formats = SKELETON_FORMATS if is_skeleton else import_module(f"vorotool.cli.commands.{command}").FORMATS
-    wanted = [(what, fmt) for what in formats for fmt in formats[what] if fmt not in WITHOUT_UNITS]
+    formats = formats_of(command)
+    wanted = [(what, fmt) for what in formats for fmt in formats[what] if not FORMATS[fmt].is_image]
     wanted = [(what, fmt) for what, fmt in wanted if what != "compare"]  # goes with nothing else
     if "--what" in options:
         place = options.index("--what")

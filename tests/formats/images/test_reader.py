@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from vorotool.errors import InputError, LimitError, UsageError
-from vorotool.formats.images.reader import image_format, image_size, is_image, read_image
+from vorotool.formats.images.reader import image_format, is_image, read_image
 
 LIMIT = 10**7
 
@@ -285,7 +285,6 @@ def test_tiff_pages() -> None:
     data = tiff(*pages)
     for number, page in enumerate(pages):
         np.testing.assert_array_equal(read("a.tif", data, page=number), page)
-        assert image_size(source("a.tif", data), page=number) == page.shape[::-1]
     with pytest.raises(InputError, match=r"a.tif has 3 pages: choose one with --page 0 to --page 2"):
         read("a.tif", data)
     for number in (3, -1):
@@ -381,8 +380,9 @@ def test_is_image_of_npy(shape: tuple[int, ...], expected: bool) -> None:
     [
         ("a.png", b"", "a.png is empty"),
         ("a.png", b"II*\x00", "a.png is no png file, it begins as tiff: use --input-format tiff"),
-        ("a.jpg", b"\xff\xd8\xff\xe0", "a.jpg is a JPEG image, which is not read"),
-        ("-", b"GIF89a", "- is a GIF image"),
+        ("a.jpg", b"\xff\xd8\xff\xe0", "a.jpg cannot be read as JPEG: is the file damaged or cut off"),
+        ("a.jpg", b"hello", "a.jpg does not begin as a JPEG image"),
+        ("-", b"GIF89a", "- cannot be read as GIF"),
         ("a.dat", b"hello", "a.dat is no image that is read"),
     ],
 )
@@ -395,14 +395,5 @@ def test_input_format_overrides_the_extension() -> None:
     data = saved(Image.fromarray(GREY), "PNG")
     assert image_format(source("a.dat", data), "png") == "png"
     np.testing.assert_array_equal(read("a.tif", data, input_format="png"), GREY)
-    with pytest.raises(UsageError, match="'bmp' is no format of images: use one of png, tiff, tif"):
-        read("a.tif", data, input_format="bmp")
-
-
-def test_sizes_come_from_the_header() -> None:
-    assert image_size(source("a.png", plain_png(GREY, 8, 0, 11)[:40])) == (11, 6)
-    assert image_size(source("a.pgm", b"P5 640 480 255\n")) == (640, 480)
-    assert image_size(source("a.tif", tiff(RGB, photometric="rgb"))) == (11, 6)
-    out = io.BytesIO()
-    np.save(out, RGB)
-    assert image_size(source("a.npy", out.getvalue())) == (11, 6)
+    with pytest.raises(UsageError, match="'heic' is no format of images: use one of png, tiff, tif"):
+        read("a.tif", data, input_format="heic")

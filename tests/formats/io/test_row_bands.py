@@ -1,41 +1,10 @@
 import itertools
-import threading
 
 import numpy as np
 import pytest
 
 from vorotool.errors import LimitError
-from vorotool.formats.io.row_bands import blocks, check_fits, checked, in_order
-from vorotool.geometry.checks import available_threads
-
-
-@pytest.mark.parametrize("threads", [0, 1, 2, 5])
-def test_in_order_keeps_the_order(threads: int) -> None:
-    assert list(in_order(lambda x: x * x, range(200), threads)) == [x * x for x in range(200)]
-
-
-@pytest.mark.parametrize("threads", [1, 3])
-def test_in_order_takes_only_a_few_items_ahead(threads: int) -> None:
-    taken = itertools.count()
-    results = in_order(lambda x: x, (next(taken) for _ in range(1000)), threads)
-    next(results)
-    assert next(taken) <= 2 * threads + 2
-    results.close()
-
-
-def test_in_order_passes_errors_on_and_leaves_no_thread() -> None:
-    before = threading.active_count()  # other tests may have left a cluster's threads
-
-    def fail(x: int) -> int:
-        raise RuntimeError(f"item {x}")
-
-    with pytest.raises(RuntimeError, match="item 0"):
-        list(in_order(fail, range(50), 3))
-    assert threading.active_count() <= before
-
-
-def test_available_threads_is_positive() -> None:
-    assert available_threads() >= 1
+from vorotool.formats.io.row_bands import blocks, check_fits, checked
 
 
 @pytest.mark.parametrize(

@@ -130,7 +130,7 @@ def test_writing(tmp_path, fmt):
 
 def test_what_cannot_be_written(tmp_path):
     shapes = read("[[0, 0], [1, 0], [0, 1]]")
-    with pytest.raises(UsageError, match="-f 'csv' is no format of polygons: use json, geojson, wkt, poly"):
+    with pytest.raises(UsageError, match="a PolygonSet cannot be written as 'csv': use one of json, geo"):
         vorotool.write(shapes, tmp_path / "a.csv")
     with pytest.raises(UsageError, match="a PointSet cannot be written"):
         vorotool.write(PointSet([[1, 2]]), tmp_path / "a.csv")

@@ -10,7 +10,7 @@ import pytest
 import shapely
 
 from support.families.point_families import draw
-from vorotool import PointSet, UsageError, alpha_complex, alpha_hull, alpha_shape
+from vorotool import PointSet, UsageError, alpha_complex, alpha_hull, alpha_shape, write
 from vorotool.formats.results.alpha import write_general, write_hull_geojson, write_shape_edges
 
 FAMILY = alpha_complex(PointSet(draw("uniform", 120, 5), crs={"type": "name"}))
@@ -48,8 +48,8 @@ def test_all_parts_of_a_shape():
     assert [shapely.from_wkt(line) for line in lines] == parts
     short = written(write_general, SHAPE, "wkt", precision=3)
     assert len(short) < 0.5 * sum(map(len, lines))
-    with pytest.raises(UsageError, match="a whole shape cannot be written as 'csv': use one of geojson, wkt"):
-        write_general(io.BytesIO(), SHAPE, "csv")
+    with pytest.raises(UsageError, match="general cannot be written as 'csv': use one of geojson, wkt"):
+        write(SHAPE, "a.csv", what="general")
 
 
 def test_a_hull_with_a_hole():

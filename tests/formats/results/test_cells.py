@@ -12,19 +12,14 @@ import pytest
 import shapely
 
 from support.families.point_families import draw
+from support.readers.written import written
 from vorotool import PointSet, UsageError, voronoi_cells, write
 from vorotool.formats.io.sources import Source
 from vorotool.formats.polygons.reader import read_polygons
-from vorotool.formats.results.cells import CELL_FORMATS, write_cells
+from vorotool.products.registry import PRODUCTS
 
 pytestmark = pytest.mark.filterwarnings("ignore::vorotool.VorotoolWarning")
 RING = shapely.box(0, 0, 6, 6).difference(shapely.box(1, 2, 5, 4))
-
-
-def written(cells, fmt, **options):
-    out = io.BytesIO()
-    write_cells(out, cells, fmt, **options)
-    return out.getvalue()
 
 
 def cells_of(name):
@@ -131,13 +126,13 @@ def test_precision(fmt):
     assert {len(part.split(".")[1]) for part in re.findall(r"\d+\.\d+", text)} == {3}
 
 
-@pytest.mark.parametrize("fmt", CELL_FORMATS)
+@pytest.mark.parametrize("fmt", PRODUCTS["delaunay"]["cells"].written)
 def test_threads_and_slices_change_nothing(fmt):
     cells = voronoi_cells(draw("uniform", 40_000, 1))
     assert written(cells, fmt, threads=1) == written(cells, fmt, threads=3)
 
 
-@pytest.mark.parametrize("fmt", CELL_FORMATS)
+@pytest.mark.parametrize("fmt", PRODUCTS["delaunay"]["cells"].written)
 def test_no_cells(fmt):
     cells = voronoi_cells(np.empty((0, 2)))
     data = written(cells, fmt)
@@ -151,5 +146,5 @@ def test_the_library_writes_cells(tmp_path):
     cells = voronoi_cells([[1, 1], [3, 1]])
     write(cells, tmp_path / "a.wkt", precision=4)
     assert (tmp_path / "a.wkt").read_bytes() == written(cells, "wkt", precision=4)
-    with pytest.raises(UsageError, match="cells cannot be written as 'obj': use one of geojson"):
+    with pytest.raises(UsageError, match="a CellSet cannot be written as 'obj': use one of geojson"):
         write(cells, tmp_path / "a.obj")

@@ -13,17 +13,16 @@ import shapely
 
 import vorotool
 from support.families.point_families import draw
+from support.readers.written import written as written_as
 from vorotool import PointSet, UsageError, delaunay
-from vorotool.formats.results.meshes import EDGE_FORMATS, TRIANGLE_FORMATS, write_mesh
+from vorotool.products.registry import PRODUCTS
 
 pytestmark = pytest.mark.filterwarnings("ignore::vorotool.VorotoolWarning")
 NAMES = ["uniform", "grid", "duplicates", "collinear", "small_lattice", "tiny_y"]
 
 
 def written(mesh, fmt, what="edges", **options):
-    out = io.BytesIO()
-    write_mesh(out, mesh, fmt, what=what, **options)
-    return out.getvalue()
+    return written_as(mesh, fmt, what, **options)
 
 
 def rows_of(data):
@@ -124,9 +123,9 @@ def test_files_of_triangle(mesh, first, tmp_path):
 def test_nothing_and_little():
     for points, edges in ([[]] * 0, 0), ([[1, 2]], 0), ([[1, 2], [3, 4]], 1):
         mesh = delaunay(np.reshape(points, (-1, 2)))
-        for what, formats in (("edges", EDGE_FORMATS), ("triangles", TRIANGLE_FORMATS)):
+        for what in ("edges", "triangles"):
             count = edges if what == "edges" else 0
-            for fmt in formats:
+            for fmt in PRODUCTS["delaunay"][what].written:
                 data = written(mesh, fmt, what)
                 if fmt == "geojson":
                     assert len(json.loads(data)["features"]) == count
@@ -150,7 +149,7 @@ def test_precision_and_lengths_that_no_double_holds():
 @pytest.mark.parametrize("what", ["edges", "triangles"])
 def test_the_same_bytes_for_any_threads(what):
     mesh = delaunay(draw("uniform", 30_000, 7))
-    for fmt in EDGE_FORMATS if what == "edges" else TRIANGLE_FORMATS:
+    for fmt in PRODUCTS["delaunay"][what].written:
         assert len({written(mesh, fmt, what, threads=threads) for threads in (1, 2, 3)}) == 1
 
 
@@ -160,8 +159,8 @@ def test_formats_that_there_are_not():
         written(mesh, "ele")
     with pytest.raises(UsageError, match="'faces' is nothing"):
         written(mesh, "csv", "faces")
-    with pytest.raises(UsageError, match="pictures"):
-        written(mesh, "svg")
+    with pytest.raises(UsageError, match=r"edges cannot be written as 'html': use one of csv, .*, svg, png"):
+        written(mesh, "html")
 
 
 def test_library_writes_meshes(tmp_path):
@@ -172,7 +171,7 @@ def test_library_writes_meshes(tmp_path):
     assert (tmp_path / "a.ele").read_text() == "1 3 0\n1 1 2 3\n"
     vorotool.write(mesh, tmp_path / "a", fmt="obj", what="triangles")
     assert (tmp_path / "a").read_text().endswith("f 1 2 3\n")
-    with pytest.raises(UsageError, match="what='edges' is for triangulations"):
+    with pytest.raises(UsageError, match="what='edges' is nothing that a Table is written as: leave it out"):
         vorotool.write(vorotool.edge_table(mesh), tmp_path / "b.csv", what="edges")
     with pytest.raises(UsageError, match="cannot be written"):
         vorotool.write(mesh, tmp_path / "b.xyz")

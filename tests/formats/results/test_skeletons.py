@@ -10,8 +10,10 @@ import pytest
 import shapely
 
 import vorotool
+from support.readers.written import written
 from vorotool.errors import UsageError
-from vorotool.formats.results.skeletons import FORMATS, skeleton_arrays, write_skeleton
+from vorotool.formats.results.skeletons import skeleton_arrays
+from vorotool.products.registry import parts_of
 
 DATA = Path(__file__).parents[3] / "data"
 SHAPES = vorotool.read(DATA / "two-shapes.json")
@@ -19,9 +21,7 @@ MADE = vorotool.skeleton_exact(SHAPES, side="both")
 
 
 def text_of(fmt, skeleton=MADE, **options):
-    out = io.BytesIO()
-    write_skeleton(out, skeleton, fmt, **options)
-    return out.getvalue()
+    return written(skeleton, fmt, **options)
 
 
 def rows_of(data):
@@ -97,10 +97,10 @@ def test_wkt_is_the_same_as_geojson():
     assert [shapely.geometry.shape(f["geometry"]) for f in document["features"]] == list(lines)
 
 
-@pytest.mark.parametrize("what", FORMATS)
+@pytest.mark.parametrize("what", parts_of(MADE))
 def test_nothing_is_written_too(what):
     nothing = vorotool.skeleton_exact([[0, 0], [1, 0], [0, 1]], side="exterior")
-    for fmt in FORMATS[what]:
+    for fmt in parts_of(MADE)[what].written:
         text = text_of(fmt, nothing, what=what)
         if fmt in ("json", "geojson"):
             json.loads(text)
@@ -108,7 +108,7 @@ def test_nothing_is_written_too(what):
 
 @pytest.mark.parametrize(
     ("fmt", "what", "words"),
-    [("svg", "skeleton", "vorotool draw"), ("wkt", "table", "csv, json, npz"), ("csv", "arcs", "skeleton")],
+    [("obj", "skeleton", "json, csv, geojson"), ("wkt", "table", "csv, json, npz"), ("csv", "arcs", "skeleton")],
 )
 def test_what_cannot_be_written(fmt, what, words):
     with pytest.raises(UsageError, match=words):
@@ -121,5 +121,5 @@ def test_precision():
 
 def test_threads_change_nothing():
 
-    for fmt in FORMATS["skeleton"]:
+    for fmt in parts_of(MADE)["skeleton"].written:
         assert text_of(fmt, threads=1) == text_of(fmt, threads=3)

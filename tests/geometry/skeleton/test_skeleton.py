@@ -1,6 +1,5 @@
 """The value type of skeletons, and its tables."""
 
-import time
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -10,7 +9,7 @@ import pytest
 
 import vorotool
 from vorotool.errors import InputError, UsageError
-from vorotool.geometry.curves import chunked_threads as chunks
+from vorotool.geometry import parallel
 from vorotool.geometry.skeleton.tables import connected_roots
 
 SHAPES = vorotool.read(Path(__file__).parents[3] / "data" / "two-shapes.json")
@@ -124,26 +123,12 @@ def test_connected_roots_are_the_smallest():
 def test_chunks_and_threads_change_nothing(monkeypatch):
     expected = [vorotool.branch_table(replace(MADE), threads=1), vorotool.polygon_table(replace(MADE), threads=1)]
     ends = replace(MADE).site_ends
-    monkeypatch.setattr(chunks, "CHUNK", 7)
+    monkeypatch.setattr(parallel, "CHUNK", 7)
     for threads in (1, 2):
         made = [make(replace(MADE), threads=threads) for make in (vorotool.branch_table, vorotool.polygon_table)]
         for one, other in zip(made, expected, strict=True):
             assert all(np.array_equal(one[name][:], other[name][:]) for name in other)
         assert np.array_equal(replace(MADE).site_ends_on(threads), ends)
-
-
-def test_chunks_that_were_not_begun_are_left_when_one_fails(monkeypatch):
-    monkeypatch.setattr(chunks, "CHUNK", 1)
-    seen = []
-
-    def fill(rows):
-        seen.append(rows.start)
-        time.sleep(0.01)
-        raise ValueError("no")
-
-    with pytest.raises(ValueError, match="no"):
-        chunks.in_chunks(100, fill, threads=2)
-    assert len(seen) < 50
 
 
 @pytest.mark.parametrize("rows", [1, 2, 3, 5, 7])
@@ -153,7 +138,7 @@ def test_rings_may_go_on_in_another_chunk(rows, monkeypatch):
         skeleton = vorotool.skeleton_exact(shapes)
         expected = vorotool.polygon_table(replace(skeleton))
         with monkeypatch.context() as patch:
-            patch.setattr(chunks, "CHUNK", rows)
+            patch.setattr(parallel, "CHUNK", rows)
             made = vorotool.polygon_table(replace(skeleton))
         for name in ("area", "perimeter", "width_mean", "width_max"):
             assert made[name].tolist() == expected[name].tolist()

@@ -151,23 +151,22 @@ def smoke() -> Iterator[str]:
 
 def whole() -> Iterator[str]:
     """Give each product of each command in each of its formats, and the options that calculate."""
-    from vorotool.cli.commands import alphashape, delaunay, tessellate
-    from vorotool.jobs.names import SKELETON_FORMATS
+    from vorotool.products.registry import formats_of
 
     yield from smoke()
     for source in ("points.csv", "cells.png"):
         frame = "" if source == "cells.png" else " --size 300x200"
-        yield from _products(f"tessellate {source}{frame}", tessellate.FORMATS)
+        yield from _products(f"tessellate {source}{frame}", formats_of("tessellate"))
         yield from _products(f"tessellate {source}{frame} --max-distance 7.3 --pixel-size 0.325um", {"table": ("csv",)})
-        meshes = {what: own for what, own in delaunay.FORMATS.items() if what != "compare"}
+        meshes = {what: own for what, own in formats_of("delaunay").items() if what != "compare"}
         yield from _products(f"delaunay {source}", meshes)
         yield from _products(f"delaunay {source} --pixel-size 0.325um", _without(meshes, "svg", "png"))
-        yield from _products(f"delaunay {source} --clip area.json", {"cells": delaunay.FORMATS["cells"]})
+        yield from _products(f"delaunay {source} --clip area.json", {"cells": formats_of("delaunay")["cells"]})
         for radius in ("-r 12.5", "-r 30", "--auto"):
-            yield from _products(f"alphashape {source} {radius}", alphashape.FORMATS)
-    yield from _products("delaunay points.csv --size 300x200", {"compare": delaunay.FORMATS["compare"]})
+            yield from _products(f"alphashape {source} {radius}", formats_of("alphashape"))
+    yield from _products("delaunay points.csv --size 300x200", {"compare": formats_of("delaunay")["compare"]})
     for source in ("great-lakes.geojson", "two-shapes.json", "segments.wkt", "blobs.png", "cells.png"):
-        yield from _skeletons(source, SKELETON_FORMATS)
+        yield from _skeletons(source, formats_of("skeleton-exact"))
     for source in ("cells.png", "great-lakes.geojson", "segments.wkt"):
         yield from (f"draw {source} -f {fmt}" for fmt in ("svg", "png"))
 

@@ -22,8 +22,9 @@ from vorotool.formats.io.atomic_output import spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
 from vorotool.jobs.job import Options, Recipe
 from vorotool.jobs.options import ComputingOptions, JobOptions
-from vorotool.jobs.targets import EXTENSIONS, Target, plan_targets
+from vorotool.jobs.targets import Target, plan_targets
 from vorotool.jobs.units import check_units
+from vorotool.products.formats import EXTENSIONS
 
 WITHOUT_EFFECT = frozenset(
     {"inputs", "output", "out_dir", "threads", "quiet", "verbose", "stats", "no_clobber", *BATCH_OPTIONS}

@@ -20,33 +20,20 @@ from vorotool.errors import UsageError
 from vorotool.formats.parsing.format_names import NAMES_WITH
 from vorotool.jobs.inputs import JobInput, check_components, check_frame_options
 from vorotool.jobs.job import Recipe
-from vorotool.jobs.names import METHODS, OF_ONE_SHAPE, PICTURES, TABLES
+from vorotool.jobs.names import METHODS, OF_ONE_SHAPE
 from vorotool.jobs.options import AlphaShapeOptions
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.targets import Target, check_picture_options
+from vorotool.jobs.targets import Target, check_picture_options, check_precision
+from vorotool.products.formats import PICTURES, format_named
+from vorotool.products.registry import PRODUCTS, all_layers, formats_of, layers_of
 
 if TYPE_CHECKING:
     from vorotool.jobs.alpha_shape import ShapeProducts
 
-FORMATS = {
-    "edges": ("csv", "json", "geojson", "npz", *PICTURES, "html"),
-    "polygons": ("geojson", "wkt", "json", *PICTURES, "html"),
-    "complex": ("csv", "json", "geojson", "npz", *PICTURES, "html"),
-    "general": ("geojson", "wkt", *PICTURES, "html"),
-    "family": (*TABLES, "html"),
-    "spectrum": TABLES,
-    "curves": (*TABLES, "svg", "html"),
-    "hull": ("geojson", *TABLES, *PICTURES),
-    "points": TABLES,
-    "table": TABLES,
-}
+FORMATS = formats_of("alphashape")
+_OF_POLYGONS = ", ".join(PRODUCTS["alphashape"]["polygons"].usual_for)
 OF_DIGITAL_RULE = frozenset({"edges", "complex", "family", "spectrum"})
 """Results that need no more than edges and the triangles beside them."""
-LAYERS = ("polygons", "delaunay", "interior", "boundary", "singular", "hull", "points", "labels")
-"""Layers of pictures, from below."""
-PICTURE_LAYERS = {"svg": LAYERS, "png": LAYERS}
-_WITH_LAYERS = frozenset({"edges", "polygons", "complex", "general", "hull"})
-_WITHOUT_DIGITS = frozenset({"npz", "html", *PICTURES})
 
 
 @click.command("alphashape")
@@ -57,7 +44,7 @@ _WITHOUT_DIGITS = frozenset({"npz", "html", *PICTURES})
 @click.option("--regions", type=click.IntRange(min=1), metavar="K", help="Regions that --auto allows; by default 1.")
 @output_options(FORMATS)
 @click.option("--what", type=Names(tuple(FORMATS)), help=f"What to write: {', '.join(FORMATS)}; several separated by "
-              "commas. By default edges; polygons for GeoJSON and WKT.")  # fmt: skip
+              f"commas. By default edges; polygons for {_OF_POLYGONS}.")  # fmt: skip
 @click.option(
     "--rule",
     type=click.Choice(["corrected", "printed"]),
@@ -74,7 +61,7 @@ _WITHOUT_DIGITS = frozenset({"npz", "html", *PICTURES})
     show_default=True,
     help="How points are triangulated, as in delaunay.",
 )
-@site_options(LAYERS)
+@site_options(all_layers("alphashape"))
 def command(**options: Any) -> None:
     """Find the alpha shape of points: edges that an empty disc of radius r touches at both ends, and what they bound.
 
@@ -82,7 +69,7 @@ def command(**options: Any) -> None:
     Example:
       vorotool alphashape data/dots.csv -r 60 -o shape.csv
 
-    INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, PBM,
+    INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, JPEG,
     NPY), whose components or labels count as points at their centroids; - is standard input. Label i is the i-th
     point; labels of the input are kept.
 
@@ -100,8 +87,8 @@ def _products(run: Run, o: AlphaShapeOptions, given: JobInput) -> ShapeProducts:
 
 
 def _default_what(fmt: str | None, output: str | None) -> str:
-    name = fmt or Path(output or "").suffix
-    return "polygons" if name.lower().lstrip(".") in ("geojson", "wkt") else "edges"
+    name = format_named(fmt or Path(output or "").suffix)
+    return next((what for what, each in PRODUCTS["alphashape"].items() if name in each.usual_for), next(iter(FORMATS)))
 
 
 def _check_options(o: AlphaShapeOptions, targets: list[Target]) -> None:
@@ -112,9 +99,9 @@ def _check_options(o: AlphaShapeOptions, targets: list[Target]) -> None:
     if "hull" in o.what and (o.hole_threshold is not None or o.region_threshold is not None):
         raise UsageError("the hull has no thresholds: leave out --hole-threshold and --region-threshold")
     formats = {target.fmt for target in targets}
-    if o.precision is not None and formats <= _WITHOUT_DIGITS:
-        raise UsageError("--precision is for numbers in text: use -f csv, json, geojson or wkt, or leave it out")
-    pictures = sorted({target.fmt for target in targets if target.what in _WITH_LAYERS} & set(PICTURES))
+    check_precision(o, FORMATS, targets)
+    products = PRODUCTS["alphashape"]
+    pictures = sorted({target.fmt for target in targets if products[target.what].usual_layers} & set(PICTURES))
     if o.layers is not None and not pictures:
         raise UsageError("--layers is for pictures of a shape: use -f svg or -f png, or leave it out")
     if o.overlay is not None and not pictures:
@@ -122,7 +109,7 @@ def _check_options(o: AlphaShapeOptions, targets: list[Target]) -> None:
     plots = ["svg"] if ("curves", "svg") in {(target.what, target.fmt) for target in targets} else []
     if o.y_up is not None and plots and not pictures and "html" not in formats:
         raise UsageError("--y-up and --y-down are for pictures of a shape, but curves are a plot: leave them out")
-    check_picture_options(o, pictures or plots, PICTURE_LAYERS, png_has_width=True, has_page="html" in formats)
+    check_picture_options(o, pictures or plots, layers_of("alphashape"), png_has_width=True, has_page="html" in formats)
 
 
 def _check_method(o: AlphaShapeOptions, formats: set[str]) -> None:

@@ -1,4 +1,7 @@
-"""``vorotool completion``, and how shells ask what an argument can be."""
+"""``vorotool completion``, and how shells ask what an argument can be: click's, with scripts of our own.
+
+Those of click 8.1 offer all files, whatever is read, and in bash nothing after ``--option=``.
+"""
 
 from __future__ import annotations
 

@@ -19,28 +19,21 @@ from vorotool.errors import UsageError
 from vorotool.formats.parsing.format_names import NAMES_WITH, POLYGON_NAMES
 from vorotool.jobs.inputs import JobInput, check_components, check_frame_options
 from vorotool.jobs.job import Recipe
-from vorotool.jobs.names import MESH_LAYERS, METHODS, PICTURES, TABLES
+from vorotool.jobs.names import METHODS
 from vorotool.jobs.options import TriangulationOptions
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.targets import Target, check_picture_options
+from vorotool.jobs.targets import Target, check_picture_options, check_precision
+from vorotool.products.formats import PICTURES
+from vorotool.products.registry import all_layers, formats_of, layers_of
 
 if TYPE_CHECKING:
     from vorotool.jobs.triangulation import MeshProducts
 
-FORMATS = {
-    "edges": ("csv", "json", "geojson", "npz", "edge", "obj", *PICTURES),
-    "triangles": ("csv", "json", "geojson", "npz", "ele", "obj", *PICTURES),
-    "cells": ("geojson", "csv", "json", "npz", "wkt", *PICTURES),
-    "table": (*TABLES, "node"),
-    "compare": TABLES,
-}
+FORMATS = formats_of("delaunay")
 OF_TRIANGULATIONS = frozenset(
     {("edges", "edge"), ("triangles", "ele")} | {(what, fmt) for what in ("cells", "table") for fmt in FORMATS[what]}
 )
 """Results and formats that what the digital rule finds has no place in."""
-PICTURE_LAYERS = {"svg": MESH_LAYERS, "png": MESH_LAYERS}
-
-_WITHOUT_DIGITS = frozenset({"npz", "edge", "ele", *PICTURES})
 
 
 @click.command("delaunay")
@@ -66,7 +59,7 @@ _WITHOUT_DIGITS = frozenset({"npz", "edge", "ele", *PICTURES})
     help="File of polygons that cells are clipped to as well.",
     shell_complete=files(POLYGON_NAMES),
 )
-@site_options(MESH_LAYERS)
+@site_options(all_layers("delaunay"))
 def command(**options: Any) -> None:
     """Triangulate points exactly: no circle through a triangle's vertices holds another point.
 
@@ -74,7 +67,7 @@ def command(**options: Any) -> None:
     Example:
       vorotool delaunay data/dots.csv -o edges.csv
 
-    INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, PBM,
+    INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, JPEG,
     NPY), whose components or labels count as points at their centroids; - is standard input. Label i is the i-th
     point; labels of the input are kept. OBJ and files for Triangle (.edge, .ele, .node) number the points instead.
 
@@ -97,12 +90,11 @@ def _check_options(o: TriangulationOptions, targets: list[Target]) -> None:
     for name, given in (("frame", o.frame), ("clip", o.clip)):
         if given is not None and not with_cells:
             raise UsageError(f"--{name} is for cells: use --what cells or table, or leave it out")
-    if o.precision is not None and formats <= _WITHOUT_DIGITS:
-        raise UsageError("--precision is for numbers in text: use -f csv, json, geojson or obj, or leave it out")
+    check_precision(o, FORMATS, targets)
     pictures = sorted(formats & set(PICTURES))
     if o.layers is not None and not pictures:
         raise UsageError("--layers is for pictures: use -f svg or -f png, or leave it out")
-    check_picture_options(o, pictures, PICTURE_LAYERS, png_has_width=True)
+    check_picture_options(o, pictures, layers_of("delaunay"), png_has_width=True)
 
 
 def _check_method(o: TriangulationOptions, targets: list[Target]) -> None:

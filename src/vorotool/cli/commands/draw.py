@@ -11,24 +11,22 @@ from vorotool.cli.options.shared import batch_options, inputs_argument, layers_o
 from vorotool.formats.parsing.format_names import DRAWN_NAMES
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.job import Recipe
-from vorotool.jobs.names import DERIVED, SKELETON_LAYERS
 from vorotool.jobs.options import DrawingOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
+from vorotool.products.registry import all_layers, formats_of
 
 if TYPE_CHECKING:
     from vorotool.jobs.drawing import Picture
 
-FORMATS = {"picture": ("png", "svg")}
-LAYERS = tuple(dict.fromkeys(["cells", "diagram", *SKELETON_LAYERS, *DERIVED["offset"], *DERIVED["shape"]]))
-"""Of pictures of all that is drawn."""
+FORMATS = formats_of("draw")
 
 
 @click.command("draw")
 @inputs_argument(DRAWN_NAMES)
 @output_options(FORMATS)
 @shared("input-format", "page")
-@layers_option(LAYERS)
+@layers_option(all_layers("draw"))
 @shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "max-pixels")
 @batch_options(table=False)
 @shared("no-clobber", "quiet", "verbose")

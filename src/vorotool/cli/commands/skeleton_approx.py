@@ -11,10 +11,10 @@ from vorotool.cli.options.skeleton import Length, skeleton_options
 from vorotool.errors import UsageError
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.job import Recipe
-from vorotool.jobs.names import APPROXIMATE_LAYERS, SKELETON_FORMATS
 from vorotool.jobs.options import ApproximateSkeletonOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeleton_checks import check_options
+from vorotool.products.registry import all_layers, formats_of
 
 if TYPE_CHECKING:
     from vorotool.jobs.approximate_skeleton import ApproximateProducts
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
         help="Join corners by lines along their bisectors; by default with --tolerance.",
     ),
     click.option("--compare", is_flag=True, help="Say how far the exact skeleton is, both ways; in --stats, too."),
-    layers=APPROXIMATE_LAYERS,
+    layers=all_layers("skeleton-approx"),
 )
 def command(**options: Any) -> None:
     """Approximate the skeleton of polygons by samples of their edges, with a certified error of each arc.
@@ -67,4 +67,4 @@ def _products(run: Run, o: ApproximateSkeletonOptions, given: JobInput) -> Appro
     return ApproximateProducts(run, o, given)
 
 
-RECIPE = Recipe("skeleton-approx", SKELETON_FORMATS, check_options, _products, "polygons")
+RECIPE = Recipe("skeleton-approx", formats_of("skeleton-approx"), check_options, _products, "polygons")

@@ -11,10 +11,10 @@ from vorotool.cli.options.skeleton import Length, skeleton_options
 from vorotool.errors import UsageError
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.job import Recipe
-from vorotool.jobs.names import SKELETON_FORMATS
 from vorotool.jobs.options import ExactSkeletonOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeleton_checks import check_options
+from vorotool.products.registry import formats_of
 
 if TYPE_CHECKING:
     from vorotool.jobs.exact_skeleton import ExactProducts
@@ -43,7 +43,7 @@ def command(**options: Any) -> None:
       vorotool skeleton-exact data/two-shapes.json -o skeleton.svg
 
     INPUT holds polygons or open lines (JSON, GeoJSON, WKT, Triangle .poly), or is a mask or a label image (PNG, TIFF,
-    PGM, PBM, NPY), whose objects have outlines; - is standard input. Polygons are placed on a lattice of 31 bits over
+    PGM, JPEG, NPY), whose objects have outlines; - is standard input. Polygons are placed on a lattice of 31 bits over
     their extent; where one crosses, touches or overlaps itself it is cut, with a warning. Of the
     Voronoi diagram of vertices and open edges, the edges between an edge and its own end are left out. What is drawn
     inside polygons comes first, polygon by polygon; arcs of a branch follow each other.
@@ -60,4 +60,4 @@ def _products(run: Run, o: ExactSkeletonOptions, given: JobInput) -> ExactProduc
     return ExactProducts(run, o, given)
 
 
-RECIPE = Recipe("skeleton-exact", SKELETON_FORMATS, check_options, _products, "polygons")
+RECIPE = Recipe("skeleton-exact", formats_of("skeleton-exact"), check_options, _products, "polygons")

@@ -19,26 +19,17 @@ from vorotool.errors import UsageError
 from vorotool.formats.parsing.format_names import NAMES_WITH
 from vorotool.jobs.inputs import JobInput, check_components, check_frame_options
 from vorotool.jobs.job import Recipe
-from vorotool.jobs.names import TABLES
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
-from vorotool.jobs.targets import Target, check_picture_options
+from vorotool.jobs.targets import Target, check_picture_options, check_precision
+from vorotool.products.registry import PRODUCTS, all_layers, formats_of, layers_of
 
 if TYPE_CHECKING:
     from vorotool.jobs.streamed_tessellation import StreamedProducts
     from vorotool.jobs.tessellation import Products
 
-_IMAGES = ("png", "tiff", "npy", "text")
-_PICTURES = {("labels", "svg"), ("diagram", "png"), ("colour", "png"), ("colour", "svg")}
-FORMATS = {
-    "labels": (*_IMAGES, "zarr", "svg"),
-    "diagram": _IMAGES,
-    "colour": ("png", "svg"),
-    "distance": ("tiff", "npy", "zarr"),
-    "distance2": ("tiff", "npy", "zarr", "text"),
-    "table": TABLES,
-    "neighbours": TABLES,
-}
+FORMATS = formats_of("tessellate")
+_PICTURES = {(what, fmt) for what, each in PRODUCTS["tessellate"].items() for fmt in each.layers}
 
 
 @click.command("tessellate")
@@ -66,7 +57,7 @@ FORMATS = {
     type=Size(),
     help="Columns x rows of the chunks of a Zarr store; by default 2048x512, fewer rows if wide.",
 )
-@site_options(("cells", "diagram", "seeds", "labels"))
+@site_options(all_layers("tessellate"))
 def command(**options: Any) -> None:
     """Label every pixel with its nearest seed, exactly; ties go to the smallest label.
 
@@ -74,7 +65,7 @@ def command(**options: Any) -> None:
     Example:
       vorotool tessellate data/dots.csv --size 512x512 -o labels.png
 
-    INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, PBM,
+    INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, JPEG,
     NPY, Zarr); - is standard input. Label i is the i-th point; an image's own labels are kept.
     """
     run_command(RECIPE, TessellationOptions(**options))
@@ -91,6 +82,7 @@ def _check_options(o: TessellationOptions, targets: list[Target]) -> None:
     check_components(o)
     if o.method == "propagation" and o.cluster is not None and o.out_dir is None:
         raise UsageError("a cluster computes bands of the exact tessellation: leave out --method propagation")
+    check_precision(o, FORMATS, targets)
     _check_output_options(o, {(target.what, target.fmt) for target in targets})
 
 
@@ -100,13 +92,10 @@ def _check_output_options(o: TessellationOptions, outputs: set[tuple[str, str]])
         raise UsageError("--dtype is for labels in TIFF, NPY and Zarr: use -f tiff or -f npy, or leave it out")
     if o.chunk is not None and "zarr" not in {fmt for _, fmt in outputs}:
         raise UsageError("--chunk is for Zarr stores: use -f zarr, or leave it out")
-    tables = {(what, fmt) for what in ("table", "neighbours") for fmt in ("csv", "json")}
-    if o.precision is not None and not outputs & tables:
-        raise UsageError("--precision is for tables in CSV and JSON: use --what table, or leave it out")
     if o.layers is not None and not outputs & _PICTURES:
         raise UsageError("--layers is for pictures: --what colour, labels as SVG, or the diagram as PNG")
     pictures = sorted(outputs & _PICTURES - ({("diagram", "png")} if o.layers is None and o.overlay is None else set()))
-    check_picture_options(o, [fmt for _, fmt in pictures])
+    check_picture_options(o, [fmt for _, fmt in pictures], layers_of("tessellate"))
 
 
 def _products(run: Run, o: TessellationOptions, given: JobInput) -> Products | StreamedProducts:

@@ -329,6 +329,7 @@ def inputs_argument(extensions: Iterable[str]) -> Decorator:
 
 def output_options(formats: Mapping[str, Sequence[str]]) -> Decorator:
     """Add ``--output`` and ``--format`` of a command that writes these formats."""
+    all_formats = dict.fromkeys(fmt for possible in formats.values() for fmt in possible)
     return together(
         click.option(
             "-o",
@@ -341,7 +342,7 @@ def output_options(formats: Mapping[str, Sequence[str]]) -> Decorator:
             "-f",
             "--format",
             metavar="FORMAT",
-            help="Format of the output; by default its extension.",
+            help=f"Format of the output: {', '.join(all_formats)}; by default its extension.",
             shell_complete=formats_of(formats),
         ),
     )

@@ -20,7 +20,8 @@ from vorotool.cli.options.shared import (
     what_option,
 )
 from vorotool.formats.parsing.format_names import NAMES_WITH
-from vorotool.jobs.names import ALL_SKELETON_LAYERS, SKELETON_FORMATS
+from vorotool.products.formats import FORMATS
+from vorotool.products.registry import all_layers, formats_of
 
 ENDS = ("middle", "corner", "none")
 """As `vorotool.engines.centerlines.centerline` has them, which ``--help`` does not import."""
@@ -68,10 +69,11 @@ class Distances(ParameterType[tuple[float, ...]]):
         return wanted
 
 
+_FLATTENED = ", ".join(each.title for each in FORMATS.values() if each.flattens)
 _BEFORE: tuple[Decorator, ...] = (
     inputs_argument(NAMES_WITH["polygons"]),
-    output_options(SKELETON_FORMATS),
-    what_option(tuple(SKELETON_FORMATS)),
+    output_options(formats_of("skeleton-exact")),
+    what_option(tuple(formats_of("skeleton-exact"))),
     click.option(
         "--side",
         type=click.Choice(["interior", "exterior", "both"]),
@@ -123,8 +125,8 @@ _READING: tuple[Decorator, ...] = (
         "--flatten",
         type=Length(zero=False),
         metavar="TOLERANCE",
-        help="How far lines may be from curves where a format (GeoJSON, WKT, GraphML) or --what shape has none; by "
-        "default 1/4096 of the extent.",
+        help=f"How far lines may be from curves where a format ({_FLATTENED}) or --what shape has none; by default "
+        "1/4096 of the extent.",
     ),
     click.option(
         "--simplify",
@@ -148,6 +150,6 @@ _READING: tuple[Decorator, ...] = (
 """Options before a command's own, and after them."""
 
 
-def skeleton_options(*own: Decorator, layers: tuple[str, ...] = ALL_SKELETON_LAYERS) -> Decorator:
+def skeleton_options(*own: Decorator, layers: tuple[str, ...] = all_layers("skeleton-exact")) -> Decorator:
     """Add the options that skeletons have in common, and a command's own among them."""
     return together(*_BEFORE, *own, *_READING, result_options(layers))

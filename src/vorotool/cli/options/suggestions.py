@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from vorotool.jobs.targets import EXTENSIONS
+from vorotool.products.formats import EXTENSIONS
 
 if TYPE_CHECKING:
     from click.shell_completion import CompletionItem

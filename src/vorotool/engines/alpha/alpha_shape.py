@@ -30,6 +30,7 @@ from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.numbers import real_number, shown_number, whole_number
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.ragged import ranges, starts_of
 from vorotool.geometry.table import Table
 
 RULES = ("corrected", "printed")
@@ -338,13 +339,11 @@ def _polygons(family: AlphaComplex, region: NDArray[np.int32], progress: Progres
     vertex, start, of, is_hole = _core.alpha.trace_rings(mesh.points, a, b, np.ascontiguousarray(region[t]), progress)
     order = np.lexsort((is_hole, of))  # a shell, then its holes
     sizes = np.diff(start)[order]
-    starts = np.append(0, np.cumsum(sizes))
-    gather = np.repeat(start[:-1][order] - starts[:-1], sizes) + np.arange(starts[-1])
     kinds = np.where(is_hole[order], HOLE, SHELL).astype(np.int8)
     count = int(region.max(initial=-1)) + 1
     return PolygonSet(
-        mesh.points[vertex[gather]],
-        starts,
+        mesh.points[vertex[ranges(start[order], sizes)]],
+        starts_of(sizes),
         kinds,
         of[order],
         ids=list(range(1, count + 1)),

@@ -14,6 +14,7 @@ from vorotool.geometry.alpha.complex import CLASSES, AlphaComplex, Radius
 from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.ragged import owners
 
 # Relative error of a squared radius in floating point: a few roundings, and those of the cross product many times as
 # much where it cancels. What is closer to r than this is decided in rational numbers.
@@ -212,10 +213,9 @@ def _check_regions(shape: AlphaShape) -> None:
 def _check_rings(shape: AlphaShape) -> None:
     """Each boundary edge once in the rings, with its region on the left; one shell a region; areas that go together."""
     polygons, family = shape.polygons, shape.family
-    following = np.arange(1, len(polygons.xy) + 1)
-    following[polygons.ring_start[1:] - 1] = polygons.ring_start[:-1]
-    ring = np.repeat(np.arange(len(polygons.ring_kind)), np.diff(polygons.ring_start))
-    sides = np.concatenate([polygons.xy, polygons.xy[following], polygons.ring_polygon[ring][:, None]], axis=1)
+    ring = owners(np.diff(polygons.ring_start))
+    ends = polygons.xy[polygons.following]
+    sides = np.concatenate([polygons.xy, ends, polygons.ring_polygon[ring][:, None]], axis=1)
     across = np.append(shape.region, np.int32(-1))[family.mesh.neighbours]
     t, k = np.nonzero(shape.inside[:, None] & (across < 0))
     corners = family.mesh.triangles

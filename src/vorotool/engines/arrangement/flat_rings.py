@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet
+from vorotool.geometry.ragged import owners
 
 
 def flat_holes(polygons: PolygonSet, places: NDArray[Any] | None = None) -> NDArray[np.bool_]:
@@ -53,7 +54,7 @@ def with_flat_shells_as_lines(polygons: PolygonSet) -> PolygonSet:
 
 def _are_flat(polygons: PolygonSet, places: NDArray[Any]) -> NDArray[np.bool_]:
     start, size = polygons.ring_start, np.diff(polygons.ring_start)
-    ring = np.repeat(np.arange(len(size)), size)
+    ring = owners(size)
     is_other = (places != places[start[:-1]][ring]).any(axis=1)
     vertex = np.where(is_other, np.arange(len(ring)), len(ring))
     second = np.minimum.reduceat(vertex, start[:-1]) if len(size) else vertex

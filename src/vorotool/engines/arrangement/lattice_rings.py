@@ -13,6 +13,7 @@ from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.polygons.repaired_polygons import RepairedPolygons
 from vorotool.geometry.polygons.ring_arrays import RingArrays
+from vorotool.geometry.ragged import owners
 from vorotool.geometry.skeleton.skeleton import EDGE, VERTEX, SiteTable
 
 
@@ -158,4 +159,4 @@ def _places(polygons: PolygonSet, vertex: NDArray[np.int64]) -> tuple[NDArray[np
 
 
 def _ring_of_vertex(polygons: PolygonSet) -> NDArray[np.int32]:
-    return np.repeat(np.arange(len(polygons.ring_start) - 1, dtype=np.int32), np.diff(polygons.ring_start))
+    return owners(np.diff(polygons.ring_start), dtype=np.int32)

@@ -19,6 +19,7 @@ from vorotool.geometry.polygons.conversion import as_polygons
 from vorotool.geometry.polygons.planar_graph import REPAIRS, PlanarGraph
 from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.ragged import divides, owners, ranges
 
 MOST_VERTICES = 2**28
 """Segments are numbered in 31 bits, and crossings make more of them."""
@@ -285,7 +286,7 @@ def verify_planar_graph(graph: PlanarGraph, *, progress: Progress = None) -> Non
 
 def _face_fault(graph: PlanarGraph) -> str | None:
     start, polygon = graph.face_start, graph.face_polygon
-    if len(start) < 1 or start[0] != 0 or start[-1] != len(polygon) or (np.diff(start) < 0).any():
+    if not divides(start, len(polygon)):
         return "face_start does not divide face_polygon"
     faces = graph.segment_faces
     if faces.size and (faces.min() < 0 or faces.max() >= graph.faces):
@@ -324,7 +325,7 @@ def _source_fault(graph: PlanarGraph) -> str | None:
     known = graph.point_vertex >= 0
     if (vertices[graph.point_vertex[known]] != graph.points[known]).any():
         return "a point is not where its vertex is"
-    segment = np.repeat(np.arange(len(graph)), graph.source_count)
+    segment = owners(graph.source_count)
     edge = graph.source_edge.astype(np.int64)
     a, b = vertices[edge].astype(np.int64), vertices[_next_vertices(given)[edge]].astype(np.int64)
     d = b - a
@@ -341,10 +342,10 @@ def _source_fault(graph: PlanarGraph) -> str | None:
 
 def _next_vertices(polygons: PolygonSet) -> Any:
     """The vertex after each one around its ring; a line ends at its last one."""
-    following = np.arange(1, len(polygons.xy) + 1)
-    last = polygons.ring_start[1:] - 1
-    following[last] = np.where(polygons.ring_kind == LINE, last, polygons.ring_start[:-1])
-    return following
+    last = (polygons.ring_start[1:] - 1)[polygons.ring_kind == LINE]
+    after = polygons.following.copy()
+    after[last] = last
+    return after
 
 
 def _side_fault(
@@ -355,27 +356,20 @@ def _side_fault(
     ring_of_edge = np.searchsorted(given.ring_start, edge, side="right") - 1
     own = segment * count + given.ring_polygon[ring_of_edge]
     pairs, pair = np.unique(graph.segment_faces, axis=0, return_inverse=True)
-    sides = []
+    sides: list[Any] = []
     for face in pairs.T:
-        at, length = _expanded(graph.face_start[face], np.diff(graph.face_start)[face])
-        sides.append(np.repeat(np.arange(len(pairs)), length) * count + graph.face_polygon[at])
+        length = np.diff(graph.face_start)[face]
+        sides.append(owners(length) * count + graph.face_polygon[ranges(graph.face_start[face], length)])
     differing = np.setxor1d(*sides)  # pair of faces, and polygon
     first = np.searchsorted(differing, np.arange(len(pairs) + 1) * count)
-    at, length = _expanded(first[pair.ravel()], np.diff(first)[pair.ravel()])
-    strange = ~np.isin(np.repeat(np.arange(len(graph)), length) * count + differing[at] % count, own)
+    length = np.diff(first)[pair.ravel()]
+    divided = owners(length)
+    strange = ~np.isin(divided * count + differing[ranges(first[pair.ravel()], length)] % count, own)
     if strange.any():
-        return (
-            f"segment {np.repeat(np.arange(len(graph)), length)[strange][0]} divides a polygon of which it is no edge"
-        )
+        return f"segment {divided[strange][0]} divides a polygon of which it is no edge"
     is_border = length > 0
     is_thin = (given.ring_kind == LINE) | is_flat_hole
     is_border[segment[is_thin[ring_of_edge]]] = True
     if not is_border.all():
         return f"segment {is_border.argmin()} bounds nothing"
     return None
-
-
-def _expanded(start: Any, length: Any) -> tuple[Any, Any]:
-    """The indices start, start + 1, … of each row, one row after the other; and the lengths."""
-    within = np.arange(length.sum()) - np.repeat(np.cumsum(length) - length, length)
-    return np.repeat(start, length) + within, length

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
-from vorotool.geometry.polygons.ring_arrays import ranges
+from vorotool.geometry.ragged import owners, ranges
 from vorotool.geometry.skeleton.tables import connected_roots
 
 Indices = NDArray[np.int64]
@@ -18,7 +18,7 @@ class PolygonRegions:
     def __init__(self, graph: PlanarGraph) -> None:
         polygon = graph.face_polygon.astype(np.int64)
         self._width = int(polygon.max(initial=0)) + 1
-        face = np.repeat(np.arange(graph.faces), np.diff(graph.face_start))
+        face = owners(np.diff(graph.face_start))
         self._keys = face * self._width + polygon  # ascending: polygons of a face are
         left, right = graph.segment_faces.astype(np.int64).T
         beside = np.flatnonzero(graph.is_inside[left] & graph.is_inside[right])

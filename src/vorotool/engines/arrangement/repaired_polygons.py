@@ -14,6 +14,7 @@ from vorotool.engines.arrangement.polygon_regions import PolygonRegions
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet
 from vorotool.geometry.polygons.repaired_polygons import RepairedPolygons
+from vorotool.geometry.ragged import owners, ranges, starts_of
 
 
 @dataclass(frozen=True)
@@ -60,7 +61,7 @@ def repaired_polygons(graph: PlanarGraph) -> RepairedPolygons:
     source = rings.source[starts_polygon]
     polygons = PolygonSet(
         graph.coordinates()[rings.point],
-        np.concatenate([[0], np.cumsum(rings.sizes)]),
+        starts_of(rings.sizes),
         rings.kind,
         np.cumsum(starts_polygon) - 1,
         None if given.ids is None else [given.ids[i] for i in source.tolist()],
@@ -88,7 +89,7 @@ def _borders(graph: PlanarGraph) -> _Rings:
 def _lines(graph: PlanarGraph, given: PolygonSet) -> _Rings:
     """Each line from its first vertex along the pieces of its edges."""
     lines = np.flatnonzero(given.ring_kind == LINE)
-    segment = np.repeat(np.arange(len(graph)), graph.source_count)
+    segment = owners(graph.source_count)
     edge = graph.source_edge
     ring = np.searchsorted(given.ring_start, edge, side="right") - 1
     on_line = given.ring_kind[ring] == LINE
@@ -105,7 +106,7 @@ def _lines(graph: PlanarGraph, given: PolygonSet) -> _Rings:
     order = np.lexsort((keys[:, 1], keys[:, 0], edge))
     count = np.bincount(np.searchsorted(lines, ring), minlength=len(lines))
     first = _first_points(graph, vertices[given.ring_start[lines]])
-    at = np.cumsum(count) - count
+    at = starts_of(count)[:-1]
     return _Rings(
         count + 1,
         np.full(len(lines), LINE),
@@ -127,12 +128,9 @@ def _merged(a: _Rings, b: _Rings, keys_a: NDArray[Any], keys_b: NDArray[Any]) ->
     sizes = np.concatenate([a.sizes, b.sizes])
     source = np.concatenate([a.source, b.source])
     order = np.argsort(np.concatenate([keys_a, keys_b]), kind="stable")
-    starts = np.cumsum(sizes) - sizes
-    sorted_sizes = sizes[order]
-    within = np.arange(sizes.sum()) - np.repeat(np.cumsum(sorted_sizes) - sorted_sizes, sorted_sizes)
-    index = np.repeat(starts[order], sorted_sizes) + within
+    index = ranges(starts_of(sizes)[order], sizes[order])
     return _Rings(
-        sorted_sizes,
+        sizes[order],
         np.concatenate([a.kind, b.kind])[order],
         source[order],
         np.concatenate([a.point, b.point])[index].astype(np.int32),
@@ -155,11 +153,11 @@ def _with_flat_holes(graph: PlanarGraph, given: PolygonSet, rings: _Rings, is_fl
 
 def _flat_rings(graph: PlanarGraph, given: PolygonSet, is_flat: NDArray[np.bool_]) -> tuple[_Rings, NDArray[Any]]:
     """Holes of two points for each segment of one that lies in its polygon, and of one point; and their faces."""
-    segment = np.repeat(np.arange(len(graph)), graph.source_count)
+    segment = owners(graph.source_count)
     ring = np.searchsorted(given.ring_start, graph.source_edge, side="right") - 1
     pairs = np.unique(np.stack([segment, given.ring_polygon[ring]], axis=1)[is_flat[ring]], axis=0)
     width = max(len(given), 1)
-    keys = np.repeat(np.arange(graph.faces), np.diff(graph.face_start)) * width + graph.face_polygon
+    keys = owners(np.diff(graph.face_start)) * width + graph.face_polygon
     sides = graph.segment_faces[pairs[:, 0]].astype(np.int64)
     own = pairs[np.isin(sides * width + pairs[:, 1:], keys).all(axis=1)]
     points, faces, polygons = np.unique(graph.point_holes, axis=0).T

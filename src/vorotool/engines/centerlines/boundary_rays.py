@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.ragged import owners, ranges
 
 Floats = NDArray[np.float64]
 
@@ -64,9 +65,7 @@ def _hits(
 ) -> tuple[Floats, NDArray[np.intp]]:
     """Of rays with the edges of vertices from `first` on, which are not none."""
     way = way / np.sqrt((way * way).sum(axis=1))[:, None]
-    start = np.cumsum(size) - size
-    ray = np.repeat(np.arange(len(size)), size)
-    vertex = np.arange(len(ray)) - np.repeat(start - first, size)
+    ray, vertex = owners(size), ranges(first, size)
     (ax, ay), (bx, by) = ((polygons.xy[of] - origin[ray]).T for of in (vertex, polygons.following[vertex]))
     dx, dy = way[ray].T
     met = np.flatnonzero((dx * ay - dy * ax >= 0) != (dx * by - dy * bx >= 0))

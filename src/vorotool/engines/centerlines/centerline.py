@@ -18,6 +18,7 @@ from vorotool.errors import InputError, UsageError, VorotoolWarning
 from vorotool.geometry.magnitude import check_lengths
 from vorotool.geometry.numbers import pair_of_doubles
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.ragged import owners
 from vorotool.geometry.skeleton.centerline import Centerlines, without_centerline
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
@@ -154,9 +155,8 @@ class _Pieces:
 
 def _made(network: Network, paths: Paths, ends: Ends, *, wanted: tuple[bool, bool]) -> Centerlines:
     """Put the arcs of paths together as skeletons, and lead them on."""
-    count = len(paths.start) - 1
     pieces = _Pieces(
-        np.repeat(np.arange(count, dtype=np.int32), np.diff(paths.start)),
+        owners(np.diff(paths.start), dtype=np.int32),
         network.arc[paths.arcs],
         network.first[paths.arcs],
         network.last[paths.arcs],

@@ -15,6 +15,8 @@ from heapq import heapify, heappop, heappush
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.ragged import owners
+
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.intp]
 Line = tuple[float, float, float]
@@ -94,7 +96,7 @@ def convex_trees(chains: Chains, origins: Floats) -> Trees:
         _collapse(lines, first, last, nodes, arcs)
     made = np.array(nodes).reshape(-1, 3)
     found = np.array(arcs, dtype=np.intp).reshape(-1, 4)
-    chain = np.repeat(np.arange(len(sizes)), sizes - 2)
+    chain = owners(sizes - 2)
     root = np.where(sizes > 2, np.cumsum(sizes - 2) - 1, -1)
     return Trees(chain, made[:, :2] + origins[chain], made[:, 2], root, found[:, :2], found[:, 2:])
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.centerlines.edge_comparisons import is_blunt
+from vorotool.geometry.ragged import owners, ranges
 from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
 
 Floats = NDArray[np.float64]
@@ -39,9 +40,7 @@ class Branches:
 
     def arcs(self, chosen: Numbers) -> Numbers:
         """All arcs of some branches."""
-        size = self.last[chosen] + 1 - self.first[chosen]
-        start = np.cumsum(size) - size
-        return np.repeat(self.first[chosen] - start, size) + np.arange(size.sum())
+        return ranges(self.first[chosen], self.last[chosen] + 1 - self.first[chosen])
 
 
 def branches_inside(skeleton: Skeleton) -> Branches:
@@ -125,7 +124,7 @@ def corner_twigs(skeleton: Skeleton, branches: Branches) -> Twigs:
 def _are_beside(skeleton: Skeleton, branches: Branches, chosen: Numbers, edges: Numbers) -> Booleans:
     """(k, 2) whether each of two sites is one of all arcs of a branch."""
     arcs, size = branches.arcs(chosen), branches.last[chosen] + 1 - branches.first[chosen]
-    which = np.repeat(np.arange(len(chosen)), size)
+    which = owners(size)
     sites = skeleton.sites[arcs]
     missed = [(sites != edges[which, k, None]).all(axis=1) for k in range(2)]
     return np.stack([np.bincount(which[miss], minlength=len(chosen)) == 0 for miss in missed], axis=1)

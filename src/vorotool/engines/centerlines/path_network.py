@@ -13,6 +13,7 @@ from vorotool.engines.centerlines.ends import Unforked
 from vorotool.engines.from_skeleton.nearest_point import nearest_place
 from vorotool.engines.pruning.pruning import skeleton_arrays
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.ragged import owners, starts_of
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
 Floats = NDArray[np.float64]
@@ -41,7 +42,7 @@ class Paths:
 
     def turned(self, is_turned: Booleans) -> Paths:
         """Some paths the other way round."""
-        path = np.repeat(np.arange(len(is_turned)), np.diff(self.start))
+        path = owners(np.diff(self.start))
         place = np.arange(len(self.arcs))
         turned = is_turned[path]
         order = np.where(turned, (self.start[:-1] + self.start[1:] - 1)[path] - place, place)
@@ -106,11 +107,11 @@ class Network:
         start, arcs, targets = _core.graphs.longest_paths(
             self.ends, self.length, polygon, count, self.nodes, tie, progress
         )
-        path = np.repeat(np.arange(count), np.diff(start))
+        path = owners(np.diff(start))
         length = np.bincount(path, self.length[arcs], minlength=count)
         kept = (length > 0)[path]
         sizes = np.diff(start)[length > 0]
-        paths = self._with_sources(np.concatenate([[0], np.cumsum(sizes)]), arcs[kept], targets[kept])
+        paths = self._with_sources(starts_of(sizes), arcs[kept], targets[kept])
         one, other = self.axis.first_leaf[self.node[paths.end_nodes]].T
         return paths.turned(one > other)
 

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.centerlines.convex_trees import Chains, convex_trees
+from vorotool.geometry.ragged import owners, starts_of, within
 from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton
 
 Floats = NDArray[np.float64]
@@ -150,7 +151,7 @@ def _gaps(skeleton: Skeleton) -> _Gaps:
 
 def _order(skeleton: Skeleton, is_forward: bool) -> _Order:
     polygons = skeleton.polygons
-    ring = np.repeat(np.arange(len(polygons.ring_start) - 1), np.diff(polygons.ring_start))
+    ring = owners(np.diff(polygons.ring_start))
     first, size = polygons.ring_start[ring], np.diff(polygons.ring_start)[ring]
     place = np.arange(len(ring))
     way = polygons.xy[polygons.following] - polygons.xy
@@ -158,7 +159,7 @@ def _order(skeleton: Skeleton, is_forward: bool) -> _Order:
         place = 2 * first + size - 1 - place
         way = -way[place]
     (ux, uy), (vx, vy) = way.T, way[polygons.following].T  # rings are at the same places either way
-    return _Order(place, first, size, np.concatenate([[0], np.cumsum(~(ux * vy - uy * vx > 0))]))
+    return _Order(place, first, size, starts_of(~(ux * vy - uy * vx > 0)))
 
 
 def _gaps_along(skeleton: Skeleton, begins: _Sides, ends: _Sides, is_forward: bool) -> _Gaps:
@@ -175,9 +176,8 @@ def _gaps_along(skeleton: Skeleton, begins: _Sides, ends: _Sides, is_forward: bo
     degree = np.bincount(skeleton.arcs[skeleton.side == INTERIOR].reshape(-1), minlength=len(skeleton.vertices))
     is_leaf = degree[begins.node] == 1
     kept = np.flatnonzero((bends == 0) & (steps > is_leaf))  # to a single corner a part of the twig is left
-    start = np.concatenate([[0], np.cumsum(steps[kept] + 1)])
-    gap = np.repeat(kept, np.diff(start))
-    along = np.arange(len(gap)) - np.repeat(start[:-1], np.diff(start))
+    counts = steps[kept] + 1
+    start, gap, along = starts_of(counts), np.repeat(kept, counts), within(counts)
     edge = order.place[first[gap] + (place[gap] - first[gap] + along) % size[gap]]
     site = _sites_of_edges(skeleton)[edge]
     site[start[:-1]], site[start[1:] - 1] = begins.site[kept], ends.site[end[kept]]

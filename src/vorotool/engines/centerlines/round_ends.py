@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.centerlines.corner_twigs import Branches, Pairs, Twigs
+from vorotool.geometry.ragged import starts_of
 from vorotool.geometry.skeleton.tables import connected_roots
 
 Numbers = NDArray[np.intp]
@@ -119,7 +120,7 @@ class _Growth:
         others = np.flatnonzero(~is_twig)
         self.twig_count = np.bincount(self.twigs.node, minlength=nodes)
         self.twig_order = np.argsort(self.twigs.node, kind="stable")
-        self.twig_start = np.concatenate([[0], np.cumsum(self.twig_count)])
+        self.twig_start = starts_of(self.twig_count)
         self.branch_sum = _sums(ends[others].reshape(-1), np.repeat(others, 2), nodes)
         self.blunt = set(self.pairs.edge[self.pairs.is_blunt].tolist())
 

@@ -1,1 +1,1 @@
-"""Shared by engines: arrays of labels, input of points, parallel parts."""
+"""Shared by engines: arrays of labels, input of points, faults."""

@@ -22,17 +22,18 @@ from vorotool.engines.arrangement.planar_graph import (
     placed_vertices,
     report_repairs,
 )
-from vorotool.engines.common.parallel_parts import in_threads
 from vorotool.engines.features.crack_corners import OwnCorners, own_corners
 from vorotool.engines.features.sheets import Features, batches_of, sheets_of_boxes, sheets_of_cracks, touching_features
 from vorotool.errors import LimitError, VorotoolWarning
 from vorotool.geometry.box import bounds
 from vorotool.geometry.checks import available_threads
 from vorotool.geometry.magnitude import check_magnitude
+from vorotool.geometry.parallel import in_threads
 from vorotool.geometry.polygons.planar_graph import REPAIRS, PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.polygons.ring_arrays import RingArrays
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.ragged import owners, starts_of
 
 Indices = NDArray[np.int64]
 Result = TypeVar("Result")
@@ -256,7 +257,7 @@ def are_apart(graph: PlanarGraph) -> bool:
     assert graph.vertices is not None
     if any(graph.repairs.values()):
         return False
-    face = np.repeat(np.arange(graph.faces), np.diff(graph.face_start))
+    face = owners(np.diff(graph.face_start))
     feature = given.feature[graph.face_polygon]
     if ((face[1:] == face[:-1]) & (feature[1:] != feature[:-1])).any():
         return False
@@ -362,9 +363,9 @@ def _batch(
     taken, rings, vertices = arrays.taken(polygons)
     part = PolygonSet(
         taken.xy,
-        np.concatenate([[0], np.cumsum(taken.sizes)]),
+        starts_of(taken.sizes),
         taken.kind,
-        np.repeat(np.arange(len(polygons)), taken.rings),
+        owners(taken.rings),
         feature=used.feature[polygons],
         connectivity=used.connectivity,
     )

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
-from vorotool.geometry.polygons.ring_arrays import starts_before
+from vorotool.geometry.ragged import starts_of
 
 Indices = NDArray[np.int64]
 
@@ -56,7 +56,7 @@ def own_corners(polygons: PolygonSet) -> OwnCorners | None:
     start = polygons.ring_start
     kept = np.flatnonzero(~is_straight)
     sizes = np.add.reduceat(~is_straight, start[:-1])
-    return OwnCorners(replace(polygons, xy=polygons.xy[kept], ring_start=starts_before(sizes)), kept)
+    return OwnCorners(replace(polygons, xy=polygons.xy[kept], ring_start=starts_of(sizes)), kept)
 
 
 def _between_likes(polygons: PolygonSet) -> Indices:

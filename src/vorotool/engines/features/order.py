@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vorotool.engines.features.batches import BatchShapes, FeatureShapes
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.polygons.ring_arrays import RingArrays
+from vorotool.geometry.ragged import owners, starts_of, within
 from vorotool.geometry.skeleton.skeleton import SiteTable
 
 Indices = NDArray[np.int64]
@@ -41,10 +42,8 @@ class Places:
         if (keys[1:] >= keys[:-1]).all():
             return cls(None)
         counts = np.bincount(keys)
-        new = np.diff(keys, prepend=-1) != 0
-        item = np.arange(len(keys))
-        within = item - np.maximum.accumulate(np.where(new, item, 0))
-        return cls((np.cumsum(counts) - counts)[keys] + within)
+        runs = np.diff(np.flatnonzero(np.diff(keys, prepend=-1)), append=len(keys))
+        return cls(starts_of(counts)[keys] + within(runs))
 
     def arranged(self, columns: Sequence[NDArray[Any]]) -> NDArray[Any]:
         """Values of all batches in their order."""
@@ -113,15 +112,15 @@ def _inverse(order: Indices) -> Indices:
 
 def _numbers_of_batches(places: Places, counts: Sequence[int]) -> list[NDArray[np.int32]]:
     numbers = places.numbers(np.arange(sum(counts), dtype=np.int32))
-    return np.split(numbers, np.cumsum(counts)[:-1]) if counts else []
+    return np.split(numbers, starts_of(counts)[1:-1]) if counts else []
 
 
 def _point_keys(whole: FeatureShapes, parts: Sequence[BatchShapes]) -> Indices:
     """Of the points of all batches: their first vertices; for crossings numbers from there on, by their places."""
     vertex = stacked([shapes.graph.point_vertex.astype(np.int64) for shapes in parts])
-    first = np.repeat(np.arange(len(parts)), [len(shapes.graph.points) for shapes in parts])
+    first = owners([len(shapes.graph.points) for shapes in parts])
     is_crossing = vertex < 0
-    begin = np.cumsum([0, *(len(shapes.batch.vertices) for shapes in parts)])
+    begin = starts_of([len(shapes.batch.vertices) for shapes in parts])
     known = np.flatnonzero(~is_crossing)
     vertex[known] = stacked([shapes.batch.vertices for shapes in parts])[vertex[known] + begin[first[known]]]
     crossings = np.flatnonzero(is_crossing)

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.polygons.ring_arrays import ranges
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.ragged import owners, ranges, starts_of
 
 Indices = NDArray[np.int64]
 
@@ -56,12 +56,12 @@ class Features:
     @property
     def of_polygon(self) -> Indices:
         """(p,) the feature of each polygon."""
-        return np.repeat(np.arange(len(self)), np.diff(self.polygon_start))
+        return owners(np.diff(self.polygon_start))
 
     @property
     def of_vertex(self) -> Indices:
         """(n,) the feature of each vertex."""
-        return np.repeat(np.arange(len(self)), np.diff(self.vertex_start))
+        return owners(np.diff(self.vertex_start))
 
     def polygons_of(self, chosen: Indices) -> Indices:
         """Polygons of some features."""
@@ -164,7 +164,7 @@ def batches_of(features: Features, sheet: NDArray[np.int32]) -> list[Indices]:
         return []
     order = np.argsort(sheet, kind="stable")
     sizes = np.diff(features.vertex_start)[order]
-    begin = np.cumsum(sizes) - sizes
+    begin = starts_of(sizes)[:-1]
     new_sheet = np.diff(sheet[order], prepend=-1) != 0
     of_sheet = begin - np.maximum.accumulate(np.where(new_sheet, begin, 0))
     cut = new_sheet | (np.diff(of_sheet // BATCH, prepend=0) > 0)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool.engines.skeleton.site_distances import SitePlaces
 from vorotool.geometry.curves.inverse_functions import angle_of
+from vorotool.geometry.ragged import following
 from vorotool.geometry.skeleton.skeleton import EDGE, Skeleton
 from vorotool.geometry.skeleton.tables import connected_roots
 
@@ -52,9 +53,7 @@ class Contours:
     @property
     def after(self) -> Indices:
         """(n,) the run after each."""
-        following = np.arange(1, len(self.site) + 1)
-        following[self.start[1:] - 1] = self.start[:-1]
-        return following
+        return following(self.start)
 
     @property
     def before(self) -> Indices:
@@ -82,19 +81,18 @@ def contours_of(skeleton: Skeleton, arcs: Indices) -> Contours:
     runs = np.flatnonzero(new)
     start = np.searchsorted(runs, begin)
     last = np.append(runs[1:], len(order))[: len(runs)] - 1
-    following = np.arange(1, len(runs) + 1)
-    following[start[1:] - 1] = start[:-1]
+    after = following(start)
     ends = walk.site_points[site[runs]]
     is_edge = skeleton.site_table.kind[site[runs]] == EDGE
-    shared = _shared_points(ends, ends[following])
-    both = is_edge & is_edge[following]
+    shared = _shared_points(ends, ends[after])
+    both = is_edge & is_edge[after]
     return Contours(
         start,
         site[runs],
         walk.tail[order[runs]],
         walk.head[order[(runs + last) // 2]],
         walk.head[order[last]],
-        (shared >= 0) & (is_edge != is_edge[following]),
+        (shared >= 0) & (is_edge != is_edge[after]),
         np.where(is_edge, -1, ends[:, 0]),
         np.where(both, shared, -1),
         walk.polygon[order[begin[:-1]]],

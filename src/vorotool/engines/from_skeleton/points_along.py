@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from vorotool.engines.skeleton.site_distances import SitePlaces
 from vorotool.errors import LimitError, UsageError
 from vorotool.geometry.numbers import finite_double
+from vorotool.geometry.ragged import owners, within
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
@@ -80,8 +81,8 @@ def _steps(
 ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
     """The arc of each point, its way from the beginning of the branch, and that from the beginning of the arc."""
     whole = np.concatenate([[0.0], np.cumsum(skeleton.length)])
-    branch = np.repeat(np.arange(len(start)), counts)
-    along = every * (np.arange(len(branch)) - (np.cumsum(counts) - counts)[branch])
+    branch = owners(counts)
+    along = np.multiply(every, within(counts), dtype=np.float64)
     first, last = start[branch], np.append(start[1:], len(skeleton))[branch] - 1
     reached = whole[first] + along
     arc = np.clip(np.searchsorted(whole, reached, side="right") - 1, first, last)

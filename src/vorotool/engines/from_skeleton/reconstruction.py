@@ -14,8 +14,9 @@ from vorotool.engines.from_skeleton.contour_walk import Contours, contours_of
 from vorotool.engines.from_skeleton.disc_union import Ring, covered_rings
 from vorotool.errors import UsageError
 from vorotool.geometry.curves.circular_arcs import chords_of, middles_of
-from vorotool.geometry.curves.flatten_tolerance import checked_flatten
+from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
+from vorotool.geometry.ragged import following, owners, starts_of
 from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton
 
 Floats = NDArray[np.float64]
@@ -214,7 +215,7 @@ def _caps(
     centres, runs = np.concatenate([c, c[is_long]]), np.concatenate([run, run[is_long]])
     rank = np.concatenate([np.ones(len(run)), np.full(int(is_long.sum()), 2)]).astype(np.int64)
     xy, first = chords_of(starts, ends, centres, np.ones(len(runs), dtype=bool), tolerance)
-    piece = np.repeat(np.arange(len(runs)), np.diff(first))
+    piece = owners(np.diff(first))
     kept = (np.arange(len(xy)) > first[piece]) | (rank[piece] == 2) | is_edge[runs[piece]]
     to_edge = is_edge[after[run]]
     return [_Places(runs[piece[kept]], rank[piece[kept]], xy[kept]), _Places(run[to_edge], 3, b[to_edge])]
@@ -274,7 +275,7 @@ def _flat_holes(skeleton: Skeleton, contours: Contours) -> list[Ring]:
 
 def _repeats(point: Indices, start: Indices) -> NDArray[np.bool_]:
     """(c,) whether each contour visits a point twice."""
-    contour = np.repeat(np.arange(len(start) - 1), np.diff(start))
+    contour = owners(np.diff(start))
     known = np.flatnonzero(point >= 0)
     known = known[np.lexsort((point[known], contour[known]))]
     twice = (np.diff(point[known]) == 0) & (np.diff(contour[known]) == 0)
@@ -304,16 +305,14 @@ def _cut_at_repetitions(names: list[int]) -> list[list[int]]:
 def _twice_areas(xy: Floats, start: Indices) -> Floats:
     """(r,) of rings, positive counter-clockwise."""
     first = np.repeat(xy[start[:-1]], np.diff(start), axis=0)
-    following = np.arange(1, len(xy) + 1)
-    following[start[1:] - 1] = start[:-1]
-    (x, y), (u, v) = (xy - first).T, (xy[following] - first).T
+    (x, y), (u, v) = (xy - first).T, (xy[following(start)] - first).T
     areas: Floats = np.add.reduceat(x * v - y * u, start[:-1]) if len(xy) else np.zeros(0)
     return areas
 
 
 def _assembled(skeleton: Skeleton, rings: list[Ring]) -> PolygonSet:
     """Polygons of rings: in each connected part of the skeleton one goes counter-clockwise, around the others."""
-    start = np.concatenate([[0], np.cumsum([len(ring.xy) for ring in rings], dtype=np.int64)])
+    start = starts_of([len(ring.xy) for ring in rings])
     is_hole = _twice_areas(np.concatenate([np.empty((0, 2)), *(ring.xy for ring in rings)]), start) < 0
     is_hole |= np.diff(start) < 3
     part, polygon = (np.array([getattr(ring, name) for ring in rings], dtype=np.int64) for name in ("part", "polygon"))
@@ -324,7 +323,7 @@ def _assembled(skeleton: Skeleton, rings: list[Ring]) -> PolygonSet:
     assert given.feature is not None
     return PolygonSet(
         np.concatenate([np.empty((0, 2)), *(ring.xy for ring in rings)]),
-        np.concatenate([[0], np.cumsum([len(ring.xy) for ring in rings], dtype=np.int64)]),
+        starts_of([len(ring.xy) for ring in rings]),
         np.where(is_hole, HOLE, SHELL),
         np.cumsum(~is_hole) - 1,
         None if given.ids is None else [given.ids[p] for p in own],

@@ -1,4 +1,8 @@
-"""Contours of marching squares, from the cracks between the pixels inside and outside."""
+"""Contours of marching squares, from the cracks between the pixels inside and outside.
+
+scikit-image's `find_contours` takes 11 times as long for a mask (`tests/benchmarks/libraries.py contours`), for labels
+each by itself, and does not tell which contour is a hole in which.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.geometry.ragged import following, starts_of, within
 
 Corners = NDArray[np.int32]
 Rings = tuple[NDArray[np.float64], NDArray[np.int64]]
@@ -74,18 +79,17 @@ def half_way_contours(corners: Corners, start: NDArray[np.int64]) -> Rings:
     >>> half_way_contours(pixel, np.array([0, 4]))[0].tolist()
     [[0.0, -0.5], [0.5, 0.0], [0.0, 0.5], [-0.5, 0.0]]
     """
-    following = _following(start)
-    a, b = corners.astype(np.int64), corners[following].astype(np.int64)
+    a, b = corners.astype(np.int64), corners[following(start)].astype(np.int64)
     way = np.sign(b - a)
     is_long = np.abs(b - a).sum(axis=1) > 1
     count = 1 + is_long
-    at = np.cumsum(count) - count
-    doubled = np.empty((int(count.sum()), 2), dtype=np.int64)  # the first and the last middle along each crack
-    doubled[at] = 2 * a + way
-    doubled[(at + 1)[is_long]] = (2 * b - way)[is_long]
-    start = np.append(at, len(doubled))[start]
+    at = starts_of(count)
+    doubled = np.empty((at[-1], 2), dtype=np.int64)  # the first and the last middle along each crack
+    doubled[at[:-1]] = 2 * a + way
+    doubled[(at[:-1] + 1)[is_long]] = (2 * b - way)[is_long]
+    start = at[start]
     kept = ~_is_straight(doubled, start)
-    first = np.concatenate([[0], np.cumsum(kept)])
+    first = starts_of(kept)
     return doubled[kept] / 2 - 0.5, first[start]
 
 
@@ -107,11 +111,10 @@ def grey_contours(corners: Corners, start: NDArray[np.int64], grey: GreyLevel) -
     >>> grey_contours(pixel, np.array([0, 4]), GreyLevel(np.array([[0, 8, 0]]), 2.0))[0].tolist()
     [[1.0, -0.5], [1.75, 0.0], [1.0, 0.5], [0.25, 0.0]]
     """
-    a, b = corners.astype(np.int64), corners[_following(start)].astype(np.int64)
+    a, b = corners.astype(np.int64), corners[following(start)].astype(np.int64)
     length = np.abs(b - a).sum(axis=1)
-    along = np.arange(int(length.sum())) - np.repeat(np.cumsum(length) - length, length)
     way = np.repeat(np.sign(b - a), length, axis=0)
-    here = np.repeat(a, length, axis=0) + along[:, None] * way
+    here = np.repeat(a, length, axis=0) + within(length)[:, None] * way
     after = np.minimum(here, here + way)  # the pixel below or on the right of each crack of unit length
     across = (way == 0).astype(np.int64)
     before = after - across
@@ -120,22 +123,15 @@ def grey_contours(corners: Corners, start: NDArray[np.int64], grey: GreyLevel) -
     share = np.full(len(here), 0.5)
     low, high = (grey.values[places[is_inner, 1], places[is_inner, 0]].astype(float) for places in (before, after))
     share[is_inner] = (grey.level - low) / (high - low)
-    return before + share[:, None] * across, np.concatenate([[0], np.cumsum(length)])[start]
-
-
-def _following(start: NDArray[np.int64]) -> NDArray[np.int64]:
-    """The vertex after each one of closed rings."""
-    following = np.arange(1, start[-1] + 1)
-    following[start[1:] - 1] = start[:-1]
-    return following
+    return before + share[:, None] * across, starts_of(length)[start]
 
 
 def _is_straight(places: NDArray[np.int64], start: NDArray[np.int64]) -> NDArray[np.bool_]:
     """Whether all rings that have a place go straight through it."""
-    following = _following(start)
-    before = np.empty_like(following)
-    before[following] = np.arange(len(places))
-    (ax, ay), (bx, by) = (places - places[before]).T, (places[following] - places).T
+    after = following(start)
+    before = np.empty_like(after)
+    before[after] = np.arange(len(places))
+    (ax, ay), (bx, by) = (places - places[before]).T, (places[after] - places).T
     turns = ax * by != ay * bx
     _, place = np.unique(places[:, 1] << 32 | places[:, 0] & 0xFFFFFFFF, return_inverse=True)
     straight: NDArray[np.bool_] = np.bincount(place, turns)[place] == 0

@@ -1,4 +1,8 @@
-"""Polygons and lines with fewer vertices, that meet where they met."""
+"""Polygons and lines with fewer vertices, that meet where they met.
+
+shapely's `coverage_simplify` is faster, but goes by areas: for a tolerance of 1 pixel borders move by 1.11, and keep
+twice as many vertices (`tests/benchmarks/libraries.py simplify`). It takes no lines.
+"""
 
 from __future__ import annotations
 
@@ -10,6 +14,7 @@ from numpy.typing import NDArray
 from vorotool.errors import UsageError
 from vorotool.geometry.numbers import finite_double, shown_number
 from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
+from vorotool.geometry.ragged import owners, ranges, starts_of, within
 
 Indices = NDArray[np.int64]
 
@@ -65,7 +70,7 @@ def simplified_polygons(polygons: PolygonSet, tolerance: float) -> PolygonSet:
     index, sizes = _along_rings(polygons, chains, start)
     last = polygons.xy[polygons.ring_start[1:][np.equal(polygons.ring_kind, LINE)] - 1]
     xy = np.concatenate([points, last])[index]
-    return _turned_as(replace(polygons, xy=xy, ring_start=np.concatenate([[0], np.cumsum(sizes)])), polygons)
+    return _turned_as(replace(polygons, xy=xy, ring_start=starts_of(sizes)), polygons)
 
 
 @dataclass(frozen=True)
@@ -94,15 +99,15 @@ def _chains(polygons: PolygonSet) -> _Chains:
     key = np.minimum.reduceat(edge, begin) if len(begin) else edge[:0]
     _, first, used = np.unique(key, return_index=True, return_inverse=True)
     steps = end - begin
-    stretch = np.repeat(np.arange(len(begin)), steps)
-    position = np.repeat(begin, steps) + _within(steps)
+    stretch = owners(steps)
+    position = ranges(begin, steps)
     at = position[edge[position] == key[stretch]]  # where each stretch has the edge that names its chain
     is_up = along[at] < along[at + 1]
     sizes = steps[first] + 1
     return _Chains(
         places,
-        along[np.repeat(begin[first], sizes) + _within(sizes)],
-        np.concatenate([[0], np.cumsum(sizes)]),
+        along[ranges(begin[first], sizes)],
+        starts_of(sizes),
         used,
         is_up != is_up[first][used],
         ring[begin],
@@ -117,9 +122,10 @@ def _nodes(polygons: PolygonSet, point: Indices, count: int) -> NDArray[np.bool_
     """(p,) places where chains end."""
     start = polygons.ring_start
     is_line = np.equal(polygons.ring_kind, LINE)
-    following = np.arange(1, len(point) + 1)
-    following[start[1:] - 1] = np.where(is_line, start[1:] - 1, start[:-1])
-    edges = np.unique(_edge_keys(point, point[following], count))
+    last = (start[1:] - 1)[is_line]
+    after = polygons.following.copy()
+    after[last] = last
+    edges = np.unique(_edge_keys(point, point[after], count))
     a, b = edges // count, edges % count
     a, b = a[a != b], b[a != b]
     degree = np.bincount(a, minlength=count) + np.bincount(b, minlength=count)
@@ -136,20 +142,15 @@ def _closed_walks(polygons: PolygonSet, is_node: NDArray[np.bool_]) -> tuple[Ind
     start, sizes = polygons.ring_start[:-1], np.diff(polygons.ring_start)
     first = np.minimum.reduceat(np.where(is_node, np.arange(len(is_node)), len(is_node)), start)
     lengths = sizes + ~np.equal(polygons.ring_kind, LINE)
-    ring = np.repeat(np.arange(len(sizes)), lengths)
-    return start[ring] + (first[ring] - start[ring] + _within(lengths)) % sizes[ring], ring
-
-
-def _within(lengths: Indices) -> Indices:
-    """0, 1, … within each run of so many."""
-    return np.arange(int(lengths.sum())) - np.repeat(np.cumsum(lengths) - lengths, lengths)
+    ring = owners(lengths)
+    return start[ring] + (first[ring] - start[ring] + within(lengths)) % sizes[ring], ring
 
 
 def _simplified_chains(chains: _Chains, tolerance: float) -> tuple[NDArray[np.float64], Indices]:
     """Places along each chain that are left, and where each begins."""
     import shapely
 
-    owner = np.repeat(np.arange(len(chains.start) - 1), np.diff(chains.start))
+    owner = owners(np.diff(chains.start))
     lines = shapely.linestrings(chains.places[chains.point], indices=owner)
     parts = shapely.get_parts(shapely.simplify(shapely.multilinestrings(lines), tolerance, preserve_topology=True))
     assert len(parts) == len(lines)  # a chain keeps its ends
@@ -164,7 +165,7 @@ def _along_rings(polygons: PolygonSet, chains: _Chains, start: Indices) -> tuple
     """
     steps = np.diff(start)[chains.used] - 1
     back = np.repeat(chains.is_back, steps)
-    along = _within(steps)
+    along = within(steps)
     begin, end = np.repeat(start[chains.used], steps), np.repeat(start[chains.used + 1] - 1, steps)
     lines = np.flatnonzero(np.equal(polygons.ring_kind, LINE))
     ring = np.concatenate([np.repeat(chains.ring, steps), lines])
@@ -179,15 +180,12 @@ def _turned_as(made: PolygonSet, given: PolygonSet) -> PolygonSet:
     turned = (_area_signs(made) * _area_signs(given) < 0) & ~np.equal(made.ring_kind, LINE)
     if not turned.any():
         return made
-    ring = np.repeat(np.arange(len(sizes)), sizes)
-    within = _within(sizes)
-    index = start[ring] + np.where(turned[ring], -within % sizes[ring], within)
+    ring, place = owners(sizes), within(sizes)
+    index = start[ring] + np.where(turned[ring], -place % sizes[ring], place)
     return replace(made, xy=made.xy[index])
 
 
 def _area_signs(polygons: PolygonSet) -> NDArray[np.float64]:
-    start = polygons.ring_start[:-1]
-    following = np.arange(1, len(polygons.xy) + 1)
-    following[polygons.ring_start[1:] - 1] = start
+    start, after = polygons.ring_start[:-1], polygons.following
     own = polygons.xy - np.repeat(polygons.xy[start], np.diff(polygons.ring_start), axis=0)
-    return np.sign(np.add.reduceat(own[:, 0] * own[following, 1] - own[:, 1] * own[following, 0], start))
+    return np.sign(np.add.reduceat(own[:, 0] * own[after, 1] - own[:, 1] * own[after, 0], start))

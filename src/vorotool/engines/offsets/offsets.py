@@ -30,8 +30,8 @@ from vorotool.geometry.magnitude import check_lengths
 from vorotool.geometry.numbers import finite_double
 from vorotool.geometry.polygons.conversion import as_polygons
 from vorotool.geometry.polygons.polygon_set import PolygonSet
-from vorotool.geometry.polygons.ring_arrays import ranges, starts_before
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.ragged import ranges, starts_of
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.skeleton import SiteTable, Skeleton
 
@@ -197,13 +197,13 @@ def _joined_curves(order: InputOrder, made: Sequence[tuple[BatchShapes, list[Cur
     if not found:
         return _no_curves()
     chosen = np.argsort(found["polygon"], kind="stable")
-    rings = ranges(starts_before(found["rings"])[chosen], found["rings"][chosen])
-    pieces = ranges(starts_before(found["pieces"])[rings], found["pieces"][rings])
+    rings = ranges(starts_of(found["rings"])[chosen], found["rings"][chosen])
+    pieces = ranges(starts_of(found["pieces"])[rings], found["pieces"][rings])
     return {
         **{name: found[name][pieces] for name in ("start", "end", "centre", "site")},
         "polygon": found["polygon"][chosen],
-        "ring_start": starts_before(found["pieces"][rings]),
-        "shape_start": starts_before(found["rings"][chosen]),
+        "ring_start": starts_of(found["pieces"][rings]),
+        "shape_start": starts_of(found["rings"][chosen]),
     }
 
 
@@ -277,5 +277,4 @@ def _as_offsets(
 
 def _joined(starts: list[NDArray[np.int64]]) -> NDArray[np.int64]:
     """Starts of several lists, one after the other."""
-    counts = np.concatenate([np.diff(start) for start in starts])
-    return np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)
+    return starts_of(np.concatenate([np.diff(start) for start in starts]))

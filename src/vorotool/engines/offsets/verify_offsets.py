@@ -12,18 +12,19 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import planar_graph
+from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.features.batches import BatchShapes, in_batches
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
 from vorotool.engines.segment_voronoi.verify_segment_voronoi import verify_segment_voronoi
-from vorotool.engines.skeleton.site_distances import ULPS, fail, first_wrong, largest_coordinate
+from vorotool.engines.skeleton.site_distances import ULPS, largest_coordinate
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.curves.circular_arcs import middles_of
 from vorotool.geometry.numbers import finite_double
 from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import SHELL
-from vorotool.geometry.polygons.ring_arrays import ranges, starts_before
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.ragged import following, ranges, starts_of
 from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.skeleton import EDGE, ends_of_sites
 
@@ -124,8 +125,8 @@ def with_shapes(offsets: Offsets, chosen: NDArray[np.intp]) -> Offsets:
     return replace(
         offsets,
         **{name: getattr(offsets, name)[pieces] for name in ("start", "end", "centre", "site")},
-        ring_start=starts_before(sizes[rings]),
-        shape_start=starts_before(counts[chosen]),
+        ring_start=starts_of(sizes[rings]),
+        shape_start=starts_of(counts[chosen]),
         distance=offsets.distance[chosen],
         polygon=offsets.polygon[chosen],
     )
@@ -138,9 +139,7 @@ def _tolerance(offsets: Offsets) -> float:
 
 
 def _check_chains(offsets: Offsets) -> None:
-    following = np.arange(1, len(offsets.site) + 1)
-    following[offsets.ring_start[1:] - 1] = offsets.ring_start[:-1]
-    at = first_wrong((offsets.end != offsets.start[following]).any(axis=1))
+    at = first_wrong((offsets.end != offsets.start[following(offsets.ring_start)]).any(axis=1))
     if at is not None:
         fail(f"piece {at} ends at {_place(offsets.end[at])}, but the next one of its ring does not begin there")
 

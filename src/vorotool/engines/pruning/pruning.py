@@ -12,12 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.common.parallel_parts import in_threads, stacked, starts_of
 from vorotool.errors import UsageError
 from vorotool.geometry.checks import available_threads, checked_threads
 from vorotool.geometry.curves.inverse_functions import inverse_sine
 from vorotool.geometry.numbers import finite_double, shown_number
+from vorotool.geometry.parallel import in_threads
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.ragged import owners, starts_of
 from vorotool.geometry.skeleton.critical_values import CRITERIA, ArcProfiles, CriticalValues
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
@@ -120,11 +121,10 @@ def prune(
         for part in independent_parts(skeleton, group)
     ]
     made = in_threads(tasks, threads, progress)
-    shifts = {
-        "arcs": starts_of([len(part["radius"]) for part in made]),
-        "branch": starts_of([int(part["branch"].max(initial=-1)) + 1 for part in made]),
-    }
-    columns: dict[str, Any] = {name: stacked([part[name] for part in made], shifts.get(name)) for name in made[0]}
+    columns: dict[str, Any] = {name: np.concatenate([part[name] for part in made]) for name in made[0]}
+    part = owners([len(part["branch"]) for part in made])
+    columns["arcs"] += starts_of([len(part["radius"]) for part in made]).astype(np.int32)[part, None]
+    columns["branch"] += starts_of([int(part["branch"].max(initial=-1)) + 1 for part in made]).astype(np.int32)[part]
     return replace(skeleton, **columns)
 
 

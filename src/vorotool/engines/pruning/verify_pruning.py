@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.skeleton.site_distances import fail, first_wrong
+from vorotool.engines.common.faults import fail, first_wrong
+from vorotool.geometry.ragged import owners, ranges
 from vorotool.geometry.skeleton.arc_measures import ArcMeasures
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.geometry.skeleton.tables import connected_roots
@@ -74,9 +75,7 @@ def _candidates(pruned: Skeleton, skeleton: Skeleton) -> tuple[NDArray[np.intp],
     wanted = keys(pruned.sites)
     first = np.searchsorted(known[order], wanted)
     number = np.searchsorted(known[order], wanted, side="right") - first
-    own = np.repeat(np.arange(len(pruned)), number)
-    step = np.arange(len(own)) - np.repeat(np.cumsum(number) - number, number)
-    return own, order[first[own] + step]
+    return owners(number), order[ranges(first, number)]
 
 
 def _is_part(pruned: Skeleton, own: NDArray[np.intp], skeleton: Skeleton, other: NDArray[np.intp]) -> NDArray[np.bool_]:

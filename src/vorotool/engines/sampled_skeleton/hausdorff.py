@@ -15,6 +15,7 @@ from vorotool.engines.sampled_skeleton.per_feature import FeatureApproximation
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi
 from vorotool.engines.skeleton.exact import Frame, ShapeDiagram, skeleton_of
 from vorotool.errors import VorotoolWarning
+from vorotool.geometry.ragged import owners, starts_of
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
 Places = NDArray[np.float64]
@@ -119,7 +120,7 @@ def compare_parts(found: FeatureApproximation, *, side: str = "interior", thread
     if side == "both" and found.inside is not None:
         sides = [*["interior"] * (len(found.parts) - 1), "exterior"]
     ways = [_both_ways(part, side=own, threads=threads) for part, own in zip(found.parts, sides, strict=True)]
-    exact = np.cumsum([0, *(way[TO_APPROXIMATE][1] for way in ways)])
+    exact = starts_of([way[TO_APPROXIMATE][1] for way in ways])
     numbers = {
         TO_EXACT: found.arcs,
         TO_APPROXIMATE: [first + np.arange(way[TO_APPROXIMATE][1]) for first, way in zip(exact, ways, strict=False)],
@@ -189,7 +190,7 @@ def distances_to(skeleton: Skeleton, places: Places) -> NDArray[np.float64]:
 
     tolerance = FLATTEN * float(np.ptp(np.concatenate([skeleton.vertices, places]), axis=0).max() or 1.0)
     points, start = skeleton.flattened(tolerance)
-    lines = shapely.linestrings(points, indices=np.repeat(np.arange(len(skeleton)), np.diff(start)))
+    lines = shapely.linestrings(points, indices=owners(np.diff(start)))
     tree = shapely.STRtree(lines)
     geometry = shapely.points(places)
     _, about = tree.query_nearest(geometry, return_distance=True, all_matches=False)

@@ -36,6 +36,7 @@ from vorotool.geometry.box import bounds
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.ragged import starts_of
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
 Indices = NDArray[np.int64]
@@ -295,7 +296,7 @@ def _groups(shapes: BatchShapes) -> SampleGroups:
 
 def _numbers(places: Places, counts: Sequence[int]) -> list[Indices]:
     numbers = np.arange(sum(counts)) if places.place is None else places.place
-    return np.split(numbers, np.cumsum(counts)[:-1]) if counts else []
+    return np.split(numbers, starts_of(counts)[1:-1]) if counts else []
 
 
 def _joined_seeds(parts: Sequence[ApproximateSkeleton], arcs: Sequence[Indices]) -> NDArray[np.int32]:

@@ -9,15 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
+from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.sampled_skeleton.approximate import ApproximateSkeleton
 from vorotool.engines.sampled_skeleton.hausdorff import distances_to, exact_skeleton, places_on_arcs, widened
-from vorotool.engines.skeleton.site_distances import fail, first_wrong
 from vorotool.engines.skeleton.verify_skeleton import check_arrays, check_branches
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.ragged import owners
 from vorotool.geometry.skeleton.boundary_samples import BoundarySamples
 from vorotool.geometry.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
 
@@ -48,15 +49,8 @@ def verify_approximate(
         However it was made.
     step : float, optional
         What the samples were made with.
-    threads : int
-        0 uses all.
-    progress : callable, optional
-        Called with the fraction done.
-
-    Raises
-    ------
-    VerificationError
-        Naming the first fault.
+    threads, progress
+        As of `verify_skeleton`, as is what it raises.
 
     References
     ----------
@@ -95,7 +89,7 @@ def check_samples(samples: BoundarySamples, step: float | None = None) -> None:
     points = len(graph.points)
     if not np.array_equal(seeds[:points], graph.points) or samples.start[0] != points:
         fail("the first seeds are not the vertices")
-    if not np.array_equal(np.repeat(np.arange(len(graph)), np.diff(samples.start)), samples.segment[points:]):
+    if not np.array_equal(owners(np.diff(samples.start)), samples.segment[points:]):
         fail("seeds are not in the order of their edges")
     a, b = graph.points[graph.segments[samples.segment[points:]]].astype(np.float64).swapaxes(0, 1)
     way, from_a = b - a, seeds[points:] - a

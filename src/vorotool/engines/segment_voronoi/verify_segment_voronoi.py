@@ -22,15 +22,8 @@ def verify_segment_voronoi(diagram: SegmentVoronoiDiagram, *, threads: int = 0, 
     ----------
     diagram : SegmentVoronoiDiagram
         However it was made. That segments meet at common ends only is taken for granted.
-    threads : int
-        0 uses all.
-    progress : callable, optional
-        Called with the fraction done.
-
-    Raises
-    ------
-    VerificationError
-        Naming the first fault.
+    threads, progress
+        As of `verify_skeleton`, as is what it raises.
 
     References
     ----------

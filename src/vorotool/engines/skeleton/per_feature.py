@@ -15,6 +15,7 @@ from vorotool.engines.segment_voronoi.segment_voronoi import NEITHER, segment_vo
 from vorotool.engines.skeleton.exact import ShapeDiagram, interior_skeleton, sides_not_interior, warn_empty
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.ragged import starts_of
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
 Seen = TypeVar("Seen")
@@ -118,7 +119,7 @@ def joined_with_places(whole: FeatureShapes, parts: Sequence[tuple[BatchShapes, 
         for places, names in ((arcs, ("control", "side", "length", "error_bound")), (nodes, ("vertices", "radius")))
         for name in names
     }
-    first = np.cumsum([0, *(len(skeleton.radius) for skeleton in skeletons)]).tolist()
+    first = starts_of([len(skeleton.radius) for skeleton in skeletons]).tolist()
     pairs = np.empty((0, 2), dtype=np.int32)
     ends = [pairs, *(skeleton.arcs + np.int32(node) for skeleton, node in zip(skeletons, first, strict=False))]
     sites = [numbers[skeleton.sites] for numbers, skeleton in zip(order.site_numbers, skeletons, strict=True)]

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.engines.arrangement.corner_sectors import corner_sectors
 from vorotool.engines.arrangement.lattice_rings import PlacedShapes, placed_shapes
 from vorotool.engines.arrangement.planar_graph import Placement, arranged, graph_for_skeletons, placed_vertices
 from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, segment_voronoi_of_groups
@@ -23,13 +24,13 @@ from vorotool.engines.skeleton.exact import (
     whole_diagram,
 )
 from vorotool.engines.skeleton.short_edges import ShortEdges
-from vorotool.engines.skeleton.verify_regions import corner_sectors
 from vorotool.geometry.box import bounds
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.curves.inverse_functions import angle_of, hypotenuse
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
 from vorotool.geometry.progress import Progress
+from vorotool.geometry.ragged import owners
 from vorotool.geometry.skeleton.segment_voronoi import SegmentVoronoiDiagram
 from vorotool.geometry.skeleton.skeleton import Skeleton
 
@@ -134,7 +135,7 @@ def elements_of_shapes(
     )
     placement, box = _placed_within(elements, shapes, within, threads=threads, progress=progress)
     graph = arranged(elements, placement, progress=progress).graph  # rounded ends may touch: nobody asked about these
-    owner = np.repeat(np.arange(count), np.diff(starts))
+    owner = owners(np.diff(starts))
     vertex = np.concatenate([graph.point_vertex, graph.source_edge[graph.source_start[:-1]]])
     common: dict[str, Any] = {"within": box, "threads": threads, "progress": progress}
     if feature is None:
@@ -398,7 +399,7 @@ def gap_deviation(skeleton: Skeleton, exact: Skeleton) -> float:
     tolerance = DEVIATION_STEPS * float(np.ptp(exact.polygons.xy, axis=0).max())
     places = shapely.points(skeleton.flattened(tolerance)[0])
     points, start = exact.flattened(tolerance / 16)
-    lines = shapely.linestrings(points, indices=np.repeat(np.arange(len(exact)), np.diff(start)))
+    lines = shapely.linestrings(points, indices=owners(np.diff(start)))
     _, distance = shapely.STRtree(lines).query_nearest(places, return_distance=True, all_matches=False)
     return float(distance.max())
 

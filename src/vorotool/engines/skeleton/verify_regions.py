@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.engines.skeleton.site_distances import Floats, SitePlaces, fail, first_wrong
-from vorotool.geometry.curves.inverse_functions import angle_of
+from vorotool.engines.arrangement.corner_sectors import corner_sectors
+from vorotool.engines.common.faults import fail, first_wrong
+from vorotool.engines.skeleton.site_distances import Floats, SitePlaces
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.skeleton.skeleton import EXTERIOR, INTERIOR, Skeleton
 from vorotool.geometry.skeleton.tables import connected_roots
@@ -18,49 +17,6 @@ Indices = NDArray[np.int64]
 AREA = 1e-9
 AREA_ULPS = 8
 """Of the extent, times the perimeter: what the area of a region may be wrong by besides `AREA` of it."""
-
-
-@dataclass(frozen=True)
-class CornerSectors:
-    """Corners under 180 degrees: counter-clockwise from one segment of the graph to the next."""
-
-    point: Indices
-    right: Indices  # segments
-    left: Indices
-    face: Indices
-
-
-def corner_sectors(graph: PlanarGraph) -> CornerSectors:
-    """Find the corners under 180 degrees, exactly."""
-    count = len(graph)
-    at = graph.segments.T.reshape(-1).astype(np.int64)
-    to = graph.segments[:, ::-1].T.reshape(-1)
-    segment = np.tile(np.arange(count), 2)
-    left_face = graph.segment_faces.T.reshape(-1).astype(np.int64)  # as seen from the point
-    way = graph.points[to].astype(np.int64) - graph.points[at]
-    order = _by_angle(at, way)
-    at, way, segment, left_face = at[order], way[order], segment[order], left_face[order]
-    new = np.flatnonzero(np.diff(at, prepend=-1))
-    following = np.arange(1, len(at) + 1)
-    following[np.append(new[1:], len(at))[: len(new)] - 1] = new
-    cross = way[:, 0] * way[following, 1] - way[:, 1] * way[following, 0]
-    sharp = (cross > 0) & (following != np.arange(len(at)))
-    return CornerSectors(at[sharp], segment[sharp], segment[following[sharp]], left_face[sharp])
-
-
-def _by_angle(at: Indices, way: Indices) -> Indices:
-    """Order by point, then counter-clockwise: by halves of the plane, in them exactly by products."""
-    half = np.where((way[:, 1] > 0) | ((way[:, 1] == 0) & (way[:, 0] > 0)), 0, 1)
-    angle = angle_of(*way.T)
-    order = np.lexsort((np.where(half == 0, angle, angle + 7), half, at))
-    while True:  # rounded angles of neighbours may be out of order
-        a, b = order[:-1], order[1:]
-        swap = (at[a] == at[b]) & (half[a] == half[b]) & (way[a, 0] * way[b, 1] - way[a, 1] * way[b, 0] < 0)
-        swap[1:] &= ~swap[:-1]
-        where = np.flatnonzero(swap)
-        if not where.size:
-            return order
-        order[where], order[where + 1] = order[where + 1].copy(), order[where].copy()
 
 
 class SkeletonRegions:

@@ -8,16 +8,12 @@ from dataclasses import replace
 import numpy as np
 
 from vorotool.engines.arrangement.planar_graph import planar_graph
+from vorotool.engines.common.faults import fail, first_wrong
 from vorotool.engines.features.batches import BatchShapes, in_batches
 from vorotool.engines.skeleton.exact import ShapeDiagram, kept_edges
 from vorotool.engines.skeleton.parts import PER_ARC, outside_of, with_arcs, with_polygons
-from vorotool.engines.skeleton.site_distances import (
-    SitePlaces,
-    check_equal_distances,
-    check_nothing_nearer,
-    fail,
-    first_wrong,
-)
+from vorotool.engines.skeleton.site_distances import SitePlaces
+from vorotool.engines.skeleton.verify_distances import check_equal_distances, check_nothing_nearer
 from vorotool.engines.skeleton.verify_regions import SkeletonRegions, border_components, check_regions
 from vorotool.errors import VorotoolWarning
 from vorotool.geometry.checks import checked_threads

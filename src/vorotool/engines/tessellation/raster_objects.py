@@ -58,6 +58,10 @@ def foreground_values(raster: Raster, threshold: Threshold, *, invert: bool) -> 
         values = grey > whole_threshold(grey, number)
     elif raster.is_colour:
         raise InputError("a colour image holds no objects by itself: use --threshold T or --threshold otsu")
+    elif raster.is_lossy and not is_flat(values[values != values.min()]):
+        raise InputError(
+            "the file keeps values nearly, so that they are no labels: use --threshold T or --threshold otsu, or a PNG"
+        )
     if values.dtype.kind == "f" and not np.isfinite(values).all():
         raise InputError("the image holds NaN or infinite values: use --threshold T, a number, or repair them")
     values = values == 0 if invert else values

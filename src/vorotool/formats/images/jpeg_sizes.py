@@ -1,4 +1,4 @@
-"""Sizes that JPEG pictures within a TIFF state for themselves, and by which they would be decoded."""
+"""Sizes that JPEG pictures state, and by which they would be decoded: within a TIFF for themselves."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def check_jpegs(layout: TiffLayout, data: bytes) -> None:
     """
     wide, high = (-(-side // _LARGEST_UNIT) * _LARGEST_UNIT for side in (layout.columns, layout.rows))
     for index, (offset, count) in enumerate(zip(layout.offsets, layout.counts, strict=True)):
-        width, height = jpeg_size(data[offset : offset + count]) or (0, 0)
+        _, width, height = jpeg_frame(data[offset : offset + count])
         if width > wide or height > high:
             raise InputError(
                 f"{layout.name} is damaged: {layout.kind} {index} holds a JPEG of {width} x {height} pixels, "
@@ -27,13 +27,13 @@ def check_jpegs(layout: TiffLayout, data: bytes) -> None:
             )
 
 
-def jpeg_size(data: bytes) -> tuple[int, int] | None:
-    """Width and height by the first frame header; None if there is none.
+def jpeg_frame(data: bytes) -> tuple[int, int, int]:
+    """Marker, width and height of the first frame header; zeros if there is none.
 
     Examples
     --------
-    >>> jpeg_size(bytes.fromhex("ffd8 ffc0 000b 08 0010 0020 01 01 11 00"))
-    (32, 16)
+    >>> jpeg_frame(bytes.fromhex("ffd8 ffc0 000b 08 0010 0020 01 01 11 00"))
+    (192, 32, 16)
     """
     at = 2
     while at + 9 <= len(data) and data[at] == 0xFF:
@@ -41,7 +41,7 @@ def jpeg_size(data: bytes) -> tuple[int, int] | None:
         if marker == 0xFF:  # fills
             at += 1
         elif 0xC0 <= marker <= 0xCF and marker not in (0xC4, 0xC8, 0xCC):
-            return int.from_bytes(data[at + 7 : at + 9], "big"), int.from_bytes(data[at + 5 : at + 7], "big")
+            return marker, int.from_bytes(data[at + 7 : at + 9], "big"), int.from_bytes(data[at + 5 : at + 7], "big")
         else:
             at += 2 + int.from_bytes(data[at + 2 : at + 4], "big")
-    return None
+    return 0, 0, 0

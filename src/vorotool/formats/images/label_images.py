@@ -21,7 +21,6 @@ from vorotool.geometry.points.raster import Raster
 
 LabelFormat = Literal["png", "tiff", "npy", "text"]
 
-LARGEST_PNG_LABEL = 65_535
 _LARGEST_LABEL = 2**32 - 1
 
 
@@ -97,6 +96,23 @@ def write_label_image(
         raise UsageError(f"{fmt!r} is no format of label images: use png, tiff, npy or text")
 
 
+def write_labels(out: BinaryIO, image: LabelImage, fmt: LabelFormat, *, threads: int = 0) -> None:
+    r"""Write the labels of an image that is in memory; see `write_label_image`.
+
+    Examples
+    --------
+    >>> import io
+    >>> out = io.BytesIO()
+    >>> write_labels(out, LabelImage(np.array([[1, 1, 2]], dtype=np.uint16)), "text")
+    >>> out.getvalue()
+    b'1 1 2\n'
+    """
+    kind, largest = image.labels.dtype, int(image.labels.max())
+    write_label_image(
+        out, [image.labels], shape=image.shape, dtype=kind, fmt=fmt, largest_label=largest, threads=threads
+    )
+
+
 def check_png(kind: np.dtype[Any], largest: int, depth: int = 16) -> None:
     """Refuse values that a PNG does not hold.
 
@@ -166,6 +182,8 @@ def label_image_of(image: Raster, name: str) -> LabelImage:
     values = image.values
     if values.ndim != 2:
         raise InputError(f"{name} has {values.shape[2]} channels: labels need a single one")
+    if image.is_lossy:
+        raise InputError(f"{name} keeps values nearly, so that they are no labels: give a PNG, TIFF or NPY file")
     if values.dtype.kind not in "bui":
         raise InputError(f"{name} holds {values.dtype} values: labels need integers")
     return LabelImage(values.view(np.uint8) if values.dtype == np.bool_ else _as_labels(values, name))

@@ -1,20 +1,18 @@
-"""NumPy's NPY files: writing row by row, and reading without trusting the header."""
+"""Images as NPY files: written row by row, and read without trusting the header."""
 
 from __future__ import annotations
 
-import io
 from collections.abc import Iterable
 from math import prod
-from typing import Any, BinaryIO, NamedTuple
+from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from vorotool.errors import InputError, LimitError
+from vorotool.errors import LimitError
 from vorotool.formats.io.limits import SourceLike
+from vorotool.formats.io.npy_arrays import npy_header, npy_values
 from vorotool.formats.io.row_bands import check_fits, checked
-
-MAGIC = b"\x93NUMPY"
 
 
 def write_npy(out: BinaryIO, bands: Iterable[NDArray[Any]], shape: tuple[int, int], *, dtype: DTypeLike) -> None:
@@ -38,6 +36,7 @@ def write_npy(out: BinaryIO, bands: Iterable[NDArray[Any]], shape: tuple[int, in
 
     Examples
     --------
+    >>> import io
     >>> out = io.BytesIO()
     >>> write_npy(out, [np.array([[1, 2]]), np.array([[3, 4]])], (2, 2), dtype=np.uint16)
     >>> np.load(io.BytesIO(out.getvalue())).tolist()
@@ -59,40 +58,6 @@ def stored(band: NDArray[Any], dtype: np.dtype[Any]) -> NDArray[Any]:
     if dtype.kind in "ui" and not np.can_cast(band.dtype, dtype):
         check_fits(band, int(np.iinfo(dtype).max), f"{dtype.name} pixels")
     return np.ascontiguousarray(band, dtype=dtype)
-
-
-class NpyHeader(NamedTuple):
-    """The header of an NPY file."""
-
-    shape: tuple[int, ...]
-    dtype: np.dtype[Any]
-    fortran_order: bool
-    offset: int
-
-
-def npy_header(source: SourceLike) -> NpyHeader:
-    """Read the header alone.
-
-    Raises
-    ------
-    InputError
-        If there is none, or it describes pickled objects, text, records or other things that are not numbers.
-    """
-    stream = io.BytesIO(source.data[:65_536])
-    try:
-        version = np.lib.format.read_magic(stream)
-        read = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}
-        shape, fortran_order, dtype = read[version](stream)
-    except Exception as error:  # a header is a Python literal: many things can be wrong with it
-        reason = str(error).splitlines()[0] if str(error) else type(error).__name__
-        raise InputError(f"{source.name} is not an NPY file of version 1 or 2: {reason}") from error
-    if dtype.hasobject:
-        raise InputError(f"{source.name} holds pickled objects, which are never loaded: save it with a number dtype")
-    if dtype.kind not in "buif":
-        raise InputError(f"{source.name} holds {dtype}: save it as integers or floating-point numbers")
-    if any(type(side) is not int or side < 0 for side in shape):
-        raise InputError(f"{source.name} has the shape {shape}: whole numbers from 0 on were expected")
-    return NpyHeader(shape, dtype, fortran_order, stream.tell())
 
 
 def read_npy(source: SourceLike, *, max_items: int, option: str) -> NDArray[Any]:
@@ -118,12 +83,4 @@ def read_npy(source: SourceLike, *, max_items: int, option: str) -> NDArray[Any]
     items = prod(header.shape)
     if items > max_items:
         raise LimitError(f"{source.name} has {items} items, shape {header.shape}: more than {option} {max_items}")
-    needed = items * header.dtype.itemsize
-    present = len(source.data) - header.offset
-    if present < needed:
-        raise InputError(
-            f"{source.name} is cut off: shape {header.shape} of {header.dtype} needs {needed} bytes, it has {present}"
-        )
-    flat = np.frombuffer(source.data, header.dtype, items, header.offset)
-    array = flat.reshape(header.shape, order="F" if header.fortran_order else "C")
-    return array.astype(header.dtype.newbyteorder("="), order="C", copy=False)
+    return npy_values(source, header).astype(header.dtype.newbyteorder("="), order="C", copy=False)

@@ -4,6 +4,7 @@ Rows of a tessellation repeat, so the Up filter leaves almost only zeros, and of
 run-length one fits: measured (``tests/benchmarks/png_deflate.py``) it is as fast as level 1, about as small.
 It also looks for nothing but runs, so that no hash table and no search depth, where builds of zlib differ,
 decide its output: zlib 1.2.13 and zlib-ng gave the same bytes on x86-64, the one machine where it was tried.
+Pillow holds the whole image, and takes 9 times as long on two processors (`tests/benchmarks/libraries.py png`).
 """
 
 from __future__ import annotations
@@ -17,7 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import LimitError
-from vorotool.formats.io.row_bands import blocks, check_fits, in_order
+from vorotool.formats.io.row_bands import blocks, check_fits
+from vorotool.geometry.parallel import in_order
 
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 LARGEST_SIDE = 2**31 - 1

@@ -1,4 +1,8 @@
-"""Reading PBM, PGM and PPM with the values as stored: Pillow would rescale them to the full range."""
+"""PBM, PGM and PPM files, with the values as stored.
+
+Pillow, and so imageio, spread them over the full range: ``P2 3 1 9 1 5 9`` is read as 28, 142, 255, and of colours of
+more than 8 bits the lower ones are lost (`tests/benchmarks/libraries.py pnm`).
+"""
 
 from __future__ import annotations
 
@@ -63,11 +67,8 @@ def read_pnm(source: SourceLike, max_pixels: int) -> NDArray[Any]:
     """Return (H, W), or (H, W, 3) values of type uint8, or uint16 where the largest value needs it."""
     header = pnm_header(source)
     check_pixels(source.name, header.width, header.height, max_pixels)
-    if header.kind == 4:
-        return _bits(source, header)
     channels = 3 if header.kind in (3, 6) else 1
-    needed = header.width * header.height * channels
-    values = _binary(source, header, needed) if header.kind > 3 else _text(source, header, needed)
+    values = (_packed if header.kind > 3 else _written)(source, header, channels * header.width)
     above = np.flatnonzero(values > header.maximum)
     if above.size:
         row, column = divmod(int(above[0]) // channels, header.width)
@@ -76,41 +77,36 @@ def read_pnm(source: SourceLike, max_pixels: int) -> NDArray[Any]:
             f"above its largest value {header.maximum}"
         )
     values = values.astype(np.uint8 if header.maximum < 256 else np.uint16, copy=False)
-    shape = (header.height, header.width)
-    return values.reshape(shape if channels == 1 else (*shape, channels))
+    return values.reshape(header.height, header.width, *([3] if channels == 3 else []))
 
 
-def _bits(source: SourceLike, header: PnmHeader) -> NDArray[np.uint8]:
-    row_bytes = -(-header.width // 8)
-    packed = _raw(source, header, np.dtype(np.uint8), row_bytes * header.height)
-    return np.unpackbits(packed.reshape(header.height, row_bytes), axis=1, count=header.width)
+def _packed(source: SourceLike, header: PnmHeader, columns: int) -> NDArray[Any]:
+    """Values of bytes, of P4 of bits."""
+    row = -(-columns // 8) if header.kind == 4 else columns
+    dtype = np.dtype(np.uint8 if header.maximum < 256 else ">u2")
+    needed, present = row * header.height * dtype.itemsize, len(source.data) - header.offset
+    if present < needed:
+        raise InputError(f"{source.name} is cut off: its pixels need {needed} bytes, it has {present}")
+    values = np.frombuffer(source.data, dtype, row * header.height, header.offset)
+    return (
+        np.unpackbits(values.view(np.uint8).reshape(-1, row), axis=1, count=columns).ravel()
+        if header.kind == 4
+        else values
+    )
 
 
-def _binary(source: SourceLike, header: PnmHeader, needed: int) -> NDArray[Any]:
-    return _raw(source, header, np.dtype(np.uint8 if header.maximum < 256 else ">u2"), needed)
-
-
-def _raw(source: SourceLike, header: PnmHeader, dtype: np.dtype[Any], items: int) -> NDArray[Any]:
-    present = len(source.data) - header.offset
-    if present < items * dtype.itemsize:
-        raise InputError(f"{source.name} is cut off: its pixels need {items * dtype.itemsize} bytes, it has {present}")
-    return np.frombuffer(source.data, dtype, items, header.offset)
-
-
-def _text(source: SourceLike, header: PnmHeader, needed: int) -> NDArray[Any]:
-    body = _COMMENT.sub(b" ", source.data[header.offset :])
-    if header.kind == 1:  # digits of PBM need no space between them
-        values: NDArray[Any] = np.frombuffer(body.translate(None, b" \t\n\v\f\r"), np.uint8) - np.uint8(ord("0"))
+def _written(source: SourceLike, header: PnmHeader, columns: int) -> NDArray[Any]:
+    """Values of text; of P1 digits, which need no space between them."""
+    words = _COMMENT.sub(b" ", source.data[header.offset :]).split()
+    if header.kind == 1:
+        values: NDArray[Any] = np.frombuffer(b"".join(words), np.uint8) - np.uint8(ord("0"))
     else:
-        values = _numbers(source.name, body)
+        bad = next((place for place, word in enumerate(words) if not word.isdigit() or len(word) > 18), None)
+        if bad is not None:
+            word = words[bad][:40].decode("latin-1")
+            raise InputError(f"{source.name} has {word!r} as value {bad + 1}: it must be an integer")
+        values = np.array(words, dtype="S18").astype(np.int64)
+    needed = columns * header.height
     if len(values) < needed:
         raise InputError(f"{source.name} is cut off: it has {len(values)} of {needed} values")
     return values[:needed]
-
-
-def _numbers(name: str, body: bytes) -> NDArray[np.int64]:
-    words = body.split()
-    bad = next((place for place, word in enumerate(words) if not word.isdigit() or len(word) > 18), None)
-    if bad is not None:
-        raise InputError(f"{name} has {words[bad][:40].decode('latin-1')!r} as value {bad + 1}: it must be an integer")
-    return np.array(words, dtype="S18").astype(np.int64)

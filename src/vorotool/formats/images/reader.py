@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.formats.images import npy, png_reader, pnm_reader, tiff_reader
+from vorotool.formats.images.picture_reader import PICTURES, is_lossy, picture_format, read_picture_file
 from vorotool.formats.io.limits import SourceLike, check_pixels
+from vorotool.formats.io.npy_arrays import MAGIC, npy_header
 from vorotool.formats.parsing.format_names import IMAGE_NAMES, known_input_format
 from vorotool.geometry.pixel_frame import MAX_PIXELS
 from vorotool.geometry.points.raster import Raster
@@ -23,17 +25,14 @@ _MAGIC = (
     (b"MM\x00*", "tiff"),
     (b"II+\x00", "tiff"),
     (b"MM\x00+", "tiff"),
-    (npy.MAGIC, "npy"),
+    (MAGIC, "npy"),
 )
-_OTHERS = ((b"\xff\xd8\xff", "JPEG"), (b"GIF8", "GIF"), (b"RIFF", "WebP"), (b"BM", "BMP"))
-_OTHER_EXTENSIONS = {".jpg": "JPEG", ".jpeg": "JPEG", ".gif": "GIF", ".webp": "WebP", ".bmp": "BMP"}
 
 
 def is_image(source: SourceLike) -> bool:
     """Tell whether a source is to be read as an image, by its content, else by its extension.
 
-    An NPY file of shape (n, 2) is a list of points, and no image. A JPEG, GIF, WebP or BMP file is an image,
-    which `read_image` then refuses with the advice to convert it.
+    An NPY file of shape (n, 2) is a list of points, and no image.
 
     Examples
     --------
@@ -46,15 +45,15 @@ def is_image(source: SourceLike) -> bool:
     kind = _by_content(source.data) or _EXTENSIONS.get(_extension(source))
     if kind == "npy":
         try:
-            shape = npy.npy_header(source).shape
+            shape = npy_header(source).shape
         except InputError:
             return False
         return len(shape) in (2, 3) and shape[1] != 2
-    return kind is not None or _extension(source) in _OTHER_EXTENSIONS
+    return kind is not None
 
 
 def image_format(source: SourceLike, input_format: str | None = None) -> str:
-    """Return "png", "tiff", "pnm" or "npy": what the caller says, else the extension, else the content.
+    """Return "png", "tiff", "pnm", "npy" or one of `PICTURES`: what is said, else the extension, else the content.
 
     Raises
     ------
@@ -73,40 +72,10 @@ def image_format(source: SourceLike, input_format: str | None = None) -> str:
         raise InputError(f"{source.name} is no {said} file, it begins as {found}: use --input-format {found}")
     if said:
         return said
-    other = next((name for magic, name in _OTHERS if source.data.startswith(magic)), None)
-    other = other or _OTHER_EXTENSIONS.get(_extension(source))
-    if other:
-        raise InputError(f"{source.name} is a {other} image, which is not read: convert it to PNG or TIFF")
-    raise InputError(f"{source.name} is no image that is read (PNG, TIFF, PGM, PBM, NPY): name it with --input-format")
-
-
-def image_size(source: SourceLike, *, input_format: str | None = None, page: int | None = None) -> tuple[int, int]:
-    """Read width and height from the header alone.
-
-    Raises
-    ------
-    InputError
-        If the header cannot be read.
-
-    Examples
-    --------
-    >>> from types import SimpleNamespace
-    >>> image_size(SimpleNamespace(name="a.pgm", data=b"P5 640 480 255 "))
-    (640, 480)
-    """
-    kind = image_format(source, input_format)
-    if kind != "tiff":
-        _check_page(source, page)
-    if kind == "png":
-        header = png_reader.png_header(source)
-        return header.width, header.height
-    if kind == "pnm":
-        fields = pnm_reader.pnm_header(source)
-        return fields.width, fields.height
-    if kind == "npy":
-        shape = _npy_shape(source)
-        return shape[1], shape[0]
-    return tiff_reader.tiff_size(source, page)
+    raise InputError(
+        f"{source.name} is no image that is read (PNG, TIFF, PGM, PBM, NPY, {', '.join(PICTURES.values())}): name it "
+        "with --input-format, or convert it to PNG"
+    )
 
 
 def read_image(
@@ -115,11 +84,13 @@ def read_image(
     input_format: str | None = None,
     page: int | None = None,
     max_pixels: int = MAX_PIXELS,
+    note: Callable[[str], None] | None = None,
 ) -> Raster:
     """Read the values of an image as they are stored: palette indices, labels, grey values are not rescaled.
 
     Two-valued images give 0 and 1 (in PBM, 1 is the ink). An opaque alpha channel is dropped; a colour image
-    that is grey at every pixel becomes a single channel; any other keeps its channels, shape (H, W, C).
+    that is grey at every pixel becomes a single channel; any other keeps its channels, shape (H, W, C). JPEG, BMP, GIF,
+    WebP and AVIF are read as they look: with their palettes applied, and upright.
 
     Parameters
     ----------
@@ -128,9 +99,11 @@ def read_image(
     input_format : str, optional
         A name in `IMAGE_NAMES`; by default the extension decides, else the content.
     page : int, optional
-        Which page of a TIFF, from 0; needed if it has several.
+        Which page of a TIFF, from 0; needed if it has several. Of an animation the first picture is the default.
     max_pixels : int
         The limit, compared with the header before memory is taken.
+    note : callable, optional
+        Told of an animation, of which one picture is read.
 
     Returns
     -------
@@ -155,6 +128,9 @@ def read_image(
     if kind == "tiff":
         values, resolution = tiff_reader.read_tiff(source, page=page, max_pixels=max_pixels)
         return Raster(_plain(values), resolution)
+    if kind in PICTURES:
+        seen = read_picture_file(source, kind, page=page, max_pixels=max_pixels, note=note)
+        return Raster(_plain(seen), is_lossy=is_lossy(source.data, kind))
     _check_page(source, page)
     readers: dict[str, Callable[[SourceLike, int], NDArray[Any]]] = {
         "png": png_reader.read_png,
@@ -172,7 +148,7 @@ def _by_content(data: bytes) -> str | None:
     for magic, kind in _MAGIC:
         if data.startswith(magic):
             return kind
-    return "pnm" if pnm_reader.looks_like_pnm(data) else None
+    return "pnm" if pnm_reader.looks_like_pnm(data) else picture_format(data)
 
 
 def _check_page(source: SourceLike, page: int | None) -> None:
@@ -182,7 +158,7 @@ def _check_page(source: SourceLike, page: int | None) -> None:
 
 def _npy_shape(source: SourceLike) -> tuple[int, ...]:
     """Shape of an NPY image: (H, W), or (H, W, C) with at most 4 channels."""
-    shape = npy.npy_header(source).shape
+    shape = npy_header(source).shape
     if len(shape) not in (2, 3) or (len(shape) == 3 and not 1 <= shape[2] <= 4):
         raise InputError(f"{source.name} has the shape {shape}: an image is (H, W), or (H, W, C) with C from 1 to 4")
     return shape

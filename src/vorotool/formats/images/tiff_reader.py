@@ -23,13 +23,6 @@ _MOST_CHANNELS = 4
 _PILLOW_MODES = {"1", "L", "P", "LA", "RGB", "RGBA", "I;16", "I;16B"}
 
 
-def tiff_size(source: SourceLike, page: int | None) -> tuple[int, int]:
-    """Read width and height of a page from its tags."""
-    with opened_tiff(source.name, io.BytesIO(source.data)) as file:
-        layout = page_layout(source.name, len(source.data), page_of(file, source.name, page))
-        return layout.width, layout.height
-
-
 def tiff_pages(source: SourceLike) -> int:
     """Count the pages."""
     with opened_tiff(source.name, io.BytesIO(source.data)) as file, decoding(source.name, "TIFF"):

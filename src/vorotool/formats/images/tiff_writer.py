@@ -20,7 +20,8 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.formats.images.npy import stored
-from vorotool.formats.io.row_bands import BLOCK_BYTES, blocks, in_order
+from vorotool.formats.io.row_bands import BLOCK_BYTES, blocks
+from vorotool.geometry.parallel import in_order
 
 _CENTIMETRES = {"m": 0.01, "cm": 1, "mm": 10, "um": 1e4, "µm": 1e4, "μm": 1e4, "micron": 1e4, "microns": 1e4, "nm": 1e7}
 """How many of each unit a centimetre has."""

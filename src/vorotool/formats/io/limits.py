@@ -5,11 +5,12 @@ from __future__ import annotations
 import threading
 import warnings
 from collections.abc import Callable, Iterator
-from concurrent.futures import Future
+from concurrent.futures import Future, wait
 from contextlib import contextmanager
 from typing import Protocol, TypeVar
 
 from vorotool.errors import InputError, LimitError, VorotoolError
+from vorotool.geometry.parallel import start
 
 _MOMENT = 0.05
 """Seconds after which signals are looked for."""
@@ -66,19 +67,9 @@ def interruptible(work: Callable[[], Result]) -> Result:
     if threading.current_thread() is not threading.main_thread():
         return work()
     future: Future[Result] = Future()
-    is_over = threading.Event()
-
-    def call() -> None:
-        try:
-            future.set_result(work())
-        except BaseException as error:  # which the waiting thread raises
-            future.set_exception(error)
-        finally:
-            is_over.set()
-
-    threading.Thread(target=call, daemon=True).start()
-    while not is_over.wait(_MOMENT):  # a signal may reach another thread, which does not wake this one
-        pass
+    start(work, future)
+    while not future.done():  # a signal may reach another thread, which does not wake this one
+        wait([future], _MOMENT)
     return future.result()
 
 

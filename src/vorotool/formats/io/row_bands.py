@@ -1,20 +1,14 @@
-"""Images that pass by as bands of rows: checking, regrouping, and working on blocks in parallel."""
+"""Images that pass by as bands of rows: checking, and regrouping."""
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import LimitError
-from vorotool.geometry.checks import available_threads
-
-Item = TypeVar("Item")
-Result = TypeVar("Result")
 
 BLOCK_BYTES = 1 << 20
 """Bytes of a block: its own code tables cost nothing, and it stays in the cache."""
@@ -110,38 +104,3 @@ def blocks(
                 block[0] = last
     if filled > 1:
         yield block[:filled]
-
-
-def in_order(function: Callable[[Item], Result], items: Iterable[Item], threads: int) -> Iterator[Result]:
-    """Map in parallel, in order, with only a few items under way, whatever their number.
-
-    Parameters
-    ----------
-    function : callable
-        Called in several threads at once.
-    items : iterable
-        Taken in this thread, as results are.
-    threads : int
-        0 for as many as there are processors for this process.
-
-    Examples
-    --------
-    >>> list(in_order(abs, [-1, 2, -3], threads=2))
-    [1, 2, 3]
-    """
-    count = threads or available_threads()
-    if count == 1:
-        yield from map(function, items)
-        return
-    pending: deque[Future[Result]] = deque()
-    with ThreadPoolExecutor(count) as pool:
-        try:
-            for item in items:
-                pending.append(pool.submit(function, item))
-                if len(pending) > 2 * count:
-                    yield pending.popleft().result()
-            while pending:
-                yield pending.popleft().result()
-        finally:
-            for future in pending:
-                future.cancel()

@@ -30,6 +30,12 @@ IMAGE_NAMES = {
     "ppm": "pnm",
     "npy": "npy",
     "zarr": "zarr",
+    "jpeg": "jpeg",
+    "jpg": "jpeg",
+    "bmp": "bmp",
+    "gif": "gif",
+    "webp": "webp",
+    "avif": "avif",
 }
 """Formats of images by name; NPY files hold either."""
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any, BinaryIO
 
 import numpy as np
-from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
@@ -14,6 +13,7 @@ from vorotool.formats.parsing.reader_options import shortened
 from vorotool.formats.polygons.geojson import read_geojson
 from vorotool.formats.polygons.ring_collector import PolygonOptions, RingCollector
 from vorotool.formats.text.coordinate_text import Digits
+from vorotool.geometry.polygons.conversion import closed_ring
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 
 _FORM = '{"polygons": [{"shell": [[x, y], …], "holes": [[[x, y], …], …]}, {"line": [[x, y], …]}, …]}'
@@ -55,21 +55,17 @@ def _note_holes(name: str, polygons: PolygonSet, options: PolygonOptions) -> Non
         return
     import shapely
 
-    first = shapely.polygons(_closed(polygons.ring(0)))
+    first = shapely.polygons(closed_ring(polygons.ring(0)))
     if not shapely.is_valid(first):
         return
     shapely.prepare(first)
     for ring in within.tolist():
-        if shapely.covers(first, shapely.linestrings(_closed(polygons.ring(ring)))):
+        if shapely.covers(first, shapely.linestrings(closed_ring(polygons.ring(ring)))):
             options.note(
                 f"{name}: ring {ring + 1} lies in ring 1, but each ring of a list is a polygon of its own: if it is a "
                 f"hole, write {_FORM}"
             )
             return
-
-
-def _closed(ring: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.concatenate([ring, np.repeat(ring[:1], max(1, 4 - len(ring)), axis=0)])
 
 
 def _check_type(name: str, document: Any, options: PolygonOptions) -> None:

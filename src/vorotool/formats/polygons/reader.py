@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, BinaryIO
 
-from vorotool.errors import InputError, UsageError
+from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.convertible import refuse_geometry_column
 from vorotool.formats.parsing.format_names import POLYGON_NAMES, known_input_format
@@ -179,19 +179,12 @@ def write_polygons(out: BinaryIO, polygons: PolygonSet, fmt: str, *, precision: 
 
     Parameters
     ----------
-    out : binary file object
-        Need not be seekable.
+    out, precision
+        As of `vorotool.formats.text.tables.write_table`.
     polygons : PolygonSet
         What to write.
     fmt : {"json", "geojson", "wkt", "poly"}
         The format.
-    precision : int, optional
-        Significant digits of coordinates; by default the shortest text that reads back the same.
-
-    Raises
-    ------
-    UsageError
-        If the format is unknown or ``precision`` is not from 1 to 17.
 
     Examples
     --------
@@ -201,6 +194,4 @@ def write_polygons(out: BinaryIO, polygons: PolygonSet, fmt: str, *, precision: 
     >>> out.getvalue()
     b'POLYGON ((0 0, 4 0.5, 0 3, 0 0))\n'
     """
-    if fmt not in _WRITERS:
-        raise UsageError(f"-f {fmt!r} is no format of polygons: use {', '.join(POLYGON_FORMATS)}")
     _WRITERS[fmt](out, polygons, precision)

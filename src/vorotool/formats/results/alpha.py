@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -11,69 +12,77 @@ from vorotool.formats.polygons.reader import write_polygons
 from vorotool.formats.results.meshes import write_features
 from vorotool.formats.text.coordinate_text import Digits
 from vorotool.formats.text.feature_collection import collection_opening
-from vorotool.formats.text.refusals import check_format, check_what
 from vorotool.formats.text.tables import json_text, write_table
 from vorotool.geometry.alpha.complex import CLASSES, AlphaComplex
 from vorotool.geometry.alpha.hull import AlphaHull
 from vorotool.geometry.alpha.shape import AlphaShape
-from vorotool.geometry.alpha.tables import described_polygons, family_table, shape_edge_table
+from vorotool.geometry.alpha.tables import (
+    described_polygons,
+    family_table,
+    region_table,
+    shape_edge_table,
+    shape_point_table,
+)
+from vorotool.geometry.table import Table
+from vorotool.products.formats import TABLES
 
-GENERAL_FORMATS = ("geojson", "wkt")
 _HULL_FINENESS = 7.529816085545908e-05
 """Of the radius: how far the chords of flattened hulls may be from their arcs: 1 - cos(π/256), 256 to a circle."""
 
 
+_TABLES: dict[str, Callable[[Any], Table]] = {
+    "edges": shape_edge_table,
+    "complex": partial(shape_edge_table, interior=True),
+    "points": shape_point_table,
+    "table": region_table,
+    "family": family_table,
+    "spectrum": lambda family: Table({"r": family.spectrum}),
+    "hull": AlphaHull.table,
+}
+
+
 def write_shape(
     out: BinaryIO,
-    value: AlphaShape | AlphaComplex,
+    value: AlphaShape | AlphaComplex | AlphaHull,
     fmt: str,
     *,
-    what: str | None = None,
+    what: str,
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
-    r"""Write the edges or the polygons of a shape, or the radii of a family.
+    r"""Write a part of a shape, the radii of a family, or a hull.
 
     Parameters
     ----------
-    out : binary file object
-        Need not be seekable.
-    value : AlphaShape or AlphaComplex
-        A family has the table of its radii only.
+    out, precision, threads
+        As of `vorotool.formats.text.tables.write_table`.
+    value : AlphaShape, AlphaComplex or AlphaHull
+        What to write.
     fmt : {"csv", "json", "npz", "geojson", "wkt", "poly"}
         The format.
-    what : {"edges", "polygons", "family"}, optional
-        By default polygons where the format is for these, else edges.
-    precision : int, optional
-        Significant digits; by default the shortest that reads back the same.
-    threads : int
-        0 for all.
-
-    Raises
-    ------
-    UsageError
-        If the value has no such part, or the format no place for it.
+    what : {"edges", "complex", "polygons", "general", "points", "table", "family", "spectrum", "hull"}
+        The part; a family has the table of its radii and those of them at which the shape changes.
 
     Examples
     --------
     >>> import io
     >>> from vorotool import alpha_shape
     >>> out = io.BytesIO()
-    >>> write_shape(out, alpha_shape([[0, 0], [4, 0], [0, 3]], r=2.5), "wkt")
+    >>> write_shape(out, alpha_shape([[0, 0], [4, 0], [0, 3]], r=2.5), "wkt", what="polygons")
     >>> out.getvalue()
     b'POLYGON ((4 0, 0 3, 0 0, 4 0))\n'
     """
-    own = ("family",) if isinstance(value, AlphaComplex) else ("edges", "polygons")
-    what = what or (own[-1] if fmt in ("geojson", "wkt", "poly") else own[0])
-    check_what(what, own, f"an {type(value).__name__} is")
-    if isinstance(value, AlphaComplex):
-        write_table(out, family_table(value), fmt, precision=precision, threads=threads)
+    shape: Any = value
+    if fmt in TABLES and what in _TABLES:
+        write_table(out, _TABLES[what](shape), fmt, precision=precision, threads=threads)
     elif what == "polygons":
-        write_polygons(out, described_polygons(value), fmt, precision=precision)
-    elif fmt == "geojson":
-        write_shape_edges(out, value, precision=precision, threads=threads)
+        write_polygons(out, described_polygons(shape), fmt, precision=precision)
+    elif what == "general":
+        write_general(out, shape, fmt, precision=precision)
+    elif what == "hull":
+        write_hull_geojson(out, shape, precision=precision)
     else:
-        write_table(out, shape_edge_table(value), fmt, precision=precision, threads=threads)
+        write_shape_edges(out, shape, interior=what == "complex", precision=precision, threads=threads)
 
 
 def write_shape_edges(
@@ -83,16 +92,12 @@ def write_shape_edges(
 
     Parameters
     ----------
-    out : binary file object
-        Need not be seekable.
+    out, precision, threads
+        As of `vorotool.formats.text.tables.write_table`.
     shape : AlphaShape
         Whose edges.
     interior : bool
         Interior ones too.
-    precision : int, optional
-        Significant digits; by default the shortest that reads back the same.
-    threads : int
-        0 for all.
 
     Examples
     --------
@@ -118,19 +123,12 @@ def write_general(out: BinaryIO, shape: AlphaShape, fmt: str, *, precision: int 
 
     Parameters
     ----------
-    out : binary file object
-        Need not be seekable.
+    out, precision
+        As of `vorotool.formats.text.tables.write_table`.
     shape : AlphaShape
         What to write.
     fmt : {"geojson", "wkt"}
         In GeoJSON each part tells its class, and its region, labels or label.
-    precision : int, optional
-        Significant digits; by default the shortest that reads back the same.
-
-    Raises
-    ------
-    UsageError
-        If the format is another one.
 
     Examples
     --------
@@ -142,7 +140,6 @@ def write_general(out: BinaryIO, shape: AlphaShape, fmt: str, *, precision: int 
     b'LINESTRING (0 0, 0 3)\nLINESTRING (0 0, 4 0)\nPOINT (9 9)\n'
     """
     digits = Digits(precision)
-    check_format(fmt, GENERAL_FORMATS, "a whole shape")
     if fmt == "wkt":
         for geometry, _ in _parts(shape, digits):
             out.write(f"{geometry['type'].upper()} {_wkt(geometry, digits)}\n".encode())
@@ -155,12 +152,10 @@ def write_hull_geojson(out: BinaryIO, hull: AlphaHull, *, precision: int | None 
 
     Parameters
     ----------
-    out : binary file object
-        Need not be seekable.
+    out, precision
+        As of `vorotool.formats.text.tables.write_table`.
     hull : AlphaHull
         What to write.
-    precision : int, optional
-        Significant digits; by default the shortest that reads back the same.
 
     Examples
     --------

@@ -10,13 +10,11 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.formats.text.feature_collection import write_collection
-from vorotool.formats.text.refusals import check_format
 from vorotool.formats.text.row_writer import Column, RowShape, write_list_rows, write_rows
 from vorotool.formats.text.tables import json_column, json_text, object_shape, write_npz, write_table
 from vorotool.geometry.mesh.cells import CellSet
+from vorotool.geometry.ragged import owners, within
 from vorotool.geometry.table import Computed, Lookup, Table
-
-CELL_FORMATS = ("geojson", "csv", "json", "npz", "wkt")
 
 
 def write_cells(out: BinaryIO, cells: CellSet, fmt: str, *, precision: int | None = None, threads: int = 0) -> None:
@@ -36,15 +34,6 @@ def write_cells(out: BinaryIO, cells: CellSet, fmt: str, *, precision: int | Non
         site; JSON is that of polygons, with the parts of a cell numbered if any has several; NPZ has beside the columns
         the vertices, where each ring begins among these (``ring_starts``), each polygon among the rings, each cell
         among the polygons, and the sides of the frame; WKT is one geometry a line, without the columns.
-    precision : int, optional
-        Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
-    threads : int
-        0 for all.
-
-    Raises
-    ------
-    UsageError
-        If the format is unknown or ``precision`` is not from 1 to 17.
 
     Examples
     --------
@@ -54,7 +43,6 @@ def write_cells(out: BinaryIO, cells: CellSet, fmt: str, *, precision: int | Non
     >>> print(out.getvalue().decode().splitlines()[1])
     1,1,1,"POLYGON ((0 0, 2 0, 2 2, 0 2, 0 0))"
     """
-    check_format(fmt, CELL_FORMATS, "cells")
     _WRITERS[fmt](out, cells, precision, threads)
 
 
@@ -107,8 +95,8 @@ def _write_json(out: BinaryIO, cells: CellSet, precision: int | None, threads: i
     """One item a polygon, and one for each empty cell."""
     of_cells = cells.nesting.cells
     sizes = np.maximum(np.diff(of_cells), 1)
-    cell = np.repeat(np.arange(len(cells), dtype=np.int32), sizes)
-    part = np.arange(len(cell)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
+    cell = owners(sizes, dtype=np.int32)
+    part = within(sizes)
     rows = np.append(of_cells[cell] + part, of_cells[-1])
     empty = cells.is_empty
     rows[:-1][empty[cell]] = of_cells[1:][empty]  # an empty row ends where it begins

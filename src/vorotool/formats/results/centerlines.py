@@ -5,12 +5,10 @@ from __future__ import annotations
 from typing import BinaryIO
 
 from vorotool.formats.polygons.polylines import geojson_wording, wkt_wording, write_polylines
-from vorotool.formats.text.refusals import check_format
-from vorotool.formats.text.tables import TABLE_FORMATS, write_table
-from vorotool.geometry.curves.flatten_tolerance import checked_flatten
+from vorotool.formats.text.tables import write_table
+from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.skeleton.centerline import Centerlines, centerline_table
-
-CENTERLINE_FORMATS = ("geojson", *TABLE_FORMATS, "wkt")
+from vorotool.products.formats import TABLES
 
 
 def write_centerlines(
@@ -30,19 +28,14 @@ def write_centerlines(
 
     Parameters
     ----------
-    out : binary file object
-        Need not be seekable.
+    out, precision, threads
+        As of `vorotool.formats.text.tables.write_table`.
     lines : Centerlines
         What to write.
     fmt : {"geojson", "csv", "json", "npz", "wkt"}
         The format.
-    flatten, precision, threads : optional
-        As of :func:`vorotool.formats.results.skeletons.write_skeleton`.
-
-    Raises
-    ------
-    UsageError
-        If there is no such format of them.
+    flatten : float, optional
+        As of `vorotool.formats.results.skeletons.write_skeleton`.
 
     Examples
     --------
@@ -54,8 +47,7 @@ def write_centerlines(
     >>> out.getvalue()
     b'LINESTRING (0 1, 4 1)\n'
     """
-    check_format(fmt, CENTERLINE_FORMATS, "centerlines")
-    if fmt in TABLE_FORMATS:
+    if fmt in TABLES:
         write_table(out, centerline_table(lines), fmt, precision=precision, threads=threads)
         return
     points, start = lines.flattened(checked_flatten(flatten, lines.path.polygons))

@@ -1,4 +1,7 @@
-"""Skeletons as GraphML."""
+"""Skeletons as GraphML.
+
+networkx takes 4 times as long for 90,000 edges, once its graph is made (`tests/benchmarks/libraries.py graphml`).
+"""
 
 from __future__ import annotations
 

@@ -10,18 +10,14 @@ from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
 from vorotool.formats.text.feature_collection import write_collection
-from vorotool.formats.text.refusals import check_format, check_what
 from vorotool.formats.text.row_writer import Column, RowShape, write_rows
-from vorotool.formats.text.tables import TABLE_FORMATS, json_column, object_shape, write_table
+from vorotool.formats.text.tables import json_column, object_shape, write_table
 from vorotool.geometry.mesh.digital_triangulation import AnyTriangulation, DigitalTriangulation
 from vorotool.geometry.mesh.tables import edge_table, point_table, triangle_table
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.table import Lookup, Table
+from vorotool.products.formats import TABLES
 
-EDGE_FORMATS = ("csv", "json", "geojson", "npz", "edge", "obj")
-TRIANGLE_FORMATS = ("csv", "json", "geojson", "npz", "ele", "obj")
-POINT_FORMATS = (*TABLE_FORMATS, "node")
-_FORMATS = {"edges": EDGE_FORMATS, "triangles": TRIANGLE_FORMATS, "table": POINT_FORMATS}
 _TABLES: dict[str, Callable[[Any], Table]] = {
     "edges": edge_table,
     "triangles": triangle_table,
@@ -47,23 +43,14 @@ def write_mesh(
 
     Parameters
     ----------
-    out : binary file object
-        Need not be seekable.
+    out, precision, threads
+        As of `vorotool.formats.text.tables.write_table`.
     mesh : Triangulation or DigitalTriangulation
         Rows are in the order of its arrays.
     fmt : {"csv", "json", "geojson", "npz", "edge", "ele", "node", "obj"}
         Edges are LineStrings in GeoJSON and lines in OBJ, triangles are Polygons and faces.
     what : {"edges", "triangles", "table"}
         What to write; the table has one row a point.
-    precision : int, optional
-        Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
-    threads : int
-        0 for all.
-
-    Raises
-    ------
-    UsageError
-        If there is no such format of them.
 
     Examples
     --------
@@ -73,16 +60,12 @@ def write_mesh(
     >>> out.getvalue()
     b'1 3 0\n1 1 2 3\n'
     """
-    check_what(what, _FORMATS, "a triangulation is")
-    if fmt in ("svg", "png"):
-        raise UsageError(f"{fmt.upper()} is for pictures: draw it with vorotool delaunay -o picture.{fmt}")
-    check_format(fmt, _FORMATS[what], what)
     if isinstance(mesh, DigitalTriangulation) and (what == "table" or fmt in ("edge", "ele")):
         raise UsageError(
             f"{what} as {fmt!r} is for triangulations: what a digital tessellation shows need not be one; write its "
             "edges or triangles as csv, json, geojson, npz or obj"
         )
-    if fmt in TABLE_FORMATS:
+    if fmt in TABLES:
         write_table(out, _TABLES[what](mesh), fmt, precision=precision, threads=threads)
     else:
         _WRITERS[fmt](out, mesh, what, precision, threads)
@@ -111,8 +94,8 @@ def write_features(
 
     Parameters
     ----------
-    out : binary file object
-        Need not be seekable.
+    out, precision, threads
+        As of `vorotool.formats.text.tables.write_table`.
     columns : mapping of str to column
         Properties, as in a `Table`.
     points : (n, 2) float64 array
@@ -121,10 +104,6 @@ def write_features(
         Points of each edge, which becomes a LineString, or triangle, which becomes a Polygon.
     crs : object, optional
         The ``crs`` member.
-    precision : int, optional
-        Significant digits; by default the shortest that reads back the same.
-    threads : int
-        0 for all.
     """
     x, y = np.ascontiguousarray(points.T)
     ring = [*rows.T, *([rows[:, 0]] if rows.shape[1] == 3 else [])]

@@ -24,6 +24,7 @@ from vorotool.formats.results.json_reader import (
 from vorotool.formats.text.json_writer import choice, integers, number_or_null, optional_pair, write_list, write_sites
 from vorotool.formats.text.row_writer import Column
 from vorotool.formats.text.tables import json_text
+from vorotool.geometry.ragged import starts_of
 from vorotool.geometry.skeleton.offsets import PIECE_KINDS, RING_KINDS, Offsets
 
 TYPE = "vorotool.offsets"
@@ -151,7 +152,7 @@ def _starts(rows: JsonRows, member: str, items: list[Any], parts: str, count: in
     """Where the parts of each item begin: one after the other, all of them."""
     first = rows.indices(member, items, "first", max(count, 1))
     number = rows.indices(member, items, parts, count + 1)
-    expected = np.concatenate([[0], np.cumsum(number, dtype=np.int64)])
+    expected = starts_of(number)
     wrong = np.flatnonzero((first != expected[:-1]) | (number < 1))
     if wrong.size or expected[-1] != count:
         at = wrong[0] if wrong.size else len(items) - 1

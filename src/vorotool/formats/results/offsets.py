@@ -8,12 +8,9 @@ from numpy.typing import NDArray
 
 from vorotool.formats.polygons.reader import write_polygons
 from vorotool.formats.results.offset_json import write_json
-from vorotool.formats.text.refusals import check_format
 from vorotool.formats.text.tables import write_arrays, write_table
-from vorotool.geometry.curves.flatten_tolerance import checked_flatten
+from vorotool.geometry.curves.flatten import checked_flatten
 from vorotool.geometry.skeleton.offsets import Offsets
-
-OFFSET_FORMATS = ("json", "csv", "geojson", "npz", "wkt")
 
 
 def write_offsets(
@@ -32,8 +29,8 @@ def write_offsets(
 
     Parameters
     ----------
-    out : binary file object
-        Need not be seekable.
+    out, precision, threads
+        As of `vorotool.formats.text.tables.write_table`.
     offsets : Offsets
         What to write, in its order.
     fmt : {"json", "csv", "geojson", "npz", "wkt"}
@@ -41,15 +38,11 @@ def write_offsets(
     flatten : float, optional
         How far a chord may be from its arc, in input units; by default 1/4096 of the larger side of the bounds of the
         polygons.
-    precision : int, optional
-        Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
-    threads : int
-        0 for all.
 
     Raises
     ------
     UsageError
-        If there is no such format of them, or the tolerance is not positive.
+        If the tolerance is not positive.
 
     Examples
     --------
@@ -60,7 +53,6 @@ def write_offsets(
     >>> out.getvalue()
     b'POLYGON ((1 1, 3 1, 3 3, 1 3, 1 1))\n'
     """
-    check_format(fmt, OFFSET_FORMATS, "offset curves")
     if fmt == "csv":
         write_table(out, offsets.table(), fmt, precision=precision, threads=threads)
     elif fmt == "json":

@@ -7,16 +7,13 @@ from typing import Any, BinaryIO
 import numpy as np
 
 from vorotool.formats.text.feature_collection import write_collection
-from vorotool.formats.text.refusals import check_format, check_what
 from vorotool.formats.text.row_writer import Column, RowShape, write_rows
-from vorotool.formats.text.tables import TABLE_FORMATS, json_text, write_table
+from vorotool.formats.text.tables import json_text, write_table
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import SIDES
 from vorotool.geometry.table import Lookup
-
-POINT_FORMATS = (*TABLE_FORMATS, "geojson", "wkt")
-WHAT = ("points", "transects")
+from vorotool.products.formats import TABLES
 
 
 def write_skeleton_points(
@@ -32,8 +29,8 @@ def write_skeleton_points(
 
     Parameters
     ----------
-    out : binary file object
-        Need not be seekable.
+    out, precision, threads
+        As of `vorotool.formats.text.tables.write_table`.
     points : SkeletonPoints
         What to write, in its order.
     fmt : {"csv", "json", "npz", "geojson", "wkt"}
@@ -41,15 +38,6 @@ def write_skeleton_points(
         ``r`` and ``width``.
     what : {"points", "transects"}
         What to write.
-    precision : int, optional
-        Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
-    threads : int
-        0 for all.
-
-    Raises
-    ------
-    UsageError
-        If there is no such format of them.
 
     Examples
     --------
@@ -61,11 +49,9 @@ def write_skeleton_points(
     >>> out.getvalue().splitlines()[-1]
     b'LINESTRING (3 2, 3 0)'
     """
-    check_what(what, WHAT, "points of a skeleton are")
-    check_format(fmt, POINT_FORMATS, what)
     if what == "transects":
         points = points.transects()
-    if fmt in TABLE_FORMATS:
+    if fmt in TABLES:
         write_table(out, points.table(), fmt, precision=precision, threads=threads)
         return
     places = points.xy if what == "points" else points.feet.reshape(-1, 4)

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import UsageError
 from vorotool.formats.polygons.polylines import Wording, geojson_wording, wkt_wording, write_polylines
 from vorotool.formats.results.skeleton_json import write_json
-from vorotool.formats.text.refusals import check_format, check_what
-from vorotool.formats.text.tables import TABLE_FORMATS, write_arrays, write_table
-from vorotool.geometry.curves.flatten_tolerance import checked_flatten
+from vorotool.formats.text.tables import write_arrays, write_table
+from vorotool.geometry.curves.flatten import chained, checked_flatten
 from vorotool.geometry.skeleton.skeleton import SIDES, Skeleton
 from vorotool.geometry.skeleton.tables import arc_table, branch_table, element_table, polygon_table
-
-SKELETON_FORMATS = ("json", "csv", "geojson", "npz", "wkt", "graphml")
-FORMATS = {"skeleton": SKELETON_FORMATS, **dict.fromkeys(("elements", "branches", "table"), TABLE_FORMATS)}
+from vorotool.geometry.table import Table
+from vorotool.products.formats import TABLES
 
 
 def write_skeleton(
@@ -28,38 +24,26 @@ def write_skeleton(
     *,
     what: str = "skeleton",
     flatten: float | None = None,
-    columns: Mapping[str, Any] | None = None,
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
     r"""Write a skeleton, its branches or a row a polygon; the bytes depend on nothing but the skeleton and the options.
 
     JSON (version 1) and NPZ hold all there is, CSV one row an arc. GeoJSON and WKT have no curves: each branch is a
-    LineString, in GeoJSON with the id and the properties of its polygon. GraphML has one edge a branch.
+    LineString, in GeoJSON with the id and the properties of its polygon.
 
     Parameters
     ----------
-    out : binary file object
-        Need not be seekable.
+    out, precision, threads
+        As of `vorotool.formats.text.tables.write_table`.
     skeleton : Skeleton
         What to write, in its order.
-    fmt : {"json", "csv", "geojson", "npz", "wkt", "graphml"}
-        The format; the others are written as CSV, JSON or NPZ.
-    what : {"skeleton", "elements", "branches", "table"}
+    fmt : {"json", "csv", "geojson", "npz", "wkt"}
+        The format; parts are written as CSV, JSON or NPZ.
+    what : {"skeleton", "diagram", "elements", "branches", "table"}
         What to write.
     flatten : float, optional
         How far a polyline may be from its parabola, in input units; by default 1/4096 of the larger side of the bounds.
-    columns : mapping of str to array, optional
-        Further columns of the table, one value a polygon.
-    precision : int, optional
-        Significant digits of floating-point numbers in text; by default the shortest that reads back the same.
-    threads : int
-        0 for all.
-
-    Raises
-    ------
-    UsageError
-        If there is no such format of them.
 
     Examples
     --------
@@ -69,32 +53,26 @@ def write_skeleton(
     >>> out.getvalue().splitlines()[0]
     b'LINESTRING (0 0, 2 2)'
     """
-    check_what(what, FORMATS, "a skeleton is")
-    if fmt in ("svg", "png"):
-        raise UsageError(f"{fmt.upper()} is for pictures: draw it with vorotool.write, or vorotool draw")
-    check_format(fmt, FORMATS[what], what)
-    if what == "table":
-        write_table(
-            out, polygon_table(skeleton, columns=columns, threads=threads), fmt, precision=precision, threads=threads
-        )
-    elif what == "branches":
-        write_table(out, branch_table(skeleton, threads=threads), fmt, precision=precision, threads=threads)
-    elif what == "elements":
-        write_table(out, element_table(skeleton), fmt, precision=precision, threads=threads)
+    if fmt in TABLES and what not in ("skeleton", "diagram"):
+        write_table(out, _table(skeleton, what, threads), fmt, precision=precision, threads=threads)
     elif fmt == "csv":
         write_table(out, arc_table(skeleton), fmt, precision=precision, threads=threads)
     elif fmt == "json":
         write_json(out, skeleton, precision=precision, threads=threads)
     elif fmt == "npz":
         write_arrays(out, skeleton_arrays(skeleton), threads=threads)
-    elif fmt == "graphml":
-        from vorotool.formats.results.graphml import write_graphml  # brings the parsers of XML along
-
-        write_graphml(out, skeleton, flatten=flatten, precision=precision, threads=threads)
     else:
-        points, start, first_arcs = _branch_polylines(skeleton, checked_flatten(flatten, skeleton.polygons))
+        first_arcs = np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
+        arcs = skeleton.flattened(checked_flatten(flatten, skeleton.polygons))
+        points, start = chained(*arcs, first_arcs)
         wording = _wording(skeleton, fmt, first_arcs, threads)
-        write_polylines(out, points, start, wording, precision=precision, threads=threads)
+        write_polylines(out, points, start[:-1], wording, precision=precision, threads=threads)
+
+
+def _table(skeleton: Skeleton, what: str, threads: int) -> Table:
+    if what == "elements":
+        return element_table(skeleton)
+    return (polygon_table if what == "table" else branch_table)(skeleton, threads=threads)
 
 
 def skeleton_arrays(skeleton: Skeleton) -> dict[str, NDArray[Any]]:
@@ -141,18 +119,6 @@ def skeleton_arrays(skeleton: Skeleton) -> dict[str, NDArray[Any]]:
 
 
 # ---- polylines -----------------------------------------------------------------------------------
-def _branch_polylines(
-    skeleton: Skeleton, tolerance: float
-) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
-    """Points of branches, where each branch begins among them, and its first arc."""
-    points, start = skeleton.flattened(tolerance)
-    first_arcs = np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
-    kept = np.ones(len(points), dtype=bool)  # an arc's first point is the last one of the arc before
-    kept[start[:-1]] = False
-    kept[start[first_arcs]] = True
-    return points[kept], (np.cumsum(kept) - 1)[start[first_arcs]], first_arcs
-
-
 def _wording(skeleton: Skeleton, fmt: str, first_arcs: NDArray[np.int64], threads: int) -> Wording:
     if fmt == "wkt":
         return wkt_wording(len(first_arcs))

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.errors import UsageError
-from vorotool.formats.io.row_bands import in_order
 from vorotool.geometry.numbers import shown_number, whole_number
+from vorotool.geometry.parallel import in_order
 from vorotool.geometry.table import Computed, Lookup
 
 SLICE_ROWS = 1 << 14

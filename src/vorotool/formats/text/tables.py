@@ -12,12 +12,10 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import UsageError
-from vorotool.formats.io.row_bands import in_order
 from vorotool.formats.text.row_writer import Column, RowShape, check_precision, slices, write_list_rows, write_rows
+from vorotool.geometry.parallel import in_order
 from vorotool.geometry.table import Computed, Lookup, Table
 
-TABLE_FORMATS = ("csv", "json", "npz")
 _SLICE_VALUES = 1 << 16  # numbers of an array that are gathered and written at a time
 
 
@@ -44,7 +42,7 @@ def write_table(out: BinaryIO, table: Table, fmt: str, *, precision: int | None 
     Raises
     ------
     UsageError
-        If the format is unknown or ``precision`` is not from 1 to 17.
+        If ``precision`` is not from 1 to 17.
 
     Examples
     --------
@@ -60,10 +58,8 @@ def write_table(out: BinaryIO, table: Table, fmt: str, *, precision: int | None 
         _write_csv(out, columns, precision, threads)
     elif fmt == "json":
         _write_json(out, columns, precision, threads)
-    elif fmt == "npz":
-        write_npz(out, columns, threads)
     else:
-        raise UsageError(f"-f {fmt!r} is no format of tables: use {', '.join(TABLE_FORMATS)}")
+        write_npz(out, columns, threads)
 
 
 # ---- CSV -----------------------------------------------------------------------------------------

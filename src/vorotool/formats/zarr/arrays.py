@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import UsageError
-from vorotool.formats.io.row_bands import in_order
 from vorotool.formats.zarr.store import open_store
+from vorotool.geometry.parallel import in_order, start
 
 Result = TypeVar("Result")
 
@@ -147,16 +147,8 @@ def _to_its_end(function: Callable[[], Result], stop: Callable[[], None] = lambd
     any two steps of this thread, so that it must not be the one that knows whether the work has begun.
     """
     work: Future[Result] = Future()
-
-    def run() -> None:
-        if work.set_running_or_notify_cancel():
-            try:
-                work.set_result(function())
-            except BaseException as error:
-                work.set_exception(error)
-
     try:
-        threading.Thread(target=run, daemon=True).start()
+        start(function, work)
         return work.result()
     except BaseException:
         stop()

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from vorotool.geometry.alpha.shape import AlphaShape
 from vorotool.geometry.curves.inverse_functions import PI, cosine_and_sine, hypotenuse, inverse_sine
+from vorotool.geometry.ragged import owners, starts_of, within
 from vorotool.geometry.table import Lookup, Table
 
 
@@ -80,16 +81,14 @@ class AlphaHull:
         # A chord over an angle a is off by r (1 - cos(a / 2)), which is 2 r times the square of sin(a / 4).
         widest = 4 * float(inverse_sine(sqrt(tolerance / self.r / 2))) or PI / 512
         counts = np.maximum(np.ceil(self.angles / widest), 1).astype(np.int64)
-        arc = np.repeat(np.arange(len(self)), counts)
-        ends = np.cumsum(counts)
-        step = np.arange(len(arc)) - np.repeat(ends - counts, counts)
+        arc, step = owners(counts), within(counts)
         turned = self.angles[arc] * (step / counts[arc])
         offset = self.start[arc] - self.centre[arc]
         cosine, sine = cosine_and_sine(turned)
         x = offset[:, 0] * cosine + offset[:, 1] * sine
         y = offset[:, 1] * cosine - offset[:, 0] * sine
         xy = np.where((step == 0)[:, None], self.start[arc], self.centre[arc] + np.stack([x, y], axis=1))
-        return xy, np.append(0, ends)[self.ring_start]
+        return xy, starts_of(counts)[self.ring_start]
 
     def table(self) -> Table:
         """Give one row an arc: ``x0, y0, x1, y1, cx, cy, r, label_a, label_b, ring``.
@@ -99,7 +98,7 @@ class AlphaHull:
         family = self.shape.family
         labels = family.mesh.label_array
         ends = family.edges[self.edge]
-        rings = np.repeat(np.arange(1, len(self.ring_start)), np.diff(self.ring_start))
+        rings = owners(np.diff(self.ring_start)) + 1
         columns = {
             f"{name}{axis}": values[:, k]
             for name, axis, values, k in (

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.ragged import starts_of
+
 Floats = NDArray[np.float64]
 
 MOST_HALVINGS = 12
@@ -39,7 +41,7 @@ def chords_of(
     [[1.0, 0.0], [0.0, 1.0]]
     """
     halvings = _halvings(start, end, centre, tolerance)
-    first = np.concatenate([[0], np.cumsum(2**halvings)])
+    first = starts_of(2**halvings)
     points = np.empty((first[-1], 2))
     points[first[:-1]] = start
     for count in range(1, int(halvings.max(initial=0)) + 1):

@@ -12,6 +12,7 @@ from vorotool.errors import InputError
 from vorotool.geometry.box import Box
 from vorotool.geometry.checks import set_rows
 from vorotool.geometry.curves.inverse_functions import hypotenuse
+from vorotool.geometry.ragged import divides, following, starts_of
 
 
 class Nesting(NamedTuple):
@@ -108,7 +109,7 @@ class CellSet:
             return Nesting(self.starts, self.polygon_starts, self.cell_starts)
         kept = np.diff(self.starts) > 0
         rings = np.concatenate([self.starts[:-1][kept], self.starts[-1:]])
-        cells = np.concatenate([[0], np.cumsum(kept)]).astype(np.int64)
+        cells = starts_of(kept)
         return Nesting(rings, np.arange(len(rings), dtype=np.int64), cells)
 
     @property
@@ -127,14 +128,14 @@ class CellSet:
         exponent = int(np.frexp(max(right / 2 - left / 2, top / 2 - bottom / 2))[1])  # products do not overflow
         start = np.repeat(self.coordinates[rings[:-1]], np.diff(rings), axis=0)
         x, y = np.ldexp(self.coordinates - start, -exponent).T
-        following = _following(rings)
+        after = following(rings)
         with np.errstate(over="ignore"):
-            return np.ldexp(self._sum(x * y[following] - x[following] * y), 2 * exponent - 1)
+            return np.ldexp(self._sum(x * y[after] - x[after] * y), 2 * exponent - 1)
 
     def perimeters(self) -> NDArray[np.float64]:
         """(n,) lengths of the boundaries, those of holes included; 0 of empty cells."""
         with np.errstate(over="ignore"):  # beyond the largest double: infinite
-            step = self.coordinates[_following(self.nesting.rings)] - self.coordinates
+            step = self.coordinates[following(self.nesting.rings)] - self.coordinates
             return self._sum(hypotenuse(step[:, 0], step[:, 1]))
 
     def cell_of_vertices(self) -> NDArray[np.int64]:
@@ -168,15 +169,8 @@ class CellSet:
         return sums
 
 
-def _following(rings: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Index of the vertex after each, in its ring."""
-    following = np.arange(1, rings[-1] + 1, dtype=np.int64)
-    following[rings[1:] - 1] = rings[:-1]
-    return following
-
-
 def _checked_starts(values: Any, count: int, name: str) -> NDArray[np.int64]:
     array = np.ascontiguousarray(values, dtype=np.int64)
-    if array.ndim != 1 or not len(array) or array[0] != 0 or array[-1] != count or (np.diff(array) < 0).any():
+    if array.ndim != 1 or not divides(array, count):
         raise InputError(f"{name} must increase from 0 to {count}, the number of what it divides")
     return array

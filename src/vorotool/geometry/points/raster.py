@@ -23,6 +23,8 @@ class Raster:
         Pixels a unit in x and y, and the unit, where the file says so.
     mask : (H, W) bool array, optional
         Pixels that are background whatever their values, as those of a masked array are.
+    is_lossy : bool
+        The file keeps values nearly, as JPEG does: they are no labels, and no mask until there is a threshold.
 
     Raises
     ------
@@ -38,6 +40,7 @@ class Raster:
     values: NDArray[Any]
     resolution: tuple[float, float, str] | None = None
     mask: NDArray[np.bool_] | None = None
+    is_lossy: bool = False
 
     def __post_init__(self) -> None:
         if isinstance(self.values, np.ma.MaskedArray):

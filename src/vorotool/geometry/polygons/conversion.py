@@ -119,12 +119,12 @@ def to_shapely(polygons: PolygonSet) -> NDArray[np.object_]:
         if is_line:
             made[index] = shapely.LineString(rings[0] if len(rings[0]) > 1 else rings[0].repeat(2, axis=0))
         else:
-            shell, *holes = [_closed(ring) for ring in rings]
+            shell, *holes = [closed_ring(ring) for ring in rings]
             made[index] = shapely.Polygon(shell, holes)
     return made
 
 
-def _closed(ring: NDArray[np.float64]) -> NDArray[np.float64]:
+def closed_ring(ring: NDArray[np.float64]) -> NDArray[np.float64]:
     """A ring with its first vertex again at the end, at least four in all: shapely wants so many."""
     return np.concatenate([ring, np.repeat(ring[:1], max(1, 4 - len(ring)), axis=0)])
 

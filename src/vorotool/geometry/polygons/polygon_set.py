@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vorotool.errors import InputError
 from vorotool.geometry.coordinates import coordinate_rows
+from vorotool.geometry.ragged import divides, following, starts_of, within
 
 SHELL, HOLE, LINE = 0, 1, 2
 """Kinds of rings: the outer boundary of a polygon, a hole in it, an open line."""
@@ -103,9 +104,8 @@ class PolygonSet:
     def part(self) -> NDArray[np.int32]:
         """(p,) number of each polygon within its feature, from 1."""
         assert self.feature is not None
-        new = np.flatnonzero(np.diff(self.feature, prepend=-1))
-        starts = np.repeat(new, np.diff(new, append=len(self.feature)))
-        return (np.arange(len(self.feature)) - starts + 1).astype(np.int32)
+        first = np.flatnonzero(np.diff(self.feature, prepend=-1))
+        return (within(np.diff(first, append=len(self.feature))) + 1).astype(np.int32)
 
     @cached_property
     def polygon_start(self) -> NDArray[np.int64]:
@@ -120,9 +120,7 @@ class PolygonSet:
     @cached_property
     def following(self) -> NDArray[np.int64]:
         """(n,) the vertex after each one around its ring."""
-        following = np.arange(1, len(self.xy) + 1)
-        following[self.ring_start[1:] - 1] = self.ring_start[:-1]
-        return following
+        return following(self.ring_start)
 
     def ring(self, index: int) -> NDArray[np.float64]:
         """(k, 2) vertices of a ring: a view."""
@@ -172,7 +170,7 @@ def set_of_rings(
     """
     vertices = coordinate_rows(xy, "vertex")
     lengths = np.array(sizes, dtype=np.int64).reshape(-1)
-    starts = np.cumsum(lengths) - lengths
+    starts = starts_of(lengths)
     kept = np.ones(len(vertices), dtype=bool)
     ring = np.flatnonzero((lengths > 1) & (np.asarray(kinds) != LINE))
     while ring.size:
@@ -182,8 +180,7 @@ def set_of_rings(
         ring = ring[repeated]
         lengths[ring] -= 1
         ring = ring[lengths[ring] > 1]
-    starts = np.concatenate([[0], np.cumsum(lengths)])
-    return PolygonSet(vertices[kept], starts, kinds, polygons, **described)  # type: ignore[arg-type]
+    return PolygonSet(vertices[kept], starts_of(lengths), kinds, polygons, **described)  # type: ignore[arg-type]
 
 
 def _integers(values: Any, dtype: Any, name: str) -> NDArray[Any]:
@@ -201,7 +198,7 @@ def _check_rings(
             f"ring_start, ring_kind and ring_polygon are of {len(starts)}, {len(kinds)} and {len(polygons)} values; "
             "for r rings give r + 1, r and r"
         )
-    if starts[0] != 0 or starts[-1] != vertices or (np.diff(starts) < 1).any():
+    if not divides(starts, vertices, least=1):
         raise InputError(f"ring_start must rise from 0 to the number of vertices, {vertices}, without empty rings")
     if len(polygons) and (polygons[0] != 0 or not np.isin(np.diff(polygons), (0, 1)).all()):
         raise InputError("ring_polygon must rise from 0 without gaps: number the polygons in order")

@@ -10,32 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.ragged import owners, ranges, starts_of
 
 Indices = NDArray[np.int64]
-
-
-def ranges(start: NDArray[Any], count: NDArray[Any]) -> Indices:
-    """Give the numbers start, start + 1, … of each range, so many, one range after the other.
-
-    Examples
-    --------
-    >>> ranges(np.array([5, 0]), np.array([2, 3])).tolist()
-    [5, 6, 0, 1, 2]
-    """
-    count = np.asarray(count, dtype=np.int64)
-    made: Indices = np.arange(int(count.sum())) + np.repeat(start - (np.cumsum(count) - count), count)
-    return made
-
-
-def starts_before(count: NDArray[Any]) -> Indices:
-    """Where ranges of so many items begin, and the end of the last.
-
-    Examples
-    --------
-    >>> starts_before(np.array([2, 3])).tolist()
-    [0, 2, 5]
-    """
-    return np.concatenate([[0], np.cumsum(count, dtype=np.int64)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,8 +59,8 @@ class RingArrays:
         >>> [array.tolist() for array in both.taken(np.array([1]))[1:]]
         [[1], [4]]
         """
-        rings = ranges(starts_before(self.rings)[chosen], self.rings[chosen])
-        vertices = ranges(starts_before(self.sizes)[rings], self.sizes[rings])
+        rings = ranges(starts_of(self.rings)[chosen], self.rings[chosen])
+        vertices = ranges(starts_of(self.sizes)[rings], self.sizes[rings])
         made = RingArrays(self.xy[vertices], self.sizes[rings], self.kind[rings], self.rings[chosen])
         return made, rings, vertices
 
@@ -102,9 +79,9 @@ class RingArrays:
         return replace(
             given,
             xy=self.xy,
-            ring_start=starts_before(self.sizes),
+            ring_start=starts_of(self.sizes),
             ring_kind=self.kind,
-            ring_polygon=np.repeat(np.arange(len(self.rings)), self.rings),
+            ring_polygon=owners(self.rings),
             ids=None if given.ids is None else [given.ids[k] for k in own],
             feature=given.feature[source],
             properties={name: [values[k] for k in own] for name, values in given.properties.items()},

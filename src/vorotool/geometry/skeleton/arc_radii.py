@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.curves.chunked_threads import in_chunks
+from vorotool.geometry.parallel import in_chunks
 from vorotool.geometry.skeleton.arc_measures import ArcMeasures
 
 Floats = NDArray[np.float64]
@@ -50,18 +50,8 @@ def radii_of_arcs(
 
     Parameters
     ----------
-    ends : (a, 2, 2) float64 array
-        Source and target, x and y.
-    radius : (a, 2) float64 array
-        There.
-    control : (a, 2) float64 array
-        Of parabolas; NaN on straight lines.
-    sites : (2, a, 2, 2) float64 array
-        The ends of the sites left and right; a vertex has one place twice.
-    is_edge : (2, a) bool array
-        Whether these are edges.
-    length : (a,) float64 array
-        Of the arcs.
+    ends, radius, control, sites, is_edge, length
+        As of `ArcMeasures`.
 
     Returns
     -------

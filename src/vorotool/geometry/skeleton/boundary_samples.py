@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool.geometry.polygons.planar_graph import PlanarGraph
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.ragged import owners
 from vorotool.geometry.skeleton.skeleton import SiteTable
 from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Lookup, Table
@@ -82,7 +83,7 @@ class BoundarySamples:
         after[inner], after[last] = self.seeds[points:], self.seeds[segments[:, 1]]
         way = after - before
         lengths = self.graph.scale * np.sqrt((way * way).sum(axis=1))
-        return lengths, np.repeat(np.arange(len(segments), dtype=np.int32), count + 1)
+        return lengths, owners(count + 1, dtype=np.int32)
 
 
 def sample_table(samples: BoundarySamples) -> Table:

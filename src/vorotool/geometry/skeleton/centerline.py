@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.geometry.collinearity import is_straight
+from vorotool.geometry.curves.flatten import chained
+from vorotool.geometry.ragged import owners
 from vorotool.geometry.skeleton.skeleton import KINDS, Skeleton
 from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Lookup, Table
@@ -115,34 +117,11 @@ class Centerlines:
         return np.add.reduceat(values, self.arc_start[:-1]) if len(self) else np.zeros(0)
 
     def flattened(self, tolerance: float) -> tuple[Floats, NDArray[np.int64]]:
-        """Whole lines, as polylines; no vertex is where a path is led on exactly straight.
-
-        Parameters
-        ----------
-        tolerance : float
-            How far a polyline may be from its line.
-
-        Returns
-        -------
-        points : (n, 2) float64 array
-            Places along each line, its ends included.
-        start : (k + 1,) int64 array
-            Where the points of each line begin.
-
-        Raises
-        ------
-        InputError
-            If the tolerance is not positive.
-        """
-        points, start = self.path.flattened(tolerance)
-        kept = np.ones(len(points), dtype=bool)  # an arc's first point is the last one of the arc before
-        kept[start[:-1]] = False
-        kept[start[self.arc_start[:-1]]] = True
-        line = np.repeat(np.repeat(np.arange(len(self)), np.diff(self.arc_start)), np.diff(start))
-        points, line = points[kept], line[kept]
+        """Whole lines as polylines, as of `Skeleton.flattened`; no vertex is where one is led on exactly straight."""
+        points, start = chained(*self.path.flattened(tolerance), self.arc_start[:-1])
         first, last = self.extended
         whole = np.concatenate([self.ends[first, 0], points, self.ends[last, 1]])
-        line = np.concatenate([first, line, last])
+        line = np.concatenate([first, owners(np.diff(start)), last])
         whole, line = whole[np.argsort(line, kind="stable")], np.sort(line)
         for extended, place in ((first, 1), (last, -2)):
             start = np.searchsorted(line, np.arange(len(self) + 1))
@@ -176,7 +155,7 @@ def centerline_table(lines: Centerlines) -> Table:
     """
     path, nodes = lines.path, lines.end_nodes
     first, last = lines.extended
-    line = np.repeat(np.arange(len(lines)), np.diff(lines.arc_start))
+    line = owners(np.diff(lines.arc_start))
     line = np.concatenate([first, line, last])
     # starts before the arcs of their line, ends behind them: the order is stable
     order = np.argsort(line, kind="stable")

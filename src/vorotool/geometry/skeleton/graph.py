@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
-from vorotool.geometry.curves.flatten_tolerance import checked_flatten
+from vorotool.geometry.curves.flatten import chained, checked_flatten
 from vorotool.geometry.skeleton.skeleton import KINDS, SIDES, Skeleton
 from vorotool.geometry.skeleton.tables import branch_table, ids_of
 from vorotool.geometry.table import Lookup, Table
@@ -77,18 +77,13 @@ def skeleton_graph(skeleton: Skeleton, *, by: str = "branch", flatten: float | N
         first = np.arange(len(skeleton))
     last = np.append(first[1:], len(skeleton))[: len(first)] - 1
     source, target = skeleton.arcs[first, 0].astype(np.int64), skeleton.arcs[last, 1].astype(np.int64)
-    kept = np.ones(len(points), dtype=bool)  # inside an edge an arc's first point is the last one of the arc before
-    kept[start[:-1]] = False
-    kept[start[first]] = True
-    number = np.concatenate([[0], np.cumsum(kept)])
     return SkeletonGraph(
         skeleton,
         np.unique(np.concatenate([source, target])),
         source,
         target,
         _branches(skeleton, first) if by == "branch" else _arcs(skeleton),
-        points[kept],
-        number[np.append(start[first], len(points))],
+        *chained(points, start, first),
     )
 
 

@@ -15,6 +15,7 @@ from vorotool.geometry.curves.circular_arcs import chords_of
 from vorotool.geometry.curves.inverse_functions import inverse_sine
 from vorotool.geometry.numbers import nearest_double, real_number, shown_number
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
+from vorotool.geometry.ragged import divides, owners
 from vorotool.geometry.skeleton.skeleton import SiteTable
 from vorotool.geometry.table import Lookup, Table
 
@@ -97,8 +98,7 @@ class Offsets:
         ):
             set_array(self, name, dtype, shape)
         for name, last in (("ring_start", pieces), ("shape_start", rings)):
-            starts = getattr(self, name)
-            if starts[0] != 0 or starts[-1] != last or (np.diff(starts) < 1).any():
+            if not divides(getattr(self, name), last, least=1):
                 raise InputError(f"{name} must rise from 0 to {last}")
 
     def __len__(self) -> int:
@@ -113,12 +113,12 @@ class Offsets:
     @cached_property
     def shape_of_ring(self) -> NDArray[np.int64]:
         """(q,) the shape of each ring."""
-        return np.repeat(np.arange(len(self)), np.diff(self.shape_start))
+        return owners(np.diff(self.shape_start))
 
     @cached_property
     def ring_of_piece(self) -> NDArray[np.int64]:
         """(k,) the ring of each piece."""
-        return np.repeat(np.arange(len(self.shape_of_ring)), np.diff(self.ring_start))
+        return owners(np.diff(self.ring_start))
 
     @cached_property
     def ring_kind(self) -> NDArray[np.int8]:

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.geometry.checks import set_array
-from vorotool.geometry.curves.chunked_threads import in_chunks
-from vorotool.geometry.curves.inverse_functions import hypotenuse
+from vorotool.geometry.curves.flatten import polylines
 from vorotool.geometry.numbers import nearest_double, real_number, shown_number
+from vorotool.geometry.parallel import in_chunks
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.arc_measures import ArcMeasures
 from vorotool.geometry.skeleton.arc_radii import arc_radii
@@ -304,18 +304,7 @@ class Skeleton:
         if not tolerance > 0:
             raise InputError(f"the tolerance is {shown_number(tolerance)}: it must be positive")
         source, target = self.vertices[self.arcs[:, 0]], self.vertices[self.arcs[:, 1]]
-        control = np.where(self.is_parabola[:, None], self.control, (source + target) / 2)
-        bend = source - 2 * control + target
-        # a chord over 1/n of the parameter is off by |bend| / (4 n^2)
-        pieces = np.ceil(np.sqrt(hypotenuse(*bend.T) / (4 * tolerance)))
-        pieces = np.where(self.is_parabola, np.clip(pieces, 1, MOST_PIECES), 1).astype(np.int64)
-        start = np.concatenate([[0], np.cumsum(pieces + 1)])
-        arc = np.repeat(np.arange(len(self)), pieces + 1)
-        step = np.arange(start[-1]) - start[arc]
-        t = (step / pieces[arc])[:, None]
-        points = source[arc] + t * (2 * (control - source)[arc] + t * bend[arc])
-        points[start[1:] - 1] = target
-        return points, start
+        return polylines(source, self.control, target, self.is_parabola, tolerance)
 
 
 def ends_of_sites(polygons: PolygonSet, table: SiteTable, sites: Any = slice(None)) -> NDArray[np.float64]:
@@ -333,7 +322,3 @@ def ends_of_sites(polygons: PolygonSet, table: SiteTable, sites: Any = slice(Non
         own = table.ends[sites] if isinstance(sites, slice) else table.ends.take(sites, axis=0)
         ends = np.where(np.isnan(own), ends, own)
     return ends
-
-
-MOST_PIECES = 1 << 12
-"""Of a flattened arc: 2^24 times nearer than its chord."""

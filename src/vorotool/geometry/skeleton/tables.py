@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.geometry.curves.chunked_threads import in_chunks
+from vorotool.geometry.parallel import in_chunks
 from vorotool.geometry.polygons.conversion import to_shapely
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, KINDS, SIDES, Skeleton

@@ -9,6 +9,8 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
+from vorotool.geometry.ragged import owners, within
+
 HEIGHT, WIDTH, ADVANCE = 7, 5, 6
 """Of a glyph, and from one to the next, in cells."""
 
@@ -80,7 +82,6 @@ def text_cells(texts: Sequence[str]) -> tuple[NDArray[np.int64], NDArray[np.int6
     parts = [np.concatenate(_cells(text)) for text in texts]
     inks = [len(_cells(text)[0]) for text in texts]
     sizes = np.array([len(part) for part in parts], dtype=np.int64)
-    owner = np.repeat(np.arange(len(texts)), sizes)
-    number = np.arange(len(owner)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
+    owner, number = owners(sizes), within(sizes)
     cells = np.concatenate([np.empty((0, 2), np.int64), *parts])
     return owner, cells, number < np.array(inks, dtype=np.int64)[owner]

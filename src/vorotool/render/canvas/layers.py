@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 from vorotool.geometry.box import bounds
 from vorotool.geometry.curves.circular_arcs import chords_of
+from vorotool.geometry.curves.flatten import polylines
+from vorotool.geometry.ragged import following, owners
 from vorotool.render.canvas.palettes import INK, SEED, WHITE
 
 MARGIN = 0.02
@@ -18,10 +20,6 @@ MARGIN = 0.02
 
 TALLEST = 4
 """A page is at most so many times as high as wide: narrower data are drawn smaller."""
-
-
-MOST_PIECES = 1 << 12
-"""Lines that a curve is drawn with."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,18 +53,10 @@ class Curves:
 
     Parameters
     ----------
-    name : str
-        Of the layer.
-    points : (n, 2) float64 array
-        Finite coordinates of ends and control points.
-    pairs : (m, 2) int32 array
-        Ends of each curve. Curves of which one begins where the one before ends are drawn as one path.
+    name, points, pairs, colour, width
+        As of `Lines`; curves of which one begins where the one before ends are drawn as one path.
     control : (m,) int32 array
         The control point of each; -1: it is a straight line.
-    colour : str
-        ``#rrggbb``.
-    width : float
-        In px, whatever the scale.
     is_broken : bool
         Drawn as a broken line in SVG.
     """
@@ -95,17 +85,9 @@ class Curves:
         pairs : (l, 2) int32 array
             Ends of each line.
         """
-        source, target = places[self.pairs[:, 0]], places[self.pairs[:, 1]]
-        control = np.where((self.control >= 0)[:, None], places[self.control], (source + target) / 2)
-        bend = source - 2 * control + target
-        square = (bend * bend).sum(axis=1)  # a chord over 1/n of a curve is off by |bend| / (4 n^2)
-        pieces = np.clip(np.ceil(np.sqrt(np.sqrt(square) / (4 * tolerance))), 1, MOST_PIECES).astype(np.int64)
-        start = np.cumsum(pieces + 1) - (pieces + 1)
-        curve = np.repeat(np.arange(len(pieces)), pieces + 1)
-        step = np.arange(len(curve)) - start[curve]
-        t = (step / pieces[curve])[:, None]
-        points = source[curve] + t * (2 * (control - source)[curve] + t * bend[curve])
-        first = np.flatnonzero(step < pieces[curve])
+        source, target = places[self.pairs.T]
+        points, start = polylines(source, places[self.control], target, self.control >= 0, tolerance)
+        first = np.delete(np.arange(len(points)), start[1:] - 1)
         return points, np.stack([first, first + 1], axis=1).astype(np.int32)
 
 
@@ -115,10 +97,8 @@ class Polygons:
 
     Parameters
     ----------
-    name : str
-        Of the layer.
-    points : (n, 2) float64 array
-        Finite coordinates.
+    name, points
+        As of `Lines`.
     corners : (k,) int32 array
         Indices of points, ring after ring; rings are not closed by repetition.
     rings : (r + 1,) integer array
@@ -162,15 +142,13 @@ class Polygons:
     def polygon_of_ring(self) -> NDArray[np.int64]:
         """(r,) polygon that each ring belongs to."""
         limits = self.ring_limits
-        return np.repeat(np.arange(len(limits) - 1), np.diff(limits))
+        return owners(np.diff(limits))
 
     def sides(self) -> NDArray[np.int32]:
         """(k, 2) corners at the ends of each side, in the order of ``corners``."""
-        following = np.arange(1, len(self.corners) + 1)
         rings = np.asarray(self.rings)
-        has_corners = rings[1:] > rings[:-1]
-        following[rings[1:][has_corners] - 1] = rings[:-1][has_corners]
-        return np.stack([self.corners, self.corners[following]], axis=1)
+        after = following(rings[np.append(rings[1:] > rings[:-1], True)])  # no ring is empty
+        return np.stack([self.corners, self.corners[after]], axis=1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -189,14 +167,10 @@ class Texts:
 
     Parameters
     ----------
-    name : str
-        Of the layer.
-    points : (n, 2) float64 array
-        Finite coordinates.
+    name, points, colour
+        As of `Lines`.
     texts : sequence of str
         One a point.
-    colour : str
-        ``#rrggbb``.
     size : float
         Of the letters, in px.
     halo : str, optional

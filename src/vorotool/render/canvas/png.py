@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import LimitError
+from vorotool.geometry.ragged import owners, ranges
 from vorotool.render.canvas.glyphs import HEIGHT, text_cells
 from vorotool.render.canvas.layers import Arcs, Curves, Layer, Lines, Page, Points, Polygons, Texts
 from vorotool.render.canvas.palettes import WHITE
@@ -246,6 +247,4 @@ class _Canvas:
 
 def _expanded(first: NDArray[np.int64], counts: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Every whole number of runs that begin at ``first``, and the run that each is in."""
-    run = np.repeat(np.arange(len(counts)), counts)
-    begin = np.cumsum(counts) - counts
-    return run, np.arange(len(run)) + (first - begin)[run]
+    return owners(counts), ranges(first, counts)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vorotool.errors import UsageError
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.ragged import ranges
 from vorotool.render.canvas.glyphs import text_cells
 from vorotool.render.canvas.layers import Backdrop
 from vorotool.render.canvas.palettes import PicturePalette
@@ -251,6 +252,4 @@ class _Discs:
         inside = (row >= 0) & (row < rows) & (left <= right) & (right >= 0) & (left < width)
         start = left[inside].astype(np.int64)
         lengths = right[inside].astype(np.int64) - start + 1
-        begin = np.cumsum(lengths) - lengths
-        column = np.arange(lengths.sum()) - np.repeat(begin - start, lengths)
-        picture[np.repeat(row[inside].astype(np.int64), lengths), column] = value
+        picture[np.repeat(row[inside].astype(np.int64), lengths), ranges(start, lengths)] = value

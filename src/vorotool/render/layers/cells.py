@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.geometry.mesh.cells import CellSet
+from vorotool.geometry.ragged import following, owners, within
 from vorotool.render.canvas.layers import Lines, Page, Polygons
 from vorotool.render.canvas.palettes import EDGE, INK, cell_colour
 
@@ -33,8 +34,8 @@ def cell_polygons(cells: CellSet, colours: NDArray[np.unsignedinteger], page: Pa
     ['cell-1', 'cell-2']
     """
     rings, polygons, of_cells = cells.nesting
-    cell = np.repeat(np.arange(len(cells)), np.diff(of_cells))
-    part = np.arange(len(cell)) - of_cells[:-1][cell] + 1
+    cell = owners(np.diff(of_cells))
+    part = within(np.diff(of_cells)) + 1
     labels = cells.label_array[cell]
     several = np.diff(of_cells)[cell] > 1
     ids = [
@@ -67,12 +68,10 @@ def cell_lines(cells: CellSet, page: Page, colour: str = INK) -> Lines:
     """
     _, index = np.unique(cells.coordinates, axis=0, return_inverse=True)
     rings = cells.nesting.rings
-    following = np.arange(1, len(cells.coordinates) + 1)
-    following[rings[1:] - 1] = rings[:-1]
     first = np.full(int(index.max(initial=-1)) + 1, len(index), dtype=np.int32)
     np.minimum.at(first, index.reshape(-1), np.arange(len(index), dtype=np.int32))
     number = first[index.reshape(-1)]  # coincident vertices have that of the first one
-    sides = np.unique(np.sort(np.stack([number, number[following]], axis=1), axis=1), axis=0)
+    sides = np.unique(np.sort(np.stack([number, number[following(rings)]], axis=1), axis=1), axis=0)
     return Lines("diagram", cells.coordinates, sides, colour, _line_width(cells, page))
 
 

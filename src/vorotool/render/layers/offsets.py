@@ -61,17 +61,7 @@ def offset_layers(offsets: Offsets, page: Page, layers: Iterable[str]) -> list[L
 
 
 def offset_page(offsets: Offsets, *, width: int = 1000, y_up: bool | None = None) -> Page:
-    """The page of a picture: with all polygons and curves.
-
-    Parameters
-    ----------
-    offsets : Offsets
-        What to draw; where ``y_up`` is not given, its own decides.
-    width : int
-        In px.
-    y_up : bool, optional
-        Draw y upwards.
-    """
+    """The page of a picture, as of `mesh_page`: with all polygons and curves."""
     corners = np.concatenate([offsets.polygons.xy, offsets.start])
     tolerance = _FINE * (float(np.ptp(corners, axis=0).max()) or 1.0) if len(corners) else 1.0
     shown = [Points("shown", offsets.polygons.xy), Points("shown", offsets.flattened(tolerance).xy)]

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.ragged import starts_of
 from vorotool.render.canvas.layers import Layer, Lines, Page, Points, Polygons, bounds_of
 from vorotool.render.canvas.palettes import FAINT, LIGHT, RESULT
 from vorotool.render.label_images.png import checked_layers
@@ -47,8 +48,8 @@ def polygon_layers(
         name,
         polygons.xy,
         corners,
-        np.concatenate([[0], np.cumsum(sizes)]),
-        first_rings=np.concatenate([[0], np.cumsum(per_polygon)]),
+        starts_of(sizes),
+        first_rings=starts_of(per_polygon),
         colours=[fill],
         is_alone=covered(polygons),
         edge=edge,
@@ -111,16 +112,6 @@ def shape_layers(polygons: PolygonSet, page: Page, layers: Iterable[str]) -> lis
 
 
 def polygon_page(polygons: PolygonSet, *, width: int = 1000, y_up: bool | None = None) -> Page:
-    """The page of a picture: with all polygons and lines.
-
-    Parameters
-    ----------
-    polygons : PolygonSet
-        What to draw; where ``y_up`` is not given, its own decides.
-    width : int
-        In px.
-    y_up : bool, optional
-        Draw y upwards.
-    """
+    """The page of a picture, as of `mesh_page`: with all polygons and lines."""
     up = polygons.y_up if y_up is None else y_up
     return Page(bounds_of([Points("shown", polygons.xy)]), width=width, y_up=up)

@@ -146,19 +146,7 @@ def skeleton_page(
     y_up: bool | None = None,
     bounds: tuple[float, float, float, float] | None = None,
 ) -> Page:
-    """The page of a picture: with all polygons and the frame, if arcs are cut by one, or with other bounds.
-
-    Parameters
-    ----------
-    skeleton : Skeleton
-        What to draw; where ``y_up`` is not given, its own decides.
-    width : int
-        In px.
-    y_up : bool, optional
-        Draw y upwards.
-    bounds : (x, y, x, y), optional
-        The least and the largest coordinates to show.
-    """
+    """The page of a picture, as of `mesh_page`: with all polygons and the frame, if arcs are cut by one."""
     shown = [skeleton.polygons.xy]
     if skeleton.frame is not None:
         x, y, w, h = skeleton.frame

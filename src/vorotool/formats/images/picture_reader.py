@@ -1,0 +1,145 @@
+"""Reading pictures that are made to be looked at, JPEG, BMP, GIF, WebP and AVIF, with imageio."""
+
+from __future__ import annotations
+
+import io
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.formats.images.jpeg_sizes import jpeg_frame
+from vorotool.formats.io.limits import SourceLike, check_pixels, decoding, interruptible
+
+PICTURES = {"jpeg": "JPEG", "bmp": "BMP", "gif": "GIF", "webp": "WebP", "avif": "AVIF"}
+"""Formats and what they are called."""
+
+_ANIMATED = ("gif", "webp", "avif")
+_HUFFMAN = (0xC0, 0xC1, 0xC2)
+_MOST_EXPANSION = 512  # of Huffman codes: a bit a block of 8 x 8 pixels at the least
+_BMP_HEADERS = (12, 16, 40, 52, 56, 64, 108, 124)
+_PLAIN = {"CMYK": "RGB", "YCbCr": "RGB", "LAB": "RGB", "HSV": "RGB", "RGBX": "RGB", "La": "LA", "RGBa": "RGBA"}
+_LIMITS = threading.Lock()
+
+
+def picture_format(data: bytes) -> str | None:
+    """Which of `PICTURES` data begins as.
+
+    Examples
+    --------
+    >>> picture_format(b"GIF89a"), picture_format(b"BMI,age")
+    ('gif', None)
+    """
+    if data.startswith(b"\xff\xd8\xff"):
+        return "jpeg"
+    if data.startswith((b"GIF87a", b"GIF89a")):
+        return "gif"
+    if data.startswith(b"RIFF") and data[8:12] == b"WEBP":
+        return "webp"
+    if data[4:12] in (b"ftypavif", b"ftypavis"):
+        return "avif"
+    if data.startswith(b"BM") and int.from_bytes(data[14:18], "little") in _BMP_HEADERS:
+        return "bmp"
+    return None
+
+
+def is_lossy(data: bytes, kind: str) -> bool:
+    """Whether values are not exact, so that they are no labels; of WebP what is not plainly lossless."""
+    return kind in ("jpeg", "avif") or (kind == "webp" and data[12:16] != b"VP8L" and b"VP8L" not in _chunks(data))
+
+
+def _chunks(data: bytes) -> set[bytes]:
+    """The kinds of chunks of a WebP file."""
+    kinds, at = set(), 12
+    while at + 8 <= len(data):
+        kinds.add(data[at : at + 4])
+        size = int.from_bytes(data[at + 4 : at + 8], "little")
+        at += 8 + size + size % 2
+    return kinds
+
+
+def read_picture_file(
+    source: SourceLike, kind: str, *, page: int | None, max_pixels: int, note: Callable[[str], None] | None = None
+) -> NDArray[Any]:
+    """Return what is seen: (H, W) or (H, W, C) values of 8 bits, turned upright where the file says how.
+
+    Palettes are applied, and what is not red, green and blue becomes it.
+
+    Parameters
+    ----------
+    source : SourceLike
+        Name and content of the file.
+    kind : str
+        One of `PICTURES`.
+    page : int, optional
+        Which picture of an animation, from 0; by default the first one.
+    max_pixels : int
+        The limit, compared with the header before memory is taken.
+    note : callable, optional
+        Told of an animation, of which one picture is read.
+
+    Raises
+    ------
+    InputError
+        If the file is damaged or cut off, or has no such page.
+    LimitError
+        If it is too large.
+    """
+    with _opened(source, kind) as file:
+        height, width = file.properties(index=0).shape[:2]
+        check_pixels(source.name, width, height, max_pixels)
+        _check_jpeg(source, kind)
+        count = interruptible(lambda: file.properties(index=...).n_images) if kind in _ANIMATED else 1
+        if not 0 <= (page or 0) < count:
+            pictures = "a single page" if count == 1 else f"{count} pages, counted from 0"
+            raise InputError(f"{source.name} has {pictures}: there is no --page {page}")
+        if count > 1 and page is None and note is not None:
+            note(f"{source.name} has {count} pictures: the first one is read; choose another with --page")
+        values: NDArray[Any] = interruptible(lambda: _decoded(file, page or 0))
+    return values
+
+
+@contextmanager
+def _opened(source: SourceLike, kind: str) -> Iterator[Any]:
+    """Open a file by its header."""
+    name = PICTURES[kind]
+    if picture_format(source.data) != kind:
+        raise InputError(f"{source.name} does not begin as a {name} image: is it damaged, or another format?")
+    from imageio.v3 import imopen
+    from PIL import Image
+
+    if f".{kind}" not in Image.registered_extensions():
+        raise InputError(f"{source.name} is {name}, which this Pillow does not read: install a newer one, or use PNG")
+    with decoding(source.name, name):
+        with _LIMITS:  # of sizes, which are judged here
+            before, Image.MAX_IMAGE_PIXELS = Image.MAX_IMAGE_PIXELS, None
+            try:
+                file = imopen(io.BytesIO(source.data), "r", plugin="pillow")
+            except OSError:  # which says nothing but that
+                raise InputError(f"{source.name} cannot be read as {name}: is the file damaged or cut off?") from None
+            finally:
+                Image.MAX_IMAGE_PIXELS = before
+        with file:
+            yield file
+
+
+def _decoded(file: Any, index: int) -> NDArray[Any]:
+    """Decode one picture."""
+    about = file.metadata(index=index, exclude_applied=False)
+    mode = _PLAIN.get(about["mode"])
+    if "transparency" in about:
+        mode = {"P": "RGBA", "L": "LA", "RGB": "RGBA"}.get(about["mode"], mode)
+    values: NDArray[Any] = file.read(index=index, mode=mode, rotate=True, writeable_output=False)
+    return values
+
+
+def _check_jpeg(source: SourceLike, kind: str) -> None:
+    """Refuse a file whose data cannot be a whole image, before memory is taken: what lacks would be grey."""
+    marker, width, height = jpeg_frame(source.data) if kind == "jpeg" else (0, 0, 0)
+    if marker in _HUFFMAN and len(source.data) * _MOST_EXPANSION < width * height:
+        raise InputError(
+            f"{source.name} is damaged: its {len(source.data)} bytes cannot hold {width} x {height} pixels"
+        )

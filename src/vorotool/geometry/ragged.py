@@ -1,0 +1,84 @@
+"""Ragged arrays: rows of different lengths, one after the other, and the lengths of the rows or where they start."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import DTypeLike, NDArray
+
+Indices = NDArray[np.int64]
+Lengths = NDArray[Any] | Sequence[int]
+
+
+def starts_of(lengths: Lengths) -> Indices:
+    """Where each row begins, and the end of the last.
+
+    Examples
+    --------
+    >>> starts_of([2, 0, 3]).tolist()
+    [0, 2, 2, 5]
+    """
+    starts = np.zeros(np.size(lengths) + 1, dtype=np.int64)
+    np.cumsum(lengths, dtype=np.int64, out=starts[1:])
+    return starts
+
+
+def divides(starts: NDArray[Any], count: int, least: int = 0) -> bool:
+    """Whether these are the starts of rows of so many items in all, of at least some each.
+
+    Examples
+    --------
+    >>> divides(np.array([0, 2, 2, 5]), 5), divides(np.array([0, 2, 2, 5]), 5, least=1)
+    (True, False)
+    """
+    return bool(len(starts) and starts[0] == 0 and starts[-1] == count and (np.diff(starts) >= least).all())
+
+
+def owners(lengths: Lengths, dtype: DTypeLike = np.int64) -> NDArray[Any]:
+    """The row of each item.
+
+    Examples
+    --------
+    >>> owners([2, 0, 3]).tolist()
+    [0, 0, 2, 2, 2]
+    """
+    return np.repeat(np.arange(np.size(lengths), dtype=dtype), lengths)
+
+
+def within(lengths: Lengths) -> Indices:
+    """The place of each item in its row.
+
+    Examples
+    --------
+    >>> within([2, 0, 3]).tolist()
+    [0, 1, 0, 1, 2]
+    """
+    return ranges(np.zeros(np.size(lengths), dtype=np.int64), lengths)
+
+
+def ranges(first: NDArray[Any], lengths: Lengths) -> Indices:
+    """Indices of the items of chosen rows, row after row: first, first + 1, … of each.
+
+    Examples
+    --------
+    >>> ranges(np.array([5, 0]), [2, 3]).tolist()
+    [5, 6, 0, 1, 2]
+    """
+    starts = starts_of(lengths)
+    made: Indices = np.arange(starts[-1]) + np.repeat(first - starts[:-1], lengths)
+    return made
+
+
+def following(starts: NDArray[Any]) -> Indices:
+    """The item after each one in its row, which is a ring: after the last comes the first. Rows have items.
+
+    Examples
+    --------
+    >>> following(np.array([0, 3, 4])).tolist()
+    [1, 2, 0, 3]
+    """
+    after = np.arange(1, starts[-1] + 1, dtype=np.int64)
+    after[starts[1:] - 1] = starts[:-1]
+    return after

@@ -1,0 +1,126 @@
+"""All formats of outputs: a line each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+
+class Writer(NamedTuple):
+    """A function ``function(out, value, **options)``, named so that nothing is imported before something is written."""
+
+    function: str
+    """``module:name`` within the package."""
+    takes: tuple[str, ...] = ("fmt", "what", "precision", "threads")
+    """Options that it has, of these and ``flatten``."""
+
+
+@dataclass(frozen=True, slots=True)
+class Format:
+    """A format of outputs.
+
+    Parameters
+    ----------
+    name : str
+        As ``-f`` and ``fmt`` have it.
+    title : str
+        As documents have it.
+    extensions : tuple of str
+        Without dots, the one that files are given first; by default the name.
+    is_text : bool
+        It may go to a terminal.
+    has_digits : bool
+        It has floating-point numbers in text, so that ``--precision`` acts on it.
+    is_image : bool
+        It holds pixels, or shows a result: coordinates have no units in it.
+    flattens : bool
+        It has no curves: lines stand for them.
+    family : str
+        Formats of one family are written together, each result in its own.
+    writers : mapping of str to Writer
+        What writes results, by their names, beside those formats that a product lists itself.
+    made_from : tuple of str
+        It is made from the text of the first of these formats that a product has, by ``maker``.
+    maker : str
+        ``module:name`` of ``maker(out)``, a file that takes that text.
+    """
+
+    name: str
+    title: str
+    extensions: tuple[str, ...] = ()
+    is_text: bool = True
+    has_digits: bool = False
+    is_image: bool = False
+    flattens: bool = False
+    family: str = ""
+    writers: Mapping[str, Writer] = field(default_factory=dict)
+    made_from: tuple[str, ...] = ()
+    maker: str = ""
+
+    @property
+    def endings(self) -> tuple[str, ...]:
+        """Extensions with their dots."""
+        return tuple(f".{extension}" for extension in self.extensions or (self.name,))
+
+
+def _of_objects(name: str, title: str, extensions: tuple[str, ...], maker: str) -> Format:
+    """Give a format of what a result has as features in GeoJSON, or else of the rows of its table."""
+    return Format(name, title, extensions, has_digits=True, flattens=True, made_from=("geojson", "json"), maker=maker)
+
+
+_GRAPHML = Writer("formats.results.graphml:write_graphml", ("flatten", "precision", "threads"))
+_ALL = (
+    Format("png", "PNG", is_text=False, is_image=True),
+    Format("tiff", "TIFF", ("tif", "tiff"), is_text=False, is_image=True),
+    Format("npy", "NPY", is_text=False, is_image=True),
+    Format("text", "text", ("txt",), is_image=True),
+    Format("svg", "SVG", is_image=True),
+    Format("csv", "CSV", has_digits=True),
+    Format("json", "JSON", has_digits=True),
+    Format("npz", "NPZ", is_text=False),
+    Format("geojson", "GeoJSON", has_digits=True, flattens=True),
+    Format("edge", "Triangle", family="Triangle"),
+    Format("ele", "Triangle", family="Triangle"),
+    Format("node", "Triangle", has_digits=True, family="Triangle"),
+    Format("obj", "OBJ", has_digits=True),
+    Format("wkt", "WKT", has_digits=True, flattens=True),
+    Format("poly", "Triangle", has_digits=True),
+    Format("graphml", "GraphML", has_digits=True, flattens=True, writers={"skeleton": _GRAPHML}),
+    _of_objects("jsonl", "JSON lines", ("jsonl", "ndjson"), "formats.text.json_lines:JsonLines"),
+    Format("html", "HTML"),
+    Format("zarr", "Zarr", is_text=False, is_image=True),
+)
+FORMATS = {each.name: each for each in _ALL}
+"""By name."""
+EXTENSIONS = {ending: each.name for each in _ALL for ending in each.endings}
+"""The format that an extension stands for."""
+TABLES = ("csv", "json", "npz")
+"""Formats of tables."""
+TABLE_WRITER = Writer("formats.text.tables:write_table", ("fmt", "precision", "threads"))
+"""Of tables, whatever they tell."""
+PICTURES = ("svg", "png")
+"""Formats of pictures."""
+
+
+def format_named(name: str) -> str | None:
+    """Give the format that a name or an extension stands for, in any case; None if there is no such.
+
+    Examples
+    --------
+    >>> format_named("TIF"), format_named(".txt"), format_named("doc")
+    ('tiff', 'text', None)
+    """
+    lower = name.lower().removeprefix(".")
+    return lower if lower in FORMATS else EXTENSIONS.get(f".{lower}")
+
+
+def with_digits(possible: Iterable[str]) -> list[str]:
+    """Give the formats that have numbers in text.
+
+    Examples
+    --------
+    >>> with_digits(["csv", "npz", "wkt", "svg"])
+    ['csv', 'wkt']
+    """
+    return [name for name in possible if FORMATS[name].has_digits]

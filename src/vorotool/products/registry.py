@@ -1,0 +1,252 @@
+"""All results that can be written: of which type each is, its layers, and what writes it in which format."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from vorotool.products.formats import FORMATS, PICTURES, TABLE_WRITER, TABLES, Format, Writer
+
+
+@dataclass(frozen=True, slots=True)
+class Product:
+    """A result that can be written, as ``what`` has it.
+
+    Parameters
+    ----------
+    what : str
+        Its name.
+    types : tuple of str
+        Public types of the values that it is written from; those of them that are not the whole value are its parts.
+    data : tuple of str
+        Formats that ``writer`` writes, the default first.
+    writer : Writer
+        Of all these but tables, which have one of their own.
+    layers : mapping of str to sequence of str
+        Layers of its pictures, from below, by the format of the picture.
+    usual_layers : tuple of str
+        Those that a picture has where none are chosen.
+    has_page : bool
+        The command line writes it as a page of HTML, too.
+    is_curved : bool
+        It has curves.
+    usual_for : tuple of str
+        Formats for which it is taken where ``what`` is not given; else the first product that has the format is.
+    """
+
+    what: str
+    types: tuple[str, ...] = ()
+    data: tuple[str, ...] = ()
+    writer: Writer | None = None
+    layers: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    usual_layers: tuple[str, ...] = ()
+    has_page: bool = False
+    is_curved: bool = False
+    usual_for: tuple[str, ...] = ()
+
+    @property
+    def written(self) -> tuple[str, ...]:
+        """Formats of data: its own, and those that name it or can be made from one of its own."""
+        more = (each.name for each in FORMATS.values() if self._fits(each))
+        return tuple(dict.fromkeys([*self.data, *more]))
+
+    def _fits(self, each: Format) -> bool:
+        return self.what in each.writers or any(name in self.data for name in each.made_from)
+
+    @property
+    def formats(self) -> tuple[str, ...]:
+        """All formats, the default first."""
+        pages = ("html",) if self.has_page else ()
+        return tuple(dict.fromkeys((*self.written, *self.layers, *pages)))
+
+
+def _product(
+    what: str,
+    types: str = "",
+    data: str = "",
+    writer: Writer | None = None,
+    layers: Mapping[str, Sequence[str]] | None = None,
+    usual_layers: str = "",
+    **more: Any,
+) -> Product:
+    """Give an entry of the lists below, in which blanks separate names."""
+    shown = tuple(usual_layers.split())
+    return Product(what, tuple(types.split()), tuple(data.split()), writer, layers or {}, shown, **more)
+
+
+def _pictures(layers: str) -> dict[str, Sequence[str]]:
+    return dict.fromkeys(PICTURES, tuple(layers.split()))
+
+
+_TABLES = " ".join(TABLES)
+
+# ---- tessellate ----------------------------------------------------------------------------------
+_IMAGES = "png tiff npy text"
+_LABELS = Writer("formats.images.label_images:write_labels", ("fmt", "threads"))
+_COLOURED = {"png": ("cells", "diagram", "seeds", "labels"), "svg": ("cells", "labels", "seeds")}
+_TESSELLATE = (
+    _product("labels", "LabelImage", f"{_IMAGES} zarr", _LABELS, {"svg": _COLOURED["svg"]}, "cells seeds labels"),
+    _product("diagram", "", _IMAGES, None, {"png": _COLOURED["png"]}, "diagram"),
+    _product("colour", "LabelImage", "", None, _COLOURED, "cells seeds"),
+    _product("distance", "", "tiff npy zarr"),
+    _product("distance2", "", "tiff npy zarr text"),
+    _product("table", "Table", _TABLES, TABLE_WRITER),
+    _product("neighbours", "", _TABLES, TABLE_WRITER),
+)
+
+# ---- delaunay ------------------------------------------------------------------------------------
+_MESH = Writer("formats.results.meshes:write_mesh")
+_CELLS = Writer("formats.results.cells:write_cells", ("fmt", "precision", "threads"))
+_MESHES = "Triangulation DigitalTriangulation"
+_MESH_LAYERS = _pictures("cells triangles diagram edges points labels")
+_DELAUNAY = (
+    _product("edges", _MESHES, "csv json geojson npz edge obj", _MESH, _MESH_LAYERS, "edges points"),
+    _product("triangles", _MESHES, "csv json geojson npz ele obj", _MESH, _MESH_LAYERS, "triangles edges points"),
+    _product("cells", "CellSet", "geojson csv json npz wkt", _CELLS, _MESH_LAYERS, "cells points"),
+    _product("table", _MESHES, f"{_TABLES} node", _MESH),
+    _product("compare", "", _TABLES, TABLE_WRITER),
+)
+
+# ---- alphashape ----------------------------------------------------------------------------------
+_SHAPE = Writer("formats.results.alpha:write_shape")
+_SHAPE_LAYERS = _pictures("polygons delaunay interior boundary singular hull points labels")
+_EDGES = ("AlphaShape", "csv json geojson npz", _SHAPE, _SHAPE_LAYERS)
+_POLYGONS = ("AlphaShape", "geojson wkt json poly", _SHAPE, _SHAPE_LAYERS)
+_GENERAL = ("AlphaShape", "geojson wkt", _SHAPE, _SHAPE_LAYERS)
+_ALPHASHAPE = (
+    _product("edges", *_EDGES, "boundary singular points", has_page=True),
+    _product("polygons", *_POLYGONS, "polygons", has_page=True, usual_for=("geojson", "wkt", "poly")),
+    _product("complex", *_EDGES, "interior boundary singular points", has_page=True),
+    _product("general", *_GENERAL, "polygons boundary singular points", has_page=True),
+    _product("family", "AlphaComplex", _TABLES, _SHAPE, has_page=True),
+    _product("spectrum", "AlphaComplex", _TABLES, _SHAPE),
+    _product("curves", "", _TABLES, TABLE_WRITER, {"svg": ()}, has_page=True),
+    _product("hull", "AlphaHull", f"geojson {_TABLES}", _SHAPE, _SHAPE_LAYERS, "hull points"),
+    _product("points", "AlphaShape", _TABLES, _SHAPE),
+    _product("table", "AlphaShape", _TABLES, _SHAPE),
+)
+
+# ---- skeletons -----------------------------------------------------------------------------------
+_LINES = ("fmt", "flatten", "precision", "threads")
+_SKELETON = Writer("formats.results.skeletons:write_skeleton", ("what", *_LINES))
+_CENTERLINES = Writer("formats.results.centerlines:write_centerlines", _LINES)
+_OFFSETS = Writer("formats.results.offsets:write_offsets", _LINES)
+_RINGS = Writer("formats.polygons.reader:write_polygons", ("fmt", "precision"))
+_POINTS = Writer("formats.results.points_along:write_skeleton_points")
+_CURVES = "json csv geojson npz wkt"
+_ARCS = _pictures("polygons elements points skeleton nodes labels")
+_ALONG = _pictures("polygons skeleton transects points")
+_SKELETONS = (
+    _product("skeleton", "Skeleton", _CURVES, _SKELETON, _ARCS, "polygons skeleton", has_page=True, is_curved=True),
+    _product("diagram", "", _CURVES, _SKELETON, _ARCS, "polygons elements points skeleton", is_curved=True),
+    _product("elements", "Skeleton", _TABLES, _SKELETON, _ARCS, "polygons elements points"),
+    _product(
+        "centerline", "Centerlines", f"geojson {_TABLES} wkt", _CENTERLINES, _ARCS, "polygons skeleton", is_curved=True
+    ),
+    _product("offset", "Offsets", _CURVES, _OFFSETS, _pictures("polygons offset"), "polygons offset", is_curved=True),
+    _product("shape", "PolygonSet", "json geojson wkt poly", _RINGS, _pictures("shape"), "shape"),
+    _product("points", "SkeletonPoints", f"{_TABLES} geojson wkt", _POINTS, _ALONG, "polygons skeleton points"),
+    _product("transects", "SkeletonPoints", f"geojson wkt {_TABLES}", _POINTS, _ALONG, "polygons skeleton transects"),
+    _product("branches", "Skeleton", _TABLES, _SKELETON),
+    _product("table", "Skeleton", _TABLES, _SKELETON),
+)
+
+
+def _beside_exact(product: Product) -> Product:
+    """Beside approximate skeletons pictures can show exact ones."""
+    shown = {fmt: (*layers, "exact") for fmt, layers in _ARCS.items()}
+    return replace(product, layers=shown) if product.layers is _ARCS else product
+
+
+def _drawn() -> Product:
+    """The picture of a result that was written before: the layers of all that is read again."""
+    of_labels = {"png": ("cells", "diagram"), "svg": ("cells",)}
+    return Product(
+        "picture", layers={fmt: (*layers, *_ARCS[fmt], "offset", "shape") for fmt, layers in of_labels.items()}
+    )
+
+
+_BY_COMMAND: dict[str, Sequence[Product]] = {
+    "tessellate": _TESSELLATE,
+    "delaunay": _DELAUNAY,
+    "alphashape": _ALPHASHAPE,
+    "skeleton-exact": _SKELETONS,
+    "skeleton-approx": tuple(map(_beside_exact, _SKELETONS)),
+    "draw": (_drawn(),),
+}
+PRODUCTS = {command: {each.what: each for each in products} for command, products in _BY_COMMAND.items()}
+"""Products of each command, by name."""
+
+
+def formats_of(command: str) -> dict[str, tuple[str, ...]]:
+    """Give the formats of each product of a command, the default first.
+
+    Examples
+    --------
+    >>> formats_of("tessellate")["distance"]
+    ('tiff', 'npy', 'zarr')
+    """
+    return {what: product.formats for what, product in PRODUCTS[command].items()}
+
+
+def layers_of(command: str) -> dict[str, tuple[str, ...]]:
+    """Give the layers of all pictures of a command, by their format.
+
+    Examples
+    --------
+    >>> layers_of("tessellate")["svg"]
+    ('cells', 'labels', 'seeds')
+    """
+    own = PRODUCTS[command].values()
+    return {fmt: tuple(dict.fromkeys(name for each in own for name in each.layers.get(fmt, ()))) for fmt in PICTURES}
+
+
+def all_layers(command: str) -> tuple[str, ...]:
+    """Give the layers that a picture of a command can have, whatever its format.
+
+    Examples
+    --------
+    >>> all_layers("tessellate")
+    ('cells', 'diagram', 'seeds', 'labels')
+    """
+    by_format = layers_of(command)
+    return tuple(dict.fromkeys([*by_format["png"], *by_format["svg"]]))
+
+
+def is_of(value: object, *types: str) -> bool:
+    """Whether a value is of one of the public types; none of them is imported to tell.
+
+    Examples
+    --------
+    >>> from vorotool import Table
+    >>> is_of(Table({"a": [1]}), "Table"), is_of([1], "Table")
+    (True, False)
+    """
+    return any(base.__name__ in types and base.__module__.startswith("vorotool.") for base in type(value).__mro__)
+
+
+def parts_of(value: object) -> dict[str, Product]:
+    """Give the products that a value is written as, the usual first.
+
+    Examples
+    --------
+    >>> from vorotool import delaunay
+    >>> list(parts_of(delaunay([[0, 0], [4, 0], [0, 3]])))
+    ['edges', 'triangles', 'table']
+    """
+    found: dict[str, Product] = {}
+    for product in (each for own in PRODUCTS.values() for each in own.values() if is_of(value, *each.types)):
+        found.setdefault(product.what, product)
+    return found
+
+
+def public_types() -> list[str]:
+    """Give the names of all types that can be written.
+
+    Examples
+    --------
+    >>> public_types()[:4]
+    ['LabelImage', 'Table', 'Triangulation', 'DigitalTriangulation']
+    """
+    return list(dict.fromkeys(name for own in PRODUCTS.values() for each in own.values() for name in each.types))

@@ -1,0 +1,111 @@
+"""From a value and a format to the function that writes the one in the other."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib import import_module
+from typing import Any, BinaryIO
+
+from vorotool.errors import UsageError
+from vorotool.products.formats import FORMATS, TABLE_WRITER
+from vorotool.products.registry import Product, is_of, parts_of, public_types
+
+
+def resolved(function: str) -> Callable[..., Any]:
+    """Give the function that ``module:name`` stands for.
+
+    Examples
+    --------
+    >>> resolved("formats.results.cells:write_cells").__name__
+    'write_cells'
+    """
+    module, name = function.split(":")
+    found: Callable[..., Any] = getattr(import_module(f"vorotool.{module}"), name)
+    return found
+
+
+def write_product(
+    out: BinaryIO,
+    value: Any,
+    product: Product,
+    fmt: str,
+    *,
+    flatten: float | None = None,
+    precision: int | None = None,
+    threads: int = 0,
+) -> None:
+    r"""Write a result in one of its formats; pictures and pages are none of these.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable.
+    value : value of the library
+        What the product is written from, or its `Table`.
+    product : Product
+        Which.
+    fmt : str
+        One of ``product.written``.
+    flatten, precision, threads : optional
+        As of `vorotool.write`.
+
+    Examples
+    --------
+    >>> import io, vorotool
+    >>> out = io.BytesIO()
+    >>> mesh = vorotool.delaunay([[0, 0], [4, 0], [0, 3]])
+    >>> write_product(out, mesh, parts_of(mesh)["triangles"], "ele")
+    >>> out.getvalue()
+    b'1 3 0\n1 1 2 3\n'
+    """
+    chosen = FORMATS[fmt]
+    options: dict[str, Any] = {"flatten": flatten, "precision": precision, "threads": threads}
+    writer = chosen.writers.get(product.what)
+    if writer is None and fmt not in product.data:
+        source = next(name for name in chosen.made_from if name in product.data)
+        write_product(resolved(chosen.maker)(out), value, product, source, **options)
+        return
+    writer = writer or (TABLE_WRITER if is_of(value, "Table") else product.writer)
+    assert writer is not None  # images have none: they are written as they are computed
+    given = {"fmt": fmt, "what": product.what, **options}
+    resolved(writer.function)(out, value, **{name: given[name] for name in writer.takes})
+
+
+def chosen_part(value: Any, fmt: str, what: str | None) -> Product:
+    """Choose what of a value is written.
+
+    Parameters
+    ----------
+    value : value of the library
+        Of any type.
+    fmt : str
+        The format, which may be one that nothing of it has.
+    what : str, optional
+        Which part; by default what the format is for, else the first one.
+
+    Raises
+    ------
+    UsageError
+        If there is nothing to write of it, no such part, or no place for it in the format.
+
+    Examples
+    --------
+    >>> from vorotool import delaunay
+    >>> chosen_part(delaunay([[0, 0], [4, 0], [0, 3]]), "ele", None).what
+    'triangles'
+    """
+    parts, name = parts_of(value), type(value).__name__
+    if not parts:
+        *others, last = public_types()
+        raise UsageError(f"a {name} cannot be written: give a {', '.join(others)} or {last}")
+    if what is not None and what not in parts:
+        instead = f"use {' or '.join(parts)}" if len(parts) > 1 else "leave it out"
+        raise UsageError(f"what={what!r} is nothing that a {name} is written as: {instead}")
+    having = [each for each in parts.values() if fmt in each.written]
+    usual = [each for each in having if fmt in each.usual_for]
+    chosen = parts[what] if what is not None else next(iter([*usual, *having, *parts.values()]))
+    if fmt not in chosen.written:
+        possible = dict.fromkeys([*chosen.written, *chosen.layers])
+        part = chosen.what if len(parts) > 1 else f"a {name}"
+        raise UsageError(f"{part} cannot be written as {fmt!r}: use one of {', '.join(possible)}")
+    return chosen

@@ -1,0 +1,108 @@
+"""Pictures of cameras and other programs as inputs of all commands."""
+
+import io
+
+import numpy as np
+import pytest
+from PIL import Image
+
+MASK = np.zeros((64, 96), np.uint8)
+MASK[8:40, 8:40] = MASK[16:56, 56:88] = 255
+
+
+@pytest.fixture
+def photographs(folder):
+    """One scene as each kind of file, noise and colours in those that may have them."""
+    noise = np.random.default_rng(1).integers(-20, 21, (*MASK.shape, 3))
+    photo = Image.fromarray(np.clip(MASK[:, :, None] + noise, 0, 255).astype(np.uint8))
+    photo.save(folder / "a.jpg", quality=95)
+    photo.save(folder / "a.webp", quality=95)
+    Image.fromarray(MASK).save(folder / "a.bmp")
+    Image.fromarray(MASK).save(folder / "a.gif")
+    Image.fromarray(MASK).save(folder / "a.png")
+    return folder
+
+
+def commands(name):
+    return {
+        "tessellate": ["tessellate", name, "-o", "out.npy"],
+        "delaunay": ["delaunay", name, "--what", "table", "-o", "out.csv"],
+        "alphashape": ["alphashape", name, "-o", "out.csv"],
+        "skeleton-exact": ["skeleton-exact", name, "-o", "out.csv"],
+        "skeleton-approx": ["skeleton-approx", name, "--step", "5", "-o", "out.csv"],
+    }
+
+
+@pytest.mark.parametrize("command", commands(""))
+@pytest.mark.parametrize("name", ["a.jpg", "a.webp", "a.bmp", "a.gif"])
+@pytest.mark.filterwarnings("ignore::vorotool.errors.VorotoolWarning")
+def test_a_threshold_makes_the_mask_of_a_photograph(run, photographs, command, name):
+    """Each command gives the same as of the mask itself."""
+    found = []
+    for source in ("a.png", name):
+        words = commands(source)[command]
+        done = run(*words, "--threshold", "otsu", "-q")
+        assert done.code == 0, done.err
+        found.append((photographs / words[words.index("-o") + 1]).read_bytes())
+    assert found[0] == found[1]
+
+
+@pytest.mark.parametrize("name", ["a.bmp", "a.gif"])
+def test_exact_pictures_are_masks_and_drawn(run, photographs, name):
+    assert run("draw", name, "-o", "out.svg").code == 0
+    assert run("draw", "a.png", "-o", "same.svg").code == 0
+    assert (photographs / "out.svg").read_bytes() == (photographs / "same.svg").read_bytes()
+    assert run("tessellate", name, "-o", "out.npy").code == 0
+
+
+@pytest.mark.parametrize("words", [["tessellate", "-o", "b.npy"], ["skeleton-exact", "-o", "b.json"]])
+def test_photographs_need_a_threshold(run, photographs, words):
+    Image.open(photographs / "a.jpg").convert("L").save(photographs / "grey.jpg")
+    for name, reason in (("a.jpg", "a colour image holds no objects"), ("grey.jpg", "keeps values nearly")):
+        done = run(words[0], name, *words[1:])
+        assert done.code == 3
+        assert done.err.startswith(f"error: {name}: ")
+        assert reason in done.err
+        assert "--threshold otsu" in done.err
+    done = run("draw", "grey.jpg", "-o", "b.svg")
+    assert done.code == 3
+    assert "give a PNG, TIFF or NPY file" in done.err
+
+
+def test_a_photograph_lies_below_a_picture(run, photographs):
+    assert run("tessellate", "a.png", "-o", "out.svg", "--overlay", "a.jpg").code == 0
+    assert b"<image" in (photographs / "out.svg").read_bytes()
+
+
+def test_the_first_picture_of_an_animation_is_read_with_a_note(run, photographs):
+    frames = [Image.fromarray(part) for part in (MASK, 255 - MASK)]
+    frames[0].save(photographs / "b.gif", save_all=True, append_images=frames[1:])
+    done = run("tessellate", "b.gif", "-o", "first.npy")
+    assert done.code == 0
+    assert "b.gif has 2 pictures: the first one is read; choose another with --page" in done.err
+    assert run("tessellate", "a.png", "-o", "mask.npy").code == 0
+    assert (photographs / "first.npy").read_bytes() == (photographs / "mask.npy").read_bytes()
+    done = run("tessellate", "b.gif", "--page", "1", "-o", "second.npy")
+    assert done.code == 0
+    assert "pictures" not in done.err
+    assert (photographs / "second.npy").read_bytes() != (photographs / "mask.npy").read_bytes()
+
+
+@pytest.mark.parametrize("name", ["a.jpg", "a.webp", "a.bmp", "a.gif"])
+def test_damaged_pictures_are_refused_by_name(run, photographs, name):
+    data = (photographs / name).read_bytes()
+    for part in (b"", data[:10], data[: len(data) // 2]):
+        (photographs / name).write_bytes(part)
+        for words in commands(name).values():
+            done = run(*words, "--threshold", "9")
+            assert done.code == 3
+            assert name in done.err
+            assert "Traceback" not in done.err
+    (photographs / name).write_bytes(data)
+    assert run("tessellate", name, "-o", "c.npy", "--threshold", "9", "--max-pixels", "6143").code == 5
+
+
+def test_standard_input_is_known_by_its_content(run, photographs, monkeypatch):
+    data = (photographs / "a.jpg").read_bytes()
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(data)))
+    assert run("tessellate", "-", "-o", "d.npy", "--threshold", "otsu").code == 0

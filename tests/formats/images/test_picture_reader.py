@@ -1,0 +1,175 @@
+"""JPEG, BMP, GIF, WebP and AVIF: what Pillow shows of them, limits, damage."""
+
+import io
+import struct
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from PIL import Image, ImageOps, features
+
+import vorotool
+from vorotool import InputError, LimitError
+from vorotool.formats.images.reader import image_format, is_image, read_image
+from vorotool.formats.images.rgb_reader import read_picture
+
+RNG = np.random.default_rng(5)
+GREY = RNG.integers(0, 256, (7, 11), dtype=np.uint8)
+COLOURS = RNG.integers(0, 256, (7, 11, 3), dtype=np.uint8)
+SMOOTH = np.add.outer(np.arange(40) * 4, np.arange(60) * 2).astype(np.uint8)
+KINDS = ["jpeg", "bmp", "gif", "webp"] + ["avif"] * ("avif" in features.get_supported())
+ORIENTATION = 274
+
+
+def saved(image, kind, **options):
+    out = io.BytesIO()
+    image = image if isinstance(image, Image.Image) else Image.fromarray(image)
+    image.save(out, kind.upper(), **options)
+    return out.getvalue()
+
+
+def source(data, name="a"):
+    return SimpleNamespace(name=name, data=data)
+
+
+def read(data, **options):
+    return read_image(source(data), **options).values
+
+
+def pillow(data):
+    return np.asarray(Image.open(io.BytesIO(data)))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_content_tells_the_format(kind):
+    data = saved(COLOURS, kind)
+    assert image_format(source(data)) == image_format(source(data, f"a.{kind}")) == kind
+    assert is_image(source(data))
+    assert not is_image(source(b"BMI,age\n1,2\n", "a.csv"))
+    with pytest.raises(InputError, match=rf"a.png is no png file, it begins as {kind}: use --input-format {kind}"):
+        read_image(source(data, "a.png"))
+
+
+@pytest.mark.parametrize("kind", ["bmp", "webp"])
+def test_values_of_exact_formats_are_as_stored(kind):
+    options = {"lossless": True} if kind == "webp" else {}
+    raster = read_image(source(saved(COLOURS, kind, **options)))
+    np.testing.assert_array_equal(raster.values, COLOURS)
+    assert not raster.is_lossy
+    np.testing.assert_array_equal(read(saved(GREY, kind, **options)), GREY)  # what is grey has one channel
+
+
+def test_two_values_are_0_and_1():
+    np.testing.assert_array_equal(read(saved(GREY > 99, "bmp")), GREY > 99)
+
+
+@pytest.mark.parametrize("kind", ["jpeg", *KINDS[3:]])
+def test_lossy_formats_are_what_pillow_shows(kind):
+    data = saved(COLOURS, kind)
+    raster = read_image(source(data))
+    np.testing.assert_array_equal(raster.values, pillow(data))
+    assert raster.is_lossy
+    np.testing.assert_array_equal(read_picture(source(data)), pillow(data))
+
+
+def test_other_colours_become_red_green_and_blue():
+    data = saved(Image.fromarray(np.dstack([COLOURS, GREY]), "CMYK"), "jpeg")
+    np.testing.assert_array_equal(read(data), np.asarray(Image.open(io.BytesIO(data)).convert("RGB")))
+
+
+@pytest.mark.parametrize("kind", ["gif", "bmp"])
+def test_palettes_are_applied(kind):
+    image = Image.fromarray(GREY % 3)
+    image.putpalette([250, 0, 0, 0, 240, 0, 0, 0, 230])
+    np.testing.assert_array_equal(read(saved(image, kind)), np.asarray(image.convert("RGB")))
+
+
+def test_what_a_gif_leaves_free_is_transparent():
+    image = Image.fromarray(GREY % 3)
+    image.putpalette([250, 0, 0, 0, 240, 0, 0, 0, 230])
+    data = saved(image, "gif", transparency=1)
+    np.testing.assert_array_equal(read(data)[:, :, 3], np.where(GREY % 3 == 1, 0, 255))
+    assert (read_picture(source(data))[GREY % 3 == 1] == 255).all()  # on white
+
+
+@pytest.mark.parametrize("kind", ["jpeg", *KINDS[3:]])
+@pytest.mark.parametrize("orientation", range(1, 9))
+@pytest.mark.parametrize("values", [SMOOTH, np.dstack([SMOOTH, 255 - SMOOTH, SMOOTH // 2])], ids=["grey", "colour"])
+def test_pictures_are_upright(kind, orientation, values):
+    exif = Image.Exif()
+    exif[ORIENTATION] = orientation
+    data = saved(values, kind, exif=exif)
+    expected = np.asarray(ImageOps.exif_transpose(Image.open(io.BytesIO(data))))
+    found = read(data)
+    np.testing.assert_array_equal(found, expected if found.ndim == expected.ndim else expected[:, :, 0])
+
+
+@pytest.mark.parametrize("kind", ["gif", "webp"])
+def test_of_an_animation_the_first_picture_is_read_which_is_said(kind):
+    frames = [Image.fromarray(np.full((6, 9), value, np.uint8)) for value in (10, 90, 200)]
+    options = {"lossless": True} if kind == "webp" else {}
+    data = saved(frames[0], kind, save_all=True, append_images=frames[1:], **options)
+    notes = []
+    assert (read(data, note=notes.append) == 10).all()
+    assert notes == ["a has 3 pictures: the first one is read; choose another with --page"]
+    assert (read(data, page=2, note=notes.append) == 200).all()
+    assert len(notes) == 1
+    for page in (3, -1):
+        with pytest.raises(InputError, match=f"a has 3 pages, counted from 0: there is no --page {page}"):
+            read(data, page=page)
+    with pytest.raises(InputError, match="a has a single page: there is no --page 1"):
+        read(saved(GREY, kind), page=1)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_pixels_are_counted_before_they_are_decoded(kind):
+    data = saved(GREY, kind)
+    with pytest.raises(LimitError, match=r"a is 11 x 7 = 77 pixels, more than --max-pixels 76"):
+        read(data, max_pixels=76)
+    assert read(data, max_pixels=77).shape[:2] == (7, 11)
+
+
+def test_large_pictures_are_a_matter_of_the_limit_alone(monkeypatch):
+    monkeypatch.setattr(Image, "MAX_IMAGE_PIXELS", 10)
+    assert read(saved(GREY, "bmp")).shape == GREY.shape
+    assert Image.MAX_IMAGE_PIXELS == 10
+
+
+def test_a_jpeg_that_cannot_be_so_large_is_refused():
+    data = bytearray(saved(SMOOTH, "jpeg"))
+    at = data.index(b"\xff\xc0")
+    data[at + 5 : at + 9] = struct.pack(">HH", 40_000, 50_000)
+    with pytest.raises(InputError, match=r"a is damaged: its \d+ bytes cannot hold 50000 x 40000 pixels"):
+        read(bytes(data))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_what_is_cut_off_is_refused(kind):
+    data = saved(COLOURS, kind)
+    for end in {*range(1, 60), *range(60, len(data) - 2, 7), len(data) // 2}:
+        with pytest.raises(InputError, match=r"^a.img "):
+            read_image(source(data[:end], "a.img"), input_format=kind)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_what_is_damaged_is_read_or_refused(kind):
+    data = saved(COLOURS, kind)
+    for _ in range(200):
+        damaged = bytearray(data)
+        for at in RNG.integers(0, len(data), 3):
+            damaged[at] = RNG.integers(0, 256)
+        try:
+            read_image(source(bytes(damaged), "a.img"), input_format=kind, max_pixels=10**6)
+        except (InputError, LimitError) as error:
+            assert str(error).startswith("a.img")  # noqa: PT017
+
+
+def test_a_lossy_picture_holds_no_labels(tmp_path):
+    (tmp_path / "a.jpg").write_bytes(saved(SMOOTH, "jpeg"))
+    raster = vorotool.read(tmp_path / "a.jpg")
+    for options in ({}, {"mode": "labels"}, {"mode": "components"}):
+        with pytest.raises(InputError, match="keeps values nearly, so that they are no labels: use --threshold"):
+            vorotool.outlines(raster, **options)
+    assert len(vorotool.outlines(raster, threshold=99)) == 1
+    (tmp_path / "b.jpg").write_bytes(saved(np.kron(GREY > 99, np.ones((8, 8))).astype(np.uint8) * 255, "jpeg"))
+    assert len(vorotool.outlines(vorotool.read(tmp_path / "b.jpg")))  # of two values, all of them exact

@@ -1,0 +1,122 @@
+"""What can be written: names that resolve, formats that fit, and all that is made from this one list."""
+
+import inspect
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import vorotool
+from vorotool.products.formats import EXTENSIONS, FORMATS, PICTURES, TABLE_WRITER
+from vorotool.products.registry import PRODUCTS, all_layers, formats_of
+from vorotool.products.writing import resolved
+
+ROOT = Path(__file__).parents[2]
+ALL = [pytest.param(each, id=f"{command}-{what}") for command, own in PRODUCTS.items() for what, each in own.items()]
+
+
+@pytest.mark.parametrize("product", ALL)
+def test_products_have_what_they_name(product):
+    assert set(product.types) <= set(vorotool.__all__)
+    assert set(product.formats) <= set(FORMATS)
+    assert len(set(product.formats)) == len(product.formats)
+    assert set(product.layers) <= set(PICTURES)
+    assert set(product.usual_for) <= set(product.data)
+    for layers in product.layers.values():
+        assert set(product.usual_layers) <= set(layers)
+
+
+def test_writers_are_there_and_take_what_they_are_given():
+    writers = {each.writer for own in PRODUCTS.values() for each in own.values()} - {None}
+    writers |= {writer for each in FORMATS.values() for writer in each.writers.values()}
+    for writer in (*writers, TABLE_WRITER):
+        assert writer.function.startswith("formats."), "what is drawn is no data"
+        parameters = list(inspect.signature(resolved(writer.function)).parameters)
+        assert set(writer.takes) == set(parameters[2:]) - {"by"}
+    for each in FORMATS.values():
+        assert bool(each.maker) == bool(each.made_from)
+        if each.maker:
+            assert callable(resolved(each.maker))
+
+
+def test_extensions_stand_for_one_format_each():
+    assert len(EXTENSIONS) == sum(len(each.endings) for each in FORMATS.values())
+    assert all(ending == ending.lower() and ending.startswith(".") for ending in EXTENSIONS)
+
+
+def test_the_all_layers_a_command_are_those_of_its_pictures():
+    for command, own in PRODUCTS.items():
+        shown = {layer for each in own.values() for layers in each.layers.values() for layer in layers}
+        assert set(all_layers(command)) == shown
+
+
+# ---- a format more -------------------------------------------------------------------------------
+ADDED = """
+import sys, types
+from pathlib import Path
+from vorotool.products import formats
+
+def write(out, value, *, precision, threads):
+    out.write(b"%d curves\\n" % len(value))
+
+module = types.ModuleType("vorotool.formats.results.drawings")
+module.write = write
+sys.modules[module.__name__] = module
+writers = {"offset": formats.Writer("formats.results.drawings:write", ("precision", "threads"))}
+added = formats.Format("drawing", "Drawing", ("drw",), writers=writers)
+formats.FORMATS["drawing"] = added
+formats.EXTENSIONS[".drw"] = "drawing"
+"""
+"""What one line in the list of formats and one file do."""
+
+READ = {
+    "help": "from vorotool.cli.main import main; main(['skeleton-exact', '--help'])",
+    "documents": "import runpy; runpy.run_path('docs/scripts/cli_reference.py', run_name='__main__')",
+    "refusal": "from vorotool.cli.main import main; main(['skeleton-exact', '--what', 'offset', '-f', 'obj', '-'])",
+    "writing": "from vorotool.cli.main import main; "
+    "main(['skeleton-exact', 'data/two-shapes.json', '--what', 'offset', '-d', '1', '-f', 'drw'])",
+    "library": "import vorotool; "
+    "vorotool.write(vorotool.offset([[0, 0], [4, 0], [0, 4]], 1), '/dev/stdout', fmt='drawing')",
+}
+EXPECTED = {
+    "help": "html, drawing,",
+    "documents": "| `offset` | JSON (`.json`), CSV (`.csv`), GeoJSON (`.geojson`), NPZ (`.npz`), WKT (`.wkt`), "
+    "JSON lines (`.jsonl`, `.ndjson`), Drawing (`.drw`)",
+    "refusal": "offset cannot be written as obj: use one of json, csv, geojson, npz, wkt, jsonl, drawing, svg, png",
+    "writing": " curves\n",
+    "library": "1 curves\n",
+}
+
+
+@pytest.mark.parametrize("place", READ)
+def test_a_format_is_one_file_and_one_line(place):
+    done = subprocess.run(
+        [sys.executable, "-c", ADDED + READ[place]], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    text = done.stdout + done.stderr
+    assert EXPECTED[place] in (" ".join(text.split()) if place == "help" else text)
+
+
+def test_completion_offers_a_format_more():
+    words = "vorotool skeleton-exact --what offset -f d"
+    asked = {"_VOROTOOL_COMPLETE": "bash_complete", "COMP_WORDS": words, "COMP_CWORD": "5"}
+    code = ADDED + "from vorotool.cli.main import main; main([])"
+    done = subprocess.run([sys.executable, "-c", code], env=asked, capture_output=True, text=True, check=False)
+    assert done.stdout == "plain,drawing\n"
+
+
+def help_of(command):
+    asked = [sys.executable, "-m", "vorotool", command, "--help"]
+    return subprocess.run(asked, capture_output=True, text=True, check=True).stdout
+
+
+@pytest.mark.parametrize("command", PRODUCTS)
+def test_help_and_documents_name_all_formats(command):
+    formats = dict.fromkeys(fmt for those in formats_of(command).values() for fmt in those)
+    assert f"Format of the output: {', '.join(formats)};" in " ".join(help_of(command).split())
+    reference = (ROOT / "docs/cli.md").read_text(encoding="utf-8")
+    section = reference.partition(f"## vorotool {command}\n")[2].partition("\n## ")[0]
+    for what, those in formats_of(command).items():
+        (row,) = (line for line in section.splitlines() if line.startswith(f"| `{what}` |"))
+        assert all(ending in row for fmt in those for ending in FORMATS[fmt].endings)

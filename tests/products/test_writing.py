@@ -1,0 +1,99 @@
+"""From values to what is written of them."""
+
+import pytest
+
+import vorotool
+from support.readers.written import written
+from vorotool.errors import UsageError
+from vorotool.products.registry import parts_of, public_types
+from vorotool.products.writing import chosen_part
+
+POINTS = [[0, 0], [4, 0], [0, 3], [5, 5]]
+SQUARE = [[0, 0], [4, 0], [4, 4], [0, 4]]
+
+
+def values():
+    """A value of each type that can be written."""
+    mesh, shape = vorotool.delaunay(POINTS), vorotool.alpha_shape(POINTS, r=4)
+    skeleton = vorotool.skeleton_exact(SQUARE)
+    found = [
+        vorotool.tessellate(POINTS, shape=(6, 6)),
+        vorotool.edge_table(mesh),
+        mesh,
+        vorotool.digital_triangulation([[1, 1], [5, 3], [2, 6]], shape=(8, 8)),
+        vorotool.voronoi_cells(POINTS),
+        shape,
+        vorotool.alpha_complex(POINTS),
+        vorotool.alpha_hull(shape),
+        skeleton,
+        vorotool.centerline(skeleton),
+        vorotool.offset(SQUARE, -1),
+        vorotool.rebuild(skeleton),
+        vorotool.points_along(skeleton, every=1),
+    ]
+    return {type(value).__name__: value for value in found}
+
+
+VALUES = values()
+
+
+def test_there_is_a_value_of_each_type():
+    assert set(VALUES) == set(public_types())
+
+
+@pytest.mark.parametrize("name", VALUES)
+def test_every_part_in_every_format(name, tmp_path):
+    value = VALUES[name]
+    for what, product in parts_of(value).items():
+        for fmt in (*product.written, *product.layers):
+            if name == "DigitalTriangulation" and (what == "table" or fmt in ("edge", "ele")):
+                continue  # which need be no triangulation
+            path = tmp_path / f"{what}.{fmt}"
+            vorotool.write(value, path, what=what)
+            assert path.stat().st_size > 0
+            if fmt in product.written and fmt != "zarr":
+                assert path.read_bytes() == written(value, fmt, what)
+
+
+@pytest.mark.parametrize(
+    ("name", "fmt", "what"),
+    [
+        ("Triangulation", "csv", "edges"),
+        ("Triangulation", "ele", "triangles"),
+        ("Triangulation", "node", "table"),
+        ("AlphaShape", "csv", "edges"),
+        ("AlphaShape", "geojson", "polygons"),
+        ("AlphaShape", "poly", "polygons"),
+        ("AlphaComplex", "json", "family"),
+        ("Skeleton", "graphml", "skeleton"),
+        ("SkeletonPoints", "wkt", "points"),
+    ],
+)
+def test_the_part_that_a_format_is_for(name, fmt, what):
+    assert chosen_part(VALUES[name], fmt, None).what == what
+
+
+@pytest.mark.parametrize(
+    ("name", "fmt", "what", "message"),
+    [
+        (
+            "Skeleton",
+            "csv",
+            "arcs",
+            "what='arcs' is nothing that a Skeleton is written as: use skeleton or elements or",
+        ),
+        ("Offsets", "csv", "arcs", "what='arcs' is nothing that a Offsets is written as: leave it out"),
+        ("Skeleton", "graphml", "branches", "branches cannot be written as 'graphml': use one of csv, json, npz"),
+        ("Table", "svg", None, "a Table cannot be written as 'svg': use one of csv, json, npz"),
+    ],
+)
+def test_what_there_is_not(name, fmt, what, message):
+    with pytest.raises(UsageError, match=message):
+        chosen_part(VALUES[name], fmt, what)
+
+
+def test_what_is_no_result():
+    with pytest.raises(UsageError, match=r"a list cannot be written: give a LabelImage, Table, Triangulation, .* or "):
+        vorotool.write([[0, 0]], "a.csv")
+    with pytest.raises(UsageError, match="a PointSet cannot be written"):
+        vorotool.to_geojson(vorotool.PointSet(POINTS))
