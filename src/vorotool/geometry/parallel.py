@@ -9,12 +9,10 @@ from concurrent.futures import Future, ThreadPoolExecutor, wait
 from typing import TypeVar
 
 from vorotool.geometry.checks import available_threads, checked_threads
+from vorotool.geometry.progress import Progress
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
-Told = Callable[[float], object] | None
-"""Called with the fraction done, if at all."""
-
 CHUNK = 1 << 15
 """Rows that are taken at a time: what is made of them stays in the cache."""
 
@@ -84,7 +82,7 @@ def in_chunks(count: int, fill: Callable[[slice], None], *, threads: int = 1) ->
         pass
 
 
-def in_threads(tasks: Sequence[Callable[[Told], Result]], threads: int, progress: Told) -> list[Result]:
+def in_threads(tasks: Sequence[Callable[[Progress], Result]], threads: int, progress: Progress) -> list[Result]:
     """Do tasks, and give their results in order.
 
     Parameters
@@ -106,7 +104,7 @@ def in_threads(tasks: Sequence[Callable[[Told], Result]], threads: int, progress
     stop = threading.Event()
     done = [0.0] * len(tasks)
 
-    def progress_of(k: int) -> Told:
+    def progress_of(k: int) -> Progress:
         def poll(fraction: float) -> None:
             if stop.is_set():
                 raise KeyboardInterrupt

@@ -215,19 +215,20 @@ class SkeletonProducts(ABC, Generic[Options]):
 
     def _written(self, what: str) -> Any:
         """What a result is written from, in the units of files: the table tells of centerlines, too."""
-        size = self.options.pixel_size
+        o = self.options
         if what in DERIVED:
-            return in_units(size, self.derived.value(what))
+            return in_units(o.pixel_size, self.derived.value(what))
         if what == "centerline":
-            return in_units(size, self.centerlines)
-        value = in_units(size, self._value(what))
+            return in_units(o.pixel_size, self.centerlines)
+        value = in_units(o.pixel_size, self._value(what))
         if what != "table":
             return value
         from vorotool.geometry.skeleton.centerline import centerline_columns
         from vorotool.geometry.skeleton.tables import polygon_table
 
-        columns = centerline_columns(in_units(size, self._longest))
-        return polygon_table(value, columns=columns, threads=self.options.threads)
+        return polygon_table(
+            value, columns=centerline_columns(in_units(o.pixel_size, self._longest)), threads=o.threads
+        )
 
     def _write_html(self, out: BinaryIO) -> None:
         """A page of all prunings, which begins with that which is asked for."""

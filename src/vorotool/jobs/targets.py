@@ -166,7 +166,7 @@ def check_precision(options: ComputingOptions, formats: Mapping[str, Sequence[st
     Parameters
     ----------
     options : ComputingOptions
-        As given.
+        Of the command line.
     formats : mapping of str to sequence of str
         Formats of each result.
     targets : sequence of Target

@@ -106,6 +106,11 @@ def to_geojson(value: Any, *, what: str | None = None, flatten: float | None = N
     what, flatten : optional
         As of `write`.
 
+    Returns
+    -------
+    dict
+        A feature collection, as `json.dumps` takes it.
+
     Raises
     ------
     UsageError

@@ -42,7 +42,7 @@ def test_a_bar_shows_the_fraction_that_is_done(capfd):
     assert "sweep" in capfd.readouterr().err
 
 
-@pytest.mark.parametrize("room", ["engines", "batch", "jobs", "cli", "formats"])
+@pytest.mark.parametrize("room", ["geometry", "engines", "formats", "render", "batch", "jobs", "cli"])
 def test_there_is_one_type_of_progress(room):
     for path in (PACKAGE / room).rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
