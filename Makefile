@@ -13,7 +13,7 @@ NEEDED  := $(PYTHON) tools/requirements.py
 # ---- environment and build ------------------------------------------------------------------------------------
 CORE_SOURCES := $(shell find src/core src/bindings -name '*.[ch]pp') \
                 src/compile_options.cmake src/CMakeLists.txt src/core/CMakeLists.txt src/bindings/CMakeLists.txt
-CPP_FILES := $(filter %.cpp %.hpp,$(CORE_SOURCES)) $(shell find tests/cpp -name '*.[ch]pp')
+CPP_FILES := $(filter %.cpp %.hpp,$(CORE_SOURCES)) $(shell find tests -name '*.[ch]pp')
 
 $(BUILD)/.venv: pyproject.toml
 	@mkdir -p $(BUILD)

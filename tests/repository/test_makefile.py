@@ -16,7 +16,7 @@ def make(*arguments):
 
 def test_every_source_is_checked_by_clang_format():
     [check] = [line for line in make("lint").splitlines() if "clang-format" in line]
-    tests = {str(path.relative_to(ROOT)) for path in (ROOT / "tests" / "cpp").rglob("*.[ch]pp")}
+    tests = {str(path.relative_to(ROOT)) for path in (ROOT / "tests").rglob("*.[ch]pp")}
     assert {word for word in check.split() if word.endswith((".cpp", ".hpp"))} == SOURCES | tests
 
 
