@@ -26,8 +26,7 @@ namespace {
 
 constexpr double u = numbers::unit_roundoff;
 
-// ---- about 106 bits: sums of two doubles
-// -------------------------------------------------------
+// About 106 bits: sums of two doubles.
 //
 // In each operation the last bits of the factors' tails are left out, u^2 of the product, and what is added
 // to a tail of a few u of the whole is rounded, a few times by u of the tail. For heads that are rounded sums
@@ -165,8 +164,7 @@ Rescaled rescale(const Support& s) {
   return {{{values[0], values[1]}, {values[2], values[3]}, {values[4], values[5]}, s.is_triangle}, exponent};
 }
 
-// ---- small integers: points of a lattice
-// -------------------------------------------------------------------
+// Small integers: points of a lattice.
 
 // Differences below 2^11 in magnitude, so those of the third side are below 2^12. Squares are below 2^23,
 // 2^23 and 2^25, the numerator below 2^71, the cross product below 2^23 and the denominator below 2^48:
@@ -198,8 +196,7 @@ ShortSquare short_square(const Support& s) {
           true};
 }
 
-// ---- supports that are one another moved, turned by quarters or mirrored
-// ------------------------------------
+// Supports that are one another moved, turned by quarters or mirrored.
 
 // The sides of a support, each as the larger and the smaller of |dx| and |dy|, in increasing order; known
 // where the differences are exact. Equal ones have equal radii.

@@ -24,7 +24,7 @@ using numbers::unit_roundoff;
 
 namespace {
 
-// ---- numbers of 106 bits, with a bound of their error ----
+// Numbers of 106 bits, with a bound of their error.
 
 struct Estimate {
   DoubleDouble value;
@@ -105,7 +105,7 @@ std::optional<Estimate> bisector_by_estimate(double x, const Point& a, const Poi
   return Estimate{sum, 40 * u2 * (std::abs(quotient.head) + std::abs(sum.head))};
 }
 
-// ---- integers as long as it takes ----
+// Integers as long as it takes.
 
 // Coordinates of 64 limbs - 3 bits: their differences are below 2^(64 limbs - 2) in magnitude, and a
 // difference of twice one of them to the sum of two others below 2^(64 limbs - 1). Every result below has at
