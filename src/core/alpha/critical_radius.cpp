@@ -86,12 +86,12 @@ constexpr double worst_cancellation = 0x1p60;
 
 bool is_in_range(const Vector& side) { return side.extent() >= shortest && side.extent() <= longest; }
 
-// sqrt(n / d) by one step of Newton's method from the rounded root r of the heads, |r^2 d / n - 1| = x <= 6
-// u:
+// sqrt(n / d) by one step of Newton's method from the rounded root r of the heads, where x = |r^2 d / n - 1|
+// is at most 6 u:
 //   sqrt(n / d) = r (1 - x)^(-1/2) for n / d = r^2 / (1 - x), taken as r + (n - r^2 d) / (2 r d).
 // The terms left out are below x^2 r <= 36 u^2 r, the residual carries 16 u^2 n of error from the products
-// and a few u of its own size, and with a relative error of `before` u^2 in n / d the root is within (before
-// / 2 + 8 + 36 + 36) u^2 r.
+// and a few u of its own size, and with a relative error of `before` u^2 in n / d the root is within
+// (before / 2 + 8 + 36 + 36) u^2 r.
 Estimate root_of_quotient(const DoubleDouble& n, const DoubleDouble& d, double before) {
   const double root = std::sqrt(n.head / d.head);
   const DoubleDouble product = two_square(root) * d;

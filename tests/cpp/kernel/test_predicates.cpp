@@ -14,10 +14,11 @@ using vorotool::tests::Random;
 
 namespace {
 
-// Points of one kind: small integers, where ties abound; doubles of one size; places on a line or a circle,
-// rounded, where filters fail; and all magnitudes mixed, the least and the greatest too.
-enum class Kind { small, moderate, near_line, near_circle, mixed };
-constexpr std::array kinds{Kind::small, Kind::moderate, Kind::near_line, Kind::near_circle, Kind::mixed};
+// Points of one kind: small integers, where ties abound, and long ones; doubles of one size; places on a
+// line or a circle, rounded, where filters fail; and all magnitudes mixed, the least and the greatest too.
+enum class Kind { small, whole, moderate, near_line, near_circle, mixed };
+constexpr std::array kinds{Kind::small,     Kind::whole,       Kind::moderate,
+                           Kind::near_line, Kind::near_circle, Kind::mixed};
 
 double fraction(Random& random) {
   return std::ldexp(static_cast<double>(random.whole(-(std::int64_t{1} << 53), std::int64_t{1} << 53)), -53);
@@ -42,6 +43,8 @@ Point drawn(Random& random, Kind kind) {
   switch (kind) {
     case Kind::small:
       return {small(), small()};
+    case Kind::whole:
+      return {std::trunc(t * 0x1p40), std::trunc(fraction(random) * 0x1p40)};
     case Kind::moderate:
       return {fraction(random) * 1000, fraction(random) * 1000};
     case Kind::near_line:
