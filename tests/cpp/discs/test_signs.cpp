@@ -118,6 +118,8 @@ TEST(the_middle_of_an_edge_survives_where_the_query_is_far) {
   equal(exact_edge_clearance_sign(p, q, at_10, at_3, level(3)), -1);              // not between the discs
   equal(exact_edge_clearance_sign(p, q, at_3, at_minus_3, level(0)), -1);         // between the points
   equal(exact_edge_clearance_sign(p, q, at_3, at_minus_3, {q.a, {100, 3}}), -1);  // from one of the points
+  const LatticeSite across{{8, -100}, {8, 100}};
+  equal(exact_edge_clearance_sign(p, q, at_10, at_3, across), -1);  // the clearance only grows along the edge
 }
 
 // Lines that touch the circle of radius 65 around the origin, in the directions of two triangles.

@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "check.hpp"
 #include "core/kernel/circumcentre.hpp"
@@ -43,6 +44,22 @@ TEST(estimates_of_centres_are_the_exact_ones) {
     const RoundedPoint turned = circumcentre(b, c, a);
     equal(turned.x.value, exact.x.value);
     equal(turned.y.value, exact.y.value);
+  }
+}
+
+// Fibonacci's numbers go on in nearly one direction: with a first point that has bits far below, what is left
+// of the area has lost most of 106 bits, and estimates have to see that.
+TEST(centres_of_slivers_are_exact) {
+  Random random(5);
+  for (int i = 0; i < 4000; ++i) {
+    std::int64_t before = 1, last = 1;
+    for (std::int64_t n = random.whole(50, 74); n > 0; --n) before = std::exchange(last, before + last);
+    const Point a = drawn(random, 53, -78),
+                c{static_cast<double>(before), static_cast<double>(last - before)},
+                b{static_cast<double>(last), static_cast<double>(before)};
+    const RoundedPoint estimate = circumcentre(a, b, c), exact = circumcentre_exactly(a, b, c);
+    agrees(estimate.x, exact.x);
+    agrees(estimate.y, exact.y);
   }
 }
 
