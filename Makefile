@@ -12,7 +12,8 @@ NEEDED  := $(PYTHON) tools/requirements.py
 
 # ---- environment and build ------------------------------------------------------------------------------------
 CORE_SOURCES := $(shell find src/core src/bindings -name '*.[ch]pp') \
-                src/CMakeLists.txt src/core/CMakeLists.txt src/bindings/CMakeLists.txt
+                src/compile_options.cmake src/CMakeLists.txt src/core/CMakeLists.txt src/bindings/CMakeLists.txt
+CPP_FILES := $(filter %.cpp %.hpp,$(CORE_SOURCES)) $(shell find tests -name '*.[ch]pp')
 
 $(BUILD)/.venv: pyproject.toml
 	@mkdir -p $(BUILD)
@@ -44,7 +45,7 @@ lint: build $(BUILD)/.tests ## ruff, mypy --strict, clang-format, codespell
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
-	$(BIN)/clang-format --dry-run --Werror $(filter %.cpp %.hpp,$(CORE_SOURCES))
+	$(BIN)/clang-format --dry-run --Werror $(CPP_FILES)
 	$(BIN)/codespell
 
 .PHONY: tidy
@@ -56,7 +57,7 @@ tidy: $(BUILD)/.venv ## clang-tidy of the core, which takes minutes
 format: $(BUILD)/.tests ## rewrite the sources in the project's format
 	$(BIN)/ruff check --fix-only .
 	$(BIN)/ruff format .
-	$(BIN)/clang-format -i $(filter %.cpp %.hpp,$(CORE_SOURCES))
+	$(BIN)/clang-format -i $(CPP_FILES)
 
 STUBS := src/vorotool
 .PHONY: stubs

@@ -26,8 +26,7 @@ namespace {
 
 constexpr double u = numbers::unit_roundoff;
 
-// ---- about 106 bits: sums of two doubles
-// -------------------------------------------------------
+// About 106 bits: sums of two doubles.
 //
 // In each operation the last bits of the factors' tails are left out, u^2 of the product, and what is added
 // to a tail of a few u of the whole is rounded, a few times by u of the tail. For heads that are rounded sums
@@ -87,12 +86,12 @@ constexpr double worst_cancellation = 0x1p60;
 
 bool is_in_range(const Vector& side) { return side.extent() >= shortest && side.extent() <= longest; }
 
-// sqrt(n / d) by one step of Newton's method from the rounded root r of the heads, |r^2 d / n - 1| = x <= 6
-// u:
+// sqrt(n / d) by one step of Newton's method from the rounded root r of the heads, where x = |r^2 d / n - 1|
+// is at most 6 u:
 //   sqrt(n / d) = r (1 - x)^(-1/2) for n / d = r^2 / (1 - x), taken as r + (n - r^2 d) / (2 r d).
 // The terms left out are below x^2 r <= 36 u^2 r, the residual carries 16 u^2 n of error from the products
-// and a few u of its own size, and with a relative error of `before` u^2 in n / d the root is within (before
-// / 2 + 8 + 36 + 36) u^2 r.
+// and a few u of its own size, and with a relative error of `before` u^2 in n / d the root is within
+// (before / 2 + 8 + 36 + 36) u^2 r.
 Estimate root_of_quotient(const DoubleDouble& n, const DoubleDouble& d, double before) {
   const double root = std::sqrt(n.head / d.head);
   const DoubleDouble product = two_square(root) * d;
@@ -165,8 +164,7 @@ Rescaled rescale(const Support& s) {
   return {{{values[0], values[1]}, {values[2], values[3]}, {values[4], values[5]}, s.is_triangle}, exponent};
 }
 
-// ---- small integers: points of a lattice
-// -------------------------------------------------------------------
+// Small integers: points of a lattice.
 
 // Differences below 2^11 in magnitude, so those of the third side are below 2^12. Squares are below 2^23,
 // 2^23 and 2^25, the numerator below 2^71, the cross product below 2^23 and the denominator below 2^48:
@@ -198,8 +196,7 @@ ShortSquare short_square(const Support& s) {
           true};
 }
 
-// ---- supports that are one another moved, turned by quarters or mirrored
-// ------------------------------------
+// Supports that are one another moved, turned by quarters or mirrored.
 
 // The sides of a support, each as the larger and the smaller of |dx| and |dy|, in increasing order; known
 // where the differences are exact. Equal ones have equal radii.

@@ -128,7 +128,8 @@ FacePolygons find_face_polygons(const SegmentSet& set, const Faces& faces, const
     place[static_cast<std::size_t>(face)] = static_cast<std::int32_t>(found.size());
     length[static_cast<std::size_t>(face)] = static_cast<std::int32_t>(position.polygons().size());
     found.insert(found.end(), position.polygons().begin(), position.polygons().end());
-    if (++reached % faces_between_polls == 0 && monitor &&
+    ++reached;
+    if (reached % faces_between_polls == 0 && monitor &&
         !monitor(static_cast<double>(reached) / static_cast<double>(count))) {
       throw base::Interrupted();
     }

@@ -1,4 +1,6 @@
-// A k-d tree over lattice points that gives those whose cells a segment meets.
+// A k-d tree over lattice points that gives those whose cells a segment meets. Its boxes are met by segments,
+// and its items have no labels that break ties: with KdTree (core/spatial) it has the halving of a range at
+// its median in common, eight lines that a shared one would need parameters for.
 #pragma once
 
 #include <cstddef>

@@ -66,7 +66,7 @@ class Maker {
     }
   }
 
-  // ---- segments that meet at common ends only -------------------------------------------------------------
+  // Segments that meet at common ends only.
 
   void arrange() {
     SortedPoints sorted = sort_points(vertices_, monitor_);
@@ -196,7 +196,7 @@ class Maker {
     return rank;
   }
 
-  // ---- segments that bound something ----------------------------------------------------------------------
+  // Segments that bound something.
 
   bool is_of_line(std::size_t segment) const {
     const auto edges = set_.sources_of(segment);
@@ -276,7 +276,7 @@ class Maker {
     }
   }
 
-  // ---- numbers that depend on the input alone -------------------------------------------------------------
+  // Numbers that depend on the input alone.
 
   void number_points() {
     std::vector<std::uint8_t> is_used(set_.points.size(), 0);

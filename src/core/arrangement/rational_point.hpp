@@ -19,8 +19,8 @@ inline std::int64_t turn(kernel::LatticePoint a, kernel::LatticePoint b, kernel:
   return ux * vy - uy * vx;
 }
 
-// The point (x + fraction_x / denominator, y + fraction_y / denominator), 0 <= fractions < denominator <
-// 2^63.
+// The point (x + fraction_x / denominator, y + fraction_y / denominator), with
+// 0 <= fractions < denominator < 2^63.
 struct RationalPoint {
   std::int32_t x, y;
   std::uint64_t fraction_x, fraction_y, denominator;

@@ -27,7 +27,7 @@ constexpr std::size_t triangles_a_piece = std::size_t{1} << 14;
 
 bool same_place(const Point& a, const Point& b) { return a.x == b.x && a.y == b.y; }
 
-// ---- the frame ----
+// The frame.
 
 // Sides and corners are numbered counter-clockwise: side s goes from corner s to corner s + 1, side 0 is the
 // bottom, corner 0 the left end of it.
@@ -95,7 +95,7 @@ class Frame {
   std::array<Point, 4> corners_;
 };
 
-// ---- one cell ----
+// One cell.
 
 // A vertex of the diagram, or an end at infinity of an edge, beyond some sides of the frame.
 struct Stop {
@@ -195,7 +195,7 @@ void tidy(std::vector<Point>& ring) {
               ring.end());
 }
 
-// ---- all cells ----
+// All cells.
 
 class CellMaker {
  public:

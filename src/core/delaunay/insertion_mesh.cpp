@@ -93,7 +93,7 @@ void InsertionMesh::rotate(Slot s, int k) {
     std::rotate(of, of + k, of + 3);
 }
 
-// ---- the search ----
+// The search.
 
 // A visibility walk: from each triangle across a side that has the point on its other side. It ends in a
 // Delaunay triangulation: with every step the power of the point with respect to the triangle's circle
@@ -120,7 +120,7 @@ InsertionMesh::Location InsertionMesh::locate(const Point& p, Slot start) const 
   refuse();
 }
 
-// ---- insertion ----
+// Insertion.
 
 InsertionMesh::Vertex InsertionMesh::insert(Vertex v, Slot& near) {
   const Location found = locate(point(v), near);
@@ -212,7 +212,7 @@ void InsertionMesh::flip(Slot s) {
   link(s, 0, t, 1);
 }
 
-// ---- cocircular polygons ----
+// Cocircular polygons.
 
 void InsertionMesh::make_fans() {
   fanned_.assign(slots(), 0);

@@ -132,7 +132,7 @@ class Inserter {
     return at(v).x != at(w).x ? at(v).x < at(w).x : at(v).y < at(w).y;
   }
 
-  // ---- insertion ----
+  // Insertion.
 
   // Along the curve, and points of one place in their order.
   std::vector<Vertex> order_of_insertion() const {
@@ -189,7 +189,7 @@ class Inserter {
     return begin;
   }
 
-  // ---- what changed ----
+  // What changed.
 
   // The vertices of changed triangles, in order, each with a triangle.
   std::vector<std::pair<Vertex, Slot>> changed_vertices() const {
@@ -270,7 +270,7 @@ class Inserter {
     return cells.any_above(few);
   }
 
-  // ---- the new arrays: what was there, but for the blocks that are written anew ----
+  // The new arrays: what was there, but for the blocks that are written anew.
 
   InsertedArrays arrays_to_fill() const {
     const auto is_first = [&](std::size_t i) { return first_[i] == static_cast<Vertex>(i); };

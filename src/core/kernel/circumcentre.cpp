@@ -24,7 +24,7 @@ using numbers::unit_roundoff;
 
 namespace {
 
-// ---- numbers of 106 bits, with a bound of their error ----
+// Numbers of 106 bits, with a bound of their error.
 
 struct Estimate {
   DoubleDouble value;
@@ -46,8 +46,8 @@ constexpr double u2 = unit_roundoff * unit_roundoff;
 // most (8 + 4 + 8) u^2, those in d of 8 u^2. With the last difference, and terms of higher order, n has an
 // error of at most 26 u^2 n_size and d one of 14 u^2 d_size. While the latter is below 2^-20 |d|, the
 // quotient q has at most
-//   16 u^2 |q| + (26 u^2 n_size + |q| 28 u^2 d_size) (1 + 2^-19) / (2 |d|) < 34 u^2 (n_size + |q| d_size) /
-//   |d|,
+//   16 u^2 |q| + (26 u^2 n_size + |q| 28 u^2 d_size) (1 + 2^-19) / (2 |d|)
+//     < 34 u^2 (n_size + |q| d_size) / |d|,
 // since |d| <= d_size (1 + 2^-100). Added to the coordinate that it is relative to, a sum s, it gets 4 u^2
 // |s| more. The bound below has 40 u^2 for both: the rest makes up for its own roundings, and that of error()
 // below.
@@ -105,7 +105,7 @@ std::optional<Estimate> bisector_by_estimate(double x, const Point& a, const Poi
   return Estimate{sum, 40 * u2 * (std::abs(quotient.head) + std::abs(sum.head))};
 }
 
-// ---- integers as long as it takes ----
+// Integers as long as it takes.
 
 // Coordinates of 64 limbs - 3 bits: their differences are below 2^(64 limbs - 2) in magnitude, and a
 // difference of twice one of them to the sum of two others below 2^(64 limbs - 1). Every result below has at

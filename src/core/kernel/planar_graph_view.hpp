@@ -10,8 +10,8 @@
 
 namespace vorotool::core::kernel {
 
-// Its points and open segments are the sites of Voronoi diagrams: site i < n is point i, site n + j segment
-// j.
+// Its points and open segments are the sites of Voronoi diagrams: site i < n is point i,
+// site n + j segment j.
 struct PlanarGraphView {
   std::span<const LatticePoint> points;       // [n] distinct
   std::span<const base::IndexPair> segments;  // [m] ends; segments meet at ends only

@@ -43,7 +43,7 @@ struct CircleCall {
   DyadicGrid lattice;
 };
 
-// ---- integers that fit a machine word ----
+// Integers that fit a machine word.
 
 // Coordinates of 61 bits have differences below 2^62, their products are below 2^124, sums of two such below
 // 2^125. In incircle lifts and minors are such sums; their products are below 2^250 and the determinant, a
@@ -85,7 +85,7 @@ int integer_sign(const CircleCall& call) {
   return call.bits() <= short_bits ? short_sign(x, y) : long_sign(x, y);
 }
 
-// ---- integers of fixed width ----
+// Integers of fixed width.
 
 // Coordinates of 64 limbs - 3 bits have differences below 2^(64 limbs - 2). Their products are below
 // 2^(128 limbs - 4), lifts and minors below 2^(128 limbs - 3), products of these below 2^(256 limbs - 6), and
@@ -129,7 +129,7 @@ int wide_sign(const Call& call) {
   return sign_in_limbs<33>(call);
 }
 
-// ---- expansions ----
+// Expansions.
 
 // Where no operation of the expansions overflows or underflows: coordinates are zero or of magnitudes in
 // [least, 2^above), by which they are multiples of least 2^-52, and so are their differences, which are at
@@ -190,7 +190,7 @@ int expansion_sign(const CircleCall& call) {
   return (lift(0) * minor(1, 2) + lift(1) * minor(2, 0) + lift(2) * minor(0, 1)).sign();
 }
 
-// ---- the order of the levels ----
+// The order of the levels.
 
 // Fixed integers of up to four limbs are at least as fast as expansions; these come in where more limbs would
 // be needed, and integers again where the range of exponents is too wide for expansions.

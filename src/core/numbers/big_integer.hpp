@@ -1,4 +1,8 @@
 // Integers of any length for exact signs: sign and magnitude. Short ones take no memory.
+//
+// For the sign of a b - c d these take 34 ns at 64 bits, 162 at 512 and 502 at 1024, Boost's cpp_int 45,
+// 187 and 551, GMP 69, 132 and 363 (tests/benchmarks/core_parts.cpp): most numbers of exact signs are
+// short, and where they are not GMP would not pay for a library to link and to ship.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
-// Integers of any fixed number of 64-bit limbs, in two's complement. Nothing checks for overflow: the caller
-// derives how many limbs are enough.
+// Integers of any fixed number of 64-bit limbs, in two's complement. Nothing checks for overflow: the
+// caller derives how many limbs are enough. Boost's cpp_int of fixed width takes 322 ns for an incircle of
+// 2 limbs and 2194 ns for one of 8, these take 238 and 2001 (tests/benchmarks/core_parts.cpp).
 #pragma once
 
 #include <array>

@@ -4,14 +4,12 @@
 // about q through f is empty.
 //
 // 1. While q moves along n, the disc that touches C in f grows, until it meets a place g of another edge:
-// then
-//    its centre is on the skeleton. For any place g of the boundary that is so after
+//    then its centre is on the skeleton. For any place g of the boundary that is so after
 //      t = (|q - g|^2 - d^2) / (2 h),    h = n (g - f) the height of g over the line of C,
 //    at the latest. Along the arc |q - g|^2 - d^2 is convex, so that t is largest at an end.
 //
 // 2. The place nearest to a moving point moves no faster than it does, unless it crosses the skeleton: feet
-// on
-//    edges are projections, and reflex corners stay. So if y is e away from q, no farther than d, and what is
+//    on edges are projections, and reflex corners stay. So if y is e away from q, no farther than d, and what is
 //    nearest to y is more than e away from f, the skeleton passes between. Let y be where another edge D, or
 //    a seed of it, becomes as near as the line of C. If f is more than e away from the ends of C and from all
 //    other edges on the side of q, what is nearest to y is farther from f, or on C and elsewhere at once. On

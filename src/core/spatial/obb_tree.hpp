@@ -34,8 +34,7 @@ class ObbTree {
   template <class Visit>
   void near(double x, double y, double reach, const Visit& visit) const {
     if (index_.empty()) return;
-    // t and n below have errors of at most 2^-51 (|x| + |y|), and what bounds the boxes has 2^-20
-    const double wide = reach + 0x1p-18 + 0x1p-49 * (std::abs(x) + std::abs(y));
+    const double wide = reach + error_at(x, y);
     near(levels_.size() - 1, 0, x, y, wide * wide * (1 + 0x1p-50), visit);
   }
 
@@ -51,12 +50,16 @@ class ObbTree {
  private:
   static constexpr std::size_t leaf_size = 4;
 
-  double distance_to_box(std::size_t level, std::size_t node, double x, double y) const {
+  // Of the distance of a box: t and n below have errors of at most 2^-51 (|x| + |y|), what bounds the boxes
+  // has 2^-20.
+  static double error_at(double x, double y) { return 0x1p-18 + 0x1p-49 * (std::abs(x) + std::abs(y)); }
+
+  double square_distance(std::size_t level, std::size_t node, double x, double y) const {
     const OrientedBox& box = levels_[level][node];
     const double t = box.ux * x + box.uy * y, n = box.ux * y - box.uy * x;
     const double dt = std::max(std::max(box.t_least - t, t - box.t_most), 0.0);
     const double dn = std::max(std::max(box.n_least - n, n - box.n_most), 0.0);
-    return std::sqrt(dt * dt + dn * dn) - (0x1p-18 + 0x1p-49 * (std::abs(x) + std::abs(y)));
+    return dt * dt + dn * dn;
   }
 
   template <class Distance>
@@ -70,7 +73,7 @@ class ObbTree {
     std::array<std::pair<double, std::size_t>, 2> below{std::pair{0.0, 2 * node}, {0.0, 2 * node + 1}};
     const std::size_t count = below[1].second < levels_[level - 1].size() ? 2 : 1;
     for (std::size_t i = 0; i < count; ++i)
-      below[i].first = distance_to_box(level - 1, below[i].second, x, y);
+      below[i].first = std::sqrt(square_distance(level - 1, below[i].second, x, y)) - error_at(x, y);
     if (count == 2 && below[1].first < below[0].first) std::swap(below[0], below[1]);
     for (std::size_t i = 0; i < count; ++i) {
       if (below[i].first < share * best) nearest(level - 1, below[i].second, x, y, share, distance, best);
@@ -80,11 +83,7 @@ class ObbTree {
   template <class Visit>
   bool near(std::size_t level, std::size_t node, double x, double y, double reach2,
             const Visit& visit) const {
-    const OrientedBox& box = levels_[level][node];
-    const double t = box.ux * x + box.uy * y, n = box.ux * y - box.uy * x;
-    const double dt = std::max(std::max(box.t_least - t, t - box.t_most), 0.0);
-    const double dn = std::max(std::max(box.n_least - n, n - box.n_most), 0.0);
-    if (dt * dt + dn * dn > reach2) return true;
+    if (square_distance(level, node, x, y) > reach2) return true;
     if (level == 0) {
       const std::size_t last = std::min(index_.size(), (node + 1) * leaf_size);
       for (std::size_t i = node * leaf_size; i < last; ++i) {

@@ -20,8 +20,7 @@ struct RowKernelOn {
   // scan.
   static constexpr int most_rounds = 8;
 
-  // ---- collecting
-  // ----------------------------------------------------------------------------------------------
+  // Collecting.
 
   // Takes the nearer seed of each column. A seed above that is farther than the one below is hidden for good;
   // at equal distance both have the same parabola, and the smaller label stands for both. Arrays are passed
@@ -53,8 +52,7 @@ struct RowKernelOn {
 
   static Mask valid_lanes(std::int32_t left) { return left >= width ? all : (Mask{1} << left) - 1; }
 
-  // ---- pruning
-  // -------------------------------------------------------------------------------------------------
+  // Pruning.
 
   // Candidate i is strictly above the lower envelope of its neighbours a and b everywhere, hence nowhere
   // nearest, when its boundary with b lies left of its boundary with a. A tie keeps it: its label may be the
@@ -153,8 +151,7 @@ struct RowKernelOn {
     envelope.nearer_label = live.nearer_label;
   }
 
-  // ---- boundaries
-  // ----------------------------------------------------------------------------------------------
+  // Boundaries.
 
   static void bound(const PixelRow& pixels, Envelope<Arithmetic>& envelope) {
     const Candidates<Arithmetic> c = envelope.candidates;
@@ -178,8 +175,7 @@ struct RowKernelOn {
     envelope.tie_count = tie_count;
   }
 
-  // ---- filling
-  // -------------------------------------------------------------------------------------------------
+  // Filling.
 
   // Spans are written in whole vectors from left to right: each overwrites what the one before wrote too far.
   // The first `ahead` vectors of a span are written without asking, which spares it a branch that cannot be

@@ -7,13 +7,11 @@
 //   q = (F_j - F_i) / (2 s (x_j - x_i))  s steps a pixel              denominator <= 4 s N
 //
 // Narrow: F is a double. 5 N^2 <= 2^53 holds for N <= 2^25, so F and differences of F are exact, and a
-// product is
-//   rounded once. Rounding is monotone: fl(p) < fl(p') implies p < p'. Only fl(p) == fl(p') leaves a doubt,
+//   product is rounded once. Rounding is monotone: fl(p) < fl(p') implies p < p'. Only fl(p) == fl(p') leaves a doubt,
 //   and no doubt is left while 10 N^3 <= 2^53, that is N <= 2^16 (products exact); beyond, equal products are
 //   compared again in 128 bits, where 10 N^3 < 2^79.
 // Wide: F is a 128-bit integer and so are the products: 10 N^3 < 2^124 for N <= 2^40, the bound set here: it
-// leaves
-//   room for the k-d tree of the checker, which squares differences of absolute coordinates.
+//   leaves room for the k-d tree of the checker, which squares differences of absolute coordinates.
 #pragma once
 
 #include <cstdint>

@@ -34,7 +34,7 @@ void for_pieces(std::size_t count, unsigned threads, const Monitor& monitor, Bod
       monitor);
 }
 
-// ---- vertices and what is around them --------------------------------------------------------------------
+// Vertices and what is around them.
 
 // Calls on_single(record) and on_merged(k, record) for the records begin ... end - 1 that stand for their
 // places.
@@ -159,7 +159,7 @@ void VertexWriter::write_disc(std::size_t vertex, const VoronoiRecord& v) {
   out_.radius[vertex] = v.radius;
 }
 
-// ---- edges -----------------------------------------------------------------------------------------------
+// Edges.
 
 struct Edge {
   std::int32_t source, target, left, right;  // sites in the engine's numbers

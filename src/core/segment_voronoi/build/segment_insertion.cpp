@@ -230,8 +230,8 @@ std::int32_t SegmentInsertion::record_for(std::size_t cut) const {
   return cut < freed ? conflicts_[cut] : fresh_ + static_cast<std::int32_t>(cut - freed);
 }
 
-// Vertex k lies on cut k; between it and vertex k + 1 the new cell borders on the left site of cut k.
-// Counter- clockwise the cell of p comes first, then what lies right of the segment, the cell of q, and what
+// Vertex k lies on cut k; between it and vertex k + 1 the new cell borders on the left site of cut k. Going
+// counter-clockwise the cell of p comes first, then what lies right of the segment, the cell of q, and what
 // lies left.
 void SegmentInsertion::replace(const SegmentQuery& query) {
   const std::size_t count = cuts_.size();

@@ -73,7 +73,7 @@ bool on_one_line(const LatticeSite& s, const LatticeSite& t) {
 
 ExactDisc point_disc(const LatticePoint& p) { return {std::make_shared<SqrtTower>(), p, 0, 0, 1, 0}; }
 
-// ---- sites that touch at one place p: the centre is p + t normal, t > 0 ----
+// Sites that touch at one place p: the centre is p + t normal, t > 0.
 
 // |p + t n - q| = t |n| where t = |q - p|^2 / (2 n (q - p)).
 Found touching_at(const LatticePoint& p, const LatticeVector& normal, const LatticePoint& q) {
@@ -116,7 +116,7 @@ Found end_before_its_segment(const LatticePoint& p, const LatticeSite& segment, 
   return touching_at_either(p, left_of(direction_from(p, segment)), third);
 }
 
-// ---- three points ----
+// Three points.
 
 // Cramer's rule for the two bisectors, seen from a.
 Found circle(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
@@ -128,7 +128,7 @@ Found circle(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c
                    square(x) + square(y)};
 }
 
-// ---- a segment and two points ----
+// A segment and two points.
 
 // In coordinates along the segment and across it, times its length L, from below p: p = (0, Hp), q = (Tq,
 // Hq), centre = (T, R) with T^2 + (R - Hp)^2 = R^2 and (T - Tq)^2 + (R - Hq)^2 = R^2. Without R:
@@ -171,7 +171,7 @@ Found segment_and_points(const LatticeSite& segment, const LatticePoint& p, cons
                    big(norm2(u)) * square(r)};
 }
 
-// ---- a point and two segments ----
+// A point and two segments.
 
 // Two collinear segments, s then t: the disc touches both at their common end, to the left of it -> t.
 Found collinear_pair(const LatticeSite& s, const LatticeSite& t, const LatticeSite& third) {
@@ -223,7 +223,7 @@ Found point_and_segments(const LatticePoint& p, const LatticeSite& s, const Latt
   return point_and_lines(p, *first, *second);
 }
 
-// ---- three segments ----
+// Three segments.
 
 using Lines = std::array<Ray, 3>;
 

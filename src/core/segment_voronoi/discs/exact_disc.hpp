@@ -14,8 +14,8 @@ namespace vorotool::core::segment_voronoi::discs {
 //
 // The disc touches a point site there, and an open segment at the foot of its centre, which lies on the
 // closed segment. Sites that touch at one place are in the order of contact that a slightly smaller disc
-// tells: around the disc to the left of p -> q a segment p q comes after its end p, and a segment q' p before
-// p.
+// tells: around the disc to the left of p -> q a segment p q comes after its end p, and a segment q' p
+// before p.
 using SiteTriple = std::span<const kernel::LatticeSite, 3>;
 
 // centre = origin + (x, y) / w, radius^2 = z / w^2, w > 0.

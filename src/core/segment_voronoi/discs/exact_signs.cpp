@@ -53,7 +53,7 @@ int clearance_sign(const ExactDisc& disc, const LatticePoint& query) {
   return (CentreSeen(disc, query).length2() - disc.z).sign();
 }
 
-// ---- the middle of an edge ----
+// The middle of an edge.
 //
 // Let g(c) = (distance of c from the query's line) - r(c), with the sign of the distance counted positive
 // where the edge's point sites are. In every case below g is concave along the bisector or its largest value

@@ -17,7 +17,7 @@ struct NoDisc : std::invalid_argument {
   NoDisc() : std::invalid_argument("no single disc touches the three sites in the order given") {}
 };
 
-// ---- of a disc that is at hand ----
+// Of a disc that is at hand.
 
 // See exact_clearance_sign.
 int clearance_sign(const ExactDisc& disc, const kernel::LatticeSite& query);
@@ -30,7 +30,7 @@ struct RoundedDisc {
 };
 RoundedDisc rounded(const ExactDisc& disc);
 
-// ---- of discs given by their sites ----
+// Of discs given by their sites.
 
 // The sign of the distance from the disc's centre to the query, as a closed set, less the radius: -1 if the
 // query enters the disc, 0 if it only touches, 1 if it stays clear.

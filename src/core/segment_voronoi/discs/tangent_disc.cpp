@@ -240,8 +240,8 @@ class Solver {
   }
 
   // g is the sum of the outward directions over the sine of the wedge, or that of the normals over 1 -
-  // cosine: the one that does not cancel. A component errs by 3 of each unit vector, 6 of the divisor and 3:
-  // (12) |g|.
+  // cosine: the one that does not cancel. A component errs by 3 of each unit vector, 6 of the divisor and
+  // 3: (12) |g|.
   static Disc in_wedge_at(const LatticePoint& o, const Line<Real>& s, const Line<Real>& t,
                           const Angle<Real>& angle, bool acute, const Real& r, const Real& G) {
     Real gx, gy;

@@ -35,7 +35,7 @@ using Site = std::int32_t;
 
 std::string edge_text(std::size_t edge) { return "edge " + std::to_string(edge); }
 
-// ---- the order along a bisector ----
+// The order along a bisector.
 
 // The edges between the cells of two sites, each taken with the smaller number on its left.
 class Bisector {
@@ -171,7 +171,7 @@ Fault find_order_fault(const DiagramView& arrays, const IncidentSegments& incide
 
 namespace {
 
-// ---- points inside edges ----
+// Points inside edges.
 
 class InnerPoints {
  public:

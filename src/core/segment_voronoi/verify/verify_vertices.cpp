@@ -108,7 +108,7 @@ class Vertex {
     return -1;
   }
 
-  // ---- corners ----
+  // Corners.
 
   // The point in the ring, or the end that the first two segments share.
   Site corner() const {
@@ -129,7 +129,7 @@ class Vertex {
     return fault("has radius 0, but is not at point " + std::to_string(point));
   }
 
-  // ---- the disc ----
+  // The disc.
 
   // Three sites that determine the disc, in the order of the ring: not a segment whose end is in the ring, as
   // it touches at no place of its own; but where needed with that end.
@@ -198,7 +198,7 @@ class Vertex {
                  number_text(disc_.radius.head) + " would be right");
   }
 
-  // ---- the sites of the ring ----
+  // The sites of the ring.
 
   struct Way {
     double x, y, length;
@@ -357,7 +357,7 @@ class Vertex {
     return along >= 0 && along <= int128{1024} * norm2(u) && (height == r * length || height == -r * length);
   }
 
-  // ---- all other sites ----
+  // All other sites.
 
   Fault check_others() {
     Fault found;
