@@ -6,26 +6,25 @@
 
 #include "bindings/rooms.hpp"
 #include "bindings/support/arrays.hpp"
-#include "bindings/support/mesh_arrays.hpp"
 #include "bindings/support/monitor.hpp"
+#include "bindings/support/triangulation.hpp"
 #include "core/alpha/alpha_complex.hpp"
 #include "core/alpha/alpha_curves.hpp"
 #include "core/alpha/alpha_shape.hpp"
+#include "core/base/indices.hpp"
 
 namespace vorotool::bindings {
 namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
+using core::alpha::AlphaRule;
 using core::base::Monitor;
 using Values = Vector<const double>;
 
 // The binding trusts nobody with indices: a wrong one would read elsewhere.
-void check_indices(std::span<const std::int32_t> values, std::int64_t least, std::size_t end) {
-  for (const std::int32_t value : values) {
-    if (value < least || value >= static_cast<std::int64_t>(end))
-      throw std::invalid_argument("an index is out of range");
-  }
+void check_indices(std::span<const std::int32_t> values, std::int32_t least, std::size_t end) {
+  core::base::check_range(values, least, end, "an index is out of range");
 }
 
 auto edges_of_triangles(const IndexRows& triangles, const IndexRows& neighbours, unsigned threads,
@@ -42,14 +41,13 @@ auto edges_of_triangles(const IndexRows& triangles, const IndexRows& neighbours,
 }
 
 Columns alpha_complex(const Matrix<const double>& points, const IndexRows& triangles, const IndexRows& edges,
-                      const IndexRows& sides, bool printed, unsigned threads, const Progress& progress) {
-  const core::alpha::AlphaInput input{as_points(points), rows_of(triangles, 3), rows_of(edges, 2),
-                                      rows_of(sides, 2)};
+                      const IndexRows& sides, AlphaRule rule, unsigned threads, const Progress& progress) {
+  const core::alpha::AlphaInput input{rows<core::kernel::Point>(points), rows_of(triangles, 3),
+                                      rows_of(edges, 2), rows_of(sides, 2)};
   if (edges.shape(0) != sides.shape(0)) throw std::invalid_argument("each edge must have sides");
   check_indices(input.triangles, 0, input.points.size());
   check_indices(input.edges, 0, input.points.size());
   check_indices(input.sides, -1, triangles.shape(0));
-  const auto rule = printed ? core::alpha::AlphaRule::printed : core::alpha::AlphaRule::corrected;
   core::alpha::AlphaArrays found = run_interruptible(progress, [&](const Monitor& monitor) {
     return core::alpha::alpha_complex(input, rule, threads, monitor);
   });
@@ -101,7 +99,8 @@ auto trace_rings(const Matrix<const double>& points, const Indices& a, const Ind
   check_indices(view(a), 0, points.shape(0));
   check_indices(view(b), 0, points.shape(0));
   core::alpha::Rings rings = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::alpha::trace_rings(as_points(points), view(a), view(b), view(region), monitor);
+    return core::alpha::trace_rings(rows<core::kernel::Point>(points), view(a), view(b), view(region),
+                                    monitor);
   });
   return std::make_tuple(to_numpy(std::move(rings.vertex)), to_numpy(std::move(rings.start)),
                          to_numpy(std::move(rings.region)), to_numpy(std::move(rings.is_hole)));
@@ -133,9 +132,12 @@ Columns alpha_curves(std::size_t spectrum, const Indices& triangle_rank, const I
 }  // namespace
 
 void bind_alpha(nb::module_& room) {
+  nb::enum_<AlphaRule>(room, "AlphaRule")
+      .value("corrected", AlphaRule::corrected)
+      .value("printed", AlphaRule::printed);
   room.def("edges_of_triangles", &edges_of_triangles, "triangles"_a, "neighbours"_a, "threads"_a,
            "progress"_a.none(), "Edges, and the triangles on their sides.");
-  room.def("alpha_complex", &alpha_complex, "points"_a, "triangles"_a, "edges"_a, "sides"_a, "printed"_a,
+  room.def("alpha_complex", &alpha_complex, "points"_a, "triangles"_a, "edges"_a, "sides"_a, "rule"_a,
            "threads"_a, "progress"_a.none());
   room.def("shape_edges", &shape_edges, "rank_min"_a, "rank_mid"_a, "rank_max"_a, "reached"_a, "entered"_a,
            "threads"_a, "progress"_a.none(), "Edges of a shape, and the kind of each.");

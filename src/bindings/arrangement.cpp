@@ -11,6 +11,7 @@
 #include "bindings/rooms.hpp"
 #include "bindings/support/arrays.hpp"
 #include "bindings/support/monitor.hpp"
+#include "bindings/support/planar_graph.hpp"
 #include "core/arrangement/boundary_rings.hpp"
 #include "core/arrangement/lattice_placement.hpp"
 #include "core/arrangement/planar_graph.hpp"
@@ -25,14 +26,6 @@ using namespace nb::literals;
 using core::base::IndexPair;
 using core::base::Monitor;
 using core::kernel::LatticePoint;
-using IndexRows = Matrix<const std::int32_t>;
-
-static_assert(sizeof(LatticePoint) == 2 * sizeof(std::int32_t));
-
-std::span<const LatticePoint> as_lattice_points(const IndexRows& array) {
-  if (array.shape(1) != 2) throw std::invalid_argument("points must have two columns");
-  return {reinterpret_cast<const LatticePoint*>(array.data()), array.shape(0)};
-}
 
 // An (n, 2) array of the values, which come in pairs.
 auto pairs(std::span<const std::int32_t> values) {
@@ -46,10 +39,8 @@ auto pairs(const std::vector<LatticePoint>& points) {
 }
 
 // Lattice points, origin, exponent and the largest move.
-auto place_on_lattice(const Matrix<const double>& array, unsigned threads, const Progress& progress) {
-  if (array.shape(1) != 2) throw std::invalid_argument("points must have two columns");
-  const std::span<const core::kernel::Point> points{
-      reinterpret_cast<const core::kernel::Point*>(array.data()), array.shape(0)};
+auto place_on_lattice(const Places& array, unsigned threads, const Progress& progress) {
+  const auto points = rows<core::kernel::Point>(array);
   const core::arrangement::Placement placed = run_interruptible(progress, [&](const Monitor& monitor) {
     return core::arrangement::place_on_lattice(points, threads, monitor);
   });
@@ -58,16 +49,16 @@ auto place_on_lattice(const Matrix<const double>& array, unsigned threads, const
 }
 
 auto first_at_place(const IndexRows& points, const Progress& progress) {
-  const std::span<const LatticePoint> vertices = as_lattice_points(points);
+  const std::span<const LatticePoint> vertices = rows<LatticePoint>(points);
   return to_numpy(run_interruptible(progress, [&](const Monitor& monitor) {
     return core::arrangement::first_at_place(vertices, monitor);
   }));
 }
 
 Columns make_planar_graph(const IndexRows& array, const Vector<const std::int64_t>& ring_start,
-                          const Vector<const std::int8_t>& ring_kind,
-                          const Vector<const std::int32_t>& ring_polygon, const Progress& progress) {
-  const std::span<const LatticePoint> vertices = as_lattice_points(array);
+                          const Vector<const std::int8_t>& ring_kind, const Indices& ring_polygon,
+                          const Progress& progress) {
+  const std::span<const LatticePoint> vertices = rows<LatticePoint>(array);
   const core::arrangement::Rings rings{view(ring_start), view(ring_kind), view(ring_polygon)};
   if (rings.start.size() != rings.kind.size() + 1 || rings.kind.size() != rings.polygon.size() ||
       static_cast<std::size_t>(rings.start.back()) != vertices.size()) {
@@ -95,16 +86,11 @@ Columns make_planar_graph(const IndexRows& array, const Vector<const std::int64_
   return result;
 }
 
-Columns boundary_rings(const IndexRows& points, const IndexRows& segments, const IndexRows& segment_faces,
-                       const Vector<const std::int32_t>& face_start,
-                       const Vector<const std::int32_t>& face_polygon, const Progress& progress) {
-  const core::kernel::PlanarGraphView graph{as_lattice_points(points), rows<IndexPair>(segments),
-                                            rows<IndexPair>(segment_faces)};
-  if (graph.faces.size() != graph.segments.size() || face_start.size() == 0) {
-    throw std::invalid_argument("the arrays of a planar graph have lengths that do not go together");
-  }
+Columns boundary_rings(const PlanarGraph& graph, const Indices& face_start, const Indices& face_polygon,
+                       const Progress& progress) {
+  if (face_start.size() == 0) throw std::invalid_argument("a planar graph has one face at least");
   core::arrangement::BoundaryRings rings = run_interruptible(progress, [&](const Monitor&) {
-    return core::arrangement::find_boundary_rings(graph, view(face_start), view(face_polygon));
+    return core::arrangement::find_boundary_rings(graph.view(), view(face_start), view(face_polygon));
   });
   Columns result;
   result["start"] = to_numpy(std::move(rings.start));
@@ -118,11 +104,10 @@ Columns boundary_rings(const IndexRows& points, const IndexRows& segments, const
 
 std::optional<std::string> find_fault(const IndexRows& points, const IndexRows& segments,
                                       const std::optional<IndexRows>& faces, const Progress& progress) {
-  if (segments.shape(1) != 2 || (faces && (faces->shape(1) != 2 || faces->size() != segments.size()))) {
-    throw std::invalid_argument("segments and their faces must have two columns and as many rows");
-  }
-  core::kernel::PlanarGraphView graph{as_lattice_points(points), rows<IndexPair>(segments), {}};
+  core::kernel::PlanarGraphView graph{rows<LatticePoint>(points), rows<IndexPair>(segments), {}};
   if (faces) graph.faces = rows<IndexPair>(*faces);
+  if (faces && graph.faces.size() != graph.segments.size())
+    throw std::invalid_argument("each segment must have two faces");
   return run_interruptible(
       progress, [&](const Monitor& monitor) { return core::arrangement::find_fault(graph, monitor); });
 }
@@ -139,8 +124,8 @@ void bind_arrangement(nb::module_& room) {
   room.def("make_planar_graph", &make_planar_graph, "vertices"_a, "ring_start"_a, "ring_kind"_a,
            "ring_polygon"_a, "progress"_a.none(),
            "Arrays of a PlanarGraph; repairs: of each kind the count, an edge, and what meets it or -1.");
-  room.def("boundary_rings", &boundary_rings, "points"_a, "segments"_a, "segment_faces"_a, "face_start"_a,
-           "face_polygon"_a, "progress"_a.none(), "The indices must be in range.");
+  room.def("boundary_rings", &boundary_rings, "graph"_a, "face_start"_a, "face_polygon"_a,
+           "progress"_a.none(), "The indices of faces must be in range.");
   room.def("find_fault", &find_fault, "points"_a, "segments"_a, "faces"_a.none(), "progress"_a.none());
 }
 

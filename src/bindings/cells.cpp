@@ -10,8 +10,8 @@
 
 #include "bindings/rooms.hpp"
 #include "bindings/support/arrays.hpp"
-#include "bindings/support/mesh_arrays.hpp"
 #include "bindings/support/monitor.hpp"
+#include "bindings/support/triangulation.hpp"
 #include "core/cells/cell_measures.hpp"
 #include "core/cells/verify_cells.hpp"
 #include "core/cells/voronoi_cells.hpp"
@@ -24,24 +24,21 @@ using namespace nb::literals;
 using core::base::Monitor;
 
 // Vertices of the rings, and where each ring starts.
-auto voronoi_cells(const Matrix<const double>& points, const IndexRows& triangles,
-                   const IndexRows& neighbours, const Indices& hull, const Indices& first,
-                   const std::array<double, 4>& frame, unsigned threads, const Progress& progress) {
-  const core::delaunay::TriangulationArrays mesh =
-      mesh_arrays(points, triangles, neighbours, {}, view(hull), view(first));
+auto voronoi_cells(const Triangulation& mesh, const std::array<double, 4>& frame, unsigned threads,
+                   const Progress& progress) {
   const core::cells::Box box{frame[0], frame[1], frame[2], frame[3]};
   core::cells::VoronoiCells cells = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::cells::voronoi_cells(mesh, box, threads, monitor);
+    return core::cells::voronoi_cells(mesh.view(), box, threads, monitor);
   });
   return std::make_tuple(points_to_numpy(std::move(cells.vertices)), to_numpy(std::move(cells.starts)));
 }
 
-std::optional<std::string> find_cell_fault(const Matrix<const double>& sites,
-                                           const Matrix<const double>& vertices,
+std::optional<std::string> find_cell_fault(const Places& sites, const Places& vertices,
                                            const Vector<const std::int64_t>& starts,
                                            const std::array<double, 4>& frame, unsigned threads,
                                            const Progress& progress) {
-  const core::cells::CellRings cells{as_points(sites), as_points(vertices), view(starts)};
+  const core::cells::CellRings cells{rows<core::kernel::Point>(sites), rows<core::kernel::Point>(vertices),
+                                     view(starts)};
   if (cells.starts.size() != cells.sites.size() + 1)
     throw std::invalid_argument("there must be one ring a site");
   const core::cells::Box box{frame[0], frame[1], frame[2], frame[3]};
@@ -51,10 +48,11 @@ std::optional<std::string> find_cell_fault(const Matrix<const double>& sites,
 }
 
 // Area, perimeter, distance of the farthest vertex, and whether one is on the frame.
-auto measure_cells(const Matrix<const double>& sites, const Matrix<const double>& vertices,
-                   const Vector<const std::int64_t>& rings, const Vector<const std::int64_t>& cell_rings,
-                   const std::array<double, 4>& frame, unsigned threads, const Progress& progress) {
-  const core::cells::CellOutlines cells{as_points(sites), as_points(vertices), view(rings), view(cell_rings)};
+auto measure_cells(const Places& sites, const Places& vertices, const Vector<const std::int64_t>& rings,
+                   const Vector<const std::int64_t>& cell_rings, const std::array<double, 4>& frame,
+                   unsigned threads, const Progress& progress) {
+  const core::cells::CellOutlines cells{rows<core::kernel::Point>(sites), rows<core::kernel::Point>(vertices),
+                                        view(rings), view(cell_rings)};
   if (cells.cell_rings.size() != cells.sites.size() + 1)
     throw std::invalid_argument("there must be one cell a site");
   const core::cells::Box box{frame[0], frame[1], frame[2], frame[3]};
@@ -68,8 +66,7 @@ auto measure_cells(const Matrix<const double>& sites, const Matrix<const double>
 }  // namespace
 
 void bind_cells(nb::module_& room) {
-  room.def("voronoi_cells", &voronoi_cells, "points"_a, "triangles"_a, "neighbours"_a, "hull"_a, "first"_a,
-           "frame"_a, "threads"_a, "progress"_a.none(),
+  room.def("voronoi_cells", &voronoi_cells, "mesh"_a, "frame"_a, "threads"_a, "progress"_a.none(),
            "Vertices of the cells' rings, and where the ring of each point begins.");
   room.def("find_cell_fault", &find_cell_fault, "sites"_a, "vertices"_a, "starts"_a, "frame"_a, "threads"_a,
            "progress"_a.none());

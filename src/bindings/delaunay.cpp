@@ -9,8 +9,8 @@
 
 #include "bindings/rooms.hpp"
 #include "bindings/support/arrays.hpp"
-#include "bindings/support/mesh_arrays.hpp"
 #include "bindings/support/monitor.hpp"
+#include "bindings/support/triangulation.hpp"
 #include "core/base/large_array.hpp"
 #include "core/delaunay/delaunay_triangulation.hpp"
 #include "core/delaunay/nearest_neighbours.hpp"
@@ -32,9 +32,8 @@ auto copied(std::span<const std::int32_t> values) {
   return to_numpy(std::move(kept), {values.size()});
 }
 
-void make_mesh(DelaunayTriangulation* self, const Matrix<const double>& array, unsigned threads,
-               const Progress& progress) {
-  const std::span<const Point> points = as_points(array);
+void make_mesh(DelaunayTriangulation* self, const Places& array, unsigned threads, const Progress& progress) {
+  const std::span<const Point> points = rows<Point>(array);
   run_interruptible(
       progress, [&](const Monitor& monitor) { new (self) DelaunayTriangulation(points, threads, monitor); });
 }
@@ -52,40 +51,32 @@ auto arrays_of(const DelaunayTriangulation& mesh, unsigned threads, const Progre
                          to_numpy(std::move(edges), {mesh.edge_count(), 2}));
 }
 
-// Triangles, neighbours, edges, hull and first of the points of a mesh and further ones; None where the order
-// of its triangles would change.
-auto insert_points(const Matrix<const double>& points, const IndexRows& triangles,
-                   const IndexRows& neighbours, const IndexRows& edges, const Indices& hull,
-                   const Indices& first, const Indices& hints, unsigned threads, const Progress& progress) {
-  const std::span<const Point> all = as_points(points);
-  const core::delaunay::TriangulationArrays mesh{all.first(std::min(first.size(), all.size())),
-                                                 rows_of(triangles, 3),
-                                                 rows_of(neighbours, 3),
-                                                 rows_of(edges, 2),
-                                                 view(hull),
-                                                 view(first)};
-  if (first.size() > all.size() || neighbours.size() != triangles.size() ||
-      (hints.size() != 0 && hints.size() != all.size() - first.size())) {
-    throw std::invalid_argument("the arrays of a triangulation have lengths that do not go together");
-  }
+// The arrays of a mesh of its points and further ones; None where the order of its triangles would change.
+std::optional<Columns> insert_points(const Triangulation& mesh, const Places& points, const Indices& hints,
+                                     unsigned threads, const Progress& progress) {
+  const std::span<const Point> all = rows<Point>(points);
+  const std::size_t count = mesh.view().points.size();
+  if (count > all.size() || (hints.size() != 0 && hints.size() != all.size() - count))
+    throw std::invalid_argument("points, or hints, are not as many as there must be");
   std::optional<core::delaunay::InsertedArrays> made =
       run_interruptible(progress, [&](const Monitor& monitor) {
-        return core::delaunay::insert_points(mesh, all, view(hints), threads, monitor);
+        return core::delaunay::insert_points(mesh.view(), all, view(hints), threads, monitor);
       });
-  const auto as_tuple = [](core::delaunay::InsertedArrays& arrays) {
-    const std::size_t rows = arrays.triangles.size() / 3, links = arrays.edges.size() / 2;
-    return std::make_tuple(to_numpy(std::move(arrays.triangles), {rows, 3}),
-                           to_numpy(std::move(arrays.neighbours), {rows, 3}),
-                           to_numpy(std::move(arrays.edges), {links, 2}), to_numpy(std::move(arrays.hull)),
-                           to_numpy(std::move(arrays.first)));
-  };
-  return made ? std::optional(as_tuple(*made)) : std::nullopt;
+  if (!made) return std::nullopt;
+  const std::size_t triangles = made->triangles.size() / 3, edges = made->edges.size() / 2;
+  Columns result;
+  result["triangles"] = to_numpy(std::move(made->triangles), {triangles, 3});
+  result["neighbours"] = to_numpy(std::move(made->neighbours), {triangles, 3});
+  result["edges"] = to_numpy(std::move(made->edges), {edges, 2});
+  result["hull"] = to_numpy(std::move(made->hull));
+  result["first"] = to_numpy(std::move(made->first));
+  return result;
 }
 
 // The nearest point of each, and its number of neighbours.
-auto nearest_neighbours(const Matrix<const double>& points, const IndexRows& edges,
+auto nearest_neighbours(const Places& points, const IndexRows& edges,
                         const Vector<const std::int64_t>& labels, const Progress& progress) {
-  const std::span<const core::kernel::Point> sites = as_points(points);
+  const std::span<const Point> sites = rows<Point>(points);
   const std::span<const std::int32_t> ends = rows_of(edges, 2);
   if (labels.size() != sites.size()) throw std::invalid_argument("there must be one label a point");
   core::delaunay::NearestNeighbours found = run_interruptible(progress, [&](const Monitor& monitor) {
@@ -94,14 +85,10 @@ auto nearest_neighbours(const Matrix<const double>& points, const IndexRows& edg
   return std::make_tuple(to_numpy(std::move(found.nearest)), to_numpy(std::move(found.count)));
 }
 
-std::optional<std::string> find_fault(const Matrix<const double>& points, const IndexRows& triangles,
-                                      const IndexRows& neighbours, const IndexRows& edges,
-                                      const Indices& hull, const Indices& first, unsigned threads,
-                                      const Progress& progress) {
-  const core::delaunay::TriangulationArrays arrays =
-      mesh_arrays(points, triangles, neighbours, rows_of(edges, 2), view(hull), view(first));
-  return run_interruptible(
-      progress, [&](const Monitor& monitor) { return core::delaunay::find_fault(arrays, threads, monitor); });
+std::optional<std::string> find_fault(const Triangulation& mesh, unsigned threads, const Progress& progress) {
+  return run_interruptible(progress, [&](const Monitor& monitor) {
+    return core::delaunay::find_fault(mesh.view(), threads, monitor);
+  });
 }
 
 }  // namespace
@@ -112,12 +99,14 @@ void bind_delaunay(nb::module_& room) {
       .def_prop_ro("first", [](const DelaunayTriangulation& mesh) { return copied(mesh.first()); })
       .def_prop_ro("hull", [](const DelaunayTriangulation& mesh) { return copied(mesh.hull()); })
       .def("arrays", &arrays_of, "threads"_a, "progress"_a.none(), "Triangles, their neighbours, and edges.");
-  room.def(
-      "insert_points", &insert_points, "points"_a, "triangles"_a, "neighbours"_a, "edges"_a, "hull"_a,
-      "first"_a, "hints"_a, "threads"_a, "progress"_a.none(),
-      "Triangles, neighbours, edges, hull, first; None where the order of triangles that stay would change.");
-  room.def("find_fault", &find_fault, "points"_a, "triangles"_a, "neighbours"_a, "edges"_a, "hull"_a,
-           "first"_a, "threads"_a, "progress"_a.none());
+  nb::class_<Triangulation>(room, "Triangulation")
+      .def(nb::init<const Places&, const IndexRows&, const IndexRows&, const IndexRows&, const Indices&,
+                    const Indices&>(),
+           "points"_a, "triangles"_a, "neighbours"_a, "edges"_a, "hull"_a, "first"_a);
+  room.def("insert_points", &insert_points, "mesh"_a, "points"_a, "hints"_a, "threads"_a, "progress"_a.none(),
+           "Of the points of the mesh and further ones triangles, neighbours, edges, hull and first; None "
+           "where the order of triangles that stay would change.");
+  room.def("find_fault", &find_fault, "mesh"_a, "threads"_a, "progress"_a.none());
   room.def("nearest_neighbours", &nearest_neighbours, "points"_a, "edges"_a, "labels"_a, "progress"_a.none(),
            "Index of the nearest point of each, -1 without any, and its number of neighbours.");
 }

@@ -6,7 +6,6 @@
 
 #include "bindings/rooms.hpp"
 #include "bindings/support/arrays.hpp"
-#include "bindings/support/mesh_arrays.hpp"
 #include "bindings/support/monitor.hpp"
 #include "core/delaunay/delaunay_triangulation.hpp"
 #include "core/digital/digital_repair.hpp"
@@ -65,9 +64,9 @@ Columns as_dict(const DigitalRepair& repair) {
 }
 
 // The mesh, and what its repair took. The labels of the image are those of its connected regions afterwards.
-auto digital_mesh(const Matrix<const double>& points, const Coordinates& x, const Coordinates& y,
-                  std::int64_t scale, const Matrix<std::uint32_t>& image, std::int64_t frame_x,
-                  std::int64_t frame_y, unsigned threads, const Progress& progress) {
+auto digital_mesh(const Places& points, const Coordinates& x, const Coordinates& y, std::int64_t scale,
+                  const Matrix<std::uint32_t>& image, std::int64_t frame_x, std::int64_t frame_y,
+                  unsigned threads, const Progress& progress) {
   if (x.size() != points.shape(0) || y.size() != points.shape(0))
     throw std::invalid_argument("sites and points differ in number");
   const core::tessellation::PixelFrame frame{frame_x, frame_y, image.shape(1), image.shape(0)};
@@ -77,18 +76,17 @@ auto digital_mesh(const Matrix<const double>& points, const Coordinates& x, cons
       return core::digital::digital_delaunay(view(image), frame, {view(x), view(y), scale}, ordered, repair,
                                              threads, monitor);
     };
-    return DelaunayTriangulation(as_points(points), triangulate, threads, monitor);
+    return DelaunayTriangulation(rows<core::kernel::Point>(points), triangulate, threads, monitor);
   });
   return std::make_tuple(std::move(mesh), as_dict(repair));
 }
 
-DelaunayTriangulation inserted_mesh(const Matrix<const double>& points, unsigned threads,
-                                    const Progress& progress) {
+DelaunayTriangulation inserted_mesh(const Places& points, unsigned threads, const Progress& progress) {
   return run_interruptible(progress, [&](const Monitor& monitor) {
     const auto triangulate = [&](const OrderedPoints& ordered) {
       return core::digital::delaunay_by_insertion(ordered, monitor);
     };
-    return DelaunayTriangulation(as_points(points), triangulate, threads, monitor);
+    return DelaunayTriangulation(rows<core::kernel::Point>(points), triangulate, threads, monitor);
   });
 }
 

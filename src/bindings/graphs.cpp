@@ -9,6 +9,7 @@
 #include "bindings/rooms.hpp"
 #include "bindings/support/arrays.hpp"
 #include "bindings/support/monitor.hpp"
+#include "core/base/indices.hpp"
 #include "core/graphs/graph_colouring.hpp"
 #include "core/graphs/longest_paths.hpp"
 
@@ -17,32 +18,23 @@ namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
+using core::base::IndexPair;
 using core::base::Monitor;
 using core::graphs::GraphPath;
-using Pair = std::array<std::int32_t, 2>;
 
-std::span<const Pair> checked(const Matrix<const std::int32_t>& arcs, const Vector<const double>& length,
-                              std::size_t nodes) {
-  const std::span<const Pair> pairs = rows<Pair>(arcs);
+std::span<const IndexPair> checked(const IndexRows& arcs, const Vector<const double>& length,
+                                   std::size_t nodes) {
+  const std::span<const IndexPair> pairs = rows<IndexPair>(arcs);
   if (pairs.size() != length.size()) throw std::invalid_argument("each arc must have a length");
-  for (const Pair& pair : pairs) {
-    for (const std::int32_t node : pair) {
-      if (node < 0 || static_cast<std::size_t>(node) >= nodes)
-        throw std::invalid_argument("a node is out of range");
-    }
-  }
+  core::base::check_range(pairs, 0, nodes, "a node is out of range");
   return pairs;
 }
 
-auto longest_paths(const Matrix<const std::int32_t>& arcs, const Vector<const double>& length,
-                   const Vector<const std::int32_t>& group, std::size_t groups, std::size_t nodes, double tie,
-                   const Progress& progress) {
-  const std::span<const Pair> pairs = checked(arcs, length, nodes);
+auto longest_paths(const IndexRows& arcs, const Vector<const double>& length, const Indices& group,
+                   std::size_t groups, std::size_t nodes, double tie, const Progress& progress) {
+  const std::span<const IndexPair> pairs = checked(arcs, length, nodes);
   if (group.size() != pairs.size()) throw std::invalid_argument("each arc must have a group");
-  for (const std::int32_t number : view(group)) {
-    if (number < 0 || static_cast<std::size_t>(number) >= groups)
-      throw std::invalid_argument("a group is out of range");
-  }
+  core::base::check_range(view(group), 0, groups, "a group is out of range");
   std::vector<GraphPath> paths = run_interruptible(progress, [&](const Monitor& monitor) {
     const std::vector<std::int64_t> whole = core::graphs::whole_lengths(view(length), view(group), groups);
     return core::graphs::longest_paths(pairs, whole, view(group), groups, nodes, tie, monitor);
@@ -58,9 +50,9 @@ auto longest_paths(const Matrix<const std::int32_t>& arcs, const Vector<const do
                          to_numpy(std::move(path_nodes)));
 }
 
-auto path_from(const Matrix<const std::int32_t>& arcs, const Vector<const double>& length, std::size_t nodes,
+auto path_from(const IndexRows& arcs, const Vector<const double>& length, std::size_t nodes,
                std::int32_t first, std::int32_t last, const Progress& progress) {
-  const std::span<const Pair> pairs = checked(arcs, length, nodes);
+  const std::span<const IndexPair> pairs = checked(arcs, length, nodes);
   if (first < 0 || static_cast<std::size_t>(first) >= nodes ||
       (last >= 0 && static_cast<std::size_t>(last) >= nodes)) {
     throw std::invalid_argument("a node is out of range");

@@ -1,4 +1,4 @@
-// The exact predicates, and each of their levels alone, for the tests.
+// Planar graphs, and the exact predicates, each of their levels alone for the tests.
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -7,6 +7,7 @@
 
 #include "bindings/rooms.hpp"
 #include "bindings/support/arrays.hpp"
+#include "bindings/support/planar_graph.hpp"
 #include "core/kernel/predicates.hpp"
 
 namespace vorotool::bindings {
@@ -85,6 +86,9 @@ void bind_kernel(nb::module_& room) {
       "A level is auto, filter, seen (the filter of the triangulation), integers, expansions or wide; the "
       "sign is "
       "2 where a level other than auto and wide cannot tell. The points must be finite.";
+  nb::class_<PlanarGraph>(room, "PlanarGraph")
+      .def(nb::init<const IndexRows&, const IndexRows&, const IndexRows&>(), "points"_a, "segments"_a,
+           "segment_faces"_a);
   room.def("orient2d", &orient2d, "points"_a, "level"_a = "auto", levels);
   room.def("incircle", &incircle, "points"_a, "level"_a = "auto", levels);
 }

@@ -1,7 +1,6 @@
 // Measures, diagrams, outlines and connected components of label images and masks.
 #include <optional>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "bindings/rooms.hpp"
@@ -22,6 +21,7 @@ using namespace nb::literals;
 using core::base::Monitor;
 using core::label_images::Border;
 using core::label_images::Connectivity;
+using core::label_images::CornerRule;
 using core::label_images::Region;
 using core::label_images::StreamingComponents;
 
@@ -85,19 +85,11 @@ std::size_t count_crack_vertices(const Matrix<const Label>& labels, unsigned thr
   });
 }
 
-core::label_images::CornerRule corner_rule(const std::string& name) {
-  if (name == "apart") return core::label_images::CornerRule::apart;
-  if (name == "divided") return core::label_images::CornerRule::divided;
-  if (name == "joined") return core::label_images::CornerRule::joined;
-  if (name == "yielding") return core::label_images::CornerRule::yielding;
-  throw std::invalid_argument("a corner rule is apart, divided, joined or yielding");
-}
-
 template <class Label>
-Columns trace_cracks(const Matrix<const Label>& labels, const std::string& rule, unsigned threads,
+Columns trace_cracks(const Matrix<const Label>& labels, CornerRule rule, unsigned threads,
                      const Progress& progress) {
   core::label_images::CrackOutlines made = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::label_images::trace_cracks<Label>(view(labels), labels.shape(1), corner_rule(rule),
+    return core::label_images::trace_cracks<Label>(view(labels), labels.shape(1), rule,
                                                    core::base::resolve_threads(threads), monitor);
   });
   Columns result;
@@ -163,6 +155,11 @@ void bind_label_image(nb::module_& room) {
 }  // namespace
 
 void bind_label_images(nb::module_& room) {
+  nb::enum_<CornerRule>(room, "CornerRule")
+      .value("apart", CornerRule::apart)
+      .value("divided", CornerRule::divided)
+      .value("joined", CornerRule::joined)
+      .value("yielding", CornerRule::yielding);
   bind_label_image<std::uint8_t>(room);
   bind_label_image<std::uint16_t>(room);
   bind_label_image<std::uint32_t>(room);

@@ -21,7 +21,7 @@ constexpr Room rooms[] = {
     {"delaunay", bind_delaunay, "Delaunay triangulations, and their check: points are finite."},
     {"digital", bind_digital, "The digital triangulation, to the letter and repaired."},
     {"graphs", bind_graphs, "Paths in graphs of arcs, which are pairs of nodes, and colours of graphs."},
-    {"kernel", bind_kernel, "The exact predicates, and each of their levels alone."},
+    {"kernel", bind_kernel, "Planar graphs; the exact predicates, and each of their levels alone."},
     {"label_images", bind_label_images,
      "Measures, diagrams, outlines and connected components of label images and masks."},
     {"offsets", bind_offsets, "Offset curves, from segment Voronoi diagrams."},

@@ -1,12 +1,16 @@
 // Critical values of skeletons, and what is left for a threshold.
 #include <algorithm>
 #include <array>
+#include <memory>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
 #include "bindings/rooms.hpp"
 #include "bindings/support/arrays.hpp"
 #include "bindings/support/monitor.hpp"
+#include "core/base/indices.hpp"
 #include "core/pruning/arc_profile.hpp"
 #include "core/pruning/critical_values.hpp"
 #include "core/pruning/pruning.hpp"
@@ -16,102 +20,119 @@ namespace {
 
 namespace nb = nanobind;
 using namespace nb::literals;
+using core::base::IndexPair;
 using core::base::Monitor;
 using core::kernel::Point;
-using Pair = std::array<std::int32_t, 2>;
+using core::pruning::Criterion;
+using core::skeleton::SkeletonView;
 
-using SkeletonTuple = nb::typed<nb::tuple, nb::any, nb::ellipsis>;
-
-// The arrays of a skeleton, kept while the core works on views of them.
-struct SkeletonInput {
-  Matrix<const double> vertices;
-  Vector<const double> radius;
-  Matrix<const std::int32_t> arcs;
-  Matrix<const double> control;
-  Matrix<const std::int32_t> sites;
-  Vector<const double> length;
-  Matrix<const double> site_ends;  // four columns
-  Vector<const std::uint8_t> is_anchored;
-  bool has_gap;
-  double reach;
-
-  SkeletonInput(const SkeletonTuple& arrays)
-      : vertices(cast<Matrix<const double>>(arrays, 0)),
-        radius(cast<Vector<const double>>(arrays, 1)),
-        arcs(cast<Matrix<const std::int32_t>>(arrays, 2)),
-        control(cast<Matrix<const double>>(arrays, 3)),
-        sites(cast<Matrix<const std::int32_t>>(arrays, 4)),
-        length(cast<Vector<const double>>(arrays, 5)),
-        site_ends(cast<Matrix<const double>>(arrays, 6)),
-        is_anchored(cast<Vector<const std::uint8_t>>(arrays, 7)),
-        has_gap(nb::cast<bool>(arrays[8])),
-        reach(nb::cast<double>(arrays[9])) {}
-
-  // Without the ends of sites only for what looks at none.
-  core::skeleton::SkeletonView skeleton(bool needs_sites = true) const {
-    const core::skeleton::SkeletonView s{rows<Point>(vertices),
-                                         view(radius),
-                                         rows<Pair>(arcs),
-                                         rows<Point>(control),
-                                         rows<Pair>(sites),
-                                         view(length),
-                                         rows<std::array<Point, 2>, 4>(site_ends),
-                                         view(is_anchored),
-                                         has_gap,
-                                         reach};
-    const std::size_t nodes = s.vertices.size(), count = s.arcs.size();
-    if (s.radius.size() != nodes || s.is_anchored.size() != nodes || s.control.size() != count ||
-        s.sites.size() != count || s.length.size() != count) {
+// A skeleton that comes from Python: its arrays are kept, and its indices in range.
+class Skeleton {
+ public:
+  // Ends of sites, four numbers each.
+  Skeleton(const Places& vertices, const Vector<const double>& radius, const IndexRows& arcs,
+           const Places& control, const IndexRows& sites, const Vector<const double>& length,
+           const std::optional<Places>& site_ends, const Vector<const std::uint8_t>& is_anchored,
+           bool has_gap, double reach)
+      : kept_(keep(vertices, radius, arcs, control, sites, length, site_ends, is_anchored)),
+        has_sites_(site_ends),
+        view_{rows<Point>(vertices),
+              bindings::view(radius),
+              rows<IndexPair>(arcs),
+              rows<Point>(control),
+              rows<IndexPair>(sites),
+              bindings::view(length),
+              {},
+              bindings::view(is_anchored),
+              has_gap,
+              reach} {
+    const std::size_t nodes = view_.vertices.size(), count = view_.arcs.size();
+    if (view_.radius.size() != nodes || view_.is_anchored.size() != nodes || view_.control.size() != count ||
+        view_.sites.size() != count || view_.length.size() != count) {
       throw std::invalid_argument("the arrays of a skeleton have lengths that do not go together");
     }
-    check_range(s.arcs, nodes);
-    if (needs_sites) check_range(s.sites, s.site_ends.size());
-    return s;
+    core::base::check_range(view_.arcs, 0, nodes, outside);
+    if (!site_ends) return;
+    view_.site_ends = rows<std::array<Point, 2>>(*site_ends);
+    core::base::check_range(view_.sites, 0, view_.site_ends.size(), outside);
   }
 
- private:
-  template <class Array>
-  static Array cast(const SkeletonTuple& arrays, std::size_t index) {
-    return nb::cast<Array>(arrays[index], false);
+  const SkeletonView& view(Criterion criterion = Criterion::angle) const {
+    if (!has_sites_ && criterion != Criterion::scale)
+      throw std::invalid_argument("the ends of sites are needed");
+    return view_;
   }
-  static void check_range(std::span<const Pair> pairs, std::size_t count) {
-    for (const Pair& pair : pairs) {
-      for (const std::int32_t index : pair) {
-        if (index < 0 || static_cast<std::size_t>(index) >= count) {
-          throw std::invalid_argument("an index of the skeleton is out of range");
-        }
-      }
-    }
+
+  static constexpr const char* outside = "an index of the skeleton is out of range";
+
+ private:
+  std::shared_ptr<const void> kept_;
+  bool has_sites_;
+  SkeletonView view_;
+};
+
+// Some that follow each other.
+struct Range {
+  std::size_t first, count;
+
+  Range(const nb::slice& slice, std::size_t size) {
+    const auto [start, stop, step, length] = slice.compute(size);
+    if (step != 1) throw std::invalid_argument("a part is what follows each other");
+    first = static_cast<std::size_t>(start), count = length;
+  }
+  template <class T>
+  std::span<const T> of(std::span<const T> all) const {
+    return all.subspan(first, count);
   }
 };
 
-core::pruning::Criterion criterion_of(int number) {
-  if (number < 0 || number > 4) throw std::invalid_argument("there are five criteria");
-  return static_cast<core::pruning::Criterion>(number);
+// Ends of arcs, by their places among some nodes.
+std::vector<IndexPair> renumbered(std::span<const IndexPair> arcs, const Range& nodes) {
+  std::vector<IndexPair> ends(arcs.begin(), arcs.end());
+  for (IndexPair& pair : ends) {
+    for (std::int32_t& node : pair) node -= static_cast<std::int32_t>(nodes.first);
+  }
+  core::base::check_range(ends, 0, nodes.count, Skeleton::outside);
+  return ends;
 }
 
-auto critical_values(const SkeletonTuple& arrays, int criterion, const Progress& progress) {
-  const SkeletonInput input(arrays);
-  const core::pruning::Criterion wanted = criterion_of(criterion);
-  const core::skeleton::SkeletonView skeleton = input.skeleton(wanted != core::pruning::Criterion::scale);
+SkeletonView part_of(const SkeletonView& whole, const Range& arcs, const Range& nodes,
+                     std::span<const IndexPair> ends) {
+  return {nodes.of(whole.vertices),
+          nodes.of(whole.radius),
+          ends,
+          arcs.of(whole.control),
+          arcs.of(whole.sites),
+          arcs.of(whole.length),
+          whole.site_ends,
+          nodes.of(whole.is_anchored),
+          whole.has_gap,
+          whole.reach};
+}
+
+auto critical_values(const Skeleton& input, Criterion criterion, const Progress& progress) {
+  const SkeletonView& skeleton = input.view(criterion);
   core::pruning::CriticalValues values = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::pruning::critical_values(skeleton, wanted, monitor);
+    return core::pruning::critical_values(skeleton, criterion, monitor);
   });
   return std::make_tuple(two_columns(std::move(values.ends)), to_numpy(std::move(values.most)),
                          column<std::int32_t>(values.kept, [](const auto& place) { return place.arc; }),
                          column<double>(values.kept, [](const auto& place) { return place.parameter; }));
 }
 
-Columns prune_skeleton(const SkeletonTuple& arrays, int criterion, double threshold,
-                       const Vector<const std::int32_t>& group, const Progress& progress) {
-  const SkeletonInput input(arrays);
-  const core::pruning::Criterion wanted = criterion_of(criterion);
-  const core::skeleton::SkeletonView skeleton = input.skeleton(wanted != core::pruning::Criterion::scale);
-  if (group.size() != skeleton.arcs.size()) throw std::invalid_argument("each arc must have a group");
+// What is left of some arcs, whose nodes have nothing in common with others.
+Columns prune_skeleton(const Skeleton& input, const nb::slice& arcs, const nb::slice& nodes,
+                       Criterion criterion, double threshold, const Indices& group,
+                       const Progress& progress) {
+  const SkeletonView& whole = input.view(criterion);
+  if (group.size() != whole.arcs.size()) throw std::invalid_argument("each arc must have a group");
+  const Range own_arcs(arcs, whole.arcs.size()), own_nodes(nodes, whole.vertices.size());
+  const std::vector<IndexPair> ends = renumbered(own_arcs.of(whole.arcs), own_nodes);
+  const SkeletonView skeleton = part_of(whole, own_arcs, own_nodes, ends);
   core::pruning::PrunedSkeleton left = run_interruptible(progress, [&](const Monitor& monitor) {
-    const core::pruning::CriticalValues values = core::pruning::critical_values(skeleton, wanted, monitor);
-    const auto parts = core::pruning::parts_left(skeleton, values, wanted, threshold);
-    return core::pruning::pruned_skeleton(skeleton, parts, view(group), monitor);
+    const core::pruning::CriticalValues values = core::pruning::critical_values(skeleton, criterion, monitor);
+    const auto parts = core::pruning::parts_left(skeleton, values, criterion, threshold);
+    return core::pruning::pruned_skeleton(skeleton, parts, own_arcs.of(view(group)), monitor);
   });
   Columns result;
   result["vertices"] = two_columns(std::move(left.vertices));
@@ -125,9 +146,8 @@ Columns prune_skeleton(const SkeletonTuple& arrays, int criterion, double thresh
   return result;
 }
 
-auto arc_profiles(const SkeletonTuple& arrays) {
-  const SkeletonInput input(arrays);
-  const core::skeleton::SkeletonView skeleton = input.skeleton();
+auto arc_profiles(const Skeleton& input) {
+  const SkeletonView& skeleton = input.view();
   const std::size_t count = skeleton.arcs.size();
   std::vector<std::int8_t> kind(count);
   std::vector<std::array<double, 2>> ends(count);
@@ -141,18 +161,16 @@ auto arc_profiles(const SkeletonTuple& arrays) {
   return std::make_tuple(to_numpy(std::move(kind)), two_columns(std::move(ends)), to_numpy(std::move(size)));
 }
 
-Columns part_geometry(const SkeletonTuple& arrays, const Vector<const std::int32_t>& arc,
-                      const Vector<const double>& first, const Vector<const double>& last) {
-  const SkeletonInput input(arrays);
-  const core::skeleton::SkeletonView skeleton = input.skeleton();
+Columns part_geometry(const Skeleton& input, const Indices& arc, const Vector<const double>& first,
+                      const Vector<const double>& last) {
+  const SkeletonView& skeleton = input.view();
   if (first.size() != arc.size() || last.size() != arc.size())
     throw std::invalid_argument("each part must have an arc and two ends");
+  core::base::check_range(view(arc), 0, skeleton.arcs.size(), "an arc is out of range");
   std::vector<Point> from, to, control;
   std::vector<double> from_radius, to_radius, length;
   for (std::size_t k = 0; k < arc.size(); ++k) {
     const core::pruning::ArcPart part{view(arc)[k], view(first)[k], view(last)[k]};
-    if (part.arc < 0 || static_cast<std::size_t>(part.arc) >= skeleton.arcs.size())
-      throw std::invalid_argument("an arc is out of range");
     const core::pruning::PartGeometry geometry = core::pruning::part_geometry(skeleton, part);
     from.push_back(geometry.first.place);
     to.push_back(geometry.last.place);
@@ -174,12 +192,25 @@ Columns part_geometry(const SkeletonTuple& arrays, const Vector<const std::int32
 }  // namespace
 
 void bind_pruning(nb::module_& room) {
+  nb::enum_<Criterion>(room, "Criterion")
+      .value("angle", Criterion::angle)
+      .value("chord", Criterion::chord)
+      .value("scale", Criterion::scale)
+      .value("length", Criterion::length)
+      .value("ratio", Criterion::ratio);
+  nb::class_<Skeleton>(room, "Skeleton", "Of sites only the scale needs no ends.")
+      .def(nb::init<const Places&, const Vector<const double>&, const IndexRows&, const Places&,
+                    const IndexRows&, const Vector<const double>&, const std::optional<Places>&,
+                    const Vector<const std::uint8_t>&, bool, double>(),
+           "vertices"_a, "radius"_a, "arcs"_a, "control"_a, "sites"_a, "length"_a, "site_ends"_a.none(),
+           "is_anchored"_a, "has_gap"_a, "reach"_a);
   room.def(
       "critical_values", &critical_values, "skeleton"_a, "criterion"_a, "progress"_a.none(),
       "Values at the ends of arcs and the largest of each; arcs on which a place is kept, and where. Of the "
       "angle: the tangent of half of it.");
-  room.def("prune_skeleton", &prune_skeleton, "skeleton"_a, "criterion"_a, "threshold"_a, "group"_a,
-           "progress"_a.none());
+  room.def("prune_skeleton", &prune_skeleton, "skeleton"_a, "arcs"_a, "nodes"_a, "criterion"_a, "threshold"_a,
+           "group"_a, "progress"_a.none(),
+           "What is left of some arcs, whose nodes, numbered from the first of them, are no others'.");
   room.def("arc_profiles", &arc_profiles, "skeleton"_a,
            "Kinds (between lines, between points, parabola), x at the ends, and h or the tangent of half the "
            "angle.");

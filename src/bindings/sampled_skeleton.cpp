@@ -9,9 +9,9 @@
 
 #include "bindings/rooms.hpp"
 #include "bindings/support/arrays.hpp"
-#include "bindings/support/diagram_arrays.hpp"
-#include "bindings/support/mesh_arrays.hpp"
 #include "bindings/support/monitor.hpp"
+#include "bindings/support/planar_graph.hpp"
+#include "bindings/support/triangulation.hpp"
 #include "core/base/parallel.hpp"
 #include "core/sampled_skeleton/boundary_samples.hpp"
 #include "core/sampled_skeleton/sample_diagram.hpp"
@@ -23,25 +23,7 @@ namespace {
 namespace nb = nanobind;
 using namespace nb::literals;
 using core::base::Monitor;
-
-// The arrays of a graph, kept while the core works on views of them.
-struct GraphArrays {
-  IndexRows points, segments, faces;
-
-  core::kernel::PlanarGraphView graph() const {
-    const core::kernel::PlanarGraphView g{rows<LatticePoint>(points), rows<Pair>(segments),
-                                          rows<Pair>(faces)};
-    if (g.faces.size() != g.segments.size()) throw std::invalid_argument("each segment must have two faces");
-    for (const Pair& ends : g.segments) {
-      for (const std::int32_t end : ends) {
-        if (end < 0 || static_cast<std::size_t>(end) >= g.points.size()) {
-          throw std::invalid_argument("an end of a segment is out of range");
-        }
-      }
-    }
-    return g;
-  }
-};
+using core::kernel::Point;
 
 // Seeds, the segment that each is inside of, and where those of each segment begin.
 auto to_tuple(core::sampled_skeleton::BoundarySamples&& samples) {
@@ -50,12 +32,11 @@ auto to_tuple(core::sampled_skeleton::BoundarySamples&& samples) {
                          to_numpy(std::move(samples.segment), {count}), to_numpy(std::move(samples.start)));
 }
 
-auto sample_by_step(const IndexRows& points, const IndexRows& segments, const IndexRows& faces, double step,
-                    std::size_t most, unsigned threads, const Progress& progress) {
-  const core::kernel::PlanarGraphView graph = GraphArrays{points, segments, faces}.graph();
+auto sample_by_step(const PlanarGraph& graph, double step, std::size_t most, unsigned threads,
+                    const Progress& progress) {
   return to_tuple(run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::sampled_skeleton::sample_by_step(graph, step, most, core::base::resolve_threads(threads),
-                                                  monitor);
+    return core::sampled_skeleton::sample_by_step(graph.view(), step, most,
+                                                  core::base::resolve_threads(threads), monitor);
   }));
 }
 
@@ -76,33 +57,29 @@ auto to_tuple(core::sampled_skeleton::CornerSteps&& steps) {
                          to_numpy(std::move(steps.distance)));
 }
 
-auto sample_from_corners(const IndexRows& points, const IndexRows& segments, const IndexRows& faces,
-                         const Steps& steps, std::size_t most, unsigned threads, const Progress& progress) {
-  const core::kernel::PlanarGraphView graph = GraphArrays{points, segments, faces}.graph();
-  const core::sampled_skeleton::CornerSteps wanted = steps_of(steps, graph);
+auto sample_from_corners(const PlanarGraph& graph, const Steps& steps, std::size_t most, unsigned threads,
+                         const Progress& progress) {
+  const core::sampled_skeleton::CornerSteps wanted = steps_of(steps, graph.view());
   return to_tuple(run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::sampled_skeleton::sample_from_corners(graph, wanted, most,
+    return core::sampled_skeleton::sample_from_corners(graph.view(), wanted, most,
                                                        core::base::resolve_threads(threads), monitor);
   }));
 }
 
-auto corner_steps(const IndexRows& points, const IndexRows& segments, const IndexRows& faces, double step,
-                  bool is_even, std::size_t most) {
-  const core::kernel::PlanarGraphView graph = GraphArrays{points, segments, faces}.graph();
-  return to_tuple(is_even ? core::sampled_skeleton::even_steps(graph, step, most)
-                          : core::sampled_skeleton::doubled_steps(graph, step, most));
+auto corner_steps(const PlanarGraph& graph, double step, bool is_even, std::size_t most) {
+  return to_tuple(is_even ? core::sampled_skeleton::even_steps(graph.view(), step, most)
+                          : core::sampled_skeleton::doubled_steps(graph.view(), step, most));
 }
 
-auto refined_steps(const IndexRows& points, const IndexRows& segments, const IndexRows& faces,
-                   const Steps& steps, const Indices& start, const Indices& parts, std::size_t most) {
-  const core::kernel::PlanarGraphView graph = GraphArrays{points, segments, faces}.graph();
-  if (start.size() != graph.segments.size() + 1 ||
-      parts.size() !=
-          graph.segments.size() + static_cast<std::size_t>(view(start).back()) - graph.points.size()) {
+auto refined_steps(const PlanarGraph& graph, const Steps& steps, const Indices& start, const Indices& parts,
+                   std::size_t most) {
+  const std::size_t segments = graph.view().segments.size();
+  if (start.size() != segments + 1 ||
+      parts.size() != segments + core::base::at(view(start).back()) - graph.view().points.size()) {
     throw std::invalid_argument("the parts do not go with the pieces");
   }
-  return to_tuple(
-      core::sampled_skeleton::refined_steps(graph, steps_of(steps, graph), view(start), view(parts), most));
+  return to_tuple(core::sampled_skeleton::refined_steps(graph.view(), steps_of(steps, graph.view()),
+                                                        view(start), view(parts), most));
 }
 
 using Box = std::tuple<double, double, double, double>;  // least and most x, then y
@@ -110,38 +87,39 @@ using Box = std::tuple<double, double, double, double>;  // least and most x, th
 // A diagram and what it looks at.
 class SampledDiagram {
  public:
-  SampledDiagram(const GraphArrays& arrays, const Matrix<const double>& seeds, const Indices& segment,
-                 const Indices& start, const Indices& group, const std::optional<Box>& within,
-                 unsigned threads, const Progress& progress)
-      : arrays_(arrays), seeds_(seeds), segment_(segment), start_(start), group_(group) {
-    const core::kernel::PlanarGraphView graph = arrays_.graph();
-    check(graph);
-    const core::sampled_skeleton::SampleGroups groups = groups_of(graph, within);
+  SampledDiagram(const PlanarGraph& input, const Places& seeds, const Indices& segment, const Indices& start,
+                 const Indices& group, const std::optional<Box>& within, unsigned threads,
+                 const Progress& progress)
+      : kept_(keep(input, seeds, segment, start, group)) {
+    const core::kernel::PlanarGraphView& graph = input.view();
+    check(graph, seeds, segment, start);
+    const core::sampled_skeleton::SampleGroups groups = groups_of(graph, group, within);
     made_ = run_interruptible(progress, [&](const Monitor& monitor) {
       return std::make_unique<core::sampled_skeleton::SampleDiagram>(
-          graph, as_points(seeds_), view(segment_), view(start_), groups,
-          core::base::resolve_threads(threads), monitor);
+          graph, rows<Point>(seeds), view(segment), view(start), groups, core::base::resolve_threads(threads),
+          monitor);
     });
   }
 
   const core::sampled_skeleton::SampleDiagram& operator*() const { return *made_; }
 
  private:
-  void check(const core::kernel::PlanarGraphView& graph) const {
-    const std::span<const std::int32_t> start = view(start_), segment = view(segment_);
-    bool fits = start.size() == graph.segments.size() + 1 && segment.size() == as_points(seeds_).size() &&
-                static_cast<std::size_t>(start.front()) == graph.points.size() &&
-                static_cast<std::size_t>(start.back()) == segment.size();
-    for (std::size_t j = 1; fits && j < start.size(); ++j) fits = start[j - 1] <= start[j];
-    for (const std::int32_t j : segment) {
-      fits &= j >= -1 && j < static_cast<std::int32_t>(graph.segments.size());
+  static void check(const core::kernel::PlanarGraphView& graph, const Places& seeds, const Indices& segment,
+                    const Indices& start) {
+    static constexpr const char* wrong = "the seeds do not go with the segments";
+    const std::span<const std::int32_t> first = view(start);
+    if (first.size() != graph.segments.size() + 1 || segment.size() != seeds.shape(0) ||
+        core::base::at(first.front()) != graph.points.size() ||
+        core::base::at(first.back()) != segment.size() || !std::ranges::is_sorted(first)) {
+      throw std::invalid_argument(wrong);
     }
-    if (!fits) throw std::invalid_argument("the seeds do not go with the segments");
+    core::base::check_range(view(segment), -1, graph.segments.size(), wrong);
   }
 
-  core::sampled_skeleton::SampleGroups groups_of(const core::kernel::PlanarGraphView& graph,
-                                                 const std::optional<Box>& within) const {
-    core::sampled_skeleton::SampleGroups groups{view(group_), 1, {}};
+  static core::sampled_skeleton::SampleGroups groups_of(const core::kernel::PlanarGraphView& graph,
+                                                        const Indices& group,
+                                                        const std::optional<Box>& within) {
+    core::sampled_skeleton::SampleGroups groups{view(group), 1, {}};
     if (within) {
       const auto [least_x, most_x, least_y, most_y] = *within;
       groups.within = core::spatial::Bounds({least_x, least_y});
@@ -161,9 +139,7 @@ class SampledDiagram {
     return groups;
   }
 
-  GraphArrays arrays_;
-  Matrix<const double> seeds_;
-  Indices segment_, start_, group_;
+  std::shared_ptr<const void> kept_;
   std::unique_ptr<core::sampled_skeleton::SampleDiagram> made_;
 };
 
@@ -192,13 +168,7 @@ Columns skeleton_of(const SampledDiagram& diagram, const Indices& face_group,
     const auto [least_x, most_x, least_y, most_y] = clipped->second;
     options.clipped = core::skeleton::ClippedGroup{clipped->first, {least_x, most_x, least_y, most_y}};
   }
-  for (const Pair& pair : (*diagram).labels().graph().faces) {
-    for (const std::int32_t face : pair) {
-      if (face < 0 || static_cast<std::size_t>(face) >= face_group.size()) {
-        throw std::invalid_argument("a face has no group");
-      }
-    }
-  }
+  core::base::check_range((*diagram).labels().graph().faces, 0, face_group.size(), "a face has no group");
   const std::int32_t unbounded = whole || face_group.size() == 0 ? 0 : view(face_group)[0];
   if (unbounded >= 0 && !(options.clipped && options.clipped->group == unbounded)) {
     throw std::invalid_argument("unbounded edges are in no frame");
@@ -229,29 +199,22 @@ Columns skeleton_of(const SampledDiagram& diagram, const Indices& face_group,
 void bind_sampled_skeleton(nb::module_& room) {
   nb::exception<core::sampled_skeleton::TooManySeeds>(room, "TooManySeedsError");
   room.attr("LEAST_SAMPLE_GAP") = core::sampled_skeleton::least_gap;
-  room.def("sample_by_step", &sample_by_step, "points"_a, "segments"_a, "faces"_a, "step"_a, "most"_a,
-           "threads"_a, "progress"_a.none(),
+  room.def("sample_by_step", &sample_by_step, "graph"_a, "step"_a, "most"_a, "threads"_a, "progress"_a.none(),
            "Seeds, the segment that each is inside of (-1: a point), and where those of each segment begin.");
-  room.def("sample_from_corners", &sample_from_corners, "points"_a, "segments"_a, "faces"_a, "steps"_a,
-           "most"_a, "threads"_a, "progress"_a.none());
+  room.def("sample_from_corners", &sample_from_corners, "graph"_a, "steps"_a, "most"_a, "threads"_a,
+           "progress"_a.none());
   room.def(
-      "corner_steps", &corner_steps, "points"_a, "segments"_a, "faces"_a, "step"_a, "is_even"_a, "most"_a,
+      "corner_steps", &corner_steps, "graph"_a, "step"_a, "is_even"_a, "most"_a,
       "Where the distances of each point begin, and how far from it seeds are: at even steps, or doubling "
       "up to one.");
-  room.def("refined_steps", &refined_steps, "points"_a, "segments"_a, "faces"_a, "steps"_a, "start"_a,
-           "parts"_a, "most"_a, "Distances with each piece of an edge divided into so many parts.");
+  room.def("refined_steps", &refined_steps, "graph"_a, "steps"_a, "start"_a, "parts"_a, "most"_a,
+           "Distances with each piece of an edge divided into so many parts.");
   nb::class_<SampledDiagram>(room, "SampledDiagram")
       .def(
-          "__init__",
-          [](SampledDiagram* self, const IndexRows& points, const IndexRows& segments, const IndexRows& faces,
-             const Matrix<const double>& seeds, const Indices& segment, const Indices& start,
-             const Indices& group, const std::optional<Box>& within, unsigned threads,
-             const Progress& progress) {
-            new (self) SampledDiagram({points, segments, faces}, seeds, segment, start, group, within,
-                                      threads, progress);
-          },
-          "points"_a, "segments"_a, "faces"_a, "seeds"_a, "segment"_a, "start"_a, "group"_a,
-          "within"_a.none(), "threads"_a, "progress"_a.none(),
+          nb::init<const PlanarGraph&, const Places&, const Indices&, const Indices&, const Indices&,
+                   const std::optional<Box>&, unsigned, const Progress&>(),
+          "graph"_a, "seeds"_a, "segment"_a, "start"_a, "group"_a, "within"_a.none(), "threads"_a,
+          "progress"_a.none(),
           "Of each point a group that has a diagram of its own, or none of any; triangles are ordered within "
           "bounds. These are least and most x, then y, on the lattice.")
       .def_prop_ro("counts", &counts_of)

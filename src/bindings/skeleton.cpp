@@ -7,8 +7,8 @@
 
 #include "bindings/rooms.hpp"
 #include "bindings/support/arrays.hpp"
-#include "bindings/support/diagram_arrays.hpp"
 #include "bindings/support/monitor.hpp"
+#include "bindings/support/segment_diagram.hpp"
 #include "core/base/parallel.hpp"
 #include "core/skeleton/edges.hpp"
 #include "core/skeleton/extraction.hpp"
@@ -20,14 +20,8 @@ namespace nb = nanobind;
 using namespace nb::literals;
 using core::base::Monitor;
 
-auto skeleton_edges(const IndexRows& points, const IndexRows& segments, const Places& vertices,
-                    const Vector<const double>& radius, const IndexRows& edges, const IndexRows& edge_sites,
-                    const IndexRows& segment_faces, unsigned threads, const Progress& progress) {
-  const DiagramArrays arrays{points, segments, vertices, radius, edges, edge_sites};
-  core::segment_voronoi::build::DiagramView diagram = arrays.diagram();
-  diagram.faces = rows<Pair>(segment_faces);
-  if (diagram.faces.size() != diagram.segments.size())
-    throw std::invalid_argument("each segment must have two faces");
+auto skeleton_edges(const SegmentDiagram& input, unsigned threads, const Progress& progress) {
+  const core::segment_voronoi::build::DiagramView& diagram = input.view_with_faces();
   core::skeleton::SkeletonEdges kept = run_interruptible(progress, [&](const Monitor& monitor) {
     return core::skeleton::skeleton_edges(diagram, core::base::resolve_threads(threads), monitor);
   });
@@ -36,15 +30,11 @@ auto skeleton_edges(const IndexRows& points, const IndexRows& segments, const Pl
 
 using Box = std::tuple<double, double, double, double>;
 
-Columns extract_skeleton(const IndexRows& points, const IndexRows& segments, const Places& vertices,
-                         const Vector<const double>& radius, const IndexRows& edges,
-                         const IndexRows& edge_sites, const Vector<const std::int32_t>& kept,
-                         const Vector<const std::int32_t>& groups,
+Columns extract_skeleton(const SegmentDiagram& input, const Indices& kept, const Indices& groups,
                          const std::optional<std::pair<std::int32_t, Box>>& clipped,
                          const std::pair<std::int32_t, std::int32_t>& joined, double origin_x,
                          double origin_y, double scale, unsigned threads, const Progress& progress) {
-  const DiagramArrays arrays{points, segments, vertices, radius, edges, edge_sites};
-  const core::segment_voronoi::build::DiagramView diagram = arrays.diagram();
+  const core::segment_voronoi::build::DiagramView& diagram = input.view();
   if (kept.size() != groups.size()) throw std::invalid_argument("each edge must have one group");
   std::optional<core::skeleton::ClippedGroup> frame;
   if (clipped) {
@@ -56,7 +46,7 @@ Columns extract_skeleton(const IndexRows& points, const IndexRows& segments, con
     if (edge < 0 || static_cast<std::size_t>(edge) >= diagram.edges.size() || group < 0) {
       throw std::invalid_argument("an edge or a group is out of range");
     }
-    const Pair& ends = diagram.edges[static_cast<std::size_t>(edge)];
+    const auto& ends = diagram.edges[static_cast<std::size_t>(edge)];
     if ((ends[0] < 0 || ends[1] < 0) && !(frame && frame->group == group)) {
       throw std::invalid_argument("an unbounded edge is in no frame");
     }
@@ -82,12 +72,10 @@ Columns extract_skeleton(const IndexRows& points, const IndexRows& segments, con
 }  // namespace
 
 void bind_skeleton(nb::module_& room) {
-  room.def("skeleton_edges", &skeleton_edges, "points"_a, "segments"_a, "vertices"_a, "radius"_a, "edges"_a,
-           "edge_sites"_a, "segment_faces"_a, "threads"_a, "progress"_a.none(),
+  room.def("skeleton_edges", &skeleton_edges, "diagram"_a, "threads"_a, "progress"_a.none(),
            "Edges that are not deleted, and the face that each lies in.");
-  room.def("extract_skeleton", &extract_skeleton, "points"_a, "segments"_a, "vertices"_a, "radius"_a,
-           "edges"_a, "edge_sites"_a, "kept"_a, "groups"_a, "clipped"_a.none(), "joined"_a, "origin_x"_a,
-           "origin_y"_a, "scale"_a, "threads"_a, "progress"_a.none(),
+  room.def("extract_skeleton", &extract_skeleton, "diagram"_a, "kept"_a, "groups"_a, "clipped"_a.none(),
+           "joined"_a, "origin_x"_a, "origin_y"_a, "scale"_a, "threads"_a, "progress"_a.none(),
            "Frames are least x, most x, least y, most y on the lattice; joined are groups from one to before "
            "another.");
 }

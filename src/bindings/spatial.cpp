@@ -5,9 +5,9 @@
 
 #include "bindings/rooms.hpp"
 #include "bindings/support/arrays.hpp"
-#include "bindings/support/diagram_arrays.hpp"
 #include "bindings/support/monitor.hpp"
 #include "core/base/parallel.hpp"
+#include "core/kernel/planar_graph_view.hpp"
 #include "core/spatial/clearance.hpp"
 #include "core/spatial/disjoint_boxes.hpp"
 #include "core/spatial/nearest_sites.hpp"
@@ -32,23 +32,15 @@ auto nearest_other_sites(Vector<const double> x, Vector<const double> y, Vector<
 // Distances of places on the lattice from the nearest of points and segments.
 auto clearances(const IndexRows& points, const IndexRows& segments, const Places& places,
                 const Vector<const double>& reach, unsigned threads, const Progress& progress) {
-  const std::span<const LatticePoint> all = rows<LatticePoint>(points);
-  const std::span<const Pair> ends = rows<Pair>(segments);
+  const core::kernel::PlanarGraphView graph{
+      rows<core::kernel::LatticePoint>(points), rows<core::base::IndexPair>(segments), {}};
   if (places.shape(0) != reach.size()) throw std::invalid_argument("each place must have one reach");
-  for (const Pair& pair : ends) {
-    for (const std::int32_t end : pair) {
-      if (end < 0 || static_cast<std::size_t>(end) >= all.size()) {
-        throw std::invalid_argument("an end of a segment is out of range");
-      }
-    }
-  }
+  core::base::check_range(graph.segments, 0, graph.points.size(), "an end of a segment is out of range");
   std::vector<double> found = run_interruptible(progress, [&](const Monitor& monitor) {
     std::vector<core::kernel::LatticeSite> sites;
-    sites.reserve(all.size() + ends.size());
-    for (const LatticePoint& point : all) sites.push_back({point, point});
-    for (const auto& [a, b] : ends) {
-      sites.push_back({all[static_cast<std::size_t>(a)], all[static_cast<std::size_t>(b)]});
-    }
+    sites.reserve(graph.site_count());
+    for (std::size_t i = 0; i < graph.site_count(); ++i)
+      sites.push_back(graph.site(static_cast<std::int32_t>(i)));
     return core::spatial::clearances(sites, rows<core::kernel::Point>(places), view(reach),
                                      core::base::resolve_threads(threads), monitor);
   });
@@ -57,7 +49,7 @@ auto clearances(const IndexRows& points, const IndexRows& segments, const Places
 
 // The sheet of each box, with the columns least x, least y, most x, most y.
 auto disjoint_sheets(const Matrix<const std::int64_t>& boxes, const Progress& progress) {
-  const std::span<const core::spatial::ClosedBox> closed = rows<core::spatial::ClosedBox, 4>(boxes);
+  const std::span<const core::spatial::ClosedBox> closed = rows<core::spatial::ClosedBox>(boxes);
   return to_numpy(run_interruptible(
       progress, [&](const Monitor& monitor) { return core::spatial::disjoint_sheets(closed, monitor); }));
 }

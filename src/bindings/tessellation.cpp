@@ -121,11 +121,10 @@ auto verify_tessellation(Matrix<const Label> labels, std::int64_t x, std::int64_
   const core::tessellation::LatticeSeeds seeds{view(seed_x), view(seed_y), view(seed_labels), scale};
   std::optional<core::numbers::uint128> limit;
   if (limit_high) limit = core::numbers::uint128{*limit_high} << 64 | limit_low;
-  const core::tessellation::WrongPixels wrong = run_interruptible(progress, [&](const Monitor& monitor) {
+  return run_interruptible(progress, [&](const Monitor& monitor) {
     return core::tessellation::verify_tessellation<Label>(view(labels), frame, seeds, limit, threads,
                                                           monitor);
   });
-  return std::make_tuple(wrong.count, wrong.column, wrong.row, wrong.found, wrong.right);
 }
 
 // core::SeedTooFar as SeedTooFarError(index).
@@ -148,8 +147,7 @@ template <class Label>
 void bind_verification(nb::module_& room) {
   room.def("verify_tessellation", &verify_tessellation<Label>, "labels"_a, "x"_a, "y"_a, "seed_x"_a,
            "seed_y"_a, "seed_labels"_a, "scale"_a, "limit_high"_a.none(), "limit_low"_a, "threads"_a,
-           "progress"_a.none(),
-           "Count of wrong pixels; column, row, label found and right label of the first.");
+           "progress"_a.none());
 }
 
 }  // namespace
@@ -178,6 +176,12 @@ void bind_tessellation(nb::module_& room) {
   room.def("propagate", &propagate, "x"_a, "y"_a, "labels"_a, "passes"_a, "out"_a, "progress"_a.none());
   room.def("widest_simd",
            [] { return std::string(core::tessellation::name_of(core::tessellation::widest_simd())); });
+  using core::tessellation::WrongPixels;
+  nb::class_<WrongPixels>(room, "WrongPixels", "Their number, and the first: its place, and its right label.")
+      .def_ro("count", &WrongPixels::count)
+      .def_ro("column", &WrongPixels::column)
+      .def_ro("row", &WrongPixels::row)
+      .def_ro("right", &WrongPixels::right);
   bind_verification<std::uint8_t>(room);
   bind_verification<std::uint16_t>(room);
   bind_verification<std::uint32_t>(room);

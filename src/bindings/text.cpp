@@ -13,7 +13,6 @@
 
 #include "bindings/rooms.hpp"
 #include "bindings/support/arrays.hpp"
-#include "bindings/support/mesh_arrays.hpp"
 #include "bindings/support/monitor.hpp"
 #include "core/text/csv_columns.hpp"
 #include "core/text/nesting_depth.hpp"
@@ -156,13 +155,13 @@ class PolygonRows {
   using Starts = InputArray<std::int64_t>;
 
   PolygonRows(const Matrix<const double>& vertices, const Starts& rings, const Starts& polygons,
-              const Starts& rows, const std::string& style)
+              const Starts& of_rows, core::text::PolygonStyle style)
       : vertices_(vertices),
         rings_(rings),
         polygons_(polygons),
-        rows_(rows),
-        texts_{as_points(vertices), checked(rings, vertices.shape(0)), checked(polygons, rings.size() - 1),
-               checked(rows, polygons.size() - 1), style_of(style)} {}
+        rows_(of_rows),
+        texts_{rows<core::kernel::Point>(vertices), checked(rings, vertices.shape(0)),
+               checked(polygons, rings.size() - 1), checked(of_rows, polygons.size() - 1), style} {}
 
   const core::text::PolygonTexts& texts() const { return texts_; }
 
@@ -174,13 +173,6 @@ class PolygonRows {
                       values.front() >= 0 && static_cast<std::size_t>(values.back()) <= count;
     if (!fits) throw nb::value_error("beginnings of rings, polygons or rows are out of order or of range");
     return values;
-  }
-
-  static core::text::PolygonStyle style_of(const std::string& name) {
-    if (name == "wkt") return core::text::PolygonStyle::wkt;
-    if (name == "geojson") return core::text::PolygonStyle::geojson;
-    if (name == "json") return core::text::PolygonStyle::json;
-    throw nb::value_error("the style must be wkt, geojson or json");
   }
 
   Matrix<const double> vertices_;
@@ -331,11 +323,14 @@ void bind_text(nb::module_& room) {
   nb::class_<core::text::NumberTexts>(room, "NumberTexts")
       .def("__init__", &make_number_texts, "values"_a, "precision"_a = 0, "threads"_a = 0)
       .def("__len__", &core::text::NumberTexts::size);
+  nb::enum_<core::text::PolygonStyle>(room, "PolygonStyle")
+      .value("wkt", core::text::PolygonStyle::wkt)
+      .value("geojson", core::text::PolygonStyle::geojson)
+      .value("json", core::text::PolygonStyle::json);
   nb::class_<PolygonRows>(room, "PolygonTexts",
-                          "A column of polygons: each row from its first polygon to that of the next; style "
-                          "wkt, geojson or json.")
+                          "A column of polygons: each row from its first polygon to that of the next.")
       .def(nb::init<const Matrix<const double>&, const PolygonRows::Starts&, const PolygonRows::Starts&,
-                    const PolygonRows::Starts&, const std::string&>(),
+                    const PolygonRows::Starts&, core::text::PolygonStyle>(),
            "vertices"_a, "rings"_a, "polygons"_a, "rows"_a, "style"_a)
       .def("__len__", [](const PolygonRows& rows) { return rows.texts().size(); });
 }

@@ -19,6 +19,7 @@ from fuzz.runner import Cases, options
 from support.families.point_families import FAMILIES, draw
 from support.oracles.cells_oracle import exact_cells, nearest_double
 from vorotool import Box, VorotoolError, _core, delaunay, verify_cells, voronoi_cells
+from vorotool.engines.delaunay.delaunay import core_mesh
 
 SMALL = 8
 
@@ -59,13 +60,11 @@ def wrong_insertion(points: np.ndarray, rng: np.random.Generator, local: Counter
     count = int(rng.integers(min(len(outermost), len(points)), len(points) + 1))
     mesh, right = delaunay(points[:count], threads=1), delaunay(points, threads=1)
     hints = rng.integers(0, count, len(points) - count if rng.random() < 0.3 else 0).astype(np.int32)
-    made = _core.delaunay.insert_points(
-        points, mesh.triangles, mesh.neighbours, mesh.edges, mesh.hull, mesh.first, hints, 1, None
-    )
+    made = _core.delaunay.insert_points(core_mesh(mesh), points, hints, 1, None)
     local["inserted" if made is not None else "made anew"] += 1
     if made is None:
         return None
-    for name, array in zip(("triangles", "neighbours", "edges", "hull", "first"), made, strict=True):
+    for name, array in made.items():
         if not np.array_equal(array, getattr(right, name)):
             return f"insertion after {count} points gives other {name}"
     return None

@@ -15,6 +15,7 @@
 #include <memory>
 #include <span>
 #include <stdexcept>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -71,9 +72,19 @@ using Vector = Aligned<T, nanobind::ndim<1>, nanobind::c_contig, nanobind::devic
 template <class T>
 using Matrix = Aligned<T, nanobind::ndim<2>, nanobind::c_contig, nanobind::device::cpu>;
 
+using Indices = Vector<const std::int32_t>;
+using IndexRows = Matrix<const std::int32_t>;
+using Places = Matrix<const double>;
+
 template <class Array>
 auto view(const Array& array) {
   return std::span(array.data(), array.size());
+}
+
+// Keeps arrays alive for as long as views of them are in use.
+template <class... Arrays>
+std::shared_ptr<const void> keep(const Arrays&... arrays) {
+  return std::make_shared<std::tuple<Arrays...>>(arrays...);
 }
 
 // Makes an array of what outlives it in a capsule.
@@ -118,11 +129,12 @@ Array<T> to_numpy(core::base::LargeArray<T>&& values, std::initializer_list<std:
           })};
 }
 
-// The rows of an array with so many columns of numbers.
-template <class Row, std::size_t columns = 2, class Array>
+// The rows of an array, which has as many columns as a row has numbers.
+template <class Row, class Array>
 std::span<const Row> rows(const Array& array) {
-  static_assert(sizeof(Row) == columns * sizeof(*array.data()));
-  if (array.shape(1) != columns) throw std::invalid_argument("an array has a wrong number of columns");
+  static_assert(sizeof(Row) % sizeof(*array.data()) == 0);
+  if (array.shape(1) != sizeof(Row) / sizeof(*array.data()))
+    throw std::invalid_argument("an array has a wrong number of columns");
   return {reinterpret_cast<const Row*>(array.data()), array.shape(0)};
 }
 

@@ -3,16 +3,22 @@ Alpha complexes, shapes and curves: a side is a triangle or -1, ranks are places
 """
 
 from collections.abc import Callable
+import enum
 from typing import Any
 
 import numpy
 import numpy.typing
 
 
+class AlphaRule(enum.Enum):
+    corrected = 0
+
+    printed = 1
+
 def edges_of_triangles(triangles: numpy.typing.NDArray[numpy.int32], neighbours: numpy.typing.NDArray[numpy.int32], threads: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
     """Edges, and the triangles on their sides."""
 
-def alpha_complex(points: numpy.typing.NDArray[numpy.float64], triangles: numpy.typing.NDArray[numpy.int32], edges: numpy.typing.NDArray[numpy.int32], sides: numpy.typing.NDArray[numpy.int32], printed: bool, threads: int, progress: Callable[[float], object] | None) -> dict[str, Any]: ...
+def alpha_complex(points: numpy.typing.NDArray[numpy.float64], triangles: numpy.typing.NDArray[numpy.int32], edges: numpy.typing.NDArray[numpy.int32], sides: numpy.typing.NDArray[numpy.int32], rule: AlphaRule, threads: int, progress: Callable[[float], object] | None) -> dict[str, Any]: ...
 
 def shape_edges(rank_min: numpy.typing.NDArray[numpy.int32], rank_mid: numpy.typing.NDArray[numpy.int32], rank_max: numpy.typing.NDArray[numpy.int32], reached: int, entered: int, threads: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.uint8]]:
     """Edges of a shape, and the kind of each."""

@@ -6,6 +6,8 @@ from typing import Any
 import numpy
 import numpy.typing
 
+import vorotool._core.kernel
+
 
 class TooManyCrossingsError(ValueError):
     pass
@@ -26,7 +28,7 @@ def make_planar_graph(vertices: numpy.typing.NDArray[numpy.int32], ring_start: n
     Arrays of a PlanarGraph; repairs: of each kind the count, an edge, and what meets it or -1.
     """
 
-def boundary_rings(points: numpy.typing.NDArray[numpy.int32], segments: numpy.typing.NDArray[numpy.int32], segment_faces: numpy.typing.NDArray[numpy.int32], face_start: numpy.typing.NDArray[numpy.int32], face_polygon: numpy.typing.NDArray[numpy.int32], progress: Callable[[float], object] | None) -> dict[str, Any]:
-    """The indices must be in range."""
+def boundary_rings(graph: vorotool._core.kernel.PlanarGraph, face_start: numpy.typing.NDArray[numpy.int32], face_polygon: numpy.typing.NDArray[numpy.int32], progress: Callable[[float], object] | None) -> dict[str, Any]:
+    """The indices of faces must be in range."""
 
 def find_fault(points: numpy.typing.NDArray[numpy.int32], segments: numpy.typing.NDArray[numpy.int32], faces: numpy.typing.NDArray[numpy.int32] | None, progress: Callable[[float], object] | None) -> str | None: ...

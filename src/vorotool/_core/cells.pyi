@@ -7,8 +7,10 @@ from collections.abc import Callable, Sequence
 import numpy
 import numpy.typing
 
+import vorotool._core.delaunay
 
-def voronoi_cells(points: numpy.typing.NDArray[numpy.float64], triangles: numpy.typing.NDArray[numpy.int32], neighbours: numpy.typing.NDArray[numpy.int32], hull: numpy.typing.NDArray[numpy.int32], first: numpy.typing.NDArray[numpy.int32], frame: Sequence[float], threads: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.int64]]:
+
+def voronoi_cells(mesh: vorotool._core.delaunay.Triangulation, frame: Sequence[float], threads: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.int64]]:
     """Vertices of the cells' rings, and where the ring of each point begins."""
 
 def find_cell_fault(sites: numpy.typing.NDArray[numpy.float64], vertices: numpy.typing.NDArray[numpy.float64], starts: numpy.typing.NDArray[numpy.int64], frame: Sequence[float], threads: int, progress: Callable[[float], object] | None) -> str | None: ...

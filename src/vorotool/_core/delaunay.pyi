@@ -1,6 +1,7 @@
 """Delaunay triangulations, and their check: points are finite."""
 
 from collections.abc import Callable
+from typing import Any
 
 import numpy
 import numpy.typing
@@ -18,12 +19,15 @@ class DelaunayTriangulation:
     def arrays(self, threads: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
         """Triangles, their neighbours, and edges."""
 
-def insert_points(points: numpy.typing.NDArray[numpy.float64], triangles: numpy.typing.NDArray[numpy.int32], neighbours: numpy.typing.NDArray[numpy.int32], edges: numpy.typing.NDArray[numpy.int32], hull: numpy.typing.NDArray[numpy.int32], first: numpy.typing.NDArray[numpy.int32], hints: numpy.typing.NDArray[numpy.int32], threads: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]] | None:
+class Triangulation:
+    def __init__(self, points: numpy.typing.NDArray[numpy.float64], triangles: numpy.typing.NDArray[numpy.int32], neighbours: numpy.typing.NDArray[numpy.int32], edges: numpy.typing.NDArray[numpy.int32], hull: numpy.typing.NDArray[numpy.int32], first: numpy.typing.NDArray[numpy.int32]) -> None: ...
+
+def insert_points(mesh: Triangulation, points: numpy.typing.NDArray[numpy.float64], hints: numpy.typing.NDArray[numpy.int32], threads: int, progress: Callable[[float], object] | None) -> dict[str, Any] | None:
     """
-    Triangles, neighbours, edges, hull, first; None where the order of triangles that stay would change.
+    Of the points of the mesh and further ones triangles, neighbours, edges, hull and first; None where the order of triangles that stay would change.
     """
 
-def find_fault(points: numpy.typing.NDArray[numpy.float64], triangles: numpy.typing.NDArray[numpy.int32], neighbours: numpy.typing.NDArray[numpy.int32], edges: numpy.typing.NDArray[numpy.int32], hull: numpy.typing.NDArray[numpy.int32], first: numpy.typing.NDArray[numpy.int32], threads: int, progress: Callable[[float], object] | None) -> str | None: ...
+def find_fault(mesh: Triangulation, threads: int, progress: Callable[[float], object] | None) -> str | None: ...
 
 def nearest_neighbours(points: numpy.typing.NDArray[numpy.float64], edges: numpy.typing.NDArray[numpy.int32], labels: numpy.typing.NDArray[numpy.int64], progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
     """

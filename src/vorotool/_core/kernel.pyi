@@ -1,8 +1,11 @@
-"""The exact predicates, and each of their levels alone."""
+"""Planar graphs; the exact predicates, and each of their levels alone."""
 
 import numpy
 import numpy.typing
 
+
+class PlanarGraph:
+    def __init__(self, points: numpy.typing.NDArray[numpy.int32], segments: numpy.typing.NDArray[numpy.int32], segment_faces: numpy.typing.NDArray[numpy.int32]) -> None: ...
 
 def orient2d(points: numpy.typing.NDArray[numpy.float64], level: str = 'auto') -> numpy.typing.NDArray[numpy.int8]:
     """

@@ -3,11 +3,21 @@ Measures, diagrams, outlines and connected components of label images and masks.
 """
 
 from collections.abc import Callable
+import enum
 from typing import Any, overload
 
 import numpy
 import numpy.typing
 
+
+class CornerRule(enum.Enum):
+    apart = 0
+
+    divided = 1
+
+    joined = 2
+
+    yielding = 3
 
 @overload
 def measure_regions(labels: numpy.typing.NDArray[numpy.uint8], threads: int, progress: Callable[[float], object] | None) -> dict[str, Any]: ...
@@ -55,13 +65,13 @@ def count_crack_vertices(labels: numpy.typing.NDArray[numpy.uint16], threads: in
 def count_crack_vertices(labels: numpy.typing.NDArray[numpy.uint32], threads: int, progress: Callable[[float], object] | None) -> int: ...
 
 @overload
-def trace_cracks(labels: numpy.typing.NDArray[numpy.uint8], rule: str, threads: int, progress: Callable[[float], object] | None) -> dict[str, Any]: ...
+def trace_cracks(labels: numpy.typing.NDArray[numpy.uint8], rule: CornerRule, threads: int, progress: Callable[[float], object] | None) -> dict[str, Any]: ...
 
 @overload
-def trace_cracks(labels: numpy.typing.NDArray[numpy.uint16], rule: str, threads: int, progress: Callable[[float], object] | None) -> dict[str, Any]: ...
+def trace_cracks(labels: numpy.typing.NDArray[numpy.uint16], rule: CornerRule, threads: int, progress: Callable[[float], object] | None) -> dict[str, Any]: ...
 
 @overload
-def trace_cracks(labels: numpy.typing.NDArray[numpy.uint32], rule: str, threads: int, progress: Callable[[float], object] | None) -> dict[str, Any]: ...
+def trace_cracks(labels: numpy.typing.NDArray[numpy.uint32], rule: CornerRule, threads: int, progress: Callable[[float], object] | None) -> dict[str, Any]: ...
 
 def label_components(mask: numpy.typing.NDArray[numpy.uint8], corners: bool, out: numpy.typing.NDArray[numpy.uint32], progress: Callable[[float], object] | None) -> int:
     """Of a mask of zeros and ones; the number of components."""

@@ -8,29 +8,31 @@ from typing import Any
 import numpy
 import numpy.typing
 
+import vorotool._core.kernel
+
 
 class TooManySeedsError(Exception):
     pass
 
 LEAST_SAMPLE_GAP: float = 1.52587890625e-05
 
-def sample_by_step(points: numpy.typing.NDArray[numpy.int32], segments: numpy.typing.NDArray[numpy.int32], faces: numpy.typing.NDArray[numpy.int32], step: float, most: int, threads: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
+def sample_by_step(graph: vorotool._core.kernel.PlanarGraph, step: float, most: int, threads: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
     """
     Seeds, the segment that each is inside of (-1: a point), and where those of each segment begin.
     """
 
-def sample_from_corners(points: numpy.typing.NDArray[numpy.int32], segments: numpy.typing.NDArray[numpy.int32], faces: numpy.typing.NDArray[numpy.int32], steps: tuple[numpy.typing.NDArray[numpy.uint64], numpy.typing.NDArray[numpy.float64]], most: int, threads: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]: ...
+def sample_from_corners(graph: vorotool._core.kernel.PlanarGraph, steps: tuple[numpy.typing.NDArray[numpy.uint64], numpy.typing.NDArray[numpy.float64]], most: int, threads: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]: ...
 
-def corner_steps(points: numpy.typing.NDArray[numpy.int32], segments: numpy.typing.NDArray[numpy.int32], faces: numpy.typing.NDArray[numpy.int32], step: float, is_even: bool, most: int) -> tuple[numpy.typing.NDArray[numpy.uint64], numpy.typing.NDArray[numpy.float64]]:
+def corner_steps(graph: vorotool._core.kernel.PlanarGraph, step: float, is_even: bool, most: int) -> tuple[numpy.typing.NDArray[numpy.uint64], numpy.typing.NDArray[numpy.float64]]:
     """
     Where the distances of each point begin, and how far from it seeds are: at even steps, or doubling up to one.
     """
 
-def refined_steps(points: numpy.typing.NDArray[numpy.int32], segments: numpy.typing.NDArray[numpy.int32], faces: numpy.typing.NDArray[numpy.int32], steps: tuple[numpy.typing.NDArray[numpy.uint64], numpy.typing.NDArray[numpy.float64]], start: numpy.typing.NDArray[numpy.int32], parts: numpy.typing.NDArray[numpy.int32], most: int) -> tuple[numpy.typing.NDArray[numpy.uint64], numpy.typing.NDArray[numpy.float64]]:
+def refined_steps(graph: vorotool._core.kernel.PlanarGraph, steps: tuple[numpy.typing.NDArray[numpy.uint64], numpy.typing.NDArray[numpy.float64]], start: numpy.typing.NDArray[numpy.int32], parts: numpy.typing.NDArray[numpy.int32], most: int) -> tuple[numpy.typing.NDArray[numpy.uint64], numpy.typing.NDArray[numpy.float64]]:
     """Distances with each piece of an edge divided into so many parts."""
 
 class SampledDiagram:
-    def __init__(self, points: numpy.typing.NDArray[numpy.int32], segments: numpy.typing.NDArray[numpy.int32], faces: numpy.typing.NDArray[numpy.int32], seeds: numpy.typing.NDArray[numpy.float64], segment: numpy.typing.NDArray[numpy.int32], start: numpy.typing.NDArray[numpy.int32], group: numpy.typing.NDArray[numpy.int32], within: tuple[float, float, float, float] | None, threads: int, progress: Callable[[float], object] | None) -> None:
+    def __init__(self, graph: vorotool._core.kernel.PlanarGraph, seeds: numpy.typing.NDArray[numpy.float64], segment: numpy.typing.NDArray[numpy.int32], start: numpy.typing.NDArray[numpy.int32], group: numpy.typing.NDArray[numpy.int32], within: tuple[float, float, float, float] | None, threads: int, progress: Callable[[float], object] | None) -> None:
         """
         Of each point a group that has a diagram of its own, or none of any; triangles are ordered within bounds. These are least and most x, then y, on the lattice.
         """

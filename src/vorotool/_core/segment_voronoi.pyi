@@ -6,8 +6,10 @@ from typing import Any
 import numpy
 import numpy.typing
 
+import vorotool._core.kernel
 
-def unwanted_sides(points: numpy.typing.NDArray[numpy.int32], segments: numpy.typing.NDArray[numpy.int32], segment_faces: numpy.typing.NDArray[numpy.int32], is_wanted: numpy.typing.NDArray[numpy.uint8]) -> numpy.typing.NDArray[numpy.uint8]: ...
+
+def unwanted_sides(graph: vorotool._core.kernel.PlanarGraph, is_wanted: numpy.typing.NDArray[numpy.uint8]) -> numpy.typing.NDArray[numpy.uint8]: ...
 
 class SegmentVoronoi:
     def __init__(self, points: numpy.typing.NDArray[numpy.int32], segments: numpy.typing.NDArray[numpy.int32], threads: int, progress: Callable[[float], object] | None, within: Sequence[int] | None = None) -> None: ...
@@ -15,9 +17,10 @@ class SegmentVoronoi:
     @property
     def counts(self) -> dict[str, Any]: ...
 
-    def take_arrays(self, unwanted: numpy.typing.NDArray[numpy.uint8] | None, threads: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.float64], numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
-        """
-        Vertices, radii, where the sites of each begin, these, edges, and the sites beside them: once.
-        """
+    def take_arrays(self, unwanted: numpy.typing.NDArray[numpy.uint8] | None, threads: int, progress: Callable[[float], object] | None) -> dict[str, Any]:
+        """The arrays of a Diagram that are not of its graph: once."""
 
-def find_fault(points: numpy.typing.NDArray[numpy.int32], segments: numpy.typing.NDArray[numpy.int32], vertices: numpy.typing.NDArray[numpy.float64], radius: numpy.typing.NDArray[numpy.float64], vertex_start: numpy.typing.NDArray[numpy.int32], vertex_sites: numpy.typing.NDArray[numpy.int32], edges: numpy.typing.NDArray[numpy.int32], edge_sites: numpy.typing.NDArray[numpy.int32], threads: int, progress: Callable[[float], object] | None) -> str | None: ...
+class Diagram:
+    def __init__(self, points: numpy.typing.NDArray[numpy.int32], segments: numpy.typing.NDArray[numpy.int32], vertices: numpy.typing.NDArray[numpy.float64], radius: numpy.typing.NDArray[numpy.float64], vertex_start: numpy.typing.NDArray[numpy.int32], vertex_sites: numpy.typing.NDArray[numpy.int32], edges: numpy.typing.NDArray[numpy.int32], edge_sites: numpy.typing.NDArray[numpy.int32], segment_faces: numpy.typing.NDArray[numpy.int32] | None) -> None: ...
+
+def find_fault(diagram: Diagram, threads: int, progress: Callable[[float], object] | None) -> str | None: ...

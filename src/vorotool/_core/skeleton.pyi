@@ -6,11 +6,13 @@ from typing import Any
 import numpy
 import numpy.typing
 
+import vorotool._core.segment_voronoi
 
-def skeleton_edges(points: numpy.typing.NDArray[numpy.int32], segments: numpy.typing.NDArray[numpy.int32], vertices: numpy.typing.NDArray[numpy.float64], radius: numpy.typing.NDArray[numpy.float64], edges: numpy.typing.NDArray[numpy.int32], edge_sites: numpy.typing.NDArray[numpy.int32], segment_faces: numpy.typing.NDArray[numpy.int32], threads: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
+
+def skeleton_edges(diagram: vorotool._core.segment_voronoi.Diagram, threads: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
     """Edges that are not deleted, and the face that each lies in."""
 
-def extract_skeleton(points: numpy.typing.NDArray[numpy.int32], segments: numpy.typing.NDArray[numpy.int32], vertices: numpy.typing.NDArray[numpy.float64], radius: numpy.typing.NDArray[numpy.float64], edges: numpy.typing.NDArray[numpy.int32], edge_sites: numpy.typing.NDArray[numpy.int32], kept: numpy.typing.NDArray[numpy.int32], groups: numpy.typing.NDArray[numpy.int32], clipped: tuple[int, tuple[float, float, float, float]] | None, joined: tuple[int, int], origin_x: float, origin_y: float, scale: float, threads: int, progress: Callable[[float], object] | None) -> dict[str, Any]:
+def extract_skeleton(diagram: vorotool._core.segment_voronoi.Diagram, kept: numpy.typing.NDArray[numpy.int32], groups: numpy.typing.NDArray[numpy.int32], clipped: tuple[int, tuple[float, float, float, float]] | None, joined: tuple[int, int], origin_x: float, origin_y: float, scale: float, threads: int, progress: Callable[[float], object] | None) -> dict[str, Any]:
     """
     Frames are least x, most x, least y, most y on the lattice; joined are groups from one to before another.
     """

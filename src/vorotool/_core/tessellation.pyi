@@ -35,14 +35,26 @@ def propagate(x: numpy.typing.NDArray[numpy.int64], y: numpy.typing.NDArray[nump
 
 def widest_simd() -> str: ...
 
-@overload
-def verify_tessellation(labels: numpy.typing.NDArray[numpy.uint8], x: int, y: int, seed_x: numpy.typing.NDArray[numpy.int64], seed_y: numpy.typing.NDArray[numpy.int64], seed_labels: numpy.typing.NDArray[numpy.uint32], scale: int, limit_high: int | None, limit_low: int, threads: int, progress: Callable[[float], object] | None) -> tuple[int, int, int, int, int]: ...
+class WrongPixels:
+    """Their number, and the first: its place, and its right label."""
+
+    @property
+    def count(self) -> int: ...
+
+    @property
+    def column(self) -> int: ...
+
+    @property
+    def row(self) -> int: ...
+
+    @property
+    def right(self) -> int: ...
 
 @overload
-def verify_tessellation(labels: numpy.typing.NDArray[numpy.uint16], x: int, y: int, seed_x: numpy.typing.NDArray[numpy.int64], seed_y: numpy.typing.NDArray[numpy.int64], seed_labels: numpy.typing.NDArray[numpy.uint32], scale: int, limit_high: int | None, limit_low: int, threads: int, progress: Callable[[float], object] | None) -> tuple[int, int, int, int, int]: ...
+def verify_tessellation(labels: numpy.typing.NDArray[numpy.uint8], x: int, y: int, seed_x: numpy.typing.NDArray[numpy.int64], seed_y: numpy.typing.NDArray[numpy.int64], seed_labels: numpy.typing.NDArray[numpy.uint32], scale: int, limit_high: int | None, limit_low: int, threads: int, progress: Callable[[float], object] | None) -> WrongPixels: ...
 
 @overload
-def verify_tessellation(labels: numpy.typing.NDArray[numpy.uint32], x: int, y: int, seed_x: numpy.typing.NDArray[numpy.int64], seed_y: numpy.typing.NDArray[numpy.int64], seed_labels: numpy.typing.NDArray[numpy.uint32], scale: int, limit_high: int | None, limit_low: int, threads: int, progress: Callable[[float], object] | None) -> tuple[int, int, int, int, int]:
-    """
-    Count of wrong pixels; column, row, label found and right label of the first.
-    """
+def verify_tessellation(labels: numpy.typing.NDArray[numpy.uint16], x: int, y: int, seed_x: numpy.typing.NDArray[numpy.int64], seed_y: numpy.typing.NDArray[numpy.int64], seed_labels: numpy.typing.NDArray[numpy.uint32], scale: int, limit_high: int | None, limit_low: int, threads: int, progress: Callable[[float], object] | None) -> WrongPixels: ...
+
+@overload
+def verify_tessellation(labels: numpy.typing.NDArray[numpy.uint32], x: int, y: int, seed_x: numpy.typing.NDArray[numpy.int64], seed_y: numpy.typing.NDArray[numpy.int64], seed_labels: numpy.typing.NDArray[numpy.uint32], scale: int, limit_high: int | None, limit_low: int, threads: int, progress: Callable[[float], object] | None) -> WrongPixels: ...

@@ -3,6 +3,7 @@ Numbers, fields and polygons as text, read and written: a delimiter is one of , 
 """
 
 from collections.abc import Sequence
+import enum
 from typing import Any
 
 import numpy
@@ -32,11 +33,18 @@ class NumberTexts:
 
     def __len__(self) -> int: ...
 
+class PolygonStyle(enum.Enum):
+    wkt = 0
+
+    geojson = 1
+
+    json = 2
+
 class PolygonTexts:
     """
-    A column of polygons: each row from its first polygon to that of the next; style wkt, geojson or json.
+    A column of polygons: each row from its first polygon to that of the next.
     """
 
-    def __init__(self, vertices: numpy.typing.NDArray[numpy.float64], rings: numpy.typing.NDArray[numpy.int64], polygons: numpy.typing.NDArray[numpy.int64], rows: numpy.typing.NDArray[numpy.int64], style: str) -> None: ...
+    def __init__(self, vertices: numpy.typing.NDArray[numpy.float64], rings: numpy.typing.NDArray[numpy.int64], polygons: numpy.typing.NDArray[numpy.int64], rows: numpy.typing.NDArray[numpy.int64], style: PolygonStyle) -> None: ...
 
     def __len__(self) -> int: ...

@@ -110,9 +110,8 @@ def test_groups_that_do_not_go_with_the_points_are_refused():
     points = np.array([[0, 0], [4, 0], [0, 4]], dtype=np.int32)
     segments = np.array([[0, 1], [1, 2], [2, 0]], dtype=np.int32)
     faces = np.tile(np.array([1, 0], dtype=np.int32), (3, 1))
-    made = _core.sampled_skeleton.sample_by_step(points, segments, faces, 1.0, 100, 1, None)
+    graph = _core.kernel.PlanarGraph(points, segments, faces)
+    made = _core.sampled_skeleton.sample_by_step(graph, 1.0, 100, 1, None)
     for group in ([0, 0], [0, 1, 0], [-1, -1, -1], [7, 7, 7]):
         with pytest.raises(ValueError, match="groups"):
-            _core.sampled_skeleton.SampledDiagram(
-                points, segments, faces, *made, np.array(group, dtype=np.int32), None, 1, None
-            )
+            _core.sampled_skeleton.SampledDiagram(graph, *made, np.array(group, dtype=np.int32), None, 1, None)

@@ -90,9 +90,8 @@ def test_a_line_of_one_place_may_be_inside():
 
 def test_a_byte_for_each_site_is_needed():
     graph = planar_graph([[0, 0], [8, 0], [8, 4]])
+    core = _core.kernel.PlanarGraph(graph.points, graph.segments, graph.segment_faces)
     with pytest.raises(ValueError, match="unwanted sides"):
         segment_voronoi(graph.points, graph.segments, unwanted=np.zeros(5, dtype=np.uint8))
     with pytest.raises(ValueError, match="out of range"):
-        _core.segment_voronoi.unwanted_sides(
-            graph.points, graph.segments, graph.segment_faces, np.ones(1, dtype=np.uint8)
-        )
+        _core.segment_voronoi.unwanted_sides(core, np.ones(1, dtype=np.uint8))

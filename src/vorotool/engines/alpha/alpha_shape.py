@@ -111,7 +111,8 @@ def alpha_complex(
         edges, sides = _edges_and_sides(mesh, threads, progress)
     if len(mesh.points) - mesh.duplicates < 2:
         report_too_few(len(mesh.points), allow_empty=allows_empty(points, allow_empty), strict=strict)
-    arrays = _core.alpha.alpha_complex(mesh.points, mesh.triangles, edges, sides, rule == "printed", threads, progress)
+    core_rule = _core.alpha.AlphaRule[rule]
+    arrays = _core.alpha.alpha_complex(mesh.points, mesh.triangles, edges, sides, core_rule, threads, progress)
     return AlphaComplex(mesh, edges, sides, rule=rule, **arrays)
 
 

@@ -74,9 +74,8 @@ def repaired_polygons(graph: PlanarGraph) -> RepairedPolygons:
 
 
 def _borders(graph: PlanarGraph) -> _Rings:
-    found = _core.arrangement.boundary_rings(
-        graph.points, graph.segments, graph.segment_faces, graph.face_start, graph.face_polygon, None
-    )
+    core = _core.kernel.PlanarGraph(graph.points, graph.segments, graph.segment_faces)
+    found = _core.arrangement.boundary_rings(core, graph.face_start, graph.face_polygon, None)
     return _Rings(
         np.diff(found["start"]),
         np.where(found["is_hole"] != 0, HOLE, SHELL),

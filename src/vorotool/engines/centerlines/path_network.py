@@ -11,7 +11,7 @@ from vorotool import _core
 from vorotool.engines.centerlines.edge_comparisons import TIE
 from vorotool.engines.centerlines.ends import Unforked
 from vorotool.engines.from_skeleton.nearest_point import nearest_place
-from vorotool.engines.pruning.pruning import skeleton_arrays
+from vorotool.engines.pruning.pruning import core_skeleton
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.ragged import owners, starts_of
 from vorotool.geometry.skeleton.skeleton import Skeleton
@@ -24,7 +24,7 @@ Place = tuple[float, float]
 
 def geometry_of(skeleton: Skeleton, arc: Indices, first: Floats, last: Floats) -> dict[str, Floats]:
     """Places, radii, control points and lengths of parts of arcs, by the parameters of their ends."""
-    return _core.pruning.part_geometry(skeleton_arrays(skeleton), arc, first, last)
+    return _core.pruning.part_geometry(core_skeleton(skeleton), arc, first, last)
 
 
 @dataclass(frozen=True, eq=False)

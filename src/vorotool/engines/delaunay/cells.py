@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool import _core
-from vorotool.engines.delaunay.delaunay import delaunay
+from vorotool.engines.delaunay.delaunay import core_mesh, delaunay
 from vorotool.errors import InputError, UsageError, VerificationError, VorotoolWarning
 from vorotool.geometry.box import Box
 from vorotool.geometry.checks import checked_threads
@@ -78,16 +78,7 @@ def voronoi_cells(
     area = None if clip is None else _clip_area(clip)
     box = _box(frame, mesh, area)
     try:
-        coordinates, starts = _core.cells.voronoi_cells(
-            mesh.points,
-            mesh.triangles,
-            mesh.neighbours,
-            mesh.hull,
-            mesh.first,
-            box.sides,
-            checked_threads(threads),
-            progress,
-        )
+        coordinates, starts = _core.cells.voronoi_cells(core_mesh(mesh), box.sides, checked_threads(threads), progress)
     except ValueError as error:
         raise InputError(f"{error}: give a Delaunay triangulation, such as delaunay() makes") from None
     cells = CellSet(

@@ -151,6 +151,9 @@ def triangulation_fault(mesh: Triangulation, threads: int, progress: Progress) -
     >>> triangulation_fault(delaunay([[0, 0], [4, 0], [0, 3]]), 1, None) is None
     True
     """
-    return _core.delaunay.find_fault(
-        mesh.points, mesh.triangles, mesh.neighbours, mesh.edges, mesh.hull, mesh.first, threads, progress
-    )
+    return _core.delaunay.find_fault(core_mesh(mesh), threads, progress)
+
+
+def core_mesh(mesh: Triangulation) -> _core.delaunay.Triangulation:
+    """The arrays of a triangulation, for the core."""
+    return _core.delaunay.Triangulation(mesh.points, mesh.triangles, mesh.neighbours, mesh.edges, mesh.hull, mesh.first)

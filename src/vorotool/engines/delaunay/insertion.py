@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool import _core
 from vorotool.engines.common.point_input import as_points
-from vorotool.engines.delaunay.delaunay import MOST_POINTS, delaunay, report_duplicates
+from vorotool.engines.delaunay.delaunay import MOST_POINTS, core_mesh, delaunay, report_duplicates
 from vorotool.errors import InputError, LimitError
 from vorotool.geometry.checks import checked_threads, whole_numbers
 from vorotool.geometry.mesh.triangulation import Triangulation
@@ -99,7 +99,7 @@ def insert_points(
         return delaunay(together, strict=strict, threads=threads, progress=progress)
     result = Triangulation(
         together.xy,
-        *made,
+        **made,
         labels=together.labels,
         properties=together.properties,
         y_up=together.y_up,
@@ -112,11 +112,9 @@ def insert_points(
 
 def _inserted(
     mesh: Triangulation, xy: NDArray[np.float64], hints: NDArray[np.int32], threads: int, progress: Progress
-) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]] | None:
+) -> dict[str, Any] | None:
     try:
-        return _core.delaunay.insert_points(
-            xy, mesh.triangles, mesh.neighbours, mesh.edges, mesh.hull, mesh.first, hints, threads, progress
-        )
+        return _core.delaunay.insert_points(core_mesh(mesh), xy, hints, threads, progress)
     except ValueError as error:
         raise InputError(f"{error}: give a triangulation that delaunay() or insert_points() has made") from None
 

@@ -191,4 +191,4 @@ def _traced(
         raise LimitError(
             f"the outlines have {count} vertices, more than --max-sites {most}: smooth the image, or use a larger limit"
         )
-    return _core.label_images.trace_cracks(labels, rule, threads, progress)
+    return _core.label_images.trace_cracks(labels, _core.label_images.CornerRule[rule], threads, progress)

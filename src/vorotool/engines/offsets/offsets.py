@@ -14,11 +14,11 @@ from vorotool import _core
 from vorotool.engines.arrangement.planar_graph import arranged, placed_vertices
 from vorotool.engines.features.batches import BatchShapes, are_apart, in_batches, together
 from vorotool.engines.features.order import InputOrder
+from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram
 from vorotool.engines.skeleton.both_sides import joined_sites
 from vorotool.engines.skeleton.exact import (
     ShapeDiagram,
     check_features,
-    diagram_arrays,
     diagram_of_graph,
     kept_edges,
     shape_diagram,
@@ -236,11 +236,8 @@ def curves_of(shapes: ShapeDiagram, distances: list[float], threads: int, progre
     assert placed.polygons.feature is not None
     feature = np.append(placed.polygons.feature, -1).astype(np.int32)
     found: list[Curves] = _core.offsets.offset_curves(
-        *diagram_arrays(diagram),
-        diagram.vertex_start,
-        diagram.vertex_sites,
+        core_diagram(diagram, graph.segment_faces),
         face,
-        graph.segment_faces,
         placed.face_polygon,
         polygon,
         feature[polygon],

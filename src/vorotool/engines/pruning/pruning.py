@@ -115,9 +115,9 @@ def prune(
     compared = half_tangent(threshold) if criterion == "angle" else float(threshold)
     group = np.where(skeleton.polygon < 0, len(skeleton.polygons), skeleton.polygon).astype(np.int32)
     threads = checked_threads(threads) or available_threads()
-    arrays = skeleton_arrays(skeleton, threads=threads, has_sites=criterion != "scale")
+    core = core_skeleton(skeleton, threads=threads, has_sites=criterion != "scale")
     tasks = [
-        partial(_pruned_part, skeleton, arrays, group, part, CRITERIA.index(criterion), compared)
+        partial(_pruned_part, skeleton, core, group, part, _core.pruning.Criterion[criterion], compared)
         for part in independent_parts(skeleton, group)
     ]
     made = in_threads(tasks, threads, progress)
@@ -164,17 +164,16 @@ def independent_parts(skeleton: Skeleton, group: NDArray[np.int32]) -> list[tupl
 
 def _pruned_part(
     skeleton: Skeleton,
-    arrays: tuple[Any, ...],
+    core: _core.pruning.Skeleton,
     group: NDArray[np.int32],
     part: tuple[slice, slice],
-    number: int,
+    criterion: _core.pruning.Criterion,
     compared: float,
     progress: Progress,
 ) -> dict[str, Any]:
     """The rest of some arcs, in arrays of a skeleton."""
-    arcs, nodes = part
-    own = _arrays_of_part(arrays, arcs, nodes)
-    left: dict[str, Any] = _core.pruning.prune_skeleton(own, number, compared, group[arcs], progress)
+    arcs, _ = part
+    left: dict[str, Any] = _core.pruning.prune_skeleton(core, *part, criterion, compared, group, progress)
     original, is_reversed = left.pop("original"), left.pop("is_reversed") != 0
     for name in ("polygon", "side", "error_bound"):
         left[name] = getattr(skeleton, name)[arcs][original]
@@ -214,7 +213,7 @@ def critical_values(skeleton: Skeleton, criterion: str, *, progress: Progress = 
     if criterion not in CRITERIA:
         raise UsageError(f"unknown criterion {criterion!r}: choose one of {', '.join(CRITERIA)}")
     ends, most, kept_arc, kept_place = _core.pruning.critical_values(
-        skeleton_arrays(skeleton, has_sites=criterion != "scale"), CRITERIA.index(criterion), progress
+        core_skeleton(skeleton, has_sites=criterion != "scale"), _core.pruning.Criterion[criterion], progress
     )
     if criterion == "angle":
         ends, most = _doubled_degrees(ends), _doubled_degrees(most)
@@ -240,7 +239,7 @@ def arc_profiles(skeleton: Skeleton) -> ArcProfiles:
     >>> arc_profiles(skeleton_exact([[0, 0], [4, 0], [4, 2], [0, 2]])).kind.tolist()
     [0, 0, 0, 0, 0]
     """
-    return ArcProfiles(*_core.pruning.arc_profiles(skeleton_arrays(skeleton)))
+    return ArcProfiles(*_core.pruning.arc_profiles(core_skeleton(skeleton)))
 
 
 def default_pruning_for_masks() -> tuple[str, float]:
@@ -273,36 +272,19 @@ def check_threshold(criterion: str, threshold: float) -> None:
         raise UsageError(f"{criterion} is {shown_number(threshold)}: use a number {limits}")
 
 
-def skeleton_arrays(skeleton: Skeleton, *, threads: int = 1, has_sites: bool = True) -> tuple[Any, ...]:
-    """The arrays of a skeleton as the core takes them; `scale` looks at no site."""
-    site_ends = skeleton.site_ends_on(threads) if has_sites else np.empty((0, 2, 2))
-    return (
+def core_skeleton(skeleton: Skeleton, *, threads: int = 1, has_sites: bool = True) -> _core.pruning.Skeleton:
+    """The arrays of a skeleton, for the core; `scale` looks at no site."""
+    return _core.pruning.Skeleton(
         skeleton.vertices,
         skeleton.radius,
         skeleton.arcs,
         skeleton.control,
         skeleton.sites,
         skeleton.length,
-        np.ascontiguousarray(site_ends.reshape(-1, 4)),
+        np.ascontiguousarray(skeleton.site_ends_on(threads).reshape(-1, 4)) if has_sites else None,
         skeleton.on_frame.view(np.uint8),
         skeleton.gap > 0,
         float(max(skeleton.vertices.max(initial=0), -skeleton.vertices.min(initial=0))),
-    )
-
-
-def _arrays_of_part(whole: tuple[Any, ...], arcs: slice, nodes: slice) -> tuple[Any, ...]:
-    vertices, radius, pairs, control, sites, length, ends, anchored, *of_all = whole
-    own = pairs[arcs] - np.int32(nodes.start)
-    return (
-        vertices[nodes],
-        radius[nodes],
-        own,
-        control[arcs],
-        sites[arcs],
-        length[arcs],
-        ends,
-        anchored[nodes],
-        *of_all,
     )
 
 

@@ -205,16 +205,16 @@ def diagram_by_step(
             f"use at least {_core.sampled_skeleton.LEAST_SAMPLE_GAP * graph.scale!r}"
         )
     if options.is_symmetric:
-        steps = _core.sampled_skeleton.corner_steps(*graph_arrays(graph), step, True, most)
-        made = _core.sampled_skeleton.sample_from_corners(*graph_arrays(graph), steps, most, threads, progress)
+        steps = _core.sampled_skeleton.corner_steps(core_graph(graph), step, True, most)
+        made = _core.sampled_skeleton.sample_from_corners(core_graph(graph), steps, most, threads, progress)
     else:
-        made = _core.sampled_skeleton.sample_by_step(*graph_arrays(graph), step, most, threads, progress)
+        made = _core.sampled_skeleton.sample_by_step(core_graph(graph), step, most, threads, progress)
     return diagram_of_samples(graph, placed, made, groups, threads=threads, progress=progress)
 
 
-def graph_arrays(graph: PlanarGraph) -> tuple[NDArray[np.int32], NDArray[np.int32], NDArray[np.int32]]:
-    """Points, segments and faces as the core takes them."""
-    return graph.points, graph.segments, graph.segment_faces
+def core_graph(graph: PlanarGraph) -> _core.kernel.PlanarGraph:
+    """Points, segments and faces, for the core."""
+    return _core.kernel.PlanarGraph(graph.points, graph.segments, graph.segment_faces)
 
 
 def diagram_of_samples(
@@ -229,7 +229,7 @@ def diagram_of_samples(
     """Compute the Voronoi diagram of seeds, or of each group of them."""
     samples = BoundarySamples(*made, graph, placed.sites, placed.polygons)
     diagram = _core.sampled_skeleton.SampledDiagram(
-        *graph_arrays(graph), *made, groups.of_point, groups.within, threads, progress
+        core_graph(graph), *made, groups.of_point, groups.within, threads, progress
     )
     return SampledShapes(graph, placed, samples, diagram, groups)
 

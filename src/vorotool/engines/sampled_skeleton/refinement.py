@@ -14,8 +14,8 @@ from vorotool.engines.sampled_skeleton.approximate import (
     ApproximateSkeleton,
     SampledShapes,
     SampleGroups,
+    core_graph,
     diagram_of_samples,
-    graph_arrays,
     skeleton_of_samples,
     told_together,
 )
@@ -125,17 +125,17 @@ def refined_skeleton(
             f"a tolerance of {tolerance:g} is finer than the lattice that polygons are placed on: use at least "
             f"{LEAST_STEPS * graph.scale!r}"
         )
-    arrays = graph_arrays(graph)
+    core = core_graph(graph)
     common: dict[str, Any] = {"threads": threads, "progress": progress}
-    steps = _core.sampled_skeleton.corner_steps(*arrays, COARSEST * _extent(graph, groups), False, most)
+    steps = _core.sampled_skeleton.corner_steps(core, COARSEST * _extent(graph, groups), False, most)
     for _ in range(MOST_ROUNDS):
-        made = _core.sampled_skeleton.sample_from_corners(*arrays, steps, most, threads, progress)
+        made = _core.sampled_skeleton.sample_from_corners(core, steps, most, threads, progress)
         shapes = diagram_of_samples(graph, placed, made, groups, **common)
         found = skeleton_of_samples(shapes, side=side, frame=frame, complete=complete, tolerance=tolerance, **common)
         parts = _parts(shapes, found, tolerance)
         if (parts == 1).all():
             break
-        refined = _core.sampled_skeleton.refined_steps(*arrays, steps, made[2], parts, most)
+        refined = _core.sampled_skeleton.refined_steps(core, steps, made[2], parts, most)
         if len(refined[1]) == len(steps[1]):  # what is to be divided is as short as gaps may be
             break
         steps = refined

@@ -92,7 +92,7 @@ def segment_voronoi(
         raise InputError(f"{error}: place the input on the lattice first") from None
     except RuntimeError as error:
         raise _explained(str(error), places, ends) from None
-    return SegmentVoronoiDiagram(places, ends, *core.take_arrays(unwanted, threads, progress), counts=core.counts)
+    return SegmentVoronoiDiagram(places, ends, **core.take_arrays(unwanted, threads, progress), counts=core.counts)
 
 
 def segment_voronoi_of_groups(
@@ -189,8 +189,17 @@ def unwanted_sides(graph: PlanarGraph, is_wanted: NDArray[np.bool_]) -> NDArray[
     >>> [len(segment_voronoi(graph.points, graph.segments, unwanted=unwanted)) for unwanted in (None, sides)]
     [9, 7]
     """
-    return _core.segment_voronoi.unwanted_sides(
-        graph.points, graph.segments, graph.segment_faces, is_wanted.view(np.uint8)
+    core = _core.kernel.PlanarGraph(graph.points, graph.segments, graph.segment_faces)
+    return _core.segment_voronoi.unwanted_sides(core, is_wanted.view(np.uint8))
+
+
+def core_diagram(
+    diagram: SegmentVoronoiDiagram, segment_faces: NDArray[np.int32] | None = None
+) -> _core.segment_voronoi.Diagram:
+    """The arrays of a diagram, for the core, and left and right of each segment the face of its graph."""
+    names = ("points", "segments", "vertices", "radius", "vertex_start", "vertex_sites", "edges", "edge_sites")
+    return _core.segment_voronoi.Diagram(
+        **{name: getattr(diagram, name) for name in names}, segment_faces=segment_faces
     )
 
 

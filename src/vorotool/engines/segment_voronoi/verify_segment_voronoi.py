@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from vorotool import _core
+from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram
 from vorotool.errors import VerificationError
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.progress import Progress
@@ -42,17 +43,6 @@ def verify_segment_voronoi(diagram: SegmentVoronoiDiagram, *, threads: int = 0, 
         ...
     vorotool.errors.VerificationError: edge 1 between the cells of 0 and 1 does not fit the ring of its source
     """
-    fault = _core.segment_voronoi.find_fault(
-        diagram.points,
-        diagram.segments,
-        diagram.vertices,
-        diagram.radius,
-        diagram.vertex_start,
-        diagram.vertex_sites,
-        diagram.edges,
-        diagram.edge_sites,
-        checked_threads(threads),
-        progress,
-    )
+    fault = _core.segment_voronoi.find_fault(core_diagram(diagram), checked_threads(threads), progress)
     if fault is not None:
         raise VerificationError(fault)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.engines.arrangement.lattice_rings import PlacedShapes, placed_shapes
 from vorotool.engines.arrangement.planar_graph import graph_for_skeletons
-from vorotool.engines.segment_voronoi.segment_voronoi import segment_voronoi, unwanted_sides
+from vorotool.engines.segment_voronoi.segment_voronoi import core_diagram, segment_voronoi, unwanted_sides
 from vorotool.errors import Kind, Message, UsageError, VorotoolWarning
 from vorotool.geometry.box import bounds
 from vorotool.geometry.checks import checked_threads
@@ -164,7 +164,7 @@ def kept_edges(
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Edges of the diagram that are not deleted, and the face of the graph that each is in."""
     return _core.skeleton.skeleton_edges(
-        *diagram_arrays(shapes.diagram), shapes.graph.segment_faces, checked_threads(threads), progress
+        core_diagram(shapes.diagram, shapes.graph.segment_faces), checked_threads(threads), progress
     )
 
 
@@ -247,7 +247,7 @@ def assembled(
     frame = (frame or default_frame(placed.polygons)) if clips else None
     clipped = None if frame is None else (outside, on_lattice(frame, graph))
     made: dict[str, Any] = _core.skeleton.extract_skeleton(
-        *diagram_arrays(diagram),
+        core_diagram(diagram),
         edges,
         group,
         clipped,
@@ -295,22 +295,6 @@ def on_lattice(frame: Frame, graph: PlanarGraph) -> tuple[float, float, float, f
         (x + w - origin_x) / scale,
         (y - origin_y) / scale,
         (y + h - origin_y) / scale,
-    )
-
-
-_Points = NDArray[np.float64]
-_Rows = NDArray[np.int32]
-
-
-def diagram_arrays(diagram: SegmentVoronoiDiagram) -> tuple[_Rows, _Rows, _Points, _Points, _Rows, _Rows]:
-    """Arrays of a diagram, but for the sites around vertices."""
-    return (
-        diagram.points,
-        diagram.segments,
-        diagram.vertices,
-        diagram.radius,
-        diagram.edges,
-        diagram.edge_sites,
     )
 
 

@@ -65,7 +65,7 @@ def verify_label_image(
     image = LabelImage(labels, frame)
     high, low = _split_limit(max_distance2)
     try:
-        count, column, row, _, right = _core.tessellation.verify_tessellation(
+        wrong = _core.tessellation.verify_tessellation(
             label_array(image.labels),
             frame.x,
             frame.y,
@@ -80,10 +80,11 @@ def verify_label_image(
         )
     except IndexError as error:
         raise InputError(f"cannot verify: {error}; move the frame and the seeds nearer to the origin") from error
-    if count:
+    if wrong.count:
         raise VerificationError(
-            f"{count} of {frame.pixels} pixels {'is' if count == 1 else 'are'} wrong: the first, (x, y) = "
-            f"({frame.x + column}, {frame.y + row}), has label {image.labels[row, column]}, not {right}"
+            f"{wrong.count} of {frame.pixels} pixels {'is' if wrong.count == 1 else 'are'} wrong: the first, (x, y) = "
+            f"({frame.x + wrong.column}, {frame.y + wrong.row}), has label {image.labels[wrong.row, wrong.column]}, "
+            f"not {wrong.right}"
         )
 
 

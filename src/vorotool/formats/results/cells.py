@@ -53,7 +53,8 @@ def _shapes(cells: CellSet, style: str, rows: NDArray[np.int64] | None = None) -
 
     def texts(part: slice) -> Any:
         begin, end, _ = part.indices(len(starts) - 1)
-        return _core.text.PolygonTexts(cells.coordinates, rings, polygons, starts[begin : end + 1], style)
+        own = _core.text.PolygonStyle[style]
+        return _core.text.PolygonTexts(cells.coordinates, rings, polygons, starts[begin : end + 1], own)
 
     return Computed(texts, len(starts) - 1)
 
