@@ -1,6 +1,7 @@
-// What is written by hand in the core, beside the libraries that do it: numbers, a map, a sort, threads, texts of
-// numbers. Each line is the least time of some runs, in nanoseconds an item; libraries of which there is no header
-// are left out. The folder LIBRARIES holds ankerl/unordered_dense.h and fast_float/fast_float.h.
+// What is written by hand in the core, beside the libraries that do it: numbers, a map, a sort, threads,
+// texts of numbers. Each line is the least time of some runs, in nanoseconds an item; libraries of which
+// there is no header are left out. The folder LIBRARIES holds ankerl/unordered_dense.h and
+// fast_float/fast_float.h.
 //
 //   g++ -std=c++20 -O3 -ffp-contract=off -DVOROTOOL_STREAM_NUMBERS -Isrc -ILIBRARIES
 //       tests/benchmarks/core_parts.cpp src/core/numbers/big_integer.cpp src/core/base/radix_sort.cpp

@@ -34,10 +34,11 @@ inline void return_freed_memory(std::size_t bytes) {
 template <class T>
 void advise(LargeArray<T>& array, std::size_t begin, std::size_t end, int advice) {
   constexpr std::uintptr_t page = 4096;
-  const auto data = reinterpret_cast<std::uintptr_t>(array.data());
-  const std::uintptr_t first = (data + begin * sizeof(T) + page - 1) / page * page;
-  const std::uintptr_t last = (data + end * sizeof(T)) / page * page;
-  if (first < last) madvise(reinterpret_cast<void*>(first), last - first, advice);  // it may be refused
+  char* const data = reinterpret_cast<char*>(array.data());
+  const std::uintptr_t before = reinterpret_cast<std::uintptr_t>(data) % page;  // from the start of its page
+  const std::uintptr_t first = (before + begin * sizeof(T) + page - 1) / page * page;
+  const std::uintptr_t last = (before + end * sizeof(T)) / page * page;
+  if (first < last) madvise(data + (first - before), last - first, advice);  // it may be refused
 }
 #endif
 

@@ -32,7 +32,7 @@ std::vector<Site> hull_of(std::span<const LatticePoint> points) {
   auto at = [&](Site i) -> const LatticePoint& { return points[static_cast<std::size_t>(i)]; };
   std::sort(order.begin(), order.end(), [&](Site i, Site j) { return comes_before(at(i), at(j)); });
   std::vector<Site> hull;
-  auto chain = [&](auto first, auto last) {
+  auto chain = [&](const auto& first, const auto& last) {
     const std::size_t start = hull.size();
     for (auto i = first; i != last; ++i) {
       while (hull.size() >= start + 2 &&
