@@ -2,7 +2,6 @@
 #include <cstdint>
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "bindings/rooms.hpp"
 #include "bindings/support/arrays.hpp"

@@ -1,6 +1,5 @@
 // Placement on the lattice, the planar graph of polygons and lines, and its check.
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <span>
 #include <stdexcept>

@@ -1,5 +1,4 @@
 // Delaunay triangulation and its check.
-#include <algorithm>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -26,10 +25,15 @@ using core::base::Monitor;
 using core::delaunay::DelaunayTriangulation;
 using core::kernel::Point;
 
-auto copied(std::span<const std::int32_t> values) {
-  core::base::LargeArray<std::int32_t> kept(values.size());
-  std::copy(values.begin(), values.end(), kept.data());
-  return to_numpy(std::move(kept), {values.size()});
+Columns as_dict(core::delaunay::InsertedArrays&& made) {
+  const std::size_t triangles = made.triangles.size() / 3, edges = made.edges.size() / 2;
+  Columns result;
+  result["triangles"] = to_numpy(std::move(made.triangles), {triangles, 3});
+  result["neighbours"] = to_numpy(std::move(made.neighbours), {triangles, 3});
+  result["edges"] = to_numpy(std::move(made.edges), {edges, 2});
+  result["hull"] = to_numpy(std::move(made.hull));
+  result["first"] = to_numpy(std::move(made.first));
+  return result;
 }
 
 void make_mesh(DelaunayTriangulation* self, const Places& array, unsigned threads, const Progress& progress) {
@@ -38,17 +42,18 @@ void make_mesh(DelaunayTriangulation* self, const Places& array, unsigned thread
       progress, [&](const Monitor& monitor) { new (self) DelaunayTriangulation(points, threads, monitor); });
 }
 
-// Triangles, their neighbours, and edges.
-auto arrays_of(const DelaunayTriangulation& mesh, unsigned threads, const Progress& progress) {
-  const std::size_t rows = mesh.triangle_count();
-  core::base::LargeArray<std::int32_t> triangles(3 * rows), neighbours(3 * rows),
-      edges(2 * mesh.edge_count());
+Columns arrays_of(const DelaunayTriangulation& mesh, unsigned threads, const Progress& progress) {
+  using Numbers = core::base::LargeArray<std::int32_t>;
+  const std::size_t corners = 3 * mesh.triangle_count();
+  core::delaunay::InsertedArrays made{Numbers(corners),
+                                      Numbers(corners),
+                                      Numbers(2 * mesh.edge_count()),
+                                      {mesh.hull().begin(), mesh.hull().end()},
+                                      {mesh.first().begin(), mesh.first().end()}};
   run_interruptible(progress, [&](const Monitor& monitor) {
-    mesh.write({triangles.data(), neighbours.data(), edges.data()}, threads, monitor);
+    mesh.write({made.triangles.data(), made.neighbours.data(), made.edges.data()}, threads, monitor);
   });
-  return std::make_tuple(to_numpy(std::move(triangles), {rows, 3}),
-                         to_numpy(std::move(neighbours), {rows, 3}),
-                         to_numpy(std::move(edges), {mesh.edge_count(), 2}));
+  return as_dict(std::move(made));
 }
 
 // The arrays of a mesh of its points and further ones; None where the order of its triangles would change.
@@ -62,15 +67,7 @@ std::optional<Columns> insert_points(const Triangulation& mesh, const Places& po
       run_interruptible(progress, [&](const Monitor& monitor) {
         return core::delaunay::insert_points(mesh.view(), all, view(hints), threads, monitor);
       });
-  if (!made) return std::nullopt;
-  const std::size_t triangles = made->triangles.size() / 3, edges = made->edges.size() / 2;
-  Columns result;
-  result["triangles"] = to_numpy(std::move(made->triangles), {triangles, 3});
-  result["neighbours"] = to_numpy(std::move(made->neighbours), {triangles, 3});
-  result["edges"] = to_numpy(std::move(made->edges), {edges, 2});
-  result["hull"] = to_numpy(std::move(made->hull));
-  result["first"] = to_numpy(std::move(made->first));
-  return result;
+  return made ? std::optional(as_dict(std::move(*made))) : std::nullopt;
 }
 
 // The nearest point of each, and its number of neighbours.
@@ -96,9 +93,8 @@ std::optional<std::string> find_fault(const Triangulation& mesh, unsigned thread
 void bind_delaunay(nb::module_& room) {
   nb::class_<DelaunayTriangulation>(room, "DelaunayTriangulation")
       .def("__init__", &make_mesh, "points"_a, "threads"_a, "progress"_a.none())
-      .def_prop_ro("first", [](const DelaunayTriangulation& mesh) { return copied(mesh.first()); })
-      .def_prop_ro("hull", [](const DelaunayTriangulation& mesh) { return copied(mesh.hull()); })
-      .def("arrays", &arrays_of, "threads"_a, "progress"_a.none(), "Triangles, their neighbours, and edges.");
+      .def("arrays", &arrays_of, "threads"_a, "progress"_a.none(),
+           "The arrays of a Triangulation but its points.");
   nb::class_<Triangulation>(room, "Triangulation")
       .def(nb::init<const Places&, const IndexRows&, const IndexRows&, const IndexRows&, const Indices&,
                     const Indices&>(),

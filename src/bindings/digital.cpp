@@ -1,6 +1,5 @@
 // The digital triangulation, to the letter and repaired.
 #include <cstdint>
-#include <span>
 #include <stdexcept>
 #include <utility>
 

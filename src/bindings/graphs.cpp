@@ -1,5 +1,4 @@
 // Paths in graphs of arcs, and colours of graphs.
-#include <array>
 #include <optional>
 #include <stdexcept>
 #include <tuple>

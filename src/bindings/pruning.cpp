@@ -1,11 +1,11 @@
 // Critical values of skeletons, and what is left for a threshold.
-#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "bindings/rooms.hpp"
 #include "bindings/support/arrays.hpp"

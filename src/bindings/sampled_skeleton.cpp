@@ -1,6 +1,5 @@
 // Approximate skeletons: seeds on edges, their Voronoi diagram, and what of it is kept.
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -11,6 +10,7 @@
 #include "bindings/support/arrays.hpp"
 #include "bindings/support/monitor.hpp"
 #include "bindings/support/planar_graph.hpp"
+#include "bindings/support/skeleton_arrays.hpp"
 #include "bindings/support/triangulation.hpp"
 #include "core/base/parallel.hpp"
 #include "core/sampled_skeleton/boundary_samples.hpp"
@@ -81,8 +81,6 @@ auto refined_steps(const PlanarGraph& graph, const Steps& steps, const Indices& 
   return to_tuple(core::sampled_skeleton::refined_steps(graph.view(), steps_of(steps, graph.view()),
                                                         view(start), view(parts), most));
 }
-
-using Box = std::tuple<double, double, double, double>;  // least and most x, then y
 
 // A diagram and what it looks at.
 class SampledDiagram {
@@ -158,16 +156,12 @@ auto walked_pieces(const SampledDiagram& diagram) {
   return to_numpy(std::vector<std::int32_t>(pieces.begin(), pieces.end()));
 }
 
-Columns skeleton_of(const SampledDiagram& diagram, const Indices& face_group,
-                    const std::optional<std::pair<std::int32_t, Box>>& clipped, bool whole, bool complete,
-                    double tolerance, const std::pair<std::int32_t, std::int32_t>& joined, double origin_x,
-                    double origin_y, double scale, unsigned threads, const Progress& progress) {
-  core::sampled_skeleton::SampledSkeletonOptions options{
-      view(face_group), {}, whole, complete, tolerance, {joined.first, joined.second}};
-  if (clipped) {
-    const auto [least_x, most_x, least_y, most_y] = clipped->second;
-    options.clipped = core::skeleton::ClippedGroup{clipped->first, {least_x, most_x, least_y, most_y}};
-  }
+Columns skeleton_of(const SampledDiagram& diagram, const Indices& face_group, const Clipped& clipped,
+                    bool whole, bool complete, double tolerance,
+                    const std::pair<std::int32_t, std::int32_t>& joined, double origin_x, double origin_y,
+                    double scale, unsigned threads, const Progress& progress) {
+  const core::sampled_skeleton::SampledSkeletonOptions options{
+      view(face_group), clipped_group(clipped), whole, complete, tolerance, {joined.first, joined.second}};
   core::base::check_range((*diagram).labels().graph().faces, 0, face_group.size(), "a face has no group");
   const std::int32_t unbounded = whole || face_group.size() == 0 ? 0 : view(face_group)[0];
   if (unbounded >= 0 && !(options.clipped && options.clipped->group == unbounded)) {
@@ -177,16 +171,7 @@ Columns skeleton_of(const SampledDiagram& diagram, const Indices& face_group,
     return core::sampled_skeleton::extract_sampled_skeleton(*diagram, options, {origin_x, origin_y, scale},
                                                             core::base::resolve_threads(threads), monitor);
   });
-  Columns result;
-  result["vertices"] = two_columns(std::move(made.arrays.vertices));
-  result["radius"] = to_numpy(std::move(made.arrays.radius));
-  result["frame_side"] = to_numpy(std::move(made.arrays.side));
-  result["arcs"] = two_columns(std::move(made.arrays.arcs));
-  result["control"] = two_columns(std::move(made.arrays.control));
-  result["sites"] = two_columns(std::move(made.arrays.sites));
-  result["group"] = to_numpy(std::move(made.arrays.group));
-  result["branch"] = to_numpy(std::move(made.arrays.branch));
-  result["length"] = to_numpy(std::move(made.arrays.length));
+  Columns result = as_dict(std::move(made.arrays));
   result["error_bound"] = to_numpy(std::move(made.error));
   result["seeds"] = two_columns(std::move(made.seeds));
   result["parts"] = to_numpy(std::move(made.parts));

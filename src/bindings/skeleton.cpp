@@ -1,5 +1,4 @@
 // From segment Voronoi diagrams to skeletons.
-#include <array>
 #include <optional>
 #include <stdexcept>
 #include <tuple>
@@ -9,6 +8,7 @@
 #include "bindings/support/arrays.hpp"
 #include "bindings/support/monitor.hpp"
 #include "bindings/support/segment_diagram.hpp"
+#include "bindings/support/skeleton_arrays.hpp"
 #include "core/base/parallel.hpp"
 #include "core/skeleton/edges.hpp"
 #include "core/skeleton/extraction.hpp"
@@ -28,19 +28,13 @@ auto skeleton_edges(const SegmentDiagram& input, unsigned threads, const Progres
   return std::make_tuple(to_numpy(std::move(kept.edge)), to_numpy(std::move(kept.face)));
 }
 
-using Box = std::tuple<double, double, double, double>;
-
 Columns extract_skeleton(const SegmentDiagram& input, const Indices& kept, const Indices& groups,
-                         const std::optional<std::pair<std::int32_t, Box>>& clipped,
-                         const std::pair<std::int32_t, std::int32_t>& joined, double origin_x,
-                         double origin_y, double scale, unsigned threads, const Progress& progress) {
+                         const Clipped& clipped, const std::pair<std::int32_t, std::int32_t>& joined,
+                         double origin_x, double origin_y, double scale, unsigned threads,
+                         const Progress& progress) {
   const core::segment_voronoi::build::DiagramView& diagram = input.view();
   if (kept.size() != groups.size()) throw std::invalid_argument("each edge must have one group");
-  std::optional<core::skeleton::ClippedGroup> frame;
-  if (clipped) {
-    const auto [least_x, most_x, least_y, most_y] = clipped->second;
-    frame = core::skeleton::ClippedGroup{clipped->first, {least_x, most_x, least_y, most_y}};
-  }
+  const std::optional<core::skeleton::ClippedGroup> frame = clipped_group(clipped);
   for (std::size_t k = 0; k < kept.size(); ++k) {
     const std::int32_t edge = view(kept)[k], group = view(groups)[k];
     if (edge < 0 || static_cast<std::size_t>(edge) >= diagram.edges.size() || group < 0) {
@@ -51,22 +45,11 @@ Columns extract_skeleton(const SegmentDiagram& input, const Indices& kept, const
       throw std::invalid_argument("an unbounded edge is in no frame");
     }
   }
-  core::skeleton::SkeletonArrays made = run_interruptible(progress, [&](const Monitor& monitor) {
+  return as_dict(run_interruptible(progress, [&](const Monitor& monitor) {
     return core::skeleton::extract_skeleton(diagram, view(kept), view(groups), frame,
                                             {joined.first, joined.second}, {origin_x, origin_y, scale},
                                             core::base::resolve_threads(threads), monitor);
-  });
-  Columns result;
-  result["vertices"] = two_columns(std::move(made.vertices));
-  result["radius"] = to_numpy(std::move(made.radius));
-  result["frame_side"] = to_numpy(std::move(made.side));
-  result["arcs"] = two_columns(std::move(made.arcs));
-  result["control"] = two_columns(std::move(made.control));
-  result["sites"] = two_columns(std::move(made.sites));
-  result["group"] = to_numpy(std::move(made.group));
-  result["branch"] = to_numpy(std::move(made.branch));
-  result["length"] = to_numpy(std::move(made.length));
-  return result;
+  }));
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
-#include <span>
 #include <stdexcept>
 
 #include "bindings/support/arrays.hpp"

@@ -5,7 +5,6 @@
 #include <memory>
 #include <span>
 #include <stdexcept>
-#include <utility>
 
 #include "bindings/support/arrays.hpp"
 #include "core/delaunay/triangulation.hpp"

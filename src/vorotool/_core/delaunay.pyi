@@ -10,14 +10,8 @@ import numpy.typing
 class DelaunayTriangulation:
     def __init__(self, points: numpy.typing.NDArray[numpy.float64], threads: int, progress: Callable[[float], object] | None) -> None: ...
 
-    @property
-    def first(self) -> numpy.typing.NDArray[numpy.int32]: ...
-
-    @property
-    def hull(self) -> numpy.typing.NDArray[numpy.int32]: ...
-
-    def arrays(self, threads: int, progress: Callable[[float], object] | None) -> tuple[numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32], numpy.typing.NDArray[numpy.int32]]:
-        """Triangles, their neighbours, and edges."""
+    def arrays(self, threads: int, progress: Callable[[float], object] | None) -> dict[str, Any]:
+        """The arrays of a Triangulation but its points."""
 
 class Triangulation:
     def __init__(self, points: numpy.typing.NDArray[numpy.float64], triangles: numpy.typing.NDArray[numpy.int32], neighbours: numpy.typing.NDArray[numpy.int32], edges: numpy.typing.NDArray[numpy.int32], hull: numpy.typing.NDArray[numpy.int32], first: numpy.typing.NDArray[numpy.int32]) -> None: ...

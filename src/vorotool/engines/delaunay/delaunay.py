@@ -69,14 +69,9 @@ def delaunay(points: Any, *, strict: bool = False, threads: int = 0, progress: P
         raise LimitError(f"there are {len(given)} points, more than {MOST_POINTS}: triangulate them in parts")
     threads = checked_threads(threads)
     core = _core.delaunay.DelaunayTriangulation(given.xy, threads, progress)
-    triangles, neighbours, edges = core.arrays(threads, progress)
     mesh = Triangulation(
         given.xy,
-        triangles,
-        neighbours,
-        edges,
-        core.hull,
-        core.first,
+        **core.arrays(threads, progress),
         labels=given.labels,
         properties=given.properties,
         y_up=given.y_up,

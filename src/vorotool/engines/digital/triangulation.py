@@ -308,9 +308,7 @@ def repair_digital(
 
     def mesh_of(core: _core.delaunay.DelaunayTriangulation) -> Triangulation:
         arrays = core.arrays(threads, progress)
-        return Triangulation(
-            points, *arrays, core.hull, core.first, labels=labels.astype(np.int64), properties=seeds.properties
-        )
+        return Triangulation(points, **arrays, labels=labels.astype(np.int64), properties=seeds.properties)
 
     mesh = mesh_of(core)
     fault = triangulation_fault(mesh, threads, progress)
