@@ -37,8 +37,12 @@ build: $(BUILD)/.installed ## build the C++ core and install the package into .v
 include figures.mk
 
 .PHONY: test
-test: build lint $(BUILD)/.tests ## lint, then run every test, on all cores
-	$(RUN) -m pytest -n auto
+test: build lint $(BUILD)/.tests ## lint, then run all tests but the slow ones, on all cores
+	$(RUN) -m pytest -n auto -m "not slow"
+
+.PHONY: test-all
+test-all: test ## make test, then the slow ones
+	$(RUN) -m pytest -n auto -m slow
 
 .PHONY: lint
 lint: build $(BUILD)/.tests ## ruff, mypy --strict, clang-format, codespell

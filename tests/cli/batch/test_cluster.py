@@ -68,6 +68,7 @@ def done(manifest):
     return [record["input"] for record in records if record.get("status") == "done"]
 
 
+@pytest.mark.slow
 def test_a_lost_worker_loses_nothing(run, process, many, cluster):
     address, workers = cluster
     options = ("tessellate", "many", "--keep-going", "-q", "--what", "table", "--out-dir")
@@ -153,6 +154,7 @@ def dots(tmp_path):
     return tmp_path
 
 
+@pytest.mark.slow
 def test_a_lost_worker_leaves_the_same_store(run, process, dots, cluster):
     address, workers = cluster
     options = ("tessellate", "dots.csv", "--size", "600x600", "--chunk", "512x8", "-q")

@@ -87,6 +87,7 @@ def test_one_table_of_all(run, inputs):
     assert [path.name for path in inputs.iterdir() if path.name.startswith(".")] == []
 
 
+@pytest.mark.slow
 def test_a_table_after_resuming(run, inputs):
     rows = run("delaunay", "points", "--table", "-", "-f", "json", "-q").out
     bad = inputs / "points/p2.csv"
@@ -118,6 +119,7 @@ def test_a_table_after_resuming(run, inputs):
     }  # fmt: skip
 
 
+@pytest.mark.slow
 def test_what_was_done_by_other_options_is_done_again(run, inputs):
     options = ("alphashape", "points", "--out-dir", "out", "--resume")
     for more, status in (([], "done"), ([], "kept"), (["-r", "2"], "done"), (["-r", "2", "--threads", "1"], "kept")):
@@ -337,6 +339,7 @@ def test_an_interrupt_leaves_nothing_half_done(process, tmp_path):
     assert [path.name for path in (tmp_path / "out").iterdir()] == ["tessellate.manifest.jsonl"]
 
 
+@pytest.mark.slow
 def test_killed_and_resumed(process, tmp_path):
     many_points(tmp_path, 40)
     options = ("delaunay", "many", "-q", "-j", "2", "--table", "all.csv", "--out-dir")
@@ -369,6 +372,7 @@ def test_a_run_beside_a_running_one_leaves_its_temporaries(run, process, tmp_pat
     assert (ended.code, len(begun), left) == (0, 1, begun)
 
 
+@pytest.mark.slow
 def test_two_shards_that_are_started_together_lose_nothing(process, tmp_path):
     many_points(tmp_path, 12)
     options = ("delaunay", "many", "-q", "-j", "2", "--out-dir")

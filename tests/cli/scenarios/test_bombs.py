@@ -118,6 +118,7 @@ KINDS = ["tiff-deflate", "tiff-lzma", "tiff-zstd", "tiff-packbits", "png-IDAT", 
 KINDS += [f"zarr-{name}" for name in ("gzip", "zlib", "lzma", "zstd", "zstd-unstated", "blosc", "lz4", "shard")]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_bomb_is_refused(tmp_path, kind):
     name = make(tmp_path, kind)

@@ -79,6 +79,7 @@ def cases():
                 yield pytest.param(name, option, values, id=f"{name} {option.opts[-1]}")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "option", "values"), list(cases()))
 def test_no_value_of_an_option_is_a_defect(run, folder, name, option, values):
     (folder / "shape.wkt").write_text("POLYGON ((0 0, 9 0, 9 4, 0 4, 0 0))\n")

@@ -32,6 +32,7 @@ def started(folder, arguments):
     return subprocess.Popen(arguments, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", CODES)
 def test_a_signal_ends_quietly_from_our_first_line_on(folder, number):
     ended = set()
@@ -49,6 +50,7 @@ def test_a_signal_ends_quietly_from_our_first_line_on(folder, number):
     assert CODES[number] in ended
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("entry", ENTRIES)
 def test_an_interrupt_during_the_start_shows_nothing_of_ours(folder, entry):
     for step in range(20):

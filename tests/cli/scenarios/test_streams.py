@@ -40,6 +40,7 @@ def expected(tmp_path_factory):
     return Expected(tmp_path_factory.mktemp("expected"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", COMMANDS)
 def test_streams_are_as_good_as_files(expected, tmp_path, command):
     def run(numbered):

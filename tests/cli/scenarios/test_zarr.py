@@ -97,6 +97,7 @@ def test_limits_are_known_before(run, tmp_path, seeds, monkeypatch):
     make(run, "b.zarr", "--max-distance", "0")  # compressed there is room
 
 
+@pytest.mark.slow
 def test_memory_is_that_of_a_row_of_chunks(tmp_path):
     """Of 2.1 GB of labels, in a process of its own; windows are those of the engine in memory."""
     xy = np.random.default_rng(2).integers(0, 32768, (20_000, 2))

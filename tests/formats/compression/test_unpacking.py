@@ -95,6 +95,7 @@ def test_streams_that_follow_each_other(name):
     assert most_unpacked(packed("zstd", b"abc") * 3) == (9, True)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["lzma", "zlib", "bz2", "gzip", "lzw", "packbits"])
 def test_a_bomb_takes_no_memory(name):
     import tracemalloc
