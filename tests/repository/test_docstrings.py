@@ -8,6 +8,7 @@ from numpydoc.validate import validate
 import vorotool
 
 LEFT_OUT = {
+    "GL01",  # the first line stands behind the quotes: newer versions ask for either
     "PR06",  # an integer array may have any integer type
     "ES01",  # the first line may say all
     "SA01",  # the reference groups names by what they are for
