@@ -31,7 +31,8 @@ from vorotool.batch.tasks import Outcome, Task
 from vorotool.engines.label_images.simplification import simplified_polygons
 from vorotool.formats.images.png_writer import write_png
 from vorotool.formats.io.sources import Source
-from vorotool.formats.points.reader import read_points
+from vorotool.formats.parsing.reader_options import ReadOptions
+from vorotool.formats.points.delimited import read_text
 from vorotool.formats.results.graphml import write_graphml
 from vorotool.geometry.polygons.conversion import to_shapely
 
@@ -57,7 +58,10 @@ def csv() -> None:
     data = table.to_csv(index=False).encode()
     source = Source("a.csv", data)
     found, peer = compare(
-        "CSV, 1,000,000 points", lambda: read_points(source), lambda: pandas.read_csv(io.BytesIO(data)), "pandas"
+        "CSV, 1,000,000 points",
+        lambda: read_text(source, ReadOptions()),
+        lambda: pandas.read_csv(io.BytesIO(data)),
+        "pandas",
     )
     print(
         "   coordinates that differ from the text:",
@@ -66,7 +70,7 @@ def csv() -> None:
         int((peer.to_numpy() != table.to_numpy()).sum()),
     )
     try:
-        read_points(Source("a.csv", b"x,y\n1,2\n3,4;5\n"))
+        read_text(Source("a.csv", b"x,y\n1,2\n3,4;5\n"), ReadOptions())
     except vorotool.InputError as error:
         print("  ", error)
 

@@ -62,11 +62,11 @@ import pytest
         ),
         (
             ["tessellate", "dots.csv", "-o", "a.png", "--input-format", "xyz"],
-            ["'xyz' is no format of inputs: use one of csv, tsv, txt, node, npy, npz, geojson, wkt, json, png, tiff"],
+            ["invalid --input-format 'xyz': expected one of csv, tsv, txt, node, npz, geojson, wkt, json, png, tiff"],
         ),
         (
             ["draw", "mask.pbm", "-o", "a.png", "--input-format", "xyz"],
-            ["'xyz' is no format of inputs: use one of png, tiff, tif, pnm, pbm, pgm, ppm, npy"],
+            ["invalid --input-format 'xyz': expected one of geojson, wkt, json, poly, png, tiff, tif"],
         ),
         (["paint"], ["paint"]),
         (["--colour"], ["--colour"]),

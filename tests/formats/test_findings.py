@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import vorotool
-from vorotool.formats.parsing.format_names import ALL_NAMES
+from vorotool.products.inputs import INPUTS
 
 FUZZ = Path(__file__).parents[1] / "fuzz"
 FINDINGS = sorted((FUZZ / "findings").iterdir())
@@ -22,7 +22,7 @@ def test_a_finding_is_refused(path):
 
 
 @pytest.mark.parametrize("path", FINDINGS, ids=lambda path: path.name)
-@pytest.mark.parametrize("input_format", sorted(set(ALL_NAMES.values())))
+@pytest.mark.parametrize("input_format", sorted(INPUTS))
 @pytest.mark.parametrize("geometry", [None, "points", "polygons"])
 @pytest.mark.filterwarnings("ignore::vorotool.errors.VorotoolWarning")
 def test_every_reader_takes_or_refuses_it(path, input_format, geometry):

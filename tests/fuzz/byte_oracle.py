@@ -17,8 +17,8 @@ import numpy as np
 
 import vorotool
 from fuzz.byte_seeds import Bundle
+from support.readers.sources import rows_of
 from vorotool.cli.main import main
-from vorotool.formats.images.band_reader import open_rows
 
 LIMITS = {"max_pixels": 2**16, "max_sites": 2**14, "threads": 1}
 LONGEST = 2**22
@@ -73,7 +73,7 @@ def judge_reading(path: Path, kind: str, chance: random.Random) -> tuple[str, st
 
 
 def _check_rows(path: Path, values: np.ndarray, page: object) -> None:
-    rows = open_rows(path, page=page)
+    rows = rows_of(path, page=page)
     if rows is None or values.ndim != 2:
         return
     height = rows.shape[0]
@@ -149,7 +149,7 @@ def judge(bundle: Bundle, folder: Path, chance: random.Random, commands: float) 
 def _pixels_that_pass_by(path: Path) -> int:
     """Pixels of an image that is read in bands, of which there may be more than memory holds; 0 of all else."""
     with contextlib.suppress(vorotool.VorotoolError):
-        if (rows := open_rows(path)) is not None:
+        if (rows := rows_of(path)) is not None:
             return math.prod(rows.shape)
     return 0
 

@@ -43,8 +43,8 @@ render/layers -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geo
 render/pages -> geometry, geometry/alpha, geometry/curves, geometry/skeleton, render/canvas
 engines/skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, geometry,
     geometry/curves, geometry/polygons, geometry/skeleton
-formats/results -> formats/io, formats/parsing, formats/points, formats/polygons, formats/text, geometry,
-    geometry/alpha, geometry/curves, geometry/mesh, geometry/polygons, geometry/skeleton, products
+formats/results -> formats/io, formats/parsing, formats/polygons, formats/text, geometry, geometry/alpha,
+    geometry/curves, geometry/mesh, geometry/polygons, geometry/skeleton, products
 engines/from_skeleton -> engines/arrangement, engines/skeleton, geometry, geometry/curves, geometry/polygons,
     geometry/skeleton
 engines/offsets -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi, engines/skeleton,
@@ -52,20 +52,21 @@ engines/offsets -> engines/arrangement, engines/common, engines/features, engine
 engines/pruning -> engines/common, geometry, geometry/curves, geometry/skeleton
 engines/sampled_skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi,
     engines/skeleton, geometry, geometry/curves, geometry/polygons, geometry/skeleton
-formats -> formats/images, formats/io, formats/parsing, formats/points, formats/polygons, formats/results, geometry,
-    geometry/points, geometry/polygons, geometry/skeleton
+formats -> formats/images, formats/io, formats/parsing, formats/points, formats/polygons, geometry, geometry/points,
+    geometry/polygons, geometry/skeleton, products
 engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/polygons, geometry/skeleton
 engines/centerlines -> engines/from_skeleton, engines/pruning, geometry, geometry/polygons, geometry/skeleton
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
     engines/features, engines/from_skeleton, engines/label_images, engines/offsets, engines/pruning,
     engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, formats,
-    formats/images, formats/io, formats/parsing, formats/points, formats/polygons, formats/results, formats/text,
-    formats/zarr, geometry, geometry/alpha, geometry/any, geometry/mesh, geometry/points, geometry/polygons,
-    geometry/skeleton, products, render/canvas, render/label_images, render/layers, render/pages
-cli/options -> engines/offsets, engines/pruning, formats/parsing, geometry, jobs, products
-cli/batch -> batch, cli/options, formats/io, formats/parsing, geometry, jobs, products
-cli/commands -> cli/batch, cli/options, formats/parsing, jobs, products
+    formats/images, formats/io, formats/parsing, formats/points, formats/text, formats/zarr, geometry, geometry/alpha,
+    geometry/any, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, products, render/canvas,
+    render/label_images, render/layers, render/pages
+cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
+cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
+cli/commands -> cli/batch, cli/options, jobs, products
 cli -> cli/commands, jobs
+render ->
 """
 """Rooms of the package from below, and what each may import; `errors` and `signals` are for all."""
 

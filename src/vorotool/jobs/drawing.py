@@ -7,19 +7,16 @@ from functools import partial
 from typing import Any, BinaryIO
 
 from vorotool.errors import InputError, Kind, Message
-from vorotool.formats import NPY_MAGIC
-from vorotool.formats.images.band_reader import is_zarr, open_rows, read_rows
-from vorotool.formats.images.label_images import label_image_of, read_label_image
-from vorotool.formats.images.reader import is_image
+from vorotool.formats.images.band_reader import open_zarr, read_rows
+from vorotool.formats.images.label_images import label_image_of
 from vorotool.formats.io.atomic_output import open_output
+from vorotool.formats.io.npy_arrays import MAGIC
 from vorotool.formats.io.sources import read_source, reading
-from vorotool.formats.parsing.format_names import DRAWN_NAMES, POLYGON_NAMES, known_input_format
-from vorotool.formats.parsing.geojson import JsonSource
+from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.points.tables import is_table
-from vorotool.formats.polygons.reader import read_polygons, recognise
-from vorotool.formats.results.offset_json import read_offsets, says_offsets
-from vorotool.formats.results.skeleton_json import read_skeleton, says_skeleton
+from vorotool.formats.recognition import image_format, image_source, read_recognised, recognised
 from vorotool.geometry.points.label_image import LabelImage
+from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.skeleton.offsets import Offsets
@@ -29,6 +26,7 @@ from vorotool.jobs.options import DrawingOptions
 from vorotool.jobs.pictures import default_layers, drawing_of, write_label_picture, write_layers
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options
+from vorotool.products.inputs import DRAWN_NAMES, Holds, known_input_format
 from vorotool.products.registry import PRODUCTS, Product
 
 _SKELETONS = PRODUCTS["skeleton-exact"]
@@ -84,29 +82,29 @@ class Picture:
 
 def _read(run: Run, o: DrawingOptions, given: JobInput) -> LabelImage | Lined:
     """Read whatever is drawn: its content tells what it is, where the options do not."""
-    path, fmt = given.path, known_input_format(o.input_format, DRAWN_NAMES)
-    if is_zarr(path, fmt):
-        rows = open_rows(path, input_format=fmt, page=o.page)
-        assert rows is not None
-        return label_image_of(read_rows(rows, max_pixels=o.max_pixels), path)
-    source = read_source(path)
-    if says_skeleton(source.data):
-        return read_skeleton(source, properties=False)
-    if says_offsets(source.data):
-        return read_offsets(source, properties=False)
-    is_array = source.data.startswith(NPY_MAGIC)  # of two columns, too: points are not drawn
-    if (is_array or is_image(source)) if fmt is None else fmt not in POLYGON_NAMES:
-        return read_label_image(source, input_format=fmt, page=o.page, max_pixels=o.max_pixels)
-    if not source.data.strip():
+    said = known_input_format(o.input_format, DRAWN_NAMES)
+    array = open_zarr(given.path, said, o.page)
+    if array is not None:
+        return label_image_of(read_rows(array, max_pixels=o.max_pixels), given.path)
+    source = read_source(given.path)
+    holds: Holds
+    if source.data.startswith(MAGIC):  # of two columns, too: points are not drawn
+        holds, source = "image", image_source(source, said)
+    elif source.data.strip() or image_format(source, said):
+        holds, source = recognised(source, said=said)
+    else:
         raise InputError(f"{source.name} is empty: there is nothing to draw; check what was to write it")
-    source, has_shapes = recognise(source, fmt)
-    document = source.document if isinstance(source, JsonSource) else None
-    if not (has_shapes or _is_empty_collection(document) or is_table(document)):  # of which the reader says more
-        raise InputError(
-            f"{source.name} is not drawn: give a label image, the JSON of a skeleton or of offset curves, or polygons "
-            "and lines (GeoJSON, WKT, JSON, .poly); other results are drawn by the command that makes them, with -f svg"
-        )
-    return read_polygons(source, input_format=fmt, properties=False, note=partial(_note, run))
+    if holds == "points":
+        if not (_is_empty_collection(source.document) or is_table(source.document)):
+            raise InputError(
+                f"{source.name} is not drawn: give a label image, the JSON of a skeleton or of offset curves, or "
+                "polygons and lines (GeoJSON, WKT, JSON, .poly); other results are drawn by the command that makes "
+                "them, with -f svg"
+            )
+        holds = "polygons"  # whose reader says more of tables
+    options = ReadOptions(page=o.page, properties=False, max_pixels=o.max_pixels, note=partial(_note, run))
+    value = read_recognised(holds, source, options)
+    return label_image_of(value, source.name) if isinstance(value, Raster) else value
 
 
 def _is_empty_collection(document: object) -> bool:

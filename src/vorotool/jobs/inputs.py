@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import InputError, Kind, Message, UsageError
+from vorotool.jobs.options import ComputingOptions, JobOptions, SiteOptions
 from vorotool.jobs.run_log import Run
 
 if TYPE_CHECKING:
     from vorotool.engines.tessellation.seeding import SeedMode
+    from vorotool.formats.opening import Opened
     from vorotool.geometry.pixel_frame import Frame
     from vorotool.geometry.points.point_set import PointSet
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.points.seed_set import SeedSet
     from vorotool.geometry.polygons.polygon_set import PolygonSet
-    from vorotool.jobs.options import ComputingOptions, JobOptions, SiteOptions
     from vorotool.render.canvas.layers import Backdrop
 
 
@@ -56,27 +57,29 @@ class Foreground(NamedTuple):
     invert: bool
 
 
-def read_input(
+def opened_input(o: ComputingOptions, given: JobInput, geometry: str) -> AbstractContextManager[Opened]:
+    """Open points or polygons, or an image, as the options say."""
+    from vorotool.formats.opening import opened
+
+    return opened(given.path, geometry=geometry, input_format=o.input_format, page=o.page)
+
+
+def read_opened(
     run: Run,
     o: ComputingOptions,
     given: JobInput,
-    geometry: str,
+    source: Opened,
     *,
     columns: str | None = None,
     properties: bool = True,
 ) -> PointSet | PolygonSet | Raster:
-    """Read points or polygons, or an image, as the options say."""
-    from vorotool.formats import read
+    """Read what is open, whole, as the options say."""
     from vorotool.geometry.points.point_set import PointSet
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.polygons.polygon_set import PolygonSet
 
-    value = read(
-        given.path,
-        geometry=geometry,
-        input_format=o.input_format,
+    value = source.read(
         columns=columns,
-        page=o.page,
         max_pixels=o.max_pixels,
         max_sites=o.max_sites,
         properties=properties and not o.no_properties,
@@ -87,25 +90,8 @@ def read_input(
     assert isinstance(value, PointSet | PolygonSet | Raster)  # others are read where no geometry is asked for
     if isinstance(value, Raster):
         note_other_size(run, o, given, value.values.shape)
-    return value
-
-
-def read_seed_input(run: Run, o: SiteOptions, given: JobInput, *, properties: bool) -> PointSet | Raster:
-    """Read points or an image, as the options say.
-
-    Raises
-    ------
-    UsageError
-        If the input is a list of points and an option for images is given.
-    """
-    from vorotool.geometry.points.point_set import PointSet
-    from vorotool.geometry.points.raster import Raster
-
-    value = read_input(run, o, given, "points", columns=o.columns, properties=properties)
-    if isinstance(value, PointSet):
+    elif isinstance(o, SiteOptions):
         refuse(o.for_images(), "is for images, but the input is a list of points")
-        return value
-    assert isinstance(value, Raster)  # what is asked for is points, or an image
     return value
 
 
@@ -144,10 +130,13 @@ def check_frame_options(o: SiteOptions, *, is_digital: bool) -> None:
 def read_sites(run: Run, o: SiteOptions, given: JobInput, *, properties: bool, is_digital: bool) -> PointSet | SeedSet:
     """Read points to triangulate, or find those of an image, as the options say."""
     from vorotool.geometry.points.point_set import PointSet
+    from vorotool.geometry.points.raster import Raster
 
-    value = read_seed_input(run, o, given, properties=properties)
+    with opened_input(o, given, "points") as source:
+        value = read_opened(run, o, given, source, columns=o.columns, properties=properties)
     if isinstance(value, PointSet):
         return value
+    assert isinstance(value, Raster)  # what is asked for is points, or an image
     refuse({"columns": o.columns}, "is for lists of points, but the input is an image")
     refuse(o.of_frame(), "is for lists of points, but the input is an image, which brings its own frame")
     # The sites of objects are their centroids, but their regions are not those of the centroids.
@@ -279,10 +268,12 @@ def read_backdrop(o: JobOptions) -> Backdrop | None:
     from vorotool.formats.images.png_writer import write_png
     from vorotool.formats.images.rgb_reader import read_picture
     from vorotool.formats.io.sources import read_source, reading
+    from vorotool.formats.parsing.reader_options import ReadOptions
+    from vorotool.formats.recognition import image_source
     from vorotool.render.canvas.layers import Backdrop
 
     with reading(o.overlay):
-        pixels = read_picture(read_source(o.overlay), page=o.page, max_pixels=o.max_pixels)
+        pixels = read_picture(image_source(read_source(o.overlay)), ReadOptions(page=o.page, max_pixels=o.max_pixels))
     height, width = pixels.shape[:2]
 
     def encode() -> bytes:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from vorotool.jobs.inputs import JobInput, read_input, refuse, settled_foreground
+from vorotool.jobs.inputs import JobInput, opened_input, read_opened, refuse, settled_foreground
 from vorotool.jobs.options import SkeletonOptions
 from vorotool.jobs.run_log import Run
 
@@ -33,7 +33,8 @@ def read_polygons(run: Run, o: SkeletonOptions, given: JobInput) -> ReadPolygons
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.polygons.polygon_set import PolygonSet
 
-    value = read_input(run, o, given, "polygons")
+    with opened_input(o, given, "polygons") as source:
+        value = read_opened(run, o, given, source)
     if isinstance(value, Raster):
         return ReadPolygons(_outlines(run, o, value), is_mask=True)
     assert isinstance(value, PolygonSet)  # what is asked for is polygons, or an image

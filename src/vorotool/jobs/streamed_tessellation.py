@@ -15,8 +15,9 @@ from vorotool.engines.tessellation.frames import label_dtype
 from vorotool.engines.tessellation.streamed_image import ObjectRows, StreamedImage
 from vorotool.errors import UsageError
 from vorotool.formats.images.band_reader import TiffRows, ZarrRows
+from vorotool.formats.opening import Opened
 from vorotool.geometry.progress import Progress
-from vorotool.jobs.inputs import JobInput, refuse
+from vorotool.jobs.inputs import refuse
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.streamed_output import Stream, check_chunks, write_file, write_store
@@ -32,21 +33,13 @@ STREAMED = frozenset({"labels", "distance", "distance2"})
 """What can be written of an image that is not held."""
 
 
-def open_large(o: TessellationOptions, given: JobInput) -> ZarrRows | TiffRows | None:
-    """Open an image band by band, if it is large or its bands go to a cluster, and the options allow that."""
-    from vorotool.formats.images.band_reader import open_rows
-    from vorotool.formats.io.sources import reading
-    from vorotool.formats.parsing.format_names import NAMES_WITH, known_input_format
-
+def rows_of_large(o: TessellationOptions, source: Opened) -> ZarrRows | TiffRows | None:
+    """Give an image band by band, if it is large or its bands go to a cluster, and the options allow that."""
     held = o.verify or o.seeds == "centroids" or o.threshold == "otsu" or o.method != "exact" or o.columns is not None
-    if given.path == "-" or held or not set(o.what) <= STREAMED:
+    rows = None if held or not set(o.what) <= STREAMED else source.rows()
+    if rows is None:
         return None
-    fmt = known_input_format(o.input_format, NAMES_WITH["points"])
-    with reading(given.path):
-        rows = open_rows(given.path, input_format=fmt, page=o.page)
-        if rows is None:
-            return None
-        height, width = rows.shape
+    height, width = rows.shape
     on_cluster = o.cluster is not None and o.out_dir is None
     return rows if on_cluster or height * width > LARGE else None
 

@@ -28,14 +28,16 @@ from vorotool.errors import LimitError
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.point_set import PointSet
+from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.table import Table
-from vorotool.jobs.inputs import JobInput, frame_of, read_seed_input, refuse, seeds_of_image
+from vorotool.jobs.inputs import JobInput, frame_of, opened_input, read_opened, refuse, seeds_of_image
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.streamed_output import RowsOf, Stream, check_chunks, write_file, write_store
-from vorotool.jobs.streamed_tessellation import StreamedProducts, open_large
+from vorotool.jobs.streamed_tessellation import StreamedProducts, rows_of_large
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import table_in_units
 from vorotool.products.registry import PRODUCTS
@@ -66,19 +68,22 @@ class ReadSeeds(NamedTuple):
 def products(run: Run, o: TessellationOptions, given: JobInput) -> Products | StreamedProducts:
     """Read points or an image, and prepare what labels any rows."""
     with run.phase("read"):
-        large = open_large(o, given)
+        with opened_input(o, given, "points") as source:
+            large = rows_of_large(o, source)
+            if large is None:
+                value = read_opened(run, o, given, source, columns=o.columns, properties="table" in o.what)
         if large is not None:
             return StreamedProducts(run, o, large)
-        read = _read_seeds(run, o, given)
+        read = _seeds_of(run, o, value)
     with run.phase("prepare" if o.method == "exact" else "tessellate"):
         return Products(run, o, given, read, _rows_of(run, o, read.seeds))
 
 
-def _read_seeds(run: Run, o: TessellationOptions, given: JobInput) -> ReadSeeds:
-    value = read_seed_input(run, o, given, properties="table" in o.what)
+def _seeds_of(run: Run, o: TessellationOptions, value: PointSet | PolygonSet | Raster) -> ReadSeeds:
     if isinstance(value, PointSet):
         seeds = seeds_from_points(value, strict=o.strict, check=lambda seeds: frame_of(o, seeds))
         return ReadSeeds(seeds, value.y_up)
+    assert isinstance(value, Raster)  # what is asked for is points, or an image
     alone = {"columns": o.columns, **o.of_frame()}
     refuse(alone, "is for lists of points, but the input is an image, which brings its own")
     return ReadSeeds(seeds_of_image(run, o, value, o.seeds), resolution=value.resolution)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from importlib import import_module
+from typing import Any, NamedTuple
 
 
 class Writer(NamedTuple):
@@ -124,3 +125,16 @@ def with_digits(possible: Iterable[str]) -> list[str]:
     ['csv', 'wkt']
     """
     return [name for name in possible if FORMATS[name].has_digits]
+
+
+def resolved(function: str) -> Callable[..., Any]:
+    """Give the function that ``module:name`` stands for.
+
+    Examples
+    --------
+    >>> resolved("formats.results.cells:write_cells").__name__
+    'write_cells'
+    """
+    module, name = function.split(":")
+    found: Callable[..., Any] = getattr(import_module(f"vorotool.{module}"), name)
+    return found

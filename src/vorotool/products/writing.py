@@ -2,26 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from importlib import import_module
 from typing import Any, BinaryIO
 
 from vorotool.errors import UsageError
-from vorotool.products.formats import FORMATS, TABLE_WRITER
+from vorotool.products.formats import FORMATS, TABLE_WRITER, resolved
 from vorotool.products.registry import Product, is_of, parts_of, public_types
-
-
-def resolved(function: str) -> Callable[..., Any]:
-    """Give the function that ``module:name`` stands for.
-
-    Examples
-    --------
-    >>> resolved("formats.results.cells:write_cells").__name__
-    'write_cells'
-    """
-    module, name = function.split(":")
-    found: Callable[..., Any] = getattr(import_module(f"vorotool.{module}"), name)
-    return found
 
 
 def write_product(

@@ -1,11 +1,11 @@
 import io
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from support.readers.sources import labels_of
 from vorotool.errors import InputError, LimitError, UsageError
-from vorotool.formats.images.label_images import read_label_image, write_label_image
+from vorotool.formats.images.label_images import write_label_image
 
 
 def written(values: np.ndarray, fmt: str, **options: object) -> bytes:
@@ -19,15 +19,14 @@ def written(values: np.ndarray, fmt: str, **options: object) -> bytes:
 @pytest.mark.parametrize("dtype", ["u1", "u2", "u4", "i4"])
 def test_round_trip(fmt: str, dtype: str) -> None:
     labels = np.random.default_rng(1).integers(0, 200, (17, 13)).astype(dtype)
-    image = read_label_image(SimpleNamespace(name="-", data=written(labels, fmt)))
-    np.testing.assert_array_equal(image.labels, labels)
+    np.testing.assert_array_equal(labels_of(written(labels, fmt)), labels)
 
 
 def test_diagram_round_trip() -> None:
     mask = np.random.default_rng(1).integers(0, 2, (17, 13)).astype(bool)
     for fmt, options in (("png", {"bit_depth": 1}), ("tiff", {}), ("npy", {})):
         data = written(mask, fmt, **options)
-        np.testing.assert_array_equal(read_label_image(SimpleNamespace(name="-", data=data)).labels, mask)
+        np.testing.assert_array_equal(labels_of(data), mask)
 
 
 def test_palette_indices_round_trip() -> None:
@@ -35,7 +34,7 @@ def test_palette_indices_round_trip() -> None:
     labels = np.random.default_rng(1).integers(0, 10, (17, 13)).astype(np.uint8)
     for fmt in ("png", "tiff"):
         data = written(labels, fmt, palette=palette)
-        np.testing.assert_array_equal(read_label_image(SimpleNamespace(name="-", data=data)).labels, labels)
+        np.testing.assert_array_equal(labels_of(data), labels)
 
 
 def test_labels_above_16_bits_are_no_png() -> None:
@@ -70,12 +69,12 @@ def test_values_that_are_no_labels(values: np.ndarray, message: str) -> None:
     out = io.BytesIO()
     np.save(out, values)
     with pytest.raises(InputError, match=message):
-        read_label_image(SimpleNamespace(name="a.npy", data=out.getvalue()))
+        labels_of(out.getvalue())
 
 
 def test_other_integers_become_uint32() -> None:
     out = io.BytesIO()
     np.save(out, np.array([[0, 2**32 - 1, 7]]))
-    image = read_label_image(SimpleNamespace(name="a.npy", data=out.getvalue()))
-    assert image.labels.dtype == np.uint32
-    assert image.labels.tolist() == [[0, 2**32 - 1, 7]]
+    labels = labels_of(out.getvalue())
+    assert labels.dtype == np.uint32
+    assert labels.tolist() == [[0, 2**32 - 1, 7]]

@@ -2,16 +2,16 @@
 
 import io
 import struct
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from PIL import Image, ImageOps, features
 
 import vorotool
+from support.readers.sources import image_of, picture_of
 from vorotool import InputError, LimitError
-from vorotool.formats.images.reader import image_format, is_image, read_image
-from vorotool.formats.images.rgb_reader import read_picture
+from vorotool.formats.io.sources import Source
+from vorotool.formats.recognition import image_format
 
 RNG = np.random.default_rng(5)
 GREY = RNG.integers(0, 256, (7, 11), dtype=np.uint8)
@@ -29,11 +29,11 @@ def saved(image, kind, **options):
 
 
 def source(data, name="a"):
-    return SimpleNamespace(name=name, data=data)
+    return Source(name, data)
 
 
 def read(data, **options):
-    return read_image(source(data), **options).values
+    return image_of(source(data), **options).values
 
 
 def pillow(data):
@@ -44,16 +44,15 @@ def pillow(data):
 def test_the_content_tells_the_format(kind):
     data = saved(COLOURS, kind)
     assert image_format(source(data)) == image_format(source(data, f"a.{kind}")) == kind
-    assert is_image(source(data))
-    assert not is_image(source(b"BMI,age\n1,2\n", "a.csv"))
+    assert image_format(source(b"BMI,age\n1,2\n", "a.csv")) is None
     with pytest.raises(InputError, match=rf"a.png is no png file, it begins as {kind}: use --input-format {kind}"):
-        read_image(source(data, "a.png"))
+        image_of(source(data, "a.png"))
 
 
 @pytest.mark.parametrize("kind", ["bmp", "webp"])
 def test_values_of_exact_formats_are_as_stored(kind):
     options = {"lossless": True} if kind == "webp" else {}
-    raster = read_image(source(saved(COLOURS, kind, **options)))
+    raster = image_of(source(saved(COLOURS, kind, **options)))
     np.testing.assert_array_equal(raster.values, COLOURS)
     assert not raster.is_lossy
     np.testing.assert_array_equal(read(saved(GREY, kind, **options)), GREY)  # what is grey has one channel
@@ -66,10 +65,10 @@ def test_two_values_are_0_and_1():
 @pytest.mark.parametrize("kind", ["jpeg", *KINDS[3:]])
 def test_lossy_formats_are_what_pillow_shows(kind):
     data = saved(COLOURS, kind)
-    raster = read_image(source(data))
+    raster = image_of(source(data))
     np.testing.assert_array_equal(raster.values, pillow(data))
     assert raster.is_lossy
-    np.testing.assert_array_equal(read_picture(source(data)), pillow(data))
+    np.testing.assert_array_equal(picture_of(source(data)), pillow(data))
 
 
 def test_other_colours_become_red_green_and_blue():
@@ -89,7 +88,7 @@ def test_what_a_gif_leaves_free_is_transparent():
     image.putpalette([250, 0, 0, 0, 240, 0, 0, 0, 230])
     data = saved(image, "gif", transparency=1)
     np.testing.assert_array_equal(read(data)[:, :, 3], np.where(GREY % 3 == 1, 0, 255))
-    assert (read_picture(source(data))[GREY % 3 == 1] == 255).all()  # on white
+    assert (picture_of(source(data))[GREY % 3 == 1] == 255).all()  # on white
 
 
 @pytest.mark.parametrize("kind", ["jpeg", *KINDS[3:]])
@@ -148,7 +147,7 @@ def test_what_is_cut_off_is_refused(kind):
     data = saved(COLOURS, kind)
     for end in {*range(1, 60), *range(60, len(data) - 2, 7), len(data) // 2}:
         with pytest.raises(InputError, match=r"^a.img "):
-            read_image(source(data[:end], "a.img"), input_format=kind)
+            image_of(source(data[:end], "a.img"), input_format=kind)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -159,7 +158,7 @@ def test_what_is_damaged_is_read_or_refused(kind):
         for at in RNG.integers(0, len(data), 3):
             damaged[at] = RNG.integers(0, 256)
         try:
-            read_image(source(bytes(damaged), "a.img"), input_format=kind, max_pixels=10**6)
+            image_of(source(bytes(damaged), "a.img"), input_format=kind, max_pixels=10**6)
         except (InputError, LimitError) as error:
             assert str(error).startswith("a.img")  # noqa: PT017
 

@@ -1,15 +1,15 @@
 """Images as they look."""
 
 import io
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import tifffile
 from PIL import Image
 
+from support.readers.sources import picture_of
 from vorotool.errors import InputError, LimitError
-from vorotool.formats.images.rgb_reader import read_picture
+from vorotool.formats.io.sources import Source
 
 RANDOM = np.random.default_rng(0)
 COLOURS = RANDOM.integers(0, 256, (5, 7, 3), dtype=np.uint8)
@@ -19,7 +19,7 @@ GREY = RANDOM.integers(0, 256, (5, 7), dtype=np.uint8)
 def png(image, **options):
     out = io.BytesIO()
     (image if isinstance(image, Image.Image) else Image.fromarray(image)).save(out, "PNG", **options)
-    return SimpleNamespace(name="a.png", data=out.getvalue())
+    return Source("a.png", out.getvalue())
 
 
 def tiff(*pages):
@@ -27,17 +27,17 @@ def tiff(*pages):
     with tifffile.TiffWriter(out) as writer:
         for page in pages:
             writer.write(page, contiguous=False, photometric="minisblack")
-    return SimpleNamespace(name="a.tif", data=out.getvalue())
+    return Source("a.tif", out.getvalue())
 
 
 def test_8_bits_stay_as_they_are():
-    assert np.array_equal(read_picture(png(COLOURS)), COLOURS)
-    assert np.array_equal(read_picture(png(GREY)), GREY[:, :, None].repeat(3, axis=2))
+    assert np.array_equal(picture_of(png(COLOURS)), COLOURS)
+    assert np.array_equal(picture_of(png(GREY)), GREY[:, :, None].repeat(3, axis=2))
 
 
 def test_palettes_have_their_colours():
     palette = Image.fromarray(COLOURS).quantize(16)
-    assert np.array_equal(read_picture(png(palette)), np.asarray(palette.convert("RGB")))
+    assert np.array_equal(picture_of(png(palette)), np.asarray(palette.convert("RGB")))
 
 
 @pytest.mark.parametrize(
@@ -50,23 +50,23 @@ def test_palettes_have_their_colours():
     ],
 )
 def test_others_are_spread(values, expected):
-    assert read_picture(tiff(values))[0, :, 0].tolist() == expected
+    assert picture_of(tiff(values))[0, :, 0].tolist() == expected
 
 
 def test_what_is_transparent_lies_on_white():
     values = np.array([[[10, 20, 30, 255], [10, 20, 30, 0], [0, 0, 0, 51]]], dtype=np.uint8)
-    assert read_picture(png(values)).tolist() == [[[10, 20, 30], [255, 255, 255], [204, 204, 204]]]
-    assert read_picture(png(values[:, :, 2:])).tolist() == [[[30, 30, 30], [255, 255, 255], [204, 204, 204]]]
+    assert picture_of(png(values)).tolist() == [[[10, 20, 30], [255, 255, 255], [204, 204, 204]]]
+    assert picture_of(png(values[:, :, 2:])).tolist() == [[[30, 30, 30], [255, 255, 255], [204, 204, 204]]]
 
 
 def test_pages():
     stack = tiff(GREY, GREY // 2)
-    assert np.array_equal(read_picture(stack, page=1)[:, :, 0], GREY // 2)
+    assert np.array_equal(picture_of(stack, page=1)[:, :, 0], GREY // 2)
     with pytest.raises(InputError, match="2 pages"):
-        read_picture(stack)
-    assert np.array_equal(read_picture(tiff(GREY), page=3)[:, :, 0], GREY)  # a page of the other input
+        picture_of(stack)
+    assert np.array_equal(picture_of(tiff(GREY), page=3)[:, :, 0], GREY)  # a page of the other input
 
 
 def test_too_large():
     with pytest.raises(LimitError, match="--max-pixels"):
-        read_picture(png(GREY), max_pixels=10)
+        picture_of(png(GREY), max_pixels=10)

@@ -204,7 +204,7 @@ def test_columns_that_are_not_there():
 
 def test_other_encodings():
     assert "is UTF-16 text; save it as UTF-8" in error_of("1,2\n".encode("utf-16"))
-    assert "is binary, not points or polygons" in error_of(b"\x89PNG\r\n\0\0")
+    assert "is binary, not points or polygons" in error_of(b"\x7fELF\0\0")
     message = error_of("x,y,name\n1,2,a\n3,4,é\n".encode("latin-1"))
     assert message == ("seeds.csv, line 3: the byte 0xe9 is not UTF-8; save the file as UTF-8, or use --no-properties")
     assert len(read("x,y,name\n1,2,é\n".encode("latin-1"), properties=False)) == 1

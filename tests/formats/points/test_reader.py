@@ -12,7 +12,10 @@ from hypothesis import strategies as st
 from support.readers.point_reading import error_of, npy, read
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.io.sources import STANDARD_INPUT, Source
-from vorotool.formats.points.reader import POINT_FORMATS, detect_point_format
+from vorotool.formats.recognition import point_format
+from vorotool.products.inputs import INPUTS
+
+POINT_FORMATS = sorted(each.name for each in INPUTS.values() if "points" in each.readers)
 
 
 @pytest.mark.parametrize(
@@ -37,7 +40,7 @@ from vorotool.formats.points.reader import POINT_FORMATS, detect_point_format
     ],
 )
 def test_detection(name, content, expected):
-    assert detect_point_format(Source(name, content if isinstance(content, bytes) else content.encode())) == expected
+    assert point_format(Source(name, content if isinstance(content, bytes) else content.encode())) == expected
 
 
 @pytest.mark.parametrize("suffix", [".shp", ".gpkg", ".dxf"])
@@ -50,7 +53,7 @@ def test_files_to_convert(suffix):
 
 
 def test_options_that_do_not_fit():
-    assert "use one of csv, tsv, txt, node, npy" in error_of("", kind=UsageError, input_format="xyz")
+    assert "expected one of csv, tsv, txt, node, npz" in error_of("", kind=UsageError, input_format="xyz")
     for fmt in set(POINT_FORMATS) - {"csv", "json", "npz"}:
         assert "--columns is for delimited text" in error_of("", kind=UsageError, input_format=fmt, columns="1,2")
 

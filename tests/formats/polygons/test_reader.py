@@ -54,7 +54,7 @@ def test_the_caller_knows(tmp_path):
     path.write_text(POLYGON)
     with pytest.raises(InputError, match="'Polygon' is not a point"):
         vorotool.read(path, geometry="points")
-    with pytest.raises(UsageError, match="geometry is 'lines'"):
+    with pytest.raises(UsageError, match="invalid geometry 'lines'"):
         vorotool.read(path, geometry="lines")
     with pytest.raises(UsageError, match="--columns is for lists of points"):
         vorotool.read(path, geometry="polygons", columns="1,2")
@@ -111,7 +111,7 @@ def test_points_and_polygons_in_one_file(tmp_path, geometries, message):
 )
 def test_formats_that_are_not_read(data, name, message):
     assert error_of(data, name).startswith(message)
-    with pytest.raises(UsageError, match="'csv' is no format of polygons: use one of json, geojson, wkt, poly"):
+    with pytest.raises(UsageError, match="invalid --input-format 'csv': expected one of geojson, wkt, json, poly, png"):
         read(data, name, input_format="csv")
 
 

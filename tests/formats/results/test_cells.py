@@ -12,10 +12,10 @@ import pytest
 import shapely
 
 from support.families.point_families import draw
+from support.readers.sources import read_as
 from support.readers.written import written
 from vorotool import PointSet, UsageError, voronoi_cells, write
 from vorotool.formats.io.sources import Source
-from vorotool.formats.polygons.reader import read_polygons
 from vorotool.products.registry import PRODUCTS
 
 pytestmark = pytest.mark.filterwarnings("ignore::vorotool.VorotoolWarning")
@@ -74,7 +74,7 @@ def test_json_is_read_as_polygons(cells):
     parts = np.diff(cells.nesting.cells).clip(1)
     assert len(document["polygons"]) == parts.sum()
     assert sum(not item["shell"] for item in document["polygons"]) == cells.is_empty.sum()
-    polygons = read_polygons(Source("cells.json", written(cells, "json")))
+    polygons = read_as(Source("cells.json", written(cells, "json")))
     rings, starts, _ = cells.nesting
     np.testing.assert_array_equal(polygons.xy, cells.coordinates)
     np.testing.assert_array_equal(polygons.ring_start, rings)

@@ -10,6 +10,7 @@ import pytest
 import vorotool
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.results.offset_json import read_offsets, write_json
 
 SHAPES = vorotool.read(Path(__file__).parents[3] / "data" / "two-shapes.json")
@@ -23,7 +24,7 @@ def text_of(offsets, **options):
 
 
 def read(data):
-    return read_offsets(Source("offsets.json", data))
+    return read_offsets(Source("offsets.json", data), ReadOptions())
 
 
 @pytest.mark.parametrize("distances", [[-20.0, -5.0, 3.0], [40.0], [-1000.0]])

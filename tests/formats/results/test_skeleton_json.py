@@ -10,6 +10,7 @@ import pytest
 import vorotool
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.results.skeleton_json import read_skeleton, write_json
 
 SHAPES = vorotool.read(Path(__file__).parents[3] / "data" / "two-shapes.json")
@@ -23,7 +24,7 @@ def text_of(skeleton, **options):
 
 
 def read(data):
-    return read_skeleton(Source("skeleton.json", data))
+    return read_skeleton(Source("skeleton.json", data), ReadOptions())
 
 
 @pytest.mark.parametrize(

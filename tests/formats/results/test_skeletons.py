@@ -10,6 +10,7 @@ import pytest
 import shapely
 
 import vorotool
+from support.readers.sources import read_as
 from support.readers.written import written
 from vorotool.errors import UsageError
 from vorotool.formats.results.skeletons import skeleton_arrays
@@ -80,9 +81,8 @@ def test_geojson_keeps_ids_and_properties():
         ],
     }
     from vorotool.formats.io.sources import Source
-    from vorotool.formats.polygons.reader import read_polygons
 
-    polygons = read_polygons(Source("a.geojson", json.dumps(source).encode()))
+    polygons = read_as(Source("a.geojson", json.dumps(source).encode()))
     document = vorotool.to_geojson(vorotool.skeleton_exact(polygons))
     assert document["crs"] == source["crs"]
     for feature in document["features"]:

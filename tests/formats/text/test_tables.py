@@ -12,9 +12,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import vorotool
+from support.readers.sources import read_as
 from vorotool.errors import UsageError
 from vorotool.formats.io.sources import Source
-from vorotool.formats.points.reader import read_points
 from vorotool.formats.text.tables import write_table
 from vorotool.geometry.table import Computed, Lookup, Table
 from vorotool.products.formats import TABLES
@@ -145,7 +145,7 @@ texts = st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\0"
 def test_what_is_written_as_csv_is_read_back(rows):
     x, y, names = ([row[i] for row in rows] for i in range(3))
     data = written(Table({"x": np.array(x), "y": np.array(y), "name": names}), "csv")
-    points = read_points(Source("t.csv", data))
+    points = read_as(Source("t.csv", data))
     np.testing.assert_array_equal(points.xy, np.array([x, y]).T.reshape(-1, 2))
     assert points.properties.get("name", []) == names
     by_csv = list(csv.DictReader(io.StringIO(data.decode(), newline="")))

@@ -5,14 +5,21 @@ import io
 import numpy as np
 import pytest
 
+from support.readers.sources import read_as
 from vorotool.errors import InputError
+from vorotool.formats.io.npy_arrays import MAGIC
 from vorotool.formats.io.sources import Source
-from vorotool.formats.points.reader import read_points
+from vorotool.formats.parsing.reader_options import ReadOptions
+from vorotool.formats.recognition import read_recognised
 
 
 def read(text, name="seeds.csv", **options):
     data = text if isinstance(text, bytes) else text.encode()
-    return read_points(Source(name, data), **options)
+    if data.startswith(MAGIC) and not options.get(
+        "input_format"
+    ):  # of three columns, too, which `vorotool.read` takes for an image
+        return read_recognised("points", Source(name, data, "npy"), ReadOptions(**options))
+    return read_as(Source(name, data), "points", **options)
 
 
 def rows(text, name="seeds.csv", **options):

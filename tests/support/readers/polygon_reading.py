@@ -5,14 +5,15 @@ import io
 import numpy as np
 import pytest
 
+from support.readers.sources import read_as
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
-from vorotool.formats.polygons.reader import read_polygons, write_polygons
+from vorotool.formats.polygons.writer import write_polygons
 
 
 def read(text, name="shapes.json", **options):
     data = text if isinstance(text, bytes) else text.encode()
-    return read_polygons(Source(name, data), **options)
+    return read_as(Source(name, data), "polygons", **options)
 
 
 def rings(shapes):

@@ -216,7 +216,7 @@ def _tasks(recipe: Recipe[Options], o: Options, targets: list[Target], note: Cal
 
 
 def _inputs(recipe: Recipe[Options], o: Options, note: Callable[[str], None]) -> list[Input]:
-    from vorotool.formats.parsing.format_names import DRAWN_NAMES, NAMES_WITH
+    from vorotool.products.inputs import DRAWN_NAMES, NAMES_WITH
 
     known = DRAWN_NAMES if recipe.geometry is None else NAMES_WITH[recipe.geometry]
     names = [*o.inputs, *(read_names(o.files_from, null=o.null) if o.files_from is not None else ())]

@@ -18,7 +18,6 @@ from vorotool.cli.options.shared import (
     output_options,
 )
 from vorotool.errors import UsageError
-from vorotool.formats.parsing.format_names import NAMES_WITH
 from vorotool.jobs.inputs import JobInput, check_components, check_frame_options
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.names import METHODS, OF_ONE_SHAPE
@@ -26,6 +25,7 @@ from vorotool.jobs.options import AlphaShapeOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
 from vorotool.products.formats import PICTURES, format_named
+from vorotool.products.inputs import NAMES_WITH
 from vorotool.products.registry import PRODUCTS, all_layers, formats_of, layers_of
 
 if TYPE_CHECKING:

@@ -17,7 +17,6 @@ from vorotool.cli.options.shared import (
 )
 from vorotool.cli.options.suggestions import files
 from vorotool.errors import UsageError
-from vorotool.formats.parsing.format_names import NAMES_WITH, POLYGON_NAMES
 from vorotool.jobs.inputs import JobInput, check_components, check_frame_options
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.names import METHODS
@@ -25,6 +24,7 @@ from vorotool.jobs.options import TriangulationOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
 from vorotool.products.formats import PICTURES
+from vorotool.products.inputs import NAMES_WITH, names_of
 from vorotool.products.registry import all_layers, formats_of, layers_of
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ OF_TRIANGULATIONS = frozenset(
     "--clip",
     metavar="POLYGONS",
     help="File of polygons that cells are clipped to as well.",
-    shell_complete=files(POLYGON_NAMES),
+    shell_complete=files(names_of("polygons")),
 )
 @site_options(all_layers("delaunay"))
 def command(**options: Any) -> None:

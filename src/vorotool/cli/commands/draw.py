@@ -9,12 +9,12 @@ import click
 from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.shared import batch_options, inputs_argument, layers_option, output_options, shared
-from vorotool.formats.parsing.format_names import DRAWN_NAMES
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.job import Recipe
 from vorotool.jobs.options import DrawingOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
+from vorotool.products.inputs import DRAWN_NAMES
 from vorotool.products.registry import all_layers, formats_of
 
 if TYPE_CHECKING:

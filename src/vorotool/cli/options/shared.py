@@ -12,7 +12,7 @@ import click
 
 from vorotool.cli.options.parameter_types import ParameterType
 from vorotool.cli.options.suggestions import any_file, files, folders, formats_of, listed, outputs_of, words
-from vorotool.formats.parsing.format_names import ALL_NAMES, IMAGE_NAMES
+from vorotool.products.inputs import IMAGE_NAMES, NAMES_WITH
 
 if TYPE_CHECKING:
     from click.shell_completion import CompletionItem
@@ -199,7 +199,7 @@ OPTIONS: dict[str, Decorator] = {
         "--input-format",
         metavar="FORMAT",
         help="Format of the input, where it is unclear.",
-        shell_complete=words(ALL_NAMES),
+        shell_complete=words(NAMES_WITH[None]),
     ),
     "input-crs": click.option(
         "--input-crs",

@@ -19,8 +19,8 @@ from vorotool.cli.options.shared import (
     together,
     what_option,
 )
-from vorotool.formats.parsing.format_names import NAMES_WITH
 from vorotool.products.formats import FORMATS
+from vorotool.products.inputs import NAMES_WITH
 from vorotool.products.registry import all_layers, formats_of
 
 ENDS = ("middle", "corner", "none")

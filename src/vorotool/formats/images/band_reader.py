@@ -159,19 +159,8 @@ class TiffRows:
         return {"name": self.name, "path": self.path, "page": self.page}
 
 
-def open_rows(
-    path: str | os.PathLike[str], *, input_format: str | None = None, page: int | None = None
-) -> ZarrRows | TiffRows | None:
-    """Open an image that can be read band by band; None if it is none, or comes through a stream.
-
-    Parameters
-    ----------
-    path : str or path
-        Of a Zarr store or of a file.
-    input_format : str, optional
-        What the caller says that it is.
-    page : int, optional
-        Of a TIFF.
+def open_tiff(name: str, input_format: str | None = None, page: int | None = None) -> TiffRows | None:
+    """Open a page of a TIFF file that can be read band by band; None if it is none, or comes through a stream.
 
     Raises
     ------
@@ -180,24 +169,29 @@ def open_rows(
 
     Examples
     --------
-    >>> open_rows("data/dots.csv")
+    >>> open_tiff("data/dots.csv")
     """
-    name = os.fspath(path)
-    if is_zarr(name, input_format):
-        if page not in (None, 0):
-            raise InputError(f"{name} has a single page, so there is no --page {page}")
-        return ZarrRows(name, str(Path(name).absolute()))
     if input_format not in (None, "tiff") or not _begins_as_tiff(name):
         return None
     rows = TiffRows(name, str(Path(name).absolute()), page)
     return rows if rows.is_plain else None
 
 
-def is_zarr(name: str, input_format: str | None = None) -> bool:
-    """Whether an input is, or should be, a Zarr array: a folder that holds one, or is named or said to."""
+def open_zarr(name: str, input_format: str | None = None, page: int | None = None) -> ZarrRows | None:
+    """Open what is, or should be, a Zarr array: a folder that holds one, or is named or said to; None if it is none.
+
+    Raises
+    ------
+    InputError
+        If another page than the one that it has is asked for.
+    """
     if input_format not in (None, "zarr") or not is_folder(name):
-        return False
-    return input_format == "zarr" or is_store(name) or name.rstrip(os.sep).lower().endswith(".zarr")
+        return None
+    if input_format is None and not is_store(name) and not name.rstrip(os.sep).lower().endswith(".zarr"):
+        return None
+    if page not in (None, 0):
+        raise InputError(f"{name} has a single page, so there is no --page {page}")
+    return ZarrRows(name, str(Path(name).absolute()))
 
 
 def read_rows(rows: ZarrRows | TiffRows, *, max_pixels: int = MAX_PIXELS) -> Raster:

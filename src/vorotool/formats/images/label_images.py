@@ -12,10 +12,7 @@ from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.images.label_text import write_label_text
 from vorotool.formats.images.npy import write_npy
 from vorotool.formats.images.png_writer import write_png
-from vorotool.formats.images.reader import read_image
 from vorotool.formats.images.tiff_writer import write_tiff
-from vorotool.formats.io.limits import SourceLike
-from vorotool.geometry.pixel_frame import MAX_PIXELS
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.raster import Raster
 
@@ -136,43 +133,13 @@ def check_png(kind: np.dtype[Any], largest: int, depth: int = 16) -> None:
         )
 
 
-def read_label_image(
-    source: SourceLike,
-    *,
-    input_format: str | None = None,
-    page: int | None = None,
-    max_pixels: int = MAX_PIXELS,
-) -> LabelImage:
-    """Read an image whose values are labels.
-
-    Parameters
-    ----------
-    source, input_format, page, max_pixels
-        As for `vorotool.formats.images.reader.read_image`.
-
-    Raises
-    ------
-    InputError
-        If the image has colour channels or values that are no labels from 0 to 4294967295; the pixel is
-        named.
-
-    Examples
-    --------
-    >>> from types import SimpleNamespace
-    >>> read_label_image(SimpleNamespace(name="a.pgm", data=b"P2 3 1 9 1 1 2")).labels
-    array([[1, 1, 2]], dtype=uint8)
-    """
-    image = read_image(source, input_format=input_format, page=page, max_pixels=max_pixels)
-    return label_image_of(image, source.name)
-
-
 def label_image_of(image: Raster, name: str) -> LabelImage:
     """Take the values of an image for labels.
 
     Raises
     ------
     InputError
-        As of `read_label_image`.
+        If the image has colour channels or values that are no labels from 0 to 4294967295; the pixel is named.
 
     Examples
     --------
@@ -183,7 +150,7 @@ def label_image_of(image: Raster, name: str) -> LabelImage:
     if values.ndim != 2:
         raise InputError(f"{name} has {values.shape[2]} channels: labels need a single one")
     if image.is_lossy:
-        raise InputError(f"{name} keeps values nearly, so that they are no labels: give a PNG, TIFF or NPY file")
+        raise InputError(f"{name} is lossy: its values are no labels; give a PNG, TIFF or NPY file")
     if values.dtype.kind not in "bui":
         raise InputError(f"{name} holds {values.dtype} values: labels need integers")
     return LabelImage(values.view(np.uint8) if values.dtype == np.bool_ else _as_labels(values, name))

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import LimitError
-from vorotool.formats.io.limits import SourceLike
 from vorotool.formats.io.npy_arrays import npy_header, npy_values
 from vorotool.formats.io.row_bands import check_fits, checked
+from vorotool.formats.io.sources import Source
 
 
 def write_npy(out: BinaryIO, bands: Iterable[NDArray[Any]], shape: tuple[int, int], *, dtype: DTypeLike) -> None:
@@ -60,12 +60,12 @@ def stored(band: NDArray[Any], dtype: np.dtype[Any]) -> NDArray[Any]:
     return np.ascontiguousarray(band, dtype=dtype)
 
 
-def read_npy(source: SourceLike, *, max_items: int, option: str) -> NDArray[Any]:
+def read_npy(source: Source, *, max_items: int, option: str) -> NDArray[Any]:
     """Return the array of a source, as a view of its bytes where that is possible.
 
     Parameters
     ----------
-    source : SourceLike
+    source : Source
         Name and content.
     max_items : int
         Largest number of items, checked before memory is taken.

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.formats.images.jpeg_sizes import jpeg_frame
-from vorotool.formats.io.limits import SourceLike, check_pixels, decoding, interruptible
+from vorotool.formats.io.limits import check_pixels, decoding, interruptible
+from vorotool.formats.io.sources import Source
 
 PICTURES = {"jpeg": "JPEG", "bmp": "BMP", "gif": "GIF", "webp": "WebP", "avif": "AVIF"}
 """Formats and what they are called."""
@@ -62,7 +63,7 @@ def _chunks(data: bytes) -> set[bytes]:
 
 
 def read_picture_file(
-    source: SourceLike, kind: str, *, page: int | None, max_pixels: int, note: Callable[[str], None] | None = None
+    source: Source, kind: str, *, page: int | None, max_pixels: int, note: Callable[[str], None] | None = None
 ) -> NDArray[Any]:
     """Return what is seen: (H, W) or (H, W, C) values of 8 bits, turned upright where the file says how.
 
@@ -70,7 +71,7 @@ def read_picture_file(
 
     Parameters
     ----------
-    source : SourceLike
+    source : Source
         Name and content of the file.
     kind : str
         One of `PICTURES`.
@@ -103,7 +104,7 @@ def read_picture_file(
 
 
 @contextmanager
-def _opened(source: SourceLike, kind: str) -> Iterator[Any]:
+def _opened(source: Source, kind: str) -> Iterator[Any]:
     """Open a file by its header."""
     name = PICTURES[kind]
     if picture_format(source.data) != kind:
@@ -136,7 +137,7 @@ def _decoded(file: Any, index: int) -> NDArray[Any]:
     return values
 
 
-def _check_jpeg(source: SourceLike, kind: str) -> None:
+def _check_jpeg(source: Source, kind: str) -> None:
     """Refuse a file whose data cannot be a whole image, before memory is taken: what lacks would be grey."""
     marker, width, height = jpeg_frame(source.data) if kind == "jpeg" else (0, 0, 0)
     if marker in _HUFFMAN and len(source.data) * _MOST_EXPANSION < width * height:

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.formats.images.png_writer import SIGNATURE
-from vorotool.formats.io.limits import SourceLike, check_pixels, decoding
+from vorotool.formats.io.limits import check_pixels, decoding
+from vorotool.formats.io.sources import Source
 
 _CHANNELS = {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}
 _DEPTHS = {0: (1, 2, 4, 8, 16), 2: (8, 16), 3: (1, 2, 4, 8), 4: (8, 16), 6: (8, 16)}
@@ -31,7 +32,7 @@ class PngHeader(NamedTuple):
     colour_type: int
 
 
-def png_header(source: SourceLike) -> PngHeader:
+def png_header(source: Source) -> PngHeader:
     """Read the header alone.
 
     Raises
@@ -51,7 +52,7 @@ def png_header(source: SourceLike) -> PngHeader:
     return header
 
 
-def read_png(source: SourceLike, max_pixels: int) -> NDArray[Any]:
+def read_png(source: Source, max_pixels: int) -> NDArray[Any]:
     """Return the stored values: (H, W) uint8 or uint16 for grey and palette indices, else (H, W, C)."""
     header = png_header(source)
     check_pixels(source.name, header.width, header.height, max_pixels)
@@ -64,7 +65,7 @@ def read_png(source: SourceLike, max_pixels: int) -> NDArray[Any]:
         return _read_colour_16(source.data)
 
 
-def png_palette(source: SourceLike) -> NDArray[np.uint8] | None:
+def png_palette(source: Source) -> NDArray[np.uint8] | None:
     """Give the (256, 3) colours of the indices of a palette PNG, black beyond its own; None of another PNG."""
     from PIL.PngImagePlugin import PngImageFile
 
@@ -80,7 +81,7 @@ def png_palette(source: SourceLike) -> NDArray[np.uint8] | None:
     return palette
 
 
-def _chunks(source: SourceLike) -> Iterator[tuple[bytes, int]]:
+def _chunks(source: Source) -> Iterator[tuple[bytes, int]]:
     """Kind and length of each chunk; bounds and checksums are looked at on the way.
 
     Pillow's `verify` passes a second header, and says nowhere what is damaged.
@@ -108,7 +109,7 @@ def _chunks(source: SourceLike) -> Iterator[tuple[bytes, int]]:
         at = end
 
 
-def _check_chunks(source: SourceLike, header: PngHeader) -> None:
+def _check_chunks(source: Source, header: PngHeader) -> None:
     """Refuse damaged files, and those whose data cannot be a whole image, before memory is taken."""
     compressed = sum(length for kind, length in _chunks(source) if kind == b"IDAT")
     bits = header.bit_depth * _CHANNELS[header.colour_type]

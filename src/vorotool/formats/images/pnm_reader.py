@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.formats.io.limits import SourceLike, check_pixels
+from vorotool.formats.io.limits import check_pixels
+from vorotool.formats.io.sources import Source
 
 _LARGEST_MAXIMUM = 65_535
 _GAP = rb"(?:\s|#[^\n\r]*[\n\r])+"
@@ -40,7 +41,7 @@ def looks_like_pnm(data: bytes) -> bool:
     return _START.match(data[:65_536]) is not None
 
 
-def pnm_header(source: SourceLike) -> PnmHeader:
+def pnm_header(source: Source) -> PnmHeader:
     """Read the header alone.
 
     Raises
@@ -63,7 +64,7 @@ def pnm_header(source: SourceLike) -> PnmHeader:
     return PnmHeader(kind, int(match[1]), int(match[2]), maximum, match.end())
 
 
-def read_pnm(source: SourceLike, max_pixels: int) -> NDArray[Any]:
+def read_pnm(source: Source, max_pixels: int) -> NDArray[Any]:
     """Return (H, W), or (H, W, 3) values of type uint8, or uint16 where the largest value needs it."""
     header = pnm_header(source)
     check_pixels(source.name, header.width, header.height, max_pixels)
@@ -80,7 +81,7 @@ def read_pnm(source: SourceLike, max_pixels: int) -> NDArray[Any]:
     return values.reshape(header.height, header.width, *([3] if channels == 3 else []))
 
 
-def _packed(source: SourceLike, header: PnmHeader, columns: int) -> NDArray[Any]:
+def _packed(source: Source, header: PnmHeader, columns: int) -> NDArray[Any]:
     """Values of bytes, of P4 of bits."""
     row = -(-columns // 8) if header.kind == 4 else columns
     dtype = np.dtype(np.uint8 if header.maximum < 256 else ">u2")
@@ -95,7 +96,7 @@ def _packed(source: SourceLike, header: PnmHeader, columns: int) -> NDArray[Any]
     )
 
 
-def _written(source: SourceLike, header: PnmHeader, columns: int) -> NDArray[Any]:
+def _written(source: Source, header: PnmHeader, columns: int) -> NDArray[Any]:
     """Values of text; of P1 digits, which need no space between them."""
     words = _COMMENT.sub(b" ", source.data[header.offset :]).split()
     if header.kind == 1:

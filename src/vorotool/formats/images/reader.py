@@ -1,9 +1,8 @@
-"""Reading images: which format a file has, how large it is, and its values as they are stored."""
+"""Reading images: their values as they are stored."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import PurePath
 from typing import Any
 
 import numpy as np
@@ -11,81 +10,15 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.formats.images import npy, png_reader, pnm_reader, tiff_reader
-from vorotool.formats.images.picture_reader import PICTURES, is_lossy, picture_format, read_picture_file
-from vorotool.formats.io.limits import SourceLike, check_pixels
-from vorotool.formats.io.npy_arrays import MAGIC, npy_header
-from vorotool.formats.parsing.format_names import IMAGE_NAMES, known_input_format
-from vorotool.geometry.pixel_frame import MAX_PIXELS
+from vorotool.formats.images.picture_reader import PICTURES, is_lossy, read_picture_file
+from vorotool.formats.io.limits import check_pixels
+from vorotool.formats.io.npy_arrays import npy_header
+from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.geometry.points.raster import Raster
 
-_EXTENSIONS = {f".{name}": kind for name, kind in IMAGE_NAMES.items() if kind != "zarr"}
-_MAGIC = (
-    (b"\x89PNG", "png"),
-    (b"II*\x00", "tiff"),
-    (b"MM\x00*", "tiff"),
-    (b"II+\x00", "tiff"),
-    (b"MM\x00+", "tiff"),
-    (MAGIC, "npy"),
-)
 
-
-def is_image(source: SourceLike) -> bool:
-    """Tell whether a source is to be read as an image, by its content, else by its extension.
-
-    An NPY file of shape (n, 2) is a list of points, and no image.
-
-    Examples
-    --------
-    >>> from types import SimpleNamespace
-    >>> is_image(SimpleNamespace(name="-", data=b"P5 1 1 255 x"))
-    True
-    >>> is_image(SimpleNamespace(name="a.csv", data=b"1,2"))
-    False
-    """
-    kind = _by_content(source.data) or _EXTENSIONS.get(_extension(source))
-    if kind == "npy":
-        try:
-            shape = npy_header(source).shape
-        except InputError:
-            return False
-        return len(shape) in (2, 3) and shape[1] != 2
-    return kind is not None
-
-
-def image_format(source: SourceLike, input_format: str | None = None) -> str:
-    """Return "png", "tiff", "pnm", "npy" or one of `PICTURES`: what is said, else the extension, else the content.
-
-    Raises
-    ------
-    InputError
-        If it is none of them, or the content is plainly another.
-    UsageError
-        If what the caller says is none of them.
-    """
-    found = _by_content(source.data)
-    said = known_input_format(input_format, IMAGE_NAMES) or _EXTENSIONS.get(_extension(source)) or found or ""
-    if said == "zarr":
-        raise InputError(f"{source.name} is a file, but a Zarr store is a folder: leave out --input-format")
-    if not source.data:
-        raise InputError(f"{source.name} is empty: an image was expected")
-    if said and found and found != said:
-        raise InputError(f"{source.name} is no {said} file, it begins as {found}: use --input-format {found}")
-    if said:
-        return said
-    raise InputError(
-        f"{source.name} is no image that is read (PNG, TIFF, PGM, PBM, NPY, {', '.join(PICTURES.values())}): name it "
-        "with --input-format, or convert it to PNG"
-    )
-
-
-def read_image(
-    source: SourceLike,
-    *,
-    input_format: str | None = None,
-    page: int | None = None,
-    max_pixels: int = MAX_PIXELS,
-    note: Callable[[str], None] | None = None,
-) -> Raster:
+def read_image(source: Source, options: ReadOptions) -> Raster:
     """Read the values of an image as they are stored: palette indices, labels, grey values are not rescaled.
 
     Two-valued images give 0 and 1 (in PBM, 1 is the ink). An opaque alpha channel is dropped; a colour image
@@ -94,16 +27,11 @@ def read_image(
 
     Parameters
     ----------
-    source : SourceLike
-        Name and content of the file.
-    input_format : str, optional
-        A name in `IMAGE_NAMES`; by default the extension decides, else the content.
-    page : int, optional
-        Which page of a TIFF, from 0; needed if it has several. Of an animation the first picture is the default.
-    max_pixels : int
-        The limit, compared with the header before memory is taken.
-    note : callable, optional
-        Told of an animation, of which one picture is read.
+    source : Source
+        What was read, with its format.
+    options : ReadOptions
+        Of which ``page``, ``max_pixels`` and ``note`` count. A page is needed if a TIFF has several; of an animation
+        the first picture is the default.
 
     Returns
     -------
@@ -120,19 +48,18 @@ def read_image(
 
     Examples
     --------
-    >>> from types import SimpleNamespace
-    >>> read_image(SimpleNamespace(name="a.pbm", data=b"P1 3 1 1 0 1")).values
+    >>> read_image(Source("a.pbm", b"P1 3 1 1 0 1", "pnm"), ReadOptions()).values
     array([[1, 0, 1]], dtype=uint8)
     """
-    kind = image_format(source, input_format)
+    kind, page, max_pixels = source.format, options.page, options.max_pixels
     if kind == "tiff":
         values, resolution = tiff_reader.read_tiff(source, page=page, max_pixels=max_pixels)
         return Raster(_plain(values), resolution)
     if kind in PICTURES:
-        seen = read_picture_file(source, kind, page=page, max_pixels=max_pixels, note=note)
+        seen = read_picture_file(source, kind, page=page, max_pixels=max_pixels, note=options.note)
         return Raster(_plain(seen), is_lossy=is_lossy(source.data, kind))
     _check_page(source, page)
-    readers: dict[str, Callable[[SourceLike, int], NDArray[Any]]] = {
+    readers: dict[str, Callable[[Source, int], NDArray[Any]]] = {
         "png": png_reader.read_png,
         "pnm": pnm_reader.read_pnm,
         "npy": _read_npy,
@@ -140,23 +67,12 @@ def read_image(
     return Raster(_plain(readers[kind](source, max_pixels)))
 
 
-def _extension(source: SourceLike) -> str:
-    return PurePath(source.name).suffix.lower()
-
-
-def _by_content(data: bytes) -> str | None:
-    for magic, kind in _MAGIC:
-        if data.startswith(magic):
-            return kind
-    return "pnm" if pnm_reader.looks_like_pnm(data) else picture_format(data)
-
-
-def _check_page(source: SourceLike, page: int | None) -> None:
+def _check_page(source: Source, page: int | None) -> None:
     if page not in (None, 0):
         raise InputError(f"{source.name} has a single page, so there is no --page {page}")
 
 
-def _npy_shape(source: SourceLike) -> tuple[int, ...]:
+def _npy_shape(source: Source) -> tuple[int, ...]:
     """Shape of an NPY image: (H, W), or (H, W, C) with at most 4 channels."""
     shape = npy_header(source).shape
     if len(shape) not in (2, 3) or (len(shape) == 3 and not 1 <= shape[2] <= 4):
@@ -164,7 +80,7 @@ def _npy_shape(source: SourceLike) -> tuple[int, ...]:
     return shape
 
 
-def _read_npy(source: SourceLike, max_pixels: int) -> NDArray[Any]:
+def _read_npy(source: Source, max_pixels: int) -> NDArray[Any]:
     shape = _npy_shape(source)
     check_pixels(source.name, shape[1], shape[0], max_pixels)
     return npy.read_npy(source, max_items=4 * max_pixels, option="4 x --max-pixels")

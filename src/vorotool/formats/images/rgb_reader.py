@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.formats.images import png_reader, tiff_reader
-from vorotool.formats.images.reader import image_format, read_image
-from vorotool.formats.io.limits import SourceLike
-from vorotool.geometry.pixel_frame import MAX_PIXELS
+from vorotool.formats.images.reader import read_image
+from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.reader_options import ReadOptions
 
 _WHITE = 255
 
 
-def read_picture(source: SourceLike, *, page: int | None = None, max_pixels: int = MAX_PIXELS) -> NDArray[np.uint8]:
+def read_picture(source: Source, options: ReadOptions) -> NDArray[np.uint8]:
     """Read an image as a screen shows it.
 
     Values of 8 bits stay as they are; others, and images of two values, are spread from black for the least to white
@@ -23,12 +24,10 @@ def read_picture(source: SourceLike, *, page: int | None = None, max_pixels: int
 
     Parameters
     ----------
-    source : SourceLike
-        Name and content of the file.
-    page : int, optional
-        Which page of a TIFF that has several, from 0.
-    max_pixels : int
-        Larger images are refused before memory is taken.
+    source : Source
+        What was read, with its format.
+    options : ReadOptions
+        Of which ``page``, where a TIFF has several, and ``max_pixels`` count.
 
     Returns
     -------
@@ -43,15 +42,13 @@ def read_picture(source: SourceLike, *, page: int | None = None, max_pixels: int
 
     Examples
     --------
-    >>> from types import SimpleNamespace
-    >>> read_picture(SimpleNamespace(name="a.pbm", data=b"P1 3 1 1 0 1"))[0, :, 0].tolist()
+    >>> read_picture(Source("a.pbm", b"P1 3 1 1 0 1", "pnm"), ReadOptions())[0, :, 0].tolist()
     [255, 0, 255]
     """
-    kind = image_format(source)
-    if kind != "tiff" or tiff_reader.tiff_pages(source) == 1:
-        page = None
-    values = read_image(source, page=page, max_pixels=max_pixels).values
-    palette = png_reader.png_palette(source) if kind == "png" else None
+    if source.format != "tiff" or tiff_reader.tiff_pages(source) == 1:
+        options = replace(options, page=None)
+    values = read_image(source, options).values
+    palette = png_reader.png_palette(source) if source.format == "png" else None
     if palette is not None and values.ndim == 2:
         colours: NDArray[np.uint8] = palette[values]
         return colours

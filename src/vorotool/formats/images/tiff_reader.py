@@ -14,7 +14,8 @@ from vorotool.formats.images.jpeg_sizes import check_jpegs
 from vorotool.formats.images.tiff_layout import JPEGS, TiffLayout, layout_of
 from vorotool.formats.images.tiff_segments import decode_image, is_decoded_here
 from vorotool.formats.images.tiff_tags import check_tags
-from vorotool.formats.io.limits import SourceLike, check_pixels, decoding, interruptible
+from vorotool.formats.io.limits import check_pixels, decoding, interruptible
+from vorotool.formats.io.sources import Source
 
 Resolution = tuple[float, float, str]
 
@@ -23,13 +24,13 @@ _MOST_CHANNELS = 4
 _PILLOW_MODES = {"1", "L", "P", "LA", "RGB", "RGBA", "I;16", "I;16B"}
 
 
-def tiff_pages(source: SourceLike) -> int:
+def tiff_pages(source: Source) -> int:
     """Count the pages."""
     with opened_tiff(source.name, io.BytesIO(source.data)) as file, decoding(source.name, "TIFF"):
         return len(file.pages)
 
 
-def read_tiff(source: SourceLike, *, page: int | None, max_pixels: int) -> tuple[NDArray[Any], Resolution | None]:
+def read_tiff(source: Source, *, page: int | None, max_pixels: int) -> tuple[NDArray[Any], Resolution | None]:
     """Return the stored values, (H, W) or (H, W, C), and pixels a unit, where the file states them."""
     with opened_tiff(source.name, io.BytesIO(source.data)) as file:
         chosen = page_of(file, source.name, page)
@@ -92,7 +93,7 @@ def page_of(file: Any, name: str, page: int | None) -> Any:
     raise InputError(f"{name} has {count} page{'s' * (count != 1)}, counted from 0: there is no --page {page}")
 
 
-def _by_library(source: SourceLike, page: Any, layout: TiffLayout) -> NDArray[Any]:
+def _by_library(source: Source, page: Any, layout: TiffLayout) -> NDArray[Any]:
     """Decode what other libraries know: JPEG, fax and further pictures within TIFF."""
     import tifffile
 
@@ -111,7 +112,7 @@ def _by_library(source: SourceLike, page: Any, layout: TiffLayout) -> NDArray[An
     return values
 
 
-def _by_pillow(source: SourceLike, page: Any) -> NDArray[Any]:
+def _by_pillow(source: Source, page: Any) -> NDArray[Any]:
     from PIL.TiffImagePlugin import TiffImageFile
 
     compression = getattr(page.compression, "name", str(page.compression))

@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, wait
 from contextlib import contextmanager
-from typing import Protocol, TypeVar
+from typing import TypeVar
 
 from vorotool.errors import InputError, LimitError, VorotoolError
 from vorotool.geometry.parallel import start
@@ -16,18 +16,6 @@ _MOMENT = 0.05
 """Seconds after which signals are looked for."""
 
 Result = TypeVar("Result")
-
-
-class SourceLike(Protocol):
-    """A file's name, for messages, and its bytes."""
-
-    @property
-    def name(self) -> str:
-        """Path, or a word such as ``standard input``."""
-
-    @property
-    def data(self) -> bytes:
-        """The whole content."""
 
 
 def check_pixels(name: str, width: int, height: int, max_pixels: int) -> None:

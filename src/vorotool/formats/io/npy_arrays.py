@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.formats.io.limits import SourceLike
+from vorotool.formats.io.sources import Source
 
 MAGIC = b"\x93NUMPY"
 _LONGEST_HEADER = 65_536
@@ -26,7 +26,7 @@ class NpyHeader(NamedTuple):
     offset: int
 
 
-def npy_header(source: SourceLike) -> NpyHeader:
+def npy_header(source: Source) -> NpyHeader:
     """Read the header alone.
 
     Raises
@@ -57,7 +57,7 @@ def npy_header(source: SourceLike) -> NpyHeader:
     return NpyHeader(shape, dtype, fortran_order, stream.tell())
 
 
-def npy_values(source: SourceLike, header: NpyHeader) -> NDArray[Any]:
+def npy_values(source: Source, header: NpyHeader) -> NDArray[Any]:
     """Give the array of a source, as a view of its bytes.
 
     Raises

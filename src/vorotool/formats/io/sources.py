@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from vorotool import _core
 from vorotool.errors import InputError, UsageError, VorotoolError
@@ -28,6 +29,10 @@ class Source:
         The path as the user wrote it, or ``standard input``: what messages say.
     data : bytes
         The whole content.
+    format : str
+        One of `vorotool.products.inputs.INPUTS`, once it has been told.
+    document : object, optional
+        The JSON in it, once it has been parsed.
 
     Examples
     --------
@@ -37,6 +42,8 @@ class Source:
 
     name: str
     data: bytes
+    format: str = ""
+    document: Any = None
 
     @property
     def suffix(self) -> str:

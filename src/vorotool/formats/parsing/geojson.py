@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from vorotool.errors import InputError, LimitError
@@ -16,13 +15,6 @@ _LINES_LOOKED_AT = 1 << 24
 """Bytes in which two lines must end to be told from a document over several lines."""
 
 
-@dataclass(frozen=True)
-class JsonSource(Source):
-    """A source whose JSON has been parsed."""
-
-    document: Any
-
-
 def parse_json(source: Source) -> Any:
     """Parse JSON whose nesting has been counted before.
 
@@ -33,7 +25,7 @@ def parse_json(source: Source) -> Any:
     """
     import orjson
 
-    if isinstance(source, JsonSource):
+    if source.document is not None:
         return source.document
     if not source.data.strip():
         raise InputError(f"{source.name} is empty: JSON was expected; check what was to write it")

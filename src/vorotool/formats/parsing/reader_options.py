@@ -1,4 +1,4 @@
-"""Options of all readers of points, and the checks that they share."""
+"""Options of all readers, and the checks that they share."""
 
 from __future__ import annotations
 
@@ -11,9 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, LimitError
+from vorotool.geometry.pixel_frame import MAX_PIXELS
 
 LARGEST_LABEL = 0xFFFFFFFF
 """Labels are uint32: there cannot be more sites either."""
+
+MOST_VERTICES = 2**28
+"""Vertices and edges are numbered in 32 bits, with room for the crossings of edges."""
 
 LONGITUDES = ("lon", "longitude")
 LATITUDES = ("lat", "latitude")
@@ -24,11 +28,21 @@ def no_note(message: str) -> None:
 
 
 @dataclass(frozen=True)
-class PointOptions:
-    """Options of :func:`vorotool.formats.points.reader.read_points`, passed on to the reader of a format."""
+class ReadOptions:
+    """What a reader is told beside its source; each format takes what is about it.
+
+    Parameters
+    ----------
+    columns, page, properties, max_pixels, max_sites, threads, note
+        As of `vorotool.read`.
+    crs : object, optional
+        The ``crs`` member of GeoJSON for an input that names none.
+    """
 
     columns: str | None = None
+    page: int | None = None
     properties: bool = True
+    max_pixels: int = MAX_PIXELS
     max_sites: int | None = None
     threads: int = 0
     note: Callable[[str], None] = no_note
@@ -36,10 +50,26 @@ class PointOptions:
 
     def check_sites(self, name: str, count: int) -> None:
         """Raise LimitError if ``count`` sites are too many."""
-        limit = LARGEST_LABEL if self.max_sites is None else min(self.max_sites, LARGEST_LABEL)
+        self._check_count(name, count, "points", LARGEST_LABEL)
+
+    def check_vertices(self, name: str, count: int) -> None:
+        """Raise LimitError if ``count`` vertices are too many."""
+        self._check_count(name, count, "vertices", MOST_VERTICES)
+
+    def _check_count(self, name: str, count: int, noun: str, most: int) -> None:
+        limit = most if self.max_sites is None else min(self.max_sites, most)
         if count > limit:
-            advice = "raise --max-sites or split the file" if limit < LARGEST_LABEL else "split the file"
-            raise LimitError(f"{name} holds {count} points, more than the limit of {limit}: {advice}")
+            advice = "raise --max-sites or split the file" if limit < most else "split the file"
+            raise LimitError(f"{name} holds {count} {noun}, more than the limit of {limit}: {advice}")
+
+    def note_left_out(self, name: str, features: int) -> None:
+        """Say how many features have no geometry, if any."""
+        if features:
+            self.note(f"{name}: {features} features without a geometry are left out")
+
+    def note_heights(self, name: str) -> None:
+        """Say that coordinates beyond x and y are not used."""
+        self.note(f"{name}: only x and y are used, heights are left out")
 
 
 def no_points() -> NDArray[np.float64]:

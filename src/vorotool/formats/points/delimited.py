@@ -22,7 +22,7 @@ from vorotool.formats.parsing.reader_options import (
     LARGEST_LABEL,
     LATITUDES,
     LONGITUDES,
-    PointOptions,
+    ReadOptions,
     no_points,
     shortened,
 )
@@ -68,8 +68,15 @@ class _Layout:
         return f"column {column + 1}{shown}"
 
 
-def read_text(source: Source, options: PointOptions) -> PointSet:
-    """Read delimited text; see :func:`vorotool.formats.points.reader.read_points` for the rules."""
+def read_text(source: Source, options: ReadOptions) -> PointSet:
+    """Read delimited text.
+
+    It may have a byte order mark, ``#`` comments, blank lines, quoted fields, and commas, semicolons, tabs or blanks
+    between fields. A header with x,y, lon,lat, longitude,latitude, centroid-1,centroid-0 or axis-1,axis-0 (in any case)
+    says which columns are the coordinates; without a header two columns are x, y; all else needs ``columns``. A column
+    ``label`` is used when ``columns`` names it, or when the header is x, y and label alone. Longitude and latitude by
+    the header are points with y upwards.
+    """
     data = _plain_lines(source.data)
     wanted = None if options.columns is None else _parse_columns(options.columns)
     delimiter = _guess_delimiter(data)
@@ -125,7 +132,7 @@ def _choose_layout(
     delimiter: str,
     first: tuple[int, str, list[str]],
     wanted: list[str] | None,
-    options: PointOptions,
+    options: ReadOptions,
 ) -> _Layout:
     line, _, fields = first
     header, chosen = _choose(name, fields, wanted, options)
@@ -136,13 +143,13 @@ def _choose_layout(
 
 
 def _choose(
-    name: str, fields: list[str], wanted: list[str] | None, options: PointOptions
+    name: str, fields: list[str], wanted: list[str] | None, options: ReadOptions
 ) -> tuple[bool, Sequence[int | None]]:
     """Whether the first record is a header, and which columns are x, y and, if one is, the label."""
     return _recognise(name, fields, options) if wanted is None else _look_up(name, fields, wanted)
 
 
-def chosen_columns(name: str, fields: list[str], options: PointOptions) -> list[int]:
+def chosen_columns(name: str, fields: list[str], options: ReadOptions) -> list[int]:
     """Choose the columns of a table that are x, y and, if one is, the label: as in delimited text.
 
     Raises
@@ -152,14 +159,14 @@ def chosen_columns(name: str, fields: list[str], options: PointOptions) -> list[
 
     Examples
     --------
-    >>> chosen_columns("a.json", ["label", "x", "y"], PointOptions())
+    >>> chosen_columns("a.json", ["label", "x", "y"], ReadOptions())
     [1, 2, 0]
     """
     wanted = None if options.columns is None else _parse_columns(options.columns)
     return [column for column in _choose(name, fields, wanted, options)[1] if column is not None]
 
 
-def _recognise(name: str, fields: list[str], options: PointOptions) -> tuple[bool, Sequence[int | None]]:
+def _recognise(name: str, fields: list[str], options: ReadOptions) -> tuple[bool, Sequence[int | None]]:
     """Find the coordinates by the header; two columns without one are x, y."""
     lower = [_lower(field) for field in fields]
     for pair in COORDINATE_NAMES:
@@ -264,7 +271,7 @@ def _looks_numeric(text: str) -> bool:
 
 
 # ---- rows ----------------------------------------------------------------------------------------
-def _read_rows(layout: _Layout, options: PointOptions) -> PointSet:
+def _read_rows(layout: _Layout, options: ReadOptions) -> PointSet:
     columns = [layout.x, layout.y] if layout.label is None else [layout.x, layout.y, layout.label]
     fields = len(layout.first_record)
     advice = "correct it, or choose other columns with --columns"
@@ -281,12 +288,12 @@ def _read_rows(layout: _Layout, options: PointOptions) -> PointSet:
     return PointSet(values[:, :2], labels, _properties(layout, rest, options.threads), **placed_by(x, y, options))
 
 
-def placed_by(x: str, y: str, options: PointOptions) -> dict[str, Any]:
+def placed_by(x: str, y: str, options: ReadOptions) -> dict[str, Any]:
     """Give the direction of y and the coordinate reference system of points, which the names of the columns tell.
 
     Examples
     --------
-    >>> placed_by("x", "y", PointOptions())
+    >>> placed_by("x", "y", ReadOptions())
     {'y_up': False, 'crs': None}
     """
     is_map = _lower(x) in LONGITUDES and _lower(y) in LATITUDES

@@ -16,13 +16,13 @@ from vorotool.formats.parsing.geojson import (
     parse_json,
     property_columns,
 )
-from vorotool.formats.parsing.reader_options import PointOptions, position_array, shortened
+from vorotool.formats.parsing.reader_options import ReadOptions, position_array, shortened
 from vorotool.formats.parsing.reference_systems import note_unnamed
 from vorotool.formats.points.tables import is_table, points_of_rows
 from vorotool.geometry.points.point_set import PointSet
 
 
-def read_json(source: Source, options: PointOptions) -> PointSet:
+def read_json(source: Source, options: ReadOptions) -> PointSet:
     """Read ``[[x, y], ...]``, the rows of a table, or GeoJSON where the document is an object."""
     options.check_sites(source.name, 0 if b"{" in source.data else source.data.count(b"[") - 1)
     document = parse_json(source)
@@ -42,12 +42,12 @@ def read_json(source: Source, options: PointOptions) -> PointSet:
     return PointSet(position_array(document, lambda i: f"{source.name}, point {i + 1}"))
 
 
-def _refuse_columns(name: str, options: PointOptions) -> None:
+def _refuse_columns(name: str, options: ReadOptions) -> None:
     if options.columns is not None:
         raise UsageError(f"--columns is for delimited text and tables, but {name} is neither: leave it out")
 
 
-def read_geojson(source: Source, options: PointOptions) -> PointSet:
+def read_geojson(source: Source, options: ReadOptions) -> PointSet:
     """Read the points of a GeoJSON document with their ``id`` and properties."""
     document = parse_json(source)
     if not isinstance(document, dict):
@@ -65,7 +65,7 @@ class _Collected:
     without_geometry: int = 0
 
 
-def _read_document(name: str, document: Mapping[str, Any], options: PointOptions) -> PointSet:
+def _read_document(name: str, document: Mapping[str, Any], options: ReadOptions) -> PointSet:
     if "polygons" in document:
         raise InputError(
             f"{name} holds polygons, or what was made of them, not points: skeleton-exact reads it; for places along a "
@@ -78,10 +78,9 @@ def _read_document(name: str, document: Mapping[str, Any], options: PointOptions
         _collect(collected, index, feature, place(index))
     options.check_sites(name, len(collected.positions))
     xy = position_array(collected.positions, lambda i: place(collected.features[i]))
-    if collected.without_geometry:
-        options.note(f"{name}: {collected.without_geometry} features without a geometry are left out")
+    options.note_left_out(name, collected.without_geometry)
     if any(len(position) > 2 for position in collected.positions):
-        options.note(f"{name}: only x and y are used, heights are left out")
+        options.note_heights(name)
     crs = document.get("crs")
     if crs is None and options.crs is None:
         note_unnamed(name, xy, options.note)

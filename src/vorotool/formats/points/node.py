@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
-from vorotool.formats.parsing.reader_options import PointOptions
+from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.points.delimited import explain
 from vorotool.geometry.points.point_set import PointSet
 
@@ -29,7 +29,7 @@ class _Header:
         return 3 + self.attributes + self.markers
 
 
-def read_node(source: Source, options: PointOptions) -> PointSet:
+def read_node(source: Source, options: ReadOptions) -> PointSet:
     """Read vertices; attributes and boundary markers become properties, numbering may begin at 0 or 1."""
     first = _core.text.first_record(source.data, " ")
     if first is None:
@@ -86,7 +86,7 @@ def _checked_numbering(source: Source, indices: NDArray[np.float64]) -> int:
     return base
 
 
-def _properties(source: Source, header: _Header, options: PointOptions) -> dict[str, list[str]]:
+def _properties(source: Source, header: _Header, options: ReadOptions) -> dict[str, list[str]]:
     names = [f"attribute_{i + 1}" for i in range(header.attributes)] + ["boundary_marker"] * header.markers
     if not names or not options.properties:
         return {}

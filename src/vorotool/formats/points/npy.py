@@ -8,14 +8,14 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.formats.io.npy_arrays import npy_header, npy_values
 from vorotool.formats.io.sources import Source
-from vorotool.formats.parsing.reader_options import LARGEST_LABEL, PointOptions
+from vorotool.formats.parsing.reader_options import LARGEST_LABEL, ReadOptions
 from vorotool.geometry.coordinates import INEXACT, first_inexact
 from vorotool.geometry.points.point_set import PointSet
 
 _ADVICE = "save an (n, 2) or (n, 3) array of numbers with numpy.save"
 
 
-def read_npy(source: Source, options: PointOptions) -> PointSet:
+def read_npy(source: Source, options: ReadOptions) -> PointSet:
     """Read an (n, 2) array of x, y or an (n, 3) array of x, y, label."""
     header = npy_header(source)
     shape = header.shape

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.formats.io.limits import decoding
 from vorotool.formats.io.sources import Source
-from vorotool.formats.parsing.reader_options import LARGEST_LABEL, PointOptions, shortened
+from vorotool.formats.parsing.reader_options import LARGEST_LABEL, ReadOptions, shortened
 from vorotool.formats.points.delimited import chosen_columns, placed_by
 from vorotool.geometry.coordinates import INEXACT, first_inexact
 from vorotool.geometry.numbers import shown_number
@@ -36,7 +36,7 @@ def is_table(document: Any) -> bool:
     return isinstance(row, dict) and bool(row) and not row.keys() & {"type", "shell", "line"}
 
 
-def points_of_rows(name: str, rows: Sequence[Any], options: PointOptions) -> PointSet:
+def points_of_rows(name: str, rows: Sequence[Any], options: ReadOptions) -> PointSet:
     """Read points from the rows of a table.
 
     Parameters
@@ -45,7 +45,7 @@ def points_of_rows(name: str, rows: Sequence[Any], options: PointOptions) -> Poi
         The input.
     rows : sequence of mapping
         Objects with the same members; None where there is no value.
-    options : PointOptions
+    options : ReadOptions
         What is read.
 
     Raises
@@ -63,7 +63,7 @@ def points_of_rows(name: str, rows: Sequence[Any], options: PointOptions) -> Poi
     return _points_of(name, {each: [row[each] for row in rows] for each in names}, options)
 
 
-def read_npz(source: Source, options: PointOptions) -> PointSet:
+def read_npz(source: Source, options: ReadOptions) -> PointSet:
     """Read points from the columns of a table; what a column ``<name>_missing`` marks has no value.
 
     Raises
@@ -87,7 +87,7 @@ def read_npz(source: Source, options: PointOptions) -> PointSet:
     return _points_of(source.name, values, options)
 
 
-def _column(name: str, archive: zipfile.ZipFile, entry: zipfile.ZipInfo, options: PointOptions) -> NDArray[Any]:
+def _column(name: str, archive: zipfile.ZipFile, entry: zipfile.ZipInfo, options: ReadOptions) -> NDArray[Any]:
     """One array, of which no more is read than its header announces and the file holds."""
     if entry.compress_type != zipfile.ZIP_STORED:
         raise InputError(f"{name}: {entry.filename} is compressed; save it with numpy.savez, which does not compress")
@@ -115,7 +115,7 @@ def _present(values: NDArray[Any], missing: NDArray[Any] | None) -> list[Any]:
     return [None if none else value for value, none in zip(listed, missing.tolist(), strict=True)]
 
 
-def _points_of(name: str, columns: Mapping[str, list[Any]], options: PointOptions) -> PointSet:
+def _points_of(name: str, columns: Mapping[str, list[Any]], options: ReadOptions) -> PointSet:
     """Choose coordinates and labels as in CSV; the other columns are properties."""
     names = list(columns)
     x, y, *label = (names[column] for column in chosen_columns(name, names, options))

@@ -9,7 +9,7 @@ import numpy as np
 
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source, check_nesting
-from vorotool.formats.parsing.reader_options import PointOptions, no_points, shortened
+from vorotool.formats.parsing.reader_options import ReadOptions, no_points, shortened
 from vorotool.formats.parsing.reference_systems import crs_of_numbers
 from vorotool.formats.points.json import not_a_point_advice
 from vorotool.geometry.points.point_set import PointSet
@@ -18,7 +18,7 @@ _SRID = re.compile(r"\ASRID\s*=\s*(\d{1,9})\s*;\s*", re.IGNORECASE)
 _POINT, _MULTIPOINT, _COLLECTION = 0, 4, 7  # type numbers of GEOS
 
 
-def read_wkt(source: Source, options: PointOptions) -> PointSet:
+def read_wkt(source: Source, options: ReadOptions) -> PointSet:
     """Read POINT, MULTIPOINT and collections of them; several points of one geometry are its parts."""
     import shapely
 
@@ -39,7 +39,7 @@ def read_wkt(source: Source, options: PointOptions) -> PointSet:
         owner = int(owners[bad[0]])
         raise InputError(f"{source.name}, line {lines[owner]}: {texts[owner][:40]!r} is not finite; correct it")
     if shapely.has_z(points).any():
-        options.note(f"{source.name}: only x and y are used, heights are left out")
+        options.note_heights(source.name)
     parts = _part_numbers(owners)
     properties = {"part": parts.tolist()} if options.properties and parts.max() > 1 else {}
     return PointSet(xy, None, properties, y_up=True, crs=crs)

@@ -18,15 +18,15 @@ from vorotool.formats.parsing.geojson import (
     parse_json,
     property_columns,
 )
-from vorotool.formats.parsing.reader_options import shortened
+from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.parsing.reference_systems import note_unnamed
-from vorotool.formats.polygons.ring_collector import PolygonOptions, RingCollector
+from vorotool.formats.polygons.ring_collector import RingCollector
 from vorotool.formats.text.coordinate_text import Digits
 from vorotool.formats.text.feature_collection import collection_opening
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 
 
-def read_geojson(source: Source, options: PolygonOptions) -> PolygonSet:
+def read_geojson(source: Source, options: ReadOptions) -> PolygonSet:
     """Read the polygons and lines of a GeoJSON document with their ``id``, properties and ``crs``."""
     document = parse_json(source)
     if not isinstance(document, dict):

@@ -9,9 +9,9 @@ import numpy as np
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.geojson import parse_json, property_columns, refuse_table
-from vorotool.formats.parsing.reader_options import shortened
+from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.polygons.geojson import read_geojson
-from vorotool.formats.polygons.ring_collector import PolygonOptions, RingCollector
+from vorotool.formats.polygons.ring_collector import RingCollector
 from vorotool.formats.text.coordinate_text import Digits
 from vorotool.geometry.polygons.conversion import closed_ring
 from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -19,7 +19,7 @@ from vorotool.geometry.polygons.polygon_set import PolygonSet
 _FORM = '{"polygons": [{"shell": [[x, y], …], "holes": [[[x, y], …], …]}, {"line": [[x, y], …]}, …]}'
 
 
-def read_json(source: Source, options: PolygonOptions) -> PolygonSet:
+def read_json(source: Source, options: ReadOptions) -> PolygonSet:
     """Read ``[[x, y], …]``, a list of such shells, ``{"polygons": […]}``, or GeoJSON where the object has a type."""
     document = parse_json(source)
     _check_type(source.name, document, options)
@@ -47,7 +47,7 @@ def read_json(source: Source, options: PolygonOptions) -> PolygonSet:
     return polygons
 
 
-def _note_holes(name: str, polygons: PolygonSet, options: PolygonOptions) -> None:
+def _note_holes(name: str, polygons: PolygonSet, options: ReadOptions) -> None:
     """Say that a ring inside the first one is a shell of its own here: where GeoJSON has it, it would be a hole."""
     low, high = (bound.reduceat(polygons.xy, polygons.ring_start[:-1]) for bound in (np.minimum, np.maximum))
     within = np.flatnonzero((low >= low[0]).all(axis=1) & (high <= high[0]).all(axis=1))[1:]
@@ -68,7 +68,7 @@ def _note_holes(name: str, polygons: PolygonSet, options: PolygonOptions) -> Non
             return
 
 
-def _check_type(name: str, document: Any, options: PolygonOptions) -> None:
+def _check_type(name: str, document: Any, options: ReadOptions) -> None:
     """Refuse curves in whose place the polygons that they are around would be read; say so of a skeleton."""
     kind = document.get("type") if isinstance(document, dict) and "polygons" in document else None
     if kind == "vorotool.offsets":

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
-from vorotool.formats.parsing.reader_options import shortened
-from vorotool.formats.polygons.ring_collector import PolygonOptions
+from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.text.coordinate_text import Digits
 from vorotool.geometry.box import bounds
 from vorotool.geometry.polygons.conversion import to_shapely
@@ -21,7 +20,7 @@ _VERTICES = "<vertices> 2 <attributes> <0 or 1 boundary markers>"
 _SEGMENTS = "<segments> <0 or 1 boundary markers>"
 
 
-def read_poly(source: Source, options: PolygonOptions) -> PolygonSet:
+def read_poly(source: Source, options: ReadOptions) -> PolygonSet:
     """Read the closed loops of segments as rings and other chains of segments as lines.
 
     A loop is a hole where one of the file's hole points lies in it and in no smaller loop; it belongs to the smallest
@@ -98,7 +97,7 @@ class _Lines:
         return numbers
 
 
-def _read_vertices(lines: _Lines, options: PolygonOptions) -> tuple[NDArray[np.float64], int]:
+def _read_vertices(lines: _Lines, options: ReadOptions) -> tuple[NDArray[np.float64], int]:
     """Give coordinates, and the number of the first vertex: 0 or 1."""
     count, dimension, attributes, markers = lines.header(_VERTICES, [2, 0, 0])
     if count == 0:

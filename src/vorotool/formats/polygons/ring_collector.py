@@ -1,4 +1,4 @@
-"""Options of all readers of polygons and lines, and the rings that they collect."""
+"""The rings that readers of polygons and lines collect."""
 
 from __future__ import annotations
 
@@ -9,38 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from vorotool.errors import InputError, LimitError
-from vorotool.formats.parsing.reader_options import no_note, position_array, shortened
+from vorotool.errors import InputError
+from vorotool.formats.parsing.reader_options import ReadOptions, position_array, shortened
 from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
-
-MOST_VERTICES = 2**28
-"""Vertices and edges are numbered in 32 bits, with room for the crossings of edges."""
-
-
-@dataclass(frozen=True)
-class PolygonOptions:
-    """Options of :func:`vorotool.formats.polygons.reader.read_polygons`, passed on to the reader of a format."""
-
-    properties: bool = True
-    max_sites: int | None = None
-    note: Callable[[str], None] = no_note
-    crs: Any = None
-
-    def check_vertices(self, name: str, count: int) -> None:
-        """Raise LimitError if ``count`` vertices are too many."""
-        limit = MOST_VERTICES if self.max_sites is None else min(self.max_sites, MOST_VERTICES)
-        if count > limit:
-            advice = "raise --max-sites or split the file" if limit < MOST_VERTICES else "split the file"
-            raise LimitError(f"{name} holds {count} vertices, more than the limit of {limit}: {advice}")
-
-    def note_left_out(self, name: str, features: int) -> None:
-        """Say how many features have no geometry, if any."""
-        if features:
-            self.note(f"{name}: {features} features without a geometry are left out")
-
-    def note_heights(self, name: str) -> None:
-        """Say that coordinates beyond x and y are not used."""
-        self.note(f"{name}: only x and y are used, heights are left out")
 
 
 @dataclass
@@ -49,7 +20,7 @@ class RingCollector:
 
     Parameters
     ----------
-    options : PolygonOptions
+    options : ReadOptions
         Of the reader.
     name : str
         The input.
@@ -59,7 +30,7 @@ class RingCollector:
         Positions must not have more than two numbers.
     """
 
-    options: PolygonOptions
+    options: ReadOptions
     name: str
     feature_place: Callable[[int], str]
     flat_only: bool = False

@@ -10,11 +10,10 @@ import numpy as np
 
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source, check_nesting
-from vorotool.formats.parsing.reader_options import shortened
+from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.parsing.reference_systems import crs_of_numbers
 from vorotool.formats.points.wkt import geometry_texts
 from vorotool.formats.polygons.geojson import feature_ranges, not_a_shape_advice
-from vorotool.formats.polygons.ring_collector import PolygonOptions
 from vorotool.formats.text.coordinate_text import Digits
 from vorotool.geometry.polygons.conversion import polygons_of_geometry
 from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -24,7 +23,7 @@ _SHAPE = re.compile(rb"POLYGON|LINESTRING|LINEARRING", re.IGNORECASE)
 _SHAPES, _COLLECTION = (1, 2, 3, 5, 6), 7  # type numbers of GEOS
 
 
-def read_wkt(source: Source, options: PolygonOptions) -> PolygonSet:
+def read_wkt(source: Source, options: ReadOptions) -> PolygonSet:
     """Read (MULTI)POLYGON, (MULTI)LINESTRING and collections of them, one feature a geometry."""
     import shapely
 

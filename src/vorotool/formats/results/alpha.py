@@ -8,7 +8,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from vorotool.formats.polygons.reader import write_polygons
+from vorotool.formats.polygons.writer import write_polygons
 from vorotool.formats.results.meshes import write_features
 from vorotool.formats.text.coordinate_text import Digits
 from vorotool.formats.text.feature_collection import collection_opening

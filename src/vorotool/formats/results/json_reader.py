@@ -10,11 +10,9 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
-from vorotool.formats.parsing.geojson import JsonSource, parse_json
-from vorotool.formats.parsing.reader_options import shortened
-from vorotool.formats.points.reader import text_source
+from vorotool.formats.parsing.geojson import parse_json
+from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.polygons.json import read_json
-from vorotool.formats.polygons.ring_collector import PolygonOptions
 from vorotool.formats.text.json_writer import SITE_KINDS
 from vorotool.formats.text.tables import json_text
 from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -97,17 +95,6 @@ class JsonRows:
         return np.array([nothing if value is None else value for value in values], dtype=np.float64).reshape(-1, 2)
 
 
-def says(data: bytes, kind: str) -> bool:
-    """Whether text looks like the JSON of a result of this type, which is not parsed to tell.
-
-    Examples
-    --------
-    >>> says(b'{"type":"vorotool.offsets","version":1,', "vorotool.offsets")
-    True
-    """
-    return f'"{kind}"'.encode() in data and data.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{")
-
-
 def opened_rows(source: Source, kind: str, version: int, noun: str) -> JsonRows:
     """Parse the JSON of one of our results, whose type and version are stated.
 
@@ -116,7 +103,7 @@ def opened_rows(source: Source, kind: str, version: int, noun: str) -> JsonRows:
     InputError
         If it is no JSON, or states another type or version.
     """
-    document = parse_json(source if isinstance(source, JsonSource) else text_source(source))
+    document = parse_json(source)
     if not isinstance(document, Mapping) or document.get("type") != kind:
         raise InputError(f'{source.name} holds no {noun}; its type should be "{kind}"')
     if document.get("version") != version:
@@ -125,11 +112,11 @@ def opened_rows(source: Source, kind: str, version: int, noun: str) -> JsonRows:
     return JsonRows(source.name, document)
 
 
-def read_polygons_of(rows: JsonRows, options: PolygonOptions) -> PolygonSet:
+def read_polygons_of(rows: JsonRows, options: ReadOptions) -> PolygonSet:
     """Read the polygons of a result, and what it says about all of them."""
     document = rows.document
     only_polygons = {"polygons": rows.list_of("polygons")}
-    polygons = read_json(JsonSource(rows.name, b"", only_polygons), options)
+    polygons = read_json(Source(rows.name, b"", "json", only_polygons), options)
     return PolygonSet(
         polygons.xy,
         polygons.ring_start,

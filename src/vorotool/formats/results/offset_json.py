@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -10,16 +9,14 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
-from vorotool.formats.parsing.reader_options import no_note
+from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.formats.polygons.json import write_items
-from vorotool.formats.polygons.ring_collector import PolygonOptions
 from vorotool.formats.results.json_reader import (
     JsonRows,
     opened_rows,
     read_features,
     read_polygons_of,
     read_sites,
-    says,
 )
 from vorotool.formats.text.json_writer import choice, integers, number_or_null, optional_pair, write_list, write_sites
 from vorotool.formats.text.row_writer import Column
@@ -80,19 +77,12 @@ def write_json(out: BinaryIO, offsets: Offsets, *, precision: int | None = None,
 
 
 # ---- reading -------------------------------------------------------------------------------------
-def says_offsets(data: bytes) -> bool:
-    """Whether text looks like the JSON of offset curves, which is not parsed to tell."""
-    return says(data, TYPE)
-
-
-def read_offsets(
-    source: Source, *, properties: bool = True, max_sites: int | None = None, note: Callable[[str], None] | None = None
-) -> Offsets:
+def read_offsets(source: Source, options: ReadOptions) -> Offsets:
     """Read offset curves that were written as JSON.
 
     Parameters
     ----------
-    source, properties, max_sites, note
+    source, options
         As of :func:`vorotool.formats.results.skeleton_json.read_skeleton`.
 
     Raises
@@ -107,11 +97,11 @@ def read_offsets(
     >>> import io, vorotool
     >>> out = io.BytesIO()
     >>> write_json(out, vorotool.offset([[0, 0], [4, 0], [4, 4], [0, 4]], [-1, 1]))
-    >>> read_offsets(Source("offsets.json", out.getvalue())).distance.tolist()
+    >>> read_offsets(Source("offsets.json", out.getvalue()), ReadOptions()).distance.tolist()
     [-1.0, 1.0]
     """
     rows = opened_rows(source, TYPE, VERSION, "offset curves")
-    polygons = read_polygons_of(rows, PolygonOptions(properties, max_sites, note or no_note))
+    polygons = read_polygons_of(rows, options)
     sites = read_sites(rows, polygons)
     shapes, rings, pieces = (rows.list_of(name) for name in ("shapes", "rings", "pieces"))
     distance = rows.numbers("shapes", shapes, "distance")

@@ -6,7 +6,7 @@ from typing import Any, BinaryIO
 
 from numpy.typing import NDArray
 
-from vorotool.formats.polygons.reader import write_polygons
+from vorotool.formats.polygons.writer import write_polygons
 from vorotool.formats.results.offset_json import write_json
 from vorotool.formats.text.tables import write_arrays, write_table
 from vorotool.geometry.curves.flatten import checked_flatten

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -10,16 +9,14 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
-from vorotool.formats.parsing.reader_options import no_note, shortened
+from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.polygons.json import write_items
-from vorotool.formats.polygons.ring_collector import PolygonOptions
 from vorotool.formats.results.json_reader import (
     JsonRows,
     opened_rows,
     read_features,
     read_polygons_of,
     read_sites,
-    says,
 )
 from vorotool.formats.text.json_writer import (
     choice,
@@ -98,26 +95,15 @@ def _write_arcs(out: BinaryIO, skeleton: Skeleton, precision: int | None, thread
 
 
 # ---- reading -------------------------------------------------------------------------------------
-def says_skeleton(data: bytes) -> bool:
-    """Whether text looks like the JSON of a skeleton, which is not parsed to tell."""
-    return says(data, TYPE)
-
-
-def read_skeleton(
-    source: Source, *, properties: bool = True, max_sites: int | None = None, note: Callable[[str], None] | None = None
-) -> Skeleton:
+def read_skeleton(source: Source, options: ReadOptions) -> Skeleton:
     """Read a skeleton that was written as JSON.
 
     Parameters
     ----------
     source : Source
         What was read.
-    properties : bool
-        Keep ids and properties of the polygons.
-    max_sites : int, optional
-        The most vertices of polygons that are accepted.
-    note : callable, optional
-        Told what was left out.
+    options : ReadOptions
+        Of which ``properties``, ``max_sites`` and ``note`` count.
 
     Raises
     ------
@@ -131,11 +117,11 @@ def read_skeleton(
     >>> import io, vorotool
     >>> out = io.BytesIO()
     >>> write_json(out, vorotool.skeleton_exact([[0, 0], [4, 0], [4, 4], [0, 4]]))
-    >>> len(read_skeleton(Source("square.json", out.getvalue())))
+    >>> len(read_skeleton(Source("square.json", out.getvalue()), ReadOptions()))
     4
     """
     rows = opened_rows(source, TYPE, VERSION, "skeleton")
-    polygons = read_polygons_of(rows, PolygonOptions(properties, max_sites, note or no_note))
+    polygons = read_polygons_of(rows, options)
     sites = read_sites(rows, polygons)
     vertices = rows.list_of("vertices")
     x, y, radius = (rows.numbers("vertices", vertices, name) for name in ("x", "y", "r"))

@@ -1,0 +1,108 @@
+"""All formats of inputs: a line each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from vorotool.errors import UsageError
+
+Holds = Literal["points", "polygons", "image", "skeleton", "offsets"]
+"""What an input may hold: polygons stand for lines, too."""
+
+
+@dataclass(frozen=True, slots=True)
+class InputFormat:
+    """A format of inputs.
+
+    Parameters
+    ----------
+    name : str
+        What it is called within the package.
+    names : tuple of str
+        What ``--input-format`` accepts for it, which are the extensions of its files, too.
+    readers : mapping of str to str
+        What it may hold, and ``module:function`` of ``function(source, options)`` that reads it.
+    """
+
+    name: str
+    names: tuple[str, ...]
+    readers: Mapping[Holds, str]
+
+
+def _of(name: str, *names: str, **readers: str) -> InputFormat:
+    return InputFormat(name, names or (name,), readers)  # type: ignore[arg-type]  # they are called as what is held
+
+
+_IMAGE = "formats.images.reader:read_image"
+_ALL = (
+    _of("csv", "csv", "tsv", "txt", points="formats.points.delimited:read_text"),
+    _of("node", points="formats.points.node:read_node"),
+    _of("npz", points="formats.points.tables:read_npz"),
+    _of("geojson", points="formats.points.json:read_geojson", polygons="formats.polygons.geojson:read_geojson"),
+    _of("wkt", points="formats.points.wkt:read_wkt", polygons="formats.polygons.wkt:read_wkt"),
+    _of(
+        "json",
+        points="formats.points.json:read_json",
+        polygons="formats.polygons.json:read_json",
+        skeleton="formats.results.skeleton_json:read_skeleton",
+        offsets="formats.results.offset_json:read_offsets",
+    ),
+    _of("poly", polygons="formats.polygons.poly:read_poly"),
+    _of("png", image=_IMAGE),
+    _of("tiff", "tiff", "tif", image=_IMAGE),
+    _of("pnm", "pnm", "pbm", "pgm", "ppm", image=_IMAGE),
+    _of("npy", points="formats.points.npy:read_npy", image=_IMAGE),
+    _of("zarr", image=""),  # a folder, which is read by its rows
+    _of("jpeg", "jpeg", "jpg", image=_IMAGE),
+    _of("bmp", image=_IMAGE),
+    _of("gif", image=_IMAGE),
+    _of("webp", image=_IMAGE),
+    _of("avif", image=_IMAGE),
+)
+INPUTS = {each.name: each for each in _ALL}
+"""By name."""
+
+
+def names_of(*held: Holds) -> dict[str, str]:
+    """Give the names of all formats that may hold one of some things, and the format that each name stands for.
+
+    Examples
+    --------
+    >>> names_of("polygons")
+    {'geojson': 'geojson', 'wkt': 'wkt', 'json': 'json', 'poly': 'poly'}
+    """
+    return {name: each.name for each in _ALL if each.readers.keys() & set(held) for name in each.names}
+
+
+IMAGE_NAMES = names_of("image")
+"""Formats of images by name; NPY files hold either."""
+NAMES_WITH = {
+    "points": names_of("points", "image"),
+    "polygons": names_of("polygons", "image"),
+    None: names_of("points", "polygons", "image"),
+}
+"""Formats of inputs that hold an image or such geometry."""
+DRAWN_NAMES = NAMES_WITH["polygons"]
+"""Formats of what is drawn again: label images, skeletons, offset curves, polygons and lines."""
+
+
+def known_input_format(name: str | None, names: Mapping[str, str] = NAMES_WITH[None]) -> str | None:
+    """Return the format that a name stands for, in any case; None stays None.
+
+    Raises
+    ------
+    UsageError
+        If it stands for none; the names are listed.
+
+    Examples
+    --------
+    >>> known_input_format("TIF"), known_input_format("tsv")
+    ('tiff', 'csv')
+    """
+    if name is None:
+        return None
+    if name.lower() not in names:
+        raise UsageError(f"invalid --input-format {name!r}: expected one of {', '.join(names)}")
+    return names[name.lower()]

@@ -1,0 +1,33 @@
+"""Reads a source as `vorotool.read` does, without a file."""
+
+from vorotool.formats.images.label_images import label_image_of
+from vorotool.formats.images.reader import read_image
+from vorotool.formats.images.rgb_reader import read_picture
+from vorotool.formats.io.sources import Source
+from vorotool.formats.opening import opened
+from vorotool.formats.parsing.reader_options import ReadOptions
+from vorotool.formats.recognition import image_source, read_recognised, recognised
+from vorotool.products.inputs import IMAGE_NAMES, NAMES_WITH, known_input_format
+
+
+def read_as(source, geometry=None, *, input_format=None, columns=None, **options):
+    said = known_input_format(input_format, NAMES_WITH[geometry])
+    return read_recognised(*recognised(source, geometry, said, columns), ReadOptions(columns=columns, **options))
+
+
+def image_of(source, *, input_format=None, **options):
+    said = known_input_format(input_format, IMAGE_NAMES)
+    return read_image(image_source(source, said), ReadOptions(**options))
+
+
+def picture_of(source, **options):
+    return read_picture(image_source(source), ReadOptions(**options))
+
+
+def labels_of(data, name="-"):
+    return label_image_of(image_of(Source(name, data)), name).labels
+
+
+def rows_of(path, *, input_format=None, page=None):
+    with opened(path, geometry=None, input_format=input_format, page=page) as source:
+        return source.rows()
