@@ -14,7 +14,6 @@ from vorotool.formats.io.sources import read_source, reading
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note
 from vorotool.formats.recognition import read_recognised, recognised, refuse_crs
 from vorotool.geometry.checks import checked_threads
-from vorotool.geometry.crs import crs_member
 from vorotool.products.inputs import NAMES_WITH, known_input_format
 
 if TYPE_CHECKING:
@@ -94,6 +93,8 @@ class Opened:
 
 def _declared(crs: str) -> dict[str, Any]:
     """Give the ``crs`` member of GeoJSON for a name."""
+    from vorotool.geometry.crs import crs_member
+
     member = crs_member(crs)
     if member is None:
         raise UsageError(f"{crs!r} names no coordinate reference system: write authority and code, such as EPSG:3857")

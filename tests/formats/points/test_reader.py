@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from support.readers.point_reading import error_of, npy, read
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.io.sources import STANDARD_INPUT, Source
-from vorotool.formats.recognition import point_format
+from vorotool.formats.text_recognition import point_format
 from vorotool.products.inputs import INPUTS
 
 POINT_FORMATS = sorted(each.name for each in INPUTS.values() if "points" in each.readers)

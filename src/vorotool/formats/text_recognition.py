@@ -1,0 +1,169 @@
+"""The format of points, polygons and lines, which of them it holds, and its text."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+from vorotool.errors import InputError, UsageError
+from vorotool.formats.io.npy_arrays import MAGIC
+from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.convertible import refuse_convertible, refuse_geometry_column
+from vorotool.formats.parsing.geojson import holds_shapes, parse_json
+from vorotool.formats.points.delimited import header_fields
+from vorotool.formats.points.tables import NPZ_MAGIC, is_table
+from vorotool.formats.polygons.json import is_list_of_shells
+from vorotool.formats.polygons.wkt import holds_shapes as wkt_holds_shapes
+from vorotool.products.inputs import INPUTS, Holds
+
+_SUFFIXES = {f".{name}": each.name for each in INPUTS.values() for name in each.names if name not in ("json", "txt")}
+"""Extensions that tell the format; JSON is of one of several kinds, and text of any."""
+_WKT = re.compile(
+    rb"\s*(SRID\s*=\s*\d+\s*;\s*)?(MULTI)?(POINT|LINESTRING|POLYGON|GEOMETRYCOLLECTION)\s*(Z|M|ZM)?\s*(\(|EMPTY)",
+    re.IGNORECASE,
+)
+_UTF8_MARK = b"\xef\xbb\xbf"
+_UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
+_WITH_COLUMNS = ("csv", "json", "npz")
+
+
+def recognised_geometry(
+    source: Source, geometry: str | None, said: str | None, columns: str | None
+) -> tuple[Holds, Source]:
+    """Tell what a source holds that is no image, and give it with its format.
+
+    Parameters
+    ----------
+    source, geometry, said, columns
+        As of `vorotool.formats.recognition.recognised`.
+
+    Raises
+    ------
+    InputError, UsageError
+        As there.
+
+    Examples
+    --------
+    >>> recognised_geometry(Source("a.json", b"[[1, 2]]"), None, None, None)[0]
+    'points'
+    """
+    if geometry == "points" or (geometry is None and columns is not None):
+        return "points", _points(source, said or point_format(source), columns)
+    if geometry == "polygons":
+        holds: Holds = "polygons"
+        source = text_source(source, said or polygon_format(source))
+    else:
+        holds, source = _either(source, said)
+    if holds == "polygons" and columns is not None:
+        raise UsageError("--columns is for lists of points: leave it out for polygons")
+    return holds, source
+
+
+def point_format(source: Source) -> str:
+    """Tell the format of points, if it is one, by the extension, else by the content.
+
+    Raises
+    ------
+    InputError
+        If it is a format that has to be converted first; the message gives the command.
+
+    Examples
+    --------
+    >>> point_format(Source("standard input", b"POINT (1 2)"))
+    'wkt'
+    """
+    refuse_convertible(source)
+    by_suffix = _SUFFIXES.get(source.suffix)
+    if by_suffix is not None and "points" in INPUTS[by_suffix].readers:
+        return by_suffix
+    head = source.data[:4096].removeprefix(_UTF8_MARK).lstrip()
+    for start, name in ((MAGIC, "npy"), (NPZ_MAGIC, "npz"), (b"{", "geojson"), (b"[", "json")):
+        if head.startswith(start):
+            return name
+    return "wkt" if _WKT.match(head) else "csv"
+
+
+def polygon_format(source: Source) -> str:
+    """Tell the format of polygons by the extension, else by the content.
+
+    Raises
+    ------
+    InputError
+        If it is a format that holds none, or has to be converted first; the message gives the command.
+
+    Examples
+    --------
+    >>> polygon_format(Source("standard input", b"LINESTRING (1 2, 3 4)"))
+    'wkt'
+    """
+    if source.suffix in (".poly", ".json"):
+        return source.suffix.removeprefix(".")
+    found = point_format(source)
+    if found == "geojson" and source.suffix != ".geojson":  # an object: of either kind
+        return "json"
+    if "polygons" in INPUTS[found].readers:
+        return found
+    if not source.data.strip():
+        raise InputError(
+            f"{source.name} is empty: polygons, lines or an image were expected; check what was to write it"
+        )
+    if found != "npy":
+        refuse_geometry_column(source.name, header_fields(text_source(source, found).data))
+    raise InputError(
+        f"{source.name} holds no polygons or lines that are read (it looks like {found}): use JSON, GeoJSON, WKT or "
+        ".poly, or say which with --input-format; of points alphashape makes polygons"
+    )
+
+
+def _either(source: Source, said: str | None) -> tuple[Holds, Source]:
+    """Tell whether what is no image holds polygons or lines; JSON is parsed for it."""
+    if said == "poly" or (said is None and source.suffix == ".poly"):
+        return "polygons", text_source(source, "poly")
+    chosen = said or point_format(source)
+    if "polygons" not in INPUTS[chosen].readers:
+        return "points", _points(source, chosen, None)
+    source = text_source(source, chosen)
+    if chosen == "wkt":
+        return ("polygons" if wkt_holds_shapes(source.data) else "points"), source
+    if _is_flat(source.data):
+        return "points", source
+    document = parse_json(source)
+    if isinstance(document, list):
+        has_shapes = not is_table(document) and is_list_of_shells(document)
+    else:
+        has_shapes = isinstance(document, dict) and ("polygons" in document or holds_shapes(document))
+    source = replace(source, document=document)
+    if not has_shapes:
+        return "points", source
+    # an object without an extension may be of either kind: our own JSON, or GeoJSON
+    return "polygons", source if said or source.suffix == ".geojson" else replace(source, format="json")
+
+
+def _is_flat(data: bytes) -> bool:
+    """Whether JSON is at most a list of lists: points by the million are not parsed to tell that they are points."""
+    return b"{" not in data and not data.lstrip().removeprefix(b"[").lstrip().removeprefix(b"[").lstrip().startswith(
+        b"["
+    )
+
+
+def _points(source: Source, chosen: str, columns: str | None) -> Source:
+    if columns is not None and chosen not in _WITH_COLUMNS:
+        raise UsageError(f"--columns is for delimited text, but {source.name} is read as {chosen}: leave it out")
+    return replace(source, format=chosen) if chosen in ("npy", "npz") else text_source(source, chosen)
+
+
+def text_source(source: Source, chosen: str) -> Source:
+    """Take the byte order mark off, and refuse what is no text in an encoding that is read."""
+    if source.data.startswith(_UTF16_MARKS):
+        raise InputError(f"{source.name} is UTF-16 text; save it as UTF-8 (iconv -f UTF-16 -t UTF-8)")
+    if source.data.startswith(NPZ_MAGIC):
+        raise InputError(
+            f"{source.name} is an NPZ or ZIP archive, which is read as a table of points only: of polygons, skeletons "
+            "and offset curves give the JSON (-f json), unpack others"
+        )
+    if b"\0" in source.data[:4096]:
+        raise InputError(
+            f"{source.name} is binary, not points or polygons; use CSV, .node, NPY, .poly, GeoJSON, WKT or JSON, or "
+            "say which with --input-format"
+        )
+    return replace(source, data=source.data.removeprefix(_UTF8_MARK), format=chosen)
