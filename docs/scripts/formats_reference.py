@@ -23,9 +23,10 @@ def reference() -> str:
         "",
         "## Outputs",
         "",
-        "The extension of the output tells its format, or `-f NAME`; in the library `fmt`.",
+        "The extension of the output tells its format, or `-f NAME`; in the library `fmt`. Images have no units in them.",
+        "Formats of lines have no curves: lines within `--flatten` stand for these.",
         "",
-        *table("format", "`-f`", "extensions", "holds", rows=outputs()),
+        *table("format", "`-f`", "extensions", "kind", rows=outputs()),
         "",
         "## Results",
         "",
@@ -46,16 +47,8 @@ def inputs() -> dict[str, Iterable[str]]:
 def outputs() -> Iterable[tuple[str, ...]]:
     """A row for each format that is written."""
     for name, each in FORMATS.items():
-        yield each.title, f"`{name}`", coded(each.endings), ", ".join(holds(each.is_image, each.is_text, each.flattens))
-
-
-def holds(is_image: bool, is_text: bool, flattens: bool) -> Iterable[str]:
-    """What is to be known of a format."""
-    yield "text" if is_text else "bytes"
-    if is_image:
-        yield "pixels or a picture: no units"
-    if flattens:
-        yield "curves as lines within `--flatten`"
+        kinds = (("image", each.is_image), ("lines", each.flattens), ("text" if each.is_text else "bytes", True))
+        yield each.title, f"`{name}`", coded(each.endings), ", ".join(kind for kind, holds in kinds if holds)
 
 
 def table(*titles: str, rows: Iterable[tuple[str, ...]]) -> list[str]:

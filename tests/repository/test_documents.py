@@ -24,7 +24,8 @@ def blocks(language):
     for name in DOCUMENTS:
         for number, match in enumerate(FENCE.finditer((ROOT / name).read_text(encoding="utf-8"))):
             if match[1] == language:
-                yield pytest.param(match[2], id=f"{name}-{number}")
+                marks = [pytest.mark.slow] if "--cluster" in match[2] else []
+                yield pytest.param(match[2], id=f"{name}-{number}", marks=marks)
 
 
 @pytest.fixture
