@@ -70,6 +70,14 @@ def test_python_block(block, folder):
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.parametrize("user", ["microscopy", "maps", "drawing"])
+def test_the_picture_of_a_start_page_is_what_its_commands_draw(user, folder):
+    text = (ROOT / f"docs/start/{user}.md").read_text(encoding="utf-8")
+    before, picture = re.search(r"^(.*?)!\[[^]]+\]\(\.\./images/([^)]+)\)", text, re.DOTALL).groups()
+    run("\n".join(re.findall(r"^\$ (.*)$", before, re.MULTILINE)), folder)
+    assert (folder / picture).read_bytes() == (ROOT / "docs/images" / picture).read_bytes(), f"copy {picture} anew"
+
+
 @pytest.mark.parametrize("block", [*blocks("sh")])
 def test_what_needs_the_network_or_minutes_could_be_run(block):
     """Targets of make are there, and so are the extras that pip is asked for; test_gallery.py has commands."""
@@ -81,6 +89,9 @@ def test_what_needs_the_network_or_minutes_could_be_run(block):
         elif words[1:3] == ["-m", "pip"]:
             named = re.search(r"\[([a-z,]+)\]", line)
             assert set(named[1].split(",") if named else ()) <= set(extras), line
+        elif words[0] == ".venv/bin/python":
+            script = (ROOT / words[1]).read_text(encoding="utf-8")
+            assert all(f'"{word}"' in script for word in words[2:] if word.startswith("--")), line
         else:
             assert words[0] in ("vorotool", ".venv/bin/vorotool"), line
 
