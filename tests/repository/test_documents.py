@@ -10,24 +10,18 @@ from pathlib import Path
 
 import pytest
 
-import vorotool
+from support.documents import blocks
 
 ROOT = Path(__file__).parents[2]
-DOCUMENTS = ["README.md", *sorted(str(path.relative_to(ROOT)) for path in (ROOT / "docs").rglob("*.md"))]
-TEXT = ("docs/cli.md", "docs/architecture.md")
-"""Their blocks of text are the help of the commands, compared as a whole, and a drawing."""
 PICTURES = [*(ROOT / "docs/images").glob("*.svg")]
 """Those that a page shows are what its commands draw."""
 MANUAL = ROOT / "docs/man/man1"
-FENCE = re.compile(r"^```(\w+)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
-def blocks(language):
-    for name in DOCUMENTS:
-        for number, match in enumerate(FENCE.finditer((ROOT / name).read_text(encoding="utf-8"))):
-            if match[1] == language:
-                marks = [pytest.mark.slow] if "--cluster" in match[2] else []
-                yield pytest.param(match[2], id=f"{name}-{number}", marks=marks)
+def cases(language):
+    """Blocks of all documents as parameters of a test; those that start a cluster are slow."""
+    slow = {True: [pytest.mark.slow], False: []}
+    return [pytest.param(block, id=name, marks=slow["--cluster" in block]) for name, block in blocks(language)]
 
 
 @pytest.fixture
@@ -53,7 +47,7 @@ def run(command, folder):
     )
 
 
-@pytest.mark.parametrize("block", list(blocks("console")))
+@pytest.mark.parametrize("block", cases("console"))
 def test_console_block(block, folder):
     for part in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:
         first, following, expected = re.fullmatch(r"([^\n]*\n?)((?:> [^\n]*\n)*)(.*)", part, re.DOTALL).groups()
@@ -69,20 +63,13 @@ def test_console_block(block, folder):
         assert not made.exists() or made.read_bytes() == picture.read_bytes(), f"copy {picture.name} anew"
 
 
-@pytest.mark.parametrize("block", list(blocks("python")))
+@pytest.mark.parametrize("block", cases("python"))
 def test_python_block(block, folder):
     done = subprocess.run([sys.executable, "-c", block], cwd=folder, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
 
 
-def test_pictures_of_start_pages_are_drawn_there():
-    for page in (ROOT / "docs/start").glob("*.md"):
-        text = page.read_text(encoding="utf-8")
-        for picture in re.findall(r"!\[[^]]+\]\(\.\./images/([^)]+)\)", text):
-            assert f" -o {picture}\n" in text.partition("![")[0]
-
-
-@pytest.mark.parametrize("block", [*blocks("sh")])
+@pytest.mark.parametrize("block", cases("sh"))
 def test_what_needs_the_network_or_minutes_could_be_run(block):
     """Targets of make are there, and so are the extras that pip is asked for; test_gallery.py has commands."""
     extras = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
@@ -100,66 +87,9 @@ def test_what_needs_the_network_or_minutes_could_be_run(block):
             assert words[0] in ("vorotool", ".venv/bin/vorotool"), line
 
 
-def test_every_block_is_of_a_kind_that_is_run():
-    known = {"console", "python", "make", "sh", "{toctree}", "{include}", "{eval-rst}"}
-    for name in DOCUMENTS:
-        opened = re.findall(r"^```([^\n]*)", (ROOT / name).read_text(encoding="utf-8"), re.MULTILINE)[::2]
-        assert {words.split(" ")[0] for words in opened} <= (known | {"text"} if name in TEXT else known), name
-
-
-def test_the_readme_is_short_and_its_numbers_are_counted_ones():
-    readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    assert readme.count("\n") <= 150
-    counted = (ROOT / "docs/tested.md").read_text(encoding="utf-8")
-    numbers = re.findall(r"\*\*([\d ]+)\*\*", readme)
-    assert len(numbers) == 4
-    assert all(number in counted for number in numbers)
-    assert re.findall(r"^```sh\n(make figures .*)\n(make test .*)\n```", readme, re.MULTILINE)
-
-
-def links(name):
-    """Paths that a document leads to, with the headings that are meant in them."""
-    text = FENCE.sub("", (ROOT / name).read_text(encoding="utf-8"))
-    for target in re.findall(r"\]\(([^)\s]+)\)", text):
-        if not target.startswith("https://"):
-            path, _, heading = target.partition("#")
-            yield ((ROOT / name).parent / path).resolve() if path else ROOT / name, heading
-
-
-def headings(path):
-    """Anchors of the headings of a document, as GitHub and the site make them."""
-    text = re.sub(r"^```.*?^```", "", path.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
-    titles = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
-    return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
-
-
-@pytest.mark.parametrize("name", DOCUMENTS)
-def test_links_lead_somewhere(name):
-    for path, heading in links(name):
-        made = ROOT / "build/figures"
-        assert path.exists() or made in path.parents, path
-        assert not heading or heading in headings(path), f"{path}#{heading}"
-
-
-def test_every_page_is_three_links_from_the_readme():
-    reached = {ROOT / "README.md"}
-    for _ in range(3):
-        reached |= {path for name in reached if name.suffix == ".md" for path, _ in links(name.relative_to(ROOT))}
-    for user in ("microscopy", "maps", "drawing", "geometry", "shell"):
-        assert ROOT / f"docs/start/{user}.md" in {path for path, _ in links("README.md")}
-    included = {ROOT / f"docs/{name}.md" for name in ("index", "changes", "contributing", "data")}
-    assert {ROOT / name for name in DOCUMENTS} - included <= reached
-
-
-def test_the_library_is_documented_by_topic():
-    pages = (ROOT / "docs/reference/python").glob("*.md")
-    named = [name for page in pages for name in re.findall(r"^\.\. auto\w+:: (\w+)$", page.read_text(), re.MULTILINE)]
-    assert sorted(named) == sorted(name for name in vorotool.__all__ if name != "__version__")
-
-
 def test_rules_of_make_are_those_of_the_makefile():
     rules = (ROOT / "docs/pipeline/Makefile").read_text(encoding="utf-8")
-    assert [block.values[0] in rules for block in blocks("make")] == [True]
+    assert [block in rules for _, block in blocks("make")] == [True]
 
 
 @pytest.mark.parametrize(("script", "page"), [("cli_reference", "cli"), ("formats_reference", "reference/formats")])
