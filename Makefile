@@ -40,6 +40,16 @@ include figures.mk
 test: build lint $(BUILD)/.tests ## lint, then run all tests but the slow ones, on all cores
 	$(RUN) -m pytest -n auto -m "not slow"
 
+SITE := $(BUILD)/site
+.PHONY: docs
+docs: build gallery $(BUILD)/.docs ## build the documentation as a site that needs no network, into build/site
+	$(RUN) -m sphinx --quiet --fresh-env --fail-on-warning --keep-going --nitpicky --builder html docs $(SITE)
+	$(RUN) tools/check_site.py $(SITE)
+
+$(BUILD)/.docs: $(BUILD)/.venv
+	$(BIN)/$(PIP) $$($(NEEDED) docs)
+	@touch $@
+
 .PHONY: test-all
 test-all: test ## make test, then the slow ones
 	$(RUN) -m pytest -n auto -m slow

@@ -131,6 +131,27 @@ $(FIGURES)/table-1.md: data/dots.csv docs/scripts/table_1.py $(BUILD)/.installed
 	$(RUN) docs/scripts/table_1.py $(BUILD)/table-1 $(TABLE_1_SIZES) > $@
 	cat $@
 
+# ---- the picture of the README -------------------------------------------------------------------------------------
+FRONT_FOLDER  := $(BUILD)/front
+FRONT_PICTURE := docs/images/front.svg
+FRONT := $(addprefix $(FRONT_FOLDER)/,cells.svg regions.svg skeletons.svg offsets.svg)
+.PHONY: front
+front: $(FRONT) docs/scripts/front_picture.py ## draw docs/images/front.svg, the picture of the README, anew
+	$(RUN) docs/scripts/front_picture.py $(FRONT) > $(FRONT_PICTURE)
+
+$(FRONT_FOLDER)/cells.svg: data/dots.csv $(BUILD)/.installed
+	@mkdir -p $(@D)
+	$(VOROTOOL) delaunay $< --what cells --frame -0.5,-0.5,512,512 --layers cells,diagram,points -o $@
+$(FRONT_FOLDER)/regions.svg: data/blobs.png $(BUILD)/.installed
+	@mkdir -p $(@D)
+	$(VOROTOOL) tessellate $< --what colour --layers cells --overlay $< -o $@
+$(FRONT_FOLDER)/skeletons.svg: data/two-shapes.json $(BUILD)/.installed
+	@mkdir -p $(@D)
+	$(VOROTOOL) skeleton-exact $< -o $@
+$(FRONT_FOLDER)/offsets.svg: data/two-shapes.json $(BUILD)/.installed
+	@mkdir -p $(@D)
+	$(VOROTOOL) skeleton-exact $< --what offset -d -20,-10,10,20 -o $@
+
 # ---- gallery: docs/gallery.md shows these, each with its command ---------------------------------------------------
 $(GALLERY)/%.png: docs/scripts/gallery_inputs.py $(BUILD)/.installed | $(GALLERY)
 	$(RUN) $< $* > $@

@@ -1,12 +1,23 @@
-"""Print the command-line reference, made from the commands: `docs/scripts/cli_reference.py > docs/cli.md`."""
+"""Print the command-line reference, made from the commands: `docs/scripts/cli_reference.py > docs/cli.md`.
 
+sphinx-click 6.2 reads the same objects, but knows no groups of options, names a value after its parameter where its
+type has a name of its own (`--what <what>` for `--what A[,B…]`, `--size <size>` for `--size WxH`), and makes no
+tables of formats.
+"""
+
+import inspect
+import re
 import sys
+from collections.abc import Iterator
 
 import click
 
 from vorotool.cli.main import COMMANDS, vorotool
+from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.products.formats import FORMATS
 from vorotool.products.registry import PRODUCTS
+
+OPTION = re.compile(r"(?<![\w`-])(--?[a-z][a-z-]*)")
 
 
 def reference() -> str:
@@ -17,14 +28,41 @@ def reference() -> str:
         "Made by `python docs/scripts/cli_reference.py`; a test keeps it true.",
         "",
     ]
-    context = click.Context(vorotool, info_name="vorotool", terminal_width=100, max_content_width=100)
+    context = click.Context(vorotool, info_name="vorotool")
     for name in COMMANDS:
         command = vorotool.get_command(context, name)
         assert command is not None
-        inner = click.Context(command, info_name=name, parent=context, terminal_width=100, max_content_width=100)
-        parts += [f"## vorotool {name}", "", "```text", command.get_help(inner), "```", ""]
+        parts += [f"## vorotool {name}", "", *section(command, click.Context(command, info_name=name, parent=context))]
         parts += [*formats_of(name), ""] if name in PRODUCTS else []
     return "\n".join(parts)
+
+
+def section(command: click.Command, context: click.Context) -> Iterator[str]:
+    """What a command does, how it is called, and its options."""
+    yield from (f"`{context.command_path} {' '.join(command.collect_usage_pieces(context))}`", "")
+    for paragraph in inspect.cleandoc(command.help or "").split("\n\n"):
+        lines = [line.strip() for line in paragraph.splitlines() if line.strip() != "\b"]
+        if lines[0].startswith("Example"):
+            yield from ("```sh", *lines[1:], "```", "")
+        elif paragraph.startswith("\b"):
+            yield from ("```text", *lines, "```", "")
+        else:
+            yield from (marked(" ".join(lines)), "")
+    for title, rows in groups(command, context).items():
+        yield from (f"**{title}**", "", *(f"- `{names}`: {marked(text)}" for names, text in rows), "")
+
+
+def groups(command: click.Command, context: click.Context) -> dict[str, list[tuple[str, str]]]:
+    """Options and what they are for, as the help groups them."""
+    if isinstance(command, GroupedCommand):
+        return command.grouped(context)
+    records = (parameter.get_help_record(context) for parameter in command.get_params(context))
+    return {"Options": [record for record in records if record is not None and record[0].startswith("-")]}
+
+
+def marked(text: str) -> str:
+    """Plain text as Markdown, with options as code."""
+    return OPTION.sub(r"`\1`", re.sub(r"([\\`*_<>\[\]|])", r"\\\1", text))
 
 
 def formats_of(command: str) -> list[str]:

@@ -1,7 +1,8 @@
 """Write the manual pages, made from the commands themselves: `docs/scripts/manual_pages.py [FOLDER]`.
 
-click-man 0.6 writes one page, that of the group: it looks for commands that are loaded already. It knows no exit codes,
-environment or examples.
+click-man 0.6 finds no command, as the entry point is a function that loads the one that is called; given the group
+itself it writes one page, that of the group, since it looks for commands that are loaded already. It knows no exit
+codes, groups of options or examples.
 """
 
 import re

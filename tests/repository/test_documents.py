@@ -5,21 +5,23 @@ import re
 import shutil
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
 
+from support.documents import blocks
+
 ROOT = Path(__file__).parents[2]
-DOCUMENTS = ["README.md", "docs/errata.md", "docs/pipeline/README.md"]
+PICTURES = [*(ROOT / "docs/images").glob("*.svg")]
+"""Those that a page shows are what its commands draw."""
 MANUAL = ROOT / "docs/man/man1"
-FENCE = re.compile(r"^```(\w+)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
-def blocks(language):
-    for name in DOCUMENTS:
-        for number, match in enumerate(FENCE.finditer((ROOT / name).read_text(encoding="utf-8"))):
-            if match[1] == language:
-                yield pytest.param(match[2], id=f"{name}-{number}")
+def cases(language):
+    """Blocks of all documents as parameters of a test; those that start a cluster are slow."""
+    slow = {True: [pytest.mark.slow], False: []}
+    return [pytest.param(block, id=name, marks=slow["--cluster" in block]) for name, block in blocks(language)]
 
 
 @pytest.fixture
@@ -45,7 +47,7 @@ def run(command, folder):
     )
 
 
-@pytest.mark.parametrize("block", list(blocks("console")))
+@pytest.mark.parametrize("block", cases("console"))
 def test_console_block(block, folder):
     for part in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:
         first, following, expected = re.fullmatch(r"([^\n]*\n?)((?:> [^\n]*\n)*)(.*)", part, re.DOTALL).groups()
@@ -56,26 +58,46 @@ def test_console_block(block, folder):
         assert done.returncode == 0, f"{command}\n{done.stderr}"
         assert done.stderr == ""
         assert done.stdout == expected, command
+    for picture in PICTURES:
+        made = folder / picture.name
+        assert not made.exists() or made.read_bytes() == picture.read_bytes(), f"copy {picture.name} anew"
 
 
-@pytest.mark.parametrize("block", list(blocks("python")))
+@pytest.mark.parametrize("block", cases("python"))
 def test_python_block(block, folder):
     done = subprocess.run([sys.executable, "-c", block], cwd=folder, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.parametrize("block", cases("sh"))
+def test_what_needs_the_network_or_minutes_could_be_run(block):
+    """Targets of make are there, and so are the extras that pip is asked for; test_gallery.py has commands."""
+    extras = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
+    for line in block.splitlines():
+        words = line.partition("#")[0].split()
+        if words[0] == "make":
+            assert run(f"make -n {words[1]}", ROOT).returncode == 0, line
+        elif words[1:3] == ["-m", "pip"]:
+            named = re.search(r"\[([a-z,]+)\]", line)
+            assert set(named[1].split(",") if named else ()) <= set(extras), line
+        elif words[0] == ".venv/bin/python":
+            script = (ROOT / words[1]).read_text(encoding="utf-8")
+            assert all(f'"{word}"' in script for word in words[2:] if word.startswith("--")), line
+        else:
+            assert words[0] in ("vorotool", ".venv/bin/vorotool"), line
+
+
 def test_rules_of_make_are_those_of_the_makefile():
     rules = (ROOT / "docs/pipeline/Makefile").read_text(encoding="utf-8")
-    assert [block.values[0] in rules for block in blocks("make")] == [True]
+    assert [block in rules for _, block in blocks("make")] == [True]
 
 
-def test_the_reference_is_true():
-    done = subprocess.run(
-        [sys.executable, ROOT / "docs/scripts/cli_reference.py"], capture_output=True, text=True, check=True
-    )
-    assert done.stdout == (ROOT / "docs/cli.md").read_text(encoding="utf-8"), (
-        "run docs/scripts/cli_reference.py > docs/cli.md"
-    )
+@pytest.mark.parametrize(("script", "page"), [("cli_reference", "cli"), ("formats_reference", "reference/formats")])
+def test_the_reference_is_true(script, page):
+    made = [sys.executable, ROOT / f"docs/scripts/{script}.py"]
+    done = subprocess.run(made, capture_output=True, text=True, check=True)
+    kept = (ROOT / f"docs/{page}.md").read_text(encoding="utf-8")
+    assert done.stdout == kept, f"run docs/scripts/{script}.py > docs/{page}.md"
 
 
 def test_the_manual_pages_are_true(tmp_path):

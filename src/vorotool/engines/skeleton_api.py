@@ -43,7 +43,8 @@ def skeleton_exact(
     Parameters
     ----------
     polygons : PolygonSet, shapely geometry, (n, 2) array-like, or a list of these
-        See :func:`vorotool.geometry.polygons.conversion.as_polygons`.
+        An array is the shell of one polygon; a mapping has ``shell`` and ``holes``, or ``line``. Of a list each item is
+        one feature.
     side : {"interior", "exterior", "both"}
         Inside polygons, outside all of them, or both.
     features : {"separate", "together"}
@@ -127,7 +128,8 @@ def skeleton_approx(
     Parameters
     ----------
     polygons : PolygonSet, shapely geometry, (n, 2) array-like, or a list of these
-        See :func:`vorotool.geometry.polygons.conversion.as_polygons`.
+        An array is the shell of one polygon; a mapping has ``shell`` and ``holes``, or ``line``. Of a list each item is
+        one feature.
     step : float
         Between samples, in input units.
     tolerance : float

@@ -40,7 +40,8 @@ def planar_graph(polygons: Any, *, strict: bool = False, threads: int = 0, progr
     Parameters
     ----------
     polygons : PolygonSet, shapely geometry, (n, 2) array-like, or a list of these
-        See :func:`vorotool.geometry.polygons.conversion.as_polygons`.
+        An array is the shell of one polygon; a mapping has ``shell`` and ``holes``, or ``line``. Of a list each item is
+        one feature.
     strict : bool
         Refuse what would be repaired; a move by placement alone, at most 0.71 of a step, is none.
     threads : int

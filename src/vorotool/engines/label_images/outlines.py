@@ -90,8 +90,7 @@ def outlines(
     invert : bool
         Exchange foreground and background.
     simplify : float, optional
-        Leave out vertices where outlines move by no more than this; see
-        :func:`vorotool.engines.label_images.simplification.simplified_polygons`.
+        Leave out vertices where outlines move by no more than this; borders in common stay in common.
     strict : bool
         Refuse an image without foreground.
     max_sites : int

@@ -25,8 +25,9 @@ REPAIRS = (
 class PlanarGraph:
     """Distinct lattice points, and segments between them that meet at common ends only.
 
-    Lattice point (i, j) stands for ``origin + scale * (i, j)``, where ``scale`` is a power of two; |i| and |j| are
-    below 2^30. Segments and points are in the order of the input edges and vertices; crossings follow the vertices.
+    Lattice point (i, j) stands for ``origin + scale * (i, j)``, where ``scale`` is a power of two; ``|i|`` and
+    ``|j|`` are below 2^30. Segments and points are in the order of the input edges and vertices; crossings follow
+    the vertices.
 
     A face is a connected region between the segments. It lies in a polygon if it is inside the shell and in none of the
     holes, each ring by the even-odd rule: twice covered by one ring is outside, a hole reaches nowhere beyond its

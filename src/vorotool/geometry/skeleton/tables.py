@@ -216,8 +216,7 @@ def polygon_table(skeleton: Skeleton, *, columns: Mapping[str, Any] | None = Non
     skeleton : Skeleton
         Its polygons' properties are the last columns.
     columns : mapping of str to array, optional
-        Columns before these, one value a polygon: what
-        :func:`vorotool.geometry.skeleton.centerline.centerline_columns` gives.
+        Columns before these, one value a polygon, such as lengths and mean widths of centerlines.
     threads : int
         0 uses all.
 
