@@ -1,7 +1,7 @@
 """Build the sdist and from it the wheel, and try both in fresh environments: `tools/wheel.py [PYTHON...]`.
 
 The first Python builds (by default the one that runs this); the wheel is installed in an environment of each, with no
-compiler on its path, and the sdist in one of the first. `tools/smoke.py` runs every command there. What is built goes to
+compiler on its path, and the sdist in one of the first. `tools/smoke.py` runs every command there. What is built is in
 build/dist.
 """
 
