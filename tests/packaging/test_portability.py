@@ -23,6 +23,7 @@ def test_the_smoke_runs_every_command():
     assert set(RUNS) == set(COMMANDS)
 
 
+@pytest.mark.slow
 def test_commands_write_the_same_bytes(tmp_path):
     written = []
     for name, environment in ("here", None), ("without", WITHOUT):
