@@ -140,6 +140,14 @@ test-oldest: ## run every test on the oldest versions that pyproject.toml allows
 	$(OLDEST)/venv/bin/$(PIP) --no-build-isolation --no-deps -C build-dir=$(OLDEST)/core --editable .
 	PATH="$(CURDIR)/$(OLDEST)/venv/bin:$$PATH" $(OLDEST)/venv/bin/python -m pytest -n auto
 
+.PHONY: wheel
+wheel: $(BUILD)/.venv ## build sdist and wheel into build/dist, and try both in fresh environments, PYTHONS="python3.12 ..."
+	$(RUN) tools/wheel.py $(PYTHONS)
+
+.PHONY: warnings
+warnings: $(BUILD)/.venv ## compile all C++ with each compiler here, COMPILERS="g++ ...", where a warning is an error
+	COMPILERS="$(COMPILERS)" tools/warnings.sh $(RUN)
+
 .PHONY: sanitize
 sanitize: build $(BUILD)/.tests ## the suite on a build with address and undefined-behaviour sanitizers; then damaged files for MINUTES=...
 	MINUTES=$(MINUTES) SEED=$(SEED) tools/sanitize.sh $(RUN)

@@ -101,7 +101,7 @@ auto parse_fields(const nb::bytes& text, const std::string& delimiter, std::vect
     for (std::size_t row = 0; row < table.rows; ++row) {
       const core::text::Field& field = table.fields[row * table.columns + column];
       nb::str value = decoded(field.quoted ? core::text::field_value(field) : field.text);
-      PyList_SET_ITEM(values.ptr(), static_cast<Py_ssize_t>(row), value.release().ptr());
+      PyList_SetItem(values.ptr(), static_cast<Py_ssize_t>(row), value.release().ptr());
     }
     result.push_back(values);
   }
@@ -195,7 +195,7 @@ struct ColumnStore {
     PyObject* const encoded = PyUnicode_AsEncodedString(value.ptr(), "utf-8", "surrogateescape");
     if (encoded == nullptr) throw nb::python_error();
     owners.emplace_back(nb::object(nb::steal(encoded)));
-    return {PyBytes_AS_STRING(encoded), static_cast<std::size_t>(PyBytes_GET_SIZE(encoded))};
+    return {PyBytes_AsString(encoded), static_cast<std::size_t>(PyBytes_Size(encoded))};
   }
 
   template <class T>

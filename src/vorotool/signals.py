@@ -15,6 +15,9 @@ from typing import NoReturn
 MOMENT = 0.001
 """Seconds after which an end that was swallowed comes again."""
 
+_ENDINGS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+"""What ends a process by default; terminals of Windows hang up otherwise."""
+
 
 class _End:
     """Handlers of signals, and the exit code of the last one that came."""
@@ -27,7 +30,7 @@ class _End:
 def end_at_once() -> None:
     """Let signals end the process at once, from its first line on; those that are ignored stay so."""
     _End.is_exception = False
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+    for number in (signal.SIGINT, *_ENDINGS):
         _handle(number)
 
 
@@ -38,7 +41,7 @@ def end_by_exceptions() -> None:
 
 def handle_termination() -> None:
     """Let what ends a process by default be an exit; interrupts stay as they are."""
-    for number in (signal.SIGTERM, signal.SIGHUP):
+    for number in _ENDINGS:
         _handle(number)
 
 

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <iostream>
 #include <random>
-#include <source_location>
 #include <vector>
 
 namespace vorotool::tests {
@@ -25,11 +24,18 @@ struct Registration {
   static const vorotool::tests::Registration name##_is_(#name, name); \
   static void name()
 
-using Where = std::source_location;
+// As std::source_location, which Clang 14 has not.
+struct Where {
+  const char* file;
+  int line;
+  static Where current(const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
+    return {file, line};
+  }
+};
 
 inline std::ostream& fault(const Where& where) {
   ++faults;
-  return std::cout << where.file_name() << ':' << where.line() << ": ";
+  return std::cout << where.file << ':' << where.line << ": ";
 }
 
 #define CHECK(...) vorotool::tests::holds(static_cast<bool>(__VA_ARGS__), #__VA_ARGS__)

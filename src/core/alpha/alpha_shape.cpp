@@ -126,7 +126,7 @@ ShapeEdges shape_edges(const EdgeRanks& ranks, std::int32_t reached, std::int32_
       out.edge[next] = static_cast<std::int32_t>(e);
       out.kind[next] =
           static_cast<std::uint8_t>(ranks.mid[e] < reached ? EdgeClass::boundary : EdgeClass::singular);
-      next += (ranks.min[e] < entered) & (ranks.max[e] >= reached);
+      next += std::size_t{ranks.min[e] < entered} & std::size_t{ranks.max[e] >= reached};
     }
     counts[piece] = next - begin;
   };

@@ -19,7 +19,9 @@ namespace {
 
 using base::Fault;
 
-std::string named(LatticePoint p) { return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ")"; }
+std::string named(LatticePoint p) {
+  return std::string("(").append(std::to_string(p.x)).append(", ").append(std::to_string(p.y)).append(")");
+}
 
 // Sweeps a horizontal line upwards and keeps the segments that it cuts from left to right (Shamos and Hoey
 // 1976): if there is a fault, then two segments are neighbours below the lowest one.

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/base/atomic_ref.hpp"
 #include "core/base/parallel.hpp"
 #include "core/delaunay/insertion_mesh.hpp"
 #include "core/delaunay/vertex_triangles.hpp"
@@ -48,7 +49,7 @@ class CellCounts {
   void add_cell(std::uint32_t code) { slots_[place(code)].code = std::uint64_t{code} + 1; }
   void count(std::uint32_t code) {
     Entry& entry = slots_[place(code)];
-    if (entry.code != 0) std::atomic_ref(entry.points).fetch_add(1, std::memory_order_relaxed);
+    if (entry.code != 0) base::atomic_ref(entry.points).fetch_add(1, std::memory_order_relaxed);
   }
   bool any_above(std::size_t limit) const {
     return std::any_of(slots_.begin(), slots_.end(),

@@ -77,8 +77,11 @@ class Piece {
     const auto [a, b, c, d] = corner;
     const bool four = labels == 4 && a != 0 && b != 0 && c != 0 && d != 0;
     const std::uint8_t kind = four ? at_four : at_three;
-    const bool any = add(d, a, b, kind) | add(a, b, c, kind) | add(b, c, d, kind) | add(c, d, a, kind);
-    if (any) ++(four ? found_.four_label_corners : found_.three_label_corners);
+    int added = add(d, a, b, kind);
+    added += add(a, b, c, kind);
+    added += add(b, c, d, kind);
+    added += add(c, d, a, kind);
+    if (added > 0) ++(four ? found_.four_label_corners : found_.three_label_corners);
   }
 
   bool add(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint8_t kind) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/base/atomic_ref.hpp"
 #include "core/base/indices.hpp"
 #include "core/base/parallel.hpp"
 #include "core/sampled_skeleton/near_edges.hpp"
@@ -71,7 +72,7 @@ class Bounder {
     const double wanted = std::isfinite(found_.error) ? 1.05 * std::sqrt(found_.error / tolerance) : 2;
     const double most = longest / std::clamp(wanted, 1.05, most_parts);
     for (const auto& [piece, length] : pieces) {
-      std::atomic_ref<std::int32_t> count(parts[static_cast<std::size_t>(piece)]);
+      base::atomic_ref<std::int32_t> count(parts[static_cast<std::size_t>(piece)]);
       const auto own = static_cast<std::int32_t>(std::ceil(length / most));
       std::int32_t so_far = count.load(std::memory_order_relaxed);
       while (so_far < own && !count.compare_exchange_weak(so_far, own, std::memory_order_relaxed)) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/atomic_ref.hpp"
 #include "core/base/parallel.hpp"
 #include "core/sampled_skeleton/corner_bisectors.hpp"
 #include "core/sampled_skeleton/error_bounds.hpp"
@@ -26,7 +27,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 // Several threads may do this at once.
 void lower(double& value, double other) {
-  std::atomic_ref<double> shared(value);
+  base::atomic_ref<double> shared(value);
   double so_far = shared.load(std::memory_order_relaxed);
   while (other < so_far && !shared.compare_exchange_weak(so_far, other, std::memory_order_relaxed)) {
   }

@@ -1,7 +1,17 @@
 // Eight lanes of AVX-512. Compiled with AVX-512 enabled: only called after supports(Simd::avx512).
 #if defined(__x86_64__)
 
+// Registers that these functions leave undefined on purpose are initialized with themselves in the header of GCC 12,
+// which warns of it.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#endif
 #include <immintrin.h>
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
 
 #include "core/tessellation/row_kernel_impl.hpp"
 

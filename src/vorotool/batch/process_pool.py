@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 import os
+import select
 import signal
 import socket
 import subprocess
@@ -121,6 +122,16 @@ def local_results(
     (int, Outcome)
         In the order in which they are done. A task whose worker dies is a failed one; another worker takes its place.
     """
+    if hasattr(select, "poll"):  # by which a worker sees that its parent has gone
+        return _socket_results(process, tasks, jobs)
+    from vorotool.batch.executor_pool import executor_results
+
+    return executor_results(process, tasks, jobs=jobs)
+
+
+def _socket_results(
+    process: Process, tasks: Iterator[tuple[int, Task]], jobs: int
+) -> Generator[tuple[int, Outcome], None, None]:
     workers: set[Worker] = set()
     busy: dict[object, tuple[Worker, int]] = {}
 

@@ -70,8 +70,8 @@ bool by_four_lines(const SegmentSites& sites, const VoronoiRecord& u, int i, con
   const auto line_of = [&](const VoronoiRecord& v, SiteIndex site) {
     return sites.turned(site, v.is_left(v.find(site)));
   };
-  const auto third =
-      std::ranges::find_if(w.sites, [&](SiteIndex site) { return site != right && site != left; });
+  const auto third = std::ranges::find_if(
+      w.sites, [&, a = right, b = left](SiteIndex site) { return site != a && site != b; });
   if (third == w.sites.end()) return false;
   for (const SiteIndex site : {u.sites[static_cast<std::size_t>(i)], right, left, *third}) {
     if (!sites.is_segment(site)) return false;

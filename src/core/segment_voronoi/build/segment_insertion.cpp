@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/base/atomic_ref.hpp"
 #include "core/numbers/double_double.hpp"
 #include "core/numbers/sign.hpp"
 #include "core/segment_voronoi/discs/exact_signs.hpp"
@@ -54,7 +55,7 @@ constexpr double coarse = 0x1p-20;
 // Sites from the one of the least number on: the exact level rounds what it finds from the first one, and
 // which is first in a record depends on what was inserted before.
 std::array<SiteIndex, 3> from_least(std::array<SiteIndex, 3> sites) {
-  std::ranges::rotate(sites, std::ranges::min_element(sites));
+  std::rotate(sites.begin(), std::ranges::min_element(sites), sites.end());
   return sites;
 }
 
@@ -76,7 +77,7 @@ void compute_disc(const discs::SegmentSites& sites, VoronoiRecord& record) {
 // Whether this thread may look at a record. What others did to it before is visible then.
 bool SegmentInsertion::take(std::int32_t record) {
   if (worker_ == 0) return true;
-  const std::atomic_ref owner(records_[record].owner);
+  const base::atomic_ref owner(records_[record].owner);
   std::uint16_t found = owner.load(std::memory_order_relaxed);
   if (found == worker_) return true;
   if (found != 0 || !owner.compare_exchange_strong(found, worker_, std::memory_order_acquire)) {
@@ -89,7 +90,7 @@ bool SegmentInsertion::take(std::int32_t record) {
 
 void SegmentInsertion::give_back() {
   for (const std::int32_t record : taken_) {
-    std::atomic_ref(records_[record].owner).store(0, std::memory_order_release);
+    base::atomic_ref(records_[record].owner).store(0, std::memory_order_release);
   }
   taken_.clear();
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/atomic_ref.hpp"
 #include "core/base/large_array.hpp"
 #include "core/segment_voronoi/build/insertion_predicates.hpp"
 #include "core/segment_voronoi/discs/records.hpp"
@@ -30,10 +31,10 @@ struct VoronoiRecords {
 
   // A corner of a point's cell. Threads that share the diagram see a record no later than its corner.
   discs::Corner corner_at(discs::SiteIndex point) {
-    return std::atomic_ref(corner_of_point[static_cast<std::size_t>(point)]).load(std::memory_order_acquire);
+    return base::atomic_ref(corner_of_point[static_cast<std::size_t>(point)]).load(std::memory_order_acquire);
   }
   void set_corner(discs::SiteIndex point, discs::Corner corner) {
-    std::atomic_ref(corner_of_point[static_cast<std::size_t>(point)])
+    base::atomic_ref(corner_of_point[static_cast<std::size_t>(point)])
         .store(corner, std::memory_order_release);
   }
 

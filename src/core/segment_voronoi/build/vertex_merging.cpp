@@ -3,6 +3,7 @@
 #include <atomic>
 #include <numeric>
 
+#include "core/base/atomic_ref.hpp"
 #include "core/base/parallel.hpp"
 #include "core/segment_voronoi/build/coincident_vertices.hpp"
 #include "core/segment_voronoi/build/wanted_faces.hpp"
@@ -36,7 +37,7 @@ void for_pieces(std::size_t count, unsigned threads, const Monitor& monitor, Bod
 }
 
 std::uint32_t add(std::uint32_t& counter, std::uint32_t value) {
-  return std::atomic_ref(counter).fetch_add(value, std::memory_order_relaxed);
+  return base::atomic_ref(counter).fetch_add(value, std::memory_order_relaxed);
 }
 
 void prefetch_neighbours(const VoronoiRecords& records, std::int32_t record) {

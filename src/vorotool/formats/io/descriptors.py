@@ -9,7 +9,6 @@ whatever else is neither a file nor a folder: it is opened once, and read or wri
 from __future__ import annotations
 
 import errno
-import fcntl
 import io
 import os
 import re
@@ -18,6 +17,11 @@ import stat
 import sys
 from collections.abc import Hashable
 from typing import Any, BinaryIO
+
+try:
+    import fcntl
+except ImportError:  # on Windows
+    fcntl = None  # type: ignore[assignment]
 
 STANDARD = "-"
 """Standard input where something is read, standard output where something is written."""
@@ -144,7 +148,7 @@ def open_input(descriptor: int) -> BinaryIO:
     OSError
         If it is closed, or open for writing only.
     """
-    _check_mode(descriptor, os.O_WRONLY, "writing")
+    _check_mode(descriptor, os.O_RDONLY)
     return io.BufferedReader(_PatientReader(os.dup(descriptor), "rb"))
 
 
@@ -178,18 +182,27 @@ def open_onward(path: str | os.PathLike[str]) -> BinaryIO:
 
 def check_writable(descriptor: int) -> None:
     """Refuse a descriptor that is closed, or open for reading only (OSError)."""
-    _check_mode(descriptor, os.O_RDONLY, "reading")
+    _check_mode(descriptor, os.O_WRONLY)
 
 
-def _check_mode(descriptor: int, wrong: int, purpose: str) -> None:
+def _check_mode(descriptor: int, wanted: int) -> None:
     # a standard stream that was closed from the start stays so, whatever has got its number since
     was_closed = descriptor < 3 and (sys.__stdin__, sys.__stdout__, sys.__stderr__)[descriptor] is None
     try:
-        if not was_closed and fcntl.fcntl(descriptor, fcntl.F_GETFL) & os.O_ACCMODE != wrong:
+        if not was_closed and _mode(descriptor) in (None, wanted, os.O_RDWR):
             return
     except (OSError, OverflowError):  # no descriptor of this process
         pass
+    purpose = "writing" if wanted == os.O_RDONLY else "reading"
     raise OSError(errno.EBADF, f"{os.strerror(errno.EBADF)}: it is closed, or open for {purpose} only")
+
+
+def _mode(descriptor: int) -> int | None:
+    """What a descriptor is open for; None where the system does not say so before it is read or written."""
+    if fcntl is None:
+        os.fstat(descriptor)  # raises for one that is closed
+        return None
+    return fcntl.fcntl(descriptor, fcntl.F_GETFL) & os.O_ACCMODE
 
 
 def _number(stream: object) -> int | None:

@@ -137,7 +137,7 @@ def read_bytes(name: str) -> bytes:
     try:
         if name == STANDARD or standard == number:
             begun = sys.stdin.buffer.read() or b""  # with what is in its buffer already
-            if standard is None or os.get_blocking(standard):
+            if standard is None or not hasattr(os, "get_blocking") or os.get_blocking(standard):
                 return begun
         with open_input(number) as file:
             return begun + file.read()

@@ -36,8 +36,10 @@ from functools import cache
 from pathlib import Path
 from typing import BinaryIO
 
-if sys.platform != "win32":
+try:
     import fcntl
+except ImportError:  # on Windows
+    fcntl = None  # type: ignore[assignment]
 
 _TAG: ContextVar[str] = ContextVar("tag", default="")
 """In the names of temporaries."""
@@ -126,7 +128,7 @@ def new_file(path: Path) -> int:
 def new_folder(path: Path) -> int:
     """Make an empty folder; its descriptor, or -1 where folders cannot be opened, or it is gone already."""
     path.mkdir()
-    if sys.platform == "win32":
+    if not hasattr(os, "O_DIRECTORY"):
         return -1
     with suppress(FileNotFoundError):
         return os.open(path, os.O_RDONLY | os.O_DIRECTORY)
@@ -215,7 +217,7 @@ def _make_ours(folder: Path, make: Callable[[Path], int], ending: str, names: li
     Another process may take it for a dead one's before it is locked, and remove it: then the next name is tried.
     """
     host = "".join(_host()) + "-"
-    if sys.platform == "win32" or host == f"{_UNKNOWN}{_UNKNOWN}-":
+    if fcntl is None or host == f"{_UNKNOWN}{_UNKNOWN}-":
         host = ""
     while True:
         names.append(folder / f".vorotool-{host}{_TAG.get()}{secrets.token_hex(8)}{ending}")
@@ -234,8 +236,6 @@ def _make_ours(folder: Path, make: Callable[[Path], int], ending: str, names: li
 
 def _lock(descriptor: int) -> bool:
     """Take the lock, or say that somebody else has it."""
-    if sys.platform == "win32":
-        return False
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
@@ -260,7 +260,7 @@ def _temporaries(folder: str | os.PathLike[str]) -> list[tuple[Path, re.Match[st
 
 def _remove_unless_held(path: Path) -> None:
     """Remove a temporary of this machine if its lock can be taken, which is held meanwhile."""
-    if sys.platform == "win32":
+    if fcntl is None:
         return
     with suppress(OSError):
         kind = path.lstat().st_mode
@@ -295,7 +295,7 @@ def _host() -> tuple[str, str]:
         import uuid
 
         machine = f"{uuid.getnode():x}"
-    name = "" if sys.platform == "win32" else os.uname().nodename  # which tells machines with copied disks apart
+    name = os.uname().nodename if hasattr(os, "uname") else ""  # which tells machines with copied disks apart
     return _digest(boot), _digest(machine and f"{machine} {name}")
 
 
