@@ -15,10 +15,7 @@
 namespace vorotool::bindings {
 namespace {
 
-namespace nb = nanobind;
-using namespace nb::literals;
 using core::alpha::AlphaRule;
-using core::base::Monitor;
 using Values = Vector<const double>;
 
 // The binding trusts nobody with indices: a wrong one would read elsewhere.
@@ -31,9 +28,8 @@ auto edges_of_triangles(const IndexRows& triangles, const IndexRows& neighbours,
   if (triangles.shape(0) != neighbours.shape(0))
     throw std::invalid_argument("each triangle must have neighbours");
   check_indices(rows_of(neighbours, 3), -1, neighbours.shape(0));
-  core::alpha::EdgeArrays found = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::alpha::edges_of_triangles(rows_of(triangles, 3), rows_of(neighbours, 3), threads, monitor);
-  });
+  core::alpha::EdgeArrays found = run_interruptible(progress, core::alpha::edges_of_triangles,
+                                                    rows_of(triangles, 3), rows_of(neighbours, 3), threads);
   const std::size_t rows = found.ends.size() / 2;
   return std::make_tuple(to_numpy(std::move(found.ends), {rows, 2}),
                          to_numpy(std::move(found.sides), {rows, 2}));
@@ -47,9 +43,8 @@ Columns alpha_complex(const Matrix<const double>& points, const IndexRows& trian
   check_indices(input.triangles, 0, input.points.size());
   check_indices(input.edges, 0, input.points.size());
   check_indices(input.sides, -1, triangles.shape(0));
-  core::alpha::AlphaArrays found = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::alpha::alpha_complex(input, rule, threads, monitor);
-  });
+  core::alpha::AlphaArrays found =
+      run_interruptible(progress, core::alpha::alpha_complex, input, rule, threads);
   Columns out;
   const auto put = [&](const char* name, auto& values) {
     const std::size_t size = values.size();
@@ -76,9 +71,8 @@ core::alpha::EdgeRanks ranks_of(const Indices& min, const Indices& mid, const In
 auto shape_edges(const Indices& min, const Indices& mid, const Indices& max, std::int32_t reached,
                  std::int32_t entered, unsigned threads, const Progress& progress) {
   const core::alpha::EdgeRanks ranks = ranks_of(min, mid, max);
-  core::alpha::ShapeEdges found = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::alpha::shape_edges(ranks, reached, entered, threads, monitor);
-  });
+  core::alpha::ShapeEdges found =
+      run_interruptible(progress, core::alpha::shape_edges, ranks, reached, entered, threads);
   return std::make_tuple(to_numpy(std::move(found.edge), {found.count}),
                          to_numpy(std::move(found.kind), {found.count}));
 }
@@ -86,9 +80,8 @@ auto shape_edges(const Indices& min, const Indices& mid, const Indices& max, std
 auto connected_triangles(const Vector<const std::uint8_t>& inside, const IndexRows& sides,
                          const Progress& progress) {
   check_indices(rows_of(sides, 2), -1, inside.size());
-  return to_numpy(run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::alpha::connected_triangles(view(inside), rows_of(sides, 2), monitor);
-  }));
+  return to_numpy(
+      run_interruptible(progress, core::alpha::connected_triangles, view(inside), rows_of(sides, 2)));
 }
 
 auto trace_rings(const Matrix<const double>& points, const Indices& a, const Indices& b,
@@ -97,10 +90,8 @@ auto trace_rings(const Matrix<const double>& points, const Indices& a, const Ind
     throw std::invalid_argument("columns differ in length");
   check_indices(view(a), 0, points.shape(0));
   check_indices(view(b), 0, points.shape(0));
-  core::alpha::Rings rings = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::alpha::trace_rings(rows<core::kernel::Point>(points), view(a), view(b), view(region),
-                                    monitor);
-  });
+  core::alpha::Rings rings = run_interruptible(
+      progress, core::alpha::trace_rings, rows<core::kernel::Point>(points), view(a), view(b), view(region));
   return std::make_tuple(to_numpy(std::move(rings.vertex)), to_numpy(std::move(rings.start)),
                          to_numpy(std::move(rings.region)), to_numpy(std::move(rings.is_hole)));
 }
@@ -117,8 +108,7 @@ Columns alpha_curves(std::size_t spectrum, const Indices& triangle_rank, const I
     check_indices(ranks, 0, spectrum + 1);
   }
   check_indices(input.sides, -1, triangle_rank.size());
-  core::alpha::Curves found = run_interruptible(
-      progress, [&](const Monitor& monitor) { return core::alpha::alpha_curves(input, monitor); });
+  core::alpha::Curves found = run_interruptible(progress, core::alpha::alpha_curves, input);
   Columns out;
   out["area"] = to_numpy(std::move(found.area), {spectrum});
   out["perimeter"] = to_numpy(std::move(found.perimeter), {spectrum});

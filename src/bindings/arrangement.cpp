@@ -20,8 +20,6 @@
 namespace vorotool::bindings {
 namespace {
 
-namespace nb = nanobind;
-using namespace nb::literals;
 using core::base::IndexPair;
 using core::base::Monitor;
 using core::kernel::LatticePoint;
@@ -40,18 +38,15 @@ auto pairs(const std::vector<LatticePoint>& points) {
 // Lattice points, origin, exponent and the largest move.
 auto place_on_lattice(const Places& array, unsigned threads, const Progress& progress) {
   const auto points = rows<core::kernel::Point>(array);
-  const core::arrangement::Placement placed = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::arrangement::place_on_lattice(points, threads, monitor);
-  });
+  const core::arrangement::Placement placed =
+      run_interruptible(progress, core::arrangement::place_on_lattice, points, threads);
   return std::make_tuple(pairs(placed.points), std::make_tuple(placed.origin_x, placed.origin_y),
                          placed.exponent, placed.largest_move);
 }
 
 auto first_at_place(const IndexRows& points, const Progress& progress) {
   const std::span<const LatticePoint> vertices = rows<LatticePoint>(points);
-  return to_numpy(run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::arrangement::first_at_place(vertices, monitor);
-  }));
+  return to_numpy(run_interruptible(progress, core::arrangement::first_at_place, vertices));
 }
 
 Columns make_planar_graph(const IndexRows& array, const Vector<const std::int64_t>& ring_start,
@@ -63,9 +58,8 @@ Columns make_planar_graph(const IndexRows& array, const Vector<const std::int64_
       static_cast<std::size_t>(rings.start.back()) != vertices.size()) {
     throw std::invalid_argument("the arrays of rings have lengths that do not go together");
   }
-  core::arrangement::PlanarGraph graph = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::arrangement::make_planar_graph(vertices, rings, monitor);
-  });
+  core::arrangement::PlanarGraph graph =
+      run_interruptible(progress, core::arrangement::make_planar_graph, vertices, rings);
   Columns result;
   result["points"] = pairs(graph.points);
   result["point_vertex"] = to_numpy(std::move(graph.point_vertex));
@@ -107,8 +101,7 @@ std::optional<std::string> find_fault(const IndexRows& points, const IndexRows& 
   if (faces) graph.faces = rows<IndexPair>(*faces);
   if (faces && graph.faces.size() != graph.segments.size())
     throw std::invalid_argument("each segment must have two faces");
-  return run_interruptible(
-      progress, [&](const Monitor& monitor) { return core::arrangement::find_fault(graph, monitor); });
+  return run_interruptible(progress, core::arrangement::find_fault, graph);
 }
 
 }  // namespace

@@ -18,17 +18,12 @@
 namespace vorotool::bindings {
 namespace {
 
-namespace nb = nanobind;
-using namespace nb::literals;
-using core::base::Monitor;
-
 // Vertices of the rings, and where each ring starts.
 auto voronoi_cells(const Triangulation& mesh, const std::array<double, 4>& frame, unsigned threads,
                    const Progress& progress) {
   const core::cells::Box box{frame[0], frame[1], frame[2], frame[3]};
-  core::cells::VoronoiCells cells = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::cells::voronoi_cells(mesh.view(), box, threads, monitor);
-  });
+  core::cells::VoronoiCells cells =
+      run_interruptible(progress, core::cells::voronoi_cells, mesh.view(), box, threads);
   return std::make_tuple(points_to_numpy(std::move(cells.vertices)), to_numpy(std::move(cells.starts)));
 }
 
@@ -41,9 +36,7 @@ std::optional<std::string> find_cell_fault(const Places& sites, const Places& ve
   if (cells.starts.size() != cells.sites.size() + 1)
     throw std::invalid_argument("there must be one ring a site");
   const core::cells::Box box{frame[0], frame[1], frame[2], frame[3]};
-  return run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::cells::find_cell_fault(cells, box, threads, monitor);
-  });
+  return run_interruptible(progress, core::cells::find_cell_fault, cells, box, threads);
 }
 
 // Area, perimeter, distance of the farthest vertex, and whether one is on the frame.
@@ -55,9 +48,8 @@ auto measure_cells(const Places& sites, const Places& vertices, const Vector<con
   if (cells.cell_rings.size() != cells.sites.size() + 1)
     throw std::invalid_argument("there must be one cell a site");
   const core::cells::Box box{frame[0], frame[1], frame[2], frame[3]};
-  core::cells::CellMeasures measures = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::cells::measure_cells(cells, box, threads, monitor);
-  });
+  core::cells::CellMeasures measures =
+      run_interruptible(progress, core::cells::measure_cells, cells, box, threads);
   return std::make_tuple(to_numpy(std::move(measures.area)), to_numpy(std::move(measures.perimeter)),
                          to_numpy(std::move(measures.reach)), to_numpy(std::move(measures.touches_frame)));
 }

@@ -12,9 +12,6 @@
 namespace vorotool::bindings {
 namespace {
 
-namespace nb = nanobind;
-using namespace nb::literals;
-
 std::span<const std::uint8_t> bytes_of(const nb::bytes& data) {
   return {reinterpret_cast<const std::uint8_t*>(data.c_str()), data.size()};
 }
@@ -22,9 +19,7 @@ std::span<const std::uint8_t> bytes_of(const nb::bytes& data) {
 auto unpack_lzw(const nb::bytes& data, std::size_t limit) {
   const std::span<const std::uint8_t> packed = bytes_of(data);
   try {
-    return to_numpy(run_interruptible({}, [&](const core::base::Monitor& monitor) {
-      return core::compression::unpack_lzw(packed, limit, monitor);
-    }));
+    return to_numpy(run_interruptible({}, core::compression::unpack_lzw, packed, limit));
   } catch (const core::compression::DamagedCode& error) {
     throw nb::value_error(error.what());
   }
@@ -32,9 +27,7 @@ auto unpack_lzw(const nb::bytes& data, std::size_t limit) {
 
 auto unpack_packbits(const nb::bytes& data, std::size_t limit) {
   const std::span<const std::uint8_t> packed = bytes_of(data);
-  return to_numpy(run_interruptible({}, [&](const core::base::Monitor& monitor) {
-    return core::compression::unpack_packbits(packed, limit, monitor);
-  }));
+  return to_numpy(run_interruptible({}, core::compression::unpack_packbits, packed, limit));
 }
 
 }  // namespace

@@ -19,8 +19,6 @@
 namespace vorotool::bindings {
 namespace {
 
-namespace nb = nanobind;
-using namespace nb::literals;
 using core::base::Monitor;
 using core::delaunay::DelaunayTriangulation;
 using core::kernel::Point;
@@ -64,9 +62,7 @@ std::optional<Columns> insert_points(const Triangulation& mesh, const Places& po
   if (count > all.size() || (hints.size() != 0 && hints.size() != all.size() - count))
     throw std::invalid_argument("points, or hints, are not as many as there must be");
   std::optional<core::delaunay::InsertedArrays> made =
-      run_interruptible(progress, [&](const Monitor& monitor) {
-        return core::delaunay::insert_points(mesh.view(), all, view(hints), threads, monitor);
-      });
+      run_interruptible(progress, core::delaunay::insert_points, mesh.view(), all, view(hints), threads);
   return made ? std::optional(as_dict(std::move(*made))) : std::nullopt;
 }
 
@@ -76,16 +72,13 @@ auto nearest_neighbours(const Places& points, const IndexRows& edges,
   const std::span<const Point> sites = rows<Point>(points);
   const std::span<const std::int32_t> ends = rows_of(edges, 2);
   if (labels.size() != sites.size()) throw std::invalid_argument("there must be one label a point");
-  core::delaunay::NearestNeighbours found = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::delaunay::nearest_neighbours(sites, ends, view(labels), monitor);
-  });
+  core::delaunay::NearestNeighbours found =
+      run_interruptible(progress, core::delaunay::nearest_neighbours, sites, ends, view(labels));
   return std::make_tuple(to_numpy(std::move(found.nearest)), to_numpy(std::move(found.count)));
 }
 
 std::optional<std::string> find_fault(const Triangulation& mesh, unsigned threads, const Progress& progress) {
-  return run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::delaunay::find_fault(mesh.view(), threads, monitor);
-  });
+  return run_interruptible(progress, core::delaunay::find_fault, mesh.view(), threads);
 }
 
 }  // namespace

@@ -13,8 +13,6 @@
 namespace vorotool::bindings {
 namespace {
 
-namespace nb = nanobind;
-using namespace nb::literals;
 using core::base::Monitor;
 using core::delaunay::DelaunayTriangulation;
 using core::delaunay::OrderedPoints;

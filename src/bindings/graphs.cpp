@@ -15,8 +15,6 @@
 namespace vorotool::bindings {
 namespace {
 
-namespace nb = nanobind;
-using namespace nb::literals;
 using core::base::IndexPair;
 using core::base::Monitor;
 using core::graphs::GraphPath;
@@ -72,9 +70,7 @@ auto colour_graph(std::size_t vertices, Vector<const std::uint32_t> a, Vector<co
                   const Progress& progress) {
   std::vector<core::graphs::Edge> edges(a.size());
   for (std::size_t k = 0; k < edges.size(); ++k) edges[k] = {a.data()[k], b.data()[k]};
-  return to_numpy(run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::graphs::colour_graph(vertices, edges, monitor);
-  }));
+  return to_numpy(run_interruptible(progress, core::graphs::colour_graph, vertices, edges));
 }
 
 }  // namespace

@@ -13,8 +13,6 @@
 namespace vorotool::bindings {
 namespace {
 
-namespace nb = nanobind;
-using namespace nb::literals;
 using core::kernel::Point;
 
 template <std::size_t n>

@@ -16,8 +16,6 @@
 namespace vorotool::bindings {
 namespace {
 
-namespace nb = nanobind;
-using namespace nb::literals;
 using core::base::Monitor;
 using core::label_images::Border;
 using core::label_images::Connectivity;
@@ -48,19 +46,15 @@ Columns regions_to_dict(core::label_images::Regions&& found) {
 
 template <class Label>
 Columns measure_regions(Matrix<const Label> labels, unsigned threads, const Progress& progress) {
-  return regions_to_dict(run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::label_images::measure_regions<Label>(view(labels), labels.shape(1), labels.shape(0), threads,
-                                                      monitor);
-  }));
+  return regions_to_dict(run_interruptible(progress, core::label_images::measure_regions<Label>, view(labels),
+                                           labels.shape(1), labels.shape(0), threads));
 }
 
 template <class Label, class Value>
 auto max_by_label(Matrix<const Label> labels, Matrix<const Value> values, Vector<const std::uint32_t> wanted,
                   unsigned threads, const Progress& progress) {
-  return to_numpy(run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::label_images::max_by_label<Label, Value>(view(labels), view(values), labels.shape(1),
-                                                          view(wanted), threads, monitor);
-  }));
+  return to_numpy(run_interruptible(progress, core::label_images::max_by_label<Label, Value>, view(labels),
+                                    view(values), labels.shape(1), view(wanted), threads));
 }
 
 template <class Label>
@@ -70,28 +64,23 @@ void mark_diagram(Matrix<const Label> labels, std::optional<Vector<const Label>>
   auto row = [](const std::optional<Vector<const Label>>& given) {
     return given ? view(*given) : std::span<const Label>();
   };
-  run_interruptible(progress, [&](const Monitor& monitor) {
-    core::label_images::mark_diagram<Label>(view(labels), labels.shape(1), row(above), row(below), view(out),
-                                            threads, monitor);
-  });
+  run_interruptible(progress, core::label_images::mark_diagram<Label>, view(labels), labels.shape(1),
+                    row(above), row(below), view(out), threads);
 }
 
 template <class Label>
 std::size_t count_crack_vertices(const Matrix<const Label>& labels, unsigned threads,
                                  const Progress& progress) {
-  return run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::label_images::count_crack_vertices<Label>(view(labels), labels.shape(1),
-                                                           core::base::resolve_threads(threads), monitor);
-  });
+  return run_interruptible(progress, core::label_images::count_crack_vertices<Label>, view(labels),
+                           labels.shape(1), core::base::resolve_threads(threads));
 }
 
 template <class Label>
 Columns trace_cracks(const Matrix<const Label>& labels, CornerRule rule, unsigned threads,
                      const Progress& progress) {
-  core::label_images::CrackOutlines made = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::label_images::trace_cracks<Label>(view(labels), labels.shape(1), rule,
-                                                   core::base::resolve_threads(threads), monitor);
-  });
+  core::label_images::CrackOutlines made =
+      run_interruptible(progress, core::label_images::trace_cracks<Label>, view(labels), labels.shape(1),
+                        rule, core::base::resolve_threads(threads));
   Columns result;
   result["corners"] = two_columns(std::move(made.corners));
   result["start"] = to_numpy(std::move(made.start));
@@ -110,10 +99,8 @@ void require(bool fits) {
 
 std::uint32_t label_components(Matrix<const std::uint8_t> mask, bool corners, Matrix<std::uint32_t> out,
                                const Progress& progress) {
-  return run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::label_images::label_components(view(mask), mask.shape(1), connectivity_of(corners),
-                                                view(out), monitor);
-  });
+  return run_interruptible(progress, core::label_images::label_components, view(mask), mask.shape(1),
+                           connectivity_of(corners), view(out));
 }
 
 void add(StreamingComponents& components, Matrix<const std::uint8_t> mask, Matrix<std::uint32_t> out,
@@ -132,10 +119,8 @@ std::uint32_t settle(StreamingComponents& components, Vector<std::uint32_t> out)
 void number_band(Matrix<const std::uint8_t> mask, bool corners, Vector<const std::uint32_t> above,
                  Vector<const std::uint32_t> fresh, Matrix<std::uint32_t> out, const Progress& progress) {
   require(mask.shape(1) == above.size() && mask.size() == out.size());
-  run_interruptible(progress, [&](const Monitor& monitor) {
-    core::label_images::number_band(view(mask), connectivity_of(corners), view(above), view(fresh), view(out),
-                                    monitor);
-  });
+  run_interruptible(progress, core::label_images::number_band, view(mask), connectivity_of(corners),
+                    view(above), view(fresh), view(out));
 }
 
 template <class Label>

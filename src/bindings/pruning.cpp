@@ -18,8 +18,6 @@
 namespace vorotool::bindings {
 namespace {
 
-namespace nb = nanobind;
-using namespace nb::literals;
 using core::base::IndexPair;
 using core::base::Monitor;
 using core::kernel::Point;
@@ -112,9 +110,8 @@ SkeletonView part_of(const SkeletonView& whole, const Range& arcs, const Range& 
 
 auto critical_values(const Skeleton& input, Criterion criterion, const Progress& progress) {
   const SkeletonView& skeleton = input.view(criterion);
-  core::pruning::CriticalValues values = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::pruning::critical_values(skeleton, criterion, monitor);
-  });
+  core::pruning::CriticalValues values =
+      run_interruptible(progress, core::pruning::critical_values, skeleton, criterion);
   return std::make_tuple(two_columns(std::move(values.ends)), to_numpy(std::move(values.most)),
                          column<std::int32_t>(values.kept, [](const auto& place) { return place.arc; }),
                          column<double>(values.kept, [](const auto& place) { return place.parameter; }));

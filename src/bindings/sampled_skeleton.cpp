@@ -20,8 +20,6 @@
 namespace vorotool::bindings {
 namespace {
 
-namespace nb = nanobind;
-using namespace nb::literals;
 using core::base::Monitor;
 using core::kernel::Point;
 
@@ -34,10 +32,8 @@ auto to_tuple(core::sampled_skeleton::BoundarySamples&& samples) {
 
 auto sample_by_step(const PlanarGraph& graph, double step, std::size_t most, unsigned threads,
                     const Progress& progress) {
-  return to_tuple(run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::sampled_skeleton::sample_by_step(graph.view(), step, most,
-                                                  core::base::resolve_threads(threads), monitor);
-  }));
+  return to_tuple(run_interruptible(progress, core::sampled_skeleton::sample_by_step, graph.view(), step,
+                                    most, core::base::resolve_threads(threads)));
 }
 
 using Steps = std::pair<Vector<const std::uint64_t>, Vector<const double>>;
@@ -60,10 +56,8 @@ auto to_tuple(core::sampled_skeleton::CornerSteps&& steps) {
 auto sample_from_corners(const PlanarGraph& graph, const Steps& steps, std::size_t most, unsigned threads,
                          const Progress& progress) {
   const core::sampled_skeleton::CornerSteps wanted = steps_of(steps, graph.view());
-  return to_tuple(run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::sampled_skeleton::sample_from_corners(graph.view(), wanted, most,
-                                                       core::base::resolve_threads(threads), monitor);
-  }));
+  return to_tuple(run_interruptible(progress, core::sampled_skeleton::sample_from_corners, graph.view(),
+                                    wanted, most, core::base::resolve_threads(threads)));
 }
 
 auto corner_steps(const PlanarGraph& graph, double step, bool is_even, std::size_t most) {

@@ -22,8 +22,6 @@
 namespace vorotool::bindings {
 namespace {
 
-namespace nb = nanobind;
-using namespace nb::literals;
 using core::base::IndexPair;
 using core::base::Monitor;
 using core::kernel::LatticePoint;
@@ -71,9 +69,7 @@ Columns take_arrays(SegmentVoronoi& diagram, const std::optional<Vector<const st
 
 std::optional<std::string> find_fault(const SegmentDiagram& diagram, unsigned threads,
                                       const Progress& progress) {
-  return run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::segment_voronoi::verify::find_fault(diagram.unchecked(), threads, monitor);
-  });
+  return run_interruptible(progress, core::segment_voronoi::verify::find_fault, diagram.unchecked(), threads);
 }
 
 // A byte a site.

@@ -16,15 +16,12 @@
 namespace vorotool::bindings {
 namespace {
 
-namespace nb = nanobind;
-using namespace nb::literals;
 using core::base::Monitor;
 
 auto skeleton_edges(const SegmentDiagram& input, unsigned threads, const Progress& progress) {
   const core::segment_voronoi::build::DiagramView& diagram = input.view_with_faces();
-  core::skeleton::SkeletonEdges kept = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::skeleton::skeleton_edges(diagram, core::base::resolve_threads(threads), monitor);
-  });
+  core::skeleton::SkeletonEdges kept = run_interruptible(progress, core::skeleton::skeleton_edges, diagram,
+                                                         core::base::resolve_threads(threads));
   return std::make_tuple(to_numpy(std::move(kept.edge)), to_numpy(std::move(kept.face)));
 }
 

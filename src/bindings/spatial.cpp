@@ -15,16 +15,13 @@
 namespace vorotool::bindings {
 namespace {
 
-namespace nb = nanobind;
-using namespace nb::literals;
 using core::base::Monitor;
 using core::spatial::NearestOther;
 
 auto nearest_other_sites(Vector<const double> x, Vector<const double> y, Vector<const std::uint32_t> labels,
                          unsigned threads, const Progress& progress) {
-  const auto found = run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::spatial::nearest_other_sites(view(x), view(y), view(labels), threads, monitor);
-  });
+  const auto found = run_interruptible(progress, core::spatial::nearest_other_sites, view(x), view(y),
+                                       view(labels), threads);
   return std::make_tuple(column<std::int64_t>(found, [](const NearestOther& n) { return n.index; }),
                          column<double>(found, [](const NearestOther& n) { return n.distance; }));
 }
@@ -50,8 +47,7 @@ auto clearances(const IndexRows& points, const IndexRows& segments, const Places
 // The sheet of each box, with the columns least x, least y, most x, most y.
 auto disjoint_sheets(const Matrix<const std::int64_t>& boxes, const Progress& progress) {
   const std::span<const core::spatial::ClosedBox> closed = rows<core::spatial::ClosedBox>(boxes);
-  return to_numpy(run_interruptible(
-      progress, [&](const Monitor& monitor) { return core::spatial::disjoint_sheets(closed, monitor); }));
+  return to_numpy(run_interruptible(progress, core::spatial::disjoint_sheets, closed));
 }
 
 }  // namespace

@@ -16,8 +16,6 @@
 namespace vorotool::bindings {
 namespace {
 
-namespace nb = nanobind;
-using namespace nb::literals;
 using core::base::Monitor;
 using core::tessellation::FrameOnLattice;
 using core::tessellation::Simd;
@@ -104,10 +102,9 @@ void write_distances(const Tessellation& tessellation, const Image& out, std::in
 
 void propagate(const Integers& x, const Integers& y, const Labels& labels, int passes,
                const Label32Image& out, const Progress& progress) {
-  run_interruptible(progress, [&](const Monitor& monitor) {
-    core::tessellation::propagate(view(x), view(y), view(labels), static_cast<std::int32_t>(out.shape(1)),
-                                  static_cast<std::int32_t>(out.shape(0)), passes, out.data(), monitor);
-  });
+  run_interruptible(progress, core::tessellation::propagate, view(x), view(y), view(labels),
+                    static_cast<std::int32_t>(out.shape(1)), static_cast<std::int32_t>(out.shape(0)), passes,
+                    out.data());
 }
 
 // `limit_high` and `limit_low` are the halves of a 128-bit limit of the squared distance.
@@ -121,10 +118,8 @@ auto verify_tessellation(Matrix<const Label> labels, std::int64_t x, std::int64_
   const core::tessellation::LatticeSeeds seeds{view(seed_x), view(seed_y), view(seed_labels), scale};
   std::optional<core::numbers::uint128> limit;
   if (limit_high) limit = core::numbers::uint128{*limit_high} << 64 | limit_low;
-  return run_interruptible(progress, [&](const Monitor& monitor) {
-    return core::tessellation::verify_tessellation<Label>(view(labels), frame, seeds, limit, threads,
-                                                          monitor);
-  });
+  return run_interruptible(progress, core::tessellation::verify_tessellation<Label>, view(labels), frame,
+                           seeds, limit, threads);
 }
 
 // core::SeedTooFar as SeedTooFarError(index).

@@ -21,9 +21,6 @@
 namespace vorotool::bindings {
 namespace {
 
-namespace nb = nanobind;
-using namespace nb::literals;
-
 template <class T>
 using InputArray = Aligned<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
@@ -80,9 +77,7 @@ auto parse_numbers(const nb::bytes& text, const std::string& delimiter, std::vec
                    std::size_t header_records, std::size_t fields, unsigned threads) {
   const std::string_view view = view_of(text);
   const core::text::TextLayout layout{delimiter_of(delimiter), header_records, std::move(columns), fields};
-  core::text::NumberTable table = run_interruptible({}, [&](const core::base::Monitor& monitor) {
-    return core::text::parse_numbers(view, layout, threads, monitor);
-  });
+  core::text::NumberTable table = run_interruptible({}, core::text::parse_numbers, view, layout, threads);
   double* const values = table.values.release();
   const nb::capsule owner(values, [](void* p) noexcept { delete[] static_cast<double*>(p); });
   return Array<double>(values, {table.rows, table.columns}, owner);
@@ -92,9 +87,7 @@ auto parse_fields(const nb::bytes& text, const std::string& delimiter, std::vect
                   std::size_t header_records, std::size_t fields, unsigned threads) {
   const std::string_view view = view_of(text);
   const core::text::TextLayout layout{delimiter_of(delimiter), header_records, std::move(columns), fields};
-  const core::text::FieldTable table = run_interruptible({}, [&](const core::base::Monitor& monitor) {
-    return core::text::parse_fields(view, layout, threads, monitor);
-  });
+  const core::text::FieldTable table = run_interruptible({}, core::text::parse_fields, view, layout, threads);
   std::vector<Texts> result;
   for (std::size_t column = 0; column < table.columns; ++column) {
     const auto values = nb::steal<Texts>(PyList_New(static_cast<Py_ssize_t>(table.rows)));
@@ -112,9 +105,7 @@ std::size_t count_rows(const nb::bytes& text, const std::string& delimiter, std:
                        unsigned threads) {
   const std::string_view view = view_of(text);
   const core::text::TextLayout layout{delimiter_of(delimiter), header_records, {}, 0};
-  return run_interruptible({}, [&](const core::base::Monitor& monitor) {
-    return core::text::count_rows(view, layout, threads, monitor);
-  });
+  return run_interruptible({}, core::text::count_rows, view, layout, threads);
 }
 
 std::size_t line_of_row(const nb::bytes& text, const std::string& delimiter, std::size_t header_records,
@@ -291,9 +282,8 @@ auto format_rows(const nb::typed<nb::list, nb::any>& values,
   ColumnStore store;
   for (std::size_t i = 0; i < missing.size(); ++i) store.add(values[i], missing[i]);
   const core::text::RowShape row = shape_of(shape, missing.size(), store);
-  const std::vector<std::string> blocks = run_interruptible({}, [&](const core::base::Monitor& monitor) {
-    return core::text::format_rows(store.columns, row, precision, threads, monitor);
-  });
+  const std::vector<std::string> blocks =
+      run_interruptible({}, core::text::format_rows, store.columns, row, precision, threads);
   nb::typed<nb::list, nb::bytes> result;
   for (const std::string& block : blocks) result.append(nb::bytes(block.data(), block.size()));
   return result;

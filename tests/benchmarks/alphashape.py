@@ -7,7 +7,6 @@ sorted spectrum, from points; `each r` the edges of one further shape. GUDHI giv
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Callable
 from importlib.util import find_spec
@@ -18,7 +17,7 @@ import numpy as np
 sys.path.pop(0)  # this file is not the peer of its name
 sys.path.insert(0, str(Path(__file__).parents[1]))
 import vorotool
-from benchmarks.timing import best
+from benchmarks.timing import best, options
 from support.families import point_families
 
 
@@ -74,12 +73,7 @@ def measure(n: int, threads: list[int], runs: int, peers: list[str]) -> str:
 
 def main() -> None:
     """Print the table."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--points", type=int, nargs="+", default=[10_000, 100_000, 1_000_000])
-    parser.add_argument("--threads", type=int, default=2)
-    parser.add_argument("--runs", type=int, default=5)
-    parser.add_argument("--no-peers", action="store_true")
-    arguments = parser.parse_args()
+    arguments = options("points", [10_000, 100_000, 1_000_000], runs=5).parse_args()
     peers = [] if arguments.no_peers else [name for name in PEERS if find_spec(name)]
     threads = sorted({1, arguments.threads})
     print("seconds; in brackets: how many times ours on the most threads\n")

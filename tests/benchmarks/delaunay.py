@@ -21,7 +21,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 import vorotool
-from benchmarks.timing import best
+from benchmarks.timing import best, options
 from support.families import point_families
 from vorotool import _core
 
@@ -140,11 +140,7 @@ def measure(name: str, n: int, threads: int, runs: int, peers: list[str]) -> str
 
 def main() -> None:
     """Print the table."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--points", type=int, nargs="+", default=[10_000, 100_000, 1_000_000])
-    parser.add_argument("--threads", type=int, default=2)
-    parser.add_argument("--runs", type=int, default=5)
-    parser.add_argument("--no-peers", action="store_true")
+    parser = options("points", [10_000, 100_000, 1_000_000], runs=5)
     parser.add_argument("--peak", nargs=2, help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     if arguments.peak:

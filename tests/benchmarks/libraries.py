@@ -11,7 +11,7 @@ import os
 import signal
 import tempfile
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor, as_completed
 from contextlib import suppress
 from pathlib import Path
@@ -44,6 +44,13 @@ def compare(what: str, ours: Any, theirs: Any, library: str) -> tuple[Any, Any]:
     (seconds, made), (others, peer) = timed(ours, 3), timed(theirs, 3)
     print(f"{what:44} vorotool {seconds:7.3f} s   {library:28} {others:7.3f} s   {others / seconds:6.1f} times")
     return made, peer
+
+
+def written(write: Callable[[io.BytesIO], object]) -> int:
+    """How many bytes are written."""
+    out = io.BytesIO()
+    write(out)
+    return len(out.getvalue())
 
 
 def labels(size: int) -> Any:
@@ -79,18 +86,16 @@ def png() -> None:
     """Labels of 16 bits."""
     image = labels(4096).labels
 
-    def ours() -> int:
-        out = io.BytesIO()
-        write_png(out, [image], image.shape)
-        return len(out.getvalue())
-
     def theirs(level: int) -> int:
-        out = io.BytesIO()
-        Image.fromarray(image).save(out, "PNG", compress_level=level)
-        return len(out.getvalue())
+        return written(lambda out: Image.fromarray(image).save(out, "PNG", compress_level=level))
 
     for level in (1, 6):
-        sizes = compare("PNG, 4096 x 4096 labels", ours, lambda level=level: theirs(level), f"Pillow, level {level}")
+        sizes = compare(
+            "PNG, 4096 x 4096 labels",
+            lambda: written(lambda out: write_png(out, [image], image.shape)),
+            lambda level=level: theirs(level),
+            f"Pillow, level {level}",
+        )
         print("   bytes:", *(f"{size:,}" for size in sizes))
 
 
@@ -110,23 +115,16 @@ def pnm() -> None:
 def graphml() -> None:
     """The branches of many shapes."""
     skeleton = vorotool.skeleton_exact(vorotool.outlines(labels(1000).labels, mode="labels"))
-
-    def ours() -> int:
-        out = io.BytesIO()
-        write_graphml(out, skeleton)
-        return len(out.getvalue())
-
     graph = vorotool.to_networkx(skeleton)
     for *_, values in graph.edges(data=True):
         for name, value in list(values.items()):
             values[name] = str(value) if not isinstance(value, int | float | str) else value
-
-    def theirs() -> int:
-        out = io.BytesIO()
-        networkx.write_graphml(graph, out)
-        return len(out.getvalue())
-
-    compare(f"GraphML, {graph.number_of_edges():,} edges", ours, theirs, "networkx, without converting")
+    compare(
+        f"GraphML, {graph.number_of_edges():,} edges",
+        lambda: written(lambda out: write_graphml(out, skeleton)),
+        lambda: written(lambda out: networkx.write_graphml(graph, out)),
+        "networkx, without converting",
+    )
 
 
 def contours() -> None:

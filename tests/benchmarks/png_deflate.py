@@ -20,26 +20,17 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import distance_transform_edt
 
+import vorotool
 from vorotool.formats.images.png_writer import write_png
 
 BLOCK_BYTES = 1 << 20
 
 
 def label_image(size: int, count: int) -> NDArray[np.uint16]:
-    """Voronoi labels of about ``count`` seeds in random order: eight strips, each its own tessellation."""
-    strips, rng = 8, np.random.default_rng(7)
-    labels = rng.permutation(count).astype(np.uint16) + np.uint16(1)
-    height, each = size // strips, count // strips
-    image = np.empty((size, size), np.uint16)
-    for strip in range(strips):
-        seeds = np.zeros((height, size), np.uint16)
-        places = rng.choice(height * size, each, replace=False)
-        seeds.flat[places] = labels[strip * each : (strip + 1) * each]
-        nearest = distance_transform_edt(seeds == 0, return_distances=False, return_indices=True)
-        image[strip * height : (strip + 1) * height] = seeds[tuple(nearest)]
-    return image
+    """Voronoi labels of ``count`` seeds in random order."""
+    seeds = np.random.default_rng(7).integers(0, size, (count, 2))
+    return vorotool.tessellate(seeds, shape=(size, size)).labels.astype(np.uint16)
 
 
 def filtered(image: NDArray[np.uint16], start: int, stop: int) -> NDArray[np.uint8]:

@@ -20,16 +20,15 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Sequence
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Sequence
 from importlib.util import find_spec
 from itertools import product
-from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
+from benchmarks.timing import in_own_process
 from support.families import segment_families
 from vorotool import _core
 
@@ -158,12 +157,6 @@ def growth_row(name: str) -> str:
     ratio = f"{(visited[-1] - visited[-2]) / mean:.2f}" if mean > 0.5 else ""
     cells = [f"{value:.1f}" for value in visited] + [""] * (len(GROWTH) - len(visited))
     return f"| {name} | {' | '.join(cells)} | {mean:.1f} | {ratio} |"
-
-
-def in_own_process(function: Callable[..., str], *arguments: object) -> str:
-    """A row of a table; its memory is its own."""
-    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
-        return pool.submit(function, *arguments).result()
 
 
 def print_times(families: Sequence[str], sizes: list[int], threads: list[int], runs: int) -> None:

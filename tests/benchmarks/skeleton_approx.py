@@ -8,9 +8,7 @@ import resource
 import sys
 import time
 import warnings
-from concurrent.futures import ProcessPoolExecutor
 from functools import partial
-from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +16,7 @@ import shapely
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 import vorotool
-from benchmarks.timing import timed
+from benchmarks.timing import in_own_process, timed
 from vorotool.engines.sampled_skeleton.hausdorff import distances_to, places_on_arcs
 
 RUNS = 3
@@ -50,12 +48,6 @@ def whole(seeds, threads):
     begin = time.process_time()
     took, _ = seconds(lambda: vorotool.skeleton_approx(shape, step=step, threads=threads) and None)
     return took, (time.process_time() - begin) / RUNS, memory, arcs
-
-
-def in_own_process(function, *arguments):
-    """What it gives; its memory is its own."""
-    with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
-        return pool.submit(function, *arguments).result()
 
 
 def by_shapely(polygon, step):

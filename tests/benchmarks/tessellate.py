@@ -8,10 +8,10 @@ Peers: scipy's and scikit-image's exact transforms (other ties), OpenCV's approx
 
 from __future__ import annotations
 
-import argparse
-import time
+import sys
 import warnings
 from collections.abc import Callable
+from pathlib import Path
 
 import cv2
 import edt
@@ -19,7 +19,9 @@ import numpy as np
 from scipy.ndimage import distance_transform_edt
 from skimage.segmentation import expand_labels
 
+sys.path.insert(0, str(Path(__file__).parents[1]))
 import vorotool
+from benchmarks.timing import options, timed
 from vorotool import _core, _core_testing
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.geometry.pixel_frame import Frame
@@ -38,12 +40,7 @@ PEERS: dict[str, Callable[[np.ndarray], object]] = {
 
 def best(function: Callable[[], object], runs: int) -> float:
     """Least milliseconds of several runs."""
-    times = []
-    for _ in range(runs):
-        start = time.perf_counter()
-        function()
-        times.append(time.perf_counter() - start)
-    return 1e3 * min(times)
+    return 1e3 * timed(function, runs)[0]
 
 
 def seed_set(m: int, n: int, *, sub_pixel: bool) -> vorotool.SeedSet:
@@ -83,12 +80,8 @@ def measure(m: int, n: int, threads: int, runs: int, *, sub_pixel: bool, peers: 
 
 def main() -> None:
     """Print the table."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--sizes", type=int, nargs="+", default=[512, 2048, 4096, 8192])
+    parser = options("sizes", [512, 2048, 4096, 8192], runs=7)
     parser.add_argument("--seeds", type=int, nargs="+", default=[53, 10_000, 1_000_000])
-    parser.add_argument("--threads", type=int, default=2)
-    parser.add_argument("--runs", type=int, default=7)
-    parser.add_argument("--no-peers", action="store_true")
     arguments = parser.parse_args()
     warnings.simplefilter("ignore")
     cv2.setNumThreads(arguments.threads)

@@ -8,7 +8,6 @@ must give the same radii.
 from __future__ import annotations
 
 import sys
-import warnings
 from fractions import Fraction
 from pathlib import Path
 
@@ -62,7 +61,6 @@ def shape_at(family: object, rank: int) -> dict[frozenset[tuple[Fraction, Fracti
 def main() -> int:
     """Run all cases; exit 1 if any failed."""
     cases = Cases(options(20_000).parse_args())
-    warnings.simplefilter("ignore")
     names, skipped = list(FAMILIES), 0
     for case in cases:
         rng, name = cases.random(case), names[case % len(names)]

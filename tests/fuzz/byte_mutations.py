@@ -30,7 +30,7 @@ WORDS += [
     "\ud800".encode("utf-8", "surrogatepass").decode("latin-1"),
 ]
 TOKENS = re.compile(rb"[A-Za-z_|<>]+|[-+.0-9eE]+|\s+|.", re.DOTALL)
-CHUNKS = (b"IHDR", b"IDAT", b"PLTE", b"tRNS", b"zTXt", b"iCCP", b"gAMA", b"IEND", b"acTL", b"fdAT")
+CHUNKS = (b"IDAT", b"PLTE", b"tRNS", b"zTXt", b"iCCP", b"gAMA", b"IEND", b"acTL", b"fdAT")
 TAGS = (256, 257, 258, 259, 262, 266, 273, 277, 278, 279, 284, 317, 322, 323, 324, 325, 339, 347, 513, 32997, 50838)
 TYPE = re.compile(rb"(?<='descr': )'[^']*'")
 TYPES = (b"'<u2'", b"'|O'", b"'<c8'", b"[('a', '<u2')]", b"'<U4'", b"'<M8[s]'", b"'>f2'", b"'|b1'", b"'<f16'")
@@ -138,10 +138,7 @@ def _png(data: bytes, chance: random.Random) -> bytes:
     elif action == 1:
         chunks.insert(chance.randrange(len(chunks)), chunks[place])
     elif action == 2:
-        chunks[place] = (
-            chance.choice((b"IDAT", b"PLTE", b"tRNS", b"zTXt", b"iCCP", b"gAMA", b"IEND", b"acTL", b"fdAT")),
-            body,
-        )
+        chunks[place] = chance.choice(CHUNKS), body
     elif action == 3 and kind == b"IDAT":
         try:
             chunks[place] = kind, zlib.compress(_bytes(zlib.decompress(body), chance))
@@ -179,30 +176,7 @@ def _tiff(data: bytes, chance: random.Random) -> bytes:
     elif action == 1:
         struct.pack_into(order + value_type, made, at + 4, number % 256**width)
     elif action == 2:
-        tags = (
-            256,
-            257,
-            258,
-            259,
-            262,
-            266,
-            273,
-            277,
-            278,
-            279,
-            284,
-            317,
-            322,
-            323,
-            324,
-            325,
-            339,
-            347,
-            513,
-            32997,
-            50838,
-        )
-        struct.pack_into(order + "H", made, at, chance.choice(tags))
+        struct.pack_into(order + "H", made, at, chance.choice(TAGS))
     elif action == 3:
         made[at : at + size] = made[first : first + size]
     else:
@@ -217,9 +191,7 @@ def _npy(data: bytes, chance: random.Random) -> bytes:
         return _bytes(data, chance)
     length = int.from_bytes(data[8:10], "little")
     text, body = data[10 : 10 + length], data[10 + length :]
-    text = text.replace(
-        b"'<u2'", chance.choice((b"'<u2'", b"'|O'", b"'<c8'", b"[('a', '<u2')]", b"'<U4'", b"'<M8[s]'"))
-    )
+    text = TYPE.sub(lambda _: chance.choice(TYPES), text)
     text = _tokens(text, chance)
     if chance.random() < 0.9:
         text = text.rstrip() + b" " * (-(len(text.rstrip()) + 11) % 64) + b"\n"

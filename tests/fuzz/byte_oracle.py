@@ -36,6 +36,7 @@ COMMANDS = {
     "points": (["tessellate", "{}", "-o", "out.tif", "--size", "40x30"], ["delaunay", "{}", "-o", "out.geojson"]),
     "shapes": (["skeleton-exact", "{}", "-o", "out.geojson"], ["draw", "{}", "-o", "out.svg"]),
 }
+BATCH = ["tessellate", "in", "--out-dir", "out", "-f", "npy", "--size", "6x5", "-q", "-j", "1"]
 
 
 def write_bundle(bundle: Bundle, folder: Path) -> Path:
@@ -99,17 +100,20 @@ def judge_command(path: Path, kind: str, chance: random.Random) -> tuple[str, st
     return (LIMIT if code == 5 else REFUSED if code else READ), ""
 
 
-def judge_manifest(data: bytes, folder: Path, chance: random.Random) -> tuple[str, str]:
-    """Resume a batch of two inputs by a manifest that is damaged."""
+def batch_of_two(folder: Path) -> Path:
+    """Run a batch; its manifest."""
     (folder / "in").mkdir()
     for name in ("a.csv", "b.csv"):
         (folder / "in" / name).write_text("1,2\n3,4\n5,1\n")
-    command = ["tessellate", "in", "--out-dir", "out", "-f", "npy", "--size", "6x5", "-q", "-j", "1"]
-    run_command(command, folder)
-    manifest = next((folder / "out").glob("*.jsonl"))
-    manifest.write_bytes(data)
+    run_command(BATCH, folder)
+    return next((folder / "out").glob("*.jsonl"))
+
+
+def judge_manifest(data: bytes, folder: Path, chance: random.Random) -> tuple[str, str]:
+    """Resume a batch of two inputs by a manifest that is damaged."""
+    batch_of_two(folder).write_bytes(data)
     (folder / "keep-1.tmp").write_text("mine")
-    code, said = run_command([*command, "--resume"], folder)
+    code, said = run_command([*BATCH, "--resume"], folder)
     left = list(folder.rglob(".vorotool-*.tmp"))
     if code not in (0, 2, 3, 4) or "Traceback" in said or left or not (folder / "keep-1.tmp").exists():
         return WRONG, f"--resume: exit {code}, left {left}: {said[-1500:]}"

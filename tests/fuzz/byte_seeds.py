@@ -74,30 +74,28 @@ def _pictures() -> list[tuple[str, str, bytes]]:
     return [(k, f"a.{k}", _saved(image, k.upper(), **options)) for k in known for image, options in kinds[k]]
 
 
+def _tiff(value: np.ndarray, **options: object) -> bytes:
+    out = io.BytesIO()
+    tifffile.imwrite(out, value, **options)
+    return out.getvalue()
+
+
 def _tiffs() -> list[tuple[str, str, bytes]]:
     files = []
     plain: tuple[dict[str, object], ...] = ({}, {"tile": (16, 16)}, {"bigtiff": True})
     compressed: tuple[dict[str, object], ...] = ({"compression": "zlib"}, {"compression": "lzma", "rowsperstrip": 4})
     numbers = itertools.product(("u1", ">u2", "i4", "f4"), (*plain, *compressed))
     for dtype, options in (*numbers, *itertools.product("?", plain)):
-        out = io.BytesIO()
         byteorder = ">" if dtype[0] == ">" else "<"
-        tifffile.imwrite(out, GREY.astype(dtype), byteorder=byteorder, metadata=None, **options)
-        files.append(out.getvalue())
+        files.append(_tiff(GREY.astype(dtype), byteorder=byteorder, metadata=None, **options))
     for options in ({"compression": "zlib", "predictor": 2, "tile": (16, 16)}, {"imagej": True, "resolution": (4, 5)}):
-        out = io.BytesIO()
-        tifffile.imwrite(out, GREY.astype("u2"), **options)
-        files.append(out.getvalue())
+        files.append(_tiff(GREY.astype("u2"), **options))
     for compression in ("tiff_adobe_deflate", "tiff_lzw", "packbits"):
-        out = io.BytesIO()
-        Image.fromarray(GREY.astype(bool)).save(out, "TIFF", compression=compression)
-        files.append(out.getvalue())
+        files.append(_saved(Image.fromarray(GREY.astype(bool)), "TIFF", compression=compression))
     colour = np.dstack([GREY, GREY + 1, GREY + 2])
     for options in ({"planarconfig": "separate"}, {"planarconfig": "contig", "compression": "zlib"}):
-        out = io.BytesIO()
         value = np.moveaxis(colour, 2, 0) if options["planarconfig"] == "separate" else colour
-        tifffile.imwrite(out, value, photometric="rgb", metadata=None, **options)
-        files.append(out.getvalue())
+        files.append(_tiff(value, photometric="rgb", metadata=None, **options))
     out = io.BytesIO()
     with tifffile.TiffWriter(out) as writer:
         for page in (GREY, GREY[:5]):

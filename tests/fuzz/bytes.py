@@ -24,7 +24,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from fuzz.byte_mutations import mutated
-from fuzz.byte_oracle import LIMIT, READ, REFUSED, WRONG, judge
+from fuzz.byte_oracle import LIMIT, READ, REFUSED, WRONG, batch_of_two, judge, write_bundle
 from fuzz.byte_seeds import Bundle, seeds
 
 SECONDS = 10.0
@@ -191,15 +191,8 @@ class Worker:
 
 def _manifests() -> list[Bundle]:
     """The manifest of a batch of two inputs."""
-    from fuzz.byte_oracle import run_command
-
     with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        (folder / "in").mkdir()
-        for file in ("a.csv", "b.csv"):
-            (folder / "in" / file).write_text("1,2\n3,4\n5,1\n")
-        run_command(["tessellate", "in", "--out-dir", "out", "-f", "npy", "--size", "6x5", "-q", "-j", "1"], folder)
-        manifest = next((folder / "out").glob("*.jsonl"))
+        manifest = batch_of_two(Path(name))
         return [Bundle("manifest", manifest.name, {manifest.name: manifest.read_bytes()})]
 
 
@@ -207,14 +200,12 @@ def _virtual_memory() -> int:
     return int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
 
 
-def _replayed(fuzzer: Fuzzer, folder: Path | None) -> None:
+def _replayed(fuzzer: Fuzzer, folder: Path) -> None:
     """Print what the first case does, and keep its files."""
     bundle, chance = fuzzer.bundle(fuzzer.arguments.first)
     for name, data in bundle.files.items():
         print(f"{name}: {len(data)} bytes: {data[:300]!r}")
-        if folder is not None:
-            (folder / name).parent.mkdir(parents=True, exist_ok=True)
-            (folder / name).write_bytes(data)
+    write_bundle(bundle, folder)
     with tempfile.TemporaryDirectory() as place:
         print(*judge(bundle, Path(place), chance, fuzzer.arguments.commands), sep="\n")
 

@@ -8,7 +8,6 @@ the arrays of the triangulation of all.
 from __future__ import annotations
 
 import sys
-import warnings
 from collections import Counter
 from pathlib import Path
 
@@ -73,7 +72,6 @@ def wrong_insertion(points: np.ndarray, rng: np.random.Generator, local: Counter
 def main() -> int:
     """Run all cases; exit 1 if any failed."""
     cases = Cases(options(20_000).parse_args())
-    warnings.simplefilter("ignore")
     names = list(FAMILIES)
     local: Counter[str] = Counter()
     points_seen = 0

@@ -7,7 +7,6 @@ permutation of its points and another number of threads, which must give the sam
 from __future__ import annotations
 
 import sys
-import warnings
 from pathlib import Path
 
 import numpy as np
@@ -46,7 +45,6 @@ def failure(points: np.ndarray, rng: np.random.Generator) -> str | None:
 def main() -> int:
     """Run all cases; exit 1 if any failed."""
     cases = Cases(options(10**5).parse_args())
-    warnings.simplefilter("ignore")
     names, points_seen = list(FAMILIES), 0
     for case in cases:
         rng, name = cases.random(case), names[case % len(names)]

@@ -8,7 +8,6 @@ how many sets needed each step of the repair.
 from __future__ import annotations
 
 import sys
-import warnings
 from collections import Counter
 from dataclasses import asdict
 from pathlib import Path
@@ -86,7 +85,6 @@ def failure(m, seeds, needed):
 def main() -> int:
     """Run all sets; exit 1 if any failed."""
     sets = Cases(options(500, "set").parse_args(), "set")
-    warnings.simplefilter("ignore")
     needed: Counter[str] = Counter()
     sites = 0
     for number in sets:

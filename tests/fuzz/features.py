@@ -8,7 +8,6 @@ the results must follow when the features are permuted or given twice, whatever 
 from __future__ import annotations
 
 import sys
-import warnings
 from pathlib import Path
 
 import numpy as np
@@ -263,7 +262,6 @@ def of_data(rng) -> str | None:
 def main() -> int:
     """Run all; exit 1 if any failed."""
     arguments = options(20000).parse_args()
-    warnings.simplefilter("ignore")
     cases = Cases(arguments)
     for case in cases:
         cases.judge(case, *one_case(case, cases.random(case)))

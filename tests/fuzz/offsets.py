@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import sys
-import warnings
 from pathlib import Path
 
 import numpy as np
 import shapely
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import Cases, options
+from fuzz.runner import run_families
 from support.families.skeleton_shapes import FAMILIES, TOUCHING
 from support.oracles.offset_oracle import check_offsets, check_rebuilt
 from vorotool import VorotoolError, offset, rebuild, skeleton_exact, verify_offsets
@@ -50,15 +49,5 @@ def failure(shape: object, random: np.random.Generator) -> str | None:
     return None
 
 
-def main() -> int:
-    """Run all cases; exit 1 if any failed."""
-    cases = Cases(options(1000).parse_args())
-    warnings.simplefilter("ignore")
-    for case in cases:
-        family, random = SHAPES[case % len(SHAPES)], cases.random(case)
-        cases.judge(case, family.__name__, failure(family(random), random))
-    return cases.end(f"shapes x {DISTANCES} distances")
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_families(SHAPES, failure, 1000, f"shapes x {DISTANCES} distances"))

@@ -7,46 +7,17 @@ ones are compared with the definition in rationals: segments, the edges that eac
 from __future__ import annotations
 
 import sys
-import warnings
 from pathlib import Path
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from fuzz.runner import Cases, options
-from support.families.polygon_families import FAMILIES, LINE, draw
+from support.families.polygon_families import FAMILIES, LINE, draw, graph_of
 from support.oracles import planar_graph_oracle as oracle
-from vorotool import PlanarGraph, PolygonSet, VorotoolError, _core, verify_planar_graph
-from vorotool.geometry.polygons.planar_graph import REPAIRS
+from vorotool import VorotoolError, verify_planar_graph
 
 SMALL = 11
-
-
-def graph_of(vertices: np.ndarray, rings: list[tuple[int, int, int, int]]) -> PlanarGraph:
-    """The graph of vertices that are on the lattice: placed so that one unit is one step."""
-    columns = np.array(rings).reshape(-1, 4)
-    shapes = PolygonSet(vertices, [0, *columns[:, 1]], columns[:, 2], columns[:, 3])
-    made = _core.arrangement.make_planar_graph(vertices, shapes.ring_start, shapes.ring_kind, shapes.ring_polygon, None)
-    counts = [count for count, _, _ in made.pop("repairs")]
-    made.pop("is_repaired")
-    made["point_holes"] = made["point_holes"].reshape(-1, 3)
-    return PlanarGraph(**made, repairs=dict(zip(REPAIRS, counts, strict=True)))
-
-
-def described(graph: PlanarGraph) -> dict[tuple, tuple]:
-    """Segments as the oracle has them."""
-    found = {}
-    inside = [set(graph.polygons_of(face).tolist()) for face in range(graph.faces)]
-    for k, (pair, faces) in enumerate(zip(graph.points[graph.segments].tolist(), graph.segment_faces, strict=True)):
-        a, b = map(tuple, pair)
-        left, right = faces if a < b else faces[::-1]
-        found[tuple(sorted((a, b)))] = (graph.sources_of(k).tolist(), inside[left], inside[right])
-    return found
-
-
-def holes_of(graph: PlanarGraph) -> set[tuple]:
-    """Holes of one place as the oracle has them."""
-    return {(tuple(graph.points[point].tolist()), polygon) for point, _, polygon in graph.point_holes.tolist()}
 
 
 def failure(vertices: np.ndarray, rings: list[tuple[int, int, int, int]]) -> str | None:
@@ -64,9 +35,9 @@ def failure(vertices: np.ndarray, rings: list[tuple[int, int, int, int]]) -> str
             return "its segments do not come back as they are"
     if len(vertices) <= SMALL:
         expected, moved = oracle.planar_graph(vertices.tolist(), rings)
-        if described(graph) != expected or graph.repairs["moved_edges"] != moved:
+        if oracle.described(graph) != expected or graph.repairs["moved_edges"] != moved:
             return "not what the definition gives"
-        if holes_of(graph) != oracle.point_holes(vertices.tolist(), rings, expected):
+        if oracle.holes_of(graph) != oracle.point_holes(vertices.tolist(), rings, expected):
             return "not the holes of one place that the definition gives"
     return None
 
@@ -74,7 +45,6 @@ def failure(vertices: np.ndarray, rings: list[tuple[int, int, int, int]]) -> str
 def main() -> int:
     """Run all cases; exit 1 if any failed."""
     cases = Cases(options(10**5).parse_args())
-    warnings.simplefilter("ignore")
     names = list(FAMILIES)
     for case in cases:
         rng, name = cases.random(case), names[case % len(names)]

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import sys
-import warnings
 from pathlib import Path
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import Cases, options
+from fuzz.runner import run_families
 from support.families.skeleton_shapes import FAMILIES
 from support.oracles.pruning_oracle import disagreement, thresholds
 from vorotool import VorotoolError, critical_values, prune, skeleton_exact, verify_pruning
@@ -38,15 +37,5 @@ def failure(shape: object, random: np.random.Generator) -> str | None:
     return None
 
 
-def main() -> int:
-    """Run all cases; exit 1 if any failed."""
-    cases = Cases(options(1000).parse_args())
-    warnings.simplefilter("ignore")
-    for case in cases:
-        family, random = FAMILIES[case % len(FAMILIES)], cases.random(case)
-        cases.judge(case, family.__name__, failure(family(random), random))
-    return cases.end("shapes")
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_families(FAMILIES, failure, 1000))

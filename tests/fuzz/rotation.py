@@ -6,7 +6,6 @@ A third of the rotated shapes is rounded to 2^-20 of the extent too, so that ver
 from __future__ import annotations
 
 import sys
-import warnings
 from pathlib import Path
 from typing import Any
 
@@ -44,7 +43,6 @@ def failure(case: int, random: np.random.Generator, worst: dict[int, float]) -> 
 def main() -> int:
     """Run all cases; exit 1 if any failed."""
     cases = Cases(options(1000).parse_args())
-    warnings.simplefilter("ignore")
     repaired, worst = 0, dict[int, float]()
     for case in cases:
         wrong = failure(case, cases.random(case), worst)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import argparse
 import time
+import warnings
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -25,6 +27,7 @@ class Cases:
 
     def __init__(self, arguments: argparse.Namespace, unit: str = "case") -> None:
         self.arguments, self.unit, self.start = arguments, unit, time.monotonic()
+        warnings.simplefilter("ignore")
         self.count = self.failed = 0
         self.families: Counter[str] = Counter()
 
@@ -63,3 +66,17 @@ class Cases:
         numbers = f"{self.unit}s {first} to {first + self.count - 1}"
         print(f"{numbers}: {self.count:,} {what}, {self.failed} failures, {seconds:.0f} s")
         return int(self.failed > 0 or self.count == 0)
+
+
+def run_families(
+    families: Sequence[Callable[[np.random.Generator], Any]],
+    failure: Callable[[Any, np.random.Generator], str | None],
+    count: int,
+    what: str = "shapes",
+) -> int:
+    """Judge shapes that families draw in turn; the exit code."""
+    cases = Cases(options(count).parse_args())
+    for case in cases:
+        family, random = families[case % len(families)], cases.random(case)
+        cases.judge(case, family.__name__, failure(family(random), random))
+    return cases.end(what)

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import sys
-import warnings
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from fuzz.runner import Cases, options
+from fuzz.runner import run_families
 from support.families.skeleton_shapes import FAMILIES
 from vorotool import VorotoolError
 from vorotool.engines.arrangement.lattice_rings import placed_shapes
@@ -45,15 +44,5 @@ def failure(shape: Any, rng: np.random.Generator) -> str | None:
     return None
 
 
-def main() -> int:
-    """Run all cases; exit 1 if any failed."""
-    cases = Cases(options(2000).parse_args())
-    warnings.simplefilter("ignore")
-    for case in cases:
-        family, rng = FAMILIES[case % len(FAMILIES)], cases.random(case)
-        cases.judge(case, family.__name__, failure(family(rng), rng))
-    return cases.end("shapes")
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_families(FAMILIES, failure, 2000))

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import argparse
 import sys
-import warnings
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
@@ -76,7 +75,6 @@ def main() -> int:
     parser = options(10**5)
     parser.add_argument("--data", action="store_true", help="the shapes in data/ only")
     arguments = parser.parse_args()
-    warnings.simplefilter("ignore")
     return of_data() if arguments.data else at_random(arguments)
 
 

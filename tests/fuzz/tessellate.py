@@ -6,17 +6,15 @@ a pixel counts once a configuration.
 
 from __future__ import annotations
 
-import argparse
 import os
 import sys
-import time
-import warnings
 from collections import Counter
 from pathlib import Path
 
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
+from fuzz.runner import Cases, options
 from support.families.families import random_case
 from support.oracles.oracles import nearest_labels
 from vorotool import _core
@@ -41,26 +39,19 @@ def check(rng: np.random.Generator, side: int) -> tuple[str, int, int]:
 
 def main() -> int:
     """Run until enough pixels were compared; exit 1 if any was wrong or none was compared."""
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--pixels", type=int, default=10**8)
-    parser.add_argument("--seconds", type=float, default=np.inf, help="begin no configuration after so many")
-    parser.add_argument("--seed", type=int, default=1)
-    arguments = parser.parse_args()
-    warnings.simplefilter("ignore")
+    arguments = options(10**8, "pixel").parse_args()
+    cases, wrong = Cases(arguments), 0
     compared: Counter[str] = Counter()
-    wrong, case, start = 0, 0, time.monotonic()
-    while compared.total() < arguments.pixels and time.monotonic() - start < arguments.seconds:
-        rng = np.random.default_rng([arguments.seed, case])
-        name, pixels, bad = check(rng, side=1000 if case % 8 == 0 else 40)
+    for case in cases:
+        if compared.total() >= arguments.count:
+            break
+        name, pixels, bad = check(cases.random(case), side=1000 if case % 8 == 0 else 40)
         compared[name] += pixels
         wrong += bad
-        if bad:
-            print(f"wrong: seed {arguments.seed}, case {case}, {name}: {bad} pixels")
-        case += 1
+        cases.judge(case, name, f"{bad} pixels" if bad else None)
     for name, pixels in sorted(compared.items()):
         print(f"{name:14} {pixels:12,} pixels")
-    print(f"{case} configurations, {compared.total():,} pixels, {wrong} wrong, {time.monotonic() - start:.0f} s")
-    return int(wrong > 0 or case == 0)
+    return cases.end(f"configurations, {compared.total():,} pixels, {wrong} wrong")
 
 
 if __name__ == "__main__":

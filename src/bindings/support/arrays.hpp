@@ -25,6 +25,9 @@
 
 namespace vorotool::bindings {
 
+namespace nb = nanobind;
+using namespace nb::literals;
+
 // What type checkers call an array of such values; of void, of any.
 template <class T>
 constexpr auto array_name() {

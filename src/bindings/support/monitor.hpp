@@ -4,6 +4,7 @@
 #include <nanobind/nanobind.h>
 
 #include <chrono>
+#include <functional>
 #include <utility>
 
 #include "core/base/monitor.hpp"
@@ -41,14 +42,14 @@ inline core::base::Monitor python_monitor(const Progress& progress) {
   };
 }
 
-// Returns kernel(monitor), called without the GIL. An interrupted kernel raises the Python error that stopped
-// it. The kernel must touch no Python object, and its result must be no Python object either.
-template <class Kernel>
-auto run_interruptible(const Progress& progress, Kernel&& kernel) {
+// Returns kernel(arguments..., monitor), called without the GIL. An interrupted kernel raises the Python error
+// that stopped it. The kernel must touch no Python object, and its result must be no Python object either.
+template <class Kernel, class... Arguments>
+auto run_interruptible(const Progress& progress, Kernel&& kernel, Arguments&&... arguments) {
   const core::base::Monitor monitor = python_monitor(progress);
   try {
     const nanobind::gil_scoped_release no_gil;
-    return std::forward<Kernel>(kernel)(monitor);
+    return std::invoke(std::forward<Kernel>(kernel), std::forward<Arguments>(arguments)..., monitor);
   } catch (const core::base::Interrupted&) {
     throw nanobind::python_error();
   }

@@ -1,7 +1,6 @@
 #include "core/alpha/alpha_complex.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -12,6 +11,8 @@
 
 namespace vorotool::core::alpha {
 
+using base::for_items;
+using base::for_pieces;
 using base::LargeArray;
 using base::Monitor;
 using kernel::Point;
@@ -21,17 +22,6 @@ namespace {
 constexpr std::size_t piece_size = std::size_t{1} << 13;  // triangles or edges: about a millisecond of work
 constexpr std::size_t ahead = 16;                         // triangles or edges
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-std::size_t pieces_of(std::size_t count) { return base::piece_count(count, piece_size); }
-
-// Calls body(piece, first, end) for every piece of the numbers below count.
-template <class Body>
-void for_pieces(std::size_t count, unsigned threads, const Monitor& monitor, Body body) {
-  base::parallel_for(
-      pieces_of(count), threads,
-      [&](std::size_t piece) { body(piece, piece * piece_size, std::min(count, (piece + 1) * piece_size)); },
-      monitor);
-}
 
 // Calls visit(side number) for the sides of triangles first ... end - 1 at which an edge is written.
 template <class Visit>
@@ -89,15 +79,13 @@ class AlphaBuilder {
   }
 
   void measure_triangles() {
-    for_pieces(triangles_, threads_, monitor_, [&](std::size_t, std::size_t first, std::size_t end) {
-      for (std::size_t t = first; t < end; ++t) {
-        call_for(in_.triangles, 3 * (t + ahead), 3);
-        const Point &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
-        const TriangleMeasure found = measure_triangle(a, b, c);
-        const bool is_flat = found.radius == infinity && kernel::orient2d(a, b, c) == 0;
-        value_[t] = is_flat ? left_out : found.radius;
-        obtuse_[t] = static_cast<std::uint8_t>(found.obtuse);
-      }
+    for_items(triangles_, piece_size, threads_, monitor_, [&](std::size_t t) {
+      call_for(in_.triangles, 3 * (t + ahead), 3);
+      const Point &a = corner(t, 0), &b = corner(t, 1), &c = corner(t, 2);
+      const TriangleMeasure found = measure_triangle(a, b, c);
+      const bool is_flat = found.radius == infinity && kernel::orient2d(a, b, c) == 0;
+      value_[t] = is_flat ? left_out : found.radius;
+      obtuse_[t] = static_cast<std::uint8_t>(found.obtuse);
     });
   }
 
@@ -116,12 +104,10 @@ class AlphaBuilder {
   }
 
   void measure_edges() {
-    for_pieces(edges_, threads_, monitor_, [&](std::size_t, std::size_t first, std::size_t end) {
-      for (std::size_t i = triangles_ + first; i < triangles_ + end; ++i) {
-        call_for(in_.edges, 2 * (i - triangles_ + ahead), 2);
-        const auto item = static_cast<std::uint32_t>(i);
-        value_[i] = starts_at_half(i - triangles_) ? critical_radius(support_of(item)) : left_out;
-      }
+    for_items(edges_, piece_size, threads_, monitor_, [&](std::size_t e) {
+      call_for(in_.edges, 2 * (e + ahead), 2);
+      const std::size_t i = triangles_ + e;
+      value_[i] = starts_at_half(e) ? critical_radius(support_of(static_cast<std::uint32_t>(i))) : left_out;
     });
   }
 
@@ -139,23 +125,20 @@ class AlphaBuilder {
 
   AlphaArrays write(RadiusRanks&& spectrum) const {
     AlphaArrays out(triangles_, edges_);
-    for_pieces(edges_, threads_, monitor_, [&](std::size_t, std::size_t first, std::size_t end) {
-      for (std::size_t e = first; e < end; ++e) {
-        Critical mid = circumradius(spectrum, e, 0), max = circumradius(spectrum, e, 1);
-        if (max.rank < mid.rank) std::swap(mid, max);
-        const double half = value_[triangles_ + e];
-        const Critical min = half < 0 ? mid : Critical{spectrum.rank[triangles_ + e], half};
-        out.r_min[e] = min.radius;
-        out.r_mid[e] = mid.radius;
-        out.r_max[e] = max.radius;
-        out.rank_min[e] = min.rank;
-        out.rank_mid[e] = mid.rank;
-        out.rank_max[e] = max.rank;
-      }
+    for_items(edges_, piece_size, threads_, monitor_, [&](std::size_t e) {
+      Critical mid = circumradius(spectrum, e, 0), max = circumradius(spectrum, e, 1);
+      if (max.rank < mid.rank) std::swap(mid, max);
+      const double half = value_[triangles_ + e];
+      const Critical min = half < 0 ? mid : Critical{spectrum.rank[triangles_ + e], half};
+      out.r_min[e] = min.radius;
+      out.r_mid[e] = mid.radius;
+      out.r_max[e] = max.radius;
+      out.rank_min[e] = min.rank;
+      out.rank_mid[e] = mid.rank;
+      out.rank_max[e] = max.rank;
     });
-    for_pieces(triangles_, threads_, monitor_, [&](std::size_t, std::size_t first, std::size_t end) {
-      std::copy(spectrum.rank.data() + first, spectrum.rank.data() + end, out.triangle_rank.data() + first);
-    });
+    for_items(triangles_, piece_size, threads_, monitor_,
+              [&](std::size_t t) { out.triangle_rank[t] = spectrum.rank[t]; });
     out.spectrum = std::move(spectrum.value);
     out.witness = std::move(spectrum.witness);
     return out;
@@ -176,13 +159,13 @@ EdgeArrays edges_of_triangles(std::span<const std::int32_t> triangles,
                               std::span<const std::int32_t> neighbours, unsigned threads,
                               const Monitor& monitor) {
   const std::size_t count = triangles.size() / 3;
-  std::vector<std::size_t> start(pieces_of(count) + 1);
-  for_pieces(count, threads, monitor, [&](std::size_t piece, std::size_t first, std::size_t end) {
+  std::vector<std::size_t> start(base::piece_count(count, piece_size) + 1);
+  for_pieces(count, piece_size, threads, monitor, [&](std::size_t piece, std::size_t first, std::size_t end) {
     visit_edges(neighbours, first, end, [&](std::size_t) { ++start[piece + 1]; });
   });
   std::partial_sum(start.begin(), start.end(), start.begin());
   EdgeArrays out{LargeArray<std::int32_t>(2 * start.back()), LargeArray<std::int32_t>(2 * start.back())};
-  for_pieces(count, threads, monitor, [&](std::size_t piece, std::size_t first, std::size_t end) {
+  for_pieces(count, piece_size, threads, monitor, [&](std::size_t piece, std::size_t first, std::size_t end) {
     std::size_t next = 2 * start[piece];
     visit_edges(neighbours, first, end, [&](std::size_t k) {
       const std::size_t t = k / 3;

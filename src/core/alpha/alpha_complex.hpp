@@ -11,7 +11,6 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "core/base/large_array.hpp"
 #include "core/base/monitor.hpp"

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/disjoint_sets.hpp"
+#include "core/base/groups.hpp"
 #include "core/numbers/expansion.hpp"
 
 namespace vorotool::core::alpha {
@@ -14,8 +15,6 @@ using base::Monitor;
 using numbers::TwoTerms;
 
 namespace {
-
-constexpr std::size_t poll_interval = std::size_t{1} << 16;  // edges
 
 // A sum of many terms, in two doubles; one once it is beyond their range.
 struct LongSum {
@@ -32,24 +31,12 @@ struct LongSum {
   }
 };
 
-// Edges by a rank below m, found in time linear in all.
-class ByRank {
- public:
-  ByRank(std::span<const std::int32_t> rank, std::size_t ranks) : start_(ranks + 2), item_(rank.size()) {
-    for (const std::int32_t r : rank) ++start_[static_cast<std::size_t>(r) + 1];
-    for (std::size_t r = 1; r < start_.size(); ++r) start_[r] += start_[r - 1];
-    std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
-    for (std::size_t i = 0; i < rank.size(); ++i) {
-      item_[next[static_cast<std::size_t>(rank[i])]++] = static_cast<std::uint32_t>(i);
-    }
-  }
-  std::span<const std::uint32_t> operator[](std::size_t rank) const {
-    return std::span(item_).subspan(start_[rank], start_[rank + 1] - start_[rank]);
-  }
-
- private:
-  std::vector<std::uint32_t> start_, item_;
-};
+// Edges by their ranks, of which the last is that of those that never come.
+base::Groups<std::uint32_t> by_rank(std::span<const std::int32_t> rank, std::size_t ranks) {
+  return {ranks + 1, [&](const auto& add) {
+            for (std::size_t i = 0; i < rank.size(); ++i) add(rank[i], static_cast<std::uint32_t>(i));
+          }};
+}
 
 class Sweep {
  public:
@@ -73,11 +60,6 @@ class Sweep {
     std::int32_t edges = 0;
   };
 
-  void poll(std::size_t done) {
-    if (done % poll_interval != 0 || !monitor_) return;
-    if (!monitor_(static_cast<double>(done) / static_cast<double>(3 * m_))) throw base::Interrupted();
-  }
-
   void measure() {
     std::vector<Change> change(m_ + 1);
     const auto at = [&](std::int32_t rank) -> Change& { return change[static_cast<std::size_t>(rank)]; };
@@ -90,7 +72,7 @@ class Sweep {
     }
     Change sum;
     for (std::size_t k = 0; k < m_; ++k) {
-      poll(k);
+      base::report_item(monitor_, k, 3 * m_);
       sum.area.add(change[k].area);
       sum.perimeter.add(change[k].perimeter);
       sum.edges += change[k].edges;
@@ -114,12 +96,12 @@ class Sweep {
 
   // Upwards: a triangle is a new region, and an edge that goes inside may join two.
   void count_regions() {
-    const ByRank edges(in_.edges.max, m_);
+    const base::Groups<std::uint32_t> edges = by_rank(in_.edges.max, m_);
     const std::vector<std::int32_t> triangles = triangles_by_rank();
     DisjointSets faces(in_.triangle_rank.size() + 1);
     std::int32_t regions = 0;
     for (std::size_t k = 0; k < m_; ++k) {
-      poll(m_ + k);
+      base::report_item(monitor_, m_ + k, 3 * m_);
       regions += triangles[k];
       for (const std::uint32_t e : edges[k]) regions -= join(faces, e);
       out_.regions[k] = regions;
@@ -129,12 +111,12 @@ class Sweep {
   // Downwards: a triangle that leaves is a new hole, and an edge that then has none left joins it with what
   // is on the other side; the unbounded face counts for nothing.
   void count_cavities() {
-    const ByRank edges(in_.edges.mid, m_);
+    const base::Groups<std::uint32_t> edges = by_rank(in_.edges.mid, m_);
     const std::vector<std::int32_t> triangles = triangles_by_rank();
     DisjointSets faces(in_.triangle_rank.size() + 1);
     std::int32_t cavities = 0;
     for (std::size_t k = m_; k-- > 0;) {
-      poll(3 * m_ - k);
+      base::report_item(monitor_, 3 * m_ - k, 3 * m_);
       cavities += triangles[k + 1];
       for (const std::uint32_t e : edges[k + 1]) cavities -= join(faces, e);
       out_.cavities[k] = cavities;

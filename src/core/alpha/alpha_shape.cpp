@@ -19,12 +19,6 @@ using kernel::Point;
 namespace {
 
 constexpr std::size_t piece_size = std::size_t{1} << 16;  // edges: some tenths of a millisecond of work
-constexpr std::size_t poll_interval = std::size_t{1} << 16;
-
-void poll(const Monitor& monitor, std::size_t done, std::size_t total) {
-  if (done % poll_interval != 0 || !monitor) return;
-  if (!monitor(static_cast<double>(done) / static_cast<double>(total))) throw base::Interrupted();
-}
 
 // Boundary edges by the region on their left and the vertex that they leave.
 class RingTracer {
@@ -46,7 +40,7 @@ class RingTracer {
       if (used_[first]) continue;
       rings.start.push_back(static_cast<std::int32_t>(rings.vertex.size()));
       for (std::size_t edge = first; !used_[edge]; edge = next(edge)) {
-        poll(monitor, done++, a_.size());
+        base::report_item(monitor, done++, a_.size());
         used_[edge] = true;
         rings.vertex.push_back(a_[edge]);
       }
@@ -119,8 +113,7 @@ ShapeEdges shape_edges(const EdgeRanks& ranks, std::int32_t reached, std::int32_
   const std::size_t size = ranks.min.size();
   ShapeEdges out{base::LargeArray<std::int32_t>(size), base::LargeArray<std::uint8_t>(size), 0};
   std::vector<std::size_t> counts(base::piece_count(size, piece_size));
-  const auto scan = [&](std::size_t piece) {
-    const std::size_t begin = piece * piece_size, end = std::min(size, begin + piece_size);
+  const auto scan = [&](std::size_t piece, std::size_t begin, std::size_t end) {
     std::size_t next = begin;
     for (std::size_t e = begin; e < end; ++e) {
       out.edge[next] = static_cast<std::int32_t>(e);
@@ -130,7 +123,7 @@ ShapeEdges shape_edges(const EdgeRanks& ranks, std::int32_t reached, std::int32_
     }
     counts[piece] = next - begin;
   };
-  base::parallel_for(counts.size(), threads, scan, monitor);
+  base::for_pieces(size, piece_size, threads, monitor, scan);
   for (std::size_t piece = 0; piece < counts.size(); ++piece) {
     const std::size_t begin = piece * piece_size, end = begin + counts[piece];
     std::copy(out.edge.data() + begin, out.edge.data() + end, out.edge.data() + out.count);
@@ -145,7 +138,7 @@ std::vector<std::int32_t> connected_triangles(std::span<const std::uint8_t> is_i
   const std::size_t count = is_inside.size();
   base::DisjointSets sets(count + 1);  // 0 is the unbounded face, t + 1 a triangle
   for (std::size_t k = 0; k < sides.size(); k += 2) {
-    poll(monitor, k, sides.size());
+    base::report_item(monitor, k, sides.size());
     const std::int32_t t = sides[k], u = sides[k + 1];
     const bool in_t = t >= 0 && is_inside[static_cast<std::size_t>(t)] != 0;
     const bool in_u = u >= 0 && is_inside[static_cast<std::size_t>(u)] != 0;

@@ -179,11 +179,8 @@ class Sorter {
       long_runs_.pop_back();
       std::swap(words[0], words[words.size() / 2]);
       signs.resize(words.size());
-      const auto compare_piece = [&](std::size_t piece) {
-        const std::size_t end = std::min(words.size(), (piece + 1) * long_run);
-        for (std::size_t i = piece * long_run; i < end; ++i) signs[i] = compared(words, i);
-      };
-      parallel_for(base::piece_count(words.size(), long_run), threads_, compare_piece, monitor_);
+      base::for_items(words.size(), long_run, threads_, monitor_,
+                      [&](std::size_t i) { signs[i] = compared(words, i); });
       const auto [before, after] = part(words, signs);
       settle_equal(before);
       settle_equal(after);
@@ -216,20 +213,12 @@ class Sorter {
 
   RadiusRanks write(const LargeArray<std::uint64_t>& words, const LargeArray<double>& sorted) {
     std::size_t sum = 0;
-    for (std::size_t& distinct : distinct_) {
-      const std::size_t here = distinct;
-      distinct = sum;
-      sum += here;
-    }
+    for (std::size_t& distinct : distinct_) sum += std::exchange(distinct, sum);
     RadiusRanks out{LargeArray<double>(sum), LargeArray<std::int32_t>(sum),
                     LargeArray<std::int32_t>(values_.size())};
-    const auto leave_out = [&](std::size_t piece) {
-      const std::size_t end = std::min(values_.size(), (piece + 1) * piece_size);
-      for (std::size_t i = piece * piece_size; i < end; ++i) {
-        if (values_[i] < 0) out.rank[i] = static_cast<std::int32_t>(sum);
-      }
-    };
-    parallel_for(counts_.size(), threads_, leave_out, monitor_);
+    base::for_items(values_.size(), piece_size, threads_, monitor_, [&](std::size_t i) {
+      if (values_[i] < 0) out.rank[i] = static_cast<std::int32_t>(sum);
+    });
     const auto write_bucket = [&](std::size_t bucket) {
       std::size_t next = distinct_[bucket];
       for (std::size_t i = start_[bucket]; i < start_[bucket + 1]; ++i) {

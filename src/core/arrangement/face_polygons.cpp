@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/groups.hpp"
+
 namespace vorotool::core::arrangement {
 namespace {
 
@@ -53,23 +55,17 @@ class Position {
 class Walk {
  public:
   Walk(const SegmentSet& set, const Faces& faces, std::span<const std::int32_t> ring_of_edge)
-      : set_(set), faces_(faces), ring_of_edge_(ring_of_edge) {
-    const auto count = static_cast<std::size_t>(faces.count);
-    start_.assign(count + 1, 0);
-    for (std::size_t s = 0; s < set.size(); ++s) {
-      ++start_[static_cast<std::size_t>(faces.left[s]) + 1];
-      ++start_[static_cast<std::size_t>(faces.right[s]) + 1];
-    }
-    for (std::size_t f = 0; f < count; ++f) start_[f + 1] += start_[f];
-    border_.resize(2 * set.size());
-    next_.assign(start_.begin(), start_.end() - 1);
-    for (std::size_t s = 0; s < set.size(); ++s) {
-      for (const std::int32_t face : {faces.left[s], faces.right[s]}) {
-        border_[next_[static_cast<std::size_t>(face)]++] = static_cast<std::int32_t>(s);
-      }
-    }
-    next_.assign(start_.begin(), start_.end() - 1);
-  }
+      : set_(set),
+        faces_(faces),
+        ring_of_edge_(ring_of_edge),
+        border_(static_cast<std::size_t>(faces.count),
+                [&](const auto& add) {
+                  for (std::size_t s = 0; s < set.size(); ++s) {
+                    for (const std::int32_t face : {faces.left[s], faces.right[s]})
+                      add(face, static_cast<std::int32_t>(s));
+                  }
+                }),
+        next_(border_.size()) {}
 
   // Calls arrive(face) with `position` as it is there.
   template <class Arrive>
@@ -84,12 +80,12 @@ class Walk {
     while (!way.empty()) {
       const auto [face, came_over] = way.back();
       const auto f = static_cast<std::size_t>(face);
-      if (next_[f] == start_[f + 1]) {
+      if (next_[f] == border_[f].size()) {
         if (came_over >= 0) cross(position, came_over);
         way.pop_back();
         continue;
       }
-      const std::int32_t segment = border_[next_[f]++];
+      const std::int32_t segment = border_[f][next_[f]++];
       const auto s = static_cast<std::size_t>(segment);
       const std::int32_t other = faces_.left[s] == face ? faces_.right[s] : faces_.left[s];
       if (reached[static_cast<std::size_t>(other)] != 0) continue;
@@ -110,8 +106,8 @@ class Walk {
   const SegmentSet& set_;
   const Faces& faces_;
   std::span<const std::int32_t> ring_of_edge_;
-  std::vector<std::size_t> start_, next_;
-  std::vector<std::int32_t> border_;  // segments of each face
+  base::Groups<std::int32_t> border_;  // segments of each face
+  std::vector<std::size_t> next_;      // of these
 };
 
 }  // namespace
@@ -129,10 +125,8 @@ FacePolygons find_face_polygons(const SegmentSet& set, const Faces& faces, const
     length[static_cast<std::size_t>(face)] = static_cast<std::int32_t>(position.polygons().size());
     found.insert(found.end(), position.polygons().begin(), position.polygons().end());
     ++reached;
-    if (reached % faces_between_polls == 0 && monitor &&
-        !monitor(static_cast<double>(reached) / static_cast<double>(count))) {
-      throw base::Interrupted();
-    }
+    if (reached % faces_between_polls == 0)
+      base::report(monitor, static_cast<double>(reached) / static_cast<double>(count));
   });
   FacePolygons result;
   result.start.push_back(0);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/disjoint_sets.hpp"
+#include "core/base/groups.hpp"
 
 namespace vorotool::core::arrangement {
 namespace {
@@ -10,32 +11,15 @@ namespace {
 // Half-edge 2 s goes from the lower to the upper end of segment s, 2 s + 1 back.
 class Rotation {
  public:
-  explicit Rotation(const SortedSegments& segments) : place_(2 * segments.lower_end.size()) {
-    const std::size_t points = segments.points.size();
-    start_.assign(points + 1, 0);
-    for (std::size_t s = 0; s < segments.lower_end.size(); ++s) {
-      ++start_[static_cast<std::size_t>(segments.lower_end[s]) + 1];
-      ++start_[static_cast<std::size_t>(segments.upper_end[s]) + 1];
-    }
-    for (std::size_t i = 0; i < points; ++i) start_[i + 1] += start_[i];
-    around_.resize(2 * segments.lower_end.size());
-    std::vector<std::int32_t> next(start_.begin(), start_.end() - 1);
-    const auto append = [&](std::int32_t point, std::size_t half_edge) {
-      around_[static_cast<std::size_t>(next[static_cast<std::size_t>(point)]++)] =
-          static_cast<std::int32_t>(half_edge);
-    };
-    // to the right from the lowest slope up, then to the left from the highest place down: counter-clockwise,
-    // and both by rising slope
-    for (std::size_t s = 0; s < segments.lower_end.size(); ++s) append(segments.lower_end[s], 2 * s);
-    const std::vector<std::int32_t> left(next);
-    for (std::size_t s = 0; s < segments.upper_end.size(); ++s) append(segments.upper_end[s], 2 * s + 1);
-    for (std::size_t i = 0; i < points; ++i) {
-      if (start_[i + 1] - left[i] < 2) continue;
-      std::sort(around_.begin() + left[i], around_.begin() + start_[i + 1],
+  explicit Rotation(const SortedSegments& segments)
+      : around_(segments.points.size(), [&](const auto& add) { visit(segments, add); }),
+        place_(2 * segments.lower_end.size()) {
+    for (std::size_t i = 0; i < around_.size(); ++i) {
+      const std::span<std::int32_t> around = around_[i];
+      const auto is_left = [](std::int32_t half_edge) { return (half_edge & 1) != 0; };
+      std::sort(std::ranges::find_if(around, is_left), around.end(),
                 [&](std::int32_t a, std::int32_t b) { return is_lower(segments, a / 2, b / 2); });
-    }
-    for (std::size_t k = 0; k < around_.size(); ++k) {
-      place_[static_cast<std::size_t>(around_[k])] = static_cast<std::int32_t>(k);
+      for (std::size_t k = 0; k < around.size(); ++k) place_[static_cast<std::size_t>(around[k])] = k;
     }
   }
 
@@ -43,21 +27,30 @@ class Rotation {
   std::int32_t next(const SortedSegments& segments, std::int32_t half_edge) const {
     const std::int32_t back = half_edge ^ 1;
     const auto s = static_cast<std::size_t>(half_edge / 2);
-    const auto point =
-        static_cast<std::size_t>((half_edge & 1) == 0 ? segments.upper_end[s] : segments.lower_end[s]);
-    const std::int32_t place = place_[static_cast<std::size_t>(back)];
-    return around_[static_cast<std::size_t>(place == start_[point] ? start_[point + 1] - 1 : place - 1)];
+    const std::int32_t point = (half_edge & 1) == 0 ? segments.upper_end[s] : segments.lower_end[s];
+    const std::span<const std::int32_t> around = around_[point];
+    const std::size_t place = place_[static_cast<std::size_t>(back)];
+    return place == 0 ? around.back() : around[place - 1];
   }
 
  private:
+  // To the right from the lowest slope up, then to the left from the highest place down: counter-clockwise,
+  // and both by rising slope.
+  template <class Add>
+  static void visit(const SortedSegments& segments, const Add& add) {
+    const auto count = static_cast<std::int32_t>(segments.lower_end.size());
+    for (std::int32_t s = 0; s < count; ++s) add(segments.lower_end[static_cast<std::size_t>(s)], 2 * s);
+    for (std::int32_t s = 0; s < count; ++s) add(segments.upper_end[static_cast<std::size_t>(s)], 2 * s + 1);
+  }
+
   // Segments with a common upper end do not overlap, so that none has the slope of another.
   static bool is_lower(const SortedSegments& segments, std::int32_t s, std::int32_t t) {
     const LatticeSegment a = segments.segment(s), b = segments.segment(t);
     return turn(a.b, a.a, b.a) > 0;
   }
 
-  std::vector<std::int32_t> start_, around_;  // half-edges from each point, counter-clockwise
-  std::vector<std::int32_t> place_;           // of each half-edge in around_
+  base::Groups<std::int32_t> around_;  // half-edges from each point, counter-clockwise
+  std::vector<std::size_t> place_;     // of each half-edge among those of its point
 };
 
 // The cycle that each half-edge is on; returns their number.

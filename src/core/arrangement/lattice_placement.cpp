@@ -123,28 +123,24 @@ Placement place_on_lattice(std::span<const Point> points, unsigned threads, cons
   Placement result;
   if (points.empty()) return result;
   const std::size_t pieces = base::piece_count(points.size(), points_per_piece);
-  const auto piece_of = [&](std::size_t piece) {
-    const std::size_t begin = piece * points_per_piece;
-    return points.subspan(begin, std::min(points_per_piece, points.size() - begin));
-  };
   std::vector<Bounds> bounds(pieces);
-  base::parallel_for(pieces, threads, [&](std::size_t i) { bounds[i].include(piece_of(i)); }, monitor);
+  const auto measure = [&](std::size_t piece, std::size_t begin, std::size_t end) {
+    bounds[piece].include(points.subspan(begin, end - begin));
+  };
+  base::for_pieces(points.size(), points_per_piece, threads, monitor, measure);
   for (const Bounds& each : bounds) bounds[0].include(each);
   choose_lattice(bounds[0], result);
   const Axis along_x(result.origin_x, result.exponent), along_y(result.origin_y, result.exponent);
   result.points.resize(points.size());
   std::vector<double> most(pieces, 0);
-  base::parallel_for(
-      pieces, threads,
-      [&](std::size_t i) {
-        kernel::LatticePoint* placed = result.points.data() + i * points_per_piece;
-        for (const Point& point : piece_of(i)) {
-          const Placed px = along_x.place(point.x), py = along_y.place(point.y);
-          *placed++ = {static_cast<std::int32_t>(px.steps), static_cast<std::int32_t>(py.steps)};
-          most[i] = std::max(most[i], length_above(px.move, py.move));
-        }
-      },
-      monitor);
+  const auto place = [&](std::size_t piece, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Placed px = along_x.place(points[i].x), py = along_y.place(points[i].y);
+      result.points[i] = {static_cast<std::int32_t>(px.steps), static_cast<std::int32_t>(py.steps)};
+      most[piece] = std::max(most[piece], length_above(px.move, py.move));
+    }
+  };
+  base::for_pieces(points.size(), points_per_piece, threads, monitor, place);
   const double steps = *std::max_element(most.begin(), most.end());
   result.largest_move = std::ldexp(steps, result.exponent);
   if (steps > 0) {  // ldexp rounds where the result is subnormal

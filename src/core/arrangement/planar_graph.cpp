@@ -1,7 +1,6 @@
 #include "core/arrangement/planar_graph.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -11,7 +10,7 @@
 #include "core/arrangement/segment_set.hpp"
 #include "core/arrangement/snap_rounding.hpp"
 #include "core/base/disjoint_sets.hpp"
-#include "core/base/indices.hpp"
+#include "core/base/groups.hpp"
 
 namespace vorotool::core::arrangement {
 
@@ -325,27 +324,15 @@ class Maker {
       border.is_back =
           dx * (std::int64_t{piece.b.x} - piece.a.x) + dy * (std::int64_t{piece.b.y} - piece.a.y) < 0;
     }
-    group_borders();
-    for (auto begin = borders_.begin(); begin != borders_.end();) {
-      const auto end = std::find_if(begin, borders_.end(),
-                                    [&](const Border& border) { return border.edge != begin->edge; });
-      if (end - begin > 1) sort_along_edge(begin, end);
-      begin = end;
-    }
+    base::Groups<Border> by_edge(vertices_.size(), [&](const auto& add) {
+      for (const Border& border : borders_) add(border.edge, border);
+    });
+    for (std::size_t edge = 0; edge < by_edge.size(); ++edge) sort_along_edge(by_edge[edge]);
+    borders_ = by_edge.take();
   }
 
-  // Sorts the borders by their edges: a counting sort.
-  void group_borders() {
-    std::vector<std::size_t> next(vertices_.size() + 1, 0);
-    for (const Border& border : borders_) ++next[static_cast<std::size_t>(border.edge) + 1];
-    std::partial_sum(next.begin(), next.end(), next.begin());
-    std::vector<Border> grouped(borders_.size());
-    for (const Border& border : borders_) grouped[next[static_cast<std::size_t>(border.edge)]++] = border;
-    borders_.swap(grouped);
-  }
-
-  void sort_along_edge(std::vector<Border>::iterator begin, std::vector<Border>::iterator end) const {
-    std::sort(begin, end, [this](const Border& s, const Border& t) {
+  void sort_along_edge(std::span<Border> borders) const {
+    std::sort(borders.begin(), borders.end(), [this](const Border& s, const Border& t) {
       const LatticePoint a = set_.points[static_cast<std::size_t>(source_of(s))];
       const LatticePoint b = set_.points[static_cast<std::size_t>(source_of(t))];
       const auto [dx, dy] = vector_of(s.edge);

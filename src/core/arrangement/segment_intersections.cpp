@@ -54,9 +54,8 @@ class Sweep {
   };
 
   void poll(std::size_t point) {
-    if (++events_passed_ % events_between_polls != 0 || !monitor_) return;
-    if (!monitor_(static_cast<double>(point) / static_cast<double>(segments_.points.size())))
-      throw base::Interrupted();
+    if (++events_passed_ % events_between_polls != 0) return;
+    base::report(monitor_, static_cast<double>(point) / static_cast<double>(segments_.points.size()));
   }
 
   kernel::LatticePoint point(std::int32_t i) const { return segments_.points[static_cast<std::size_t>(i)]; }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/arrangement/coordinate_compression.hpp"
+#include "core/base/groups.hpp"
 #include "core/base/radix_sort.hpp"
 
 namespace vorotool::core::arrangement {
@@ -21,7 +22,7 @@ SortedPoints sort_points(std::span<const LatticePoint> points, const base::Monit
   }
   base::radix_sort(keyed,
                    columns.bits() + rows.bits());  // stable: of equal points the smallest index comes first
-  if (monitor && !monitor(0)) throw base::Interrupted();
+  base::report(monitor, 0);
   SortedPoints result;
   result.rank.resize(points.size());
   result.points.reserve(points.size());
@@ -48,7 +49,7 @@ std::vector<std::int32_t> first_at_place(std::span<const LatticePoint> points, c
       words.push_back((column << rows.bits() | rows.of(points[i].y)) << index_bits | i);
     }
     base::radix_sort(words, index_bits, bits);
-    if (monitor && !monitor(0)) throw base::Interrupted();
+    base::report(monitor, 0);
     std::vector<std::int32_t> result(points.size());
     const std::uint64_t index_mask = (std::uint64_t{1} << index_bits) - 1;
     std::uint64_t first = words.empty() ? 0 : words.front();
@@ -63,30 +64,15 @@ std::vector<std::int32_t> first_at_place(std::span<const LatticePoint> points, c
   return std::move(sorted.rank);
 }
 
-namespace {
-
-// Links by their lower ends, as a counting sort; link k of the result may have any place among those of its
-// end.
-std::vector<std::int32_t> sort_by_lower_end(std::vector<Link>& links, std::size_t points) {
-  std::vector<std::int32_t> start(points + 1, 0);
-  for (const Link& link : links) ++start[static_cast<std::size_t>(link.lower) + 1];
-  for (std::size_t i = 0; i < points; ++i) start[i + 1] += start[i];
-  std::vector<std::int32_t> next(start.begin(), start.end() - 1);
-  std::vector<Link> sorted(links.size());
-  for (const Link& link : links) {
-    sorted[static_cast<std::size_t>(next[static_cast<std::size_t>(link.lower)]++)] = link;
-  }
-  links.swap(sorted);
-  return start;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 SegmentSet join_links(std::vector<LatticePoint> points, std::vector<Link> links) {
   SegmentSet set;
   set.points = std::move(points);
   const auto point = [&](std::int32_t i) { return set.points[static_cast<std::size_t>(i)]; };
-  const std::vector<std::int32_t> begin = sort_by_lower_end(links, set.points.size());
+  base::Groups<Link> by_lower_end(set.points.size(), [&](const auto& add) {
+    for (const Link& link : links) add(link.lower, link);
+  });
   set.start.reserve(set.points.size() + 1);
   set.lower_end.reserve(links.size());
   set.upper_end.reserve(links.size());
@@ -94,14 +80,14 @@ SegmentSet join_links(std::vector<LatticePoint> points, std::vector<Link> links)
   set.source.reserve(links.size());
   for (std::size_t i = 0; i < set.points.size(); ++i) {
     set.start.push_back(static_cast<std::int32_t>(set.lower_end.size()));
-    const auto first = links.begin() + begin[i], last = links.begin() + begin[i + 1];
-    std::sort(first, last, [&](const Link& a, const Link& b) {
+    const std::span<Link> own = by_lower_end[i];
+    std::sort(own.begin(), own.end(), [&](const Link& a, const Link& b) {
       if (a.upper == b.upper) return a.source < b.source;
       const std::int64_t area = turn(set.points[i], point(a.upper), point(b.upper));
       return area != 0 ? area > 0 : a.upper < b.upper;
     });
-    for (auto link = first; link != last; ++link) {
-      if (link == first || link->upper != std::prev(link)->upper) {
+    for (auto link = own.begin(); link != own.end(); ++link) {
+      if (link == own.begin() || link->upper != std::prev(link)->upper) {
         set.lower_end.push_back(link->lower);
         set.upper_end.push_back(link->upper);
         set.source_start.push_back(static_cast<std::int32_t>(set.source.size()));

@@ -58,10 +58,8 @@ class Snapping {
   }
 
   void poll(std::size_t done, std::size_t all) const {
-    if (done % segments_between_polls == 0 && monitor_ &&
-        !monitor_(static_cast<double>(done) / static_cast<double>(all))) {
-      throw base::Interrupted();
-    }
+    if (done % segments_between_polls == 0)
+      base::report(monitor_, static_cast<double>(done) / static_cast<double>(all));
   }
 
   // Rounded crossings become nodes, unless there is one.

@@ -6,7 +6,6 @@
 #include <set>
 #include <vector>
 
-#include "core/base/fault.hpp"
 #include "core/base/indices.hpp"
 
 namespace vorotool::core::arrangement {
@@ -45,10 +44,7 @@ class Sweep {
     }
     for (std::size_t i = 0; i < order.size(); ++i) {
       if (Fault fault = pass(order[i])) return fault;
-      if (i % 1024 == 0 && monitor_ &&
-          !monitor_(static_cast<double>(i) / static_cast<double>(order.size()))) {
-        throw base::Interrupted();
-      }
+      if (i % 1024 == 0) base::report(monitor_, static_cast<double>(i) / static_cast<double>(order.size()));
     }
     return {};
   }

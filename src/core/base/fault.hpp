@@ -1,7 +1,6 @@
 // What checkers find.
 #pragma once
 
-#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <limits>
@@ -16,22 +15,30 @@ namespace vorotool::core::base {
 // What is wrong, in words; nothing if all is right.
 using Fault = std::optional<std::string>;
 
-// The fault of the smallest index, whatever the number of threads: check(i) gives that of item i.
-template <class Check>
-Fault first_fault(std::size_t count, const Check& check, unsigned threads, const Monitor& monitor) {
-  constexpr std::size_t grain = 1 << 11, none = std::numeric_limits<std::size_t>::max();
+inline constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+// The smallest index below `count` that is bad, or none, whatever the number of threads.
+template <class Bad>
+std::size_t first_bad(std::size_t count, std::size_t grain, const Bad& bad, unsigned threads,
+                      const Monitor& monitor) {
   std::atomic<std::size_t> found{none};
-  const auto search = [&](std::size_t piece) {
-    const std::size_t end = std::min(count, (piece + 1) * grain);
-    for (std::size_t i = piece * grain; i < end; ++i) {
-      if (!check(i)) continue;
+  for_pieces(count, grain, threads, monitor, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!bad(i)) continue;
       std::size_t least = found.load();
       while (i < least && !found.compare_exchange_weak(least, i)) {
       }
       return;
     }
-  };
-  parallel_for(piece_count(count, grain), threads, search, monitor);
+  });
+  return found;
+}
+
+// The fault of the smallest index: check(i) gives that of item i.
+template <class Check>
+Fault first_fault(std::size_t count, const Check& check, unsigned threads, const Monitor& monitor) {
+  const auto bad = [&](std::size_t i) { return check(i).has_value(); };
+  const std::size_t found = first_bad(count, std::size_t{1} << 11, bad, threads, monitor);
   return found == none ? std::nullopt : check(found);
 }
 

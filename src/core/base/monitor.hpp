@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <stdexcept>
 
@@ -15,9 +16,16 @@ struct Interrupted : std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
-// Lets the monitor know at every 2^16th item, which should take some tens of nanoseconds each.
-inline void report_item(const Monitor& monitor, std::size_t item) {
-  if (item % (std::size_t{1} << 16) == 0 && monitor && !monitor(0)) throw Interrupted();
+// Lets the monitor know which fraction is done.
+inline void report(const Monitor& monitor, double fraction) {
+  if (monitor && !monitor(fraction)) throw Interrupted();
+}
+
+// Lets the monitor know at every 2^16th item, which should take some tens of nanoseconds each; of how many
+// items, where that is known.
+inline void report_item(const Monitor& monitor, std::size_t item, std::size_t items = SIZE_MAX) {
+  if (item % (std::size_t{1} << 16) == 0)
+    report(monitor, static_cast<double>(item) / static_cast<double>(items));
 }
 
 }  // namespace vorotool::core::base

@@ -1,6 +1,5 @@
 #include "core/base/parallel.hpp"
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>

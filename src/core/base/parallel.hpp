@@ -3,6 +3,7 @@
 // take milliseconds: a pool of threads, as oneTBB keeps one, could save no more than that.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 
@@ -28,6 +29,25 @@ void parallel_for(std::size_t count, unsigned threads, const std::function<void(
 // Number of pieces of about `grain` items for `items` items: at least 1 unless there are no items.
 constexpr std::size_t piece_count(std::size_t items, std::size_t grain) {
   return items == 0 ? 0 : 1 + (items - 1) / (grain == 0 ? 1 : grain);
+}
+
+// Calls body(piece, begin, end) for the pieces of `grain` items each that `items` items are cut into.
+template <class Body>
+void for_pieces(std::size_t items, std::size_t grain, unsigned threads, const Monitor& monitor,
+                const Body& body) {
+  const auto run = [&](std::size_t piece) {
+    body(piece, piece * grain, std::min(items, (piece + 1) * grain));
+  };
+  parallel_for(piece_count(items, grain), threads, run, monitor);
+}
+
+// Calls body(item) for each item, those of a piece one after the other.
+template <class Body>
+void for_items(std::size_t items, std::size_t grain, unsigned threads, const Monitor& monitor,
+               const Body& body) {
+  for_pieces(items, grain, threads, monitor, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t item = begin; item < end; ++item) body(item);
+  });
 }
 
 }  // namespace vorotool::core::base

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <utility>
 
 namespace vorotool::core::base {
 
@@ -23,11 +24,7 @@ void sort_by(std::vector<Item>& items, int low, int high, KeyOf key_of) {
     std::array<std::size_t, digits> start{};
     for (std::size_t i = 0; i < count; ++i) ++start[key_of(from[i]) >> shift & mask];
     std::size_t sum = 0;
-    for (std::size_t& place : start) {
-      const std::size_t here = place;
-      place = sum;
-      sum += here;
-    }
+    for (std::size_t& place : start) sum += std::exchange(place, sum);
     for (std::size_t i = 0; i < count; ++i) to[start[key_of(from[i]) >> shift & mask]++] = from[i];
     std::swap(from, to);
   }

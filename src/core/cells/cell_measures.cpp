@@ -56,18 +56,13 @@ CellMeasures measure_cells(const CellOutlines& cells, const Box& frame, unsigned
       result.touches_frame[cell] |= on_frame(p);
     }
   };
-  const auto measure = [&](std::size_t piece) {
-    const std::size_t end = std::min(cells.sites.size(), (piece + 1) * cells_a_piece);
-    for (std::size_t cell = piece * cells_a_piece; cell < end; ++cell) {
-      for (auto r = cells.cell_rings[cell]; r < cells.cell_rings[cell + 1]; ++r) {
-        const auto ring = static_cast<std::size_t>(r);
-        const auto begin = static_cast<std::size_t>(cells.rings[ring]);
-        add_ring(cell,
-                 cells.vertices.subspan(begin, static_cast<std::size_t>(cells.rings[ring + 1]) - begin));
-      }
+  base::for_items(cells.sites.size(), cells_a_piece, threads, monitor, [&](std::size_t cell) {
+    for (auto r = cells.cell_rings[cell]; r < cells.cell_rings[cell + 1]; ++r) {
+      const auto ring = static_cast<std::size_t>(r);
+      const auto begin = static_cast<std::size_t>(cells.rings[ring]);
+      add_ring(cell, cells.vertices.subspan(begin, static_cast<std::size_t>(cells.rings[ring + 1]) - begin));
     }
-  };
-  base::parallel_for(base::piece_count(cells.sites.size(), cells_a_piece), threads, measure, monitor);
+  });
   return result;
 }
 

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <tuple>
 #include <vector>
 
-#include "core/base/fault.hpp"
 #include "core/base/parallel.hpp"
 #include "core/kernel/circumcentre.hpp"
 #include "core/kernel/predicates.hpp"
@@ -31,7 +29,6 @@ using text::append_number;
 namespace {
 
 constexpr std::size_t cells_a_piece = std::size_t{1} << 12;
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
 // Twice the distance at which the place that is rounded to this point may lie from it, times 2^scale.
 double rounding_diameter(const Point& p, int scale) {
@@ -66,8 +63,8 @@ class Checker {
     if (Fault fault = check_starts()) return fault;
     if (Fault fault = check_duplicates()) return fault;
     make_tree();
-    const std::size_t bad = first_bad_cell();
-    if (bad != none) return check_cell(bad);
+    const auto check = [&](std::size_t cell) { return check_cell(cell); };
+    if (Fault fault = base::first_fault(in_.sites.size(), check, threads_, monitor_)) return fault;
     return check_area();
   }
 
@@ -122,22 +119,6 @@ class Checker {
     for (std::size_t i = 0; i < place_.size(); ++i) {
       place_[tree_->site(static_cast<std::ptrdiff_t>(i)).index] = static_cast<std::uint32_t>(i);
     }
-  }
-
-  std::size_t first_bad_cell() const {
-    std::atomic<std::size_t> found{none};
-    const auto search = [&](std::size_t piece) {
-      const std::size_t end = std::min(in_.sites.size(), (piece + 1) * cells_a_piece);
-      for (std::size_t i = piece * cells_a_piece; i < end; ++i) {
-        if (!check_cell(i)) continue;
-        std::size_t least = found.load();
-        while (i < least && !found.compare_exchange_weak(least, i)) {
-        }
-        return;
-      }
-    };
-    base::parallel_for(base::piece_count(in_.sites.size(), cells_a_piece), threads_, search, monitor_);
-    return found;
   }
 
   Fault check_cell(std::size_t cell) const {
@@ -225,12 +206,10 @@ class Checker {
       return sum;
     };
     std::vector<DoubleDouble> sums(base::piece_count(in_.sites.size(), cells_a_piece), DoubleDouble{0, 0});
-    const auto add = [&](std::size_t piece) {
-      const std::size_t end = std::min(in_.sites.size(), (piece + 1) * cells_a_piece);
-      for (std::size_t i = piece * cells_a_piece; i < end; ++i)
-        sums[piece] = sums[piece] + twice_area(ring(i));
+    const auto add = [&](std::size_t piece, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) sums[piece] = sums[piece] + twice_area(ring(i));
     };
-    base::parallel_for(sums.size(), threads_, add, monitor_);
+    base::for_pieces(in_.sites.size(), cells_a_piece, threads_, monitor_, add);
     const DoubleDouble sum = std::accumulate(sums.begin(), sums.end(), DoubleDouble{0, 0});
     const std::array<Point, 4> corners{Point{frame_.left, frame_.bottom},
                                        {frame_.right, frame_.bottom},

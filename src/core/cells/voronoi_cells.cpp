@@ -13,8 +13,8 @@
 
 namespace vorotool::core::cells {
 
+using base::for_pieces;
 using base::Monitor;
-using base::parallel_for;
 using delaunay::TriangulationArrays;
 using kernel::Point;
 
@@ -213,8 +213,10 @@ class CellMaker {
     const std::span<const Index> order = chain ? mesh_.hull : rings_.order();
     pieces_.resize(base::piece_count(order.size(), sites_a_piece));
     starts_.assign(mesh_.points.size() + 1, 0);
-    const auto trace = [&](std::size_t piece) { trace_piece(order, piece, chain); };
-    parallel_for(pieces_.size(), threads_, trace, monitor_);
+    for_pieces(order.size(), sites_a_piece, threads_, monitor_,
+               [&](std::size_t piece, std::size_t begin, std::size_t end) {
+                 trace_piece(order, piece, begin, end, chain);
+               });
     if (!order.empty() && !any_.load()) give_frame_to_nearest(order);
     return gather(order);
   }
@@ -223,12 +225,8 @@ class CellMaker {
   const Point& at(Index v) const { return mesh_.points[static_cast<std::size_t>(v)]; }
 
   void place_stops() {
-    const auto place = [&](std::size_t piece) {
-      const std::size_t end = std::min(stops_.size(), (piece + 1) * triangles_a_piece);
-      for (std::size_t t = piece * triangles_a_piece; t < end; ++t)
-        stops_[t] = stop_of(&mesh_.triangles[3 * t]);
-    };
-    parallel_for(base::piece_count(stops_.size(), triangles_a_piece), threads_, place, monitor_);
+    base::for_items(stops_.size(), triangles_a_piece, threads_, monitor_,
+                    [&](std::size_t t) { stops_[t] = stop_of(&mesh_.triangles[3 * t]); });
   }
 
   Stop stop_of(const Index* corners) const {
@@ -239,12 +237,12 @@ class CellMaker {
     return {beyond, {centre.x.value + 0.0, centre.y.value + 0.0}};  // no negative zeros
   }
 
-  void trace_piece(std::span<const Index> order, std::size_t piece, bool chain) {
+  void trace_piece(std::span<const Index> order, std::size_t piece, std::size_t begin, std::size_t end,
+                   bool chain) {
     CellTracer tracer(frame_);
     std::vector<Spoke> spokes;
     std::vector<Point> vertices, ring;
-    const std::size_t end = std::min(order.size(), (piece + 1) * sites_a_piece);
-    for (std::size_t i = piece * sites_a_piece; i < end; ++i) {
+    for (std::size_t i = begin; i < end; ++i) {
       tracer.begin(at(order[i]));
       if (chain) {
         add_lines(i, tracer);
@@ -311,18 +309,17 @@ class CellMaker {
   VoronoiCells gather(std::span<const Index> order) {
     for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
     VoronoiCells cells{base::LargeArray<Point>(static_cast<std::size_t>(starts_.back())), {}};
-    const auto copy = [&](std::size_t piece) {
+    const auto copy = [&](std::size_t piece, std::size_t begin, std::size_t end) {
       const std::vector<Point> vertices = std::move(pieces_[piece]);
       auto from = vertices.begin();
-      const std::size_t end = std::min(order.size(), (piece + 1) * sites_a_piece);
-      for (std::size_t i = piece * sites_a_piece; i < end; ++i) {
+      for (std::size_t i = begin; i < end; ++i) {
         const auto v = static_cast<std::size_t>(order[i]);
         const std::int64_t size = starts_[v + 1] - starts_[v];
         std::copy(from, from + size, cells.vertices.data() + starts_[v]);
         from += size;
       }
     };
-    parallel_for(pieces_.size(), threads_, copy, monitor_);
+    for_pieces(order.size(), sites_a_piece, threads_, monitor_, copy);
     cells.starts = std::move(starts_);
     return cells;
   }

@@ -1,9 +1,7 @@
 // Voronoi cells of a Delaunay triangulation, clipped to a rectangle.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "core/base/large_array.hpp"

@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/base/large_array.hpp"
 #include "core/base/parallel.hpp"
 
 namespace vorotool::core::delaunay {
@@ -20,16 +19,6 @@ constexpr std::size_t piece_size = std::size_t{1} << piece_bits;
 constexpr std::uint32_t no_slot = 0xffffffff;  // fewer than 2^29 triangles, times four, stay below
 
 Vertex neighbour(Vertex entry) { return entry < 0 ? ~entry : entry; }
-
-// Calls body(item) for all items, those of a piece one after the other.
-template <class Body>
-void for_all(std::size_t count, unsigned threads, const Monitor& monitor, Body body) {
-  const auto run = [&](std::size_t piece) {
-    const std::size_t end = std::min(count, (piece + 1) << piece_bits);
-    for (std::size_t i = piece << piece_bits; i < end; ++i) body(i);
-  };
-  parallel_for(base::piece_count(count, piece_size), threads, run, monitor);
-}
 
 }  // namespace
 
@@ -170,7 +159,7 @@ void DelaunayTriangulation::write(const MeshArrays& out, unsigned threads, const
     out.neighbours[3 * std::size_t{slot / 4} + slot % 4] =
         across == no_slot ? -1 : static_cast<std::int32_t>(across / 4);
   };
-  for_all(edge_count_, threads, monitor, [&](std::size_t edge) {
+  base::for_items(edge_count_, piece_size, threads, monitor, [&](std::size_t edge) {
     put(slots[2 * edge], slots[2 * edge + 1]);
     put(slots[2 * edge + 1], slots[2 * edge]);
   });

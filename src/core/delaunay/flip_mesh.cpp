@@ -77,7 +77,7 @@ bool FlipMesh::has_triangle() const {
 }
 
 void FlipMesh::poll() {
-  if (++steps_ % steps_between_polls == 0 && monitor_ && !monitor_(0.9)) throw base::Interrupted();
+  if (++steps_ % steps_between_polls == 0) base::report(monitor_, 0.9);
 }
 
 // Of a side that ends at infinity: whether its other end is a reflex turn of the hull. Of a side of the hull:

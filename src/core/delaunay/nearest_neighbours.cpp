@@ -10,7 +10,6 @@ namespace vorotool::core::delaunay {
 NearestNeighbours nearest_neighbours(std::span<const kernel::Point> points,
                                      std::span<const std::int32_t> edges,
                                      std::span<const std::int64_t> labels, const base::Monitor& monitor) {
-  constexpr std::size_t poll_every = std::size_t{1} << 16;  // edges, some milliseconds
   NearestNeighbours result{std::vector<std::int32_t>(points.size(), -1),
                            std::vector<std::int32_t>(points.size(), 0)};
   const auto meet = [&](std::size_t p, std::size_t q) {
@@ -24,10 +23,7 @@ NearestNeighbours nearest_neighbours(std::span<const kernel::Point> points,
     best = static_cast<std::int32_t>(q);
   };
   for (std::size_t i = 0; i + 1 < edges.size(); i += 2) {
-    if (i % poll_every == 0 && monitor &&
-        !monitor(static_cast<double>(i) / static_cast<double>(edges.size()))) {
-      throw base::Interrupted();
-    }
+    base::report_item(monitor, i, edges.size());
     const auto a = static_cast<std::size_t>(edges[i]), b = static_cast<std::size_t>(edges[i + 1]);
     if (a >= points.size() || b >= points.size())
       throw std::invalid_argument("an edge names a point that does not exist");

@@ -15,10 +15,9 @@
 
 namespace vorotool::core::delaunay {
 
+using base::for_items;
 using base::LargeArray;
 using base::Monitor;
-using base::parallel_for;
-using base::piece_count;
 using kernel::Point;
 using spatial::Bounds;
 
@@ -120,11 +119,8 @@ class Inserter {
   std::uint32_t code(Vertex v) const { return codes_[static_cast<std::size_t>(v)]; }
 
   void number_cells() {
-    const auto number = [&](std::size_t piece) {
-      const std::size_t end = std::min(points_.size(), (piece + 1) * rows_a_piece);
-      for (std::size_t i = piece * rows_a_piece; i < end; ++i) codes_[i] = grid_.code(points_[i]);
-    };
-    parallel_for(piece_count(points_.size(), rows_a_piece), threads_, number, monitor_);
+    for_items(points_.size(), rows_a_piece, threads_, monitor_,
+              [&](std::size_t i) { codes_[i] = grid_.code(points_[i]); });
   }
 
   // The order of vertices: along the curve, and by (x, y) in a cell of few points.
@@ -150,7 +146,7 @@ class Inserter {
   void insert_all(std::span<const std::int32_t> hints) {
     std::size_t done = 0, row = 0;
     for (const Vertex v : order_of_insertion()) {
-      if (done++ % poll_every == 0 && monitor_ && !monitor_(0.0)) throw base::Interrupted();
+      if (done++ % poll_every == 0) base::report(monitor_, 0);
       const auto i = static_cast<std::size_t>(v) - in_.points.size();
       if (!hints.empty()) row = 0;
       const Vertex aim = hints.empty() ? v : first_[static_cast<std::size_t>(hints[i])];
@@ -263,11 +259,8 @@ class Inserter {
       if (v != InsertionMesh::infinity) cells.add_cell(code(v));
     }
     for (std::size_t i = in_.points.size(); i < points_.size(); ++i) cells.add_cell(codes_[i]);
-    const auto count = [&](std::size_t piece) {
-      const std::size_t end = std::min(points_.size(), (piece + 1) * rows_a_piece);
-      for (std::size_t i = piece * rows_a_piece; i < end; ++i) cells.count(codes_[i]);
-    };
-    parallel_for(piece_count(points_.size(), rows_a_piece), threads_, count, monitor_);
+    for_items(points_.size(), rows_a_piece, threads_, monitor_,
+              [&](std::size_t i) { cells.count(codes_[i]); });
     return cells.any_above(few);
   }
 
@@ -328,17 +321,13 @@ class Inserter {
           }
         });
     if (next != rows) throw std::invalid_argument("the triangles are not in their order");
-    const auto write = [&](std::size_t piece) {
-      const std::size_t end = std::min(rows, (piece + 1) * rows_a_piece);
-      for (std::size_t row = piece * rows_a_piece; row < end; ++row) {
-        for (int k = 0; k < 3; ++k) {
-          const std::size_t place = 3 * row + static_cast<std::size_t>(k);
-          out.triangles[place] = mesh_.corner(slot_of[row], k);
-          out.neighbours[place] = row_of[static_cast<std::size_t>(mesh_.across(slot_of[row], k))];
-        }
+    for_items(rows, rows_a_piece, threads_, monitor_, [&](std::size_t row) {
+      for (int k = 0; k < 3; ++k) {
+        const std::size_t place = 3 * row + static_cast<std::size_t>(k);
+        out.triangles[place] = mesh_.corner(slot_of[row], k);
+        out.neighbours[place] = row_of[static_cast<std::size_t>(mesh_.across(slot_of[row], k))];
       }
-    };
-    parallel_for(piece_count(rows, rows_a_piece), threads_, write, monitor_);
+    });
   }
 
   void merge_edges(InsertedArrays& out) const {

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <optional>
 
 #include "core/base/parallel.hpp"
 #include "core/base/radix_sort.hpp"
-#include "core/spatial/morton_grid.hpp"
 
 namespace vorotool::core::delaunay {
 

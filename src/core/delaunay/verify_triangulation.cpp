@@ -1,13 +1,10 @@
 #include "core/delaunay/verify_triangulation.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <numeric>
 #include <vector>
 
-#include "core/base/fault.hpp"
-#include "core/base/parallel.hpp"
 #include "core/base/radix_sort.hpp"
 #include "core/kernel/predicates.hpp"
 
@@ -15,14 +12,13 @@ namespace vorotool::core::delaunay {
 
 using base::Fault;
 using base::Monitor;
+using base::none;
 using kernel::orient2d;
 using kernel::Point;
 
 namespace {
 
 using Index = std::int32_t;
-
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
 // As kernel::lexicographic_less, written again: a checker shares no order with what it checks.
 bool comes_before(const Point& a, const Point& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; }
@@ -100,21 +96,8 @@ class Checker {
 
   // The smallest number below `count` that is bad, or none.
   template <class Bad>
-  std::size_t find(std::size_t count, Bad bad) const {
-    constexpr std::size_t grain = std::size_t{1} << 14;
-    std::atomic<std::size_t> found{none};
-    const auto search = [&](std::size_t piece) {
-      const std::size_t end = std::min(count, (piece + 1) * grain);
-      for (std::size_t i = piece * grain; i < end; ++i) {
-        if (!bad(i)) continue;
-        std::size_t least = found.load();
-        while (i < least && !found.compare_exchange_weak(least, i)) {
-        }
-        return;
-      }
-    };
-    base::parallel_for(base::piece_count(count, grain), threads_, search, monitor_);
-    return found;
+  std::size_t find(std::size_t count, const Bad& bad) const {
+    return base::first_bad(count, std::size_t{1} << 14, bad, threads_, monitor_);
   }
 
   Fault check_first() {

@@ -1,5 +1,4 @@
 #include "core/delaunay/vertex_triangles.hpp"
-#include "core/base/indices.hpp"
 
 namespace vorotool::core::delaunay {
 

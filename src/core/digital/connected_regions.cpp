@@ -64,7 +64,7 @@ class Connector {
   };
 
   void poll() {
-    if (++steps_ % steps_between_polls == 0 && monitor_ && !monitor_(0.5)) throw base::Interrupted();
+    if (++steps_ % steps_between_polls == 0) base::report(monitor_, 0.5);
   }
 
   Square square(std::size_t column, std::size_t row, Label label) const {

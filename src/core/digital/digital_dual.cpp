@@ -1,8 +1,8 @@
 #include "core/digital/digital_dual.hpp"
 
 #include <algorithm>
-#include <numeric>
 
+#include "core/base/groups.hpp"
 #include "core/kernel/predicates.hpp"
 #include "core/label_images/corner_scan.hpp"
 
@@ -83,16 +83,13 @@ std::vector<Vertex> walk_frame(std::span<const std::uint32_t> image, std::size_t
 class TwinRemover {
  public:
   TwinRemover(DigitalDual& dual, std::size_t vertices)
-      : dual_(dual), alive_(dual.triangles.size(), true), degree_(vertices, 0), start_(vertices + 1, 0) {
-    for (const Triangle& t : dual.triangles) {
-      for (const Vertex v : t) ++degree_[index(v)];
-    }
-    std::partial_sum(degree_.begin(), degree_.end(), start_.begin() + 1);
-    incident_.resize(3 * dual.triangles.size());
-    std::vector<std::uint32_t> next(start_.begin(), start_.end() - 1);
-    for (std::size_t t = 0; t < dual.triangles.size(); ++t) {
-      for (const Vertex v : dual.triangles[t]) incident_[next[index(v)]++] = static_cast<std::uint32_t>(t);
-    }
+      : dual_(dual), alive_(dual.triangles.size(), true), incident_(vertices, [&](const auto& add) {
+          for (std::size_t t = 0; t < dual.triangles.size(); ++t) {
+            for (const Vertex v : dual.triangles[t]) add(v, static_cast<std::uint32_t>(t));
+          }
+        }) {
+    for (std::size_t v = 0; v < vertices; ++v)
+      degree_.push_back(static_cast<std::uint32_t>(incident_[v].size()));
     read_ring(vertices);
   }
 
@@ -139,8 +136,8 @@ class TwinRemover {
     if (degree_[index(v)] != 2) return false;
     std::array<std::uint32_t, 2> pair{};
     std::size_t found = 0;
-    for (std::uint32_t i = start_[index(v)]; i < start_[index(v) + 1]; ++i) {
-      if (alive_[incident_[i]]) pair[found++] = incident_[i];
+    for (const std::uint32_t t : incident_[v]) {
+      if (alive_[t]) pair[found++] = t;
     }
     const Triangle one = dual_.triangles[pair[0]], other = dual_.triangles[pair[1]];
     if (!are_twins(one, other) || !leave_ring(v)) return false;
@@ -193,9 +190,8 @@ class TwinRemover {
 
   DigitalDual& dual_;
   std::vector<bool> alive_;                   // [triangles]
+  base::Groups<std::uint32_t> incident_;      // triangles at each vertex
   std::vector<std::uint32_t> degree_;         // [vertices] triangles alive at each
-  std::vector<std::uint32_t> start_;          // [vertices + 1] into incident_
-  std::vector<std::uint32_t> incident_;       // triangles at each vertex
   std::vector<std::int32_t> after_, before_;  // [ring]
   std::vector<std::int32_t> place_;           // [vertices] one place on the ring, or -1
   std::vector<std::uint32_t> times_;          // [vertices] on the ring
@@ -213,8 +209,7 @@ DigitalDual find_dual(std::span<const std::uint32_t> image, std::size_t width, s
   const std::size_t height = image.size() / width;
   const std::size_t rows = label_images::rows_per_piece(width);
   for (std::size_t y = 1; y < height; ++y) {
-    if (y % rows == 0 && monitor && !monitor(static_cast<double>(y) / static_cast<double>(height)))
-      throw base::Interrupted();
+    if (y % rows == 0) base::report(monitor, static_cast<double>(y) / static_cast<double>(height));
     pair.walk(
         image.subspan((y - 1) * width, width), image.subspan(y * width, width), [](auto, auto) {},
         [&](std::uint32_t, const label_images::Corner& corner) { reader.add(corner); });

@@ -47,7 +47,7 @@ bool assemble(const DigitalDual& dual, FlipMesh& mesh, const Monitor& monitor) {
   };
   for (const auto& [a, b, c] : dual.triangles) {
     const FlipMesh::Side s = mesh.add_triangle(a, b, c);
-    if (s % sides_between_polls == 0 && monitor && !monitor(0.5)) throw base::Interrupted();
+    if (s % sides_between_polls == 0) base::report(monitor, 0.5);
     if (!close(a, b, s) || !close(b, c, s + 1) || !close(c, a, s + 2)) return false;
   }
   const std::size_t count = dual.ring.size();

@@ -113,16 +113,16 @@ void DigitalTriangulationScan::add_rows(std::span<const Label> rows, std::size_t
   const std::size_t height = rows.size() / width;
   const std::size_t step = label_images::rows_per_piece(width);
   std::vector<DigitalTriangulation> parts(base::piece_count(height, step));
-  const auto read = [&](std::size_t number) {
+  const auto read = [&](std::size_t number, std::size_t begin, std::size_t end) {
     Piece piece(width);
-    for (std::size_t y = number * step; y < std::min(height, (number + 1) * step); ++y) {
+    for (std::size_t y = begin; y < end; ++y) {
       piece.link_row(rows.subspan(y * width, width));
       if (y + 1 < height)
         piece.add_pair(rows.subspan(y * width, width), rows.subspan((y + 1) * width, width));
     }
     parts[number] = piece.finish();
   };
-  base::parallel_for(parts.size(), threads, read, monitor);
+  base::for_pieces(height, step, threads, monitor, read);
   for (const DigitalTriangulation& part : parts) {
     append(found_.edges, part.edges);
     append(found_.triangles, part.triangles);

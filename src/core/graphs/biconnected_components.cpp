@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "core/base/indices.hpp"
+#include "core/graphs/shortest_paths.hpp"
 
 namespace vorotool::core::graphs {
 
@@ -17,22 +17,11 @@ class DepthFirst {
  public:
   DepthFirst(std::size_t nodes, std::span<const std::array<Index, 2>> edges)
       : edges_(edges),
-        first_(nodes + 1),
+        incident_(arcs_at_nodes(edges, nodes)),
         rank_(nodes, -1),
         lowest_(nodes),
         next_(nodes),
-        component_(edges.size()) {
-    for (const auto& ends : edges) {
-      for (const Index node : ends) ++first_[at(node) + 1];
-    }
-    for (std::size_t v = 0; v < nodes; ++v) first_[v + 1] += first_[v];
-    std::copy(first_.begin(), first_.end() - 1, next_.begin());
-    incident_.resize(2 * edges.size());
-    for (std::size_t e = 0; e < edges.size(); ++e) {
-      for (const Index node : edges[e]) incident_[next_[at(node)]++] = static_cast<Index>(e);
-    }
-    std::copy(first_.begin(), first_.end() - 1, next_.begin());
-  }
+        component_(edges.size()) {}
 
   std::vector<Index> components() {
     for (std::size_t v = 0; v < rank_.size(); ++v) {
@@ -55,8 +44,8 @@ class DepthFirst {
     enter({root, -1});
     while (!path_.empty()) {
       const Step step = path_.back();
-      if (next_[at(step.node)] < first_[at(step.node) + 1]) {
-        follow(step, incident_[next_[at(step.node)]++]);
+      if (next_[at(step.node)] < incident_[step.node].size()) {
+        follow(step, incident_[step.node][next_[at(step.node)]++]);
       } else {
         leave(step);
       }
@@ -92,8 +81,7 @@ class DepthFirst {
   }
 
   std::span<const std::array<Index, 2>> edges_;
-  std::vector<std::size_t> first_;    // [nodes + 1] where the edges of each begin in the following list
-  std::vector<Index> incident_;       // [2 edges]
+  GraphIncidence incident_;
   std::vector<Index> rank_, lowest_;  // [nodes] in the order of visits; the lowest that is reached from below
   std::vector<std::size_t> next_;     // [nodes] the edge to look at
   std::vector<Index> component_;      // [edges]

@@ -2,42 +2,15 @@
 
 #include <algorithm>
 
+#include "core/base/groups.hpp"
+
 namespace vorotool::core::graphs {
 
 using base::Monitor;
 
 namespace {
 
-constexpr std::size_t poll_every = std::size_t{1} << 16;
-
-void poll(const Monitor& monitor, std::size_t step) {
-  if (step % poll_every == 0 && monitor && !monitor(0.0)) throw base::Interrupted();
-}
-
-// Neighbours of vertex v: neighbours[start[v]] ... neighbours[start[v + 1] - 1].
-struct Adjacency {
-  std::vector<std::size_t> start;
-  std::vector<std::uint32_t> neighbours;
-
-  Adjacency(std::size_t vertices, std::span<const Edge> edges)
-      : start(vertices + 2, 0), neighbours(2 * edges.size()) {
-    for (const Edge& edge : edges) {
-      ++start[edge.a + 2];
-      ++start[edge.b + 2];
-    }
-    for (std::size_t v = 2; v < start.size(); ++v) start[v] += start[v - 1];
-    for (const Edge& edge : edges) {
-      neighbours[start[edge.a + 1]++] = edge.b;
-      neighbours[start[edge.b + 1]++] = edge.a;
-    }
-  }
-
-  std::size_t size() const { return start.size() - 2; }
-  std::size_t degree(std::size_t v) const { return start[v + 1] - start[v]; }
-  std::span<const std::uint32_t> of(std::size_t v) const {
-    return std::span(neighbours).subspan(start[v], degree(v));
-  }
-};
+using Adjacency = base::Groups<std::uint32_t>;  // neighbours of each vertex
 
 // Vertices sorted by their degree among the vertices not yet taken, in buckets of one array.
 class DegreeOrder {
@@ -45,13 +18,13 @@ class DegreeOrder {
   explicit DegreeOrder(const Adjacency& graph)
       : order_(graph.size()), place_(graph.size()), degree_(graph.size()) {
     std::size_t largest = 0;
-    for (std::size_t v = 0; v < graph.size(); ++v) largest = std::max(largest, graph.degree(v));
+    for (std::size_t v = 0; v < graph.size(); ++v) largest = std::max(largest, graph[v].size());
     bucket_.assign(largest + 2, 0);
-    for (std::size_t v = 0; v < graph.size(); ++v) ++bucket_[graph.degree(v) + 1];
+    for (std::size_t v = 0; v < graph.size(); ++v) ++bucket_[graph[v].size() + 1];
     for (std::size_t d = 1; d < bucket_.size(); ++d) bucket_[d] += bucket_[d - 1];
     std::vector<std::size_t> next = bucket_;
     for (std::size_t v = 0; v < graph.size(); ++v) {
-      degree_[v] = graph.degree(v);
+      degree_[v] = graph[v].size();
       place_[v] = next[degree_[v]]++;
       order_[place_[v]] = static_cast<std::uint32_t>(v);
     }
@@ -91,8 +64,8 @@ class DegreeOrder {
 std::vector<std::uint32_t> smallest_first(const Adjacency& graph, const Monitor& monitor) {
   DegreeOrder order(graph);
   for (std::size_t taken = 0; taken < graph.size(); ++taken) {
-    poll(monitor, taken);
-    for (const std::uint32_t neighbour : graph.of(order.take(taken))) order.lower(neighbour);
+    base::report_item(monitor, taken);
+    for (const std::uint32_t neighbour : graph[order.take(taken)]) order.lower(neighbour);
   }
   return order.order();
 }
@@ -129,14 +102,19 @@ class Palette {
 
 std::vector<std::uint32_t> colour_graph(std::size_t vertices, std::span<const Edge> edges,
                                         const Monitor& monitor) {
-  const Adjacency graph(vertices, edges);
+  const Adjacency graph(vertices, [&](const auto& add) {
+    for (const Edge& edge : edges) {
+      add(edge.a, edge.b);
+      add(edge.b, edge.a);
+    }
+  });
   const std::vector<std::uint32_t> order = smallest_first(graph, monitor);
   std::vector<std::uint32_t> colours(vertices, 0);
   Palette palette;
   for (std::size_t k = vertices; k-- > 0;) {
-    poll(monitor, k);
+    base::report_item(monitor, k);
     const std::uint32_t vertex = order[k];
-    for (const std::uint32_t neighbour : graph.of(vertex)) palette.forbid(colours[neighbour], vertex);
+    for (const std::uint32_t neighbour : graph[vertex]) palette.forbid(colours[neighbour], vertex);
     colours[vertex] = palette.choose(vertex);
   }
   return colours;

@@ -1,10 +1,8 @@
 #include "core/graphs/longest_paths.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
-#include "core/base/indices.hpp"
 #include "core/graphs/pendant_trees.hpp"
 #include "core/graphs/two_core.hpp"
 
@@ -30,13 +28,13 @@ class PathFinder {
         group_(nodes),
         mark_(nodes, -1),
         best_(groups),
-        core_(arcs, nodes, is_in_core()),
+        core_(arcs_at_nodes(arcs, nodes, is_in_core())),
         paths_(arcs, lengths, core_, nodes) {
     for (std::size_t k = 0; k < arcs.size(); ++k) group_[at(arcs[k][0])] = group_[at(arcs[k][1])] = group[k];
   }
 
   std::vector<GraphPath> find() {
-    if (monitor_ && !monitor_(0)) throw base::Interrupted();
+    base::report(monitor_, 0);
     pairs_in_trees();
     if (forest_.hanging().size() < arcs_.size()) {
       for (const LeafPair& pair : farthest_pairs(arcs_, lengths_, core_, deepest_, monitor_)) consider(pair);
@@ -215,14 +213,12 @@ std::vector<GraphPath> longest_paths(std::span<const base::IndexPair> arcs,
 
 GraphPath path_from(std::span<const base::IndexPair> arcs, std::span<const std::int64_t> lengths,
                     std::size_t nodes, std::int32_t first, std::int32_t last, const Monitor& monitor) {
-  const GraphIncidence incidence(arcs, nodes);
+  const GraphIncidence incidence = arcs_at_nodes(arcs, nodes);
   ShortestPaths paths(arcs, lengths, incidence, nodes);
   const ShortestPaths::Start start{first, 0};
   paths.find(std::span(&start, 1), monitor);
   if (last >= 0) return paths.path_to(last);
-  const auto is_leaf = [&](std::int32_t node) {
-    return node != first && incidence.arcs_at(node).size() == 1;
-  };
+  const auto is_leaf = [&](std::int32_t node) { return node != first && incidence[node].size() == 1; };
   const bool has_leaf = std::any_of(paths.reached().begin(), paths.reached().end(), is_leaf);
   last = first;
   for (const std::int32_t node : paths.reached()) {

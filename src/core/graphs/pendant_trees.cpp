@@ -4,8 +4,6 @@
 #include <functional>
 #include <utility>
 
-#include "core/base/indices.hpp"
-
 namespace vorotool::core::graphs {
 
 using base::at;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/indices.hpp"
-
 namespace vorotool::core::graphs {
 
 using base::at;
@@ -31,21 +29,14 @@ std::vector<std::int64_t> whole_lengths(std::span<const double> lengths, std::sp
   return whole;
 }
 
-GraphIncidence::GraphIncidence(std::span<const base::IndexPair> arcs, std::size_t nodes,
-                               const std::vector<bool>& uses)
-    : start_(nodes + 2) {
-  const auto used = [&](std::size_t k) { return uses.empty() || uses[k]; };
-  for (std::size_t k = 0; k < arcs.size(); ++k) {
-    if (!used(k)) continue;
-    for (const std::int32_t node : arcs[k]) ++start_[at(node) + 2];
-  }
-  for (std::size_t k = 2; k < start_.size(); ++k) start_[k] += start_[k - 1];
-  arc_.resize(start_.back());
-  for (std::size_t k = 0; k < arcs.size(); ++k) {
-    if (!used(k)) continue;
-    for (const std::int32_t node : arcs[k]) arc_[start_[at(node) + 1]++] = static_cast<std::int32_t>(k);
-  }
-  start_.pop_back();
+GraphIncidence arcs_at_nodes(std::span<const base::IndexPair> arcs, std::size_t nodes,
+                             const std::vector<bool>& uses) {
+  return {nodes, [&](const auto& add) {
+            for (std::size_t k = 0; k < arcs.size(); ++k) {
+              if (!uses.empty() && !uses[k]) continue;
+              for (const std::int32_t node : arcs[k]) add(node, static_cast<std::int32_t>(k));
+            }
+          }};
 }
 
 ShortestPaths::ShortestPaths(std::span<const base::IndexPair> arcs, std::span<const std::int64_t> lengths,
@@ -62,8 +53,8 @@ void ShortestPaths::find(std::span<const Start> starts, const base::Monitor& mon
     const auto [node, distance] = queue_.back();
     queue_.pop_back();
     if (distance > distance_[at(node)]) continue;
-    if (++done % (1 << 14) == 0 && monitor && !monitor(0)) throw base::Interrupted();
-    for (const std::int32_t arc : incidence_.arcs_at(node)) {
+    if (++done % (1 << 14) == 0) base::report(monitor, 0);
+    for (const std::int32_t arc : incidence_[node]) {
       const auto [a, b] = arcs_[at(arc)];
       reach(a == node ? b : a, distance + lengths_[at(arc)], arc);
     }

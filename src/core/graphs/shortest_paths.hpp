@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/groups.hpp"
 #include "core/base/indices.hpp"
 #include "core/base/monitor.hpp"
 
@@ -16,21 +17,11 @@ std::vector<std::int64_t> whole_lengths(std::span<const double> lengths, std::sp
                                         std::size_t groups);
 
 // The arcs at each node, by their numbers.
-class GraphIncidence {
- public:
-  // Of those arcs that `uses` says; all if it is empty.
-  GraphIncidence(std::span<const base::IndexPair> arcs, std::size_t nodes,
-                 const std::vector<bool>& uses = {});
+using GraphIncidence = base::Groups<std::int32_t>;
 
-  std::span<const std::int32_t> arcs_at(std::int32_t node) const {
-    const auto i = static_cast<std::size_t>(node);
-    return std::span(arc_).subspan(start_[i], start_[i + 1] - start_[i]);
-  }
-
- private:
-  std::vector<std::size_t> start_;
-  std::vector<std::int32_t> arc_;
-};
+// Of those arcs that `uses` says; all if it is empty.
+GraphIncidence arcs_at_nodes(std::span<const base::IndexPair> arcs, std::size_t nodes,
+                             const std::vector<bool>& uses = {});
 
 struct GraphPath {
   std::vector<std::int32_t> nodes;  // one more than arcs; empty if there is no path

@@ -4,9 +4,6 @@
 #include <limits>
 #include <numeric>
 #include <tuple>
-#include <utility>
-
-#include "core/base/indices.hpp"
 
 namespace vorotool::core::graphs {
 
@@ -50,7 +47,7 @@ class ComponentWalk {
   // The component of a node; empty if it was seen before, or is not of the core.
   Component component(std::int32_t node) {
     Component found;
-    if (is_seen_[at(node)] || core_.arcs_at(node).empty()) return found;
+    if (is_seen_[at(node)] || core_[node].empty()) return found;
     const std::vector<std::int32_t> nodes = connected(node);
     std::int32_t leaves = 0;
     for (const std::int32_t n : nodes) {
@@ -60,11 +57,11 @@ class ComponentWalk {
     if (leaves != 1) found.lone = -1;
     has_leaves_ = leaves > 0;
     for (const std::int32_t n : nodes) {
-      if (core_.arcs_at(n).size() > 2) add_junction(found, n);
+      if (core_[n].size() > 2) add_junction(found, n);
     }
     if (found.junctions.empty()) add_junction(found, node);
     for (std::size_t k = 0; k < found.junctions.size(); ++k) {
-      for (const std::int32_t arc : core_.arcs_at(found.junctions[k].node)) {
+      for (const std::int32_t arc : core_[found.junctions[k].node]) {
         if (!is_walked_[at(arc)]) walk(found, static_cast<std::int32_t>(k), arc);
       }
     }
@@ -76,7 +73,7 @@ class ComponentWalk {
     std::vector<std::int32_t> nodes{node};
     is_seen_[at(node)] = true;
     for (std::size_t k = 0; k < nodes.size(); ++k) {
-      for (const std::int32_t arc : core_.arcs_at(nodes[k])) {
+      for (const std::int32_t arc : core_[nodes[k]]) {
         const std::int32_t other = other_end(arc, nodes[k]);
         if (!is_seen_[at(other)]) nodes.push_back(other);
         is_seen_[at(other)] = true;
@@ -101,7 +98,7 @@ class ComponentWalk {
       if (junction_[at(node)] >= 0) break;
       const Hanging hanging = hanging_at(node);
       if (hanging.leaf >= 0) component.terminals.push_back({node, hanging, offset});
-      const auto both = core_.arcs_at(node);
+      const auto both = core_[node];
       arc = both[0] == arc ? both[1] : both[0];
     }
     component.chains.push_back({first, junction_[at(node)], offset, begin, component.terminals.size()});
@@ -136,7 +133,7 @@ class FarthestPair {
         monitor_(monitor),
         ends_(ends_of(component)),
         lengths_(lengths_of(component)),
-        incidence_(ends_, component.junctions.size()),
+        incidence_(arcs_at_nodes(ends_, component.junctions.size())),
         paths_(ends_, lengths_, incidence_, component.junctions.size()),
         best_before_(component.terminals.size()),
         best_after_(component.terminals.size()),
@@ -215,7 +212,7 @@ class FarthestPair {
 
   // All but the terminals of the source's own chain.
   void search(std::span<const ShortestPaths::Start> starts, const Chain* own) {
-    if (monitor_ && !monitor_(0)) throw base::Interrupted();
+    base::report(monitor_, 0);
     paths_.find(starts, monitor_);
     farthest_ = 0;
     to_junctions();

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
-#include <type_traits>
 #include <utility>
 
 #include "core/kernel/predicates.hpp"

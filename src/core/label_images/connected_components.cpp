@@ -17,7 +17,7 @@ std::uint32_t label_components(std::span<const std::uint8_t> mask, std::size_t w
   const std::uint32_t count = components.settle(number);
   const std::size_t piece = rows_per_piece(width) * width;
   for (std::size_t start = 0; start < mask.size(); start += piece) {
-    if (monitor && !monitor(1.0)) throw base::Interrupted();
+    base::report(monitor, 1);
     for (std::uint32_t& each : numbers.subspan(start, std::min(piece, mask.size() - start)))
       each = number[each];
   }

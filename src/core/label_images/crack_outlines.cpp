@@ -5,7 +5,6 @@
 #include <optional>
 #include <tuple>
 
-#include "core/base/indices.hpp"
 #include "core/base/large_array.hpp"
 #include "core/base/parallel.hpp"
 #include "core/label_images/corner_scan.hpp"
@@ -107,33 +106,18 @@ std::size_t vertices_on_line(std::span<const Label> above, std::span<const Label
   return count;
 }
 
-// Work on the lines of an image that is done in pieces.
-class Pieces {
- public:
-  Pieces(std::size_t width, std::size_t height) : lines_(height + 1), size_(rows_per_piece(width)) {}
-
-  std::size_t count() const { return base::piece_count(lines_, size_); }
-  Lines operator[](std::size_t piece) const { return {piece * size_, std::min(lines_, (piece + 1) * size_)}; }
-
- private:
-  std::size_t lines_, size_;
-};
-
 // The number of vertices on the lines of each piece.
 template <class Label>
 std::vector<std::size_t> vertices_of_pieces(std::span<const Label> image, std::size_t width, unsigned threads,
                                             const Monitor& monitor) {
-  const Pieces pieces(width, image.size() / width);
-  std::vector<std::size_t> found(pieces.count());
+  const std::size_t lines = image.size() / width + 1, lines_a_piece = rows_per_piece(width);
+  std::vector<std::size_t> found(base::piece_count(lines, lines_a_piece));
   using Row = std::span<const Label>;
-  base::parallel_for(
-      pieces.count(), threads,
-      [&](std::size_t piece) {
-        for_each_line(image, width, pieces[piece], [&](std::size_t, Row above, Row below) {
-          found[piece] += vertices_on_line(above, below);
-        });
-      },
-      monitor);
+  const auto count = [&](std::size_t piece, std::size_t first, std::size_t last) {
+    for_each_line(image, width, {first, last},
+                  [&](std::size_t, Row above, Row below) { found[piece] += vertices_on_line(above, below); });
+  };
+  base::for_pieces(lines, lines_a_piece, threads, monitor, count);
   return found;
 }
 
@@ -238,19 +222,16 @@ LargeArray<CrackVertex> crack_graph(std::span<const Label> image, std::size_t wi
   std::vector<std::size_t> start{0};
   for (const std::size_t count : vertices_of_pieces(image, width, threads, quarter(0)))
     start.push_back(start.back() + count);
-  const Pieces pieces(width, image.size() / width);
   LargeArray<CrackVertex> vertices(start.back());
-  std::vector<std::optional<CrackBand>> bands(pieces.count());
-  base::parallel_for(
-      pieces.count(), threads,
-      [&](std::size_t piece) {
-        CrackBand& band =
-            bands[piece].emplace(std::span(vertices.data(), vertices.size()), start[piece], width, rule);
-        scan_corners(image, width, pieces[piece],
-                     [&](std::size_t x, std::size_t y, const Quadrants& around) { band.add(x, y, around); });
-        band.close();
-      },
-      quarter(0.25));
+  std::vector<std::optional<CrackBand>> bands(start.size() - 1);
+  const auto scan = [&](std::size_t piece, std::size_t first, std::size_t last) {
+    CrackBand& band =
+        bands[piece].emplace(std::span(vertices.data(), vertices.size()), start[piece], width, rule);
+    scan_corners(image, width, {first, last},
+                 [&](std::size_t x, std::size_t y, const Quadrants& around) { band.add(x, y, around); });
+    band.close();
+  };
+  base::for_pieces(image.size() / width + 1, rows_per_piece(width), threads, quarter(0.25), scan);
   std::vector<std::int32_t> above(width + 1, -1);
   for (const std::optional<CrackBand>& band : bands) band->join(above);
   return vertices;
@@ -348,7 +329,7 @@ class RingWalk {
   }
 
   void poll() {
-    if (++polled_ % steps_between_polls == 0 && monitor_ && !monitor_(0.75)) throw base::Interrupted();
+    if (++polled_ % steps_between_polls == 0) base::report(monitor_, 0.75);
   }
 
   std::span<CrackVertex> vertices_;

@@ -37,17 +37,13 @@ void mark_diagram(std::span<const Label> labels, std::size_t width, std::span<co
     throw std::length_error("the rows of a diagram differ in width");
   }
   const std::size_t height = labels.size() / width;
-  const std::size_t rows = rows_per_piece(width);
-  auto mark_rows = [&](std::size_t piece) {
-    for (std::size_t y = piece * rows; y < std::min(height, (piece + 1) * rows); ++y) {
-      const Label* row = labels.data() + y * width;
-      // Outside the image stands the row itself: nothing is larger than itself.
-      const Label* up = y > 0 ? row - width : above.empty() ? row : above.data();
-      const Label* down = y + 1 < height ? row + width : below.empty() ? row : below.data();
-      mark_row(row, up, down, width, diagram.data() + y * width);
-    }
-  };
-  base::parallel_for(base::piece_count(height, rows), threads, mark_rows, monitor);
+  base::for_items(height, rows_per_piece(width), threads, monitor, [&](std::size_t y) {
+    const Label* row = labels.data() + y * width;
+    // Outside the image stands the row itself: nothing is larger than itself.
+    const Label* up = y > 0 ? row - width : above.empty() ? row : above.data();
+    const Label* down = y + 1 < height ? row + width : below.empty() ? row : below.data();
+    mark_row(row, up, down, width, diagram.data() + y * width);
+  });
 }
 
 template void mark_diagram(std::span<const std::uint8_t>, std::size_t, std::span<const std::uint8_t>,

@@ -86,7 +86,7 @@ class BandJoiner {
     steps_ += steps;
     if (steps_ < (1U << 16)) return;
     steps_ = 0;
-    if (monitor_ && !monitor_(1.0)) throw base::Interrupted();
+    base::report(monitor_, 1);
   }
 
   void put(std::uint32_t one, std::uint32_t other, std::int64_t length) {
@@ -163,10 +163,9 @@ Regions measure_regions(std::span<const Label> image, std::size_t width, std::si
   if (image.empty()) return {};
   const std::size_t rows = rows_per_piece(width);
   std::vector<std::unique_ptr<BandScan>> bands(base::piece_count(height, rows));
-  parallel_for(
-      bands.size(), threads,
-      [&](std::size_t k) { bands[k] = scan_band(image, width, k * rows, std::min(height, (k + 1) * rows)); },
-      monitor);
+  base::for_pieces(height, rows, threads, monitor, [&](std::size_t k, std::size_t begin, std::size_t end) {
+    bands[k] = scan_band(image, width, begin, end);
+  });
 
   BandJoiner joiner(distinct_labels(bands), monitor);
   std::vector<std::vector<std::uint32_t>> index(bands.size());
@@ -190,10 +189,9 @@ std::vector<std::uint64_t> max_by_label(std::span<const Label> image, std::span<
   for (std::size_t k = 0; k < labels.size(); ++k) numbers[labels[k]] = k + 1;
   std::vector<std::atomic<std::uint64_t>> largest(labels.size());  // shared: a maximum knows no order
   const std::size_t height = image.size() / width;
-  const std::size_t rows = rows_per_piece(width);
-  auto scan = [&](std::size_t piece) {
+  const auto scan = [&](std::size_t, std::size_t begin, std::size_t end) {
     RunStarts starts(width);
-    for (std::size_t y = piece * rows; y < std::min(height, (piece + 1) * rows); ++y) {
+    for (std::size_t y = begin; y < end; ++y) {
       const auto row = image.subspan(y * width, width);
       const Value* value = values.data() + y * width;
       const std::size_t count = starts.cut(row);
@@ -209,7 +207,7 @@ std::vector<std::uint64_t> max_by_label(std::span<const Label> image, std::span<
       }
     }
   };
-  parallel_for(base::piece_count(height, rows), threads, scan, monitor);
+  base::for_pieces(height, rows_per_piece(width), threads, monitor, scan);
   return {largest.begin(), largest.end()};
 }
 

@@ -31,10 +31,7 @@ void scan_rows(ComponentScan<Sets>& scan, std::size_t width, std::span<const std
                std::span<std::uint32_t> numbers, const Monitor& monitor) {
   const std::size_t piece = rows_per_piece(width) * width;
   for (std::size_t row = 0; row < mask.size(); row += width) {
-    if (row % piece == 0 && monitor &&
-        !monitor(static_cast<double>(row) / static_cast<double>(mask.size()))) {
-      throw base::Interrupted();
-    }
+    if (row % piece == 0) base::report(monitor, static_cast<double>(row) / static_cast<double>(mask.size()));
     scan.add_row(mask.subspan(row, width), numbers.subspan(row, width));
   }
 }

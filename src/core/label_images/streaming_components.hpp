@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "core/base/monitor.hpp"
 #include "core/label_images/component_scan.hpp"

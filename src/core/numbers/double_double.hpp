@@ -7,7 +7,6 @@
 #pragma once
 
 #include <cmath>
-#include <cstdint>
 
 #include "core/numbers/expansion.hpp"
 #include "core/numbers/int128.hpp"

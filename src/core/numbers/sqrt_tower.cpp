@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 #include "core/numbers/int128.hpp"
 #include "core/numbers/sign.hpp"

@@ -84,7 +84,7 @@ class CurveMaker {
     std::vector<bool> is_done(crossings_.all().size());
     for (const HalfEdge first : crossings_.all()) {
       if (is_done[crossings_.number(first)]) continue;
-      if (monitor_ && !monitor_(0)) throw base::Interrupted();
+      base::report(monitor_, 0);
       Ring ring;
       HalfEdge h = first;
       do {

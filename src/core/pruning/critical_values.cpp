@@ -1,7 +1,6 @@
 #include "core/pruning/critical_values.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "core/base/indices.hpp"
@@ -19,10 +18,6 @@ using skeleton::SkeletonView;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-void poll(const Monitor& monitor, double done) {
-  if (monitor && !monitor(done)) throw base::Interrupted();
-}
 
 // The part that all criteria share: the trees, and where the values go.
 class Pruner {
@@ -73,7 +68,7 @@ class Pruner {
   void poll_at(std::size_t k, std::size_t count, double from, double to) const {
     constexpr std::size_t often = 1 << 14;  // arcs between two looks at the monitor: some milliseconds
     if (k % often == 0)
-      poll(monitor_, from + (to - from) * static_cast<double>(k) / static_cast<double>(count));
+      base::report(monitor_, from + (to - from) * static_cast<double>(k) / static_cast<double>(count));
   }
 
   const SkeletonView& skeleton_;
@@ -152,7 +147,7 @@ class LongestPath : public Pruner {
 
   void run() {
     find_middles();
-    poll(monitor_, 0.5);
+    base::report(monitor_, 0.5);
     const std::vector<double> depth = depths();
     for (std::size_t k = hanging_count(); k-- > 0;) {
       const auto [arc, outer, inner] = hanging(k);
@@ -275,9 +270,9 @@ class EnlargedDiscs : public Pruner {
   void run() {
     find_largest_discs();
     number_discs();
-    poll(monitor_, 0.2);
+    base::report(monitor_, 0.2);
     const DiscEnlargement enlargement(discs(), rounding());
-    poll(monitor_, 0.4);
+    base::report(monitor_, 0.4);
     using Need = DiscEnlargement::Need;
     std::vector<Need> least(hanging_count());
     for (std::size_t k = hanging_count(); k-- > 0;) {
@@ -367,7 +362,7 @@ class EnlargedDiscs : public Pruner {
 }  // namespace
 
 CriticalValues critical_values(const SkeletonView& skeleton, Criterion criterion, const Monitor& monitor) {
-  poll(monitor, 0);
+  base::report(monitor, 0);
   if (criterion == Criterion::scale) {
     EnlargedDiscs pruner(skeleton, monitor);
     pruner.run();

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
-#include "core/base/indices.hpp"
 #include "core/pruning/arc_profile.hpp"
 #include "core/skeleton/branches.hpp"
 

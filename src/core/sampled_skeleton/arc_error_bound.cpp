@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/kernel/lattice.hpp"
-
 namespace vorotool::core::sampled_skeleton {
 
 using kernel::Point;

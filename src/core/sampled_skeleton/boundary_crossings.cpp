@@ -9,7 +9,6 @@
 #include "core/numbers/fixed_integer.hpp"
 #include "core/numbers/rounded_quotient.hpp"
 #include "core/numbers/sign.hpp"
-#include "core/sampled_skeleton/sample_mesh.hpp"
 
 namespace vorotool::core::sampled_skeleton {
 
@@ -163,15 +162,12 @@ Crossings find_crossings(const SampleMesh& mesh, const VertexTriangles& rings, c
                          const base::Monitor& monitor) {
   constexpr std::size_t grain = 1 << 8;
   std::vector<Crossings> found(base::piece_count(pieces.size(), grain));
-  base::parallel_for(
-      found.size(), threads,
-      [&](std::size_t part) {
-        for (std::size_t i = part * grain; i < std::min(pieces.size(), (part + 1) * grain); ++i) {
-          const EdgePiece piece = labels.piece(pieces[i]);
-          Walk(mesh, rings, piece, pieces[i], found[part]).run();
-        }
-      },
-      monitor);
+  const auto walk = [&](std::size_t part, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Walk(mesh, rings, labels.piece(pieces[i]), pieces[i], found[part]).run();
+    }
+  };
+  base::for_pieces(pieces.size(), grain, threads, monitor, walk);
   Crossings all;
   for (const Crossings& part : found) {
     append(all.crossings, part.crossings);

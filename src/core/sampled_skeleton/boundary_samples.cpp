@@ -59,16 +59,11 @@ BoundarySamples sample(const PlanarGraphView& graph, std::size_t most, unsigned 
     made.seeds[i] = {static_cast<double>(graph.points[i].x), static_cast<double>(graph.points[i].y)};
     made.segment[i] = -1;
   }
-  base::parallel_for(
-      base::piece_count(segments, grain), threads,
-      [&](std::size_t piece) {
-        for (std::size_t j = piece * grain; j < std::min(segments, (piece + 1) * grain); ++j) {
-          const std::size_t first = at(made.start[j]), size = at(made.start[j + 1]) - first;
-          std::fill_n(made.segment.data() + first, size, static_cast<std::int32_t>(j));
-          write(j, std::span(made.seeds.data() + first, size));
-        }
-      },
-      monitor);
+  base::for_items(segments, grain, threads, monitor, [&](std::size_t j) {
+    const std::size_t first = at(made.start[j]), size = at(made.start[j + 1]) - first;
+    std::fill_n(made.segment.data() + first, size, static_cast<std::int32_t>(j));
+    write(j, std::span(made.seeds.data() + first, size));
+  });
   return made;
 }
 

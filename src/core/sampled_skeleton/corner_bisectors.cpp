@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "core/base/indices.hpp"
 #include "core/base/parallel.hpp"
@@ -168,14 +167,8 @@ CornerBisectors corner_bisectors(const SampleDiagram& diagram, std::span<const s
   const delaunay::TriangulationArrays arrays{mesh.seeds, mesh.triangles, mesh.neighbours, {}, {}, {}};
   const VertexTriangles rings(arrays);
   std::vector<std::uint8_t> is_met(found.lines.size());
-  base::parallel_for(
-      base::piece_count(is_met.size(), grain), threads,
-      [&](std::size_t piece) {
-        for (std::size_t i = piece * grain; i < std::min(is_met.size(), (piece + 1) * grain); ++i) {
-          is_met[i] = Sector(diagram, rings, found.lines[i]).meet() ? 1 : 0;
-        }
-      },
-      monitor);
+  base::for_items(is_met.size(), grain, threads, monitor,
+                  [&](std::size_t i) { is_met[i] = Sector(diagram, rings, found.lines[i]).meet() ? 1 : 0; });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < is_met.size(); ++i) {
     if (is_met[i] != 0) found.lines[kept++] = found.lines[i];

@@ -319,23 +319,21 @@ void bound_arcs(const SampleDiagram& diagram, const ArcsToBound& arcs, double to
   for (const auto& own : items) {
     hierarchies.emplace_back(sites_of(own), own.size() < grain ? 1 : threads, monitor);
   }
-  base::parallel_for(
-      base::piece_count(arcs.count, grain), threads,
-      [&](std::size_t piece) {
-        std::optional<Bounder> bounder;
-        std::size_t group = items.size();  // of the bounder
-        for (std::size_t i = piece * grain; i < std::min(arcs.count, (piece + 1) * grain); ++i) {
-          const BoundedArc arc = arcs.arc(i);
-          if (const auto own = static_cast<std::size_t>(diagram.group_of(arc.seed)); own != group) {
-            bounder.emplace(diagram, items[own], hierarchies[own]);
-            group = own;
-          }
-          const ErrorBound& bound = (*bounder)(arc);
-          arcs.take(i, bound);
-          if (!parts.empty() && !(bound.error <= tolerance)) bounder->demand(tolerance, parts);
-        }
-      },
-      monitor);
+  const auto bound_piece = [&](std::size_t, std::size_t begin, std::size_t end) {
+    std::optional<Bounder> bounder;
+    std::size_t group = items.size();  // of the bounder
+    for (std::size_t i = begin; i < end; ++i) {
+      const BoundedArc arc = arcs.arc(i);
+      if (const auto own = static_cast<std::size_t>(diagram.group_of(arc.seed)); own != group) {
+        bounder.emplace(diagram, items[own], hierarchies[own]);
+        group = own;
+      }
+      const ErrorBound& bound = (*bounder)(arc);
+      arcs.take(i, bound);
+      if (!parts.empty() && !(bound.error <= tolerance)) bounder->demand(tolerance, parts);
+    }
+  };
+  base::for_pieces(arcs.count, grain, threads, monitor, bound_piece);
 }
 
 }  // namespace vorotool::core::sampled_skeleton

@@ -1,7 +1,5 @@
 #include "core/sampled_skeleton/near_edges.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/base/indices.hpp"

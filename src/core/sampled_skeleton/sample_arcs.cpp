@@ -7,7 +7,6 @@
 #include "core/base/indices.hpp"
 #include "core/base/parallel.hpp"
 #include "core/kernel/circumcentre.hpp"
-#include "core/skeleton/frame_clip.hpp"
 
 namespace vorotool::core::sampled_skeleton {
 
@@ -103,17 +102,12 @@ void SampleArcs::place_nodes(unsigned threads, const base::Monitor& monitor) {
   place_.resize(node_triangle_.size());
   side_.assign(node_triangle_.size(), FrameSide::none);
   const SampleMesh& mesh = diagram_.mesh();
-  base::parallel_for(
-      base::piece_count(place_.size(), grain), threads,
-      [&](std::size_t piece) {
-        for (std::size_t i = piece * grain; i < std::min(place_.size(), (piece + 1) * grain); ++i) {
-          const Triangle t = node_triangle_[i];
-          const kernel::RoundedPoint centre = kernel::circumcentre(
-              mesh.seed(mesh.apex(3 * t)), mesh.seed(mesh.apex(3 * t + 1)), mesh.seed(mesh.apex(3 * t + 2)));
-          place_[i] = {centre.x.value, centre.y.value};
-        }
-      },
-      monitor);
+  base::for_items(place_.size(), grain, threads, monitor, [&](std::size_t i) {
+    const Triangle t = node_triangle_[i];
+    const kernel::RoundedPoint centre = kernel::circumcentre(
+        mesh.seed(mesh.apex(3 * t)), mesh.seed(mesh.apex(3 * t + 1)), mesh.seed(mesh.apex(3 * t + 2)));
+    place_[i] = {centre.x.value, centre.y.value};
+  });
 }
 
 std::size_t SampleArcs::add_lines(std::span<const CornerBisector> lines,

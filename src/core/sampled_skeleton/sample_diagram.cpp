@@ -4,13 +4,11 @@
 #include <utility>
 
 #include "core/base/disjoint_sets.hpp"
-#include "core/base/indices.hpp"
 #include "core/base/parallel.hpp"
 #include "core/delaunay/delaunay_triangulation.hpp"
 #include "core/kernel/predicates.hpp"
 #include "core/sampled_skeleton/boundary_crossings.hpp"
 #include "core/sampled_skeleton/sample_faces.hpp"
-#include "core/sampled_skeleton/sample_mesh.hpp"
 
 namespace vorotool::core::sampled_skeleton {
 
@@ -27,15 +25,12 @@ constexpr std::size_t grain = 1 << 14;  // triangles a piece of work: about a mi
 // Calls body(s) for the sides that are to be looked at once.
 template <class Body>
 void for_each_side(const SampleMesh& mesh, unsigned threads, const Monitor& monitor, const Body& body) {
-  base::parallel_for(
-      base::piece_count(mesh.size(), grain), threads,
-      [&](std::size_t piece) {
-        const std::size_t last = std::min(mesh.sides(), 3 * (piece + 1) * grain);
-        for (std::size_t s = 3 * piece * grain; s < last; ++s) {
-          if (mesh.is_first(static_cast<Side>(s))) body(piece, static_cast<Side>(s));
-        }
-      },
-      monitor);
+  const auto visit = [&](std::size_t piece, std::size_t begin, std::size_t end) {
+    for (std::size_t s = 3 * begin; s < 3 * end; ++s) {
+      if (mesh.is_first(static_cast<Side>(s))) body(piece, static_cast<Side>(s));
+    }
+  };
+  base::for_pieces(mesh.size(), grain, threads, monitor, visit);
 }
 
 // The seeds of each group, ascending.

@@ -20,14 +20,8 @@ class FaceFinder {
 
   std::vector<std::int32_t> run(unsigned threads, const base::Monitor& monitor) {
     constexpr std::size_t grain = 1 << 15;
-    base::parallel_for(
-        base::piece_count(face_.size(), grain), threads,
-        [&](std::size_t piece) {
-          for (std::size_t t = piece * grain; t < std::min(face_.size(), (piece + 1) * grain); ++t) {
-            face_[t] = face_by_sides(static_cast<Triangle>(t));
-          }
-        },
-        monitor);
+    base::for_items(face_.size(), grain, threads, monitor,
+                    [&](std::size_t t) { face_[t] = face_by_sides(static_cast<Triangle>(t)); });
     take_from_crossings();
     spread();
     return std::move(face_);

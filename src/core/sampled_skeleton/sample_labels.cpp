@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/base/indices.hpp"
-
 namespace vorotool::core::sampled_skeleton {
 
 using base::at;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <limits>
 
 #include "core/base/atomic_ref.hpp"
@@ -55,14 +54,8 @@ class Writer {
     a.branch.resize(arcs);
     a.length.resize(arcs);
     out.seeds.resize(arcs);
-    base::parallel_for(
-        base::piece_count(std::max(nodes, arcs), grain), threads,
-        [&](std::size_t piece) {
-          const std::size_t first = piece * grain, last = first + grain;
-          for (std::size_t i = first; i < std::min(nodes, last); ++i) write_node(i, a);
-          for (std::size_t i = first; i < std::min(arcs, last); ++i) write_arc(i, out);
-        },
-        monitor);
+    base::for_items(nodes, grain, threads, monitor, [&](std::size_t i) { write_node(i, a); });
+    base::for_items(arcs, grain, threads, monitor, [&](std::size_t i) { write_arc(i, out); });
   }
 
   // Bounds and clearances; of nodes the least that any of their arcs found.

@@ -3,8 +3,6 @@
 #include <array>
 #include <cmath>
 
-#include "core/kernel/lattice.hpp"
-
 namespace vorotool::core::skeleton {
 
 using kernel::LatticeSite;

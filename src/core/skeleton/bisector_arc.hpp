@@ -1,8 +1,6 @@
 // A piece of the bisector of two sites: a straight line, or a part of a parabola (paper, section 3.2).
 #pragma once
 
-#include <cstdint>
-
 #include "core/kernel/lattice.hpp"
 #include "core/kernel/point.hpp"
 

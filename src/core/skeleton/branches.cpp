@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "core/base/groups.hpp"
 #include "core/base/indices.hpp"
 
 namespace vorotool::core::skeleton {
@@ -11,17 +12,13 @@ using base::at;
 
 namespace {
 
-// Numbers of the arcs, group by group.
-std::vector<std::int32_t> by_group(std::span<const GraphArc> arcs) {
+// Numbers of the arcs of each group.
+base::Groups<std::int32_t> by_group(std::span<const GraphArc> arcs) {
   std::int32_t most = -1;
   for (const GraphArc& arc : arcs) most = std::max(most, arc.group);
-  std::vector<std::int32_t> begin(at(most + 2)), order(arcs.size());
-  for (const GraphArc& arc : arcs) ++begin[at(arc.group) + 1];
-  for (std::size_t g = 1; g < begin.size(); ++g) begin[g] += begin[g - 1];
-  for (std::size_t k = 0; k < arcs.size(); ++k) {
-    order[at(begin[at(arcs[k].group)]++)] = static_cast<std::int32_t>(k);
-  }
-  return order;
+  return {at(most + 1), [&](const auto& add) {
+            for (std::size_t k = 0; k < arcs.size(); ++k) add(arcs[k].group, static_cast<std::int32_t>(k));
+          }};
 }
 
 class BranchWalk {
@@ -101,15 +98,11 @@ class BranchWalk {
 
 SkeletonOrder order_by_branches(std::span<const GraphArc> arcs, std::size_t nodes,
                                 const base::Monitor& monitor) {
-  const std::vector<std::int32_t> order = by_group(arcs);
+  const base::Groups<std::int32_t> groups = by_group(arcs);
   BranchWalk walk(arcs, nodes);
-  for (std::size_t begin = 0, end; begin < order.size(); begin = end) {
-    const std::int32_t group = arcs[at(order[begin])].group;
-    end = begin;
-    while (end < order.size() && arcs[at(order[end])].group == group) ++end;
-    walk.walk_all(std::span(order).subspan(begin, end - begin));
-    if (monitor && !monitor(static_cast<double>(end) / static_cast<double>(order.size())))
-      throw base::Interrupted();
+  for (std::size_t group = 0; group < groups.size(); ++group) {
+    walk.walk_all(groups[group]);
+    base::report(monitor, static_cast<double>(group + 1) / static_cast<double>(groups.size()));
   }
   return walk.take();
 }

@@ -91,13 +91,7 @@ SkeletonEdges skeleton_edges(const DiagramView& diagram, unsigned threads, const
   const std::size_t count = diagram.edges.size();
   const FaceFinder finder(diagram);
   base::LargeArray<std::int32_t> face(count);
-  base::parallel_for(
-      base::piece_count(count, grain), threads,
-      [&](std::size_t piece) {
-        const std::size_t last = std::min(count, (piece + 1) * grain);
-        for (std::size_t e = piece * grain; e < last; ++e) face[e] = finder.face(e);
-      },
-      monitor);
+  base::for_items(count, grain, threads, monitor, [&](std::size_t e) { face[e] = finder.face(e); });
   spread_faces(diagram, face);
   SkeletonEdges kept;
   const auto size = count - static_cast<std::size_t>(std::count(face.data(), face.data() + count, deleted));

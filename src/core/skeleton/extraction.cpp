@@ -1,7 +1,6 @@
 #include "core/skeleton/extraction.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "core/base/parallel.hpp"
@@ -65,17 +64,6 @@ class ArrayWriter {
   SkeletonArrays out_;
 };
 
-template <class Body>
-void for_each(std::size_t count, unsigned threads, const base::Monitor& monitor, const Body& body) {
-  base::parallel_for(
-      base::piece_count(count, grain), threads,
-      [&](std::size_t piece) {
-        const std::size_t last = std::min(count, (piece + 1) * grain);
-        for (std::size_t i = piece * grain; i < last; ++i) body(i);
-      },
-      monitor);
-}
-
 }  // namespace
 
 SkeletonArrays extract_skeleton(const segment_voronoi::build::DiagramView& diagram,
@@ -87,8 +75,8 @@ SkeletonArrays extract_skeleton(const segment_voronoi::build::DiagramView& diagr
   if (clipped) clip_to_frame(graph, clipped->group, clipped->frame, monitor);
   const SkeletonOrder order = order_by_branches(graph.arcs, graph.node_count(), monitor);
   ArrayWriter writer(graph, order, place);
-  for_each(order.nodes.size(), threads, monitor, [&](std::size_t i) { writer.write_node(i); });
-  for_each(order.arcs.size(), threads, monitor, [&](std::size_t i) { writer.write_arc(i); });
+  base::for_items(order.nodes.size(), grain, threads, monitor, [&](std::size_t i) { writer.write_node(i); });
+  base::for_items(order.arcs.size(), grain, threads, monitor, [&](std::size_t i) { writer.write_arc(i); });
   return writer.take();
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include "core/kernel/lattice.hpp"
@@ -139,7 +138,7 @@ void clip_to_frame(SkeletonGraph& graph, std::int32_t group, const Frame& frame,
   kept.reserve(graph.arcs.size());
   Clipper clipper(graph, frame, kept);
   for (std::size_t k = 0; k < graph.arcs.size(); ++k) {
-    if (k % often == 0 && monitor && !monitor(0)) throw base::Interrupted();
+    if (k % often == 0) base::report(monitor, 0);
     if (graph.arcs[k].group == group) {
       clipper.clip(graph.arcs[k]);
     } else {

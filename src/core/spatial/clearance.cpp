@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "core/base/parallel.hpp"
-#include "core/kernel/lattice.hpp"
 #include "core/spatial/obb_tree.hpp"
 
 namespace vorotool::core::spatial {
@@ -33,18 +32,12 @@ std::vector<double> clearances(std::span<const kernel::LatticeSite> sites,
   constexpr std::size_t grain = 1 << 12;  // places a piece: some milliseconds
   std::vector<double> found(places.size(), std::numeric_limits<double>::infinity());
   const ObbTree hierarchy(sites, threads, monitor);
-  base::parallel_for(
-      base::piece_count(places.size(), grain), threads,
-      [&](std::size_t piece) {
-        const std::size_t last = std::min(places.size(), (piece + 1) * grain);
-        for (std::size_t i = piece * grain; i < last; ++i) {
-          hierarchy.near(places[i].x, places[i].y, reach[i], [&](std::uint32_t site) {
-            found[i] = std::min(found[i], closed_distance(sites[site], places[i]));
-            return true;
-          });
-        }
-      },
-      monitor);
+  base::for_items(places.size(), grain, threads, monitor, [&](std::size_t i) {
+    hierarchy.near(places[i].x, places[i].y, reach[i], [&](std::uint32_t site) {
+      found[i] = std::min(found[i], closed_distance(sites[site], places[i]));
+      return true;
+    });
+  });
   return found;
 }
 

@@ -1,7 +1,6 @@
 // How far places are from the nearest of points and segments.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 

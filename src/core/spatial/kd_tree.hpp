@@ -107,7 +107,7 @@ class KdTree {
   }
 
   void build(std::size_t node, std::size_t first, std::size_t last, const base::Monitor& monitor) {
-    if (last - first > 4096 && monitor && !monitor(0.0)) throw base::Interrupted();
+    if (last - first > 4096) base::report(monitor, 0);
     Box box{sites_[first].x, sites_[first].x, sites_[first].y, sites_[first].y, UINT32_MAX};
     for (std::size_t i = first; i < last; ++i) {
       box.left = std::min(box.left, sites_[i].x);

@@ -16,19 +16,16 @@ std::vector<NearestOther> nearest_other_sites(std::span<const double> x, std::sp
   const Tree tree(x, y, labels, monitor);
   std::vector<NearestOther> result(tree.size());
   // In the order of the tree, where neighbours share most of their paths.
-  auto query = [&](std::size_t piece) {
-    for (std::size_t i = piece * piece_size; i < std::min(tree.size(), (piece + 1) * piece_size); ++i) {
-      const Tree::Site& site = tree.site(static_cast<std::ptrdiff_t>(i));
-      const Tree::Nearest found = tree.nearest(site.x, site.y, {}, site.index);
-      NearestOther& other = result[site.index];
-      if (found.place < 0) {
-        other = {-1, std::numeric_limits<double>::quiet_NaN()};
-      } else {
-        other = {tree.site(found.place).index, std::sqrt(found.d2)};
-      }
+  base::for_items(tree.size(), piece_size, threads, monitor, [&](std::size_t i) {
+    const Tree::Site& site = tree.site(static_cast<std::ptrdiff_t>(i));
+    const Tree::Nearest found = tree.nearest(site.x, site.y, {}, site.index);
+    NearestOther& other = result[site.index];
+    if (found.place < 0) {
+      other = {-1, std::numeric_limits<double>::quiet_NaN()};
+    } else {
+      other = {tree.site(found.place).index, std::sqrt(found.d2)};
     }
-  };
-  base::parallel_for(base::piece_count(tree.size(), piece_size), threads, query, monitor);
+  });
   return result;
 }
 

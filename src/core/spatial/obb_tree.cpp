@@ -1,6 +1,5 @@
 #include "core/spatial/obb_tree.hpp"
 
-#include <limits>
 #include <numeric>
 
 #include "core/base/parallel.hpp"
@@ -109,16 +108,12 @@ ObbTree::ObbTree(std::span<const LatticeSite> items, unsigned threads, const bas
     levels_[level].resize(nodes);
     constexpr std::size_t grain = 1 << 14;  // items of a piece
     const std::size_t a_piece = std::max<std::size_t>(1, grain / size);
-    const auto build = [&](std::size_t piece) {
-      const std::size_t end = std::min(nodes, (piece + 1) * a_piece);
-      for (std::size_t node = piece * a_piece; node < end; ++node) {
-        const std::size_t from = node * size, count = std::min(size, items.size() - from);
-        Bundle bundle(items, std::span(index_).subspan(from, count));
-        levels_[level][node] = bundle.box();
-        if (level > 0 && count > size / 2) bundle.split(levels_[level][node], size / 2);
-      }
-    };
-    base::parallel_for(base::piece_count(nodes, a_piece), threads, build, monitor);
+    base::for_items(nodes, a_piece, threads, monitor, [&](std::size_t node) {
+      const std::size_t from = node * size, count = std::min(size, items.size() - from);
+      Bundle bundle(items, std::span(index_).subspan(from, count));
+      levels_[level][node] = bundle.box();
+      if (level > 0 && count > size / 2) bundle.split(levels_[level][node], size / 2);
+    });
   }
 }
 

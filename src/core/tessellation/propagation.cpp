@@ -76,9 +76,7 @@ void propagate(std::span<const std::int64_t> x, std::span<const std::int64_t> y,
                std::uint32_t* out, const base::Monitor& monitor) {
   PropagationImage image(x, y, label, width, height);
   const double rows = static_cast<double>(height) * passes;
-  const auto check = [&](std::int32_t done) {
-    if (monitor && !monitor(done / rows)) throw base::Interrupted();
-  };
+  const auto check = [&](std::int32_t done) { base::report(monitor, done / rows); };
   for (std::int32_t j = 0; j < height; ++j) {
     image.sweep_row(j, -1);
     check(j);

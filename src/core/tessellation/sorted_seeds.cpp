@@ -1,6 +1,5 @@
 #include "core/tessellation/sorted_seeds.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <limits>
 #include <string>

@@ -13,12 +13,12 @@ void stream_fill(char* out, std::size_t bytes, unsigned threads) {
   constexpr std::size_t piece = std::size_t{1} << 24;
   const RowKernel<Narrow> kernel = narrow_kernel(widest_simd());
   const std::vector<char> ones(block, 1);
-  base::parallel_for(base::piece_count(bytes, piece), threads, [&](std::size_t index) {
-    const std::size_t end = std::min(bytes, (index + 1) * piece);
-    for (std::size_t i = index * piece; i < end; i += block)
+  const auto fill = [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; i += block)
       kernel.stream(out + i, ones.data(), std::min(block, end - i));
     kernel.fence();
-  });
+  };
+  base::for_pieces(bytes, piece, threads, {}, fill);
 }
 
 }  // namespace vorotool::core::tessellation

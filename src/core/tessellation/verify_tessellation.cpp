@@ -93,13 +93,13 @@ WrongPixels verify(std::span<const Label> image, const PixelFrame& frame, const 
   // At a query a pixel, 2^14 pixels are a few milliseconds.
   const std::size_t rows = std::max<std::size_t>(1, (std::size_t{1} << 14) / frame.width);
   std::vector<WrongPixels> wrong(base::piece_count(frame.height, rows));
-  auto check = [&](std::size_t piece) {
+  const auto check = [&](std::size_t piece, std::size_t begin, std::size_t end) {
     RightRow<Distance> right(tree, frame, seeds.scale, limit);
-    for (std::size_t y = piece * rows; y < std::min(frame.height, (piece + 1) * rows); ++y) {
+    for (std::size_t y = begin; y < end; ++y) {
       compare_row(image.subspan(y * frame.width, frame.width), std::span(right.compute(y)), y, wrong[piece]);
     }
   };
-  base::parallel_for(wrong.size(), threads, check, monitor);
+  base::for_pieces(frame.height, rows, threads, monitor, check);
   WrongPixels all;
   for (const WrongPixels& piece : wrong) {
     const std::uint64_t count = all.count + piece.count;

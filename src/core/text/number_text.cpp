@@ -125,19 +125,16 @@ void append_number(std::string& out, std::uint64_t value) {
 NumberTexts::NumberTexts(std::span<const double> values, int precision, unsigned threads,
                          const base::Monitor& monitor)
     : blocks_(base::piece_count(values.size(), block_size)), ends_(values.size()) {
-  base::parallel_for(
-      blocks_.size(), threads,
-      [&](std::size_t block) {
-        std::string text;
-        const std::size_t end = std::min(values.size(), (block + 1) * block_size);
-        for (std::size_t i = block * block_size; i < end; ++i) {
-          if (std::isfinite(values[i])) append_number(text, values[i], precision);
-          ends_[i] = static_cast<std::uint32_t>(text.size());  // at most block_size texts of 48 bytes
-        }
-        text.shrink_to_fit();
-        blocks_[block] = std::move(text);
-      },
-      monitor);
+  const auto write = [&](std::size_t block, std::size_t begin, std::size_t end) {
+    std::string text;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (std::isfinite(values[i])) append_number(text, values[i], precision);
+      ends_[i] = static_cast<std::uint32_t>(text.size());  // at most block_size texts of 48 bytes
+    }
+    text.shrink_to_fit();
+    blocks_[block] = std::move(text);
+  };
+  base::for_pieces(values.size(), block_size, threads, monitor, write);
 }
 
 }  // namespace vorotool::core::text

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/base/parallel.hpp"
-#include "core/text/number_text.hpp"
 
 namespace vorotool::core::text {
 namespace {
@@ -113,16 +112,13 @@ std::vector<std::string> format_rows(std::span<const TextColumn> columns, const 
                                      int precision, unsigned threads, const base::Monitor& monitor) {
   const std::size_t rows = columns.empty() ? 0 : row_count(columns.front());
   std::vector<std::string> blocks(base::piece_count(rows, block_rows));
-  base::parallel_for(
-      blocks.size(), threads,
-      [&](std::size_t block) {
-        const std::size_t end = std::min(rows, (block + 1) * block_rows);
-        for (std::size_t row = block * block_rows; row < end; ++row) {
-          if (row > 0) blocks[block] += shape.separator;
-          append_row(blocks[block], columns, row, shape, precision);
-        }
-      },
-      monitor);
+  const auto write = [&](std::size_t block, std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row) {
+      if (row > 0) blocks[block] += shape.separator;
+      append_row(blocks[block], columns, row, shape, precision);
+    }
+  };
+  base::for_pieces(rows, block_rows, threads, monitor, write);
   return blocks;
 }
 

@@ -8,49 +8,24 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from support.families.polygon_families import FAMILIES, LIMIT, LINE, draw, rings_of
+from support.families.polygon_families import FAMILIES, LIMIT, LINE, draw, graph_of, rings_of
 from support.oracles import planar_graph_oracle as oracle
 from vorotool import _core
 
 
-def make(vertices, rings):
-    _begin, end, kind, polygon = (list(column) for column in zip(*rings, strict=True))
-    return _core.arrangement.make_planar_graph(
-        np.ascontiguousarray(vertices, dtype=np.int32),
-        np.array([0, *end], dtype=np.int64),
-        np.array(kind, dtype=np.int8),
-        np.array(polygon, dtype=np.int32),
-        None,
-    )
-
-
 def fault(graph):
-    return _core.arrangement.find_fault(graph["points"], graph["segments"], graph["segment_faces"], None)
-
-
-def described(graph):
-    """{segment: (edges, polygons left, polygons right)} as the oracle has it."""
-    points = [tuple(p) for p in graph["points"].tolist()]
-    inside = [set(p.tolist()) for p in np.split(graph["face_polygon"], graph["face_start"][1:-1])]
-    start = graph["source_start"]
-    found = {}
-    for k, ((i, j), (left, right)) in enumerate(zip(graph["segments"].tolist(), graph["segment_faces"], strict=True)):
-        edges = graph["source_edge"][start[k] : start[k + 1]]
-        a, b = points[i], points[j]
-        sides = (inside[left], inside[right]) if a < b else (inside[right], inside[left])
-        found[tuple(sorted((a, b)))] = (edges.tolist(), *sides)
-    return found
+    return _core.arrangement.find_fault(graph.points, graph.segments, graph.segment_faces, None)
 
 
 def assert_pieces_follow_their_edges(graph, vertices, rings):
     """Segments come edge by edge, directed and in order along the first edge that each is part of."""
     before = (-1, None)
-    for k, (i, j) in enumerate(graph["segments"].tolist()):
-        edge = int(graph["source_edge"][graph["source_start"][k]])
+    for k, (i, j) in enumerate(graph.segments.tolist()):
+        edge = int(graph.sources_of(k)[0])
         begin, end, _, _ = rings[oracle.ring_of(rings, edge)]
         a, b = vertices[edge].tolist(), vertices[begin if edge + 1 == end else edge + 1].tolist()
         start, stop = (
-            [(p - q) * (r - q) for p, q, r in zip(graph["points"][e].tolist(), a, b, strict=True)] for e in (i, j)
+            [(p - q) * (r - q) for p, q, r in zip(graph.points[e].tolist(), a, b, strict=True)] for e in (i, j)
         )
         assert all(x <= y for x, y in zip(start, stop, strict=True))
         assert start != stop
@@ -60,20 +35,20 @@ def assert_pieces_follow_their_edges(graph, vertices, rings):
 
 def check(vertices, rings):
     """Compare with the definition; small inputs only."""
-    graph = make(vertices, rings)
+    graph = graph_of(vertices, rings)
     assert fault(graph) is None
-    points = [tuple(p) for p in graph["points"].tolist()]
-    assert oracle.fault(points, graph["segments"].tolist()) is None
+    points = [tuple(p) for p in graph.points.tolist()]
+    assert oracle.fault(points, graph.segments.tolist()) is None
     assert_pieces_follow_their_edges(graph, vertices, rings)
     expected, moved = oracle.planar_graph(vertices.tolist(), rings)
-    assert described(graph) == expected
-    assert graph["repairs"][3][0] == moved
+    assert oracle.described(graph) == expected
+    assert graph.repairs["moved_edges"] == moved
     ends = {p for pair in expected for p in pair}
     alone = {tuple(vertices[begin].tolist()) for begin, _, kind, _ in rings if kind == LINE}
-    holes = {(points[point], polygon) for point, _, polygon in graph["point_holes"].reshape(-1, 3).tolist()}
+    holes = oracle.holes_of(graph)
     assert holes == oracle.point_holes(vertices.tolist(), rings, expected)
     assert set(points) == ends | alone | {place for place, _ in holes}
-    for vertex, point in zip(graph["point_vertex"].tolist(), points, strict=True):
+    for vertex, point in zip(graph.point_vertex.tolist(), points, strict=True):
         first = next((i for i, v in enumerate(vertices.tolist()) if tuple(v) == point), -1)
         assert vertex == first
     return graph
@@ -116,7 +91,7 @@ def test_holes_without_an_area(hole, polygon):
 @pytest.mark.parametrize("name", FAMILIES)
 def test_large_inputs_are_planar(name):
     for seed in range(3):
-        graph = make(*draw(name, 400, [7, seed]))
+        graph = graph_of(*draw(name, 400, [7, seed]))
         assert fault(graph) is None
 
 
@@ -125,41 +100,41 @@ def test_the_eight_symmetries(name):
     """The cells are half-open, so that only what does not move is the same under reflection."""
     for seed in range(5):
         vertices, rings = draw(name, 12, [3, seed])
-        graph = make(vertices, rings)
-        if graph["repairs"][3][0]:
+        graph = graph_of(vertices, rings)
+        if graph.repairs["moved_edges"]:
             continue
-        pairs = {frozenset(map(tuple, pair)) for pair in graph["points"][graph["segments"]].tolist()}
+        pairs = {frozenset(map(tuple, pair)) for pair in graph.points[graph.segments].tolist()}
         for sx, sy, swap in [(1, -1, 0), (-1, 1, 0), (-1, -1, 0), (1, 1, 1), (1, -1, 1), (-1, 1, 1), (-1, -1, 1)]:
             turned = vertices * np.array([sx, sy], dtype=np.int32)
             turned = np.ascontiguousarray(turned[:, ::-1] if swap else turned)
-            other = make(turned, rings)
-            back = other["points"][:, ::-1] if swap else other["points"]
+            other = graph_of(turned, rings)
+            back = other.points[:, ::-1] if swap else other.points
             back = back * [sx, sy]
-            assert {frozenset(map(tuple, pair)) for pair in back[other["segments"]].tolist()} == pairs
-            assert [r[0] for r in other["repairs"]] == [r[0] for r in graph["repairs"]]
+            assert {frozenset(map(tuple, pair)) for pair in back[other.segments].tolist()} == pairs
+            assert other.repairs == graph.repairs
 
 
 @pytest.mark.parametrize("name", FAMILIES)
 def test_the_pieces_need_no_repair(name):
     """The segments as lines give themselves."""
     for seed in range(3):
-        graph = make(*draw(name, 60, [11, seed]))
-        ends = graph["segments"].ravel()
+        graph = graph_of(*draw(name, 60, [11, seed]))
+        ends = graph.segments.ravel()
         if not len(ends):
             continue
-        again = make(graph["points"][ends], rings_of([2] * (len(ends) // 2), [LINE] * (len(ends) // 2)))
-        assert [r[0] for r in again["repairs"]] == [0] * 6
-        pairs = graph["points"][graph["segments"]]
-        assert again["points"][again["segments"]].tolist() == pairs.tolist()
+        again = graph_of(graph.points[ends], rings_of([2] * (len(ends) // 2), [LINE] * (len(ends) // 2)))
+        assert not any(again.repairs.values())
+        pairs = graph.points[graph.segments]
+        assert again.points[again.segments].tolist() == pairs.tolist()
 
 
 def test_a_reversed_or_rotated_ring_gives_the_same():
     for seed in range(20):
         vertices, _ = draw("small", 9, [5, seed])
         rings = rings_of([9], [0])
-        graph = described(make(vertices, rings))
+        graph = oracle.described(graph_of(vertices, rings))
         for other in (vertices[::-1], np.roll(vertices, 4, axis=0)):
-            found = described(make(other, rings))
+            found = oracle.described(graph_of(other, rings))
             assert {s: sides[1:] for s, sides in found.items()} == {s: sides[1:] for s, sides in graph.items()}
 
 
@@ -174,15 +149,15 @@ def chain_of_disturbances(length):
 
 def test_disturbances_that_spread():
     graph = check(*chain_of_disturbances(12))
-    assert graph["repairs"][3][0] == 13
+    assert graph.repairs["moved_edges"] == 13
 
 
 def test_disturbances_that_spread_too_far():
     """After some rounds everything is snapped, even what is far away."""
-    graph = make(*chain_of_disturbances(40))
+    graph = graph_of(*chain_of_disturbances(40))
     assert fault(graph) is None
-    assert graph["repairs"][3][0] == 43
-    assert any({-960} < set(graph["points"][pair, 0].tolist()) for pair in graph["segments"])
+    assert graph.repairs["moved_edges"] == 43
+    assert any({-960} < set(graph.points[pair, 0].tolist()) for pair in graph.segments)
 
 
 def test_every_lattice_point_of_a_crossing_of_many():
@@ -200,7 +175,7 @@ def test_corners_of_the_lattice():
     bow = square[[0, 2, 1, 3]]
     both = np.concatenate([square, bow])
     graph = check(both, rings_of([4, 4], [0, 0]))
-    assert len(graph["segments"]) == 8
+    assert len(graph.segments) == 8
     check(
         np.array([[-LIMIT, -LIMIT], [LIMIT, LIMIT], [-LIMIT, 1 - LIMIT], [LIMIT, LIMIT - 1]], dtype=np.int32),
         rings_of([2, 2], [LINE, LINE]),
@@ -222,8 +197,8 @@ def test_corners_of_the_lattice():
 )
 def test_the_checker_finds_faults(change, message):
     vertices = np.array([[0, 0], [4, 0], [4, 4], [0, 4]], dtype=np.int32)
-    graph = make(vertices, rings_of([4], [0]))
-    points, segments, faces = change(graph["points"], graph["segments"], graph["segment_faces"])
+    graph = graph_of(vertices, rings_of([4], [0]))
+    points, segments, faces = change(graph.points, graph.segments, graph.segment_faces)
     points, segments = (np.ascontiguousarray(a, dtype=np.int32) for a in (points, segments))
     faces = None if faces is None else np.ascontiguousarray(faces, dtype=np.int32)
     assert re.search(message, _core.arrangement.find_fault(points, segments, faces, None))

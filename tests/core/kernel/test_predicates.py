@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-import itertools
 from fractions import Fraction
 
 import numpy as np
@@ -34,21 +33,14 @@ def by_fractions(points):
 
 @sizes
 @families
-def test_sign_is_exact(n, name):
-    points, right = cases.calls(name, CALLS, n, seed=1)
-    np.testing.assert_array_equal(PREDICATES[n](points), right)
-
-
-@sizes
-@families
-@pytest.mark.parametrize("level", ["filter", "seen", "integers", "expansions", "wide"])
-def test_a_level_alone_is_right_or_undecided(n, name, level):
+@pytest.mark.parametrize("level", ["auto", "filter", "seen", "integers", "expansions", "wide"])
+def test_a_level_is_right_or_undecided(n, name, level):
     points, right = cases.calls(name, CALLS, n, seed=1)
     signs = PREDICATES[n](points, level)
     decided = signs != UNDECIDED
     np.testing.assert_array_equal(signs[decided], right[decided])
     if (
-        level == "wide"
+        level in ("auto", "wide")
         or (level == "expansions" and name in cases.MODERATE)
         or (level == "integers" and name in ("lattice", "fine_lattice", "subnormal"))
         or (level == "filter" and name == "uniform")
@@ -74,39 +66,11 @@ def test_integer_oracle_agrees_with_fractions(n, name):
 
 
 @sizes
-@families
-def test_permuting_the_points_gives_the_sign_of_the_permutation(n, name):
-    points, right = cases.calls(name, CALLS, n, seed=1)
-    for order in itertools.permutations(range(n)):
-        parity = round(np.linalg.det(np.eye(n)[list(order)]))
-        permuted = np.ascontiguousarray(points[:, order])
-        np.testing.assert_array_equal(PREDICATES[n](permuted), parity * right)
-
-
-@sizes
-def test_exact_translations_change_nothing(n):
-    points, right = cases.calls("lattice", CALLS, n, seed=2)
-    for offset in (1, -(2**40), 2**51):
-        moved = points + offset
-        assert (moved - offset == points).all()
-        np.testing.assert_array_equal(PREDICATES[n](moved), right)
-
-
-@sizes
 @pytest.mark.parametrize("name", ["near_degenerate", "lattice", "kettner"])
-def test_powers_of_two_mirrors_and_quarter_turns(n, name):
+def test_powers_of_two(n, name):
     points, right = cases.calls(name, CALLS, n, seed=3)
     for exponent in (-900, -530, -270, 500, 960):
         np.testing.assert_array_equal(PREDICATES[n](np.ldexp(points, exponent)), right)
-    np.testing.assert_array_equal(PREDICATES[n](points * [-1, 1]), -right)
-    np.testing.assert_array_equal(PREDICATES[n](np.ascontiguousarray(points[..., ::-1]) * [-1, 1]), right)
-
-
-def test_orientation_and_inside():
-    triangle = [[0, 0], [1, 0], [0, 1]]
-    assert _core.kernel.orient2d(np.array([triangle], dtype=float)).tolist() == [1]
-    fourth = [[0.5, 0.5], [1, 1], [1.5, 1], [-1, -1]]
-    assert _core.kernel.incircle(np.array([[*triangle, p] for p in fourth], dtype=float)).tolist() == [1, 0, -1, -1]
 
 
 def test_the_grid_of_kettner():

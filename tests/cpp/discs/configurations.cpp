@@ -44,9 +44,14 @@ std::optional<Configuration> drawn(Random& random, std::int64_t most) {
     const auto a = static_cast<SiteIndex>(random.whole(0, 5)), b = static_cast<SiteIndex>(random.whole(0, 4));
     ends.push_back({a, b < a ? b : b + 1});
   }
-  SegmentSites sites(points, ends);
   std::array<SiteIndex, 3> triple;
   for (SiteIndex& site : triple) site = static_cast<SiteIndex>(random.whole(0, 8));
+  return configuration_of(SegmentSites(points, ends), triple);
+}
+
+}  // namespace
+
+std::optional<Configuration> configuration_of(SegmentSites sites, const std::array<SiteIndex, 3>& triple) {
   const auto lattice_sites = sites.triple(triple);
   for (std::size_t i = 0; i < 3; ++i) {
     if (cross_or_overlap(lattice_sites[i], lattice_sites[(i + 1) % 3])) return std::nullopt;
@@ -61,8 +66,6 @@ std::optional<Configuration> drawn(Random& random, std::int64_t most) {
   }
   return Configuration{std::move(sites), triple, lattice_sites, std::move(*disc), left};
 }
-
-}  // namespace
 
 LatticePoint drawn_point(Random& random, std::int64_t most) {
   const auto next = [&] { return static_cast<std::int32_t>(random.whole(-most, most)); };
@@ -90,6 +93,25 @@ std::vector<Configuration> configurations(std::uint64_t seed, std::int64_t most,
 bool Configuration::has_end_of(int i) const {
   const auto at = [&](int k) { return triple[static_cast<std::size_t>(k)]; };
   return sites.is_end(at(i), at(following(i))) || sites.is_end(at(i), at(preceding(i)));
+}
+
+// Where a point and its own segment are touched, the centre is across that end.
+std::optional<CertifiedDisc> Configuration::certified() const {
+  std::array<DiscCondition, 3> conditions;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const LatticeSite& s = lattice_sites[i];
+    using enum DiscCondition::Kind;
+    conditions[i] = {s.is_point() ? point : tangent, s.a, s.b};
+    if (s.is_point()) continue;
+    for (const SiteIndex other : triple) {
+      if (sites.is_end(triple[i], other)) {
+        const auto p = sites.point(other);
+        conditions[i] = {across, p, p == s.a ? s.b : s.a};
+      }
+    }
+  }
+  const RoundedDisc near = rounded(disc);
+  return certify_disc(conditions, near.x, near.y, near.radius);
 }
 
 VoronoiRecord Configuration::record() const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "check.hpp"
+#include "core/segment_voronoi/discs/certified_disc.hpp"
 #include "core/segment_voronoi/discs/exact_disc.hpp"
 #include "core/segment_voronoi/discs/records.hpp"
 #include "core/segment_voronoi/discs/sites.hpp"
@@ -26,7 +27,14 @@ struct Configuration {
 
   bool has_end_of(int i) const;  // whether another of the three is an end of site i
   core::segment_voronoi::discs::VoronoiRecord record() const;
+  // Found by Newton's method from the rounded disc.
+  std::optional<core::segment_voronoi::discs::CertifiedDisc> certified() const;
 };
+
+// Of these sites, if they do not cross and a disc with a radius touches them in this order.
+std::optional<Configuration> configuration_of(
+    core::segment_voronoi::discs::SegmentSites sites,
+    const std::array<core::segment_voronoi::discs::SiteIndex, 3>& triple);
 
 // Of points within `most` of the origin. Small ones have ends in common, lines of one direction, and ties.
 std::vector<Configuration> configurations(std::uint64_t seed, std::int64_t most, std::size_t count);

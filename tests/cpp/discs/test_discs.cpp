@@ -11,15 +11,10 @@
 #include "discs/configurations.hpp"
 
 using namespace vorotool::core::segment_voronoi::discs;
+using namespace vorotool::tests;
 using vorotool::core::kernel::LatticeSite;
 using vorotool::core::numbers::DoubleDouble;
 using vorotool::core::numbers::undecided;
-using vorotool::tests::Configuration;
-using vorotool::tests::configurations;
-using vorotool::tests::drawn_point;
-using vorotool::tests::Ends;
-using vorotool::tests::equal;
-using vorotool::tests::Random;
 
 namespace {
 
@@ -62,24 +57,6 @@ void tangent_discs_are_within_their_bounds(std::uint64_t seed, double part) {
   CHECK(known * 10 >= all * 9);
 }
 
-// The equations of a disc: where a point and its own segment are touched, the centre is across that end.
-std::array<DiscCondition, 3> conditions_of(const Configuration& c) {
-  std::array<DiscCondition, 3> conditions;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const LatticeSite& s = c.lattice_sites[i];
-    using enum DiscCondition::Kind;
-    conditions[i] = {s.is_point() ? point : tangent, s.a, s.b};
-    if (s.is_point()) continue;
-    for (const SiteIndex other : c.triple) {
-      if (c.sites.is_end(c.triple[i], other)) {
-        const auto p = c.sites.point(other);
-        conditions[i] = {across, p, p == s.a ? s.b : s.a};
-      }
-    }
-  }
-  return conditions;
-}
-
 }  // namespace
 
 TEST(tangent_discs_of_doubles_are_within_their_bounds) {
@@ -96,7 +73,7 @@ TEST(certified_discs_are_the_tangent_ones) {
   for (const std::int64_t most : sizes) {
     for (const Configuration& c : configurations(seed++, most, 250)) {
       const RoundedDisc exact = rounded(c.disc);
-      const auto disc = certify_disc(conditions_of(c), exact.x, exact.y, exact.radius);
+      const auto disc = c.certified();
       if (!disc) continue;
       ++certified;
       CHECK(is_within(disc->x, exact.x, disc->error));

@@ -1,6 +1,8 @@
 // Exact signs: known ones, those of other predicates, and the same after the plane is turned or mirrored.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "check.hpp"
@@ -11,6 +13,7 @@
 #include "discs/configurations.hpp"
 
 using namespace vorotool::core::segment_voronoi::discs;
+using namespace vorotool::tests;
 using vorotool::core::kernel::LatticePoint;
 using vorotool::core::kernel::LatticeSite;
 using vorotool::core::kernel::LatticeVector;
@@ -18,12 +21,6 @@ using vorotool::core::kernel::left_of;
 using vorotool::core::kernel::Point;
 using vorotool::core::numbers::DoubleDouble;
 using vorotool::core::numbers::int128;
-using vorotool::tests::Configuration;
-using vorotool::tests::configurations;
-using vorotool::tests::drawn_point;
-using vorotool::tests::Ends;
-using vorotool::tests::equal;
-using vorotool::tests::Random;
 
 namespace {
 
@@ -35,6 +32,64 @@ LatticePoint turned(const LatticePoint& p) { return {-p.y, p.x}; }
 LatticeSite turned(const LatticeSite& s) { return {turned(s.a), turned(s.b)}; }
 LatticeSite mirrored(const LatticeSite& s) { return {{s.a.y, s.a.x}, {s.b.y, s.b.x}}; }
 Point real(const LatticePoint& p) { return {static_cast<double>(p.x), static_cast<double>(p.y)}; }
+
+bool has_no_disc(const Triple& sites) { return !find_exact_disc(sites); }
+
+// The distance of a closed site from a place.
+template <class Real>
+Real distance(const LatticeSite& site, const Real& x, const Real& y) {
+  const LatticeVector u = site.b - site.a;
+  const Real ux(static_cast<double>(u.x)), uy(static_cast<double>(u.y));
+  const auto from = [&](const LatticePoint& p) {
+    return std::pair{x - Real(static_cast<double>(p.x)), y - Real(static_cast<double>(p.y))};
+  };
+  const auto [ax, ay] = from(site.a);
+  const auto [bx, by] = from(site.b);
+  using std::abs;
+  using std::sqrt;
+  if (ax * ux + ay * uy < Real(0.0)) return sqrt(ax * ax + ay * ay);
+  if (site.is_point() || bx * ux + by * uy > Real(0.0)) return sqrt(bx * bx + by * by);
+  return abs(ax * uy - ay * ux) / sqrt(ux * ux + uy * uy);
+}
+
+// A segment that nearly touches a disc, as well as the lattice has it.
+LatticeSite nearly_tangent(Random& random, const RoundedDisc& disc) {
+  const double angle = static_cast<double>(random.whole(0, 6283)) / 1000, nx = std::cos(angle),
+               ny = std::sin(angle);
+  const auto end = [&](double along) {
+    const auto whole = [](double value) {
+      return static_cast<std::int32_t>(std::clamp(std::round(value), -0x1p30 + 1, 0x1p30 - 1));
+    };
+    return LatticePoint{whole(disc.x + disc.radius * nx - along * ny),
+                        whole(disc.y + disc.radius * ny + along * nx)};
+  };
+  return {end(disc.radius * static_cast<double>(random.whole(0, 3))), end(-disc.radius)};
+}
+
+// Places along the edge of two sites from one disc to another: a line, or a parabola where a point is beside a
+// segment that does not end there.
+std::vector<Point> places_along(const LatticeSite& left, const LatticeSite& right, const RoundedDisc& from,
+                                const RoundedDisc& to) {
+  constexpr int count = 4000;
+  const LatticeSite &focus = left.is_point() ? left : right, &base = left.is_point() ? right : left;
+  const bool is_line = left.is_point() == right.is_point() || focus.a == base.a || focus.a == base.b;
+  const LatticeVector u = base.b - base.a;
+  const double length = std::sqrt(static_cast<double>(norm2(u)));
+  const Point along{static_cast<double>(u.x) / length, static_cast<double>(u.y) / length};
+  std::vector<Point> places;
+  for (int k = 0; k <= count; ++k) {
+    const double t = static_cast<double>(k) / count;
+    const Point p{from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)};
+    const Point way{p.x - focus.a.x, p.y - focus.a.y};
+    const double foot = way.x * along.x + way.y * along.y;  // beside that of the focus
+    const double height = static_cast<double>(cross(u, focus.a - base.a)) / length;
+    const double up = (foot * foot / height - height) / 2;  // of the parabola above the focus
+    places.push_back(is_line ? p
+                             : Point{focus.a.x + foot * along.x - up * along.y,
+                                     focus.a.y + foot * along.y + up * along.x});
+  }
+  return places;
+}
 
 }  // namespace
 
@@ -54,6 +109,37 @@ TEST(clearances_of_points_are_those_of_incircle) {
     ties += sign == 0;
   }
   CHECK(ties > 20);
+}
+
+TEST(signs_are_those_of_certified_discs) {
+  std::uint64_t seed = 6;
+  int decided = 0, ties = 0;
+  for (const std::int64_t most : {3, 20, 1 << 14, (1 << 30) - 1}) {
+    Random random(seed);
+    for (const Configuration& c : configurations(seed++, most, 100)) {
+      const auto disc = c.certified();
+      if (!disc) continue;
+      for (int i = 0; i < 40; ++i) {
+        const LatticePoint p = drawn_point(random, most);
+        const LatticeSite query = i % 4 == 0   ? at(p)
+                                  : i % 2 == 0 ? LatticeSite{p, drawn_point(random, most)}
+                                               : nearly_tangent(random, rounded(c.disc));
+        const DoubleDouble clearance = distance(query, disc->x, disc->y) - disc->radius;
+        const double size = std::abs(disc->x.head) + std::abs(disc->y.head) + disc->radius.head + 0x1p31;
+        const double error = 2 * disc->error + 0x1p-90 * size;
+        const int sign = exact_clearance_sign(c.lattice_sites, query);
+        if (abs(clearance).head > error) {
+          equal(sign, clearance.head > 0 ? 1 : -1);
+          ++decided;
+        } else if (most <= 20) {  // none is that small but 0
+          equal(sign, 0);
+          ++ties;
+        }
+      }
+    }
+  }
+  CHECK(decided > 10000);
+  CHECK(ties > 100);
 }
 
 TEST(signs_stay_when_the_plane_is_turned_or_mirrored) {
@@ -120,6 +206,82 @@ TEST(the_middle_of_an_edge_survives_where_the_query_is_far) {
   equal(exact_edge_clearance_sign(p, q, at_3, at_minus_3, {q.a, {100, 3}}), -1);  // from one of the points
   const LatticeSite across{{8, -100}, {8, 100}};
   equal(exact_edge_clearance_sign(p, q, at_10, at_3, across), -1);  // the clearance only grows along the edge
+}
+
+TEST(the_middle_of_an_edge_survives_where_a_disc_along_it_is_clear) {
+  const auto enters = [](const LatticeSite& query, const ExactDisc& disc) {
+    return clearance_sign(disc, query) < 0 && clearance_sign(disc, at(query.a)) >= 0 &&
+           clearance_sign(disc, at(query.b)) >= 0;
+  };
+  std::uint64_t seed = 7;
+  std::array<int, 2> seen{};
+  for (const std::int64_t most : {4, 8, 1000, 1 << 29}) {
+    const double rounding = 0x1p-30 * static_cast<double>(most);
+    for (const Configuration& c : configurations(seed++, most, 1500)) {
+      for (SiteIndex s = 6; s < 9; ++s) {
+        const LatticeSite query = c.sites.lattice_site(s);
+        if (std::ranges::count(c.triple, s) > 0 || !enters(query, c.disc)) continue;
+        for (int k = 0; k < 27; ++k) {
+          const auto other = static_cast<SiteIndex>(k / 3);
+          const SiteIndex right = c.triple[static_cast<std::size_t>(following(k % 3))],
+                          left = c.triple[static_cast<std::size_t>(preceding(k % 3))];
+          if (other == s || c.sites.is_end(s, left) || c.sites.is_end(s, right)) continue;
+          const auto w = configuration_of(c.sites, {right, other, left});
+          if (!w || !enters(query, w->disc)) continue;
+          const LatticeSite p = c.sites.lattice_site(left), q = c.sites.lattice_site(right);
+          const std::vector<Point> places = places_along(p, q, rounded(c.disc), rounded(w->disc));
+          double largest = -HUGE_VAL, step = 0;
+          bool is_edge = true;
+          for (std::size_t j = 1; j + 1 < places.size(); ++j) {
+            const auto& [x, y] = places[j];
+            const double radius = distance(p, x, y);
+            is_edge = is_edge && std::abs(radius - distance(q, x, y)) < rounding;
+            largest = std::max(largest, distance(query, x, y) - radius);
+            step = std::max(step, std::hypot(x - places[j - 1].x, y - places[j - 1].y));
+          }
+          if (!is_edge || std::abs(largest) < 2 * step + rounding) continue;
+          equal(exact_edge_clearance_sign(p, q, c.lattice_sites, w->lattice_sites, query),
+                largest > 0 ? 1 : -1);
+          ++seen[largest > 0 ? 1 : 0];
+        }
+      }
+    }
+  }
+  CHECK(seen[0] > 10);
+  CHECK(seen[1] > 10);
+}
+
+TEST(discs_at_corners_are_points) {
+  const LatticeSite corner = at(0, 0), x_axis{{0, 0}, {5, 0}}, y_axis{{0, 7}, {0, 0}}, up{{0, 0}, {-3, 3}};
+  for (const Triple& sites :
+       {Triple{corner, x_axis, y_axis}, {x_axis, corner, y_axis}, {up, x_axis, y_axis}}) {
+    const RoundedDisc disc = exact_disc_rounded(sites);
+    CHECK(disc.x == 0 && disc.y == 0 && disc.radius == 0);
+    equal(exact_clearance_sign(sites, at(0, 1)), 1);
+    equal(exact_clearance_sign(sites, corner), 0);
+    equal(exact_clearance_sign(sites, {{-2, -2}, {0, 0}}), 0);
+    equal(exact_clearance_sign(sites, {{0, -1}, {1, -1}}), 1);
+  }
+}
+
+// The centre is (0, h) with h^2 = 9 + (4 - h)^2.
+TEST(collinear_segments_touch_at_their_common_end) {
+  const LatticeSite left{{-9, 0}, {0, 0}}, right{{0, 0}, {5, 0}}, end = at(0, 0), above = at(3, 4);
+  for (const Triple& sites : {Triple{left, right, above}, {left, end, above}, {end, right, above}}) {
+    const RoundedDisc disc = exact_disc_rounded(sites);
+    CHECK(disc.x == 0 && disc.y == 3.125 && disc.radius == 3.125);
+    CHECK(has_no_disc({sites[1], sites[0], sites[2]}));
+  }
+  CHECK(has_no_disc({left, right, end}) && has_no_disc({left, end, right}));
+}
+
+TEST(discs_between_parallel_segments) {
+  const LatticeSite bottom{{-9, 0}, {9, 0}}, top{{-9, 2}, {9, 2}}, between = at(4, 1);
+  const RoundedDisc before = exact_disc_rounded(Triple{bottom, between, top}),
+                    behind = exact_disc_rounded(Triple{top, between, bottom});
+  CHECK(before.x == 3 && before.y == 1 && before.radius == 1);
+  CHECK(behind.x == 5 && behind.y == 1 && behind.radius == 1);
+  CHECK(has_no_disc({bottom, top, {{-9, 4}, {9, 4}}}));
 }
 
 // Lines that touch the circle of radius 65 around the origin, in the directions of two triangles.

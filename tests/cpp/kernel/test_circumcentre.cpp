@@ -7,10 +7,9 @@
 #include "core/kernel/predicates.hpp"
 
 using namespace vorotool::core::kernel;
+using namespace vorotool::tests;
 using vorotool::core::numbers::Rounded;
 using vorotool::core::numbers::undecided;
-using vorotool::tests::equal;
-using vorotool::tests::Random;
 
 namespace {
 

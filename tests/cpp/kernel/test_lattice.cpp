@@ -5,9 +5,9 @@
 #include "core/numbers/int128.hpp"
 
 using namespace vorotool::core::kernel;
+using namespace vorotool::tests;
 using vorotool::core::base::IndexPair;
 using vorotool::core::numbers::int128;
-using vorotool::tests::equal;
 
 TEST(products_at_the_limit_of_the_lattice_fit) {
   constexpr std::int32_t most = lattice_limit;

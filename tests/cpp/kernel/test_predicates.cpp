@@ -7,10 +7,9 @@
 #include "core/numbers/int128.hpp"
 
 using namespace vorotool::core::kernel;
+using namespace vorotool::tests;
 using vorotool::core::numbers::int128;
 using vorotool::core::numbers::undecided;
-using vorotool::tests::equal;
-using vorotool::tests::Random;
 
 namespace {
 
@@ -58,7 +57,7 @@ Point drawn(Random& random, Kind kind) {
 }
 
 // A stage leaves a call open or decides it as all others do.
-void agrees(int stage, int right, const vorotool::tests::Where& where = vorotool::tests::Where::current()) {
+void agrees(int stage, int right, const Where& where = Where::current()) {
   if (stage != undecided) vorotool::tests::equal(stage, right, where);
 }
 

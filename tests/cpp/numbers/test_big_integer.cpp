@@ -6,8 +6,7 @@
 #include "core/numbers/big_integer.hpp"
 
 using namespace vorotool::core::numbers;
-using vorotool::tests::equal;
-using vorotool::tests::Random;
+using namespace vorotool::tests;
 
 namespace {
 

@@ -4,8 +4,7 @@
 #include "core/numbers/double_double.hpp"
 
 using namespace vorotool::core::numbers;
-using vorotool::tests::equal;
-using vorotool::tests::Random;
+using namespace vorotool::tests;
 
 namespace {
 

@@ -7,8 +7,7 @@
 #include "core/numbers/rounded_quotient.hpp"
 
 using namespace vorotool::core::numbers;
-using vorotool::tests::equal;
-using vorotool::tests::Random;
+using namespace vorotool::tests;
 
 TEST(values_are_integers_on_their_grid) {
   Random random(1);

@@ -5,10 +5,9 @@
 #include "check.hpp"
 #include "core/numbers/elementary.hpp"
 
+using namespace vorotool::tests;
 using vorotool::core::numbers::angle_of;
 using vorotool::core::numbers::hypotenuse;
-using vorotool::tests::equal;
-using vorotool::tests::Random;
 
 TEST(lengths_of_pythagorean_triples_are_exact) {
   Random random(1);

@@ -1,4 +1,3 @@
-#include <array>
 #include <cmath>
 
 #include "check.hpp"
@@ -6,8 +5,7 @@
 #include "core/numbers/int128.hpp"
 
 using namespace vorotool::core::numbers;
-using vorotool::tests::equal;
-using vorotool::tests::Random;
+using namespace vorotool::tests;
 
 namespace {
 

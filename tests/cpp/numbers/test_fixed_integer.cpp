@@ -3,8 +3,7 @@
 #include "core/numbers/rounded_quotient.hpp"
 
 using namespace vorotool::core::numbers;
-using vorotool::tests::equal;
-using vorotool::tests::Random;
+using namespace vorotool::tests;
 
 namespace {
 

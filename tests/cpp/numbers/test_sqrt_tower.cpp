@@ -4,8 +4,7 @@
 #include "core/numbers/sqrt_tower.hpp"
 
 using namespace vorotool::core::numbers;
-using vorotool::tests::equal;
-using vorotool::tests::Random;
+using namespace vorotool::tests;
 
 TEST(roots_of_integers_multiply) {
   SqrtTower tower;

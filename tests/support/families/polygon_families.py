@@ -2,6 +2,9 @@
 
 import numpy as np
 
+from vorotool import PlanarGraph, PolygonSet, _core
+from vorotool.geometry.polygons.planar_graph import REPAIRS
+
 SHELL, HOLE, LINE = 0, 1, 2
 LIMIT = 2**30 - 1
 
@@ -104,3 +107,15 @@ def draw(name, n, seed):
     """Vertices as an (n, 2) int32 array, and rings; n may come out a little different."""
     xy, rings = FAMILIES[name](np.random.default_rng(seed), max(n, 1))
     return np.ascontiguousarray(xy, dtype=np.int32), rings
+
+
+def graph_of(vertices, rings):
+    """The graph of rings whose vertices are on the lattice: placed so that one unit is one step."""
+    columns = np.array(rings).reshape(-1, 4)
+    shapes = PolygonSet(vertices, [0, *columns[:, 1]], columns[:, 2], columns[:, 3])
+    vertices = np.ascontiguousarray(vertices, dtype=np.int32)
+    made = _core.arrangement.make_planar_graph(vertices, shapes.ring_start, shapes.ring_kind, shapes.ring_polygon, None)
+    counts = [count for count, _, _ in made.pop("repairs")]
+    made.pop("is_repaired")
+    made["point_holes"] = made["point_holes"].reshape(-1, 3)
+    return PlanarGraph(**made, repairs=dict(zip(REPAIRS, counts, strict=True)))

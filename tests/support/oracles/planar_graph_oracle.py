@@ -186,3 +186,19 @@ def fault(points, segments):
         if place is not None and not (place in s and place in t):
             return f"{s} and {t} meet"
     return None
+
+
+def described(graph):
+    """{segment: (edges, polygons left, polygons right)} of a graph, as `planar_graph` gives it."""
+    found = {}
+    inside = [set(graph.polygons_of(face).tolist()) for face in range(graph.faces)]
+    for k, (pair, faces) in enumerate(zip(graph.points[graph.segments].tolist(), graph.segment_faces, strict=True)):
+        a, b = map(tuple, pair)
+        left, right = faces if a < b else faces[::-1]
+        found[tuple(sorted((a, b)))] = (graph.sources_of(k).tolist(), inside[left], inside[right])
+    return found
+
+
+def holes_of(graph):
+    """Holes of one place, as `point_holes` gives them."""
+    return {(tuple(graph.points[point].tolist()), polygon) for point, _, polygon in graph.point_holes.tolist()}

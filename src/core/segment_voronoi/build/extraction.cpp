@@ -13,6 +13,7 @@
 
 namespace vorotool::core::segment_voronoi::build {
 
+using base::for_pieces;
 using base::LargeArray;
 using base::Monitor;
 using base::piece_count;
@@ -24,15 +25,6 @@ using discs::VoronoiRecord;
 namespace {
 
 constexpr std::size_t piece_size = std::size_t{1} << 13;  // items of a piece of work, some ms
-
-// Calls body(piece, begin, end) for pieces of the items.
-template <class Body>
-void for_pieces(std::size_t count, unsigned threads, const Monitor& monitor, Body body) {
-  base::parallel_for(
-      piece_count(count, piece_size), threads,
-      [&](std::size_t piece) { body(piece, piece * piece_size, std::min(count, (piece + 1) * piece_size)); },
-      monitor);
-}
 
 // Vertices and what is around them.
 
@@ -71,7 +63,7 @@ struct SingleRing {
 // Gives the records that stand for their places the discs of their vertices.
 void refine_discs(const SegmentSites& sites, VoronoiRecords& records, const VertexMerging& numbers,
                   unsigned threads, const Monitor& monitor) {
-  for_pieces(records.all.size(), threads, monitor, [&](std::size_t, std::size_t begin, std::size_t end) {
+  const auto refine_piece = [&](std::size_t, std::size_t begin, std::size_t end) {
     std::vector<Contact> contacts;
     const auto refine = [&](std::int32_t record, std::span<const Contact> around) {
       const RefinedDisc disc = refined_disc(sites, records[record], around);
@@ -89,7 +81,8 @@ void refine_discs(const SegmentSites& sites, VoronoiRecords& records, const Vert
           }
           refine(record, contacts);
         });
-  });
+  };
+  for_pieces(records.all.size(), piece_size, threads, monitor, refine_piece);
 }
 
 // Writes the centres, radii and rings of vertices, and where their edges lead. Sites have the numbers of the
@@ -210,18 +203,19 @@ class EdgeWriter {
 void EdgeWriter::run(const std::vector<Edge>& without_vertex, unsigned threads, const Monitor& monitor) {
   const std::size_t vertices = out_.radius.size();
   std::vector<std::size_t> first(piece_count(vertices, piece_size));
-  for_pieces(vertices, threads, monitor, [&](std::size_t piece, std::size_t begin, std::size_t end) {
-    first[piece] = count(begin, end);
-  });
+  for_pieces(
+      vertices, piece_size, threads, monitor,
+      [&](std::size_t piece, std::size_t begin, std::size_t end) { first[piece] = count(begin, end); });
   const std::size_t edges = std::accumulate(first.begin(), first.end(), without_vertex.size());
   std::exclusive_scan(first.begin(), first.end(), first.begin(), without_vertex.size());
   out_.edges = LargeArray<std::int32_t>(2 * edges);
   out_.edge_sites = LargeArray<std::int32_t>(2 * edges);
   for (std::size_t k = 0; k < without_vertex.size(); ++k) put(k, without_vertex[k]);
-  for_pieces(vertices, threads, monitor, [&](std::size_t piece, std::size_t begin, std::size_t end) {
+  const auto write_piece = [&](std::size_t piece, std::size_t begin, std::size_t end) {
     write(begin, end, first[piece]);
     base::discard(targets_, start(begin), start(end));
-  });
+  };
+  for_pieces(vertices, piece_size, threads, monitor, write_piece);
 }
 
 std::size_t EdgeWriter::count(std::size_t begin, std::size_t end) const {

@@ -2,7 +2,6 @@
 // on the input only.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 

@@ -17,24 +17,16 @@ bool earlier(const LatticeVector& v, const LatticeVector& w) {
 }  // namespace
 
 IncidentSegments::IncidentSegments(const kernel::PlanarGraphView& graph)
-    : graph_(graph), start_(graph.points.size() + 1), segments_(2 * graph.segments.size()) {
-  for (const auto& ends : graph_.segments) {
-    for (const std::int32_t end : ends) ++start_[static_cast<std::size_t>(end) + 1];
-  }
-  for (std::size_t i = 1; i < start_.size(); ++i) start_[i] += start_[i - 1];
-  std::vector<std::size_t> next(start_.begin(), start_.end());
-  for (std::size_t j = 0; j < graph_.segments.size(); ++j) {
-    for (const std::int32_t end : graph_.segments[j]) {
-      segments_[next[static_cast<std::size_t>(end)]++] = static_cast<std::int32_t>(graph_.points.size() + j);
-    }
-  }
-  for (std::size_t p = 0; p + 1 < start_.size(); ++p) {
-    const auto point = static_cast<std::int32_t>(p);
-    std::sort(segments_.begin() + static_cast<std::ptrdiff_t>(start_[p]),
-              segments_.begin() + static_cast<std::ptrdiff_t>(start_[p + 1]),
-              [&](std::int32_t s, std::int32_t t) {
-                return earlier(graph_.way_from(point, s), graph_.way_from(point, t));
-              });
+    : graph_(graph), segments_(graph.points.size(), [&](const auto& add) {
+        for (std::size_t j = 0; j < graph.segments.size(); ++j) {
+          for (const std::int32_t end : graph.segments[j])
+            add(end, static_cast<std::int32_t>(graph.points.size() + j));
+        }
+      }) {
+  for (std::int32_t point = 0; point < static_cast<std::int32_t>(segments_.size()); ++point) {
+    std::ranges::sort(segments_[point], [&](std::int32_t s, std::int32_t t) {
+      return earlier(graph_.way_from(point, s), graph_.way_from(point, t));
+    });
   }
 }
 

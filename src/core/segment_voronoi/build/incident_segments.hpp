@@ -1,11 +1,11 @@
 // The segments that end at each point, counter-clockwise.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "core/base/groups.hpp"
 #include "core/kernel/planar_graph_view.hpp"
 
 namespace vorotool::core::segment_voronoi::build {
@@ -15,11 +15,7 @@ class IncidentSegments {
   explicit IncidentSegments(const kernel::PlanarGraphView& graph);
 
   // Site numbers of the segments at a point, counter-clockwise from the positive x axis.
-  std::span<const std::int32_t> at(std::int32_t point) const {
-    const auto begin = start_[static_cast<std::size_t>(point)],
-               end = start_[static_cast<std::size_t>(point) + 1];
-    return std::span(segments_).subspan(begin, end - begin);
-  }
+  std::span<const std::int32_t> at(std::int32_t point) const { return segments_[point]; }
   // The site number of the segment between two points, or -1.
   std::int32_t between(std::int32_t p, std::int32_t q) const;
 
@@ -34,8 +30,7 @@ class IncidentSegments {
   bool wide_gap_after(std::int32_t point, std::size_t i) const;
 
   kernel::PlanarGraphView graph_;
-  std::vector<std::size_t> start_;
-  std::vector<std::int32_t> segments_;
+  base::Groups<std::int32_t> segments_;
 };
 
 }  // namespace vorotool::core::segment_voronoi::build

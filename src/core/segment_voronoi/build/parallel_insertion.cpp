@@ -53,7 +53,7 @@ bool ParallelInsertion::insert(SegmentInsertion& worker, std::int32_t place) con
 void ParallelInsertion::insert_alone(const Places& places, const Monitor& monitor) {
   for (std::size_t k = 0; k < places.size(); ++k) {
     const double done = static_cast<double>(places[k]) / static_cast<double>(order_.items.size());
-    if (k % (piece_size / 2) == 0 && monitor && !monitor(done)) throw base::Interrupted();
+    if (k % (piece_size / 2) == 0) base::report(monitor, done);
     insert(alone_, places[k]);
   }
 }

@@ -69,11 +69,8 @@ class Dual {
 
   template <class Body>
   void for_vertices(unsigned threads, const Monitor& monitor, Body body) {
-    const auto run_piece = [&](std::size_t piece) {
-      const std::size_t end = std::min(vertices_.size(), (piece + 1) * piece_size);
-      for (std::size_t i = piece * piece_size; i < end; ++i) body(static_cast<Vertex>(i));
-    };
-    base::parallel_for(base::piece_count(vertices_.size(), piece_size), threads, run_piece, monitor);
+    base::for_items(vertices_.size(), piece_size, threads, monitor,
+                    [&](std::size_t i) { body(static_cast<Vertex>(i)); });
   }
 
   std::span<const Vertex> ring(Vertex v) const {

@@ -1,7 +1,6 @@
 // Centre and radius of a finished Voronoi vertex.
 #pragma once
 
-#include <cstdint>
 #include <span>
 
 #include "core/segment_voronoi/discs/records.hpp"

@@ -9,7 +9,6 @@
 #include "core/base/memory_release.hpp"
 #include "core/delaunay/divide_and_conquer.hpp"
 #include "core/delaunay/spatial_sort.hpp"
-#include "core/segment_voronoi/build/parallel_insertion.hpp"
 #include "core/segment_voronoi/build/point_voronoi.hpp"
 #include "core/segment_voronoi/discs/exact_signs.hpp"
 

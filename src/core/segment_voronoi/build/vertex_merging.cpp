@@ -24,18 +24,6 @@ namespace {
 constexpr std::size_t piece_size = std::size_t{1} << 13;  // items of a piece of work, some ms
 constexpr std::size_t ahead = 8;                          // items: how early others are called for
 
-// Calls body(piece, begin, end) for pieces of the items.
-template <class Body>
-void for_pieces(std::size_t count, unsigned threads, const Monitor& monitor, Body body) {
-  base::parallel_for(
-      piece_count(count, piece_size), threads,
-      [&](std::size_t piece) {
-        body(piece, static_cast<std::int32_t>(piece * piece_size),
-             static_cast<std::int32_t>(std::min(count, (piece + 1) * piece_size)));
-      },
-      monitor);
-}
-
 std::uint32_t add(std::uint32_t& counter, std::uint32_t value) {
   return base::atomic_ref(counter).fetch_add(value, std::memory_order_relaxed);
 }
@@ -53,9 +41,11 @@ VertexMerging::VertexMerging(const discs::SegmentSites& sites, const VoronoiReco
       is_merged_(records.all.size()),
       begin_(static_cast<std::size_t>(sites.infinite()) + 2) {
   std::vector<Found> found(piece_count(code_.size(), piece_size));
-  for_pieces(code_.size(), threads, monitor, [&](std::size_t piece, std::int32_t begin, std::int32_t end) {
-    for (std::int32_t v = begin; v < end; ++v) look_at(sites, unwanted, v, found[piece]);
-  });
+  const auto look = [&](std::size_t piece, std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v)
+      look_at(sites, unwanted, static_cast<std::int32_t>(v), found[piece]);
+  };
+  base::for_pieces(code_.size(), piece_size, threads, monitor, look);
   for (const Found& some : found)
     infinite_.insert(infinite_.end(), some.infinite.begin(), some.infinite.end());
   merge(found);
@@ -188,18 +178,17 @@ void VertexMerging::choose_leads() {
 void VertexMerging::gather_rings(unsigned threads, const Monitor& monitor) {
   ring_begin_.resize(merged_leads_.size());
   rings_.resize(piece_count(merged_leads_.size(), piece_size));
-  for_pieces(merged_leads_.size(), threads, monitor,
-             [&](std::size_t piece, std::int32_t begin, std::int32_t end) {
-               std::vector<Spoke> spokes;
-               for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
-                 if (k + ahead < merged_leads_.size())
-                   prefetch_neighbours(records_, merged_leads_[k + ahead]);
-                 ring_begin_[k] = static_cast<std::uint32_t>(spokes.size());
-                 gather_ring(merged_leads_[k], spokes);
-                 add(count_at(static_cast<SiteIndex>(spokes[ring_begin_[k]].site)), 1);
-               }
-               rings_[piece].assign(spokes.begin(), spokes.end());  // no more memory than it takes
-             });
+  const auto gather = [&](std::size_t piece, std::size_t begin, std::size_t end) {
+    std::vector<Spoke> spokes;
+    for (std::size_t k = begin; k < end; ++k) {
+      if (k + ahead < merged_leads_.size()) prefetch_neighbours(records_, merged_leads_[k + ahead]);
+      ring_begin_[k] = static_cast<std::uint32_t>(spokes.size());
+      gather_ring(merged_leads_[k], spokes);
+      add(count_at(static_cast<SiteIndex>(spokes[ring_begin_[k]].site)), 1);
+    }
+    rings_[piece].assign(spokes.begin(), spokes.end());  // no more memory than it takes
+  };
+  base::for_pieces(merged_leads_.size(), piece_size, threads, monitor, gather);
 }
 
 // By the first site in one go, and by the others among the few that share it. No two have the same three
@@ -210,16 +199,18 @@ void VertexMerging::sort_by_first_site(unsigned threads, const Monitor& monitor)
   const auto put = [&](std::int32_t name, SiteIndex first) {
     leads_[add(begin_[static_cast<std::size_t>(first) + 1], 1)] = name;
   };
-  for_pieces(code_.size(), threads, monitor, [&](std::size_t, std::int32_t begin, std::int32_t end) {
-    for (std::int32_t v = begin; v < end; ++v) {
-      if (code(v) < 0 && ~code(v) < left_out) put(v, ~code(v));
-    }
+  base::for_items(code_.size(), piece_size, threads, monitor, [&](std::size_t i) {
+    const auto v = static_cast<std::int32_t>(i);
+    if (code(v) < 0 && ~code(v) < left_out) put(v, ~code(v));
   });
-  for_pieces(merged_leads_.size(), threads, monitor, [&](std::size_t, std::int32_t begin, std::int32_t end) {
-    for (std::int32_t k = begin; k < end; ++k) put(~k, key_of(~k).first);
+  base::for_items(merged_leads_.size(), piece_size, threads, monitor, [&](std::size_t i) {
+    const std::int32_t name = ~static_cast<std::int32_t>(i);
+    put(name, key_of(name).first);
   });
-  for_pieces(begin_.size() - 2, threads, monitor,
-             [&](std::size_t, std::int32_t begin, std::int32_t end) { sort_buckets(begin, end); });
+  const auto sort = [&](std::size_t, std::size_t begin, std::size_t end) {
+    sort_buckets(static_cast<SiteIndex>(begin), static_cast<SiteIndex>(end));
+  };
+  base::for_pieces(begin_.size() - 2, piece_size, threads, monitor, sort);
   begin_ = std::vector<std::uint32_t>();
 }
 
@@ -256,18 +247,14 @@ void VertexMerging::sort_buckets(SiteIndex first, SiteIndex last) {
 
 // First one record of each place, then the others.
 void VertexMerging::number(unsigned threads, const Monitor& monitor) {
-  for_pieces(leads_.size() - 1, threads, monitor, [&](std::size_t, std::int32_t begin, std::int32_t end) {
-    for (std::int32_t k = begin; k < end; ++k) {
-      const std::int32_t lead = leads_[static_cast<std::size_t>(k)];
-      code(is_merged(lead) ? code(lead) : lead) = ~k;
-    }
+  base::for_items(leads_.size() - 1, piece_size, threads, monitor, [&](std::size_t k) {
+    const std::int32_t lead = leads_[k];
+    code(is_merged(lead) ? code(lead) : lead) = ~static_cast<std::int32_t>(k);
   });
-  for_pieces(merged_leads_.empty() ? 0 : code_.size(), threads, monitor,
-             [&](std::size_t, std::int32_t begin, std::int32_t end) {
-               for (std::int32_t v = begin; v < end; ++v) {
-                 if (code(v) >= 0) code(v) = code(code(v));
-               }
-             });
+  base::for_items(merged_leads_.empty() ? 0 : code_.size(), piece_size, threads, monitor, [&](std::size_t i) {
+    const auto v = static_cast<std::int32_t>(i);
+    if (code(v) >= 0) code(v) = code(code(v));
+  });
 }
 
 // Of three sites each, but for places with several records.

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/kernel/lattice.hpp"
 #include "core/numbers/int128.hpp"
 
 namespace vorotool::core::segment_voronoi::discs {

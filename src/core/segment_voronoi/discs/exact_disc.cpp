@@ -10,8 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/kernel/lattice.hpp"
-
 namespace vorotool::core::segment_voronoi::discs {
 
 using kernel::cross;

@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/kernel/lattice.hpp"
 #include "core/numbers/sign.hpp"
 #include "core/segment_voronoi/discs/contact_order.hpp"
 

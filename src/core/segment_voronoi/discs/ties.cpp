@@ -2,9 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 
-#include "core/kernel/lattice.hpp"
 #include "core/numbers/big_integer.hpp"
 #include "core/numbers/int128.hpp"
 

@@ -5,7 +5,6 @@
 #include <span>
 #include <unordered_map>
 
-#include "core/base/fault.hpp"
 #include "core/kernel/lattice.hpp"
 
 namespace vorotool::core::segment_voronoi::verify {

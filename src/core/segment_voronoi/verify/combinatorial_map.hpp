@@ -1,7 +1,6 @@
 // The edges of a segment Voronoi diagram put together to a map on the sphere.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

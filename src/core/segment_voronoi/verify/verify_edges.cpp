@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <vector>
 
-#include "core/base/fault.hpp"
 #include "core/base/indices.hpp"
 #include "core/base/radix_sort.hpp"
 #include "core/kernel/lattice.hpp"

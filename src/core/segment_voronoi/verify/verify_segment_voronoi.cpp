@@ -5,7 +5,6 @@
 #include <numeric>
 #include <vector>
 
-#include "core/base/fault.hpp"
 #include "core/segment_voronoi/build/incident_segments.hpp"
 #include "core/segment_voronoi/verify/combinatorial_map.hpp"
 #include "core/segment_voronoi/verify/verify_edges.hpp"

@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "core/base/fault.hpp"
 #include "core/kernel/lattice.hpp"
 #include "core/numbers/int128.hpp"
 #include "core/segment_voronoi/discs/certified_disc.hpp"
