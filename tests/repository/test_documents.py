@@ -1,13 +1,12 @@
 """Every block of the README and of the documents does what it says."""
 
-import os
 import re
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+
+from support.processes.ended import ended, ended_bash, ended_python
 
 ROOT = Path(__file__).parents[2]
 DOCUMENTS = ["README.md", "docs/errata.md", "docs/pipeline/README.md"]
@@ -30,21 +29,6 @@ def folder(tmp_path):
     return tmp_path
 
 
-def run(command, folder):
-    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    outside_make = {
-        name: value for name, value in os.environ.items() if name not in ("MAKELEVEL", "MAKEFLAGS", "MFLAGS")
-    }
-    return subprocess.run(
-        ["bash", "-o", "pipefail", "-c", command],
-        cwd=folder,
-        env=outside_make | {"PATH": path},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-
-
 @pytest.mark.parametrize("block", list(blocks("console")))
 def test_console_block(block, folder):
     for part in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:
@@ -52,7 +36,7 @@ def test_console_block(block, folder):
         command = first + re.sub(r"^> ", "", following, flags=re.MULTILINE)
         if "| jq " in command and shutil.which("jq") is None:
             pytest.skip("jq is not there")
-        done = run(command, folder)
+        done = ended_bash(command, folder)
         assert done.returncode == 0, f"{command}\n{done.stderr}"
         assert done.stderr == ""
         assert done.stdout == expected, command
@@ -60,7 +44,7 @@ def test_console_block(block, folder):
 
 @pytest.mark.parametrize("block", list(blocks("python")))
 def test_python_block(block, folder):
-    done = subprocess.run([sys.executable, "-c", block], cwd=folder, capture_output=True, text=True, check=False)
+    done = ended_python("-c", block, cwd=folder)
     assert done.returncode == 0, done.stderr
 
 
@@ -70,16 +54,14 @@ def test_rules_of_make_are_those_of_the_makefile():
 
 
 def test_the_reference_is_true():
-    done = subprocess.run(
-        [sys.executable, ROOT / "docs/scripts/cli_reference.py"], capture_output=True, text=True, check=True
-    )
+    done = ended_python(ROOT / "docs/scripts/cli_reference.py", check=True)
     assert done.stdout == (ROOT / "docs/cli.md").read_text(encoding="utf-8"), (
         "run docs/scripts/cli_reference.py > docs/cli.md"
     )
 
 
 def test_the_manual_pages_are_true(tmp_path):
-    subprocess.run([sys.executable, ROOT / "docs/scripts/manual_pages.py", tmp_path], check=True)
+    ended_python(ROOT / "docs/scripts/manual_pages.py", tmp_path, check=True)
     made, kept = ({path.name: path.read_bytes() for path in folder.iterdir()} for folder in (tmp_path, MANUAL))
     assert made == kept, "run docs/scripts/manual_pages.py"
 
@@ -90,7 +72,7 @@ def test_the_manual_pages_are_true(tmp_path):
 def test_the_manual_pages_are_read_without_warnings(command):
     if shutil.which(command[0]) is None:
         pytest.skip(f"{command[0]} is not there")
-    done = subprocess.run([*command, *sorted(MANUAL.iterdir())], capture_output=True, text=True, check=False)
+    done = ended(*command, *sorted(MANUAL.iterdir()))
     said = (done.stdout + done.stderr).splitlines()
     assert [line for line in said if "missing date" not in line] == []  # they are as old as the commands
 
@@ -101,8 +83,8 @@ def test_the_manual_pages_are_read_without_warnings(command):
     ids=" ".join,
 )
 def test_the_example_of_the_help_runs(arguments, folder):
-    text = run(f"vorotool {' '.join(arguments)} --help", folder).stdout
+    text = ended_bash(f"vorotool {' '.join(arguments)} --help", folder).stdout
     example = re.search(r"Example:\s*\n\s*(vorotool .*)", text)
     assert example, "the help opens with an example"
-    done = run(example[1], folder)
+    done = ended_bash(example[1], folder)
     assert (done.returncode, done.stderr) == (0, ""), example[1]
