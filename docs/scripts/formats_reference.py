@@ -4,6 +4,7 @@ import sys
 from collections.abc import Iterable
 
 from vorotool.formats.parsing.format_names import IMAGE_NAMES, POINT_NAMES, POLYGON_NAMES
+
 from vorotool.products.formats import FORMATS
 from vorotool.products.registry import PRODUCTS
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from support.processes.batch_jobs import obey, written
+from support.processes.leftovers import wait_until
 from vorotool.batch import process_pool as workers
 from vorotool.batch.process_pool import Worker, local_results
 
@@ -47,7 +48,7 @@ def test_an_end_leaves_no_process_and_no_file(tmp_path, monkeypatch):
     monkeypatch.setattr(workers, "Worker", lambda process: made.append(Worker(process)) or made[-1])
     going = local_results(obey, iter(enumerate(written(tmp_path, "a", "sleep", "sleep"))), jobs=2)
     assert next(going)[0] == 0
-    wait_for(lambda: len(begun(tmp_path)) == 2)
+    wait_until(lambda: len(begun(tmp_path)) == 2)
     started = time.monotonic()
     going.close()
     assert time.monotonic() - started < 5  # 0.2 s is the aim; a loaded machine must not fail the test
@@ -72,7 +73,7 @@ def test_a_worker_that_cannot_start_leaves_no_socket(tmp_path, monkeypatch):
 def test_a_worker_ends_quietly_where_exceptions_are_swallowed(tmp_path, capfd):
     worker = Worker(obey)
     worker.give(*written(tmp_path, "deaf"))
-    wait_for(lambda: begun(tmp_path))
+    wait_until(lambda: begun(tmp_path))
     time.sleep(0.1)  # until it sleeps
     worker._process.terminate()
     assert worker._process.wait(30) == 143
@@ -91,19 +92,12 @@ def test_workers_end_with_a_parent_that_is_killed(tmp_path):
     )
     path = os.pathsep.join(sys.path)
     parent = subprocess.Popen([sys.executable, "-c", script], cwd=tmp_path, env={**os.environ, "PYTHONPATH": path})
-    wait_for(lambda: begun(tmp_path))
+    wait_until(lambda: begun(tmp_path))
     parent.kill()
     parent.wait()
-    wait_for(lambda: not begun(tmp_path))
+    wait_until(lambda: not begun(tmp_path))
     assert list((tmp_path / "out").iterdir()) == []
 
 
 def begun(folder):
     return [path for path in (folder / "out").iterdir() if path.suffix == ".tmp"]
-
-
-def wait_for(condition):
-    deadline = time.monotonic() + 30
-    while not condition():
-        assert time.monotonic() < deadline, "it does not come"
-        time.sleep(0.02)

@@ -1,12 +1,12 @@
 """The table of all inputs holds the rows of each."""
 
-import csv
 import io
 import json
 
 import numpy as np
 import pytest
 
+from support.readers.written import rows_of
 from vorotool.batch.tables import join_tables
 from vorotool.formats.text.tables import write_table
 from vorotool.geometry.table import Table
@@ -42,7 +42,7 @@ def test_rows_are_the_same_bytes(tmp_path):
 def test_columns_of_any_table(tmp_path, fmt):
     data, _ = joined(tmp_path, [PLAIN, EMPTY, ODD], fmt)
     if fmt == "csv":
-        read = list(csv.DictReader(io.StringIO(data.decode(), newline="")))
+        read = rows_of(data)
         none, text = "", str
     else:
         read, none, text = json.loads(data), None, lambda value: value
@@ -60,12 +60,12 @@ def test_quoting_is_that_of_single_tables(tmp_path, fmt):
     texts = ["", " a ", "a,b", '"', "x\ny", "x\ry", "ü", "'", "#", "\t", "1", '""', "a;b"]
     data, (single,) = joined(tmp_path, [Table({"label": range(len(texts)), "text": texts})], fmt)
     if fmt == "csv":
-        assert data == b"input,label,text\n" + b"".join(b"a," + row for row in rows_of(single))
+        assert data == b"input,label,text\n" + b"".join(b"a," + row for row in lines_of(single))
     else:
         assert data == single.replace(b'{"label"', b'{"input":"a","label"')
 
 
-def rows_of(data):
+def lines_of(data):
     """Rows, with the ends of lines in quotes."""
     rows = [b""]
     for line in data.split(b"\n", 1)[1].splitlines(keepends=True) or [b""]:

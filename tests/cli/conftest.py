@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import pytest
 
+from support.readers.written import rows_of
 from vorotool.cli.main import main
 
 
@@ -14,6 +15,11 @@ class Outcome:
     code: int
     out: str
     err: str
+
+    @property
+    def rows(self):
+        """Those of a table in CSV that went to standard output."""
+        return rows_of(self.out)
 
 
 @pytest.fixture

@@ -3,12 +3,12 @@
 import json
 import os
 import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from support.processes.ended import ended_bash
 from support.processes.leftovers import leftovers
 
 
@@ -16,6 +16,8 @@ def test_outputs_that_cannot_be_written(run, folder):
     assert "'' is no name: name a file" in run("tessellate", "dots.csv", "-f", "png", "-o", "").err
     assert run("tessellate", "dots.csv", "-o", "no/such/a.png").code == 4
     assert run("tessellate", "dots.csv", "-o", "/dev/full", "-f", "npy").code == 4
+    for fmt in ("csv", "npz"):
+        assert run("delaunay", "dots.csv", "-o", "/dev/full", "-f", fmt).code == 4
     assert run("tessellate", "dots.csv", "-o", "a.png", "--stats", "no/such/s.json").code == 4
     (folder / "old.png").write_text("old")
     done = run("tessellate", "dots.csv", "-o", "old.png", "--no-clobber")
@@ -26,13 +28,10 @@ def test_outputs_that_cannot_be_written(run, folder):
 
 def test_full_device_on_standard_output(process, folder):
     with Path("/dev/full").open("wb") as full:
-        done = subprocess.run(
-            [sys.executable, "-m", "vorotool", "tessellate", "dots.csv", "-f", "text"],
-            cwd=folder, stdout=full, stderr=subprocess.PIPE, check=False,
-        )  # fmt: skip
+        done = ended_bash("vorotool tessellate dots.csv -f text", folder, capture_output=False, stdout=full, stderr=-1)
     assert done.returncode == 4
-    assert b"Traceback" not in done.stderr
-    assert b"error: standard output cannot be written" in done.stderr
+    assert "Traceback" not in done.stderr
+    assert "error: standard output cannot be written" in done.stderr
 
 
 def test_failed_write_leaves_the_older_file(run, folder, monkeypatch):
@@ -54,14 +53,11 @@ def test_binary_never_goes_to_a_terminal(folder):
     import pty
 
     master, slave = pty.openpty()
-    done = subprocess.run(
-        [sys.executable, "-m", "vorotool", "tessellate", "dots.csv", "-f", "png"],
-        cwd=folder, stdout=slave, stderr=subprocess.PIPE, check=False,
-    )  # fmt: skip
+    done = ended_bash("vorotool tessellate dots.csv -f png", folder, capture_output=False, stdout=slave, stderr=-1)
     os.close(slave)
     os.close(master)
     assert done.returncode == 2
-    assert b"-o" in done.stderr
+    assert "-o" in done.stderr
 
 
 def test_binary_goes_through_a_pipe(process, folder):
@@ -75,10 +71,8 @@ def test_binary_goes_through_a_pipe(process, folder):
 
 def test_broken_pipe_is_quiet(folder):
     np.savetxt(folder / "many.csv", np.random.default_rng(0).integers(0, 3000, (2000, 2)), fmt="%d", delimiter=",")
-    script = (
-        f"{sys.executable} -m vorotool tessellate many.csv --size 1000x1000 -f text | head -1; echo ${{PIPESTATUS[0]}}"
-    )
-    done = subprocess.run(["bash", "-c", script], cwd=folder, capture_output=True, text=True, check=True)
+    line = "vorotool tessellate many.csv --size 1000x1000 -f text | head -1; echo ${PIPESTATUS[0]}"
+    done = ended_bash(line, folder, check=True)
     assert done.stdout.splitlines()[-1] == "141"
     assert "error" not in done.stderr
     assert "Traceback" not in done.stderr
@@ -136,8 +130,7 @@ def test_standard_input_is_not_replaced_either(process, folder):
     ],
 )
 def test_closed_and_full_streams(folder, command, code, message):
-    script = f"{sys.executable} -m vorotool {command}"
-    done = subprocess.run(["bash", "-c", script], cwd=folder, capture_output=True, text=True, check=False)
+    done = ended_bash(f"vorotool {command}", folder)
     assert done.returncode == code, done.stderr
     assert done.stdout == ""
     assert message in done.stderr

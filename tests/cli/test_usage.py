@@ -109,16 +109,6 @@ def test_names_of_formats(run, folder, name):
     assert run("draw", "image", "--input-format", name, "-o", "a.svg").code == 0
 
 
-def test_layers_are_those_that_are_drawn():
-    from vorotool.products.registry import layers_of
-    from vorotool.render.label_images import png as label_png
-    from vorotool.render.label_images import svg as label_svg
-
-    assert {"png": set(label_png.LAYERS), "svg": set(label_svg.LAYERS)} == {
-        fmt: set(layers) for fmt, layers in layers_of("tessellate").items()
-    }
-
-
 @pytest.mark.parametrize("command", ["tessellate", "delaunay", "alphashape", "skeleton-exact"])
 def test_a_direction_is_for_pictures(run, folder, command):
     source = "mask.pbm" if command == "skeleton-exact" else "dots.csv"

@@ -2,11 +2,12 @@
 
 import re
 import shutil
-import subprocess
 from pathlib import Path
 
 import pytest
 from PIL import Image
+
+from support.processes.ended import ended
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs/gallery.md").read_text(encoding="utf-8")
@@ -18,9 +19,7 @@ def rules():
     """What make would run, with the tool's bare name."""
     if shutil.which("make") is None:
         pytest.skip("there is no make")
-    done = subprocess.run(
-        ["make", "-n", "-B", "-o", "build/.installed", "gallery"], cwd=ROOT, check=True, capture_output=True, text=True
-    )
+    done = ended("make", "-n", "-B", "-o", "build/.installed", "gallery", cwd=ROOT, check=True)
     lines = done.stdout.replace(".venv/bin/vorotool", "vorotool").splitlines()
     return [line for line in lines if line.startswith("vorotool")]
 

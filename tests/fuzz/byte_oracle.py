@@ -17,7 +17,7 @@ import numpy as np
 
 import vorotool
 from fuzz.byte_seeds import Bundle
-from support.readers.sources import rows_of
+from support.readers.sources import bands_of
 from vorotool.cli.main import main
 
 LIMITS = {"max_pixels": 2**16, "max_sites": 2**14, "threads": 1}
@@ -74,7 +74,7 @@ def judge_reading(path: Path, kind: str, chance: random.Random) -> tuple[str, st
 
 
 def _check_rows(path: Path, values: np.ndarray, page: object) -> None:
-    rows = rows_of(path, page=page)
+    rows = bands_of(path, page=page)
     if rows is None or values.ndim != 2:
         return
     height = rows.shape[0]
@@ -153,7 +153,7 @@ def judge(bundle: Bundle, folder: Path, chance: random.Random, commands: float) 
 def _pixels_that_pass_by(path: Path) -> int:
     """Pixels of an image that is read in bands, of which there may be more than memory holds; 0 of all else."""
     with contextlib.suppress(vorotool.VorotoolError):
-        if (rows := rows_of(path)) is not None:
+        if (rows := bands_of(path)) is not None:
             return math.prod(rows.shape)
     return 0
 

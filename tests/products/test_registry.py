@@ -1,13 +1,12 @@
 """What can be written: names that resolve, formats that fit, and all that is made from this one list."""
 
 import inspect
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 import vorotool
+from support.processes.ended import ended_python
 from vorotool.products.formats import EXTENSIONS, FORMATS, PICTURES, TABLE_WRITER
 from vorotool.products.registry import PRODUCTS, all_layers, formats_of
 from vorotool.products.writing import resolved
@@ -91,9 +90,7 @@ EXPECTED = {
 
 @pytest.mark.parametrize("place", READ)
 def test_a_format_is_one_file_and_one_line(place):
-    done = subprocess.run(
-        [sys.executable, "-c", ADDED + READ[place]], cwd=ROOT, capture_output=True, text=True, check=False
-    )
+    done = ended_python("-c", ADDED + READ[place], cwd=ROOT)
     text = done.stdout + done.stderr
     assert EXPECTED[place] in (" ".join(text.split()) if place == "help" else text)
 
@@ -102,13 +99,12 @@ def test_completion_offers_a_format_more():
     words = "vorotool skeleton-exact --what offset -f d"
     asked = {"_VOROTOOL_COMPLETE": "bash_complete", "COMP_WORDS": words, "COMP_CWORD": "5"}
     code = ADDED + "from vorotool.cli.main import main; main([])"
-    done = subprocess.run([sys.executable, "-c", code], env=asked, capture_output=True, text=True, check=False)
+    done = ended_python("-c", code, env=asked)
     assert done.stdout == "plain,drawing\n"
 
 
 def help_of(command):
-    asked = [sys.executable, "-m", "vorotool", command, "--help"]
-    return subprocess.run(asked, capture_output=True, text=True, check=True).stdout
+    return ended_python("-m", "vorotool", command, "--help", check=True).stdout
 
 
 @pytest.mark.parametrize("command", PRODUCTS)

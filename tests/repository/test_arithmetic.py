@@ -23,21 +23,8 @@ ALIKE = frozenset(
 """What may be used of math; all else of it is the C library's."""
 
 OF_LIBRARIES = frozenset(
-    {
-        "sin",
-        "cos",
-        "tan",
-        "sinh",
-        "cosh",
-        "tanh",
-        "arcsin",
-        "arccos",
-        "arctan",
-        "arctan2",
-        "arcsinh",
-        "arccosh",
-        "arctanh",
-    }
+    {f"{arc}{name}{h}" for arc in ("", "arc") for name in ("sin", "cos", "tan") for h in ("", "h")}
+    | {"arctan2"}
     | {"exp", "exp2", "expm1", "log", "log2", "log10", "log1p", "logaddexp", "power", "float_power", "hypot"}
     | {"dot", "vdot", "inner", "matmul", "einsum", "tensordot", "linalg", "fft", "polynomial", "roots", "polyfit"}
     | {"cbrt", "polyval", "convolve", "correlate", "interp", "geomspace", "logspace"}

@@ -5,45 +5,32 @@ from pathlib import Path
 
 import pytest
 
+from support.readers.arrows import arrows_of
+
 CORE = Path(__file__).parents[2] / "src" / "core"
-ROOMS_BELOW = {
-    "base": set(),
-    "numbers": set(),
-    "compression": {"base"},
-    "graphs": {"base"},
-    "kernel": {"base", "numbers"},
-    "label_images": {"base"},
-    "alpha": {"base", "kernel", "numbers"},
-    "arrangement": {"base", "kernel", "numbers"},
-    "segment_voronoi/discs": {"kernel", "numbers"},
-    "spatial": {"base", "kernel", "numbers"},
-    "text": {"base", "kernel"},
-    "delaunay": {"base", "kernel", "numbers", "spatial"},
-    "tessellation": {"base", "numbers", "spatial"},
-    "cells": {"base", "delaunay", "kernel", "numbers", "spatial", "text"},
-    "digital": {"base", "delaunay", "kernel", "label_images", "numbers", "tessellation"},
-    "segment_voronoi/build": {"base", "delaunay", "kernel", "numbers", "segment_voronoi/discs", "spatial"},
-    "segment_voronoi/verify": {
-        "base",
-        "kernel",
-        "numbers",
-        "segment_voronoi/build",
-        "segment_voronoi/discs",
-        "spatial",
-    },
-    "skeleton": {"base", "kernel", "segment_voronoi/build"},
-    "offsets": {"base", "graphs", "kernel", "numbers", "segment_voronoi/build", "skeleton"},
-    "pruning": {"base", "graphs", "kernel", "numbers", "skeleton"},
-    "sampled_skeleton": {
-        "base",
-        "delaunay",
-        "kernel",
-        "numbers",
-        "segment_voronoi/build",
-        "skeleton",
-        "spatial",
-    },
-}
+ROOMS_BELOW = arrows_of("""
+base ->
+numbers ->
+compression -> base
+graphs -> base
+kernel -> base, numbers
+label_images -> base
+alpha -> base, kernel, numbers
+arrangement -> base, kernel, numbers
+segment_voronoi/discs -> kernel, numbers
+spatial -> base, kernel, numbers
+text -> base, kernel
+delaunay -> base, kernel, numbers, spatial
+tessellation -> base, numbers, spatial
+cells -> base, delaunay, kernel, numbers, spatial, text
+digital -> base, delaunay, kernel, label_images, numbers, tessellation
+segment_voronoi/build -> base, delaunay, kernel, numbers, segment_voronoi/discs, spatial
+segment_voronoi/verify -> base, kernel, numbers, segment_voronoi/build, segment_voronoi/discs, spatial
+skeleton -> base, kernel, segment_voronoi/build
+offsets -> base, graphs, kernel, numbers, segment_voronoi/build, skeleton
+pruning -> base, graphs, kernel, numbers, skeleton
+sampled_skeleton -> base, delaunay, kernel, numbers, segment_voronoi/build, skeleton, spatial
+""")
 """What each room includes, after all that it may include."""
 
 CORE_FILES = sorted(CORE.rglob("*.[ch]pp"))

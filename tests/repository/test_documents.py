@@ -1,16 +1,14 @@
 """Every block of the README and of the documents does what it says."""
 
-import os
 import re
 import shutil
-import subprocess
-import sys
 import tomllib
 from pathlib import Path
 
 import pytest
 
 from support.documents import blocks
+from support.processes.ended import ended, ended_bash, ended_python
 
 ROOT = Path(__file__).parents[2]
 PICTURES = [*(ROOT / "docs/images").glob("*.svg")]
@@ -32,21 +30,6 @@ def folder(tmp_path):
     return tmp_path
 
 
-def run(command, folder):
-    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    outside_make = {
-        name: value for name, value in os.environ.items() if name not in ("MAKELEVEL", "MAKEFLAGS", "MFLAGS")
-    }
-    return subprocess.run(
-        ["bash", "-o", "pipefail", "-c", command],
-        cwd=folder,
-        env=outside_make | {"PATH": path},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-
-
 @pytest.mark.parametrize("block", cases("console"))
 def test_console_block(block, folder):
     for part in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:
@@ -54,7 +37,7 @@ def test_console_block(block, folder):
         command = first + re.sub(r"^> ", "", following, flags=re.MULTILINE)
         if "| jq " in command and shutil.which("jq") is None:
             pytest.skip("jq is not there")
-        done = run(command, folder)
+        done = ended_bash(command, folder)
         assert done.returncode == 0, f"{command}\n{done.stderr}"
         assert done.stderr == ""
         assert done.stdout == expected, command
@@ -65,7 +48,7 @@ def test_console_block(block, folder):
 
 @pytest.mark.parametrize("block", cases("python"))
 def test_python_block(block, folder):
-    done = subprocess.run([sys.executable, "-c", block], cwd=folder, capture_output=True, text=True, check=False)
+    done = ended_python("-c", block, cwd=folder)
     assert done.returncode == 0, done.stderr
 
 
@@ -76,7 +59,7 @@ def test_what_needs_the_network_or_minutes_could_be_run(block):
     for line in block.splitlines():
         words = line.partition("#")[0].split()
         if words[0] == "make":
-            assert run(f"make -n {words[1]}", ROOT).returncode == 0, line
+            assert ended_bash(f"make -n {words[1]}", ROOT).returncode == 0, line
         elif words[1:3] == ["-m", "pip"]:
             named = re.search(r"\[([a-z,]+)\]", line)
             assert set(named[1].split(",") if named else ()) <= set(extras), line
@@ -94,14 +77,13 @@ def test_rules_of_make_are_those_of_the_makefile():
 
 @pytest.mark.parametrize(("script", "page"), [("cli_reference", "cli"), ("formats_reference", "reference/formats")])
 def test_the_reference_is_true(script, page):
-    made = [sys.executable, ROOT / f"docs/scripts/{script}.py"]
-    done = subprocess.run(made, capture_output=True, text=True, check=True)
+    done = ended_python(ROOT / f"docs/scripts/{script}.py", check=True)
     kept = (ROOT / f"docs/{page}.md").read_text(encoding="utf-8")
     assert done.stdout == kept, f"run docs/scripts/{script}.py > docs/{page}.md"
 
 
 def test_the_manual_pages_are_true(tmp_path):
-    subprocess.run([sys.executable, ROOT / "docs/scripts/manual_pages.py", tmp_path], check=True)
+    ended_python(ROOT / "docs/scripts/manual_pages.py", tmp_path, check=True)
     made, kept = ({path.name: path.read_bytes() for path in folder.iterdir()} for folder in (tmp_path, MANUAL))
     assert made == kept, "run docs/scripts/manual_pages.py"
 
@@ -112,7 +94,7 @@ def test_the_manual_pages_are_true(tmp_path):
 def test_the_manual_pages_are_read_without_warnings(command):
     if shutil.which(command[0]) is None:
         pytest.skip(f"{command[0]} is not there")
-    done = subprocess.run([*command, *sorted(MANUAL.iterdir())], capture_output=True, text=True, check=False)
+    done = ended(*command, *sorted(MANUAL.iterdir()))
     said = (done.stdout + done.stderr).splitlines()
     assert [line for line in said if "missing date" not in line] == []  # they are as old as the commands
 
@@ -123,8 +105,8 @@ def test_the_manual_pages_are_read_without_warnings(command):
     ids=" ".join,
 )
 def test_the_example_of_the_help_runs(arguments, folder):
-    text = run(f"vorotool {' '.join(arguments)} --help", folder).stdout
+    text = ended_bash(f"vorotool {' '.join(arguments)} --help", folder).stdout
     example = re.search(r"Example:\s*\n\s*(vorotool .*)", text)
     assert example, "the help opens with an example"
-    done = run(example[1], folder)
+    done = ended_bash(example[1], folder)
     assert (done.returncode, done.stderr) == (0, ""), example[1]

@@ -1,19 +1,13 @@
 """The scripts of `make fuzz`: in the shortest time each compares something, or says that it has not."""
 
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 from fuzz.runner import Cases, options
+from support.processes.ended import ended_python
 
 FUZZ = Path(__file__).parents[1] / "fuzz"
-
-
-def ended(script, *arguments):
-    command = [sys.executable, FUZZ / script, *arguments]
-    return subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
 
 
 def test_cases_that_were_not_run_have_not_passed(capsys):
@@ -25,27 +19,48 @@ def test_cases_that_were_not_run_have_not_passed(capsys):
 
 @pytest.mark.parametrize("script", ["predicates.py", "tessellate.py"])
 def test_a_script_that_compares_nothing_fails(script):
-    done = ended(script, "--seconds", "0")
+    done = ended_python(FUZZ / script, "--seconds", "0")
     assert (done.returncode, done.stderr) == (1, "")
     assert " 0 wrong" in done.stdout
 
 
+@pytest.mark.parametrize(
+    ("script", "arguments", "said"),
+    [
+        ("tessellate.py", "--pixels 400000 --seed 7", ", 0 wrong, "),
+        ("digital.py", "--sets 12 --seed 3", "0 failures"),
+        ("bytes.py", "--cases 2000 --minutes 5 --seed 7 --commands 0.02", "2,000 inputs, 0 failures"),
+        (
+            "faults.py",
+            "--writers png,csv,zarr --kills 6 --places 12 --batches 0 --pairs 0",
+            "kills that left a temporary: 6",
+        ),
+    ],
+)
+def test_a_little_of_what_is_done_for_longer(script, arguments, said):
+    done = ended_python(FUZZ / script, *arguments.split())
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert said in done.stdout
+
+
 def test_no_kind_of_faults_is_left_out():
-    done = ended("faults.py", "--kills", "0", "--places", "0", "--pairs", "0", "--batches", "1", "--minutes", "0")
+    done = ended_python(
+        FUZZ / "faults.py", "--kills", "0", "--places", "0", "--pairs", "0", "--batches", "1", "--minutes", "0"
+    )
     assert (done.returncode, done.stderr) == (1, "")
     assert done.stdout == "wrong: batches: none was run\n1 failures\n"
 
 
 def test_other_machines_are_compared_at_once():
-    done = ended("machines.py", "--seconds", "0", "--seed", "2")
+    done = ended_python(FUZZ / "machines.py", "--seconds", "0", "--seed", "2")
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout.startswith("8 commands, 1 settings, 8 outputs compared, 0 different, 0 failed")
 
 
 def test_all_that_failed_is_told():
-    passed = ended("together.py", "--minutes", "0.02", "--only", "planar_graph.py", "rotation.py")
+    passed = ended_python(FUZZ / "together.py", "--minutes", "0.02", "--only", "planar_graph.py", "rotation.py")
     assert (passed.returncode, passed.stderr) == (0, "")
     assert passed.stdout.splitlines()[-1] == "2 scripts in 0.02 minutes, 0 of them failed"
-    failed = ended("together.py", "--minutes", "0", "--only", "planar_graph.py")
+    failed = ended_python(FUZZ / "together.py", "--minutes", "0", "--only", "planar_graph.py")
     assert (failed.returncode, failed.stderr) == (1, "")
     assert "planar_graph.py      FAILED" in failed.stdout

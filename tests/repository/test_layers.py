@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from support.readers.arrows import arrows_of
+
 PACKAGE = Path(__file__).parents[2] / "src" / "vorotool"
 ARROWS = """
 formats/compression ->
@@ -55,7 +57,8 @@ engines/sampled_skeleton -> engines/arrangement, engines/common, engines/feature
 formats -> formats/images, formats/io, formats/parsing, formats/points, formats/polygons, geometry, geometry/points,
     geometry/polygons, geometry/skeleton, products
 engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/polygons, geometry/skeleton
-engines/centerlines -> engines/from_skeleton, engines/pruning, geometry, geometry/polygons, geometry/skeleton
+engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton, geometry, geometry/polygons,
+    geometry/skeleton
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
     engines/features, engines/from_skeleton, engines/label_images, engines/offsets, engines/pruning,
     engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, formats,
@@ -74,14 +77,7 @@ FOR_ALL = {"errors", "signals"}
 MAY_IMPORT_CORE = {"engines", "formats", "render"}
 
 
-def allowed_arrows():
-    """The table: rooms in its order, each with those that it may import."""
-    lines = ARROWS.replace("\n    ", " ").strip().splitlines()
-    pairs = (line.split(" ->") for line in lines)
-    return {room: {name for name in names.replace(" ", "").split(",") if name} for room, names in pairs}
-
-
-ALLOWED = allowed_arrows()
+ALLOWED = arrows_of(ARROWS)
 SOURCES = sorted(
     path for path in PACKAGE.rglob("*.py") if path.name not in ("__init__.py", "__main__.py") or path.parent != PACKAGE
 )

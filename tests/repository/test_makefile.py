@@ -1,17 +1,15 @@
 """What `make` does with the sources of the core, in whatever folder they are: all are built, all are formatted."""
 
-import os
-import subprocess
 from pathlib import Path
+
+from support.processes.ended import ENVIRONMENT, ended
 
 ROOT = Path(__file__).parents[2]
 SOURCES = {str(path.relative_to(ROOT)) for path in (ROOT / "src").rglob("*.[ch]pp")}
 
 
 def make(*arguments):
-    environment = {name: value for name, value in os.environ.items() if not name.startswith("MAKE")}
-    run = ["make", "--dry-run", *arguments]
-    return subprocess.run(run, cwd=ROOT, env=environment, capture_output=True, text=True, check=True).stdout
+    return ended("make", "--dry-run", *arguments, cwd=ROOT, env=ENVIRONMENT, check=True).stdout
 
 
 def test_every_source_is_checked_by_clang_format():

@@ -1,13 +1,12 @@
 """The lower bounds of pyproject.toml: how they are read, and what older libraries lack."""
 
-import subprocess
-import sys
 import tomllib
 from pathlib import Path
 
 import pytest
 
 from requirements import oldest, requirements
+from support.processes.ended import ended_python
 
 ROOT = Path(__file__).parents[2]
 
@@ -37,6 +36,6 @@ def test_types_of_options_do_not_need_the_newest_click():
         "from vorotool.cli.main import main\n"
         "main(['skeleton-exact', '--help'])\n"
     )
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    done = ended_python("-c", program)
     assert (done.returncode, done.stderr) == (0, "")
     assert done.stdout.startswith("Usage: vorotool skeleton-exact")

@@ -2,11 +2,11 @@
 
 import os
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+
+from support.processes.ended import ENVIRONMENT, ended
 
 ROOT = Path(__file__).parents[2]
 pytestmark = pytest.mark.skipif(shutil.which("make") is None, reason="make is not there")
@@ -21,14 +21,8 @@ def make(tmp_path):
             shutil.copy(ROOT / "data" / name, tmp_path / folder)
 
     def run(*arguments):
-        done = subprocess.run(
-            ["make", "-f", ROOT / "docs/pipeline/Makefile", "-j", "2", "SIZE=400x400", *arguments],
-            cwd=tmp_path,
-            env={**os.environ, "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"},
-            capture_output=True,
-            text=True,
-            check=False,
-        )
+        makefile = ROOT / "docs/pipeline/Makefile"
+        done = ended("make", "-f", makefile, "-j", "2", "SIZE=400x400", *arguments, cwd=tmp_path, env=ENVIRONMENT)
         commands = [line.split()[1:3] for line in done.stdout.splitlines() if line.startswith("vorotool ")]
         return sorted(commands), done.returncode, done.stderr
 

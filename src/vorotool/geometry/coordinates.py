@@ -17,7 +17,7 @@ LARGEST_INTEGER = 2**53
 """Integers up to here are doubles; of those beyond only some are, and points that differ would become one."""
 
 
-def coordinate_rows(values: Any, noun: str, expected: str | None = None) -> NDArray[np.float64]:
+def coordinate_rows(values: Any, noun: str) -> NDArray[np.float64]:
     """Copy (n, 2) coordinates; nothing is rounded but decimal fractions.
 
     Parameters
@@ -26,8 +26,6 @@ def coordinate_rows(values: Any, noun: str, expected: str | None = None) -> NDAr
         Integers, floating-point numbers, or fractions and decimal numbers of Python; an iterator of pairs.
     noun : str
         What a message calls one row.
-    expected : str, optional
-        What a message says of values that are none; by default made of the noun.
 
     Returns
     -------
@@ -44,7 +42,7 @@ def coordinate_rows(values: Any, noun: str, expected: str | None = None) -> NDAr
     >>> coordinate_rows(((x, x * x) for x in range(3)), "point").tolist()
     [[0.0, 0.0], [1.0, 1.0], [2.0, 4.0]]
     """
-    array = number_array(values, noun, expected)
+    array = number_array(values, noun)
     if array.size == 0:
         array = array.reshape(0, 2)
     if array.ndim != 2 or array.shape[1] != 2:

@@ -11,16 +11,16 @@ from contextlib import suppress
 import numpy as np
 import pytest
 
+from support.families.mask_folders import write_many_points
+from support.processes.leftovers import contents, wait_until
+
 pytest.importorskip("distributed")
 
 
 @pytest.fixture
 def many(tmp_path):
     """A folder of inputs that take some milliseconds each."""
-    (tmp_path / "many").mkdir()
-    for number in range(40):
-        xy = np.random.default_rng(number).integers(0, 300, (3, 2))
-        np.savetxt(tmp_path / f"many/p{number:03}.csv", xy, fmt="%d", delimiter=",", header="x,y", comments="")
+    write_many_points(tmp_path, 40)
     (tmp_path / "many/p013.csv").write_text("x,y\n1,nan\n")
     return tmp_path
 
@@ -52,17 +52,6 @@ def address_in(path):
         return None
 
 
-def wait_until(condition):
-    deadline = time.monotonic() + 60
-    while not condition():
-        assert time.monotonic() < deadline, "it does not come"
-        time.sleep(0.02)
-
-
-def files(folder):
-    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*.csv")}
-
-
 def done(manifest):
     records = [json.loads(line) for line in manifest.read_text().splitlines()] if manifest.exists() else []
     return [record["input"] for record in records if record.get("status") == "done"]
@@ -75,13 +64,13 @@ def test_a_lost_worker_loses_nothing(run, process, many, cluster):
     assert run(*options, "here", "--table", "here.csv").code == 6
     child = process(*options, "there", "--table", "there.csv", "--cluster", address)
     manifest = many / "there/tessellate.manifest.jsonl"
-    wait_until(lambda: len(done(manifest)) >= 10 or child.poll() is not None)
+    wait_until(lambda: len(done(manifest)) >= 10, child)
     workers[0].kill()
     out, err = child.communicate(timeout=60)
     assert (child.returncode, out) == (6, b""), err
     assert [line.split(b": ")[0] for line in err.splitlines()] == [b"error", b"error"]
     assert b"p013.csv, line 2" in err
-    assert files(many / "there") == files(many / "here")
+    assert contents(many / "there", "*.csv") == contents(many / "here", "*.csv")
     assert (many / "there.csv").read_bytes() == (many / "here.csv").read_bytes()
     assert sorted(done(manifest)) == [f"many/p{number:03}.csv" for number in range(40) if number != 13]
     assert list((many / "there").rglob(".vorotool-*")) == []
@@ -143,10 +132,6 @@ def test_what_is_no_address_is_refused_at_once(run, many, address, words):
 # ---- the bands of one image ------------------------------------------------------------------------------------
 
 
-def store(folder):
-    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
-
-
 @pytest.fixture
 def dots(tmp_path):
     xy = np.random.default_rng(9).integers(-100, 3100, (4000, 2)) / 2
@@ -160,11 +145,11 @@ def test_a_lost_worker_leaves_the_same_store(run, process, dots, cluster):
     options = ("tessellate", "dots.csv", "--size", "600x600", "--chunk", "512x8", "-q")
     assert run(*options, "-o", "here.zarr").code == 0
     child = process(*options, "-o", "there.zarr", "--cluster", address, "--stats", "s.json")
-    wait_until(lambda: len(list(dots.glob(".vorotool-*.tmp/c/*"))) >= 10 or child.poll() is not None)
+    wait_until(lambda: len(list(dots.glob(".vorotool-*.tmp/c/*"))) >= 10, child)
     workers[0].kill()
     out, err = child.communicate(timeout=60)
     assert (child.returncode, out, err) == (0, b"", b"")
-    assert store(dots / "there.zarr") == store(dots / "here.zarr")
+    assert contents(dots / "there.zarr") == contents(dots / "here.zarr")
     assert not list(dots.glob(".*"))
 
 
@@ -174,13 +159,13 @@ def test_distances_and_a_failing_cluster(run, dots, cluster, monkeypatch, what):
     options = ("tessellate", "dots.csv", "--size", "300x200", "--what", what, "--chunk", "100x64", "-q")
     assert run(*options, "-o", "here.zarr").code == 0
     assert run(*options, "-o", "there.zarr", "--cluster", address).code == 0
-    assert store(dots / "there.zarr") == store(dots / "here.zarr")
+    assert contents(dots / "there.zarr") == contents(dots / "here.zarr")
     for worker in workers:
         worker.kill()
         worker.wait()
     monkeypatch.setattr("vorotool.batch.dask_cluster.FIRST_WORKER", 0.2)
     wait_until(lambda: "nobody works there" in run(*options, "-o", "there.zarr", "--cluster", address).err)
-    assert store(dots / "there.zarr") == store(dots / "here.zarr")
+    assert contents(dots / "there.zarr") == contents(dots / "here.zarr")
     assert not list(dots.glob(".*"))
 
 
@@ -193,13 +178,13 @@ def test_tiles_of_an_image_as_seeds(run, dots, cluster, monkeypatch):
     options = ("tessellate", "seeds.zarr", "--chunk", "64x50", "-q")
     assert run(*options, "-o", "here.zarr").code == 0
     assert run(*options, "-o", "there.zarr", "--cluster", cluster[0]).code == 0
-    assert store(dots / "there.zarr") == store(dots / "here.zarr")
+    assert contents(dots / "there.zarr") == contents(dots / "here.zarr")
 
 
 def test_an_interrupt_ends_the_cluster_that_was_started(process, dots):
     options = ("--size", "20000x20000", "--chunk", "512x16", "-q", "--cluster", "local", "-j", "1")
     child = process("tessellate", "dots.csv", "-o", "a.zarr", *options)
-    wait_until(lambda: len(list(dots.glob(".vorotool-*.tmp/c/*"))) >= 5 or child.poll() is not None)
+    wait_until(lambda: len(list(dots.glob(".vorotool-*.tmp/c/*"))) >= 5, child)
     child.send_signal(signal.SIGINT)
     out, err = child.communicate(timeout=20)
     assert (child.returncode, out, err) == (130, b"", b"")

@@ -7,8 +7,10 @@ import time
 from collections import Counter
 from pathlib import Path
 
-import numpy as np
 import pytest
+
+from support.families.mask_folders import write_many_points
+from support.processes.leftovers import contents, wait_until
 
 POINTS = "x,y,name\n{0},1,a\n7,5,b\n1,6,c\n4,{0},d\n"
 SQUARES = [
@@ -32,11 +34,8 @@ def inputs(tmp_path):
 
 def files(folder):
     """Contents by paths, but those that tell how it went."""
-    return {
-        str(path.relative_to(folder)): path.read_bytes()
-        for path in sorted(folder.rglob("*"))
-        if path.is_file() and not path.name.endswith(".jsonl") and ".tables" not in str(path)
-    }
+    found = contents(folder).items()
+    return {path: data for path, data in found if not path.endswith(".jsonl") and ".tables" not in path}
 
 
 def records(path):
@@ -299,21 +298,6 @@ def test_a_terminal_shows_a_bar(inputs):
 
 
 # ---- interrupts ------------------------------------------------------------------------------------------------
-def many_points(folder, count, seeds=3):
-    """Inputs that take some milliseconds each."""
-    (folder / "many").mkdir()
-    for number in range(count):
-        xy = np.random.default_rng(number).integers(0, 300, (seeds, 2))
-        np.savetxt(folder / f"many/p{number:03}.csv", xy, fmt="%d", delimiter=",", header="x,y", comments="")
-
-
-def wait_until(child, condition):
-    deadline = time.monotonic() + 60
-    while not condition() and child.poll() is None:
-        assert time.monotonic() < deadline, "it does not come"
-        time.sleep(0.005)
-
-
 def lines_of(path):
     return path.read_bytes().count(b"\n") if path.exists() else 0
 
@@ -324,10 +308,10 @@ def children(pid):
 
 @pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="looks for processes in /proc")
 def test_an_interrupt_leaves_nothing_half_done(process, tmp_path):
-    many_points(tmp_path, 2, seeds=20_000)
+    write_many_points(tmp_path, 2, seeds=20_000)
     options = ("--size", "60000x60000", "-f", "npy", "--out-dir", "out", "-j", "2", "-q")
     child = process("tessellate", "many", *options)
-    wait_until(child, lambda: len(list(tmp_path.glob("out/.*.tmp"))) == 2)
+    wait_until(lambda: len(list(tmp_path.glob("out/.*.tmp"))) == 2, child)
     workers = children(child.pid)
     assert len(workers) == 2
     sent = time.monotonic()
@@ -341,7 +325,7 @@ def test_an_interrupt_leaves_nothing_half_done(process, tmp_path):
 
 @pytest.mark.slow
 def test_killed_and_resumed(process, tmp_path):
-    many_points(tmp_path, 40)
+    write_many_points(tmp_path, 40)
     options = ("delaunay", "many", "-q", "-j", "2", "--table", "all.csv", "--out-dir")
     assert process(*options, "whole").communicate() == (b"", b"")
     whole = files(tmp_path / "whole") | {"all.csv": (tmp_path / "all.csv").read_bytes()}
@@ -349,7 +333,7 @@ def test_killed_and_resumed(process, tmp_path):
     manifest = tmp_path / "out/delaunay.manifest.jsonl"
     for kill in range(2):
         child = process(*options, "out", "--resume")
-        wait_until(child, lambda kill=kill: lines_of(manifest) >= 14 * kill + 7)
+        wait_until(lambda kill=kill: lines_of(manifest) >= 14 * kill + 7, child)
         child.kill()
         child.communicate()
     assert process(*options, "out", "--resume").communicate() == (b"", b"")
@@ -360,10 +344,10 @@ def test_killed_and_resumed(process, tmp_path):
 
 
 def test_a_run_beside_a_running_one_leaves_its_temporaries(run, process, tmp_path):
-    many_points(tmp_path, 2, seeds=20_000)
+    write_many_points(tmp_path, 2, seeds=20_000)
     options = ("--size", "60000x60000", "-f", "npy", "--out-dir", "out", "-q")
     child = process("tessellate", "many/p000.csv", *options, "-j", "1")
-    wait_until(child, lambda: list(tmp_path.glob("out/.*.tmp")))
+    wait_until(lambda: list(tmp_path.glob("out/.*.tmp")), child)
     begun = list(tmp_path.glob("out/.*.tmp"))
     ended = run("tessellate", "many", "--what", "table", "--out-dir", "out", "-q", "--resume")
     left = list(tmp_path.glob("out/.*.tmp"))
@@ -374,7 +358,7 @@ def test_a_run_beside_a_running_one_leaves_its_temporaries(run, process, tmp_pat
 
 @pytest.mark.slow
 def test_two_shards_that_are_started_together_lose_nothing(process, tmp_path):
-    many_points(tmp_path, 12)
+    write_many_points(tmp_path, 12)
     options = ("delaunay", "many", "-q", "-j", "2", "--out-dir")
     assert process(*options, "whole").communicate() == (b"", b"")
     for _ in range(3):
@@ -387,10 +371,10 @@ def test_two_shards_that_are_started_together_lose_nothing(process, tmp_path):
 
 
 def test_what_a_killed_run_of_one_input_has_left_is_removed_by_the_next(run, process, tmp_path):
-    many_points(tmp_path, 1, seeds=20_000)
+    write_many_points(tmp_path, 1, seeds=20_000)
     (tmp_path / "a.csv").write_text("old")
     child = process("tessellate", "many/p000.csv", "--size", "60000x60000", "-o", "a.npy", "-q")
-    wait_until(child, lambda: list(tmp_path.glob(".*.tmp")))
+    wait_until(lambda: list(tmp_path.glob(".*.tmp")), child)
     child.kill()
     child.communicate()
     assert child.returncode == -signal.SIGKILL

@@ -1,7 +1,5 @@
 """Centerlines on the command line: ends in the middle, in corners or at forks."""
 
-import csv
-import io
 import json
 
 import pytest
@@ -37,7 +35,7 @@ def test_a_rectangle(run, rectangle, options, line):
 def test_lengths_and_widths_follow(run, rectangle):
     for options, expected in (([], ("10", "4")), (["--ends", "none"], ("6", "4"))):
         done = run("skeleton-exact", rectangle, "--what", "table", *options)
-        (row,) = csv.DictReader(io.StringIO(done.out))
+        (row,) = done.rows
         assert (row["centerline_length"], row["centerline_width_mean"]) == expected
     done = run("skeleton-exact", rectangle, "--what", "centerline", "-f", "geojson")
     properties = json.loads(done.out)["features"][0]["properties"]
@@ -45,7 +43,7 @@ def test_lengths_and_widths_follow(run, rectangle):
 
 
 def test_rows_tell_what_leads_on(run, rectangle):
-    rows = list(csv.DictReader(io.StringIO(run("skeleton-exact", rectangle, "--what", "centerline", "-f", "csv").out)))
+    rows = run("skeleton-exact", rectangle, "--what", "centerline", "-f", "csv").rows
     assert [(row["kind"], row["x0"], row["x1"], row["r0"], row["r1"]) for row in rows] == [
         ("extension", "0", "2", "0", "2"),
         ("line", "2", "8", "2", "2"),

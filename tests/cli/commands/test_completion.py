@@ -1,11 +1,12 @@
 """Shells complete commands, options, their values, and files of the kinds that are read."""
 
 import shutil
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+
+from support.processes.ended import ended
 
 ENVIRONMENT = {"PATH": f"{Path(sys.executable).parent}:/usr/local/bin:/usr/bin:/bin", "LC_ALL": "C"}
 needs_bash = pytest.mark.skipif(shutil.which("bash") is None, reason="bash is not there")
@@ -66,15 +67,7 @@ def script(run):
 @needs_bash
 def test_bash(folder, script):
     script("bash")
-    done = subprocess.run(
-        ["bash", "--norc", "-c", BASH],
-        cwd=folder,
-        env=ENVIRONMENT,
-        input="\n".join(LINES) + "\n",
-        capture_output=True,
-        text=True,
-        check=True,
-    )
+    done = ended("bash", "--norc", "-c", BASH, cwd=folder, env=ENVIRONMENT, input="\n".join(LINES) + "\n", check=True)
     assert dict(zip(LINES, done.stdout.splitlines(), strict=True)) == LINES
 
 
@@ -84,14 +77,7 @@ def test_fish(folder, script):
     script("fish")
     lines = ("vorotool sk", "vorotool tessellate --what=labels,ta", "vorotool alphashape ", "vorotool draw more/")
     text = "source ./script; " + "; ".join(f"complete -C {line!r}" for line in lines)
-    done = subprocess.run(
-        ["fish", "--no-config", "-c", text],
-        cwd=folder,
-        env={**ENVIRONMENT, "HOME": str(folder)},
-        capture_output=True,
-        text=True,
-        check=True,
-    )
+    done = ended("fish", "--no-config", "-c", text, cwd=folder, env={**ENVIRONMENT, "HOME": folder}, check=True)
     words = [line.partition("\t")[0] for line in done.stdout.splitlines()]
     assert words == [
         *("skeleton-approx", "skeleton-exact", "--what=labels,table"),
@@ -102,23 +88,7 @@ def test_fish(folder, script):
 def test_zsh_reads_the_script(script):
     if shutil.which("zsh") is None:
         pytest.skip("zsh is not there")
-    subprocess.run(["zsh", "-n", script("zsh")], check=True)
-
-
-def test_completing_imports_no_heavy_module(monkeypatch):
-    code = (
-        "import sys\n"
-        "from vorotool.cli.main import main\n"
-        "try:\n    main([])\n"
-        "except SystemExit as end:\n"
-        "    heavy = {'numpy', 'vorotool._core', 'PIL', 'orjson'} & set(sys.modules)\n"
-        "    sys.exit(f'loaded {heavy}' if heavy or end.code else 0)\n"
-    )
-    for words in ("vorotool skeleton-exact --prune angle=30 --what ", "vorotool draw "):
-        asked = {"_VOROTOOL_COMPLETE": "bash_complete", "COMP_WORDS": words, "COMP_CWORD": str(words.count(" "))}
-        done = subprocess.run([sys.executable, "-c", code], env=asked, capture_output=True, text=True, check=False)
-        assert done.returncode == 0, done.stderr
-        assert done.stdout
+    ended("zsh", "-n", script("zsh"), check=True)
 
 
 def test_there_is_no_script_for_another_shell(run):

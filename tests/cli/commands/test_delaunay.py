@@ -1,11 +1,6 @@
 """``vorotool delaunay``: every result, every kind of input, and what is said when something is wrong."""
 
-import csv
-import io
 import json
-import signal
-import struct
-import time
 from pathlib import Path
 
 import numpy as np
@@ -14,22 +9,15 @@ import shapely
 from PIL import Image
 
 import vorotool
-from support.processes.leftovers import leftovers
-from vorotool.products.registry import PRODUCTS, all_layers, formats_of
-from vorotool.render.layers import cells as cell_layers
-from vorotool.render.layers import mesh as mesh_layers
+from support.readers.written import rows_of
 
 DATA = Path(__file__).parents[3] / "data"
 DOTS = DATA / "dots.csv"
 MESH = vorotool.delaunay(vorotool.read(DOTS))
 
 
-def table(text):
-    return list(csv.DictReader(io.StringIO(text)))
-
-
 def pairs(text):
-    return [(int(row["label_a"]), int(row["label_b"])) for row in table(text)]
+    return [(int(row["label_a"]), int(row["label_b"])) for row in rows_of(text)]
 
 
 def test_edges_go_to_standard_output(run):
@@ -42,24 +30,6 @@ def test_edges_go_to_standard_output(run):
     a, b, *numbers = map(float, first.split(","))
     ends = MESH.points[[int(a) - 1, int(b) - 1]]
     assert numbers == [*ends.reshape(-1).tolist(), np.sqrt(((ends[0] - ends[1]) ** 2).sum())]
-
-
-def test_scipy_finds_the_same_triangles(run):
-    from scipy.spatial import Delaunay
-
-    done = run("delaunay", DOTS, "--what", "triangles")
-    found = {frozenset(int(value) - 1 for value in row.values()) for row in table(done.out)}
-    assert found == set(map(frozenset, Delaunay(MESH.points).simplices.tolist()))
-
-
-@pytest.mark.parametrize("what", formats_of("delaunay"))
-def test_every_format_is_written(run, folder, what):
-    for fmt in formats_of("delaunay")[what]:
-        assert run("delaunay", DOTS, "--what", what, "-o", f"a.{fmt}").code == 0
-        assert run("delaunay", DOTS, "--what", what, "-f", fmt, "-o", "b").code == 0
-        assert (folder / f"a.{fmt}").read_bytes() == (folder / "b").read_bytes()
-        assert (folder / "b").stat().st_size > 500
-    assert run("delaunay", DOTS, "--what", what).out == (folder / f"a.{formats_of('delaunay')[what][0]}").read_text()
 
 
 POINTS = [[2, 1], [7, 5], [1, 6], [9, 9.5]]
@@ -105,17 +75,17 @@ def test_regions_of_images_count_as_their_centroids(run, folder):
     np.save(folder / "labels.npy", labels)
     for seeds in ([], ["--seeds", "labels"], ["--seeds", "centroids"]):
         done = run("delaunay", "labels.npy", "--what", "table", *seeds)
-        found = [(int(row["label"]), float(row["x"]), float(row["y"])) for row in table(done.out)]
+        found = [(int(row["label"]), float(row["x"]), float(row["y"])) for row in done.rows]
         assert found == [(7, 10.5, 10), (12, 24.5, 17), (300, 4, 3)]
         assert done.err == ""  # nothing is put on a lattice
-    assert len(table(run("delaunay", "mask.pbm", "--what", "table").out)) == 2
-    assert len(table(run("delaunay", "mask.pbm", "--what", "table", "--connectivity", "4").out)) == 3
-    assert len(table(run("delaunay", "mask.pbm", "--what", "table", "--seeds", "pixels").out)) == 4
+    assert len(run("delaunay", "mask.pbm", "--what", "table").rows) == 2
+    assert len(run("delaunay", "mask.pbm", "--what", "table", "--connectivity", "4").rows) == 3
+    assert len(run("delaunay", "mask.pbm", "--what", "table", "--seeds", "pixels").rows) == 4
 
 
 def test_properties_go_to_the_table(run, folder):
     done = run("delaunay", "dots.csv", "--columns", "x,y", "--what", "table")
-    assert [row["name"] for row in table(done.out)] == ["a", "b", "c"]
+    assert [row["name"] for row in done.rows] == ["a", "b", "c"]
     assert "name" not in run("delaunay", "dots.csv", "--columns", "x,y", "--what", "table", "--no-properties").out
     assert "name" not in run("delaunay", "dots.csv", "--columns", "x,y").out
 
@@ -209,39 +179,6 @@ def test_an_image_without_foreground_has_no_points(run, folder):
     assert done.err == "warning: the image has no foreground: use --invert or --threshold\n"
 
 
-def npy(shape, data=b""):
-    text = f"{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}\n"
-    return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(text)) + text.encode() + data
-
-
-BAD_INPUTS = {
-    "nan.csv": (b"x,y\n1,2\nnan,4\n", 3, ["nan.csv", "line 3", "nan"]),
-    "inf.csv": (b"1,2\n-inf,4\n", 3, ["inf.csv", "line 2", "inf"]),
-    "nan.npy": (npy((2, 2), struct.pack("<4d", 1, 2, float("nan"), 4)), 3, ["nan.npy", "2", "nan"]),
-    "huge.npy": (npy((10**12, 2)), 5, ["--max-sites"]),
-    "word.csv": (b"x,y\n1,2\n3,abc\n", 3, ["line 3", "abc"]),
-    "three.csv": (b"1,2,3\n4,5,6\n", 3, ["--columns"]),
-    "label.csv": (b"x,y,label\n1,2,0\n", 3, ["label", "0"]),
-    "deep.json": (b"[" * 100_000, 3, ["nested"]),
-    "polygon.wkt": (b"POLYGON ((0 0, 1 0, 1 1, 0 0))", 3, ["polygon.wkt", "POLYGON"]),
-    "a.shp": (b"\0\0\x27\x0a", 3, ["ogr2ogr"]),
-}
-
-
-@pytest.mark.parametrize("name", BAD_INPUTS)
-def test_bad_input(run, folder, name):
-    data, code, words = BAD_INPUTS[name]
-    (folder / name).write_bytes(data)
-    done = run("delaunay", name, "-o", "out.npz")
-    assert (done.code, done.out) == (code, "")
-    assert not (folder / "out.npz").exists()
-    message = [line for line in done.err.splitlines() if not line.startswith("note:")]
-    assert len(message) == 1
-    assert message[0].startswith("error: ")
-    for word in words:
-        assert word.lower() in message[0].lower()
-
-
 @pytest.mark.parametrize(
     ("options", "words"),
     [
@@ -295,52 +232,6 @@ def test_strict_refuses_duplicates(run, folder):
     assert done.err.startswith("error: twice.csv: 1 of 2 points lie on an earlier point: ")
 
 
-def test_outputs_that_cannot_be_written(run, folder):
-    assert run("delaunay", "dots.csv", "-o", "no/such/a.csv").code == 4
-    assert run("delaunay", "dots.csv", "-o", "/dev/full", "-f", "csv").code == 4
-    assert run("delaunay", "dots.csv", "-o", "/dev/full", "-f", "npz").code == 4
-    (folder / "old.csv").write_text("old")
-    done = run("delaunay", "dots.csv", "-o", "old.csv", "--no-clobber")
-    assert done.code == 4
-    assert (folder / "old.csv").read_text() == "old"
-    assert leftovers(folder) == []
-
-
-def test_failed_write_leaves_the_older_file(run, folder, monkeypatch):
-    (folder / "old.npz").write_text("old")
-
-    def fail(*_args, **_options):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr("vorotool.formats.results.meshes.write_table", fail)
-    done = run("delaunay", "dots.csv", "-o", "old.npz")
-    assert done.code == 4
-    assert "No space left" in done.err
-    assert (folder / "old.npz").read_text() == "old"
-    assert leftovers(folder) == []
-
-
-def test_the_same_bytes_for_any_threads(run, folder):
-    np.save(folder / "many.npy", np.random.default_rng(0).normal(size=(20_000, 2)))
-    for what, extension in [("edges", "csv"), ("edges", "npz"), ("triangles", "geojson"), ("triangles", "png")]:
-        for threads in (1, 2, 3):
-            done = run("delaunay", "many.npy", "--what", what, "-o", f"{threads}.{extension}", "--threads", threads)
-            assert done.code == 0
-        one, two, three = ((folder / f"{k}.{extension}").read_bytes() for k in (1, 2, 3))
-        assert one == two == three
-
-
-def test_permuted_input_permutes_labels_only(run, folder):
-    rng = np.random.default_rng(1)
-    points = rng.integers(0, 40, (300, 2))
-    points = np.unique(points, axis=0)
-    order = rng.permutation(len(points))
-    np.save(folder / "a.npy", points.astype(float))
-    np.save(folder / "b.npy", points[order].astype(float))
-    a, b = (pairs(run("delaunay", name).out) for name in ("a.npy", "b.npy"))
-    assert {frozenset(edge) for edge in a} == {frozenset(int(order[k - 1]) + 1 for k in edge) for edge in b}
-
-
 def test_pictures(run, folder):
     assert run("delaunay", DOTS, "--what", "triangles", "-o", "t.png", "--width", "300").code == 0
     with Image.open(folder / "t.png") as image:
@@ -354,33 +245,3 @@ def test_pictures(run, folder):
     assert done.out.index('<g id="triangles"') < done.out.index('<g id="labels"')
     assert "circle" not in done.out
     assert done.out.count("</text>") == 53
-
-
-def test_layers_are_those_of_the_renderer():
-    assert set(all_layers("delaunay")) == {*mesh_layers.LAYERS, *cell_layers.LAYERS}
-    assert all(set(each.usual_layers) <= set(all_layers("delaunay")) for each in PRODUCTS["delaunay"].values())
-
-
-def test_broken_pipe_is_quiet(process, folder):
-    np.save(folder / "many.npy", np.random.default_rng(0).random((50_000, 2)))
-    child = process("delaunay", "many.npy")
-    with child:
-        child.stdout.readline()
-        child.stdout.close()
-        assert child.stderr.read() == b""
-    assert child.returncode == 141
-
-
-def test_interrupt_while_writing(process, folder):
-    np.save(folder / "many.npy", np.random.default_rng(0).random((500_000, 2)))
-    (folder / "out.geojson").write_text("old")
-    child = process("delaunay", "many.npy", "-o", "out.geojson", "-q", "--threads", "1")
-    deadline = time.monotonic() + 60
-    while not leftovers(folder) and time.monotonic() < deadline:
-        time.sleep(0.005)
-    assert leftovers(folder), "the output was never opened"
-    child.send_signal(signal.SIGINT)
-    out, err = child.communicate(timeout=60)
-    assert (child.returncode, out, err) == (130, b"", b"")
-    assert (folder / "out.geojson").read_text() == "old"
-    assert leftovers(folder) == []

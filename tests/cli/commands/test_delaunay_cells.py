@@ -1,7 +1,5 @@
 """``vorotool delaunay --what cells`` and ``table``: frames, clipping, pictures, and what is said when it goes wrong."""
 
-import csv
-import io
 import json
 from pathlib import Path
 
@@ -11,6 +9,7 @@ import shapely
 from PIL import Image
 
 import vorotool
+from support.readers.written import rows_of
 
 DOTS = Path(__file__).parents[3] / "data" / "dots.csv"
 POINTS = vorotool.read(DOTS)
@@ -38,7 +37,7 @@ def test_cells_go_to_standard_output(run):
 def test_frame(run, folder):
     done = run("delaunay", DOTS, "--what", "cells", "--frame", "0.5,10,300,200.25", "--stats", "s.json", "-o", "a.csv")
     assert done.code == 0
-    rows = list(csv.DictReader(io.StringIO((folder / "a.csv").read_text())))
+    rows = rows_of((folder / "a.csv").read_text())
     cells = [shapely.from_wkt(row["wkt"]) for row in rows if row["wkt"]]
     assert shapely.union_all(cells).bounds == (0.5, 10, 300.5, 210.25)
     stats = json.loads((folder / "s.json").read_text())
@@ -57,7 +56,7 @@ def test_clip(run, clip):
 
 def test_table(run):
     done = run("delaunay", DOTS, "--what", "table", "--frame", "0,0,512,512")
-    rows = list(csv.DictReader(io.StringIO(done.out)))
+    rows = done.rows
     assert [int(row["label"]) for row in rows] == list(range(1, 54))
     assert sum(float(row["area"]) for row in rows) == pytest.approx(512**2)
     shapes = vorotool.voronoi_cells(POINTS, frame=(0, 0, 512, 512)).to_shapely()
@@ -67,7 +66,7 @@ def test_table(run):
 def test_several_results_share_the_cells(run, folder, clip):
     assert run("delaunay", DOTS, "--what", "cells,table,edges", "--clip", clip, "-o", "a").code == 0
     assert {p.name for p in folder.glob("a.*")} == {"a.cells.geojson", "a.table.csv", "a.edges.csv"}
-    rows = list(csv.DictReader(io.StringIO((folder / "a.table.csv").read_text())))
+    rows = rows_of((folder / "a.table.csv").read_text())
     shapes = shapes_of((folder / "a.cells.geojson").read_text())
     assert [float(row["area"]) for row in rows] == pytest.approx([0 if s is None else s.area for s in shapes])
 

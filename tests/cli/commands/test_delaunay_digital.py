@@ -1,7 +1,5 @@
 """``vorotool delaunay --method digital``, ``digital-valid`` and ``--what compare``."""
 
-import csv
-import io
 import json
 from pathlib import Path
 
@@ -9,6 +7,7 @@ import numpy as np
 import pytest
 
 import vorotool
+from support.readers.written import rows_of
 from vorotool.engines.digital import triangulation as engine
 
 DATA = Path(__file__).parents[3] / "data"
@@ -16,12 +15,8 @@ DOTS = DATA / "dots.csv"
 FRAME = ("--size", "512x512")
 
 
-def rows(text):
-    return list(csv.DictReader(io.StringIO(text)))
-
-
 def pairs(text):
-    return [(int(row["label_a"]), int(row["label_b"])) for row in rows(text)]
+    return [(int(row["label_a"]), int(row["label_b"])) for row in rows_of(text)]
 
 
 def test_the_rule_to_the_letter(run):
@@ -32,7 +27,7 @@ def test_the_rule_to_the_letter(run):
     table = run("tessellate", DOTS, *FRAME, "--what", "neighbours")
     assert pairs(done.out) == pairs(table.out)
     triangles = run("delaunay", DOTS, *FRAME, "--method", "digital", "--what", "triangles")
-    assert [tuple(map(int, row.values())) for row in rows(triangles.out)] == [
+    assert [tuple(map(int, row.values())) for row in triangles.rows] == [
         tuple(t) for t in (found.triangles + 1).tolist()
     ]
 
@@ -60,10 +55,8 @@ def test_regions_of_images_are_linked(run, folder):
     assert (done.code, done.err) == (0, "")
     table = run("tessellate", DATA / "blobs.png", "--what", "neighbours")
     assert pairs(done.out) == pairs(table.out)
-    sites = {
-        row["label"]: (row["x"], row["y"]) for row in rows(run("delaunay", DATA / "blobs.png", "--what", "table").out)
-    }
-    assert all(sites[row["label_a"]] == (row["x_a"], row["y_a"]) for row in rows(done.out))
+    sites = {row["label"]: (row["x"], row["y"]) for row in run("delaunay", DATA / "blobs.png", "--what", "table").rows}
+    assert all(sites[row["label_a"]] == (row["x_a"], row["y_a"]) for row in done.rows)
     labels = run("delaunay", DATA / "cells.png", "--method", "digital")
     assert pairs(labels.out) == pairs(done.out)  # that is their tessellation
 
@@ -143,7 +136,7 @@ def test_seeds_that_cannot_be_repaired_are_inserted(run, folder):
 def test_compare(run):
     done = run("delaunay", DOTS, *FRAME, "--what", "compare", "--stats", "stats.json")
     assert done.code == 0
-    table = rows(done.out)
+    table = done.rows
     assert list(table[0]) == ["kind", "difference", "label_a", "label_b", "label_c", "cause", "voronoi_length"]
     comparison = vorotool.compare_digital(vorotool.read(DOTS), shape=(512, 512))
     assert len(table) == comparison.table.rows == 30
@@ -160,7 +153,7 @@ def test_compare(run):
 def test_several_results_of_one_run(run, folder):
     done = run("delaunay", DOTS, *FRAME, "--method", "digital", "--what", "edges,compare", "-o", "found", "-q")
     assert (done.code, done.err) == (0, "")
-    assert len(rows((folder / "found.compare.csv").read_text())) == 30
+    assert len(rows_of((folder / "found.compare.csv").read_text())) == 30
     assert len(pairs((folder / "found.edges.csv").read_text())) == 131
 
 
@@ -175,7 +168,7 @@ def test_few_points(run, folder, method):
         assert len(pairs(done.out)) == count
         assert ("warning: there are no edges" in done.err) == (count == 0)
         done = run("delaunay", f"{name}.csv", "--what", "compare")
-        assert (done.code, len(rows(done.out))) == (0, 0)
+        assert (done.code, len(done.rows)) == (0, 0)
 
 
 @pytest.mark.parametrize(

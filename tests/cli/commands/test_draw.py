@@ -52,17 +52,27 @@ def groups_of(svg):
     return re.findall(r'<g id="(\w+)"', svg)
 
 
-def test_offset_curves_are_drawn_as_by_the_command_that_makes_them(run, folder):
-    wanted = ("skeleton-exact", SHAPES, "--what", "offset", "-d", "-20,10")
+@pytest.mark.parametrize(
+    ("options", "count", "layer", "other", "words"),
+    [
+        ([], '"arcs": 43', "skeleton", "cells", "nodes, labels; choose of these"),
+        (["--what", "offset", "-d", "-20,10"], '"shapes": 5', "offset", "nodes", "polygons, offset; choose of these"),
+    ],
+)
+def test_results_are_drawn_as_by_the_command_that_makes_them(run, folder, options, count, layer, other, words):
     for fmt in ("json", "svg", "png"):
-        assert run(*wanted, "-o", f"made.{fmt}").code == 0
+        assert run("skeleton-exact", SHAPES, *options, "-o", f"made.{fmt}").code == 0
     for fmt in ("svg", "png"):
         assert run("draw", "made.json", "-o", f"drawn.{fmt}", "--stats", f"{fmt}.json").code == 0
         assert (folder / f"drawn.{fmt}").read_bytes() == (folder / f"made.{fmt}").read_bytes()
-    assert '"shapes": 5' in (folder / "svg.json").read_text()
-    assert groups_of(run("draw", "made.json", "--layers", "offset", "-f", "svg").out) == ["offset"]
-    done = run("draw", "made.json", "--layers", "nodes", "-o", "a.svg")
-    assert (done.code, "polygons, offset; choose of these" in done.err) == (2, True)
+    assert count in (folder / "svg.json").read_text()
+    assert groups_of(run("draw", "made.json", "--layers", layer, "-f", "svg").out) == [layer]
+    done = run("draw", "made.json", "--layers", other, "-o", "a.svg")
+    assert (done.code, words in done.err) == (2, True)
+    assert run("draw", "made.json", "--page", "1", "-o", "a.svg").code == 2
+    (folder / "made.json").write_text((folder / "made.json").read_text()[:-50])
+    done = run("draw", "made.json", "-o", "a.svg")
+    assert (done.code, "made.json" in done.err) == (3, True)
 
 
 @pytest.mark.parametrize(

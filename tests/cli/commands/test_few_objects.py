@@ -1,11 +1,11 @@
 """Fields with nothing or too little in them: what is written is empty, with a warning, and a batch goes on."""
 
-import csv
-import io
 import json
 
 import numpy as np
 import pytest
+
+from support.readers.written import rows_of
 
 ONE = "there is 1 point: an alpha shape needs at least two distinct points"
 TWO = "two points span no triangle, so no r gives a region that holds them: give r itself (-r)"
@@ -36,7 +36,7 @@ def test_a_batch_of_fields_with_few_objects_goes_on(run, fields):
         assert f"warning: {name}: {reason}; the shape is empty" in lines
         assert json.loads((fields / "out" / name).with_suffix(".geojson").read_text()) == COLLECTION
     assert len(json.loads((fields / "out/many.geojson").read_text())["features"]) == 1
-    assert [row["input"] for row in csv.DictReader(io.StringIO((fields / "all.csv").read_text()))] == ["many.npy"]
+    assert [row["input"] for row in rows_of((fields / "all.csv").read_text())] == ["many.npy"]
     done = run("alphashape", *names, "--out-dir", "strict", "--strict", "--keep-going")
     assert done.code == 6
     for name, reason in (("one.npy", f"{ONE}:"), ("two.npy", f"{TWO}, or"), ("line.npy", f"{LINE}, or")):
@@ -72,7 +72,7 @@ def test_every_output_of_an_empty_shape_is_written(run, fields, name, reason, op
 
 def test_points_of_an_empty_shape_are_isolated(run, fields):
     done = run("alphashape", "two.npy", "--what", "points")
-    assert [row["class"] for row in csv.DictReader(io.StringIO(done.out))] == ["isolated", "isolated"]
+    assert [row["class"] for row in done.rows] == ["isolated", "isolated"]
     done = run("alphashape", "one.npy", "-r", 5, "--what", "general", "-f", "wkt", "--verify")
     assert (done.code, done.out) == (0, "POINT (4.5 4)\n")
     done = run("alphashape", "two.npy", "-r", "inf")  # an r that is given is heard
@@ -114,13 +114,6 @@ def test_a_flat_image_has_no_foreground_by_otsu(run, fields, command, value, inv
     assert set(done.out.split()) == {"0"} or len(done.out.splitlines()) < 7
     done = run(*command, *options, "--strict")
     assert (done.code, "the image has no foreground" in done.err) == (3, True)
-
-
-def test_a_flat_image_does_not_stop_a_batch(run, fields):
-    done = run("tessellate", "flat93.npy", "many.npy", "--threshold", "otsu", "--out-dir", "out", "-f", "npy")
-    assert done.code == 0
-    assert not np.load(fields / "out/flat93.npy").any()
-    assert np.load(fields / "out/many.npy").all()
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,5 @@
 """Skeleton commands on masks and label images: what they read, and what they refuse."""
 
-import csv
-import io
 import json
 from pathlib import Path
 
@@ -17,10 +15,6 @@ from vorotool.engines.features.sheets import Features, batches_of
 DATA = Path(__file__).parents[3] / "data"
 BLOBS, CELLS = DATA / "blobs.png", DATA / "cells.png"
 WHOLE = ("--prune", "none")
-
-
-def rows_of(text):
-    return list(csv.DictReader(io.StringIO(text)))
 
 
 def test_a_mask_has_a_skeleton(run, folder):
@@ -45,7 +39,7 @@ def test_batches_of_objects_give_the_same_bytes(run, monkeypatch, what):
 
 
 def test_a_label_image_has_an_object_a_label(run):
-    table = rows_of(run("skeleton-exact", CELLS, "--what", "table").out)
+    table = run("skeleton-exact", CELLS, "--what", "table").rows
     labels = np.asarray(Image.open(CELLS))
     assert [(row["id"], float(row["area"])) for row in table] == [
         (str(label), float(np.count_nonzero(labels == label))) for label in range(1, 25)
@@ -75,7 +69,7 @@ def test_options_are_those_of_the_library(run, folder, name):
     said = "note: threshold 0, by Otsu's method\n" if name == "otsu" else ""
     assert (done.code, done.err) == (0, said)
     made = vorotool.skeleton_exact(vorotool.outlines(image, **expected))
-    assert [float(row["r0"]) for row in rows_of(done.out)] == made.radius[made.arcs[:, 0]].tolist()
+    assert [float(row["r0"]) for row in done.rows] == made.radius[made.arcs[:, 0]].tolist()
 
 
 def test_simplify_is_for_polygons_too(run):
@@ -93,15 +87,15 @@ def test_a_page_of_a_stack(run, folder):
     tifffile.imwrite(folder / "a.tif", pages, photometric="minisblack")
     assert "--page 0 to --page 1" in run("skeleton-exact", "a.tif").err
     done = run("skeleton-exact", "a.tif", "--page", "1", "--what", "table")
-    assert [row["area"] for row in rows_of(done.out)] == ["12"]
+    assert [row["area"] for row in done.rows] == ["12"]
 
 
 def test_nothing_in_the_foreground(run, folder):
     Image.new("1", (5, 4)).save(folder / "a.png")
     done = run("skeleton-exact", "a.png", *WHOLE, "-f", "csv")
-    assert (done.code, len(rows_of(done.out))) == (0, 0)
+    assert (done.code, len(done.rows)) == (0, 0)
     assert done.err == "warning: the image has no foreground: use --invert or --threshold\n"
-    assert len(rows_of(run("skeleton-exact", "a.png", *WHOLE, "--invert", "-f", "csv").out)) == 5
+    assert len(run("skeleton-exact", "a.png", *WHOLE, "--invert", "-f", "csv").rows) == 5
 
 
 @pytest.mark.parametrize(

@@ -1,12 +1,11 @@
 """Masks, label images and images without foreground on the command line; frames that nobody gave."""
 
-import csv
-import io
 import json
 
 import numpy as np
 import pytest
 
+from support.readers.written import rows_of
 from vorotool.errors import LimitError
 
 FAR = "x,y\n704052,10\n5,663838\n100,100\n"
@@ -27,7 +26,7 @@ def fields(folder):
 
 
 def labels_of(table):
-    return [row["label"] for row in csv.DictReader(io.StringIO(table))]
+    return [row["label"] for row in rows_of(table)]
 
 
 def test_the_only_label_of_a_field_stays(run, fields):
@@ -40,7 +39,7 @@ def test_the_only_label_of_a_field_stays(run, fields):
     assert (labels_of(done.out), done.err) == (["1", "2"], "")
     for command, column in (("delaunay", "label"), ("skeleton-exact", "id")):
         done = run(command, "one.npy", "--what", "table", "--seeds", "labels")
-        known = {row[column] for row in csv.DictReader(io.StringIO(done.out))}
+        known = {row[column] for row in done.rows}
         again = run(command, "one.npy", "--what", "table")
         assert (known, again.out, note in again.err) == ({"7"}, done.out, True)
 
@@ -56,7 +55,7 @@ def test_a_batch_of_fields_goes_on_without_foreground(run, fields):
     assert done.code == 0
     assert f"warning: empty.npy: {NO_FOREGROUND.removeprefix('warning: ')}" in done.err.splitlines()
     assert not np.load(fields / "out/empty.npy").any()
-    rows = list(csv.DictReader(io.StringIO((fields / "all.csv").read_text())))
+    rows = rows_of((fields / "all.csv").read_text())
     assert [(row["input"], row["label"]) for row in rows] == [("one.npy", "7"), ("two.npy", "7"), ("two.npy", "9")]
     assert run("tessellate", *names, "--out-dir", "strict", "-f", "npy", "--strict", "--keep-going").code == 6
 

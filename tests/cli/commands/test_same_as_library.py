@@ -31,8 +31,7 @@ SHAPES = {
 @pytest.fixture
 def shapes(folder):
     (folder / "shapes.geojson").write_text(json.dumps(SHAPES))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of overlaps, once they are taken together
+    with warnings.catch_warnings(action="ignore"):  # of overlaps, once they are taken together
         yield vorotool.read(folder / "shapes.geojson")
 
 
@@ -44,27 +43,14 @@ def written(value, folder, **options):
 SIDES = ["interior", "exterior", "both"]
 
 
-@pytest.mark.parametrize("features", ["separate", "together"])
-@pytest.mark.parametrize("side", SIDES)
-@pytest.mark.parametrize("gap", [0.0, 1.0])
-@pytest.mark.parametrize("more", [(), ("--verify",), ("--stats", "s.json")])
-def test_exact_skeletons(run, folder, shapes, side, features, gap, more):
-    chosen = ("--side", side, "--features", features, "--gap", gap, *more)
-    done = run("skeleton-exact", "shapes.geojson", *chosen, "-o", "command.json")
-    assert done.code == 0, done.err
-    made = vorotool.skeleton_exact(shapes, side=side, features=features, gap=gap)
-    assert (folder / "command.json").read_bytes() == written(made, folder)
-
-
-@pytest.mark.parametrize("features", ["separate", "together"])
-@pytest.mark.parametrize("side", SIDES)
-@pytest.mark.parametrize("fineness", [{"step": 3}, {"tolerance": 1}])
-def test_approximate_skeletons(run, folder, shapes, side, features, fineness):
-    ((name, value),) = fineness.items()
-    chosen = ("--side", side, "--features", features, f"--{name}", value)
-    assert run("skeleton-approx", "shapes.geojson", *chosen, "-o", "command.json").code == 0
-    made = vorotool.skeleton_approx(shapes, side=side, features=features, **fineness)
-    assert (folder / "command.json").read_bytes() == written(made, folder)
+EXACT = (
+    *("feature_skeleton", "feature_elements", "graph_for_skeletons", "together", "diagram_of_graph"),
+    *("elements_of_graph", "skeleton_of", "sides_of"),
+)
+APPROXIMATE = (
+    *("feature_approximation", "approximation_of_sides", "graph_for_skeletons", "together", "skeleton_within"),
+    *("sampled_graph", "approximate_skeleton"),
+)
 
 
 def calls_of(monkeypatch, module, names):
@@ -83,28 +69,34 @@ def calls_of(monkeypatch, module, names):
 @pytest.mark.parametrize("features", ["separate", "together"])
 @pytest.mark.parametrize("side", SIDES)
 @pytest.mark.parametrize("gap", [0.0, 1.0])
-def test_exact_skeletons_are_made_by_the_same_engines(run, monkeypatch, shapes, side, features, gap):
-    names = ("feature_skeleton", "feature_elements", "graph_for_skeletons", "together", "diagram_of_graph")
-    made = calls_of(monkeypatch, diagrams, (*names, "elements_of_graph", "skeleton_of", "sides_of"))
-    run("skeleton-exact", "shapes.geojson", "--side", side, "--features", features, "--gap", gap)
-    of_command = made[:]
-    made.clear()
-    vorotool.skeleton_exact(shapes, side=side, features=features, gap=gap)
-    assert made == of_command != []
+@pytest.mark.parametrize("more", [(), ("--verify",), ("--stats", "s.json")])
+def test_exact_skeletons_are_the_same_by_the_same_engines(run, folder, shapes, monkeypatch, side, features, gap, more):
+    calls = calls_of(monkeypatch, diagrams, EXACT)
+    chosen = ("--side", side, "--features", features, "--gap", gap, *more)
+    done = run("skeleton-exact", "shapes.geojson", *chosen, "-o", "command.json")
+    assert done.code == 0, done.err
+    of_command = calls[:]
+    calls.clear()
+    made = vorotool.skeleton_exact(shapes, side=side, features=features, gap=gap)
+    assert (folder / "command.json").read_bytes() == written(made, folder)
+    assert more or calls == of_command != []
 
 
 @pytest.mark.parametrize("features", ["separate", "together"])
 @pytest.mark.parametrize("side", SIDES)
 @pytest.mark.parametrize("fineness", [{"step": 3}, {"tolerance": 1}])
-def test_approximate_skeletons_are_made_by_the_same_engines(run, monkeypatch, shapes, side, features, fineness):
-    names = ("feature_approximation", "approximation_of_sides", "graph_for_skeletons", "together")
-    made = calls_of(monkeypatch, per_feature, (*names, "skeleton_within", "sampled_graph", "approximate_skeleton"))
+def test_approximate_skeletons_are_the_same_by_the_same_engines(
+    run, folder, shapes, monkeypatch, side, features, fineness
+):
+    calls = calls_of(monkeypatch, per_feature, APPROXIMATE)
     ((name, value),) = fineness.items()
-    run("skeleton-approx", "shapes.geojson", "--side", side, "--features", features, f"--{name}", value)
-    of_command = made[:]
-    made.clear()
-    vorotool.skeleton_approx(shapes, side=side, features=features, **fineness)
-    assert made == of_command != []
+    chosen = ("--side", side, "--features", features, f"--{name}", value)
+    assert run("skeleton-approx", "shapes.geojson", *chosen, "-o", "command.json").code == 0
+    of_command = calls[:]
+    calls.clear()
+    made = vorotool.skeleton_approx(shapes, side=side, features=features, **fineness)
+    assert (folder / "command.json").read_bytes() == written(made, folder)
+    assert calls == of_command != []
 
 
 @pytest.mark.parametrize("method", ["exact", "propagation"])

@@ -1,11 +1,11 @@
 """The command skeleton-approx, and pruning and centerlines on the command line."""
 
-import csv
-import io
 import json
 from pathlib import Path
 
 import pytest
+
+from support.readers.written import rows_of
 
 DATA = Path(__file__).parents[3] / "data"
 SHAPES = str(DATA / "two-shapes.json")
@@ -14,7 +14,7 @@ SHAPES = str(DATA / "two-shapes.json")
 def test_a_step_and_its_bound(run, folder):
     done = run("skeleton-approx", SHAPES, "--step", "2", "-o", "a.csv", "--verify", "--stats", "a.json")
     assert (done.code, done.err) == (0, "")
-    rows = list(csv.DictReader(io.StringIO((folder / "a.csv").read_text())))
+    rows = rows_of((folder / "a.csv").read_text())
     assert {row["kind"] for row in rows} == {"line"}
     assert len(rows) > 100
     assert json.loads((folder / "a.json").read_text())["arcs"] == len(rows)
@@ -23,7 +23,7 @@ def test_a_step_and_its_bound(run, folder):
 def test_a_tolerance_is_met(run, folder):
     done = run("skeleton-approx", SHAPES, "--tolerance", "0.05", "-f", "csv", "--verify")
     assert (done.code, done.err) == (0, "")
-    assert all(float(row["error_bound"]) <= 0.05 for row in csv.DictReader(io.StringIO(done.out)))
+    assert all(float(row["error_bound"]) <= 0.05 for row in done.rows)
 
 
 @pytest.mark.parametrize("arguments", [(), ("--step", "0"), ("--step", "1", "--tolerance", "1"), ("--tolerance", "x")])

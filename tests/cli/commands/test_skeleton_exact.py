@@ -1,7 +1,5 @@
 """``vorotool skeleton-exact``: every result, every kind of input, and what is said when something is wrong."""
 
-import csv
-import io
 import json
 from pathlib import Path
 
@@ -11,20 +9,11 @@ from PIL import Image
 
 import vorotool
 from support.processes.leftovers import leftovers
-from vorotool.jobs.names import DERIVED
-from vorotool.products.registry import PRODUCTS, formats_of
-from vorotool.render.layers import offsets as offset_layers
-from vorotool.render.layers import points_along as skeleton_point_layers
-from vorotool.render.layers import polygons as polygon_layers
-from vorotool.render.layers import skeleton as skeleton_layers
+from support.readers.written import rows_of
 
 DATA = Path(__file__).parents[3] / "data"
 SHAPES = DATA / "two-shapes.json"
 MADE = vorotool.skeleton_exact(vorotool.read(SHAPES))
-
-
-def rows_of(text):
-    return list(csv.DictReader(io.StringIO(text)))
 
 
 def test_json_goes_to_standard_output(run, folder):
@@ -32,29 +21,6 @@ def test_json_goes_to_standard_output(run, folder):
     assert (done.code, done.err) == (0, "")
     (folder / "again.json").write_text(done.out)
     assert np.array_equal(vorotool.read(folder / "again.json").vertices, MADE.vertices)
-
-
-NEEDED = {"offset": ["-d", "-20,5"], "points": ["--every", "20"], "transects": ["--every", "20"]}
-
-
-@pytest.mark.parametrize("what", formats_of("skeleton-exact"))
-def test_every_format_is_written(run, folder, what):
-    for fmt in formats_of("skeleton-exact")[what]:
-        options = ["--what", what, *NEEDED.get(what, [])]
-        assert run("skeleton-exact", SHAPES, *options, "-o", f"a.{fmt}").code == 0
-        assert run("skeleton-exact", SHAPES, *options, "-f", fmt, "-o", "b").code == 0
-        assert (folder / f"a.{fmt}").read_bytes() == (folder / "b").read_bytes()
-        assert (folder / "b").stat().st_size > 200
-
-
-def test_layers_are_those_of_the_pictures():
-    assert [layer for layer in skeleton_layers.LAYERS if layer != "exact"] == list(
-        PRODUCTS["skeleton-exact"]["skeleton"].layers["svg"]
-    )
-    drawn = {"offset": offset_layers.LAYERS, "shape": polygon_layers.SHAPE_LAYERS}
-    assert {**drawn, **dict.fromkeys(["points", "transects"], skeleton_point_layers.LAYERS)} == {
-        what: PRODUCTS["skeleton-exact"][what].layers["svg"] for what in DERIVED
-    }
 
 
 @pytest.mark.parametrize("side", ["interior", "exterior", "both"])
@@ -93,7 +59,7 @@ def test_inputs(run, folder, name, data):
     (folder / name).write_bytes(data)
     done = run("skeleton-exact", name, "-f", "csv", "-q")
     assert done.code == 0
-    assert len(rows_of(done.out)) == 4
+    assert len(done.rows) == 4
 
 
 def test_statistics_do_not_depend_on_threads(run, folder):
@@ -134,9 +100,9 @@ def test_degrees_are_a_warning(run):
 def test_an_open_line_has_no_inside(run, folder):
     (folder / "a.wkt").write_text("LINESTRING (0 0, 4 0, 4 4)")
     done = run("skeleton-exact", "a.wkt", "-f", "csv")
-    assert (done.code, len(rows_of(done.out))) == (0, 0)
+    assert (done.code, len(done.rows)) == (0, 0)
     assert "use --side exterior" in done.err
-    rows = rows_of(run("skeleton-exact", "a.wkt", "--side", "exterior", "-f", "csv").out)
+    rows = run("skeleton-exact", "a.wkt", "--side", "exterior", "-f", "csv").rows
     assert {row["branch"] for row in rows} == {"0"}
 
 
@@ -229,30 +195,10 @@ def test_png_has_the_width(run, folder):
     assert run("skeleton-exact", SHAPES, "-o", "a.png", "--max-pixels", "1000").code == 5
 
 
-def test_draw_draws_the_same(run, folder):
-    for fmt in ("svg", "png"):
-        assert run("skeleton-exact", SHAPES, "-o", f"a.{fmt}").code == 0
-        assert run("skeleton-exact", SHAPES, "-o", "a.json").code == 0
-        assert run("draw", "a.json", "-o", f"b.{fmt}").code == 0
-        assert (folder / f"a.{fmt}").read_bytes() == (folder / f"b.{fmt}").read_bytes()
-    assert run("draw", "a.json", "--layers", "cells", "-o", "c.svg").code == 2
-    assert run("draw", "a.json", "--page", "1", "-o", "c.svg").code == 2
-    (folder / "broken.json").write_text((folder / "a.json").read_text()[:-50])
-    done = run("draw", "broken.json", "-o", "c.svg")
-    assert (done.code, "broken.json" in done.err) == (3, True)
-
-
-def test_threads_change_nothing(run, folder):
-    for threads in ("1", "3"):
-        done = run("skeleton-exact", DATA / "ne_110m_land.geojson", "-q", "--threads", threads, "-o", f"{threads}.json")
-        assert done.code == 0
-    assert (folder / "1.json").read_bytes() == (folder / "3.json").read_bytes()
-
-
 def test_frames_cut(run):
     done = run("skeleton-exact", SHAPES, "--side", "exterior", "--frame", "0,0,400,200", "-f", "csv", "--verify")
     assert done.code == 0
-    xs = [float(row["x1"]) for row in rows_of(done.out)]
+    xs = [float(row["x1"]) for row in done.rows]
     assert 0 <= min(xs) <= max(xs) <= 400
 
 
@@ -262,7 +208,7 @@ def test_features_are_separate_unless_they_are_together(run, folder):
     }
     (folder / "nested.json").write_text(json.dumps(nested))
     arguments = ("skeleton-exact", "nested.json", "--what", "table", "--strict", "--verify")
-    rows = [list(csv.DictReader(io.StringIO(run(*arguments, *more).out))) for more in ((), ("--features", "together"))]
+    rows = [run(*arguments, *more).rows for more in ((), ("--features", "together"))]
     assert [[row["ends"] for row in table] for table in rows] == [["4", "3"], ["7", "0"]]
     drawn = run("skeleton-exact", "nested.json", "-f", "svg", "--layers", "polygons").out
     assert drawn.count("<path") == 2

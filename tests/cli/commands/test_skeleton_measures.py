@@ -1,7 +1,5 @@
 """What skeleton commands measure: offset curves, shapes rebuilt, places along branches, transects, and graphs."""
 
-import csv
-import io
 import json
 import re
 from pathlib import Path
@@ -13,21 +11,18 @@ import shapely
 from PIL import Image
 
 import vorotool
+from support.readers.written import rows_of
 
 DATA = Path(__file__).parents[3] / "data"
 SHAPES, CELLS = DATA / "two-shapes.json", DATA / "cells.png"
 COMMANDS = {"skeleton-exact": [], "skeleton-approx": ["--tolerance", "0.1"]}
 
 
-def rows_of(text):
-    return list(csv.DictReader(io.StringIO(text)))
-
-
 @pytest.mark.parametrize("command", COMMANDS)
 def test_offsets_of_several_distances(run, command):
     done = run(command, SHAPES, *COMMANDS[command], "--what", "offset", "-d", "-20,5", "-f", "csv", "--verify")
     assert (done.code, done.err) == (0, "")
-    rows = rows_of(done.out)
+    rows = done.rows
     expected = vorotool.offset(vorotool.read(SHAPES), [-20, 5])
     assert [float(row["x0"]) for row in rows] == expected.start[:, 0].tolist()
     assert {float(row["distance"]) for row in rows} == {-20, 5}
@@ -87,14 +82,14 @@ def wkt_of(run, polygons):
 @pytest.mark.parametrize("command", COMMANDS)
 def test_points_and_transects(run, command):
     options = [*COMMANDS[command], "--prune", "angle=90", "--every", "7", "-f", "csv"]
-    rows = rows_of(run(command, SHAPES, "--what", "points", *options).out)
+    rows = run(command, SHAPES, "--what", "points", *options).rows
     assert {float(row["along"]) % 7 for row in rows} == {0}
     for row in rows:
         x, y, r, *feet = (float(row[name]) for name in ("x", "y", "r", "x_a", "y_a", "x_b", "y_b"))
         assert [np.hypot(feet[0] - x, feet[1] - y), np.hypot(feet[2] - x, feet[3] - y)] == pytest.approx(
             [r, r], abs=0.5
         )
-    spans = rows_of(run(command, SHAPES, "--what", "transects", *options).out)
+    spans = run(command, SHAPES, "--what", "transects", *options).rows
     assert spans == [row for row in rows if (row["x_a"], row["y_a"]) != (row["x_b"], row["y_b"])]
 
 

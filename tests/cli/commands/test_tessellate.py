@@ -169,17 +169,6 @@ def test_stats_of_the_propagation_name_the_first_wrong_pixel(run, folder):
     assert run("tessellate", "three.csv", *options, "--verify").code == 1
 
 
-def test_the_same_bytes_for_any_threads(run, folder):
-    rng = np.random.default_rng(0)
-    np.savetxt(folder / "many.csv", rng.integers(0, 600, (500, 2)), fmt="%d", delimiter=",")
-    for what, extension in [("labels", "png"), ("labels", "tif"), ("table", "csv"), ("colour", "png")]:
-        for threads in (1, 2, 3):
-            done = run("tessellate", "many.csv", "--what", what, "-o", f"{threads}.{extension}", "--threads", threads)
-            assert done.code == 0
-        one, two, three = ((folder / f"{k}.{extension}").read_bytes() for k in (1, 2, 3))
-        assert one == two == three
-
-
 def test_window_and_distance(run, folder):
     done = run("tessellate", "dots.csv", "--window", "-2,-1,9,5", "--max-distance", "2.5", "-f", "text")
     right = nearest_labels(X, Y, [1, 2, 3], (-2, -1, 9, 5), most_squared=6.25)
@@ -195,12 +184,6 @@ def test_labels_of_a_column_are_kept(run, folder):
     assert done.code == 5
     assert "16-bit PNG" in done.err
     assert run("tessellate", "own.csv", "-o", "own.tif").code == 0
-
-
-@pytest.mark.parametrize(("what", "fmt"), [(what, fmt) for what, formats in FORMATS.items() for fmt in formats])
-def test_every_result_is_written_in_every_format(run, folder, what, fmt):
-    assert run("tessellate", "dots.csv", "--what", what, "-f", fmt, "-o", f"made.{fmt}").code == 0
-    assert (folder / f"made.{fmt}").exists()
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,5 @@
 """``--pixel-size``: what is written is what a larger input gives, byte by byte where the factor is a power of two."""
 
-import csv
-import io
 import json
 
 import numpy as np
@@ -100,10 +98,7 @@ KEPT = {
 )  # fmt: skip
 def test_columns_are_scaled_by_what_they_are(run, tmp_path, options):
     source = write_inputs(tmp_path / "in", "delaunay", 1)
-    plain, scaled = (
-        list(csv.DictReader(io.StringIO(run(*options.split(), source, "-q", *more).out)))
-        for more in ([], ["--pixel-size", "0.325 µm"])
-    )
+    plain, scaled = (run(*options.split(), source, "-q", *more).rows for more in ([], ["--pixel-size", "0.325 µm"]))
     assert len(plain) == len(scaled) > 0
     for name in plain[0]:
         before, after = ([row[name] for row in rows] for rows in (plain, scaled))
@@ -121,7 +116,7 @@ def test_columns_are_scaled_by_what_they_are(run, tmp_path, options):
 def test_objects_of_an_image(run, tmp_path):
     (tmp_path / "mask.pbm").write_text("P1\n5 4\n1 1 0 0 0\n0 0 0 0 0\n0 0 0 0 1\n0 0 0 1 1\n")
     done = run("tessellate", "mask.pbm", "--what", "table", "--pixel-size", "0.5mm", "-q", "--stats", "s.json")
-    assert [row["object_area"] for row in csv.DictReader(io.StringIO(done.out))] == ["0.5", "0.75"]
+    assert [row["object_area"] for row in done.rows] == ["0.5", "0.75"]
     stats = json.loads((tmp_path / "s.json").read_text())
     assert (stats["pixel_size"], stats["unit"]) == (0.5, "mm")
 

@@ -1,12 +1,11 @@
 """What one command writes to a pipe another reads from it: the same as through a file."""
 
-import os
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+
+from support.processes.ended import ended_bash
 
 DATA = Path(__file__).parents[3] / "data"
 
@@ -39,14 +38,7 @@ def test_a_pipe_is_as_good_as_a_file(run, tmp_path, name):
         f"vorotool {first} -q -f {forms.get(between, between)} -o - | "
         f"vorotool {second.replace('IN', '-')} -q -f {fmt} -o - > piped"
     )
-    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    done = subprocess.run(
-        ["bash", "-o", "pipefail", "-c", command],
-        env={**os.environ, "PATH": path},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = ended_bash(command, tmp_path)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
     assert Path("piped").read_bytes() == Path(f"expected.{fmt}").read_bytes()
     assert Path("piped").stat().st_size > 100

@@ -1,7 +1,6 @@
 """Pipes and descriptors on both sides of every command: a smoke of `tests/fuzz/streams.py`, and what is said."""
 
 import os
-import subprocess
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -10,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from support.families.stream_cases import CASES, INPUTS, OUTPUTS, Expected, fault
+from support.processes.ended import ended_bash
 from support.processes.leftovers import leftovers
 
 COMMANDS = sorted({case.command for case in CASES})
@@ -57,9 +57,7 @@ def test_streams_are_as_good_as_files(expected, tmp_path, command):
 def bash(folder, line):
     """Run a line of a shell; V is the command."""
     script = f'V() {{ "{sys.executable}" -m vorotool "$@"; }}\n{line}'
-    return subprocess.run(
-        ["bash", "-o", "pipefail", "-c", script], cwd=folder, capture_output=True, timeout=60, check=False
-    )
+    return ended_bash(script, folder, text=False)
 
 
 TABLE = "V tessellate dots.csv -q --what table"

@@ -2,12 +2,12 @@
 
 import json
 import signal
-import time
 
 import numpy as np
 import pytest
 import tifffile
 
+from support.processes.leftovers import contents, wait_until
 from support.processes.peak_memory import peak_memory
 from vorotool.engines.tessellation.tessellate import tessellate
 from vorotool.engines.tessellation.tessellator import Tessellator
@@ -22,10 +22,6 @@ def seeds(tmp_path):
     xy = np.random.default_rng(5).integers(-20, 420, (300, 2))
     np.savetxt(tmp_path / "seeds.csv", xy, fmt="%d", delimiter=",", header="x,y", comments="")
     return xy
-
-
-def files(folder):
-    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
 
 
 def pixels(folder):
@@ -54,7 +50,7 @@ def test_bytes_depend_on_chunks_alone(run, tmp_path, seeds, monkeypatch):
     make(run, "b.zarr", *options, "--threads", "3")
     monkeypatch.setenv("VOROTOOL_SIMD", "portable")
     make(run, "b.zarr", *options)  # replaces it
-    assert files(tmp_path / "a.zarr") == files(tmp_path / "b.zarr")
+    assert contents(tmp_path / "a.zarr") == contents(tmp_path / "b.zarr")
     assert pixels(tmp_path / "a.zarr").dtype == np.int32
 
 
@@ -78,7 +74,7 @@ def test_many_inputs_give_many_stores(run, tmp_path, seeds):
         (tmp_path / f"in/{name}.csv").write_bytes((tmp_path / "seeds.csv").read_bytes())
     options = ("tessellate", "in", "--size", "400x300", "--out-dir", "out", "-f", "zarr", "-q")
     assert run(*options).code == 0
-    assert files(tmp_path / "out/a.zarr") == files(tmp_path / "out/b.zarr")
+    assert contents(tmp_path / "out/a.zarr") == contents(tmp_path / "out/b.zarr")
     (tmp_path / "out/b.zarr/zarr.json").write_text("{}")
     assert run(*options, "--resume", "--dry-run").out.count("kept") == 1
 
@@ -113,11 +109,7 @@ def test_memory_is_that_of_a_row_of_chunks(tmp_path):
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_an_interrupt_leaves_nothing(process, tmp_path, seeds, number, code):
     child = process("tessellate", "seeds.csv", "--size", "40000x400000", "-o", "a.zarr", "--chunk", "2048x64")
-    deadline = time.monotonic() + 60
-    while len(list(tmp_path.glob(".vorotool-*.tmp/c/*"))) < 3:
-        assert child.poll() is None
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
+    wait_until(lambda: len(list(tmp_path.glob(".vorotool-*.tmp/c/*"))) >= 3, child)
     child.send_signal(number)
     out, err = child.communicate(timeout=20)
     assert (child.returncode, out, err) == (code, b"", b"")
@@ -126,7 +118,7 @@ def test_an_interrupt_leaves_nothing(process, tmp_path, seeds, number, code):
 
 def test_a_failure_leaves_the_older_store(run, tmp_path, seeds, monkeypatch):
     make(run, "a.zarr")
-    before = files(tmp_path / "a.zarr")
+    before = contents(tmp_path / "a.zarr")
     rows = Tessellator.labels
 
     def fail(self, first=0, *arguments, **options):
@@ -138,7 +130,7 @@ def test_a_failure_leaves_the_older_store(run, tmp_path, seeds, monkeypatch):
     failed = run("tessellate", "seeds.csv", "--size", "400x300", "-o", "a.zarr", "--chunk", "64x64")
     assert failed.code == 4
     assert "a.zarr cannot be written: No space left on device; free some space" in failed.err
-    assert files(tmp_path / "a.zarr") == before
+    assert contents(tmp_path / "a.zarr") == before
     assert sorted(path.name for path in tmp_path.iterdir()) == ["a.zarr", "seeds.csv"]
 
 

@@ -13,6 +13,8 @@ import vorotool
 from support.families.alpha_cases import quietly
 from support.families.point_families import FAMILIES, draw
 from support.oracles.alpha_oracle import alpha_edges, rounded_root
+from support.processes.heard_signals import stop
+from support.readers.written import assert_same
 from vorotool import alpha_complex
 from vorotool.geometry.alpha.complex import CLASSES, classes_of
 
@@ -127,8 +129,7 @@ def test_threads_change_nothing(name):
     one = quietly(points, threads=1)
     for threads in (2, 5):
         other = quietly(points, threads=threads)
-        for array in ARRAYS:
-            np.testing.assert_array_equal(getattr(one, array), getattr(other, array))
+        assert_same(ARRAYS, one, other)
 
 
 @families
@@ -136,8 +137,7 @@ def test_permuting_the_points_permutes_their_numbers_only(name):
     points = draw(name, 200, 5)
     order = np.random.default_rng(6).permutation(len(points))
     family, other = quietly(points), quietly(points[order])
-    for array in ARRAYS[2:]:
-        np.testing.assert_array_equal(getattr(other, array), getattr(family, array))
+    assert_same(ARRAYS[2:], other, family)
 
 
 @pytest.mark.parametrize("name", ["uniform", "small_lattice", "grid", "exact_circle", "by_ulps", "clustered"])
@@ -214,9 +214,6 @@ def test_agreement_with_gudhi():
 
 
 def test_progress_can_stop_it():
-    def stop(fraction):
-        raise KeyboardInterrupt
-
     mesh = vorotool.delaunay(draw("uniform", 300_000, 0))
     with pytest.raises(KeyboardInterrupt):
         alpha_complex(mesh, threads=1, progress=stop)

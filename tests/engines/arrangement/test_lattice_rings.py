@@ -14,8 +14,7 @@ from vorotool.geometry.skeleton.skeleton import EDGE, Skeleton
 
 
 def graph_of(shape):
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", VorotoolWarning)
+    with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
         return planar_graph(shape)
 
 

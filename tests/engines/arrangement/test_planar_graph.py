@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 import shapely
 
+from support.processes.heard_signals import stop
+from support.readers.written import assert_same
 from vorotool import (
     InputError,
     LimitError,
@@ -188,8 +190,7 @@ def test_natural_earth(name):
 def test_threads_change_nothing():
     ring = np.random.default_rng(1).normal(size=(70_000, 2)).cumsum(axis=0)[::700]
     one, three = (quietly(ring, threads=threads)[0] for threads in (1, 3))
-    for name in ("points", "segments", "segment_faces", "face_polygon", "source_edge"):
-        np.testing.assert_array_equal(getattr(one, name), getattr(three, name))
+    assert_same(("points", "segments", "segment_faces", "face_polygon", "source_edge"), one, three)
 
 
 def test_progress_and_interruption():
@@ -198,9 +199,6 @@ def test_progress_and_interruption():
     with pytest.warns(VorotoolWarning):
         planar_graph(ring, progress=seen.append)
     assert all(0 <= fraction <= 1 for fraction in seen)
-
-    def stop(_):
-        raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
         planar_graph(np.tile(ring, (20, 1)), progress=stop)

@@ -18,8 +18,7 @@ SQUARE = [[0, 0], [8, 0], [8, 8], [0, 8]]
 
 
 def both(source):
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         graph = planar_graph(source)
     used = repaired_polygons(graph)
     check(graph, used)

@@ -278,8 +278,7 @@ def test_centerlines_stay_inside():
     for polygon, skeleton in random_skeletons(60):
         shape = shapely.Polygon(polygon).buffer(1e-6)
         for kind in ("middle", "corner", "none"):
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore", VorotoolWarning)
+            with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
                 line = vorotool.centerline(skeleton, ends=kind)
             assert all(shape.contains(shapely.LineString(line.flattened(1e-9)[0])) for _ in range(len(line)))
 

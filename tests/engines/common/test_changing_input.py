@@ -1,9 +1,8 @@
 """Arrays that another thread writes to while an engine reads them: it ends, and what it made is right for something."""
 
-import subprocess
-import sys
-
 import pytest
+
+from support.processes.ended import ended_python
 
 MUTATED = """
 import threading
@@ -53,6 +52,5 @@ SEEDS = {
 )
 def test_an_engine_ends_whatever_becomes_of_its_input(parts, work):
     program = MUTATED.format(work=work, **parts)
-    options = ["-W", "ignore", "-X", "faulthandler", "-c", program]
-    done = subprocess.run([sys.executable, *options], capture_output=True, text=True, timeout=120, check=False)
+    done = ended_python("-W", "ignore", "-X", "faulthandler", "-c", program)
     assert done.stdout == "done\n", done.stderr[-2000:]

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 import vorotool
 from support.families.point_families import FAMILIES, draw
 from support.oracles.cells_oracle import exact_cells, nearest_double
+from support.processes.heard_signals import stop
 from vorotool import Box, InputError, VerificationError, VorotoolWarning, _core, delaunay, verify_cells, voronoi_cells
 
 families = pytest.mark.parametrize("name", FAMILIES)
@@ -19,8 +20,7 @@ families = pytest.mark.parametrize("name", FAMILIES)
 
 def quietly(points, **options):
     """The cells, checked; duplicates are expected."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", VorotoolWarning)
+    with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
         cells = voronoi_cells(points, **options)
     if "clip" not in options:
         verify_cells(cells, threads=1)
@@ -320,9 +320,6 @@ def test_the_checker_finds_faults():
 def test_interrupts_reach_the_kernel():
     """The monitor is asked every 50 ms."""
     mesh = delaunay(draw("uniform", 500_000, 1))
-
-    def stop(_fraction):
-        raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
         voronoi_cells(mesh, threads=1, progress=stop)

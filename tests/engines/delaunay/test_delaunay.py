@@ -13,6 +13,8 @@ from scipy.spatial import Delaunay
 import vorotool
 from support.families.point_families import FAMILIES, draw
 from support.oracles.delaunay_oracle import delaunay_triangles
+from support.processes.heard_signals import stop
+from support.readers.written import assert_same
 from vorotool import InputError, PointSet, VorotoolWarning, delaunay, verify_triangulation
 
 ARRAYS = ("triangles", "neighbours", "edges", "hull", "first")
@@ -21,8 +23,7 @@ families = pytest.mark.parametrize("name", FAMILIES)
 
 def quietly(points, **options):
     """The triangulation, checked; duplicates are expected."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", VorotoolWarning)
+    with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
         mesh = delaunay(points, **options)
     verify_triangulation(mesh)
     return mesh
@@ -74,8 +75,7 @@ def test_threads_change_nothing(name):
     one = quietly(points, threads=1)
     for threads in (2, 3, 4, 5):
         other = quietly(points, threads=threads)
-        for array in ARRAYS:
-            np.testing.assert_array_equal(getattr(one, array), getattr(other, array))
+        assert_same(ARRAYS, one, other)
 
 
 @families
@@ -116,8 +116,7 @@ def test_powers_of_two(name):
         scaled = np.ldexp(points, exponent)
         assert (np.ldexp(scaled, -exponent) == points).all()
         other = quietly(scaled)
-        for array in ARRAYS:
-            np.testing.assert_array_equal(getattr(other, array), getattr(mesh, array))
+        assert_same(ARRAYS, other, mesh)
 
 
 lattice = st.lists(st.tuples(st.integers(-4, 4), st.integers(-4, 4)), max_size=12)
@@ -225,9 +224,6 @@ def test_duplicates_are_counted():
 
 
 def test_progress_can_stop_it():
-    def stop(fraction):
-        raise KeyboardInterrupt
-
     points = draw("uniform", 1_000_000, 0)
     with pytest.raises(KeyboardInterrupt):
         delaunay(points, threads=1, progress=stop)
@@ -237,5 +233,4 @@ def test_a_mesh_is_not_changed_by_the_checker():
     mesh = quietly(draw("grid", 200, 0))
     copy = replace(mesh, **{array: getattr(mesh, array).copy() for array in ARRAYS})
     verify_triangulation(mesh, threads=3)
-    for array in ARRAYS:
-        np.testing.assert_array_equal(getattr(mesh, array), getattr(copy, array))
+    assert_same(ARRAYS, mesh, copy)

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from support.families.point_families import FAMILIES, draw
+from support.readers.written import assert_same
 from vorotool import InputError, PointSet, VorotoolWarning, _core, delaunay, insert_points, verify_triangulation
 from vorotool.engines.delaunay import insertion
 
@@ -18,8 +19,7 @@ families = pytest.mark.parametrize("name", FAMILIES)
 
 @pytest.fixture(autouse=True)
 def duplicates_are_expected():
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", VorotoolWarning)
+    with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
         yield
 
 
@@ -31,8 +31,7 @@ def check(points, count, **options):
     verify_triangulation(made)
     right = delaunay(points)
     np.testing.assert_array_equal(made.points, right.points)
-    for array in ARRAYS:
-        np.testing.assert_array_equal(getattr(made, array), getattr(right, array), err_msg=array)
+    assert_same(ARRAYS, made, right)
     return before, made
 
 
@@ -115,8 +114,7 @@ def test_one_after_the_other():
         mesh = insert_points(mesh, points[k : k + 1])
         verify_triangulation(mesh)
     right = delaunay(points)
-    for array in ARRAYS:
-        np.testing.assert_array_equal(getattr(mesh, array), getattr(right, array))
+    assert_same(ARRAYS, mesh, right)
 
 
 def test_hints_change_nothing(always_local):

@@ -9,16 +9,12 @@ import pytest
 import shapely
 
 import vorotool
+from support.families.families import distinct_pixels
 from support.oracles.delaunay_oracle import circle, cross
 from support.oracles.digital_oracle import edge_is_delaunay, paper_rule, parts
 from vorotool import InputError, LimitError, compare_digital, delaunay
 from vorotool.engines.delaunay.cocircular_ties import CocircularTies
 from vorotool.engines.delaunay.voronoi_edges import voronoi_lengths
-
-
-def random_seeds(seed, m, n):
-    rng = np.random.default_rng(seed)
-    return np.stack(np.divmod(rng.choice(m * m, n, replace=False), m)[::-1], axis=1)
 
 
 def rational(seeds):
@@ -39,7 +35,7 @@ def triangle_is_delaunay(sites, triangle):
 @pytest.mark.parametrize("seed", range(30))
 def test_ties_by_the_definition(seed):
     m = (4, 5, 6, 9, 40)[seed % 5]  # small lattices: nearly everything is cocircular
-    seeds = random_seeds(seed, m, min(m * m, 10))
+    seeds = distinct_pixels(seed, m, min(m * m, 10))
     sites = rational(seeds)
     mesh = delaunay(seeds)
     ties = CocircularTies(mesh)
@@ -56,7 +52,7 @@ def test_ties_by_the_definition(seed):
 @pytest.mark.parametrize("seed", range(12))
 def test_precision_and_recall_by_the_definition(seed):
     m = (6, 9, 14, 20)[seed % 4]
-    seeds = random_seeds(seed, m, 10)
+    seeds = distinct_pixels(seed, m, 10)
     sites = rational(seeds)
     image = vorotool.tessellate(seeds, shape=(m, m)).labels
     found = [{tuple(v - 1 for v in members) for members in kind} for kind in paper_rule(image)]
@@ -80,10 +76,10 @@ def test_precision_and_recall_by_the_definition(seed):
         assert not rows["tie"] & (every | (have - some))
 
 
-def test_the_table_of_random_seeds():
+def test_the_table_of_distinct_pixels():
     """Means over a few draws of what docs/errata.md tells: the losses are at the frame, not inside."""
     for m, n, draws, expected in ((256, 53, 12, (0.997, 0.91, 0.98, 0.85)), (512, 500, 4, (0.996, 0.95, 0.97, 0.93))):
-        comparisons = [compare_digital(random_seeds(s, m, n), shape=(m, m)) for s in range(draws)]
+        comparisons = [compare_digital(distinct_pixels(s, m, n), shape=(m, m)) for s in range(draws)]
         names = ("edge_precision", "edge_recall", "triangle_precision", "triangle_recall")
         means = [np.mean([getattr(c, name) for c in comparisons]) for name in names]
         np.testing.assert_allclose(means, expected, atol=0.03)
@@ -95,7 +91,7 @@ def test_the_table_of_random_seeds():
 def test_every_difference_has_a_cause():
     counts = Counter()
     for seed in range(30):
-        counts.update(compare_digital(random_seeds(seed, 64, 150), shape=(64, 64)).counts)
+        counts.update(compare_digital(distinct_pixels(seed, 64, 150), shape=(64, 64)).counts)
     causes = {name.split()[2] for name in counts}
     assert causes == {"off_frame", "four_labels", "short_edge", "split_region", "cocircular"}
 
@@ -126,7 +122,7 @@ def test_cocircular_seeds_are_no_difference_that_counts():
 
 
 def test_a_suggested_window_shows_more():
-    seeds = random_seeds(7, 100, 60)
+    seeds = distinct_pixels(7, 100, 60)
     comparison = compare_digital(seeds, shape=(100, 100))
     window = tuple(map(int, comparison.suggestion.split("--window ")[1].split()[0].split(",")))
     wider = compare_digital(seeds, window=window)
@@ -137,7 +133,7 @@ def test_a_suggested_window_shows_more():
 
 
 def test_lengths_of_voronoi_edges():
-    seeds = random_seeds(3, 50, 40).astype(float)
+    seeds = distinct_pixels(3, 50, 40).astype(float)
     mesh = delaunay(seeds)
     centres = mesh.circumcentres()
     low, high = np.array([0.0, 0.0]), np.array([49.0, 49.0])

@@ -1,10 +1,7 @@
 from __future__ import annotations
 
-import subprocess
-import sys
 import warnings
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,8 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import vorotool
-from support.families.families import random_case
+from support.families.families import distinct_pixels, random_case
 from support.oracles.digital_oracle import paper_rule
+from support.processes.heard_signals import stop
+from support.readers.written import assert_same
 from vorotool import (
     InputError,
     LabelImage,
@@ -41,16 +40,6 @@ def as_sets(found):
     labels = found.labels
     edges = {tuple(labels[e].tolist()) for e in found.edges}
     return edges, {tuple(sorted(labels[t].tolist())) for t in found.triangles}
-
-
-def random_seeds(seed, m, n):
-    rng = np.random.default_rng(seed)
-    return np.stack(np.divmod(rng.choice(m * m, n, replace=False), m)[::-1], axis=1)
-
-
-def assert_same(mesh, expected):
-    for name in ARRAYS:
-        np.testing.assert_array_equal(getattr(mesh, name), getattr(expected, name), err_msg=name)
 
 
 # ---- the paper's rule -----------------------------------------------------------------------------------
@@ -86,7 +75,7 @@ def test_a_fourth_label_of_background_is_none():
 
 
 def test_triangles_turn_counter_clockwise():
-    found = digital_triangulation(random_seeds(1, 200, 300), shape=(200, 200))
+    found = digital_triangulation(distinct_pixels(1, 200, 300), shape=(200, 200))
     signs = _core.kernel.orient2d(np.ascontiguousarray(found.points[found.triangles]))
     assert (signs >= 0).all()
     assert (found.triangles[:, 0] == found.triangles.min(axis=1)).all()
@@ -94,13 +83,12 @@ def test_triangles_turn_counter_clockwise():
 
 @pytest.mark.parametrize("pixels", [1, 700, 5000])
 def test_bands_and_threads_change_nothing(pixels, monkeypatch):
-    seeds = random_seeds(2, 150, 400)
+    seeds = distinct_pixels(2, 150, 400)
     whole = digital_triangulation(LabelImage(vorotool.tessellate(seeds, shape=(150, 150)).labels))
     monkeypatch.setattr(digital, "BAND_PIXELS", pixels)
     for threads in (1, 3):
         found = digital_triangulation(seeds, shape=(150, 150), threads=threads)
-        for name in ("edges", "triangles", "at_four"):
-            np.testing.assert_array_equal(getattr(found, name), getattr(whole, name))
+        assert_same(("edges", "triangles", "at_four"), found, whole)
         assert found.four_label_corners == whole.four_label_corners
         assert found.three_label_corners == whole.three_label_corners
 
@@ -157,13 +145,12 @@ def test_the_checker_agrees(case, monkeypatch):
     _, x, y, labels, scale, window = random_case(np.random.default_rng(case), 40)
     seeds = SeedSet(x, y, labels, scale=scale)
     monkeypatch.setattr(digital, "BAND_PIXELS", 300)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", VorotoolWarning)
+    with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
         verify_digital_triangulation(digital_triangulation(seeds, window=window), seeds, window=window)
 
 
 def test_the_checker_sees_faults():
-    seeds = random_seeds(4, 60, 40)
+    seeds = distinct_pixels(4, 60, 40)
     found = digital_triangulation(seeds, shape=(60, 60))
     a, b, c = np.sort(found.labels[found.triangles[3]]).tolist()
     faults = {
@@ -195,10 +182,10 @@ def far_label(found):
 def test_the_repair_is_the_exact_triangulation(seed):
     m = (64, 64, 64, 128, 256)[seed % 5]
     rng = np.random.default_rng(seed)
-    seeds = random_seeds(seed, m, int(rng.integers(3, m * m // 20 + 1)))
+    seeds = distinct_pixels(seed, m, int(rng.integers(3, m * m // 20 + 1)))
     mesh, repair = repair_digital(seeds, shape=(m, m), threads=1)
     verify_triangulation(mesh)
-    assert_same(mesh, delaunay(seeds))
+    assert_same(ARRAYS, mesh, delaunay(seeds))
     assert repair.route == "repaired"
     assert repair.fault is None
 
@@ -210,7 +197,7 @@ def test_crowds_and_ties(width, height, n, seed):
     pixels = np.random.default_rng(seed).permutation(width * height)[:n]
     seeds = np.stack(np.divmod(pixels, width)[::-1], axis=1)
     mesh, repair = repair_digital(seeds, shape=(height, width))
-    assert_same(mesh, delaunay(seeds))
+    assert_same(ARRAYS, mesh, delaunay(seeds))
     assert repair.route != "rebuilt"
 
 
@@ -225,7 +212,7 @@ def test_any_seeds_have_the_exact_triangulation(case):
         mesh, repair = repair_digital(seeds, window=window)
         expected = delaunay(seeds)
     verify_triangulation(mesh)
-    assert_same(mesh, expected)
+    assert_same(ARRAYS, mesh, expected)
     assert any("could not be repaired" in str(w.message) for w in caught) == (repair.route == "rebuilt")
 
 
@@ -242,14 +229,13 @@ def test_insertion_alone_is_exact():
 def test_equal_codes_of_the_curve_get_equal_numbers():
     """Points so close that the curve cannot tell them apart, beside a distant one."""
     seeds = np.concatenate([np.array([[k % 7, k // 7] for k in range(49)]) + 0.25, [[300000.0, 0.0]]])
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", VorotoolWarning)
-        assert_same(digital_delaunay(seeds, shape=(9, 9)), delaunay(seeds))
+    with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
+        assert_same(ARRAYS, digital_delaunay(seeds, shape=(9, 9)), delaunay(seeds))
 
 
 def test_threads_change_nothing():
-    seeds = random_seeds(5, 300, 2000)
-    assert_same(digital_delaunay(seeds, shape=(300, 300), threads=3), digital_delaunay(seeds, threads=1))
+    seeds = distinct_pixels(5, 300, 2000)
+    assert_same(ARRAYS, digital_delaunay(seeds, shape=(300, 300), threads=3), digital_delaunay(seeds, threads=1))
 
 
 @pytest.mark.parametrize(
@@ -257,7 +243,7 @@ def test_threads_change_nothing():
 )
 def test_chains(seeds):
     mesh, repair = repair_digital(seeds)
-    assert_same(mesh, delaunay(seeds))
+    assert_same(ARRAYS, mesh, delaunay(seeds))
     assert (repair.route, len(mesh)) == ("chain", 0)
 
 
@@ -271,7 +257,7 @@ def test_each_step_is_needed():
     """Seeds for each step of the repair; without it the result would not be this."""
     needed = dict.fromkeys(("split_regions", "four_label_corners", "twins", "straightened", "filled", "flipped"), 0)
     for seed in range(40):
-        _, repair = repair_digital(random_seeds(seed, 64, 204), shape=(64, 64))
+        _, repair = repair_digital(distinct_pixels(seed, 64, 204), shape=(64, 64))
         for name in needed:
             needed[name] += getattr(repair, name) > 0
         assert repair.inserted == repair.twins
@@ -287,7 +273,7 @@ def test_a_failed_certificate_is_said(monkeypatch):
         mesh, repair = repair_digital([[0, 0], [5, 1], [2, 6], [3, 3]])
     monkeypatch.undo()
     assert (repair.route, repair.inserted) == ("rebuilt", 4)
-    assert_same(mesh, delaunay([[0, 0], [5, 1], [2, 6], [3, 3]]))
+    assert_same(ARRAYS, mesh, delaunay([[0, 0], [5, 1], [2, 6], [3, 3]]))
 
 
 def test_regions_that_are_no_points_are_refused():
@@ -300,27 +286,15 @@ def test_regions_that_are_no_points_are_refused():
         repair_digital([[0, 0], [5, 5], [5, 5]], strict=True)
 
 
-def test_the_long_comparison():
-    """A few sets of what `make fuzz` does with 500."""
-    script = Path(__file__).parents[2] / "fuzz" / "digital.py"
-    command = [sys.executable, script, "--sets", "12", "--seed", "3"]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert "0 failures" in done.stdout
-
-
 def test_labels_in_any_order():
     points = vorotool.PointSet([[6, 1], [1, 1], [2, 6], [3, 3]], labels=[30, 20, 10, 40])
     seeds = vorotool.seeds_from_points(points)
     mesh = digital_delaunay(points)
-    assert_same(mesh, delaunay(seeds))
+    assert_same(ARRAYS, mesh, delaunay(seeds))
     assert mesh.labels.tolist() == [10, 20, 30, 40]
 
 
 def test_an_interrupt_stops_the_repair():
-    def stop(_):
-        raise KeyboardInterrupt
-
-    seeds = random_seeds(6, 2048, 200_000)
+    seeds = distinct_pixels(6, 2048, 200_000)
     with pytest.raises(KeyboardInterrupt):
         repair_digital(seeds, shape=(2048, 2048), progress=stop)

@@ -13,8 +13,7 @@ from vorotool.geometry.polygons.conversion import to_shapely
 
 
 def skeleton_of(shape):
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         return vorotool.skeleton_exact(shape)
 
 

@@ -10,6 +10,7 @@ import pytest
 import vorotool
 from fuzz.pruning import failure
 from support.families.skeleton_shapes import FAMILIES
+from support.readers.written import differing
 from vorotool.engines.pruning import pruning
 from vorotool.engines.pruning.pruning import independent_parts
 from vorotool.errors import UsageError
@@ -19,8 +20,7 @@ COMB = [[0, 0], [30, 0], [30, 6], [26, 6], [26, 12], [24, 12], [24, 6], [6, 6], 
 
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)
 def test_brute_force_agrees_and_results_are_nested(family):
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         for seed in range(2):
             random = np.random.default_rng(seed)
             assert failure(family(random), random) is None
@@ -44,11 +44,6 @@ def test_one_criterion_is_needed():
     for options in ({}, {"angle": 20, "scale": 1.5}, {"angle": 200}, {"scale": 0.5}, {"length": -1}):
         with pytest.raises(UsageError):
             vorotool.prune(whole, **options)
-
-
-def differing(one, other):
-    names = ("vertices", "radius", "arcs", "control", "sites", "polygon", "side", "branch", "length", "error_bound")
-    return [name for name in names if getattr(one, name).tobytes() != getattr(other, name).tobytes()]
 
 
 @pytest.mark.parametrize("criterion", ["angle", "chord", "scale", "length", "ratio"])

@@ -10,6 +10,7 @@ import vorotool
 from fuzz.skeleton_approx import failure
 from fuzz.skeleton_bounds import Shape, check_steps, check_tolerances, random_shapes
 from support.families.skeleton_shapes import FAMILIES, regular, under_symmetries
+from support.readers.written import assert_same
 from vorotool.engines.arrangement.lattice_rings import placed_shapes
 from vorotool.engines.arrangement.planar_graph import planar_graph
 from vorotool.engines.sampled_skeleton.approximate import SamplingOptions, approximate_skeleton, sampled_graph
@@ -23,8 +24,7 @@ SHAPES = random_shapes(np.random.default_rng(1))
 
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)
 def test_broken_shapes_pass_the_checker(family):
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         rng = np.random.default_rng(5)
         assert failure(family(rng), rng) is None
 
@@ -105,8 +105,7 @@ def test_steps_below_the_spacing_of_samples_are_refused(sampling, features):
 
 def test_results_do_not_depend_on_threads():
     one, two = (vorotool.skeleton_approx(SHAPES["holes 1"], step=7.0, threads=threads) for threads in (1, 2))
-    for name in ("vertices", "radius", "arcs", "sites", "error_bound"):
-        np.testing.assert_array_equal(getattr(one, name), getattr(two, name))
+    assert_same(("vertices", "radius", "arcs", "sites", "error_bound"), one, two)
 
 
 @pytest.mark.parametrize("options", [{}, {"step": 0}, {"step": -1.0}, {"tolerance": 0.0}, {"step": 1, "tolerance": 1}])

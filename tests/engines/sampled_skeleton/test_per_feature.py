@@ -53,8 +53,7 @@ def test_features_of_any_family_are_what_they_are_alone_in_any_order(family, mon
     count = int(shapes.feature.max())
     step = 0.02 * float(np.ptp(shapes.xy, axis=0).max())
     order = [*rng.permutation(count).tolist(), count]
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         made = vorotool.skeleton_approx(shapes, step=step)
         permuted = vorotool.skeleton_approx(chosen(shapes, order), step=step)
         for place, feature in enumerate(order[:-1][:8]):

@@ -8,13 +8,12 @@ import shapely
 
 import vorotool
 from support.families.skeleton_shapes import FAMILIES, TOUCHING
+from support.readers.written import differing
 from vorotool import _core
 from vorotool.engines.arrangement.lattice_rings import placed_shapes
 from vorotool.engines.arrangement.planar_graph import planar_graph
 from vorotool.engines.segment_voronoi.segment_voronoi import NEITHER, segment_voronoi, unwanted_sides
 from vorotool.engines.skeleton.exact import ShapeDiagram, shape_diagram, skeleton_of
-
-ARRAYS = ("vertices", "radius", "arcs", "control", "sites", "polygon", "side", "branch", "length")
 
 
 def contours(random):
@@ -27,8 +26,7 @@ SHAPES = (*FAMILIES, *TOUCHING, contours)
 
 
 def graphs(family):
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         for seed in range(12):
             graph = planar_graph(family(np.random.default_rng(seed)))
             is_joined = np.isin(np.arange(len(graph.points)), graph.segments).all()
@@ -44,8 +42,7 @@ def test_the_skeleton_inside_is_the_same(family):
         part = segment_voronoi(graph.points, graph.segments, unwanted=unwanted_sides(graph, graph.is_inside), threads=2)
         placed = placed_shapes(graph)
         expected, made = (skeleton_of(ShapeDiagram(graph, diagram, placed)) for diagram in (whole, part))
-        for name in ARRAYS:
-            assert getattr(made, name).tobytes() == getattr(expected, name).tobytes(), name
+        assert differing(made, expected) == []
         saved += len(whole.edges) - len(part.edges)
     assert saved > 0
 
@@ -81,8 +78,7 @@ def test_points_without_segments_are_outside():
 
 def test_a_line_of_one_place_may_be_inside():
     shape = shapely.GeometryCollection([shapely.box(0, 0, 8, 4), shapely.LineString([[3, 2], [3, 2]])])
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         made, whole = vorotool.skeleton_exact(shape), skeleton_of(shape_diagram(shape))
     assert 0 < len(made) == len(whole)
     assert made.vertices.tobytes() == whole.vertices.tobytes()

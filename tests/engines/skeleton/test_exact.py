@@ -24,8 +24,7 @@ SIDES = ("interior", "exterior", "both")
 
 def skeleton_of(shape, **options):
     """Compute a skeleton and check it; what is repaired is not told."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", VorotoolWarning)
+    with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
         made = vorotool.skeleton_exact(shape, **options)
     vorotool.verify_skeleton(made)
     return made
@@ -169,8 +168,7 @@ def test_random_shapes(family):
         shape = family(rng)
         for side in SIDES:
             skeleton_of(shape, side=side)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", VorotoolWarning)
+        with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
             verify_exterior(shape_diagram(shape))
 
 

@@ -13,8 +13,7 @@ SHAPE = {"shell": [[0, 0], [80, 0], [72, 60], [0, 56]], "holes": [[[20, 20], [20
 
 
 def quietly(make, *arguments, **options):
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", VorotoolWarning)  # the hole is cut off
+    with warnings.catch_warnings(action="ignore", category=VorotoolWarning):  # the hole is cut off
         return make([SHAPE], *arguments, **options)
 
 

@@ -17,8 +17,7 @@ SHAPE = as_polygons(
 
 def test_random_shapes_by_random_angles():
     worst = {}
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(action="ignore"):
         wrong = [failure(case, np.random.default_rng([1, case]), worst) for case in range(10)]
     assert set(wrong) <= {None, "repaired"}
     assert wrong.count(None) > 5

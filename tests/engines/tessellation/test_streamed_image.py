@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
+from support.processes.heard_signals import stop
 from vorotool.engines.tessellation.seeding import seeds_from_raster
 from vorotool.engines.tessellation.streamed_image import ObjectRows, StreamedImage
 from vorotool.engines.tessellation.tessellator import Tessellator
@@ -169,9 +170,6 @@ def test_progress_is_told_and_stops():
     image = StreamedImage(ObjectRows(mask), progress=told.append)
     image.band("labels", np.dtype(np.uint16), 10, 20).rows(progress=told.append)
     assert told == [1.0, 1.0]
-
-    def stop(_):
-        raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
         StreamedImage(ObjectRows(mask), progress=stop)

@@ -9,7 +9,7 @@ import tifffile
 from PIL import Image
 
 import vorotool
-from support.readers.sources import rows_of
+from support.readers.sources import bands_of
 from vorotool.errors import InputError, LimitError, UsageError
 
 zarr = pytest.importorskip("zarr")
@@ -24,7 +24,7 @@ def make(path, image=WORDS, **options):
 
 
 def check(path, expected, page=None):
-    rows = pickle.loads(pickle.dumps(rows_of(path, page=page)))
+    rows = pickle.loads(pickle.dumps(bands_of(path, page=page)))
     assert rows.shape == expected.shape
     for first, count in ((0, 70), (0, 1), (69, 1), (31, 2), (16, 40)):
         found = rows.rows(first, count)
@@ -64,7 +64,7 @@ def test_pages(tmp_path):
     tifffile.imwrite(tmp_path / "a.tif", np.stack([IMAGE, IMAGE + 1]).astype(np.uint8), photometric="minisblack")
     check(tmp_path / "a.tif", (IMAGE + 1).astype(np.uint8), page=1)
     with pytest.raises(InputError, match="2 pages"):
-        _ = rows_of(tmp_path / "a.tif").shape
+        _ = bands_of(tmp_path / "a.tif").shape
 
 
 def test_what_is_written_is_read(tmp_path):
@@ -77,7 +77,7 @@ def test_what_is_read_otherwise(tmp_path):
     tifffile.imwrite(tmp_path / "colour.tif", np.zeros((5, 5, 3), np.uint8))
     (tmp_path / "dots.csv").write_text("1,2\n")
     for name in ("colour.tif", "dots.csv", "none.tif", "none.zarr"):
-        assert rows_of(tmp_path / name) is None
+        assert bands_of(tmp_path / name) is None
 
 
 def test_bad_stores(tmp_path):
@@ -108,7 +108,7 @@ def test_a_damaged_chunk_and_a_torn_file(tmp_path):
     path = make(tmp_path / "a.zarr")
     chunk = path / "c/1/1"
     chunk.write_bytes(chunk.read_bytes()[:20])
-    rows = rows_of(path)
+    rows = bands_of(path)
     np.testing.assert_array_equal(rows.rows(0, 32), IMAGE[:32])
     with pytest.raises(InputError, match=r"a\.zarr cannot be read as Zarr: .*damaged or cut off"):
         rows.rows(30, 10)
@@ -116,7 +116,7 @@ def test_a_damaged_chunk_and_a_torn_file(tmp_path):
     data = (tmp_path / "a.tif").read_bytes()
     (tmp_path / "a.tif").write_bytes(data[:-10])
     with pytest.raises(InputError, match="cut off after"):
-        rows_of(tmp_path / "a.tif")
+        bands_of(tmp_path / "a.tif")
 
 
 def test_limits_and_options(tmp_path, monkeypatch):

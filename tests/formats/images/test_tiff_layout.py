@@ -10,7 +10,7 @@ from PIL import Image
 
 import vorotool
 from support.families.tiff_files import LONG, SHORT, grey, tiff_file
-from support.readers.sources import rows_of
+from support.readers.sources import bands_of
 from vorotool.errors import InputError, LimitError
 
 ROWS = bytes(range(60))  # 6 rows of 10 pixels
@@ -27,7 +27,7 @@ def refused(tmp_path, data, words, error=InputError):
 
 
 def whole_by_rows(path):
-    rows = rows_of(path)
+    rows = bands_of(path)
     return rows.rows(0, rows.shape[0])
 
 
@@ -35,7 +35,7 @@ def accepted(tmp_path, data, expected):
     path = tmp_path / "a.tif"
     path.write_bytes(data)
     np.testing.assert_array_equal(vorotool.read(path).values, expected)
-    rows = rows_of(path)
+    rows = bands_of(path)
     for first in range(len(expected)):
         np.testing.assert_array_equal(rows.rows(first, 1), expected[first : first + 1])
     return rows
@@ -188,7 +188,7 @@ def test_a_jpeg_larger_than_its_strip(tmp_path, side):
 
 def test_rows_of_a_strip_are_read_alone(tmp_path):
     tifffile.imwrite(tmp_path / "a.tif", np.zeros((1000, 900), np.uint16))
-    rows = rows_of(tmp_path / "a.tif")
+    rows = bands_of(tmp_path / "a.tif")
     image = np.arange(900_000, dtype=np.uint16).reshape(1000, 900)
     tifffile.imwrite(tmp_path / "a.tif", image)  # what is read now was not read before
     np.testing.assert_array_equal(rows.rows(500, 3), image[500:503])

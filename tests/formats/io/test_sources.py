@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from support.readers.sources import rows_of
+from support.readers.sources import bands_of
 from vorotool.batch.tasks import digest_of
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source, check_nesting, read_source
@@ -59,7 +59,7 @@ def test_what_is_in_the_buffer_of_standard_input_is_read_too(tmp_path, monkeypat
 @pytest.mark.parametrize("input_format", [None, "tiff"])
 def test_a_pipe_is_not_opened_to_look_at_it(tmp_path, input_format):
     os.mkfifo(tmp_path / "image.tif")
-    assert rows_of(tmp_path / "image.tif", input_format=input_format) is None  # else it waits for a writer
+    assert bands_of(tmp_path / "image.tif", input_format=input_format) is None  # else it waits for a writer
     assert digest_of(str(tmp_path / "image.tif")) == ""
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import io
 import json
 import re
@@ -13,7 +12,7 @@ import shapely
 
 from support.families.point_families import draw
 from support.readers.sources import read_as
-from support.readers.written import written
+from support.readers.written import rows_of, written
 from vorotool import PointSet, UsageError, voronoi_cells, write
 from vorotool.formats.io.sources import Source
 from vorotool.products.registry import PRODUCTS
@@ -53,7 +52,7 @@ def test_wkt(cells):
 
 
 def test_csv(cells):
-    rows = list(csv.DictReader(io.StringIO(written(cells, "csv").decode())))
+    rows = rows_of(written(cells, "csv"))
     same([shapely.from_wkt(row["wkt"] or None) for row in rows], cells)
     assert [int(row["label"]) for row in rows] == cells.label_array.tolist()
     assert [[float(row["x"]), float(row["y"])] for row in rows] == cells.sites.tolist()

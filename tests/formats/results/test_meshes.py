@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import io
 import json
 
@@ -13,6 +12,7 @@ import shapely
 
 import vorotool
 from support.families.point_families import draw
+from support.readers.written import rows_of
 from support.readers.written import written as written_as
 from vorotool import PointSet, UsageError, delaunay
 from vorotool.products.registry import PRODUCTS
@@ -25,7 +25,7 @@ def written(mesh, fmt, what="edges", **options):
     return written_as(mesh, fmt, what, **options)
 
 
-def rows_of(data):
+def numbers_of(data):
     """Numbers of each line."""
     return [[float(field) for field in line.split()] for line in data.decode().splitlines()]
 
@@ -42,7 +42,7 @@ def mesh(request):
 
 
 def test_edges_as_csv_and_json(mesh):
-    rows = list(csv.DictReader(io.StringIO(written(mesh, "csv").decode())))
+    rows = rows_of(written(mesh, "csv"))
     assert [[int(row["label_a"]), int(row["label_b"])] for row in rows] == labelled(mesh, mesh.edges)
     found = [[[float(row["x_a"]), float(row["y_a"])], [float(row["x_b"]), float(row["y_b"])]] for row in rows]
     assert found == mesh.points[mesh.edges].tolist()
@@ -52,7 +52,7 @@ def test_edges_as_csv_and_json(mesh):
 
 
 def test_triangles_as_csv_and_json(mesh):
-    rows = list(csv.DictReader(io.StringIO(written(mesh, "csv", "triangles").decode())))
+    rows = rows_of(written(mesh, "csv", "triangles"))
     assert [[int(value) for value in row.values()] for row in rows] == labelled(mesh, mesh.triangles)
     assert [list(row.values()) for row in orjson.loads(written(mesh, "json", "triangles"))] == labelled(
         mesh, mesh.triangles
@@ -106,12 +106,12 @@ def test_obj_holds_points_and_elements(mesh):
 @pytest.mark.parametrize("first", [0, 1])
 def test_files_of_triangle(mesh, first, tmp_path):
     mesh = vorotool.delaunay(PointSet(mesh.points, first_number=first))
-    (count, markers), *edges = rows_of(written(mesh, "edge"))
+    (count, markers), *edges = numbers_of(written(mesh, "edge"))
     assert (count, markers) == (len(mesh.edges), 1)
     assert [row[0] for row in edges] == list(range(first, len(edges) + first))
     assert [row[1:3] for row in edges] == (mesh.edges + first).tolist()
     assert [row[3] for row in edges] == mesh.hull_edges().tolist()
-    header, *triangles = rows_of(written(mesh, "ele", "triangles"))
+    header, *triangles = numbers_of(written(mesh, "ele", "triangles"))
     assert header == [len(mesh.triangles), 3, 0]
     assert [row[1:] for row in triangles] == (mesh.triangles + first).tolist()
     (tmp_path / "a.node").write_bytes(written(mesh, "node", "table"))

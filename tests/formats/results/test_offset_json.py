@@ -1,6 +1,5 @@
 """Offset curves as JSON: written, read, and refused."""
 
-import io
 import json
 from pathlib import Path
 
@@ -8,19 +7,18 @@ import numpy as np
 import pytest
 
 import vorotool
+from support.readers.written import written
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.formats.results.offset_json import read_offsets, write_json
+from vorotool.formats.results.offset_json import read_offsets
 
 SHAPES = vorotool.read(Path(__file__).parents[3] / "data" / "two-shapes.json")
 ARRAYS = ("start", "end", "centre", "site", "ring_start", "shape_start", "distance", "polygon")
 
 
-def text_of(offsets, **options):
-    out = io.BytesIO()
-    write_json(out, offsets, **options)
-    return out.getvalue()
+def text_of(value, **options):
+    return written(value, "json", **options)
 
 
 def read(data):

@@ -1,6 +1,5 @@
 """Skeletons as JSON: written, read, and refused."""
 
-import io
 import json
 from pathlib import Path
 
@@ -8,19 +7,17 @@ import numpy as np
 import pytest
 
 import vorotool
+from support.readers.written import ARCS, written
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
-from vorotool.formats.results.skeleton_json import read_skeleton, write_json
+from vorotool.formats.results.skeleton_json import read_skeleton
 
 SHAPES = vorotool.read(Path(__file__).parents[3] / "data" / "two-shapes.json")
-ARRAYS = ("vertices", "radius", "arcs", "control", "sites", "polygon", "side", "branch", "length", "error_bound")
 
 
-def text_of(skeleton, **options):
-    out = io.BytesIO()
-    write_json(out, skeleton, **options)
-    return out.getvalue()
+def text_of(value, **options):
+    return written(value, "json", **options)
 
 
 def read(data):
@@ -33,7 +30,7 @@ def read(data):
 def test_what_is_written_is_read(options):
     made = vorotool.skeleton_exact(SHAPES, **options)
     again = read(text_of(made))
-    for name in ARRAYS:
+    for name in ARCS:
         assert np.array_equal(
             getattr(made, name), getattr(again, name), equal_nan=name in ("control", "error_bound")
         ), name

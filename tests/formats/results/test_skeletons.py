@@ -1,6 +1,5 @@
 """Skeletons in every format."""
 
-import csv
 import io
 import json
 from pathlib import Path
@@ -11,7 +10,7 @@ import shapely
 
 import vorotool
 from support.readers.sources import read_as
-from support.readers.written import written
+from support.readers.written import rows_of, written
 from vorotool.errors import UsageError
 from vorotool.formats.results.skeletons import skeleton_arrays
 from vorotool.products.registry import parts_of
@@ -23,10 +22,6 @@ MADE = vorotool.skeleton_exact(SHAPES, side="both")
 
 def text_of(fmt, skeleton=MADE, **options):
     return written(skeleton, fmt, **options)
-
-
-def rows_of(data):
-    return list(csv.DictReader(io.StringIO(data.decode())))
 
 
 def test_arcs_as_csv():

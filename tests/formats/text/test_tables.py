@@ -1,6 +1,5 @@
 """Tables as CSV, JSON and NPZ: read back by other libraries, and the same bytes every time."""
 
-import csv
 import io
 import json
 import math
@@ -13,6 +12,7 @@ from hypothesis import strategies as st
 
 import vorotool
 from support.readers.sources import read_as
+from support.readers.written import rows_of
 from vorotool.errors import UsageError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.text.tables import write_table
@@ -148,7 +148,7 @@ def test_what_is_written_as_csv_is_read_back(rows):
     points = read_as(Source("t.csv", data))
     np.testing.assert_array_equal(points.xy, np.array([x, y]).T.reshape(-1, 2))
     assert points.properties.get("name", []) == names
-    by_csv = list(csv.DictReader(io.StringIO(data.decode(), newline="")))
+    by_csv = rows_of(data)
     assert [row["name"] for row in by_csv] == names
     assert [float(row["x"]) for row in by_csv] == x
 

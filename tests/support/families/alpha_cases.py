@@ -9,6 +9,5 @@ from vorotool import VorotoolWarning, alpha_complex
 
 def quietly(points, **options):
     """The family; duplicates are expected."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", VorotoolWarning)
+    with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
         return alpha_complex(points, **options)

@@ -89,3 +89,9 @@ def random_case(rng, largest_side=80):
         labels = rng.integers(1, 1 + max(1, len(x) // 3), len(x))
     fx, fy = (int(v) for v in rng.integers(-9, 10, 2)) if rng.random() < 0.3 else (0, 0)
     return name, x, y, labels.astype(np.uint32), scale, (fx, fy, width, height)
+
+
+def distinct_pixels(seed, side, count):
+    """Give different pixels of a square image."""
+    chosen = np.random.default_rng(seed).choice(side * side, count, replace=False)
+    return np.stack(np.divmod(chosen, side)[::-1], axis=1)

@@ -1,4 +1,4 @@
-"""Folders of masks, for what is done with many inputs."""
+"""Folders of inputs, made alike wherever they are needed."""
 
 import numpy as np
 from PIL import Image
@@ -16,3 +16,11 @@ def write_masks(folder, count, size=256):
     folder.mkdir()
     for number in range(count):
         Image.fromarray(mask(number, size).astype(np.uint8) * 255).save(folder / f"{number:04}.png")
+
+
+def write_many_points(folder, count, seeds=3):
+    """Write lists of points into the folder ``many``; with few seeds they take some milliseconds each."""
+    (folder / "many").mkdir()
+    for number in range(count):
+        xy = np.random.default_rng(number).integers(0, 300, (seeds, 2))
+        np.savetxt(folder / f"many/p{number:03}.csv", xy, fmt="%d", delimiter=",", header="x,y", comments="")

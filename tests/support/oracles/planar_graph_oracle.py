@@ -6,12 +6,10 @@ The input is that of the core: lattice vertices, and rings as (first vertex, one
 from fractions import Fraction
 from itertools import combinations, pairwise
 
+from support.oracles.delaunay_oracle import cross
+
 SHELL, HOLE, LINE = 0, 1, 2
 HALF = Fraction(1, 2)
-
-
-def cross(a, b, c):
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
 def lies_on(point, segment):

@@ -8,3 +8,8 @@ def hear_signals() -> None:
     for number, usual in ((signal.SIGINT, signal.default_int_handler), (signal.SIGHUP, signal.SIG_DFL)):
         if signal.getsignal(number) == signal.SIG_IGN:
             signal.signal(number, usual)
+
+
+def stop(*_):
+    """Interrupt what calls this as its progress."""
+    raise KeyboardInterrupt

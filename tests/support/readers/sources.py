@@ -28,6 +28,6 @@ def labels_of(data, name="-"):
     return label_image_of(image_of(Source(name, data)), name).labels
 
 
-def rows_of(path, *, input_format=None, page=None):
+def bands_of(path, *, input_format=None, page=None):
     with opened(path, geometry=None, input_format=input_format, page=page) as source:
         return source.rows()

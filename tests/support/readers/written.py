@@ -1,8 +1,14 @@
-"""The bytes of a value in a format, as the library writes them."""
+"""The bytes of a value in a format, as the library writes them, tables read back, and values compared."""
 
+import csv
 import io
 
+import numpy as np
+
 from vorotool.products.writing import chosen_part, write_product
+
+ARCS = ("vertices", "radius", "arcs", "control", "sites", "polygon", "side", "branch", "length", "error_bound")
+"""Arrays of a skeleton."""
 
 
 def written(value, fmt, what=None, **options):
@@ -10,3 +16,19 @@ def written(value, fmt, what=None, **options):
     out = io.BytesIO()
     write_product(out, value, chosen_part(value, fmt, what), fmt, **options)
     return out.getvalue()
+
+
+def rows_of(text):
+    """Give the rows of a table in CSV, which may be bytes, by the names of its columns."""
+    return list(csv.DictReader(io.StringIO(text if isinstance(text, str) else text.decode(), newline="")))
+
+
+def assert_same(names, one, other):
+    """Compare some arrays of two values, number by number."""
+    for name in names:
+        np.testing.assert_array_equal(getattr(one, name), getattr(other, name), err_msg=name)
+
+
+def differing(one, other, names=ARCS):
+    """Give the names of arrays that are not the same to the bit."""
+    return [name for name in names if getattr(one, name).tobytes() != getattr(other, name).tobytes()]

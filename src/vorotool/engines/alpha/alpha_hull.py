@@ -136,14 +136,13 @@ class _Arcs:
         a, b = self._directed(shape)
         self.a, self.b = a, b
         self.start, self.end = self.points[a], self.points[b]
-        # The triangle is on the left of a to b, the centre on the right by what Pythagoras says.
-        across = self.end - self.start
-        half = hypotenuse(*across.T) / 2
-        depth = np.sqrt(np.maximum((self.r - half) * (self.r + half), 0))
-        right = np.stack([across[:, 1], -across[:, 0]], axis=1) / (2 * half)[:, None]
-        self.centre = (self.start + self.end) / 2 + depth[:, None] * right
-        self.angle = 2 * inverse_sine(half / self.r)
-        self.centres = np.concatenate([self.centre, *self._singular_centres(shape)])
+        # The triangle is on the left of a to b, the centre on the right.
+        middle, right = self._to_centres(self.start, self.end)
+        self.centre = middle + right
+        self.angle = 2 * inverse_sine(hypotenuse(*(self.end - self.start).T) / 2 / self.r)
+        singular = shape.family.edges[shape.edge_index[shape.kind == CLASSES.index("singular")]]
+        middle, right = self._to_centres(*self.points[singular.T])
+        self.centres = np.concatenate([self.centre, middle + right, middle - right])
 
     def _directed(self, shape: AlphaShape) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
         """Ends of each boundary edge, with the shape's triangle on the left."""
@@ -158,14 +157,13 @@ class _Arcs:
         a, b = ends.T
         return np.where(forward, a, b), np.where(forward, b, a)
 
-    def _singular_centres(self, shape: AlphaShape) -> list[NDArray[np.float64]]:
-        ends = self.points[shape.family.edges[shape.edge_index[shape.kind == CLASSES.index("singular")]]]
-        across = ends[:, 1] - ends[:, 0]
+    def _to_centres(self, a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Middles of a to b, and by what Pythagoras says the way to centres on the right."""
+        across = b - a
         half = hypotenuse(*across.T) / 2
         depth = np.sqrt(np.maximum((self.r - half) * (self.r + half), 0))
-        normal = np.stack([across[:, 1], -across[:, 0]], axis=1) / (2 * half)[:, None] * depth[:, None]
-        middle = ends.mean(axis=1)
-        return [middle + normal, middle - normal]
+        right = np.stack([across[:, 1], -across[:, 0]], axis=1) / (2 * half)[:, None]
+        return np.stack([(a + b) / 2, depth[:, None] * right])
 
     def at(self, arc: NDArray[np.int64], turned: NDArray[np.float64]) -> NDArray[np.float64]:
         """Points of arcs, so far from their starts, as an angle."""

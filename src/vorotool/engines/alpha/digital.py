@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.geometry.mesh.digital_triangulation import DigitalTriangulation
 from vorotool.geometry.mesh.triangulation import Triangulation
+from vorotool.geometry.points.point_set import known_of_points
 
 
 def linked_digital(found: DigitalTriangulation) -> tuple[Triangulation, NDArray[np.int32], NDArray[np.int32]]:
@@ -57,10 +58,7 @@ def linked_digital(found: DigitalTriangulation) -> tuple[Triangulation, NDArray[
         edges,
         np.empty(0, np.int32),
         np.arange(count, dtype=np.int32),
-        labels=found.labels,
-        properties=found.properties,
-        y_up=found.y_up,
-        crs=found.crs,
+        **known_of_points(found),
     )
     return mesh, edges, sides
 

@@ -11,7 +11,7 @@ other, at a junction between cycles, is no end if its corner is much like both b
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,7 @@ from vorotool.engines.centerlines.edge_comparisons import TIE, is_blunt, shortes
 from vorotool.engines.centerlines.passed_corners import are_passed
 from vorotool.engines.centerlines.pruned_twigs import with_pruned_twigs
 from vorotool.engines.centerlines.round_ends import MOST_WITH_ENDS, grown_runs
+from vorotool.engines.skeleton.parts import with_straight_arcs
 from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton, ends_of_sites
 from vorotool.geometry.skeleton.tables import connected_roots
 
@@ -173,24 +174,11 @@ def _with_leads(skeleton: Skeleton, twigs: Twigs, forks: Pairs, removed: Numbers
     known, count, nodes = len(skeleton), len(forks.edge), len(skeleton.vertices)
     ends = ends_of_sites(skeleton.polygons, skeleton.site_table, forks.edge)
     middle, node = ends[:, 0] / 2 + ends[:, 1] / 2, twigs.node[forks.one]
-    way, first = middle - skeleton.vertices[node], twigs.arc[forks.one]
     is_gone, is_round = np.zeros((2, known + count), dtype=bool)
     is_gone[removed] = is_round[of_round] = True
     arc = np.append(np.flatnonzero(skeleton.side == INTERIOR), known + np.arange(count))
-    length = np.sqrt((way * way).sum(axis=1))
-    made = replace(
-        skeleton,
-        vertices=np.concatenate([skeleton.vertices, middle]),
-        radius=np.concatenate([skeleton.radius, np.zeros(count)]),
-        arcs=np.concatenate([skeleton.arcs, np.stack([node, nodes + np.arange(count)], axis=1)]),
-        control=np.concatenate([skeleton.control, np.full((count, 2), np.nan)]),
-        sites=np.concatenate([skeleton.sites, np.stack([forks.edge] * 2, axis=1)]),
-        polygon=np.concatenate([skeleton.polygon, skeleton.polygon[first]]),
-        side=np.concatenate([skeleton.side, np.full(count, INTERIOR, dtype=np.int8)]),
-        branch=np.concatenate([skeleton.branch, skeleton.branch.max(initial=-1) + 1 + np.arange(count)]),
-        length=np.concatenate([skeleton.length, length]),
-        error_bound=np.concatenate([skeleton.error_bound, skeleton.error_bound[first]]),
-    )
+    leads, sites = np.stack([node, nodes + np.arange(count)], axis=1), np.stack([forks.edge] * 2, axis=1)
+    made = with_straight_arcs(skeleton, middle, np.zeros(count), leads, sites, twigs.arc[forks.one])
     reach = np.maximum(twigs.length[forks.one], twigs.length[forks.other])
     leaf = np.minimum(twigs.leaf[forks.one], twigs.leaf[forks.other])
     return Unforked(

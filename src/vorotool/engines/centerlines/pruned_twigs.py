@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.engines.centerlines.convex_trees import Chains, convex_trees
+from vorotool.engines.skeleton.parts import with_straight_arcs
 from vorotool.geometry.ragged import owners, starts_of, within
 from vorotool.geometry.skeleton.skeleton import EDGE, INTERIOR, Skeleton
 
@@ -251,23 +252,8 @@ def _with_arcs(
     skeleton: Skeleton, parted: Numbers, places: Floats, radius: Floats, ends: Numbers, sites: Numbers, like: Numbers
 ) -> Skeleton:
     """Straight lines behind all arcs, each a branch in the polygon of another arc; nodes are parted."""
-    count = len(ends)
     is_parted = np.zeros(len(skeleton.vertices), dtype=bool)
     is_parted[parted] = True
     begins = (np.diff(skeleton.branch, prepend=-1) != 0) | is_parted[skeleton.arcs[:, 0]]
-    branch = np.cumsum(begins) - 1
-    vertices = np.concatenate([skeleton.vertices, places])
-    way = vertices[ends[:, 1]] - vertices[ends[:, 0]]
-    return replace(
-        skeleton,
-        vertices=vertices,
-        radius=np.concatenate([skeleton.radius, radius]),
-        arcs=np.concatenate([skeleton.arcs, ends]),
-        control=np.concatenate([skeleton.control, np.full((count, 2), np.nan)]),
-        sites=np.concatenate([skeleton.sites, sites]),
-        polygon=np.concatenate([skeleton.polygon, skeleton.polygon[like]]),
-        side=np.concatenate([skeleton.side, np.full(count, INTERIOR, dtype=np.int8)]),
-        branch=np.concatenate([branch, branch.max(initial=-1) + 1 + np.arange(count)]),
-        length=np.concatenate([skeleton.length, np.sqrt((way * way).sum(axis=1))]),
-        error_bound=np.concatenate([skeleton.error_bound, skeleton.error_bound[like]]),
-    )
+    skeleton = replace(skeleton, branch=np.cumsum(begins) - 1)
+    return with_straight_arcs(skeleton, places, radius, ends, sites, like)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.mesh.cells import CellSet
 from vorotool.geometry.mesh.triangulation import Triangulation
 from vorotool.geometry.numbers import finite_double, shown_number
+from vorotool.geometry.points.point_set import known_of_points
 from vorotool.geometry.progress import Progress
 
 
@@ -81,16 +83,7 @@ def voronoi_cells(
         coordinates, starts = _core.cells.voronoi_cells(core_mesh(mesh), box.sides, checked_threads(threads), progress)
     except ValueError as error:
         raise InputError(f"{error}: give a Delaunay triangulation, such as delaunay() makes") from None
-    cells = CellSet(
-        mesh.points,
-        coordinates,
-        starts,
-        box,
-        labels=mesh.labels,
-        properties=mesh.properties,
-        y_up=mesh.y_up,
-        crs=mesh.crs,
-    )
+    cells = CellSet(mesh.points, coordinates, starts, box, **known_of_points(mesh))
     return cells if area is None else _clipped(cells, area)
 
 
@@ -200,17 +193,12 @@ def _from_shapely(cells: CellSet, shapes: NDArray[Any]) -> CellSet:
     coordinates, ring_of = shapely.get_coordinates(rings, return_index=True)
     last = np.ones(len(coordinates), dtype=bool)
     last[:-1] = ring_of[1:] != ring_of[:-1]  # it repeats the first
-    return CellSet(
-        cells.sites,
-        coordinates[~last] + 0.0,
-        _starts(ring_of[~last], len(rings)),
-        cells.frame,
-        _starts(polygon_of_ring, len(parts)),
-        _starts(cell_of_part, len(cells)),
-        labels=cells.labels,
-        properties=cells.properties,
-        y_up=cells.y_up,
-        crs=cells.crs,
+    return replace(
+        cells,
+        coordinates=coordinates[~last] + 0.0,
+        starts=_starts(ring_of[~last], len(rings)),
+        polygon_starts=_starts(polygon_of_ring, len(parts)),
+        cell_starts=_starts(cell_of_part, len(cells)),
     )
 
 

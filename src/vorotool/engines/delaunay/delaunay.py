@@ -12,7 +12,7 @@ from vorotool.engines.common.point_input import as_points
 from vorotool.errors import InputError, LimitError, VerificationError, VorotoolWarning
 from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.mesh.triangulation import Triangulation
-from vorotool.geometry.points.point_set import PointSet
+from vorotool.geometry.points.point_set import PointSet, known_of_points
 from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
 
@@ -69,15 +69,8 @@ def delaunay(points: Any, *, strict: bool = False, threads: int = 0, progress: P
         raise LimitError(f"there are {len(given)} points, more than {MOST_POINTS}: triangulate them in parts")
     threads = checked_threads(threads)
     core = _core.delaunay.DelaunayTriangulation(given.xy, threads, progress)
-    mesh = Triangulation(
-        given.xy,
-        **core.arrays(threads, progress),
-        labels=given.labels,
-        properties=given.properties,
-        y_up=given.y_up,
-        crs=given.crs,
-        first_number=given.first_number,
-    )
+    arrays, known = core.arrays(threads, progress), known_of_points(given)
+    mesh = Triangulation(given.xy, **arrays, **known, first_number=given.first_number)
     report_duplicates(mesh, strict=strict)
     return mesh
 

@@ -13,7 +13,7 @@ from vorotool.engines.delaunay.delaunay import MOST_POINTS, core_mesh, delaunay,
 from vorotool.errors import InputError, LimitError
 from vorotool.geometry.checks import checked_threads, whole_numbers
 from vorotool.geometry.mesh.triangulation import Triangulation
-from vorotool.geometry.points.point_set import PointSet
+from vorotool.geometry.points.point_set import PointSet, known_of_points
 from vorotool.geometry.progress import Progress
 
 MANY = 0.25
@@ -97,15 +97,8 @@ def insert_points(
         made = _inserted(mesh, together.xy, hints, checked_threads(threads), progress)
     if made is None:
         return delaunay(together, strict=strict, threads=threads, progress=progress)
-    result = Triangulation(
-        together.xy,
-        **made,
-        labels=together.labels,
-        properties=together.properties,
-        y_up=together.y_up,
-        crs=together.crs,
-        first_number=together.first_number,
-    )
+    known = known_of_points(together)
+    result = Triangulation(together.xy, **made, **known, first_number=together.first_number)
     report_duplicates(result, strict=strict)
     return result
 

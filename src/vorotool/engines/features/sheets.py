@@ -54,11 +54,6 @@ class Features:
         return len(self.polygon_start) - 1
 
     @property
-    def of_polygon(self) -> Indices:
-        """(p,) the feature of each polygon."""
-        return owners(np.diff(self.polygon_start))
-
-    @property
     def of_vertex(self) -> Indices:
         """(n,) the feature of each vertex."""
         return owners(np.diff(self.vertex_start))

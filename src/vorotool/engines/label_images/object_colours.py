@@ -12,12 +12,9 @@ from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.geometry.progress import Progress
 
 
-def object_colours(
-    image: LabelImage, *, threads: int = 0, progress: Progress = None
-) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
+def object_colours(image: LabelImage, *, threads: int = 0) -> tuple[NDArray[np.uint32], NDArray[np.uint32]]:
     """Colour the labels of an image so that neighbours differ, also those with background between them.
 
     Neighbours are labels whose regions of influence share a pixel side; where there is no background these are the
@@ -29,8 +26,6 @@ def object_colours(
         Label 0 is background.
     threads : int
         0 uses all; the result is the same for any number.
-    progress : callable, optional
-        Called with the fraction done of each step.
 
     Returns
     -------
@@ -44,12 +39,12 @@ def object_colours(
     """
     labels = label_array(image.labels)
     if labels.all() or not labels.any():
-        return region_colours(image, threads=threads, progress=progress)
+        return region_colours(image, threads=threads)
     # Of an object the pixels inside it are nearest to no other pixel: its outermost ones are enough.
     y, x = np.nonzero((labels != 0) & ~surrounded_pixels(labels))
     found = np.unique(labels)[1:].astype(np.uint32)
     seeds = SeedSet(x, y, labels[y, x].astype(np.uint32), sites=np.empty((len(found), 2)), site_labels=found)
     frame = Frame(0, 0, labels.shape[1], labels.shape[0])
-    nearest = Tessellator(seeds, frame, threads=threads, progress=progress).labels(dtype=np.uint32)
+    nearest = Tessellator(seeds, frame, threads=threads).labels(dtype=np.uint32)
     np.copyto(nearest, labels, where=labels != 0, casting="unsafe")
-    return region_colours(nearest, threads=threads, progress=progress)
+    return region_colours(nearest, threads=threads)

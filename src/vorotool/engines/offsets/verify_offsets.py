@@ -71,8 +71,7 @@ def verify_offsets(
     _check_sites(offsets, tolerance)
     _check_orientation(offsets, tolerance)
     wanted = {*(finite_double(one, "a distance") for one in distances), *offsets.distance.tolist()}
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", VorotoolWarning)  # features may lie over each other
+    with warnings.catch_warnings(action="ignore", category=VorotoolWarning):  # features may lie over each other
         if offsets.features == "together":
             graph = planar_graph(offsets.polygons, threads=threads, progress=progress)
             _check_in_graph(offsets, wanted, tolerance, graph, threads, progress)

@@ -295,9 +295,7 @@ def skeleton_of_samples(
     return ApproximateSkeleton(skeleton, seeds, shapes, open_corners, parts)
 
 
-def whole_sampled_diagram(
-    shapes: SampledShapes, *, frame: Frame | None = None, threads: int = 0, progress: Progress = None
-) -> Skeleton:
+def whole_sampled_diagram(shapes: SampledShapes, *, frame: Frame | None = None, threads: int = 0) -> Skeleton:
     """Give all edges of the Voronoi diagram of samples as arcs, cut by a frame; they have no side and no bounds.
 
     Examples
@@ -318,7 +316,7 @@ def whole_sampled_diagram(
         *graph.origin,
         graph.scale,
         checked_threads(threads),
-        progress,
+        None,
     )
     for name in ("seeds", "parts", "open_corners"):
         made.pop(name)

@@ -30,6 +30,10 @@ TO_EXACT, TO_APPROXIMATE = "from_approximate_to_exact", "from_exact_to_approxima
 """The two ways of a comparison."""
 
 
+PER_ARC = 16
+"""Places on an arc beside its ends, evenly in its parameter."""
+
+
 @dataclass(frozen=True)
 class Deviation:
     """The largest distance of places on one skeleton from another one, and where it is.
@@ -51,15 +55,8 @@ class Deviation:
     arc: int
 
 
-def deviation(skeleton: Skeleton, other: Skeleton, *, per_arc: int = 16) -> Deviation | None:
-    """Measure how far places on the arcs of a skeleton are from another one.
-
-    Parameters
-    ----------
-    skeleton, other : Skeleton
-        Of the same polygons and side.
-    per_arc : int
-        Places are the ends of each arc and so many more, evenly in its parameter.
+def deviation(skeleton: Skeleton, other: Skeleton) -> Deviation | None:
+    """Measure how far the ends of arcs, and 16 places on each, are from another skeleton of the same polygons and side.
 
     Returns
     -------
@@ -76,7 +73,7 @@ def deviation(skeleton: Skeleton, other: Skeleton, *, per_arc: int = 16) -> Devi
     """
     if not len(skeleton) or not len(other):
         return None
-    places = places_on_arcs(skeleton, np.linspace(0, 1, per_arc + 2))
+    places = places_on_arcs(skeleton, np.linspace(0, 1, PER_ARC + 2))
     distance = distances_to(other, places.reshape(-1, 2))
     at = int(distance.argmax())
     x, y = places.reshape(-1, 2)[at].tolist()
@@ -161,8 +158,9 @@ def exact_skeleton(
     """Compute the exact skeleton of the shapes that were sampled."""
     graph, placed = found.shapes.graph, found.shapes.placed
     diagram = segment_voronoi(graph.points, graph.segments, threads=threads)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", VorotoolWarning)  # that there is no interior was told before
+    with warnings.catch_warnings(
+        action="ignore", category=VorotoolWarning
+    ):  # that there is no interior was told before
         return skeleton_of(ShapeDiagram(graph, diagram, placed), side=side, frame=frame, threads=threads)
 
 

@@ -219,8 +219,9 @@ def approximation_of_sides(
     if side == "exterior":
         found = _of_graph(graph, options, side=side, frame=frame, complete=complete, **common)
         return of_one_part(found)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", VorotoolWarning)  # repairs were told where all were put together
+    with warnings.catch_warnings(
+        action="ignore", category=VorotoolWarning
+    ):  # repairs were told where all were put together
         inside = feature_approximation(polygons, options, complete=complete, **common)
     if not len(inside.skeleton):
         warn_empty(polygons, side)

@@ -242,8 +242,7 @@ def _check_bounds(found: ApproximateSkeleton, threads: int) -> None:
     sides = np.unique(skeleton.side).tolist()
     side = "both" if len(sides) > 1 else ("interior" if sides == [INTERIOR] else "exterior")
     frame = None if skeleton.frame is None else widened(skeleton.frame)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", VorotoolWarning)
+    with warnings.catch_warnings(action="ignore", category=VorotoolWarning):
         exact = exact_skeleton(found, side=side, frame=frame, threads=threads)
     proved = np.flatnonzero(~np.isnan(skeleton.error_bound))
     if not len(exact):

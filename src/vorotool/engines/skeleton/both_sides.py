@@ -31,8 +31,9 @@ def sides_of(
         return replace(skeleton_of(shapes, side=side, frame=frame, **common), features="separate")
     polygons = shapes.graph.polygons
     assert polygons is not None
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", VorotoolWarning)  # repairs were told where all were put together
+    with warnings.catch_warnings(
+        action="ignore", category=VorotoolWarning
+    ):  # repairs were told where all were put together
         inside = feature_skeleton(polygons, **common).skeleton
     if not len(inside):
         warn_empty(polygons, side)

@@ -114,22 +114,9 @@ def skeleton_of(
     """Delete what is not the skeleton's from the diagram of shapes; arguments as of `skeleton_exact`."""
     check_skeleton_options(side, 0, frame)
     threads = checked_threads(threads)
-    edges, faces = kept_edges(shapes, threads=threads, progress=progress)
-    group = face_groups(shapes.placed, side)[faces]
-    kept = group >= 0
     if side != "exterior" and not shapes.graph.is_inside.any():
         warn_empty(shapes.placed.polygons, side)
-    made = assembled(
-        shapes.graph,
-        shapes.diagram,
-        edges[kept],
-        group[kept],
-        shapes.placed,
-        frame=frame if side != "interior" else None,
-        clips=side != "interior",
-        threads=threads,
-        progress=progress,
-    )
+    made = _on_side(shapes, side, frame, threads, progress)
     return made if side == "exterior" else of_one_arrangement(made)
 
 
@@ -143,20 +130,14 @@ def of_one_arrangement(skeleton: Skeleton) -> Skeleton:
 
 def interior_skeleton(shapes: ShapeDiagram, *, threads: int = 1, progress: Progress = None) -> Skeleton:
     """Give the skeleton inside shapes, and no word about it if there is none."""
+    return _on_side(shapes, "interior", None, threads, progress)
+
+
+def _on_side(shapes: ShapeDiagram, side: str, frame: Frame | None, threads: int, progress: Progress) -> Skeleton:
     edges, faces = kept_edges(shapes, threads=threads, progress=progress)
-    group = face_groups(shapes.placed, "interior")[faces]
-    kept = group >= 0
-    return assembled(
-        shapes.graph,
-        shapes.diagram,
-        edges[kept],
-        group[kept],
-        shapes.placed,
-        frame=None,
-        clips=False,
-        threads=threads,
-        progress=progress,
-    )
+    group = face_groups(shapes.placed, side)[faces]
+    kept, clips = group >= 0, side != "interior"
+    return assembled(shapes, edges[kept], group[kept], frame=frame, clips=clips, threads=threads, progress=progress)
 
 
 def kept_edges(
@@ -168,9 +149,7 @@ def kept_edges(
     )
 
 
-def whole_diagram(
-    shapes: ShapeDiagram, *, frame: Frame | None = None, threads: int = 0, progress: Progress = None
-) -> Skeleton:
+def whole_diagram(shapes: ShapeDiagram, *, frame: Frame | None = None, threads: int = 0) -> Skeleton:
     """Give all edges of the diagram as arcs, cut by a frame: what it is before anything is deleted.
 
     They have no side and no polygon (-1).
@@ -183,16 +162,13 @@ def whole_diagram(
     check_skeleton_options("both", 0, frame)
     count = len(shapes.diagram.edges)
     everything = assembled(
-        shapes.graph,
-        shapes.diagram,
+        shapes,
         np.arange(count, dtype=np.int32),
         np.full(count, len(shapes.placed.polygons), dtype=np.int32),
-        shapes.placed,
         frame=frame,
         clips=True,
         joins=False,
         threads=checked_threads(threads),
-        progress=progress,
     )
     everything.side[:] = -1
     return everything
@@ -227,11 +203,9 @@ def joined_groups(placed: PlacedShapes) -> tuple[int, int]:
 
 
 def assembled(
-    graph: PlanarGraph,
-    diagram: SegmentVoronoiDiagram,
+    shapes: ShapeDiagram,
     edges: NDArray[np.int32],
     group: NDArray[np.int32],
-    placed: PlacedShapes,
     *,
     frame: Frame | None,
     clips: bool,
@@ -243,11 +217,12 @@ def assembled(
 
     Where pixels are connected at corners only, so are the arcs that end there, if `joins`.
     """
+    graph, placed = shapes.graph, shapes.placed
     outside = len(placed.polygons)
     frame = (frame or default_frame(placed.polygons)) if clips else None
     clipped = None if frame is None else (outside, on_lattice(frame, graph))
     made: dict[str, Any] = _core.skeleton.extract_skeleton(
-        core_diagram(diagram),
+        core_diagram(shapes.diagram),
         edges,
         group,
         clipped,

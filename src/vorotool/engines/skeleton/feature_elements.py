@@ -115,8 +115,9 @@ def sides_of_elements(
     if side == "exterior" or len(np.unique(polygons.feature)) < 2:
         made = skeleton_of_elements(elements, side=side, complete=complete, frame=frame, **common)
         return replace(made, features="separate")
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", VorotoolWarning)  # repairs were told where all were put together
+    with warnings.catch_warnings(
+        action="ignore", category=VorotoolWarning
+    ):  # repairs were told where all were put together
         inside = feature_elements(polygons, elements.gap, complete=complete, **common).skeleton
     if not len(inside):
         warn_empty(polygons, side)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.polygons.ring_arrays import RingArrays
-from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.geometry.skeleton.skeleton import INTERIOR, Skeleton
 
 PER_ARC = ("arcs", "control", "sites", "polygon", "side", "branch", "length", "error_bound")
 
@@ -89,3 +89,30 @@ def outside_of(skeleton: Skeleton) -> Skeleton:
 
 def _chosen(polygons: PolygonSet, chosen: NDArray[np.int64]) -> PolygonSet:
     return RingArrays.of(polygons).taken(chosen)[0].polygons(polygons, chosen)
+
+
+def with_straight_arcs(
+    skeleton: Skeleton,
+    places: NDArray[np.float64],
+    radius: NDArray[np.float64],
+    ends: NDArray[np.integer],
+    sites: NDArray[np.integer],
+    like: NDArray[np.integer],
+) -> Skeleton:
+    """Add nodes, and inside polygons straight arcs behind all others: a branch each, like another arc elsewise."""
+    count = len(ends)
+    vertices = np.concatenate([skeleton.vertices, places])
+    way = vertices[ends[:, 1]] - vertices[ends[:, 0]]
+    return replace(
+        skeleton,
+        vertices=vertices,
+        radius=np.concatenate([skeleton.radius, radius]),
+        arcs=np.concatenate([skeleton.arcs, ends]),
+        control=np.concatenate([skeleton.control, np.full((count, 2), np.nan)]),
+        sites=np.concatenate([skeleton.sites, sites]),
+        polygon=np.concatenate([skeleton.polygon, skeleton.polygon[like]]),
+        side=np.concatenate([skeleton.side, np.full(count, INTERIOR, dtype=np.int8)]),
+        branch=np.concatenate([skeleton.branch, skeleton.branch.max(initial=-1) + 1 + np.arange(count)]),
+        length=np.concatenate([skeleton.length, np.sqrt((way * way).sum(axis=1))]),
+        error_bound=np.concatenate([skeleton.error_bound, skeleton.error_bound[like]]),
+    )

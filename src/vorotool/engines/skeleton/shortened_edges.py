@@ -66,9 +66,7 @@ class ElementDiagram:
     gap: float
 
 
-def element_diagram(
-    polygons: Any, gap: float, *, strict: bool = False, threads: int = 0, progress: Progress = None
-) -> ElementDiagram:
+def element_diagram(polygons: Any, gap: float, *, threads: int = 0) -> ElementDiagram:
     """Decompose polygons, and compute the Voronoi diagram of the elements; arguments as of `vorotool.skeleton_exact`.
 
     Raises
@@ -82,8 +80,7 @@ def element_diagram(
     >>> len(square.graph.points), len(square.graph), int(square.element.max())
     (12, 4, 7)
     """
-    shapes = graph_for_skeletons(polygons, strict=strict, threads=threads, progress=progress)
-    return elements_of_graph(shapes, gap, threads=threads, progress=progress)
+    return elements_of_graph(graph_for_skeletons(polygons, threads=threads), gap, threads=threads)
 
 
 def elements_of_graph(
@@ -185,12 +182,10 @@ def skeleton_of_elements(
         kept, group = np.concatenate([kept, added]), np.concatenate([group, own])
     on_side = group >= 0
     made = assembled(
-        elements.graph,
-        diagram,
+        ShapeDiagram(elements.graph, diagram, elements.placed),
         kept[on_side],
         group[on_side].astype(np.int32),
-        elements.placed,
-        frame=frame if side != "interior" else None,
+        frame=frame,
         clips=side != "interior",
         threads=threads,
         progress=progress,

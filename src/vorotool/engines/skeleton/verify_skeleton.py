@@ -72,8 +72,9 @@ def verify_skeleton(skeleton: Skeleton, *, threads: int = 0, progress: Progress 
     if skeleton.gap:  # the lines that lead to the corners are no bisectors of the shortened edges
         skeleton = _without_portions(skeleton)
     check_equal_distances(skeleton, SitePlaces(skeleton))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", VorotoolWarning)  # what bounds nothing is still in the rings
+    with warnings.catch_warnings(
+        action="ignore", category=VorotoolWarning
+    ):  # what bounds nothing is still in the rings
         if skeleton.features == "together" or not len(skeleton.polygons):
             graph = planar_graph(skeleton.polygons, threads=threads, progress=progress)
             _check_in_graph(skeleton, graph, threads, progress)

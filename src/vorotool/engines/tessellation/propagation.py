@@ -111,8 +111,7 @@ class PropagatedRows:
         self.frame = frame or default_frame(seeds)
         require_memory(self.frame, max_pixels)
         self._labels = propagate(seeds, self.frame, passes=passes, progress=progress).labels
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with warnings.catch_warnings(action="ignore"):
             self._exact = Tessellator(seeds, self.frame)
         self.duplicates = self._exact.duplicates
         report_duplicates(self.duplicates, len(seeds), strict=strict)

@@ -13,17 +13,10 @@ from vorotool.geometry.checks import checked_threads
 from vorotool.geometry.pixel_frame import Frame
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.seed_set import SeedSet
-from vorotool.geometry.progress import Progress
 
 
 def verify_label_image(
-    labels: NDArray[Any],
-    seeds: SeedSet,
-    frame: Frame,
-    *,
-    max_distance2: int | None = None,
-    threads: int = 0,
-    progress: Progress = None,
+    labels: NDArray[Any], seeds: SeedSet, frame: Frame, *, max_distance2: int | None = None, threads: int = 0
 ) -> None:
     """Check a tessellation exactly, by another way than the one that makes it.
 
@@ -42,8 +35,6 @@ def verify_label_image(
         Squared distance in lattice steps; pixels beyond it must be 0.
     threads : int
         0 for all.
-    progress : callable, optional
-        Called with the fraction done.
 
     Raises
     ------
@@ -76,7 +67,7 @@ def verify_label_image(
             high,
             low,
             checked_threads(threads),
-            progress,
+            None,
         )
     except IndexError as error:
         raise InputError(f"cannot verify: {error}; move the frame and the seeds nearer to the origin") from error

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -117,14 +118,8 @@ def read_polygons_of(rows: JsonRows, options: ReadOptions) -> PolygonSet:
     document = rows.document
     only_polygons = {"polygons": rows.list_of("polygons")}
     polygons = read_json(Source(rows.name, b"", "json", only_polygons), options)
-    return PolygonSet(
-        polygons.xy,
-        polygons.ring_start,
-        polygons.ring_kind,
-        polygons.ring_polygon,
-        polygons.ids,
-        polygons.feature,
-        polygons.properties,
+    return replace(
+        polygons,
         y_up=document.get("y_up") is True,
         crs=document.get("crs"),
         connectivity=document.get("connectivity"),

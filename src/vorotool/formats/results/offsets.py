@@ -82,8 +82,5 @@ def offset_arrays(offsets: Offsets) -> dict[str, NDArray[Any]]:
         "shape_start": offsets.shape_start,
         "shape_distance": offsets.distance,
         "shape_polygon": offsets.polygon,
-        "site_kind": offsets.site_table.kind,
-        "site_polygon": offsets.site_table.polygon,
-        "site_ring": offsets.site_table.ring,
-        "site_index": offsets.site_table.index,
+        **{f"site_{name}": getattr(offsets.site_table, name) for name in ("kind", "polygon", "ring", "index")},
     }

@@ -7,8 +7,7 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from vorotool.errors import UsageError
-from vorotool.geometry.numbers import shown_number, whole_number
+from vorotool.formats.text.row_writer import check_precision
 
 
 @dataclass(frozen=True)
@@ -24,10 +23,7 @@ class Digits:
     precision: int | None = None
 
     def __post_init__(self) -> None:
-        if self.precision is not None and not 1 <= whole_number(self.precision, "--precision") <= 17:
-            raise UsageError(
-                f"--precision is {shown_number(self.precision)}: use 1 to 17 significant digits, or leave it out"
-            )
+        check_precision(self.precision)
 
     def rounded(self, ring: NDArray[Any]) -> list[list[float]]:
         """Positions as JSON writes them."""

@@ -99,18 +99,10 @@ class AlphaHull:
         labels = family.mesh.label_array
         ends = family.edges[self.edge]
         rings = owners(np.diff(self.ring_start)) + 1
-        columns = {
-            f"{name}{axis}": values[:, k]
-            for name, axis, values, k in (
-                ("x", 0, self.start, 0),
-                ("y", 0, self.start, 1),
-                ("x", 1, self.end, 0),
-                ("y", 1, self.end, 1),
-            )
-        }
+        ends_of_arcs = {"0": self.start, "1": self.end}
         return Table(
             {
-                **columns,
+                **{f"{axis}{end}": places[:, k] for end, places in ends_of_arcs.items() for k, axis in enumerate("xy")},
                 "cx": self.centre[:, 0],
                 "cy": self.centre[:, 1],
                 "r": np.full(len(self), self.r),

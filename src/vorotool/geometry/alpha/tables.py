@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vorotool.geometry.alpha.complex import CLASSES, AlphaComplex
 from vorotool.geometry.alpha.shape import POINT_CLASSES, AlphaShape
+from vorotool.geometry.mesh.tables import end_columns
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.table import Lookup, Table
 
@@ -38,17 +39,9 @@ def shape_edge_table(shape: AlphaShape, *, interior: bool = False) -> Table:
     family = shape.family
     classes = shape.edge_classes()
     chosen = np.flatnonzero(classes).astype(np.int32) if interior else shape.edge_index
-    a, b = np.ascontiguousarray(family.edges[chosen].T)
-    x, y = np.ascontiguousarray(family.points.T)
-    labels = family.mesh.label_array
     return Table(
         {
-            "label_a": Lookup(labels, a),
-            "label_b": Lookup(labels, b),
-            "x_a": Lookup(x, a),
-            "y_a": Lookup(y, a),
-            "x_b": Lookup(x, b),
-            "y_b": Lookup(y, b),
+            **end_columns(family.mesh, family.edges[chosen]),
             "length": family.lengths()[chosen],
             "r_min": family.r_min[chosen],
             "r_max": family.r_max[chosen],

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import replace
 from fractions import Fraction
-from functools import singledispatch
 from typing import Any
 
 import numpy as np
@@ -35,7 +34,23 @@ AREAS = frozenset({"area", "object_area"})
 """Columns of tables that are lengths, coordinates included, and areas; the others are numbers, labels and names."""
 
 
-@singledispatch
+_LENGTHS_OF = {
+    PolygonSet: "xy",
+    Triangulation: "points",
+    DigitalTriangulation: "points",
+    CellSet: "sites coordinates frame",
+    AlphaComplex: "mesh r_min r_mid r_max spectrum",
+    AlphaShape: "family r polygons",
+    AlphaHull: "shape start end centre",
+    SiteTable: "ends",
+    Skeleton: "polygons site_table frame vertices radius control length error_bound gap",
+    Centerlines: "path ends",
+    SkeletonPoints: "skeleton along xy radius feet",
+    Offsets: "polygons site_table start end centre distance",
+}
+"""What of each type is a length, or has lengths; all else stays."""
+
+
 def scaled(value: Any, factor: Fraction) -> Any:
     """Give a result in units of which one is ``1 / factor`` of the old.
 
@@ -60,83 +75,19 @@ def scaled(value: Any, factor: Fraction) -> Any:
     >>> scaled(delaunay([[0, 0], [4, 0], [0, 3]]), Fraction(1, 2)).edge_lengths().tolist()
     [1.5, 2.0, 2.5]
     """
-    raise UsageError(f"a {type(value).__name__} is not scaled")
+    if type(value) not in _LENGTHS_OF:
+        raise UsageError(f"a {type(value).__name__} is not scaled")
+    return replace(value, **{name: _scaled(getattr(value, name), factor) for name in _LENGTHS_OF[type(value)].split()})
 
 
-@scaled.register
-def _(value: PolygonSet, factor: Fraction) -> PolygonSet:
-    return replace(value, xy=value.xy * float(factor))
-
-
-@scaled.register
-def _(value: Triangulation, factor: Fraction) -> Triangulation:
-    return replace(value, points=value.points * float(factor))
-
-
-@scaled.register
-def _(value: DigitalTriangulation, factor: Fraction) -> DigitalTriangulation:
-    return replace(value, points=value.points * float(factor))
-
-
-@scaled.register
-def _(value: CellSet, factor: Fraction) -> CellSet:
-    by = float(factor)
-    frame = Box(*(side * by for side in value.frame.sides))
-    return replace(value, sites=value.sites * by, coordinates=value.coordinates * by, frame=frame)
-
-
-@scaled.register
-def _(value: AlphaComplex, factor: Fraction) -> AlphaComplex:
-    radii = {name: getattr(value, name) * float(factor) for name in ("r_min", "r_mid", "r_max", "spectrum")}
-    return replace(value, mesh=scaled(value.mesh, factor), **radii)
-
-
-@scaled.register
-def _(value: AlphaShape, factor: Fraction) -> AlphaShape:
-    r = value.r * factor if isinstance(value.r, Fraction) else value.r * float(factor)
-    return replace(value, family=scaled(value.family, factor), r=r, polygons=scaled(value.polygons, factor))
-
-
-@scaled.register
-def _(value: AlphaHull, factor: Fraction) -> AlphaHull:
-    places = {name: getattr(value, name) * float(factor) for name in ("start", "end", "centre")}
-    return replace(value, shape=scaled(value.shape, factor), **places)
-
-
-@scaled.register
-def _(value: Skeleton, factor: Fraction) -> Skeleton:
-    names = ("vertices", "radius", "control", "length", "error_bound", "gap")
-    x, y, w, h = value.frame or (0.0, 0.0, 0.0, 0.0)
-    by = float(factor)
-    return replace(
-        value,
-        polygons=scaled(value.polygons, factor),
-        site_table=_scaled_sites(value.site_table, by),
-        frame=value.frame and (x * by, y * by, w * by, h * by),
-        **{name: getattr(value, name) * by for name in names},
-    )
-
-
-@scaled.register
-def _(value: Centerlines, factor: Fraction) -> Centerlines:
-    return replace(value, path=scaled(value.path, factor), ends=value.ends * float(factor))
-
-
-@scaled.register
-def _(value: SkeletonPoints, factor: Fraction) -> SkeletonPoints:
-    lengths = {name: getattr(value, name) * float(factor) for name in ("along", "xy", "radius", "feet")}
-    return replace(value, skeleton=scaled(value.skeleton, factor), **lengths)
-
-
-@scaled.register
-def _(value: Offsets, factor: Fraction) -> Offsets:
-    lengths = {name: getattr(value, name) * float(factor) for name in ("start", "end", "centre", "distance")}
-    sites = _scaled_sites(value.site_table, float(factor))
-    return replace(value, polygons=scaled(value.polygons, factor), site_table=sites, **lengths)
-
-
-def _scaled_sites(table: SiteTable, by: float) -> SiteTable:
-    return table if table.ends is None else replace(table, ends=table.ends * by)
+def _scaled(part: Any, factor: Fraction) -> Any:
+    if type(part) in _LENGTHS_OF:
+        return scaled(part, factor)
+    if isinstance(part, Box):
+        return Box(*_scaled(part.sides, factor))
+    if isinstance(part, tuple):
+        return tuple(side * float(factor) for side in part)
+    return None if part is None else part * (factor if isinstance(part, Fraction) else float(factor))
 
 
 def scaled_table(table: Table, factor: Fraction, *, properties: Collection[str] = ()) -> Table:

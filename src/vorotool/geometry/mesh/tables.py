@@ -30,20 +30,14 @@ def edge_table(mesh: AnyTriangulation) -> Table:
     >>> table["label_a"].tolist(), table["label_b"].tolist(), table["length"].tolist()
     ([1, 1, 2], [3, 2, 3], [3.0, 4.0, 5.0])
     """
-    a, b = mesh.edges.T
-    x, y = _columns(mesh.points)
-    labels = mesh.label_array
-    return Table(
-        {
-            "label_a": Lookup(labels, a),
-            "label_b": Lookup(labels, b),
-            "x_a": Lookup(x, a),
-            "y_a": Lookup(y, a),
-            "x_b": Lookup(x, b),
-            "y_b": Lookup(y, b),
-            "length": Computed(mesh.edge_lengths, len(mesh.edges)),
-        }
-    )
+    return Table({**end_columns(mesh, mesh.edges), "length": Computed(mesh.edge_lengths, len(mesh.edges))})
+
+
+def end_columns(mesh: AnyTriangulation, edges: NDArray[np.int32]) -> dict[str, Lookup]:
+    """Give the labels and the places of the ends of edges."""
+    labels, (x, y), (a, b) = mesh.label_array, np.ascontiguousarray(mesh.points.T), edges.T
+    ends = {"label_a": (labels, a), "label_b": (labels, b), "x_a": (x, a), "y_a": (y, a), "x_b": (x, b), "y_b": (y, b)}
+    return {name: Lookup(values, end) for name, (values, end) in ends.items()}
 
 
 def triangle_table(mesh: AnyTriangulation) -> Table:
@@ -106,8 +100,3 @@ def point_table(mesh: Triangulation) -> Table:
         }
     )
     return table.with_properties(mesh.properties)
-
-
-def _columns(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(2, n) coordinates, each column contiguous."""
-    return np.ascontiguousarray(points.T)

@@ -76,6 +76,11 @@ class PointSet:
         return np.arange(1, len(self.xy) + 1, dtype=np.int64)
 
 
+def known_of_points(points: Any) -> dict[str, Any]:
+    """Give what is known of points beside their places, as what is made of them has it, too."""
+    return {name: getattr(points, name) for name in ("labels", "properties", "y_up", "crs")}
+
+
 def _checked_labels(labels: Any, count: int) -> NDArray[np.int64]:
     array = whole_numbers(labels, "label of point", np.int64)
     if array.shape != (count,):

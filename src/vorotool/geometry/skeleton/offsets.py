@@ -17,6 +17,7 @@ from vorotool.geometry.numbers import nearest_double, real_number, shown_number
 from vorotool.geometry.polygons.polygon_set import HOLE, SHELL, PolygonSet
 from vorotool.geometry.ragged import divides, owners
 from vorotool.geometry.skeleton.skeleton import SiteTable
+from vorotool.geometry.skeleton.tables import ids_of
 from vorotool.geometry.table import Lookup, Table
 
 PIECE_KINDS = ("line", "arc")
@@ -224,12 +225,11 @@ class Offsets:
         ring = self.ring_of_piece
         shape = self.shape_of_ring[ring]
         polygon = self.polygon[shape]
-        names = [None] * len(self.polygons) if self.polygons.ids is None else list(self.polygons.ids)
         line = ~self.is_arc
         return Table(
             {
                 "polygon": np.ma.array(polygon, mask=polygon < 0),
-                "id": Lookup([*names, None], np.where(polygon < 0, len(names), polygon).astype(np.int32)),
+                "id": ids_of(self.polygons, polygon),
                 "shape": shape,
                 "distance": self.piece_distance,
                 "ring": ring - self.shape_start[shape],

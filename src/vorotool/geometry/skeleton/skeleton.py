@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Any
 
@@ -67,15 +67,9 @@ class SiteTable:
 
     def taken(self, chosen: NDArray[np.intp]) -> SiteTable:
         """Some of the sites."""
-        return SiteTable(
-            self.kind[chosen],
-            self.polygon[chosen],
-            self.ring[chosen],
-            self.index[chosen],
-            self.source_ring[chosen],
-            self.source_index[chosen],
-            None if self.ends is None else self.ends[chosen],
-        )
+        columns = (getattr(self, column.name) for column in fields(self))
+        taken: list[Any] = [None if column is None else column[chosen] for column in columns]
+        return SiteTable(*taken)
 
 
 @dataclass(frozen=True, eq=False)

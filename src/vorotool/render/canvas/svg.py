@@ -99,8 +99,8 @@ def _parts(layer: Layer, page: Page, threads: int) -> Iterator[bytes]:
     return _points(layer, x, y, threads) if isinstance(layer, Points) else _texts(layer, x, y, threads)
 
 
-def _rows(columns: list[Any], around: tuple[str, ...], threads: int, separator: str = "") -> list[bytes]:
-    return _core.text.format_rows(columns, [None] * len(columns), 0, threads, (around, separator, ""))
+def _rows(columns: list[Any], around: tuple[str, ...], threads: int) -> list[bytes]:
+    return _core.text.format_rows(columns, [None] * len(columns), 0, threads, (around, "", ""))
 
 
 def _chunks(count: int, size: int) -> Iterator[slice]:

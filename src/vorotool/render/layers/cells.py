@@ -56,7 +56,7 @@ def cell_polygons(cells: CellSet, colours: NDArray[np.unsignedinteger], page: Pa
     )
 
 
-def cell_lines(cells: CellSet, page: Page, colour: str = INK) -> Lines:
+def cell_lines(cells: CellSet, page: Page) -> Lines:
     """Draw the boundaries of cells as lines, each side once where two cells share it.
 
     Examples
@@ -72,7 +72,7 @@ def cell_lines(cells: CellSet, page: Page, colour: str = INK) -> Lines:
     np.minimum.at(first, index.reshape(-1), np.arange(len(index), dtype=np.int32))
     number = first[index.reshape(-1)]  # coincident vertices have that of the first one
     sides = np.unique(np.sort(np.stack([number, number[following(rings)]], axis=1), axis=1), axis=0)
-    return Lines("diagram", cells.coordinates, sides, colour, _line_width(cells, page))
+    return Lines("diagram", cells.coordinates, sides, INK, _line_width(cells, page))
 
 
 def cells_page(cells: CellSet, *, width: int = 1000, y_up: bool | None = None) -> Page:

@@ -18,7 +18,7 @@ SHAPE_LAYERS = ("shape",)
 
 
 def polygon_layers(
-    polygons: PolygonSet, width: float, *, name: str = "polygons", fill: str = LIGHT, edge: str | None = None
+    polygons: PolygonSet, width: float, *, name: str = "polygons", edge: str | None = None
 ) -> list[Layer]:
     """Closed rings filled, open lines drawn.
 
@@ -28,7 +28,7 @@ def polygon_layers(
         What to draw.
     width : float
         Of lines, in px.
-    name, fill : str
+    name : str
         Of the layer of closed rings.
     edge : str, optional
         Colour of their outlines, and of lines.
@@ -50,7 +50,7 @@ def polygon_layers(
         corners,
         starts_of(sizes),
         first_rings=starts_of(per_polygon),
-        colours=[fill],
+        colours=[LIGHT],
         is_alone=covered(polygons),
         edge=edge,
         width=width,

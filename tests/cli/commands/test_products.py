@@ -1,0 +1,65 @@
+"""All results of all commands: in every format, with the layers that are drawn, the same for any number of threads."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from vorotool.jobs.names import DERIVED
+from vorotool.products.formats import FORMATS
+from vorotool.products.registry import PRODUCTS, all_layers, formats_of, layers_of
+from vorotool.render.label_images import png as label_png
+from vorotool.render.label_images import svg as label_svg
+from vorotool.render.layers import alpha, cells, mesh, offsets, points_along, polygons, skeleton
+
+DATA = Path(__file__).parents[3] / "data"
+INPUTS = {
+    "tessellate": ["dots.csv"],
+    "delaunay": [DATA / "dots.csv"],
+    "alphashape": [DATA / "dots.csv", "-r", 60],
+    "skeleton-exact": [DATA / "two-shapes.json"],
+}
+NEEDED = {"offset": ["-d", "-20,5"], "points": ["--every", "20"], "transects": ["--every", "20"]}
+"""Of skeletons."""
+
+
+@pytest.mark.parametrize(("command", "what"), [(command, what) for command in INPUTS for what in formats_of(command)])
+def test_every_format_is_written(run, folder, command, what):
+    more = NEEDED.get(what, []) if command == "skeleton-exact" else []
+    for fmt in formats_of(command)[what]:
+        named, chosen = folder / f"a{FORMATS[fmt].endings[0]}", folder / "b"
+        for way in (["-o", named.name], ["-f", fmt, "-o", "b"] if fmt != "zarr" else ["-o", named.name]):
+            done = run(command, *INPUTS[command], "--what", what, *more, *way)
+            assert (done.code, done.err if what != "compare" else "") == (0, ""), fmt
+        assert fmt == "zarr" or named.read_bytes() == chosen.read_bytes() != b"", fmt
+
+
+def test_layers_are_those_that_are_drawn():
+    assert layers_of("tessellate") == {"png": label_png.LAYERS, "svg": label_svg.LAYERS}
+    assert set(all_layers("delaunay")) == {*mesh.LAYERS, *cells.LAYERS}
+    assert all_layers("alphashape") == alpha.LAYERS
+    own = {what: product.layers.get("svg") for what, product in PRODUCTS["skeleton-exact"].items()}
+    assert own["skeleton"] == tuple(layer for layer in skeleton.LAYERS if layer != "exact")
+    along = dict.fromkeys(["points", "transects"], points_along.LAYERS)
+    assert {what: own[what] for what in DERIVED} == {"offset": offsets.LAYERS, "shape": polygons.SHAPE_LAYERS, **along}
+
+
+@pytest.mark.parametrize(
+    ("command", "what", "extension"),
+    [
+        *(("tessellate", "labels", "png"), ("tessellate", "labels", "tif"), ("tessellate", "colour", "png")),
+        *(("tessellate", "table", "csv"), ("delaunay", "edges", "csv"), ("delaunay", "edges", "npz")),
+        *(("delaunay", "triangles", "geojson"), ("delaunay", "triangles", "png"), ("alphashape", "curves", "csv")),
+        *(("alphashape", "hull", "geojson"), ("alphashape", "edges", "csv"), ("skeleton-exact", "skeleton", "json")),
+    ],
+)
+def test_the_same_bytes_for_any_threads(run, folder, command, what, extension):
+    rng = np.random.default_rng(0)
+    points = rng.integers(0, 600, (500, 2)) if command == "tessellate" else rng.normal(size=(20_000, 2))
+    np.save(folder / "many.npy", points.astype(float))
+    source = DATA / "ne_110m_land.geojson" if command == "skeleton-exact" else "many.npy"
+    for threads in (1, 2, 3):
+        made = ("-o", f"{threads}.{extension}", "--threads", threads)
+        assert run(command, source, "-q", "--what", what, *made).code == 0
+    one, two, three = ((folder / f"{k}.{extension}").read_bytes() for k in (1, 2, 3))
+    assert one == two == three
