@@ -3,9 +3,8 @@
 import sys
 from collections.abc import Iterable
 
-from vorotool.formats.parsing.format_names import IMAGE_NAMES, POINT_NAMES, POLYGON_NAMES
-
 from vorotool.products.formats import FORMATS
+from vorotool.products.inputs import names_of
 from vorotool.products.registry import PRODUCTS
 
 
@@ -42,8 +41,8 @@ def reference() -> str:
 
 
 def inputs() -> dict[str, Iterable[str]]:
-    """Names of formats that are read, by what they hold: the one place that knows where they are listed."""
-    return {"points": POINT_NAMES, "polygons and lines": POLYGON_NAMES, "images": IMAGE_NAMES}
+    """Names of formats that are read, by what they hold."""
+    return {"points": names_of("points"), "polygons and lines": names_of("polygons"), "images": names_of("image")}
 
 
 def outputs() -> Iterable[tuple[str, ...]]:

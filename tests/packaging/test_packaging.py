@@ -40,7 +40,7 @@ def test_no_wheel_has_what_only_tests_call():
     assert settings["cmake"]["define"]["VOROTOOL_TESTING"] == "OFF"
     [editable] = settings["overrides"]
     assert editable["if"] == {"state": "editable"}
-    assert editable["cmake"]["define"] == {"VOROTOOL_TESTING": "ON", "VOROTOOL_WERROR": "ON"}
+    assert editable["cmake"]["define"] == {"VOROTOOL_TESTING": "ON"}
 
 
 @pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.name)
