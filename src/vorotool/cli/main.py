@@ -1,8 +1,10 @@
-"""Entry point: finds the command, and turns every outcome into an exit code (DESIGN: errors, limits, signals)."""
+"""Entry point: finds the command, and turns every outcome into an exit code."""
 
 from __future__ import annotations
 
+import io
 import os
+import re
 import sys
 from contextlib import suppress
 from importlib import import_module
@@ -160,8 +162,10 @@ def _run(arguments: list[str] | None) -> int:
         result: Any = vorotool.main(args=arguments, prog_name="vorotool", standalone_mode=False)
         return result if isinstance(result, int) else 0
     except click.ClickException as error:
-        with suppress(OSError):
-            error.show()
+        shown = io.StringIO()
+        error.show(shown)
+        with suppress(OSError):  # the exit code remains
+            click.echo(re.sub("^Error: ", "error: ", shown.getvalue(), flags=re.MULTILINE), err=True, nl=False)
         return error.exit_code
     except SignalledError as error:
         return error.code

@@ -233,7 +233,7 @@ def _known_format(fmt: str | None, formats: Mapping[str, Sequence[str]]) -> str 
     found = format_named(fmt)
     if found is None:
         possible = dict.fromkeys(each for those in formats.values() for each in those)
-        raise UsageError(f"-f {fmt} is no format: use one of {', '.join(possible)}")
+        raise UsageError(f"invalid -f {fmt!r}: expected one of {', '.join(possible)}")
     return found
 
 

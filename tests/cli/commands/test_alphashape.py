@@ -208,7 +208,7 @@ def test_images_by_both_pipelines(run, folder):
     [
         (["-r", 0], "r is 0: a radius must be positive; leave it out for the smallest that joins all points"),
         (["-r", -3], "r is -3: a radius must be positive"),
-        (["-r", "nan"], "'nan' is no number: give a decimal such as 12.5"),
+        (["-r", "nan"], "'nan': expected a decimal such as 12.5"),
         (["--alpha", "0.1"], "alpha must be negative (α = −1/r): for the alphashape package's 0.1 use -r 10\n"),
         (["--alpha", "0"], "alpha must be negative (α = −1/r): for the convex hull use -r inf\n"),
         (["-r", 3, "--alpha", -3], "r and alpha are given, but each sets the radius: give one of r, alpha and auto"),

@@ -97,7 +97,7 @@ def test_properties_are_copied_unless_refused(run, folder):
 @pytest.mark.parametrize(
     ("options", "code", "words"),
     [
-        (("--frame", "0,0,1"), 2, "'0,0,1' is no frame: give four numbers"),
+        (("--frame", "0,0,1"), 2, "'0,0,1': expected four numbers"),
         (("--frame", "0,0,0,1"), 2, "W and H more than 0"),
         (("--frame", "nan,0,1,1"), 2, "all must be finite"),
         (("--frame", "1e17,0,1,1"), 3, "large enough beside the coordinates"),

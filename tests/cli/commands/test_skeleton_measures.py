@@ -163,7 +163,7 @@ def test_pictures(run, folder):
         (["--every", "3"], "--every is for other results: use --what points or --what transects, or leave it out"),
         (["--what", "offset", "-d", "0"], "a distance is 0"),
         (["--what", "offset", "-d", "1,inf"], "a distance is inf"),
-        (["--what", "offset", "-d", "1,,2"], "'1,,2' is no list of distances"),
+        (["--what", "offset", "-d", "1,,2"], "'1,,2': expected numbers such as -2,5"),
         (["--what", "offset", "-d", "2,1,2"], "the distance 2 is there 2 times"),
         (["--what", "points", "--every", "0"], "above 0"),
         (["--what", "points", "--every", "far"], "no length"),

@@ -133,10 +133,10 @@ def test_many_inputs(run, tmp_path):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ("--pixel-size um", "'um' is no size"),
+        ("--pixel-size um", "'um': expected a number and a unit"),
         ("--pixel-size 0um", "must be above 0"),
         ("--pixel-size 1e300", "no more than 1e100"),
-        ("--pixel-size -1um", "'-1um' is no size"),
+        ("--pixel-size -1um", "'-1um': expected more than 0"),
         ("--pixel-size 1..5um", "is no number"),
         ("--pixel-size 0.5um -f svg -o a.svg", "--pixel-size is for tables and vectors"),
         ("--pixel-size 0.5um -f png -o a.png", "--pixel-size is for tables and vectors"),

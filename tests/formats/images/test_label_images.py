@@ -52,7 +52,7 @@ def test_other_values_need_tiff_or_npy(dtype: str, fmt: str) -> None:
 
 
 def test_unknown_format() -> None:
-    with pytest.raises(UsageError, match="'bmp' is no format"):
+    with pytest.raises(UsageError, match="invalid fmt 'bmp'"):
         write_label_image(io.BytesIO(), [], shape=(1, 1), dtype="u1", fmt="bmp", largest_label=1)  # type: ignore[arg-type]
 
 

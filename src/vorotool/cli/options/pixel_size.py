@@ -23,10 +23,10 @@ class PixelSizeType(ParameterType[PixelSize]):
             return value
         match = re.fullmatch(r"([0-9.]+(?:[eE][-+]?[0-9]+)?)\s*([^\W\d_]{1,16})?", value)
         if match is None:
-            self.fail(f"{value!r} is no size: give a number and a unit, such as 0.325um", param, ctx)
+            self.fail(f"{value!r}: expected a number and a unit, such as 0.325um", param, ctx)
         factor = Decimal().convert(match[1], param, ctx)
         if not factor or not 1e-100 < factor < 1e100:
-            self.fail(f"{value!r} is no size of a pixel: it must be above 0, and no more than 1e100", param, ctx)
+            self.fail(f"{value!r}: expected more than 0, and at most 1e100", param, ctx)
         return PixelSize(factor, match[2])
 
 

@@ -30,7 +30,7 @@ class PruningType(ParameterType[Pruning]):
             return Pruning(value)
         criterion, equals, text = value.partition("=")
         if criterion not in CRITERIA or not equals:
-            self.fail(f"{value!r} is no pruning: give {FORMS}", param, ctx)
+            self.fail(f"{value!r}: expected {FORMS}", param, ctx)
         if ctx is not None and ctx.resilient_parsing:  # a shell completes what follows, and should not wait for numpy
             return Pruning(criterion, criterion)
         from vorotool.engines.pruning.pruning import check_threshold
@@ -63,7 +63,7 @@ class Place(ParameterType[tuple[float, float]]):
         try:
             x, y = (float(part) for part in value.split(","))
         except ValueError:
-            self.fail(f"{value!r} is no place: give two numbers X,Y, such as 12.5,8", param, ctx)
+            self.fail(f"{value!r}: expected two numbers X,Y, such as 12.5,8", param, ctx)
         if not (isfinite(x) and isfinite(y)):
-            self.fail(f"{value!r} is no place: both numbers must be finite", param, ctx)
+            self.fail(f"{value!r}: expected finite numbers", param, ctx)
         return (x, y)

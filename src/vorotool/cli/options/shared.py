@@ -38,7 +38,7 @@ class Size(ParameterType[tuple[int, int]]):
             return value
         parts = value.lower().replace("×", "x").split("x")
         if len(parts) != 2 or not all(re.fullmatch("0*[1-9][0-9]{0,17}", part) for part in parts):
-            self.fail(f"{value!r} is no size: give width and height in pixels, such as 640x480", param, ctx)
+            self.fail(f"{value!r}: expected width and height in pixels, such as 640x480", param, ctx)
         return (int(parts[0]), int(parts[1]))
 
 
@@ -56,7 +56,7 @@ class Window(ParameterType[tuple[int, int, int, int]]):
         try:
             x, y, w, h = (int(part) for part in value.split(","))
         except ValueError:
-            self.fail(f"{value!r} is no window: give four integers X,Y,W,H, such as -10,-10,640,480", param, ctx)
+            self.fail(f"{value!r}: expected four integers X,Y,W,H, such as -10,-10,640,480", param, ctx)
         if w < 1 or h < 1:
             self.fail(f"{value!r} is an empty window: W and H must be at least 1", param, ctx)
         return (x, y, w, h)
@@ -76,9 +76,9 @@ class Rectangle(ParameterType[tuple[float, float, float, float]]):
         try:
             x, y, w, h = (float(part) for part in value.split(","))
         except ValueError:
-            self.fail(f"{value!r} is no frame: give four numbers X,Y,W,H, such as 0,0,12.5,8", param, ctx)
+            self.fail(f"{value!r}: expected four numbers X,Y,W,H, such as 0,0,12.5,8", param, ctx)
         if not (all(map(isfinite, (x, y, w, h))) and w > 0 and h > 0):
-            self.fail(f"{value!r} is no frame: all must be finite, W and H more than 0", param, ctx)
+            self.fail(f"{value!r}: expected finite numbers, W and H more than 0", param, ctx)
         return (x, y, w, h)
 
 
@@ -96,7 +96,7 @@ class Threshold(ParameterType[float | str]):
         except ValueError:
             number = nan
         if not isfinite(number):
-            self.fail(f"{value!r} is no threshold: give a number or otsu", param, ctx)
+            self.fail(f"{value!r}: expected a number or otsu", param, ctx)
         return number
 
 
@@ -114,7 +114,7 @@ class Decimal(ParameterType[Fraction]):
                 raise ValueError
             return Fraction(value)
         except (ValueError, ZeroDivisionError):
-            self.fail(f"{value!r} is no number: give a decimal such as 12.5", param, ctx)
+            self.fail(f"{value!r}: expected a decimal such as 12.5", param, ctx)
 
 
 class CrsName(ParameterType[str]):
@@ -152,7 +152,7 @@ class Shard(ParameterType[tuple[int, int]]):
             return value
         match = re.fullmatch("([0-9]{1,9})/([0-9]{1,9})", value)
         if match is None or not 1 <= int(match[1]) <= int(match[2]):
-            self.fail(f"{value!r} is no part: give I/N with I from 1 to N, such as 2/8", param, ctx)
+            self.fail(f"{value!r}: expected I/N with I from 1 to N, such as 2/8", param, ctx)
         return (int(match[1]), int(match[2]))
 
 

@@ -40,9 +40,9 @@ class Length(ParameterType[float]):
         try:
             number = float(value)
         except ValueError:
-            self.fail(f"{value!r} is no length: give a number such as 0.5", param, ctx)
+            self.fail(f"{value!r}: expected a number such as 0.5", param, ctx)
         if not isfinite(number) or number < 0 or (number == 0 and not self._zero):
-            self.fail(f"{value!r} is no length: it must be {'0 or more' if self._zero else 'above 0'}", param, ctx)
+            self.fail(f"{value!r}: expected {'0 or more' if self._zero else 'more than 0'}", param, ctx)
         return number
 
 
@@ -58,7 +58,7 @@ class Distances(ParameterType[tuple[float, ...]]):
         try:
             numbers = tuple(float(part) for part in value.split(","))
         except ValueError:
-            self.fail(f"{value!r} is no list of distances: give numbers such as -2,5", param, ctx)
+            self.fail(f"{value!r}: expected numbers such as -2,5", param, ctx)
         from vorotool.engines.offsets.offsets import checked_distances
         from vorotool.errors import UsageError
 

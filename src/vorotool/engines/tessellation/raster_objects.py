@@ -60,7 +60,7 @@ def foreground_values(raster: Raster, threshold: Threshold, *, invert: bool) -> 
         raise InputError("a colour image holds no objects by itself: use --threshold T or --threshold otsu")
     elif raster.is_lossy and not is_flat(values[values != values.min()]):
         raise InputError(
-            "the file keeps values nearly, so that they are no labels: use --threshold T or --threshold otsu, or a PNG"
+            "the file is lossy, as JPEG is: its values are no labels; use --threshold T or --threshold otsu, or a PNG"
         )
     if values.dtype.kind == "f" and not np.isfinite(values).all():
         raise InputError("the image holds NaN or infinite values: use --threshold T, a number, or repair them")

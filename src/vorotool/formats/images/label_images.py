@@ -90,7 +90,7 @@ def write_label_image(
     elif fmt == "text":
         write_label_text(out, bands, shape, largest_label=largest_label)
     else:
-        raise UsageError(f"{fmt!r} is no format of label images: use png, tiff, npy or text")
+        raise UsageError(f"invalid fmt {fmt!r}: expected png, tiff, npy or text")
 
 
 def write_labels(out: BinaryIO, image: LabelImage, fmt: LabelFormat, *, threads: int = 0) -> None:
