@@ -64,13 +64,12 @@ TEST(copies_stay_when_the_original_goes) {
     const BigInteger sum = a + b, copy = a;
     a += b;
     CHECK(a == sum && a - b == copy);
-    BigInteger& same = a;
+    const BigInteger& same = a;
     a = same;
     CHECK(a == sum);
     BigInteger taken = std::move(a);
     a = copy;
     CHECK(taken == sum && a == copy);
-    const BigInteger& same = a;
     a -= same;
     equal(a.sign(), 0);
   }
