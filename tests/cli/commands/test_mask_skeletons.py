@@ -104,7 +104,7 @@ def test_nothing_in_the_foreground(run, folder):
         ((DATA / "two-shapes.json", "--outline", "crack"), 2, "--outline is for images, but the input is polygons"),
         ((DATA / "two-shapes.json", "--threshold", "3"), 2, "--threshold is for images"),
         ((BLOBS, "--seeds", "pixels"), 2, "'pixels' is not one of 'components', 'labels'"),
-        ((BLOBS, "--simplify", "0"), 2, "it must be above 0"),
+        ((BLOBS, "--simplify", "0"), 2, "expected more than 0"),
         ((BLOBS, "--max-sites", "100"), 5, "936 vertices, more than --max-sites 100"),
         ((BLOBS, "--max-pixels", "100"), 5, "--max-pixels"),
         (("noise.png",), 3, "noise.png: the image holds 256 values in"),

@@ -163,8 +163,8 @@ def test_too_many_vertices(run):
     ("options", "words"),
     [
         (["--gap", "-1"], "0 or more"),
-        (["--gap", "x"], "no length"),
-        (["--flatten", "0", "-f", "wkt"], "above 0"),
+        (["--gap", "x"], "expected a number such as 0.5"),
+        (["--flatten", "0", "-f", "wkt"], "expected more than 0"),
         (["--flatten", "1"], "no curves"),
         (["--complete"], "--gap STEP"),
         (["--frame", "0,0,1,1"], "--side exterior"),
