@@ -227,7 +227,7 @@ def test_shards_have_tables_and_statistics_of_their_own(run, inputs):
         ("points/p0.csv -j 2 -o out.png", 2, "-o names one output"),
         ("points - --out-dir out", 2, "- is standard input"),
         ("points --out-dir out --what colour --overlay -", 2, "--overlay - is standard input"),
-        ("points --out-dir out --shard 3/2", 2, "'3/2' is no part"),
+        ("points --out-dir out --shard 3/2", 2, "'3/2': expected I/N"),
         ("points --out-dir out -0", 2, "-0 is about the list"),
         ("points --out-dir out -j -1", 2, "-1"),
         ("points --out-dir out -j 2 --cluster tcp://127.0.0.1:1", 2, "-j is for this machine"),
