@@ -16,9 +16,11 @@ START = [sys.executable, "-m", "vorotool"]
 
 
 def contents(folder):
-    """Bytes of all files; the first line of a record of a batch has the number of its run, which is drawn."""
-    files = {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
-    return {name: data.split(b"\n", name.endswith(".manifest.jsonl"))[-1] for name, data in files.items()}
+    """Lines of all files; of a record of a batch without the first, whose run's number is drawn, in any order."""
+    files = {
+        str(path.relative_to(folder)): path.read_bytes().split(b"\n") for path in folder.rglob("*") if path.is_file()
+    }
+    return {name: sorted(lines[1:]) if name.endswith(".manifest.jsonl") else lines for name, lines in files.items()}
 
 
 def test_the_smoke_runs_every_command():
