@@ -24,12 +24,8 @@ def executor_results(
 
     Parameters
     ----------
-    process : callable
-        What is done with an input.
-    tasks : iterator of (int, Task)
-        Numbered; one is taken when a worker is free, and after a failure has been told.
-    jobs : int
-        Worker processes.
+    process, tasks, jobs
+        As of `vorotool.batch.process_pool.local_results`.
 
     Yields
     ------

@@ -60,7 +60,7 @@ def recognised(
     >>> holds, source.format
     ('image', 'pnm')
     """
-    result = _result(source.data) if geometry is None and said in (None, "json") else None
+    result = _result(source.data) if geometry is None and said in (None, "json", "geojson") else None
     may_be_points = columns is not None and source.data.startswith(MAGIC)
     image = None if may_be_points or result else image_format(source, said)
     if image is not None:

@@ -65,6 +65,9 @@ def test_results_are_drawn_as_by_the_command_that_makes_them(run, folder, option
     for fmt in ("svg", "png"):
         assert run("draw", "made.json", "-o", f"drawn.{fmt}", "--stats", f"{fmt}.json").code == 0
         assert (folder / f"drawn.{fmt}").read_bytes() == (folder / f"made.{fmt}").read_bytes()
+    for said in ("json", "geojson"):  # an object is of either kind: its type tells
+        assert run("draw", "made.json", "--input-format", said, "-o", "said.svg").code == 0
+        assert (folder / "said.svg").read_bytes() == (folder / "made.svg").read_bytes()
     assert count in (folder / "svg.json").read_text()
     assert groups_of(run("draw", "made.json", "--layers", layer, "-f", "svg").out) == [layer]
     done = run("draw", "made.json", "--layers", other, "-o", "a.svg")
