@@ -29,6 +29,8 @@ def read(
     threads: int = 0,
     note: Callable[[str], None] | None = None,
     crs: str | None = None,
+    to_crs: str | None = None,
+    layer: str | None = None,
 ) -> PointSet | PolygonSet | Raster | Skeleton | Offsets:
     """Read points, polygons and lines, an image, or a skeleton or offset curves that were written as JSON.
 
@@ -42,8 +44,9 @@ def read(
     geometry : {"points", "polygons"}, optional
         What must be in a file that is no image; by default its content tells.
     input_format : str, optional
-        One of csv, node, npy, geojson, wkt, json, poly, png, tiff, pnm, zarr, jpeg, bmp, gif, webp and avif (or another
-        usual extension of one), where extension and content leave it unclear.
+        One of csv, csv-wkt, node, npy, npz, geojson, wkt, wkb, json, poly, gpkg, fgb, shp, kml, gpx, parquet, png,
+        tiff, pnm, zarr, jpeg, bmp, gif, webp and avif (or another usual extension of one), where extension and content
+        leave it unclear.
     columns : str, optional
         ``X,Y[,LABEL]`` of a point list, by name or number from 1.
     page : int, optional
@@ -58,6 +61,10 @@ def read(
         Told in words what was recognised.
     crs : str, optional
         The coordinate reference system of points or polygons that name none, such as EPSG:3857.
+    to_crs : str, optional
+        The system in which the coordinates are wanted: those of an input in another one are transformed.
+    layer : str, optional
+        The layer of a map that has several.
 
     Returns
     -------
@@ -80,7 +87,7 @@ def read(
     """
     from vorotool.formats.opening import opened
 
-    with opened(path, geometry=geometry, input_format=input_format, page=page) as source:
+    with opened(path, geometry=geometry, input_format=input_format, page=page, layer=layer) as source:
         return source.read(
             columns=columns,
             max_pixels=max_pixels,
@@ -89,4 +96,5 @@ def read(
             threads=threads,
             note=note,
             crs=crs,
+            to_crs=to_crs,
         )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +12,7 @@ from vorotool.errors import InputError, UsageError
 from vorotool.formats.images.band_reader import TiffRows, ZarrRows, open_tiff, open_zarr, read_rows
 from vorotool.formats.io.sources import read_source, reading
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note
-from vorotool.formats.recognition import read_recognised, recognised, refuse_crs
+from vorotool.formats.recognition import read_recognised, recognised, refuse_for_images
 from vorotool.geometry.checks import checked_threads
 from vorotool.products.inputs import NAMES_WITH, known_input_format
 
@@ -26,13 +26,18 @@ if TYPE_CHECKING:
 
 @contextmanager
 def opened(
-    path: str | PathLike[str], *, geometry: str | None, input_format: str | None, page: int | None
+    path: str | PathLike[str],
+    *,
+    geometry: str | None,
+    input_format: str | None,
+    page: int | None,
+    layer: str | None = None,
 ) -> Iterator[Opened]:
     """Open an input: errors that arise while it is open carry its name.
 
     Parameters
     ----------
-    path, geometry, input_format, page
+    path, geometry, input_format, page, layer
         As of `vorotool.read`.
 
     Examples
@@ -48,7 +53,7 @@ def opened(
         raise InputError(f"{path!r} is no path: give the name of a file; arrays need not be read")
     name = fspath(path)
     with reading(name):
-        yield Opened(name, geometry, said, page, open_zarr(name, said, page))
+        yield Opened(name, geometry, said, page, layer, open_zarr(name, said, page))
 
 
 @dataclass(frozen=True)
@@ -59,8 +64,8 @@ class Opened:
     ----------
     name : str
         The path as the user wrote it; ``-`` is standard input.
-    geometry, said, page
-        What must be in it, its format and its page, as far as the caller says; as of `read`.
+    geometry, said, page, layer
+        What must be in it, its format, its page and its layer, as far as the caller says; as of `read`.
     array : ZarrRows, optional
         The rows of a Zarr array, which is no file.
     """
@@ -69,6 +74,7 @@ class Opened:
     geometry: str | None
     said: str | None
     page: int | None
+    layer: str | None
     array: ZarrRows | None
 
     def rows(self) -> ZarrRows | TiffRows | None:
@@ -76,22 +82,33 @@ class Opened:
         return self.array or open_tiff(self.name, self.said, self.page)
 
     def read(
-        self, *, threads: int = 0, note: Callable[[str], None] | None = None, crs: str | None = None, **options: Any
+        self,
+        *,
+        threads: int = 0,
+        note: Callable[[str], None] | None = None,
+        crs: str | None = None,
+        to_crs: str | None = None,
+        **options: Any,
     ) -> PointSet | PolygonSet | Raster | Skeleton | Offsets:
         """Read all, with the options of `vorotool.read` that are not about opening it."""
-        declared = None if crs is None else _declared(crs)
         given = ReadOptions(
-            page=self.page, threads=checked_threads(threads), note=note or no_note, crs=declared, **options
+            page=self.page,
+            threads=checked_threads(threads),
+            note=note or no_note,
+            crs=None if crs is None else _member(crs),
+            to_crs=None if to_crs is None else _member(to_crs),
+            **options,
         )
         if self.array is not None:
-            refuse_crs(declared)
+            refuse_for_images(given, self.layer)
             return read_rows(self.array, max_pixels=given.max_pixels)
-        holds, source = recognised(read_source(self.name), self.geometry, self.said, given.columns)
+        content = replace(read_source(self.name), layer=self.layer)
+        holds, source = recognised(content, self.geometry, self.said, given.columns)
         value: PointSet | PolygonSet | Raster | Skeleton | Offsets = read_recognised(holds, source, given)
         return value
 
 
-def _declared(crs: str) -> dict[str, Any]:
+def _member(crs: str) -> dict[str, Any]:
     """Give the ``crs`` member of GeoJSON for a name."""
     from vorotool.geometry.crs import crs_member
 

@@ -86,20 +86,23 @@ def read_recognised(holds: Holds, source: Source, options: ReadOptions) -> Any:
     array([7, 9])
     """
     if holds == "image":
-        refuse_crs(options.crs)
+        refuse_for_images(options, source.layer)
     reader: Callable[[Source, ReadOptions], Any] = resolved(INPUTS[source.format].readers[holds])
     value = reader(source, options)
     if holds not in ("points", "polygons"):
         return value
+    if source.layer is not None and "layers" not in INPUTS[source.format].has:
+        raise UsageError(f"--input-layer is for files of several layers, but {source.name} has none: leave it out")
     from vorotool.formats.parsing.reference_systems import with_crs
 
-    return with_crs(value, source.name, options.crs, options.note)
+    return with_crs(value, source.name, options)
 
 
-def refuse_crs(crs: Any) -> None:
-    """Refuse a coordinate reference system that an image is declared to be in."""
-    if crs is not None:
-        raise UsageError("--input-crs is for points, polygons and lines, but the input is an image: leave it out")
+def refuse_for_images(options: ReadOptions, layer: str | None) -> None:
+    """Refuse what is said of points, polygons and lines where the input is an image."""
+    for name, given in (("input-crs", options.crs), ("crs", options.to_crs), ("input-layer", layer)):
+        if given is not None:
+            raise UsageError(f"--{name} is for points, polygons and lines, but the input is an image: leave it out")
 
 
 def image_source(source: Source, said: str | None = None) -> Source:

@@ -6,14 +6,17 @@ import re
 from dataclasses import replace
 
 from vorotool.errors import InputError, UsageError
+from vorotool.formats.features.delimited_geometry import geometry_column
+from vorotool.formats.features.shapefile_parts import holds_shapefile
 from vorotool.formats.io.npy_arrays import MAGIC
 from vorotool.formats.io.sources import Source
-from vorotool.formats.parsing.convertible import refuse_convertible, refuse_geometry_column
+from vorotool.formats.parsing.convertible import refuse_convertible
 from vorotool.formats.parsing.geojson import holds_shapes, parse_json
-from vorotool.formats.points.delimited import header_fields
+from vorotool.formats.points.delimited import has_coordinates, header_fields
 from vorotool.formats.points.tables import NPZ_MAGIC, is_table
 from vorotool.formats.polygons.json import is_list_of_shells
 from vorotool.formats.polygons.wkt import holds_shapes as wkt_holds_shapes
+from vorotool.products.formats import resolved
 from vorotool.products.inputs import INPUTS, Holds
 
 _SUFFIXES = {f".{name}": each.name for each in INPUTS.values() for name in each.names if name not in ("json", "txt")}
@@ -24,7 +27,12 @@ _WKT = re.compile(
 )
 _UTF8_MARK = b"\xef\xbb\xbf"
 _UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
-_WITH_COLUMNS = ("csv", "json", "npz")
+_WITH_COLUMNS = ("csv", "json", "npz", "parquet")
+_HEADS = (
+    *((MAGIC, "npy"), (NPZ_MAGIC, "npz"), (b"SQLite format 3\0", "gpkg"), (b"fgb\x03fgb", "fgb")),
+    *((b"\0\0\x27\x0a", "shp"), (b"PAR1", "parquet"), (b"{", "geojson"), (b"[", "json")),
+)
+_MARKUP = re.compile(rb"<(kml|gpx)[\s>]")
 
 
 def recognised_geometry(
@@ -48,10 +56,10 @@ def recognised_geometry(
     'points'
     """
     if geometry == "points" or (geometry is None and columns is not None):
-        return "points", _points(source, said or point_format(source), columns)
+        return "points", _points(source, said or point_format(source, columns), columns)
     if geometry == "polygons":
         holds: Holds = "polygons"
-        source = text_source(source, said or polygon_format(source))
+        source = _plain_source(source, said or polygon_format(source))
     else:
         holds, source = _either(source, said)
     if holds == "polygons" and columns is not None:
@@ -59,8 +67,10 @@ def recognised_geometry(
     return holds, source
 
 
-def point_format(source: Source) -> str:
+def point_format(source: Source, columns: str | None = None) -> str:
     """Tell the format of points, if it is one, by the extension, else by the content.
+
+    Delimited text has them in a column of well-known text where its header has such a column, and no coordinates.
 
     Raises
     ------
@@ -72,14 +82,29 @@ def point_format(source: Source) -> str:
     >>> point_format(Source("standard input", b"POINT (1 2)"))
     'wkt'
     """
+    if source.suffix == ".zip" and holds_shapefile(source.data):
+        return "shp"
     refuse_convertible(source)
-    by_suffix = _SUFFIXES.get(source.suffix)
-    if by_suffix is not None and "points" in INPUTS[by_suffix].readers:
-        return by_suffix
-    head = source.data[:4096].removeprefix(_UTF8_MARK).lstrip()
-    for start, name in ((MAGIC, "npy"), (NPZ_MAGIC, "npz"), (b"{", "geojson"), (b"[", "json")):
-        if head.startswith(start):
-            return name
+    found = _SUFFIXES.get(source.suffix)
+    if found is None or "points" not in INPUTS[found].readers:
+        found = _by_content(source.data)
+    if found == "csv" and columns is None:
+        fields = header_fields(text_source(source, found).data)
+        if geometry_column(fields) is not None and not has_coordinates(fields):
+            return "csv-wkt"
+    return found
+
+
+def _by_content(data: bytes) -> str:
+    head = data[:4096].removeprefix(_UTF8_MARK).lstrip()
+    found = next((name for start, name in _HEADS if head.startswith(start)), None)
+    if found == "npz" and holds_shapefile(data):
+        return "shp"
+    if found is not None:
+        return found
+    markup = _MARKUP.search(head) if head.startswith(b"<") else None
+    if markup is not None:
+        return markup[1].decode()
     return "wkt" if _WKT.match(head) else "csv"
 
 
@@ -107,8 +132,8 @@ def polygon_format(source: Source) -> str:
         raise InputError(
             f"{source.name} is empty: polygons, lines or an image were expected; check what was to write it"
         )
-    if found != "npy":
-        refuse_geometry_column(source.name, header_fields(text_source(source, found).data))
+    if found == "csv" and geometry_column(header_fields(text_source(source, found).data)) is not None:
+        return "csv-wkt"
     raise InputError(
         f"{source.name} holds no polygons or lines that are read (it looks like {found}): use JSON, GeoJSON, WKT or "
         ".poly, or say which with --input-format; of points alphashape makes polygons"
@@ -122,9 +147,17 @@ def _either(source: Source, said: str | None) -> tuple[Holds, Source]:
     chosen = said or point_format(source)
     if "polygons" not in INPUTS[chosen].readers:
         return "points", _points(source, chosen, None)
-    source = text_source(source, chosen)
+    source = _plain_source(source, chosen)
+    if "features" in INPUTS[chosen].has:
+        module = INPUTS[chosen].readers["polygons"].partition(":")[0]
+        source = replace(source, document=resolved(f"{module}:features_of")(source))
+        return ("polygons" if source.document.holds_shapes else "points"), source
     if chosen == "wkt":
         return ("polygons" if wkt_holds_shapes(source.data) else "points"), source
+    return _in_json(source, said)
+
+
+def _in_json(source: Source, said: str | None) -> tuple[Holds, Source]:
     if _is_flat(source.data):
         return "points", source
     document = parse_json(source)
@@ -149,7 +182,12 @@ def _is_flat(data: bytes) -> bool:
 def _points(source: Source, chosen: str, columns: str | None) -> Source:
     if columns is not None and chosen not in _WITH_COLUMNS:
         raise UsageError(f"--columns is for delimited text, but {source.name} is read as {chosen}: leave it out")
-    return replace(source, format=chosen) if chosen in ("npy", "npz") else text_source(source, chosen)
+    return _plain_source(source, chosen)
+
+
+def _plain_source(source: Source, chosen: str) -> Source:
+    """Give a source with its format; of text, as `text_source` does."""
+    return replace(source, format=chosen) if "bytes" in INPUTS[chosen].has else text_source(source, chosen)
 
 
 def text_source(source: Source, chosen: str) -> Source:

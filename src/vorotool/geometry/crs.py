@@ -6,6 +6,8 @@ import json
 import re
 from typing import Any
 
+from vorotool.geometry.geographic_codes import GEOGRAPHIC_CODES
+
 _FORMS = (
     re.compile(r"urn:(?:x-)?ogc:def:crs:(\w+):[^:]*:(\w+)", re.IGNORECASE),
     re.compile(r"https?://www\.opengis\.net/def/crs/(\w+)/[^/]+/(\w+)", re.IGNORECASE),
@@ -29,15 +31,12 @@ _SAME = {
 }
 """Other names of one system."""
 
-_GEOGRAPHIC_CODES = (
-    *(4326, 4979, 4322, 4019),  # WGS 84, WGS 72, GRS 1980
-    *(4258, 4937, 4230, 4171, 4275, 4277, 4289, 4299, 4300, 4312, 4313, 4314, 4149, 4150, 4151, 4173, 4180),  # Europe
-    *(4121, 4124, 4156, 4200, 4207, 4231, 4265, 4274, 4284, 4619, 4659, 4670, 4761, 4765, 5324, 6706, 7683, 8086),
-    *(4267, 4269, 4140, 4152, 4617, 4759, 6318, 4170, 4618, 4674, 4225),  # the Americas
-    *(4167, 4272, 4202, 4203, 4283, 7844, 4301, 4612, 6668, 4214, 4490, 4610, 4737, 4148, 4222),  # elsewhere
-)
-_GEOGRAPHIC = frozenset({"OGC:CRS84", "OGC:CRS83", "OGC:CRS27", *(f"EPSG:{code}" for code in _GEOGRAPHIC_CODES)})
-"""Systems of longitude and latitude in degrees that are met most: of others nobody is told of degrees."""
+_LONGITUDE_LATITUDE = frozenset({"OGC:CRS84", "OGC:CRS83", "OGC:CRS27"})
+
+_WELL_KNOWN = re.compile(r"\s*(?P<kind>[A-Z_]+)\s*\[\s*\"(?P<name>[^\"]*)\"")
+"""How the text of a system begins that is spelled out, not named (WKT of either version)."""
+
+_GEOGRAPHIC_KINDS = ("GEOGCS", "GEOGCRS", "GEOGRAPHICCRS", "GEODCRS", "GEODETICCRS")
 
 LONGITUDE_LATITUDE = "urn:ogc:def:crs:OGC:1.3:CRS84"
 """Longitude and latitude as columns of these names have them."""
@@ -54,7 +53,7 @@ def crs_name(crs: Any) -> str:
     Returns
     -------
     str
-        Authority and code; of what is none of the usual forms, the text.
+        Authority and code; of a system that is spelled out, what it is called; of what is none of these, the text.
 
     Examples
     --------
@@ -64,6 +63,9 @@ def crs_name(crs: Any) -> str:
     'OGC:CRS84'
     """
     text = _text_of(crs)
+    spelled = _WELL_KNOWN.match(text)
+    if spelled is not None:
+        return spelled["name"]
     for form in _FORMS:
         found = form.fullmatch(text)
         if found is not None:
@@ -91,6 +93,8 @@ def same_crs(a: Any, b: Any) -> bool:
     >>> same_crs("EPSG:4326", "urn:ogc:def:crs:OGC:1.3:CRS84"), same_crs("EPSG:4326", "EPSG:3857")
     (True, False)
     """
+    if _WELL_KNOWN.match(_text_of(a)) or _WELL_KNOWN.match(_text_of(b)):
+        return _text_of(a) == _text_of(b)  # one name may be that of several
     return _one_name(a) == _one_name(b)
 
 
@@ -107,7 +111,14 @@ def is_geographic(crs: Any) -> bool:
     >>> is_geographic("EPSG:4258"), is_geographic("EPSG:2056"), is_geographic(None)
     (True, False, False)
     """
-    return crs is not None and _one_name(crs) in _GEOGRAPHIC
+    if crs is None:
+        return False
+    spelled = _WELL_KNOWN.match(_text_of(crs))
+    if spelled is not None:
+        return spelled["kind"] in _GEOGRAPHIC_KINDS
+    authority, _, code = _one_name(crs).partition(":")
+    is_listed = authority == "EPSG" and code.isdecimal() and int(code) in GEOGRAPHIC_CODES
+    return is_listed or f"{authority}:{code}" in _LONGITUDE_LATITUDE
 
 
 def crs_member(name: str) -> dict[str, Any] | None:
@@ -128,3 +139,36 @@ def crs_member(name: str) -> dict[str, Any] | None:
     is_longitude_latitude = authority != "EPSG" and _SAME.get(plain, plain) == "OGC:CRS84"
     urn = LONGITUDE_LATITUDE if is_longitude_latitude else f"urn:ogc:def:crs:{authority}::{code}"
     return {"type": "name", "properties": {"name": urn}}
+
+
+def member_of_text(text: str | None) -> dict[str, Any] | None:
+    """Give the ``crs`` member of GeoJSON for what a library says of a file: a name, or a system that is spelled out.
+
+    Examples
+    --------
+    >>> member_of_text("EPSG:2056")["properties"]["name"], member_of_text(None)
+    ('urn:ogc:def:crs:EPSG::2056', None)
+    """
+    if not text:
+        return None
+    return crs_member(text) or {"type": "name", "properties": {"name": text}}
+
+
+def crs_text(crs: Any) -> str | None:
+    """Give what libraries of maps take for a ``crs`` member: authority and code, or the system spelled out.
+
+    Longitude and latitude are EPSG:4326, which all of them know; x is the longitude in all files that are written.
+
+    Examples
+    --------
+    >>> crs_text({"type": "name", "properties": {"name": LONGITUDE_LATITUDE}}), crs_text(None)
+    ('EPSG:4326', None)
+    """
+    if crs is None:
+        return None
+    text = _text_of(crs)
+    if _WELL_KNOWN.match(text):
+        return text
+    return {"OGC:CRS84": "EPSG:4326", "OGC:CRS83": "EPSG:4269", "OGC:CRS27": "EPSG:4267"}.get(
+        _one_name(crs), crs_name(crs)
+    )

@@ -215,7 +215,9 @@ class ShapeProducts:
             else:
                 o, value = self.options, self._value(target.what)
                 product = PRODUCTS["alphashape"][target.what]
-                write_product(out, value, product, target.fmt, precision=o.precision, threads=o.threads)
+                write_product(
+                    out, value, product, target.fmt, precision=o.precision, threads=o.threads, path=target.path
+                )
 
     def _value(self, what: str) -> Any:
         """What a result is written from, in the units of files."""

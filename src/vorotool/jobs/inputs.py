@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import InputError, Kind, Message, UsageError
-from vorotool.jobs.options import ComputingOptions, JobOptions, SiteOptions
+from vorotool.jobs.options import ComputingOptions, JobOptions, SiteOptions, TriangulationOptions
 from vorotool.jobs.run_log import Run
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ def opened_input(o: ComputingOptions, given: JobInput, geometry: str) -> Abstrac
     """Open points or polygons, or an image, as the options say."""
     from vorotool.formats.opening import opened
 
-    return opened(given.path, geometry=geometry, input_format=o.input_format, page=o.page)
+    return opened(given.path, geometry=geometry, input_format=o.input_format, page=o.page, layer=o.input_layer)
 
 
 def read_opened(
@@ -86,6 +86,7 @@ def read_opened(
         threads=o.threads,
         note=run.note,
         crs=o.input_crs,
+        to_crs=o.crs,
     )
     assert isinstance(value, PointSet | PolygonSet | Raster)  # others are read where no geometry is asked for
     if isinstance(value, Raster):
@@ -181,7 +182,7 @@ def window_of(o: SiteOptions, seeds: SeedSet) -> tuple[int, int, int, int] | Non
 
 
 def read_clip(
-    run: Run, path: str, points: PointSet | SeedSet, given: JobInput, *, threads: int
+    run: Run, o: TriangulationOptions, path: str, points: PointSet | SeedSet, given: JobInput
 ) -> tuple[PointSet | SeedSet, Sequence[Any]]:
     """Read the polygons of ``--clip``, as shapely geometry; lines are left out with a note.
 
@@ -200,12 +201,17 @@ def read_clip(
         If there are no polygons, or they are in another system than the points.
     """
     from vorotool.formats import read
+    from vorotool.formats.parsing.reader_options import ReadOptions
+    from vorotool.formats.parsing.reference_systems import with_crs
+    from vorotool.geometry.crs import crs_member
     from vorotool.geometry.polygons.conversion import to_shapely
     from vorotool.geometry.polygons.polygon_set import PolygonSet
 
-    value = read(path, geometry="polygons", properties=False, threads=threads, note=partial(_note_of_clip, run))
+    value = read(path, geometry="polygons", properties=False, threads=o.threads, note=partial(_note_of_clip, run))
     if not isinstance(value, PolygonSet):
         raise InputError(f"{path} is an image: give --clip a file of polygons")
+    if o.crs is not None and value.crs is not None:
+        value = with_crs(value, path, ReadOptions(to_crs=crs_member(o.crs)))
     points = _in_one_crs(run, (path, value), (given.name, points))
     lines = int(value.is_line.sum())
     if lines:
@@ -223,7 +229,7 @@ def _note_of_clip(run: Run, message: str) -> None:
 
 def _in_one_crs(run: Run, clip: tuple[str, PolygonSet], data: tuple[str, PointSet | SeedSet]) -> PointSet | SeedSet:
     """Check that polygons and points are in one coordinate reference system, as far as they name any."""
-    from vorotool.formats.parsing.reference_systems import with_crs
+    from vorotool.formats.parsing.reference_systems import declared_in, note_degrees
     from vorotool.geometry.crs import crs_name, same_crs
     from vorotool.geometry.points.point_set import PointSet
 
@@ -234,12 +240,15 @@ def _in_one_crs(run: Run, clip: tuple[str, PolygonSet], data: tuple[str, PointSe
         unnamed, named, crs = (source, path, polygons.crs) if points.crs is None else (path, source, points.crs)
         _check_they_meet(points, polygons, f"{unnamed} names no coordinate reference system", f"{named} is in", crs)
         run.note(f"{unnamed} names no coordinate reference system: it is taken to be in {crs_name(crs)}, as {named} is")
-        return with_crs(points, source, crs, run.note) if points.crs is None else points
+        if points.crs is None:
+            points = declared_in(points, source, crs)
+            note_degrees(points, source, run.note)
+        return points
     if not same_crs(points.crs, polygons.crs):
         wanted = crs_name(points.crs)
         raise InputError(
             f"{path} is in {crs_name(polygons.crs)}, but {source} in {wanted}: bring them into one coordinate "
-            f"reference system, for example: ogr2ogr -f GeoJSON -t_srs {wanted} clip.geojson {path}"
+            f"reference system: --crs {wanted} does"
         )
     return points
 

@@ -26,6 +26,7 @@ class JobOptions:
 
     inputs: tuple[str, ...]
     input_format: str | None
+    input_layer: str | None
     page: int | None
     what: tuple[str, ...]
     output: str | None
@@ -88,6 +89,7 @@ class ComputingOptions(JobOptions):
     """What each command has that computes something of points, polygons or an image."""
 
     input_crs: str | None
+    crs: str | None
     connectivity: Literal["8", "4"] | None
     threshold: float | Literal["otsu"] | None
     invert: bool

@@ -211,6 +211,7 @@ class SkeletonProducts(ABC, Generic[Options]):
             flatten=length_in_units(o.pixel_size, o.flatten),
             precision=o.precision,
             threads=o.threads,
+            path=target.path,
         )
 
     def _written(self, what: str) -> Any:

@@ -188,7 +188,9 @@ class Products:
                 self._write_picture(out, target)
             elif what in ("table", "neighbours"):
                 table, product = getattr(self, f"_{what}")(), PRODUCTS["tessellate"][what]
-                write_product(out, table, product, target.fmt, precision=o.precision, threads=o.threads)
+                write_product(
+                    out, table, product, target.fmt, precision=o.precision, threads=o.threads, path=target.path
+                )
             else:
                 write_file(out, o, target, self._stream(what))
 

@@ -53,7 +53,7 @@ def products(run: Run, o: TriangulationOptions, given: JobInput) -> MeshProducts
         read = ReadPoints(read_sites(run, o, given, properties=properties, is_digital=is_digital), None)
     if o.clip is not None:
         with reading(o.clip), run.phase("read polygons"):
-            read = ReadPoints(*read_clip(run, o.clip, read.points, given, threads=o.threads))
+            read = ReadPoints(*read_clip(run, o, o.clip, read.points, given))
     if not is_digital:
         return MeshProducts(run, o, given, read)
     from vorotool.jobs.digital_triangulation import DigitalProducts, RepairedProducts
@@ -120,7 +120,7 @@ class MeshProducts:
                 return
             o, value = self.options, self._value(target.what, target.fmt)
             product = PRODUCTS["delaunay"][target.what]
-            write_product(out, value, product, target.fmt, precision=o.precision, threads=o.threads)
+            write_product(out, value, product, target.fmt, precision=o.precision, threads=o.threads, path=target.path)
 
     def _value(self, what: str, fmt: str) -> Any:
         """What a result is written from, in the units of files: the table tells of cells, too."""

@@ -152,7 +152,7 @@ def _write_data(
         write_zarr(path, value.labels, threads=threads)
         return
     with open_output(path, binary=not FORMATS[fmt].is_text) as out:
-        write_product(out, value, product, fmt, flatten=flatten, precision=precision, threads=threads)
+        write_product(out, value, product, fmt, flatten=flatten, precision=precision, threads=threads, path=path)
 
 
 class _Picture(NamedTuple):

@@ -44,7 +44,9 @@ class Format:
     made_from : tuple of str
         It is made from the text of the first of these formats that a product has, by ``maker``.
     maker : str
-        ``module:name`` of ``maker(out)``, a file that takes that text.
+        ``module:name`` of ``maker(out, what, path)``: a context in which there is a file that takes that text.
+    beside : tuple of str
+        Extensions of further files that belong to each.
     """
 
     name: str
@@ -58,6 +60,7 @@ class Format:
     writers: Mapping[str, Writer] = field(default_factory=dict)
     made_from: tuple[str, ...] = ()
     maker: str = ""
+    beside: tuple[str, ...] = ()
 
     @property
     def endings(self) -> tuple[str, ...]:
@@ -68,6 +71,12 @@ class Format:
 def _of_objects(name: str, title: str, extensions: tuple[str, ...], maker: str) -> Format:
     """Give a format of what a result has as features in GeoJSON, or else of the rows of its table."""
     return Format(name, title, extensions, has_digits=True, flattens=True, made_from=("geojson", "json"), maker=maker)
+
+
+def _of_maps(name: str, title: str, maker: str, sources: tuple[str, ...] = ("geojson",), **more: Any) -> Format:
+    """Give a format of features of maps, or of the rows of tables where it can hold these."""
+    place = f"formats.features.feature_writers:{maker}"
+    return Format(name, title, is_text=False, flattens=True, made_from=sources, maker=place, **more)
 
 
 _GRAPHML = Writer("formats.results.graphml:write_graphml", ("flatten", "precision", "threads"))
@@ -89,6 +98,10 @@ _ALL = (
     Format("poly", "Triangle", has_digits=True),
     Format("graphml", "GraphML", has_digits=True, flattens=True, writers={"skeleton": _GRAPHML}),
     _of_objects("jsonl", "JSON lines", ("jsonl", "ndjson"), "formats.text.json_lines:JsonLines"),
+    _of_maps("gpkg", "GeoPackage", "GeoPackage", ("geojson", "json")),
+    _of_maps("fgb", "FlatGeobuf", "FlatGeobuf"),
+    _of_maps("shp", "Shapefile", "Shapefile", beside=(".shx", ".dbf", ".prj", ".cpg")),
+    _of_maps("parquet", "GeoParquet", "GeoParquet", ("geojson", "json"), extensions=("parquet", "geoparquet")),
     Format("html", "HTML"),
     Format("zarr", "Zarr", is_text=False, is_image=True),
 )

@@ -24,22 +24,33 @@ class InputFormat:
         What ``--input-format`` accepts for it, which are the extensions of its files, too.
     readers : mapping of str to str
         What it may hold, and ``module:function`` of ``function(source, options)`` that reads it.
+    has : frozenset of str
+        ``bytes``: it is no text. ``layers``: it may hold several. ``features``: what it holds is told by reading it,
+        with ``features_of`` in the module of its readers.
     """
 
     name: str
     names: tuple[str, ...]
     readers: Mapping[Holds, str]
+    has: frozenset[str] = frozenset()
 
 
-def _of(name: str, *names: str, **readers: str) -> InputFormat:
-    return InputFormat(name, names or (name,), readers)  # type: ignore[arg-type]  # they are called as what is held
+def _of(name: str, *names: str, has: str = "", **readers: str) -> InputFormat:
+    return InputFormat(name, names or (name,), readers, frozenset(has.split()))  # type: ignore[arg-type]  # as is held
+
+
+def _of_maps(name: str, *names: str, module: str = "vector_files", has: str = "bytes layers features") -> InputFormat:
+    """Give a format of features of maps: points, polygons and lines alike."""
+    place = f"formats.features.{module}"
+    return _of(name, *names, has=has, points=f"{place}:read_points", polygons=f"{place}:read_polygons")
 
 
 _IMAGE = "formats.images.reader:read_image"
 _ALL = (
     _of("csv", "csv", "tsv", "txt", points="formats.points.delimited:read_text"),
     _of("node", points="formats.points.node:read_node"),
-    _of("npz", points="formats.points.tables:read_npz"),
+    _of_maps("csv-wkt", module="delimited_geometry", has="features"),
+    _of("npz", has="bytes", points="formats.points.tables:read_npz"),
     _of("geojson", points="formats.points.json:read_geojson", polygons="formats.polygons.geojson:read_geojson"),
     _of("wkt", points="formats.points.wkt:read_wkt", polygons="formats.polygons.wkt:read_wkt"),
     _of(
@@ -50,10 +61,17 @@ _ALL = (
         offsets="formats.results.offset_json:read_offsets",
     ),
     _of("poly", polygons="formats.polygons.poly:read_poly"),
+    _of_maps("gpkg"),
+    _of_maps("fgb"),
+    _of_maps("shp", "shp", "shz"),
+    _of_maps("kml"),
+    _of_maps("gpx"),
+    _of_maps("parquet", "parquet", "geoparquet", module="geoparquet", has="bytes features"),
+    _of_maps("wkb", module="wkb", has="bytes features"),
     _of("png", image=_IMAGE),
     _of("tiff", "tiff", "tif", image=_IMAGE),
     _of("pnm", "pnm", "pbm", "pgm", "ppm", image=_IMAGE),
-    _of("npy", points="formats.points.npy:read_npy", image=_IMAGE),
+    _of("npy", has="bytes", points="formats.points.npy:read_npy", image=_IMAGE),
     _of("zarr", image=""),  # a folder, which is read by its rows
     _of("jpeg", "jpeg", "jpg", image=_IMAGE),
     _of("bmp", image=_IMAGE),

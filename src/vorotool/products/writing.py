@@ -18,6 +18,7 @@ def write_product(
     flatten: float | None = None,
     precision: int | None = None,
     threads: int = 0,
+    path: str = "-",
 ) -> None:
     r"""Write a result in one of its formats; pictures and pages are none of these.
 
@@ -33,6 +34,8 @@ def write_product(
         One of ``product.written``.
     flatten, precision, threads : optional
         As of `vorotool.write`.
+    path : str
+        Of the output, for formats that have further files beside it.
 
     Examples
     --------
@@ -48,7 +51,8 @@ def write_product(
     writer = chosen.writers.get(product.what)
     if writer is None and fmt not in product.data:
         source = next(name for name in chosen.made_from if name in product.data)
-        write_product(resolved(chosen.maker)(out), value, product, source, **options)
+        with resolved(chosen.maker)(out, product.what, path) as taker:
+            write_product(taker, value, product, source, **options)
         return
     writer = writer or (TABLE_WRITER if is_of(value, "Table") else product.writer)
     assert writer is not None  # images have none: they are written as they are computed

@@ -9,7 +9,7 @@ from vorotool.cli.options.shared import Decorator, batch_options, layers_option,
 def site_options(layers: tuple[str, ...]) -> Decorator:
     """Add the options of commands whose input is points or an image, and whose pictures have these layers."""
     return together(
-        shared("size", "window", "columns", "input-format", "input-crs"),
+        shared("size", "window", "columns", "input-format", "input-layer", "input-crs", "crs"),
         shared("page", "seeds", "connectivity", "threshold", "invert"),
         result_options(layers),
     )

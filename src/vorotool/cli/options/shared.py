@@ -206,6 +206,14 @@ OPTIONS: dict[str, Decorator] = {
         type=CrsName(),
         help="Coordinate reference system of an input that names none, such as EPSG:3857; nothing is reprojected.",
     ),
+    "input-layer": click.option(
+        "--input-layer", metavar="NAME", help="Layer of an input that has several, such as a GeoPackage."
+    ),
+    "crs": click.option(
+        "--crs",
+        type=CrsName(),
+        help="Coordinate reference system to work and write in: inputs in another one are reprojected.",
+    ),
     "out-dir": click.option(
         "--out-dir",
         metavar="DIR",

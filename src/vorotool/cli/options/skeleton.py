@@ -134,7 +134,7 @@ _READING: tuple[Decorator, ...] = (
         metavar="TOLERANCE",
         help="Leave out vertices first, where outlines move by no more than this; what touches still does.",
     ),
-    shared("input-format", "input-crs", "page"),
+    shared("input-format", "input-layer", "input-crs", "crs", "page"),
     click.option(
         "--outline",
         type=click.Choice(["crack", "contour"], case_sensitive=False),

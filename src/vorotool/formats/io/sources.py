@@ -12,7 +12,7 @@ from typing import Any
 
 from vorotool import _core
 from vorotool.errors import InputError, UsageError, VorotoolError
-from vorotool.formats.io.descriptors import STANDARD, descriptor_of, open_input
+from vorotool.formats.io.descriptors import STANDARD, descriptor_of, open_input, stream_kind
 
 STANDARD_INPUT = "standard input"
 NESTING_LIMIT = 100
@@ -32,7 +32,9 @@ class Source:
     format : str
         One of `vorotool.products.inputs.INPUTS`, once it has been told.
     document : object, optional
-        The JSON in it, once it has been parsed.
+        The JSON in it, or the features of a map, once that has been parsed.
+    layer : str, optional
+        The layer of a map that is wanted.
 
     Examples
     --------
@@ -44,6 +46,12 @@ class Source:
     data: bytes
     format: str = ""
     document: Any = None
+    layer: str | None = None
+
+    @property
+    def is_file(self) -> bool:
+        """Whether it has a place where it can be read again, with what is beside it."""
+        return self.name != STANDARD_INPUT and stream_kind(self.name) is None
 
     @property
     def suffix(self) -> str:

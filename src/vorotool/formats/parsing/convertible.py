@@ -3,24 +3,20 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 
-_MAPS = (".shp", ".gpkg", ".dxf", ".kml", ".gml", ".fgb")
+_MAPS = (".dxf", ".gml", ".gdb", ".tab", ".mif")
 _DRAWINGS = (".svg", ".svgz", ".pdf", ".eps", ".ps", ".ai")
 _OTHERS = (".dwg", ".zip")
-_HEADS = (
-    *((b"SQLite format 3\0", ".gpkg"), (b"\0\0\x27\x0a", ".shp"), (b"fgb", ".fgb"), (b"%PDF-", ".pdf")),
-    *((b"%!PS", ".ps"), (b"\xc5\xd0\xd3\xc6", ".eps")),
-)
+_HEADS = ((b"%PDF-", ".pdf"), (b"%!PS", ".ps"), (b"\xc5\xd0\xd3\xc6", ".eps"))
 _DWG = re.compile(rb"AC10\d\d\0")
 _SVG = re.compile(
     rb"(\xef\xbb\xbf)?\s*(<\?xml[^>]*>|<!--.*?-->|<!DOCTYPE[^>\[]*(\[.*?\]\s*)?>|\s)*<svg[\s>]", re.DOTALL
 )
-_GEOMETRY_COLUMNS = frozenset({"wkt", "geometry", "geom", "the_geom", "wkb", "wkb_geometry", "wkt_geom"})
 
 
 def refuse_convertible(source: Source) -> None:
@@ -93,31 +89,3 @@ _CONVERSIONS: dict[str, Callable[[str], str]] = {
     ".svg": _as_image("inkscape {file} --export-filename={stem}.png --export-background=white"),
     ".pdf": _as_image("pdftoppm -r 300 -gray -singlefile {file} {stem}"),
 }
-
-
-def refuse_geometry_column(name: str, fields: Sequence[str]) -> None:
-    """Refuse delimited text with a column of WKT or WKB, which is known by its usual names.
-
-    Parameters
-    ----------
-    name : str
-        Of the input.
-    fields : sequence of str
-        Its header.
-
-    Raises
-    ------
-    InputError
-        With the command that converts the file.
-
-    Examples
-    --------
-    >>> refuse_geometry_column("towns.csv", ["x", "y", "name"])
-    """
-    found = next((field for field in fields if field.strip().lower() in _GEOMETRY_COLUMNS), None)
-    if found is not None:
-        file = name if Path(name).suffix else "FILE.csv"
-        raise InputError(
-            f"{name}: geometry in a column ({found}) is not read; convert it: ogr2ogr -f GeoJSON "
-            f"{Path(file).with_suffix('.geojson')} {file} -oo GEOM_POSSIBLE_NAMES={found}"
-        )

@@ -37,6 +37,8 @@ class ReadOptions:
         As of `vorotool.read`.
     crs : object, optional
         The ``crs`` member of GeoJSON for an input that names none.
+    to_crs : object, optional
+        That of the system in which coordinates are wanted.
     """
 
     columns: str | None = None
@@ -47,6 +49,7 @@ class ReadOptions:
     threads: int = 0
     note: Callable[[str], None] = no_note
     crs: Any = None
+    to_crs: Any = None
 
     def check_sites(self, name: str, count: int) -> None:
         """Raise LimitError if ``count`` sites are too many."""

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError, Kind, Message
+from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.geometry.crs import crs_member, crs_name, is_geographic, same_crs
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -17,8 +18,43 @@ from vorotool.geometry.polygons.polygon_set import PolygonSet
 Placed = TypeVar("Placed", PointSet, PolygonSet)
 
 
-def with_crs(value: Placed, name: str, declared: Any, note: Callable[[str], None]) -> Placed:
-    """Give an input that names no coordinate reference system the one that is declared; tell where it is of degrees.
+def with_crs(value: Placed, name: str, options: ReadOptions) -> Placed:
+    """Settle the coordinate reference system of an input: as it says, as is declared, and then the one that is wanted.
+
+    Parameters
+    ----------
+    value : PointSet or PolygonSet
+        As it was read.
+    name : str
+        The input.
+    options : ReadOptions
+        What is declared and wanted, and who is told that lengths are in degrees.
+
+    Raises
+    ------
+    InputError
+        If the input names another system than the declared one, or none that coordinates could be brought from.
+    UsageError
+        If they are to be brought into another system, and pyproj is not installed.
+    """
+    value = declared_in(value, name, options.crs)
+    if options.to_crs is not None:
+        if value.crs is None:
+            raise InputError(
+                f"{name} names no coordinate reference system, so that --crs cannot bring it into another one: say "
+                "which it is in with --input-crs"
+            )
+        if not same_crs(value.crs, options.to_crs):
+            from vorotool.formats.parsing.reprojection import reprojected
+
+            value = replace(value, xy=reprojected(value.xy, name, value.crs, options.to_crs))
+        value = replace(value, crs=options.to_crs, y_up=True)
+    note_degrees(value, name, options.note)
+    return value
+
+
+def declared_in(value: Placed, name: str, declared: Any) -> Placed:
+    """Give an input that names no coordinate reference system the one that is declared, if one is.
 
     Parameters
     ----------
@@ -28,26 +64,39 @@ def with_crs(value: Placed, name: str, declared: Any, note: Callable[[str], None
         The input.
     declared : object
         The ``crs`` member of GeoJSON, or None.
-    note : callable
-        Told that lengths are in degrees.
 
     Raises
     ------
     InputError
         If the input names another one.
     """
-    if declared is not None:
-        if value.crs is None:
-            value = replace(value, crs=declared, y_up=True)
-        elif not same_crs(value.crs, declared):
-            raise InputError(
-                f"{name} is in {crs_name(value.crs)}, as it says itself, not in {crs_name(declared)}: leave out "
-                "--input-crs, which reprojects nothing"
-            )
+    if declared is None:
+        return value
+    if value.crs is None:
+        return replace(value, crs=declared, y_up=True)
+    if not same_crs(value.crs, declared):
+        raise InputError(
+            f"{name} is in {crs_name(value.crs)}, as it says itself, not in {crs_name(declared)}: leave out "
+            "--input-crs, which reprojects nothing; --crs does"
+        )
+    return value
+
+
+def note_degrees(value: PointSet | PolygonSet, name: str, note: Callable[[str], None]) -> None:
+    """Tell where an input is of longitude and latitude that lengths are in degrees, and what to do."""
     if is_geographic(value.crs):
         text = f"{name}: longitude and latitude are treated as planar, lengths are in degrees"
-        note(Message(text, Kind.DEGREES, source=name))
-    return value
+        note(Message(f"{text}; {_projected_advice(value.xy)}", Kind.DEGREES, source=name))
+
+
+def _projected_advice(xy: NDArray[np.float64]) -> str:
+    """Name the zone of UTM that an input lies in, if it does not spread over more than two."""
+    if len(xy):
+        (west, south), (east, north) = xy.min(axis=0).tolist(), xy.max(axis=0).tolist()
+        if west >= -180 and east <= 180 and south >= -80 and north <= 84 and east - west <= 12:
+            zone = min(60, int(((west + east) / 2 + 180) // 6) + 1)
+            return f"--crs EPSG:{(32600 if south + north >= 0 else 32700) + zone} works in metres (UTM)"
+    return "--crs brings them into a projected system"
 
 
 def note_unnamed(name: str, xy: NDArray[np.float64], note: Callable[[str], None]) -> None:
@@ -60,7 +109,7 @@ def note_unnamed(name: str, xy: NDArray[np.float64], note: Callable[[str], None]
         note(Message(text, Kind.UNNAMED_CRS, source=name))
 
 
-def crs_of_numbers(name: str, srids: Sequence[int], lines: Sequence[int]) -> Any:
+def crs_of_numbers(name: str, srids: Sequence[int], line_of: Callable[[int], int]) -> Any:
     """Give the ``crs`` member for the numbers (SRID) of extended well-known text, 0 where a geometry has none.
 
     Raises
@@ -74,7 +123,7 @@ def crs_of_numbers(name: str, srids: Sequence[int], lines: Sequence[int]) -> Any
     other = next((k for k, srid in enumerate(srids) if srid not in (0, srids[first])), None)
     if other is not None:
         raise InputError(
-            f"{name}, line {lines[other]}: the geometry is in EPSG:{srids[other]}, but that of line {lines[first]} in "
-            f"EPSG:{srids[first]}: put them into a file each"
+            f"{name}, line {line_of(other)}: the geometry is in EPSG:{srids[other]}, but that of line "
+            f"{line_of(first)} in EPSG:{srids[first]}: put them into a file each"
         )
     return crs_member(f"EPSG:{srids[first]}")

@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from vorotool import _core
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.io.sources import Source
-from vorotool.formats.parsing.convertible import refuse_geometry_column
 from vorotool.formats.parsing.reader_options import (
     LARGEST_LABEL,
     LATITUDES,
@@ -27,6 +26,7 @@ from vorotool.formats.parsing.reader_options import (
     shortened,
 )
 from vorotool.geometry.crs import LONGITUDE_LATITUDE, crs_member
+from vorotool.geometry.number_text import typed_texts
 from vorotool.geometry.points.point_set import PointSet
 
 COORDINATE_NAMES = (
@@ -101,6 +101,60 @@ def header_fields(data: bytes) -> list[str]:
     data = _plain_lines(data)
     first = _core.text.first_record(data, _guess_delimiter(data))
     return [] if first is None else first[2]
+
+
+@dataclass(frozen=True)
+class DelimitedText:
+    """Delimited text with a header, of which no column is known to hold coordinates."""
+
+    _layout: _Layout
+
+    @property
+    def name(self) -> str:
+        """The input."""
+        return self._layout.name
+
+    @property
+    def fields(self) -> list[str]:
+        """Those of the header."""
+        return self._layout.first_record
+
+    def columns(self, threads: int = 0) -> dict[str, list[str]]:
+        """Give the texts of all columns by their names, a name that comes again with a number."""
+        try:
+            return _properties(self._layout, list(range(len(self.fields))), threads)
+        except _core.text.TextError as error:
+            raise explain(self.name, error, self._layout.described, _counted_by(self._layout)) from None
+
+    def line_of(self, row: int) -> int:
+        """Give the line of a row (0-based)."""
+        return int(_core.text.line_of_row(self._layout.data, self._layout.delimiter, 1, row))
+
+
+def delimited_text(source: Source) -> DelimitedText:
+    """Take delimited text apart; its first record is a header.
+
+    Examples
+    --------
+    >>> delimited_text(Source("a.csv", b"id;wkt\n7;POINT (1 2)\n")).columns()
+    {'id': ['7'], 'wkt': ['POINT (1 2)']}
+    """
+    data = _plain_lines(source.data)
+    delimiter = _guess_delimiter(data)
+    line, _, fields = _core.text.first_record(data, delimiter) or (1, "", [])
+    return DelimitedText(_Layout(source.name, data, delimiter, line, fields, True, 0, 0, None))
+
+
+def has_coordinates(fields: Sequence[str]) -> bool:
+    """Whether a header names a known pair of coordinates.
+
+    Examples
+    --------
+    >>> has_coordinates(["id", "Lon", "Lat"]), has_coordinates(["id", "wkt"])
+    (True, False)
+    """
+    lower = [_lower(field) for field in fields]
+    return any(all(lower.count(each) == 1 for each in pair) for pair in COORDINATE_NAMES)
 
 
 def _plain_lines(data: bytes) -> bytes:
@@ -223,8 +277,6 @@ def _unknown_columns(name: str, fields: list[str], header: bool) -> InputError:
             f"{name}: the first line has one column, {fields[0][:40]!r}; give x and y, separated by "
             "a comma, a semicolon, a tab or blanks"
         )
-    if header:
-        refuse_geometry_column(name, fields)
     what = "the header names no known pair of coordinates" if header else f"{len(fields)} columns without a header"
     example = _example(fields) if header else _numeric_example(fields)
     if example is None:
@@ -326,7 +378,7 @@ def _properties(layout: _Layout, columns: list[int], threads: int) -> dict[str, 
     result: dict[str, list[str]] = {}
     for column, values in zip(columns, texts, strict=True):
         name = (layout.first_record[column] if layout.header else "") or f"column_{column + 1}"
-        result[_unused(name, result)] = values
+        result[_unused(name, result)] = typed_texts(values)
     return result
 
 

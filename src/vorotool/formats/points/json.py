@@ -16,6 +16,7 @@ from vorotool.formats.parsing.geojson import (
     parse_json,
     property_columns,
 )
+from vorotool.formats.parsing.geometry_advice import not_a_point_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, position_array, shortened
 from vorotool.formats.parsing.reference_systems import note_unnamed
 from vorotool.formats.points.tables import is_table, points_of_rows
@@ -112,14 +113,6 @@ def _positions(geometry: Any, place: str) -> list[Any]:
         position = list_of(geometry, "coordinates", place)
         return [position] if position else []
     raise InputError(f"{place}: {shortened(kind)} is not a point; {not_a_point_advice(str(kind))}")
-
-
-def not_a_point_advice(kind: str) -> str:
-    """Say what to do with a geometry that is no point."""
-    lines = kind.lower().removeprefix("multi")
-    if lines in ("polygon", "linestring"):
-        return "replace it by its centroid or its vertices (skeleton-exact reads polygons and lines)"
-    return "use Point or MultiPoint"
 
 
 def _properties(name: str, features: list[Mapping[str, Any]], collected: _Collected) -> dict[str, list[Any]]:

@@ -60,7 +60,7 @@ def points_of_rows(name: str, rows: Sequence[Any], options: ReadOptions) -> Poin
             raise InputError(
                 f"{name}, row {number}: {shortened(row)} has other fields than the first; give all the same"
             )
-    return _points_of(name, {each: [row[each] for row in rows] for each in names}, options)
+    return points_of_columns(name, {each: [row[each] for row in rows] for each in names}, options)
 
 
 def read_npz(source: Source, options: ReadOptions) -> PointSet:
@@ -84,7 +84,7 @@ def read_npz(source: Source, options: ReadOptions) -> PointSet:
         )
     kept = {name: values for name, values in columns.items() if not name.endswith(_MISSING)}
     values = {name: _present(values, columns.get(f"{name}{_MISSING}")) for name, values in kept.items()}
-    return _points_of(source.name, values, options)
+    return points_of_columns(source.name, values, options)
 
 
 def _column(name: str, archive: zipfile.ZipFile, entry: zipfile.ZipInfo, options: ReadOptions) -> NDArray[Any]:
@@ -115,8 +115,14 @@ def _present(values: NDArray[Any], missing: NDArray[Any] | None) -> list[Any]:
     return [None if none else value for value, none in zip(listed, missing.tolist(), strict=True)]
 
 
-def _points_of(name: str, columns: Mapping[str, list[Any]], options: ReadOptions) -> PointSet:
-    """Choose coordinates and labels as in CSV; the other columns are properties."""
+def points_of_columns(name: str, columns: Mapping[str, list[Any]], options: ReadOptions) -> PointSet:
+    """Choose coordinates and labels as in CSV; the other columns are properties.
+
+    Raises
+    ------
+    InputError
+        If a coordinate is no finite number, or no columns are known as coordinates.
+    """
     names = list(columns)
     x, y, *label = (names[column] for column in chosen_columns(name, names, options))
     xy = np.stack([_numbers(name, each, columns[each]) for each in (x, y)], axis=1)

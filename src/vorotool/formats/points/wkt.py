@@ -9,9 +9,9 @@ import numpy as np
 
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source, check_nesting
+from vorotool.formats.parsing.geometry_advice import not_a_point_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, no_points, shortened
 from vorotool.formats.parsing.reference_systems import crs_of_numbers
-from vorotool.formats.points.json import not_a_point_advice
 from vorotool.geometry.points.point_set import PointSet
 
 _SRID = re.compile(r"\ASRID\s*=\s*(\d{1,9})\s*;\s*", re.IGNORECASE)
@@ -24,7 +24,7 @@ def read_wkt(source: Source, options: ReadOptions) -> PointSet:
 
     check_nesting(source.data, name=source.name)
     texts, lines, srids = geometry_texts(source)
-    crs = crs_of_numbers(source.name, srids, lines)
+    crs = crs_of_numbers(source.name, srids, lines.__getitem__)
     with np.errstate(all="ignore"):  # numbers beyond the largest double are found below
         geometries = shapely.from_wkt(np.array(texts, dtype=object), on_invalid="ignore")
     for index in np.flatnonzero(shapely.get_type_id(geometries) != _POINT):
@@ -45,6 +45,18 @@ def read_wkt(source: Source, options: ReadOptions) -> PointSet:
     return PointSet(xy, None, properties, y_up=True, crs=crs)
 
 
+def without_number(text: str) -> tuple[str, int]:
+    """Take the number (SRID) of its reference system off extended well-known text; 0 where it has none.
+
+    Examples
+    --------
+    >>> without_number("SRID=2056;POINT (1 2)")
+    ('POINT (1 2)', 2056)
+    """
+    srid = _SRID.match(text)
+    return (text, 0) if srid is None else (text[srid.end() :], int(srid[1]))
+
+
 def geometry_texts(source: Source) -> tuple[list[str], list[int], list[int]]:
     """Cut a text into geometries, and give the line and the SRID (or 0) of each: it ends when its brackets close."""
     texts: list[str] = []
@@ -58,10 +70,10 @@ def geometry_texts(source: Source) -> tuple[list[str], list[int], list[int]]:
         if depth > 0 or (texts and text.startswith("(")):
             texts[-1] += " " + text
         else:
-            srid = _SRID.match(text)
-            texts.append(text if srid is None else text[srid.end() :])
+            text, srid = without_number(text)
+            texts.append(text)
             lines.append(number)
-            srids.append(0 if srid is None else int(srid[1]))
+            srids.append(srid)
         depth = max(0, depth + text.count("(") - text.count(")"))
     return texts, lines, srids
 

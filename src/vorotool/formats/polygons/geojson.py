@@ -18,11 +18,13 @@ from vorotool.formats.parsing.geojson import (
     parse_json,
     property_columns,
 )
+from vorotool.formats.parsing.geometry_advice import not_a_shape_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.parsing.reference_systems import note_unnamed
 from vorotool.formats.polygons.ring_collector import RingCollector
 from vorotool.formats.text.coordinate_text import Digits
 from vorotool.formats.text.feature_collection import collection_opening
+from vorotool.formats.text.tables import json_bytes
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 
 
@@ -69,17 +71,8 @@ def _collect(collector: RingCollector, feature: int, geometry: Any, place: str) 
         raise InputError(f"{place}: {shortened(kind)} is no polygon or line; {not_a_shape_advice(str(kind))}")
 
 
-def not_a_shape_advice(kind: str) -> str:
-    """Say what to do with a geometry that is neither polygon nor line."""
-    if kind.lower().removeprefix("multi") == "point":
-        return "put points into a file of their own"
-    return "use (Multi)Polygon or (Multi)LineString"
-
-
 def write_geojson(out: BinaryIO, polygons: PolygonSet, precision: int | None) -> None:
     """Write one feature for each feature of the input, with its id and properties."""
-    import orjson
-
     digits = Digits(precision)
     out.write(collection_opening(polygons.crs))
     separator = b"\n"
@@ -89,7 +82,7 @@ def write_geojson(out: BinaryIO, polygons: PolygonSet, precision: int | None) ->
             feature["id"] = polygons.ids[first]
         feature["properties"] = {key: values[first] for key, values in polygons.properties.items()}
         feature["geometry"] = _joined([_geometry(polygons, i, digits) for i in range(first, last)])
-        out.write(separator + orjson.dumps(feature, default=str, option=orjson.OPT_SERIALIZE_NUMPY))
+        out.write(separator + json_bytes(feature))
         separator = b",\n"
     out.write(b"\n]}\n" if len(polygons) else b"]}\n")
 

@@ -13,6 +13,7 @@ from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.polygons.geojson import read_geojson
 from vorotool.formats.polygons.ring_collector import RingCollector
 from vorotool.formats.text.coordinate_text import Digits
+from vorotool.formats.text.tables import json_bytes
 from vorotool.geometry.polygons.conversion import closed_ring
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 
@@ -139,8 +140,6 @@ def write_json(out: BinaryIO, polygons: PolygonSet, precision: int | None) -> No
 
 def write_items(out: BinaryIO, polygons: PolygonSet, precision: int | None) -> None:
     """Write ``"polygons": […]``, a member of an object."""
-    import orjson
-
     digits = Digits(precision)
     part = polygons.part.tolist()
     in_parts = max(part, default=1) > 1
@@ -155,5 +154,5 @@ def write_items(out: BinaryIO, polygons: PolygonSet, precision: int | None) -> N
             item["properties"] = {key: values[index] for key, values in polygons.properties.items()}
         rings = [digits.rounded(ring) for ring in polygons.rings_of(index)]
         item |= {"line": rings[0]} if is_line else {"shell": rings[0], "holes": rings[1:]}
-        out.write((b",\n" if index else b"\n") + orjson.dumps(item, default=str, option=orjson.OPT_SERIALIZE_NUMPY))
+        out.write((b",\n" if index else b"\n") + json_bytes(item))
     out.write(b"\n]" if len(polygons) else b"]")

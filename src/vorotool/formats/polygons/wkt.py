@@ -10,10 +10,11 @@ import numpy as np
 
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source, check_nesting
+from vorotool.formats.parsing.geometry_advice import not_a_shape_advice
 from vorotool.formats.parsing.reader_options import ReadOptions, shortened
 from vorotool.formats.parsing.reference_systems import crs_of_numbers
 from vorotool.formats.points.wkt import geometry_texts
-from vorotool.formats.polygons.geojson import feature_ranges, not_a_shape_advice
+from vorotool.formats.polygons.geojson import feature_ranges
 from vorotool.formats.text.coordinate_text import Digits
 from vorotool.geometry.polygons.conversion import polygons_of_geometry
 from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -29,7 +30,7 @@ def read_wkt(source: Source, options: ReadOptions) -> PolygonSet:
 
     check_nesting(source.data, name=source.name)
     texts, lines, srids = geometry_texts(source)
-    crs = crs_of_numbers(source.name, srids, lines)
+    crs = crs_of_numbers(source.name, srids, lines.__getitem__)
     with np.errstate(all="ignore"):  # numbers beyond the largest double are found below
         geometries = shapely.from_wkt(np.array(texts, dtype=object), on_invalid="ignore")
     for index in np.flatnonzero(~np.isin(shapely.get_type_id(geometries), _SHAPES)):

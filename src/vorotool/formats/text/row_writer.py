@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, BinaryIO, NamedTuple
+from typing import Any, BinaryIO, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -90,6 +90,14 @@ def _is_absent(value: Any) -> bool:
     return value is None or (isinstance(value, float | np.floating) and not np.isfinite(value))
 
 
+@runtime_checkable
+class TypedOutput(Protocol):
+    """A file that takes text and is told of which types its columns are."""
+
+    def announce(self, columns: Sequence[Column]) -> None:
+        """Learn of the columns that are about to be written."""
+
+
 def check_precision(precision: int | None) -> int:
     """Return the number of significant digits, 0 for the shortest text that reads back the same.
 
@@ -168,6 +176,8 @@ def write_list_rows(
     >>> out.getvalue()
     b'\n1,\n2\n'
     """
+    if isinstance(out, TypedOutput):
+        out.announce(columns)
     if columns and len(columns[0].values):
         out.write(b"\n")
         write_rows(out, columns, shape, precision=precision, threads=threads)

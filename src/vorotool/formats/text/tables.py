@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import re
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
+from datetime import date
 from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.formats.text.row_writer import Column, RowShape, check_precision, slices, write_list_rows, write_rows
+from vorotool.geometry.number_text import NumberText
 from vorotool.geometry.parallel import in_order
 from vorotool.geometry.table import Computed, Lookup, Table
 
@@ -115,6 +117,8 @@ def _text_of(value: Any, precision: int | None) -> str:
         return ""
     if isinstance(value, float):
         return f"{value:.{precision}g}" if precision else repr(value).removesuffix(".0")
+    if isinstance(value, date):
+        return value.isoformat()
     return str(value) if type(value) is int else json_text(value)
 
 
@@ -149,10 +153,32 @@ def json_column(column: Column, precision: int | None = None) -> Column:
 
 
 def json_text(value: Any) -> str:
-    """JSON of anything; what JSON does not know becomes text."""
+    """JSON of anything; what JSON does not know becomes text.
+
+    Examples
+    --------
+    >>> json_text({"a": NumberText("3.50"), "b": {1, 1}})
+    '{"a":3.50,"b":"{1}"}'
+    """
+    return json_bytes(value).decode()
+
+
+def json_bytes(value: Any) -> bytes:
+    """JSON of anything, as `json_text`."""
     import orjson
 
-    return orjson.dumps(value, default=str, option=orjson.OPT_SERIALIZE_NUMPY | orjson.OPT_NON_STR_KEYS).decode()
+    options = orjson.OPT_SERIALIZE_NUMPY | orjson.OPT_NON_STR_KEYS | orjson.OPT_PASSTHROUGH_SUBCLASS
+    return orjson.dumps(value, default=_known_to_json, option=options)
+
+
+def _known_to_json(value: Any) -> Any:
+    """Numbers in text are numbers; of a type that is derived from a plain one, that one."""
+    if type(value) is NumberText:
+        import orjson
+
+        return orjson.Fragment(value.encode())
+    plain: tuple[Callable[[Any], Any], ...] = (str, int, float, list, tuple, dict)
+    return next((kind(value) for kind in plain if isinstance(value, kind)), str(value))  # type: ignore[arg-type]
 
 
 # ---- NPZ -----------------------------------------------------------------------------------------

@@ -1,0 +1,101 @@
+"""Delimited text with a column of geometry: well-known text, or well-known binary in hexadecimal digits."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.formats.features.feature_table import Features, points_of_features, polygons_of_features
+from vorotool.formats.features.wkb import crs_of_geometry
+from vorotool.formats.io.sources import Source, check_nesting
+from vorotool.formats.parsing.reader_options import ReadOptions, shortened
+from vorotool.formats.parsing.reference_systems import crs_of_numbers
+from vorotool.formats.points.delimited import DelimitedText, delimited_text
+from vorotool.formats.points.wkt import without_number
+from vorotool.geometry.points.point_set import PointSet
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+
+_GEOMETRY_COLUMNS = ("wkt", "geometry", "geom", "the_geom", "wkb", "wkb_geometry", "wkt_geom")
+_BINARY = re.compile(r"(00|01)([0-9A-Fa-f]{2}){8,}")
+
+
+def geometry_column(fields: Sequence[str]) -> int | None:
+    """Which column holds geometry, by its usual names; None if there is none.
+
+    Examples
+    --------
+    >>> geometry_column(["id", "WKT"]), geometry_column(["x", "y"])
+    (1, None)
+    """
+    lower = [field.strip().lower() for field in fields]
+    return next((lower.index(name) for name in _GEOMETRY_COLUMNS if name in lower), None)
+
+
+def read_points(source: Source, options: ReadOptions) -> PointSet:
+    """Read points with the other columns as their properties."""
+    return points_of_features(features_of(source), options)
+
+
+def read_polygons(source: Source, options: ReadOptions) -> PolygonSet:
+    """Read polygons and lines with the other columns as their properties."""
+    return polygons_of_features(features_of(source), options)
+
+
+def features_of(source: Source) -> Features:
+    """Read all rows; an empty field is no geometry.
+
+    Raises
+    ------
+    InputError
+        If no column is called as one of geometry, or a field of it is none; the line is named.
+
+    Examples
+    --------
+    >>> features_of(Source("a.csv", b"id,wkt\\n7,POINT (1 2)\\n")).columns["id"]
+    ['7']
+    """
+    if isinstance(source.document, Features):
+        return source.document
+    text = delimited_text(source)
+    column = geometry_column(text.fields)
+    if column is None:
+        raise InputError(
+            f"{source.name}: no column is called as one of geometry ({', '.join(_GEOMETRY_COLUMNS)}); rename it so"
+        )
+    columns = text.columns()
+    written = columns.pop(list(columns)[column])
+    check_nesting("\n".join(written), name=source.name)
+    geometry, crs = _parsed(text, written)
+
+    def place(feature: int) -> str:
+        return f"{source.name}, line {text.line_of(feature)}"
+
+    return Features(source.name, geometry, columns, None, crs, place)
+
+
+def _parsed(text: DelimitedText, written: Sequence[str]) -> tuple[NDArray[np.object_], Any]:
+    import shapely
+
+    fields = [field.strip() for field in written]
+    kept = [row for row, field in enumerate(fields) if field]
+    geometry = np.full(len(fields), None, dtype=object)
+    if all(_BINARY.fullmatch(fields[row]) for row in kept) and kept:
+        geometry[kept] = shapely.from_wkb([fields[row] for row in kept], on_invalid="ignore")
+        crs = crs_of_geometry(text.name, geometry[kept], lambda index: text.line_of(kept[index]))
+    else:
+        cut = [without_number(fields[row]) for row in kept]
+        with np.errstate(all="ignore"):  # numbers beyond the largest double are found by their readers
+            geometry[kept] = shapely.from_wkt(np.array([wkt for wkt, _ in cut], dtype=object), on_invalid="ignore")
+        crs = crs_of_numbers(text.name, [number for _, number in cut], lambda index: text.line_of(kept[index]))
+    bad = next((row for row in kept if geometry[row] is None), None)
+    if bad is not None:
+        raise InputError(
+            f"{text.name}, line {text.line_of(bad)}: {shortened(fields[bad])} is neither WKT nor WKB; write for "
+            "example POINT (3 4)"
+        )
+    return geometry, crs

@@ -1,0 +1,139 @@
+"""Features, or rows of a table, collected from the JSON that writers make: geometry, and columns with their types."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from datetime import UTC, date, datetime
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.formats.text.json_items import JsonItems
+from vorotool.formats.text.row_writer import Column
+from vorotool.formats.text.tables import json_text
+from vorotool.geometry.table import Lookup
+
+_DATE = re.compile(r"\d{4}-\d\d-\d\d")
+_INTEGERS = range(-(2**63), 2**63)
+
+
+class TypedColumn(NamedTuple):
+    """Values of one type: int64, float64, bool, datetime64, or text as objects; and which of them are missing."""
+
+    values: NDArray[Any]
+    missing: NDArray[np.bool_]
+    is_utc: bool = False
+    """Of times: they are in coordinated universal time, and not of an unknown zone."""
+
+
+class FeatureRows(JsonItems):
+    r"""A file that takes a list in JSON or a collection in GeoJSON, and keeps what is in it.
+
+    Examples
+    --------
+    >>> rows = FeatureRows()
+    >>> _ = rows.write(b'{"type":"FeatureCollection","features":[\n')
+    >>> _ = rows.write(b'{"type":"Feature","properties":{"a":1},"geometry":{"type":"Point","coordinates":[1,2]}}\n')
+    >>> _ = rows.write(b"]}\n")
+    >>> rows.geometry, rows.columns()["a"].values
+    (array([<POINT (1 2)>], dtype=object), array([1]))
+    """
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._geometry: list[NDArray[np.object_]] = []
+        self._rows: list[dict[str, Any]] = []
+        self._ids: list[Any] = []
+        self._measured: set[str] = set()  # names of columns of floating-point numbers
+
+    def announce(self, columns: Sequence[Column]) -> None:
+        """Learn which columns hold floating-point numbers, which may all be whole."""
+        for column in columns:
+            values = column.values.values if isinstance(column.values, Lookup) else column.values
+            if isinstance(values, np.ndarray) and values.dtype.kind == "f":
+                self._measured.add(column.name)
+
+    def take(self, items: bytes) -> None:
+        """Keep some features or rows."""
+        import orjson
+
+        lines = items.splitlines()
+        parsed = [orjson.loads(line) for line in lines]
+        if not self.is_of_features:
+            self._rows.extend(parsed)
+            return
+        self._rows.extend(each["properties"] or {} for each in parsed)
+        self._ids.extend(each.get("id") for each in parsed)
+        self._geometry.append(_geometries(lines, [each["geometry"] for each in parsed]))
+
+    @property
+    def is_of_features(self) -> bool:
+        """Whether what comes is a collection, and not a table."""
+        return (self._opening or b"").startswith(b"{")
+
+    @property
+    def geometry(self) -> NDArray[np.object_]:
+        """(n,) shapely geometry, None where a feature has none."""
+        return np.concatenate([np.empty(0, dtype=object), *self._geometry])
+
+    def columns(self) -> dict[str, TypedColumn]:
+        """Give the columns in the order in which they came first; the ids too, where nothing else tells them."""
+        names = dict.fromkeys(name for row in self._rows for name in row)
+        listed = {name: [row.get(name) for row in self._rows] for name in names}
+        numbered = [list(range(1, len(self._rows) + 1)), [None] * len(self._ids)]
+        if self.is_of_features and self._ids not in [*listed.values(), *numbered]:
+            listed = {"feature_id" if "id" in listed else "id": self._ids} | listed
+        return {name: _typed(values, is_measured=name in self._measured) for name, values in listed.items()}
+
+
+def _geometries(lines: Sequence[bytes], members: Sequence[Any]) -> NDArray[np.object_]:
+    import shapely
+
+    made = np.full(len(lines), None, dtype=object)
+    there = [row for row, member in enumerate(members) if member is not None]
+    if there:
+        made[there] = shapely.from_geojson([lines[row].decode() for row in there], on_invalid="ignore")
+    for row in there:
+        if made[row] is None:  # a line of one position, which is none to GEOS
+            made[row] = shapely.linestrings(members[row]["coordinates"] * 2)
+    return made
+
+
+# ---- types ---------------------------------------------------------------------------------------
+def _typed(values: list[Any], *, is_measured: bool) -> TypedColumn:
+    """Find the one type that all values have; text in the form of dates and times holds such, as in GeoJSON."""
+    missing = np.array([value is None for value in values], dtype=bool)
+    kinds = {type(value) for value in values if value is not None}
+    if kinds == {int} and not is_measured and all(value is None or value in _INTEGERS for value in values):
+        return TypedColumn(np.array([value or 0 for value in values], dtype=np.int64), missing)
+    if kinds and kinds <= {int, float}:
+        return TypedColumn(np.array([np.nan if value is None else value for value in values], np.float64), missing)
+    if kinds == {bool}:
+        return TypedColumn(np.array([bool(value) for value in values]), missing)
+    times = _times(values) if kinds == {str} else None
+    if times is not None:
+        return TypedColumn(times[0], missing, times[1])
+    texts = [value if value is None or isinstance(value, str) else json_text(value) for value in values]
+    return TypedColumn(np.array([*texts, None], dtype=object)[:-1], missing)
+
+
+def _times(values: Sequence[str | None]) -> tuple[NDArray[Any], bool] | None:
+    """Dates, or times of which all name their zone or none does; None if a text is neither."""
+    texts = [value for value in values if value is not None]
+    try:
+        if all(_DATE.fullmatch(text) for text in texts):
+            made = [None if value is None else date.fromisoformat(value) for value in values]
+            return np.array(made, dtype="datetime64[D]"), False
+        if not all(_DATE.match(text) and text[10:11] == "T" for text in texts):
+            return None
+        times = [None if value is None else datetime.fromisoformat(value) for value in values]
+    except ValueError:
+        return None
+    zones = {time.tzinfo is not None for time in times if time is not None}
+    if len(zones) > 1:
+        return None
+    if zones == {True}:
+        times = [None if time is None else time.astimezone(UTC).replace(tzinfo=None) for time in times]
+    return np.array(times, dtype="datetime64[ms]"), zones == {True}

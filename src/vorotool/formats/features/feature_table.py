@@ -1,0 +1,219 @@
+"""Features as libraries of maps give them, and the points, polygons and lines that are made of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError, LimitError
+from vorotool.formats.parsing.geojson import MOST_CELLS
+from vorotool.formats.parsing.geometry_advice import not_a_point_advice, not_a_shape_advice
+from vorotool.formats.parsing.reader_options import ReadOptions, no_points
+from vorotool.geometry.points.point_set import PointSet
+from vorotool.geometry.polygons.conversion import polygons_of_geometry
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.geometry.ragged import within
+
+_POINTS, _SHAPES, _COLLECTION = (0, 4), (1, 2, 3, 5, 6), 7  # type numbers of GEOS
+
+
+@dataclass(frozen=True)
+class Features:
+    """The features of one layer.
+
+    Parameters
+    ----------
+    name : str
+        The input, for messages.
+    geometry : (n,) object array
+        Shapely geometry; None where a feature has none.
+    columns : mapping of str to sequence
+        Attributes, one value a feature: numbers, truth values, texts, dates; None where there is none.
+    ids : sequence, optional
+        The file's own names of its features.
+    crs : object, optional
+        The ``crs`` member of GeoJSON.
+    place : callable, optional
+        Gives the words for a feature (0-based), for messages.
+    """
+
+    name: str
+    geometry: NDArray[np.object_]
+    columns: Mapping[str, Sequence[Any]] = field(default_factory=dict)
+    ids: Sequence[Any] | None = None
+    crs: Any = None
+    place: Callable[[int], str] | None = None
+
+    @property
+    def holds_shapes(self) -> bool:
+        """Whether the first geometry that is not empty is a polygon or a line, or a collection that begins with one."""
+        import shapely
+
+        parts = self.geometry[~shapely.is_missing(self.geometry) & ~shapely.is_empty(self.geometry)][:1]
+        while len(parts) and shapely.get_type_id(parts[0]) == _COLLECTION:
+            parts = shapely.get_parts(parts)
+            parts = parts[~shapely.is_empty(parts)]
+        return len(parts) > 0 and int(shapely.get_type_id(parts[0])) in _SHAPES
+
+    def where(self, index: int) -> str:
+        """Give the words for a feature (0-based)."""
+        return f"{self.name}, feature {index + 1}" if self.place is None else self.place(index)
+
+
+def polygons_of_features(features: Features, options: ReadOptions) -> PolygonSet:
+    """Give the polygons and lines of features; those without a geometry are left out.
+
+    Raises
+    ------
+    InputError
+        If a geometry is neither, or a coordinate is not finite.
+    LimitError
+        If there are too many vertices or attributes.
+
+    Examples
+    --------
+    >>> import shapely
+    >>> made = polygons_of_features(
+    ...     Features("a.gpkg", np.array([shapely.box(0, 0, 1, 1), None]), {"name": ["x", "y"]}), ReadOptions()
+    ... )
+    >>> len(made), made.properties
+    (1, {'name': ['x']})
+    """
+    import shapely
+
+    kept = _kept(features, options)
+    geometry = features.geometry[kept]
+    _check_kinds(features, geometry, kept, _SHAPES, "no polygon or line", not_a_shape_advice)
+    options.check_vertices(features.name, int(shapely.get_num_coordinates(geometry).sum()))
+    _check_finite(features, geometry, kept)
+    polygons = polygons_of_geometry(geometry.tolist())
+    assert polygons.feature is not None
+    owners = kept[polygons.feature].astype(np.int32)
+    if not options.properties:
+        return replace(polygons, feature=owners, y_up=True, crs=features.crs)
+    _check_attributes(features, len(owners), "polygons")
+    return replace(
+        polygons,
+        feature=owners,
+        ids=None if features.ids is None else _taken(features.ids, owners),
+        properties={name: _taken(values, owners) for name, values in features.columns.items()},
+        y_up=True,
+        crs=features.crs,
+    )
+
+
+def points_of_features(features: Features, options: ReadOptions) -> PointSet:
+    """Give the points of features, those of several in one as its parts; those without a geometry are left out.
+
+    Raises
+    ------
+    InputError
+        If a geometry is no point, or a coordinate is not finite.
+    LimitError
+        If there are too many points or attributes.
+
+    Examples
+    --------
+    >>> import shapely
+    >>> made = points_of_features(
+    ...     Features("a.gpkg", np.array([shapely.Point(3, 4), None]), {"name": ["x", "y"]}, [7, 8]), ReadOptions()
+    ... )
+    >>> made.xy.tolist(), made.properties
+    ([[3.0, 4.0]], {'id': [7], 'name': ['x']})
+    """
+    import shapely
+
+    kept = _kept(features, options)
+    geometry = features.geometry[kept]
+    _check_kinds(features, geometry, kept, _POINTS, "not a point", not_a_point_advice)
+    points, owners = geometry, kept
+    while len(points) and (shapely.get_type_id(points) != 0).any():
+        points, index = shapely.get_parts(points, return_index=True)
+        there = ~shapely.is_empty(points)
+        points, owners = points[there], owners[index[there]]
+    options.check_sites(features.name, len(points))
+    if not len(points):
+        return PointSet(no_points(), y_up=True, crs=features.crs)
+    _check_finite(features, geometry, kept)
+    columns = _point_columns(features, owners) if options.properties else {}
+    return PointSet(shapely.get_coordinates(points), None, columns, y_up=True, crs=features.crs)
+
+
+def _point_columns(features: Features, owners: NDArray[np.int64]) -> dict[str, list[Any]]:
+    """The id, if there are any, the attributes, and the number of a point within its feature, if any has several."""
+    _check_attributes(features, len(owners), "points")
+    columns: dict[str, list[Any]] = {}
+    if features.ids is not None:
+        columns["id"] = _taken(features.ids, owners)
+    for name, values in features.columns.items():
+        columns["property_id" if name in columns else name] = _taken(values, owners)
+    first = np.flatnonzero(np.diff(owners, prepend=-1))
+    part = within(np.diff(first, append=len(owners))) + 1
+    if part.max(initial=1) > 1:
+        columns["voro_part" if "part" in columns else "part"] = part.tolist()
+    return columns
+
+
+def _taken(values: Sequence[Any], index: NDArray[np.integer]) -> list[Any]:
+    return [values[i] for i in index.tolist()]
+
+
+def _kept(features: Features, options: ReadOptions) -> NDArray[np.int64]:
+    """Features that have a geometry, which is not empty; say how many have none, and that heights are left out."""
+    import shapely
+
+    geometry = features.geometry
+    kept = np.flatnonzero(~shapely.is_missing(geometry) & ~shapely.is_empty(geometry))
+    options.note_left_out(features.name, len(geometry) - len(kept))
+    if shapely.has_z(geometry[kept]).any():
+        options.note_heights(features.name)
+    return kept
+
+
+def _check_kinds(
+    features: Features,
+    geometry: NDArray[np.object_],
+    kept: NDArray[np.int64],
+    expected: tuple[int, ...],
+    is_not: str,
+    advice: Callable[[str], str],
+) -> None:
+    """Refuse geometry of another kind; collections may hold what is expected, at any depth."""
+    import shapely
+
+    parts, owners = geometry, kept
+    while len(parts):
+        kinds = shapely.get_type_id(parts)
+        bad = np.flatnonzero(~np.isin(kinds, (*expected, _COLLECTION)))
+        if bad.size:
+            kind = parts[bad[0]].geom_type
+            raise InputError(f"{features.where(int(owners[bad[0]]))}: a {kind} is {is_not}; {advice(kind)}")
+        nested = kinds == _COLLECTION
+        parts, index = shapely.get_parts(parts[nested], return_index=True)
+        owners = owners[nested][index]
+
+
+def _check_finite(features: Features, geometry: NDArray[np.object_], kept: NDArray[np.int64]) -> None:
+    import shapely
+
+    xy, owners = shapely.get_coordinates(geometry, return_index=True)
+    bad = np.flatnonzero(~np.isfinite(xy).all(axis=1))
+    if bad.size:
+        at = int(bad[0])
+        vertex = at - int(np.searchsorted(owners, owners[at])) + 1
+        raise InputError(
+            f"{features.where(int(kept[owners[at]]))}: vertex {vertex} is ({xy[at, 0]}, {xy[at, 1]}): coordinates must "
+            "be finite; correct it"
+        )
+
+
+def _check_attributes(features: Features, count: int, noun: str) -> None:
+    if len(features.columns) * count > MOST_CELLS:
+        raise LimitError(
+            f"{features.name} has {len(features.columns)} different properties on {count} {noun}, more than "
+            f"{MOST_CELLS} fields in all: use --no-properties"
+        )

@@ -1,0 +1,188 @@
+"""Writing results as files of maps: GeoPackage, FlatGeobuf and Shapefile through GDAL, GeoParquet through pyarrow."""
+
+from __future__ import annotations
+
+import io
+import tempfile
+import warnings
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import OutputError, UsageError
+from vorotool.formats.features.feature_rows import FeatureRows, TypedColumn
+from vorotool.formats.features.shapefile_parts import PARTS
+from vorotool.formats.io.atomic_output import open_output
+from vorotool.formats.io.descriptors import stream_kind
+from vorotool.geometry.crs import crs_text
+from vorotool.geometry.extras import needed
+
+_FIXED = {"OGR_CURRENT_DATE": "1970-01-01T00:00:00.000Z"}
+"""Options of GDAL that make the same bytes of the same features."""
+_UTC = 100  # GDAL's number of the zone
+
+
+class GeoPackage(FeatureRows):
+    """A GeoPackage of one layer, which is called as the result is.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable.
+    what : str
+        The result.
+    path : str
+        Of the output.
+    """
+
+    def __init__(self, out: BinaryIO, what: str, path: str) -> None:
+        super().__init__()
+        self._out, self._what, self._path = out, what, path
+        self._gdal = needed("pyogrio", "gis", "GeoPackage, FlatGeobuf and Shapefile")
+
+    def finish(self) -> None:
+        """Write the file."""
+        columns = self.columns()
+        taken = {name.lower() for name in columns}
+        options = {
+            "FID": next(name for name in ("fid", "ogc_fid", "voro_fid") if name not in taken),
+            "GEOMETRY_NAME": next(name for name in ("geom", "geometry", "voro_geom") if name not in taken),
+        }
+        out = io.BytesIO()
+        self._write(out, columns, driver="GPKG", layer_options=options)
+        self._out.write(out.getbuffer())
+
+    def _write(self, out: io.BytesIO | Path, columns: Mapping[str, TypedColumn], **options: Any) -> None:
+        import shapely
+
+        geometry = self.geometry
+        has_times = {name: np.full(len(each.values), _UTC, np.int32) for name, each in columns.items() if each.is_utc}
+        with _settings(self._gdal):
+            self._gdal.raw.write(
+                out,
+                shapely.to_wkb(geometry) if self.is_of_features else None,
+                [each.values for each in columns.values()],
+                list(columns),
+                field_mask=[each.missing if each.missing.any() else None for each in columns.values()],
+                layer=self._what,
+                geometry_type=_kind(geometry),
+                crs=crs_text(self.crs),
+                gdal_tz_offsets=has_times or None,
+                **options,
+            )
+
+
+class FlatGeobuf(GeoPackage):
+    """A FlatGeobuf file, whose features are in the order of the result."""
+
+    def finish(self) -> None:
+        """Write the file."""
+        out = io.BytesIO()
+        self._write(out, self.columns(), driver="FlatGeobuf", layer_options={"SPATIAL_INDEX": "NO"})
+        self._out.write(out.getbuffer())
+
+
+class Shapefile(GeoPackage):
+    """A Shapefile: what is written is its ``.shp``, and its other files are made beside that."""
+
+    def __init__(self, out: BinaryIO, what: str, path: str) -> None:
+        super().__init__(out, what, path)
+        if stream_kind(path) is not None:
+            raise UsageError("a Shapefile is several files, and no stream holds them: name a file with -o")
+
+    def finish(self) -> None:
+        """Write the files."""
+        kind = _kind(self.geometry)
+        if kind in ("Unknown", "GeometryCollection"):
+            held = ", ".join(sorted({each.geom_type for each in self.geometry if each is not None})) or "nothing"
+            raise OutputError(
+                f"{self._path} cannot be written: a Shapefile holds geometry of one kind, but this is {held}; write a "
+                "GeoPackage (.gpkg)"
+            )
+        with tempfile.TemporaryDirectory() as folder:
+            place = Path(folder) / "layer.shp"
+            self._write(
+                place, self.columns(), driver="ESRI Shapefile", layer_options={"DBF_DATE_LAST_UPDATE": "1970-01-01"}
+            )
+            for extension in PARTS[1:]:
+                part = place.with_suffix(extension)
+                if part.exists():
+                    with open_output(Path(self._path).with_suffix(extension), binary=True) as out:
+                        out.write(part.read_bytes())
+            self._out.write(place.read_bytes())
+
+
+@contextmanager
+def _settings(gdal: Any) -> Iterator[None]:
+    """Make the bytes depend on nothing but the features; what GDAL says of names that it shortens is not passed on."""
+    before = {name: gdal.get_gdal_config_option(name) for name in _FIXED}
+    gdal.set_gdal_config_options(_FIXED)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            yield
+    finally:
+        gdal.set_gdal_config_options(before)
+
+
+def _kind(geometry: NDArray[np.object_]) -> str:
+    """The one kind of all geometry, several of which may be one; Unknown where there is no such."""
+    kinds = {each.geom_type for each in geometry if each is not None}
+    single = {kind.removeprefix("Multi") for kind in kinds}
+    if len(single) != 1:
+        return "Unknown"
+    return kinds.pop() if len(kinds) == 1 else f"Multi{single.pop()}"
+
+
+class GeoParquet(FeatureRows):
+    """A Parquet file; with geometry, as GeoParquet 1.1 has it.
+
+    Parameters
+    ----------
+    out, what, path
+        As of `GeoPackage`.
+    """
+
+    def __init__(self, out: BinaryIO, what: str, path: str) -> None:
+        super().__init__()
+        self._out = out
+        self._parquet = needed("pyarrow.parquet", "gis", "Parquet files")
+        self._arrow = needed("pyarrow", "gis", "Parquet files")
+
+    def finish(self) -> None:
+        """Write the file."""
+        import orjson
+        import shapely
+
+        columns = self.columns()
+        arrays = {name: self._array(each) for name, each in columns.items()}
+        metadata = {}
+        if self.is_of_features:
+            name = next(name for name in ("geometry", "geom", "voro_geometry") if name not in columns)
+            arrays[name] = self._arrow.array(shapely.to_wkb(self.geometry).tolist(), self._arrow.binary())
+            metadata = {"geo": orjson.dumps(self._geo(name))}
+        table = self._arrow.table(arrays).replace_schema_metadata(metadata)
+        out = io.BytesIO()
+        self._parquet.write_table(table, out, compression="zstd")
+        self._out.write(out.getbuffer())
+
+    def _array(self, column: TypedColumn) -> Any:
+        zone = {"type": self._arrow.timestamp("ms", "UTC")} if column.is_utc else {}
+        values = column.values.astype(object) if column.values.dtype.kind == "O" else column.values
+        return self._arrow.array(values, mask=column.missing, **zone)
+
+    def _geo(self, name: str) -> dict[str, Any]:
+        kinds = sorted({each.geom_type for each in self.geometry if each is not None})
+        described = {"encoding": "WKB", "geometry_types": kinds, "crs": self._crs()}
+        return {"version": "1.1.0", "primary_column": name, "columns": {name: described}}
+
+    def _crs(self) -> Any:
+        text = crs_text(self.crs)
+        if text is None:
+            return None
+        pyproj = needed("pyproj", "gis", "coordinate reference systems of Parquet files")
+        return pyproj.CRS.from_user_input(text).to_json_dict()

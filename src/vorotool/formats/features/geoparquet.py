@@ -1,0 +1,99 @@
+"""GeoParquet, whose geometry is well-known binary; and plain Parquet, whose rows are points."""
+
+from __future__ import annotations
+
+import io
+from typing import Any
+
+import numpy as np
+
+from vorotool.errors import InputError, LimitError
+from vorotool.formats.features.feature_table import Features, points_of_features, polygons_of_features
+from vorotool.formats.io.limits import decoding
+from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.reader_options import ReadOptions
+from vorotool.formats.points.tables import points_of_columns
+from vorotool.geometry.crs import LONGITUDE_LATITUDE, crs_member, member_of_text
+from vorotool.geometry.extras import needed
+from vorotool.geometry.points.point_set import PointSet
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+
+_TITLE = "Parquet"
+_MOST_BYTES = 1 << 35
+"""Of what a file unpacks to, as it says itself."""
+
+
+def read_points(source: Source, options: ReadOptions) -> PointSet:
+    """Read points with the other columns as their properties; without geometry, the columns that CSV would have."""
+    with decoding(source.name, _TITLE):
+        columns, document = _columns(source)
+    if document is None:
+        return points_of_columns(source.name, columns, options)
+    return points_of_features(features_of(source), options)
+
+
+def read_polygons(source: Source, options: ReadOptions) -> PolygonSet:
+    """Read polygons and lines with the other columns as their properties."""
+    return polygons_of_features(features_of(source), options)
+
+
+def features_of(source: Source) -> Features:
+    """Read all rows.
+
+    Raises
+    ------
+    InputError
+        If there is no geometry, or in another encoding than well-known binary.
+    UsageError
+        If pyarrow is not installed.
+    """
+    import shapely
+
+    if isinstance(source.document, Features):
+        return source.document
+    with decoding(source.name, _TITLE):
+        columns, document = _columns(source)
+        if document is None:
+            no_geometry = np.full(len(next(iter(columns.values()), [])), None, dtype=object)
+            return Features(source.name, no_geometry, columns)
+        name = document["primary_column"]
+        described = document["columns"][name]
+        if described.get("encoding") != "WKB":
+            raise InputError(
+                f"{source.name}: its geometry is encoded as {described.get('encoding')}, but WKB is read: write it "
+                "anew, as geopandas does by default"
+            )
+        others = [each for each in document["columns"] if each != name]
+        geometry = np.asarray(shapely.from_wkb(np.array(columns.pop(name), dtype=object)))
+        kept = {each: values for each, values in columns.items() if each not in others}
+        ids = kept.pop("id", None) if document.get("vorotool_ids") else None
+    return Features(source.name, geometry, kept, ids, _crs(described))
+
+
+def _columns(source: Source) -> tuple[dict[str, list[Any]], Any]:
+    """The columns as lists, and what the file says of its geometry."""
+    import orjson
+
+    parquet = needed("pyarrow.parquet", "gis", f"{_TITLE} files")
+    with parquet.ParquetFile(io.BytesIO(source.data)) as file:
+        groups = (file.metadata.row_group(index) for index in range(file.metadata.num_row_groups))
+        size = sum(group.total_byte_size for group in groups)
+        if size > _MOST_BYTES:
+            raise LimitError(f"{source.name} unpacks to {size} bytes, more than {_MOST_BYTES}: split it")
+        table = file.read()
+    said = (table.schema.metadata or {}).get(b"geo")
+    columns = {name: column.to_pylist() for name, column in zip(table.column_names, table.columns, strict=True)}
+    return columns, None if said is None else orjson.loads(said)
+
+
+def _crs(described: dict[str, Any]) -> Any:
+    """The reference system: longitude and latitude where nothing is said, none where null is."""
+    if "crs" not in described:
+        return crs_member(LONGITUDE_LATITUDE)
+    crs = described["crs"]
+    if crs is None:
+        return None
+    if isinstance(crs, dict) and isinstance(crs.get("id"), dict):
+        return crs_member(f"{crs['id'].get('authority')}:{crs['id'].get('code')}")
+    pyproj = needed("pyproj", "gis", "coordinate reference systems of Parquet files")
+    return member_of_text(pyproj.CRS.from_user_input(crs).to_wkt())

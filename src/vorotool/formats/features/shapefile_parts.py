@@ -1,0 +1,76 @@
+"""The files that a Shapefile consists of, as one archive."""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from pathlib import Path
+
+from vorotool.errors import InputError, LimitError
+from vorotool.formats.io.sources import Source
+
+PARTS = (".shp", ".shx", ".dbf", ".prj", ".cpg")
+"""Extensions of the files, the one that is named first: geometry, index, attributes, reference system, encoding."""
+
+ZIP_MAGIC = b"PK\x03\x04"
+_MOST_BYTES = 1 << 34
+"""Of what an archive unpacks to."""
+
+
+def archive_of(source: Source) -> bytes:
+    """Give a ZIP archive of a Shapefile: what is beside the ``.shp`` that is named, or the archive that is.
+
+    Raises
+    ------
+    InputError
+        If only the ``.shp`` came through a stream, or parts are missing.
+    LimitError
+        If the archive unpacks to more than 16 GiB.
+    """
+    if source.data.startswith(ZIP_MAGIC):
+        with zipfile.ZipFile(io.BytesIO(source.data)) as archive:
+            size = sum(entry.file_size for entry in archive.infolist())
+        if size > _MOST_BYTES:
+            raise LimitError(f"{source.name} unpacks to {size} bytes, more than {_MOST_BYTES}: unpack and split it")
+        return source.data
+    if not source.is_file:
+        raise InputError(
+            f"{source.name} is the .shp of a Shapefile, which is several files: name it as a file, or give all of them "
+            "as one .zip"
+        )
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w", zipfile.ZIP_STORED) as archive:
+        archive.writestr("layer.shp", source.data)
+        for extension, path in _beside(Path(source.name)).items():
+            archive.writestr(f"layer{extension}", path.read_bytes())
+    return out.getvalue()
+
+
+def _beside(path: Path) -> dict[str, Path]:
+    """The other parts, whose extensions may be in any case."""
+    found = {each.suffix.lower(): each for each in path.parent.iterdir() if each.stem == path.stem and each != path}
+    parts = {extension: found[extension] for extension in PARTS[1:] if extension in found}
+    missing = [extension for extension in (".shx", ".dbf") if extension not in parts]
+    if missing:
+        raise InputError(
+            f"{path} is a part of a Shapefile, whose {' and '.join(missing)} {'are' if len(missing) > 1 else 'is'} not "
+            "beside it: copy all of its files together"
+        )
+    return parts
+
+
+def holds_shapefile(data: bytes) -> bool:
+    """Whether data is a ZIP archive in which there is a ``.shp``.
+
+    Examples
+    --------
+    >>> holds_shapefile(b"PK?"), holds_shapefile(b"II*")
+    (False, False)
+    """
+    if not data.startswith(ZIP_MAGIC):
+        return False
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            return any(name.lower().endswith(".shp") for name in archive.namelist())
+    except zipfile.BadZipFile:
+        return False

@@ -1,0 +1,63 @@
+"""Well-known binary: a geometry, or several one after the other in lines of hexadecimal digits."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.formats.features.feature_table import Features, points_of_features, polygons_of_features
+from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.reader_options import ReadOptions
+from vorotool.formats.parsing.reference_systems import crs_of_numbers
+from vorotool.geometry.points.point_set import PointSet
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+
+_HEXADECIMAL = re.compile(rb"[0-9A-Fa-f\s]*")
+
+
+def read_points(source: Source, options: ReadOptions) -> PointSet:
+    """Read points."""
+    return points_of_features(features_of(source), options)
+
+
+def read_polygons(source: Source, options: ReadOptions) -> PolygonSet:
+    """Read polygons and lines."""
+    return polygons_of_features(features_of(source), options)
+
+
+def features_of(source: Source) -> Features:
+    """Read one geometry, or one a line.
+
+    Raises
+    ------
+    InputError
+        If it is none.
+
+    Examples
+    --------
+    >>> features_of(Source("a.wkb", b"0101000000000000000000F03F0000000000000040")).geometry[0]
+    <POINT (1 2)>
+    """
+    import shapely
+
+    if isinstance(source.document, Features):
+        return source.document
+    written = source.data.split() if _HEXADECIMAL.fullmatch(source.data) else [source.data]
+    geometry = np.asarray(shapely.from_wkb(np.array(written, dtype=object), on_invalid="ignore")).reshape(-1)
+    bad = np.flatnonzero(shapely.is_missing(geometry))
+    if bad.size:
+        raise InputError(f"{source.name}: geometry {bad[0] + 1} is no WKB; is the file damaged or cut off?")
+    return Features(source.name, geometry, {}, None, crs_of_geometry(source.name, geometry, lambda row: row + 1))
+
+
+def crs_of_geometry(name: str, geometry: NDArray[Any], line_of: Callable[[int], int]) -> Any:
+    """Give the ``crs`` member for the numbers (SRID) that geometry of extended well-known binary carries."""
+    import shapely
+
+    numbers = [0 if each is None else int(shapely.get_srid(each)) for each in geometry]
+    return crs_of_numbers(name, numbers, line_of)

@@ -1,0 +1,30 @@
+"""What to do with geometry of another kind than the one that is read."""
+
+from __future__ import annotations
+
+
+def not_a_point_advice(kind: str) -> str:
+    """Say what to do with a geometry that is no point.
+
+    Examples
+    --------
+    >>> not_a_point_advice("MultiCurve")
+    'use Point or MultiPoint'
+    """
+    lines = kind.lower().removeprefix("multi")
+    if lines in ("polygon", "linestring"):
+        return "replace it by its centroid or its vertices (skeleton-exact reads polygons and lines)"
+    return "use Point or MultiPoint"
+
+
+def not_a_shape_advice(kind: str) -> str:
+    """Say what to do with a geometry that is neither polygon nor line.
+
+    Examples
+    --------
+    >>> not_a_shape_advice("MultiPoint")
+    'put points into a file of their own'
+    """
+    if kind.lower().removeprefix("multi") == "point":
+        return "put points into a file of their own"
+    return "use (Multi)Polygon or (Multi)LineString"

@@ -1,0 +1,64 @@
+"""Coordinates in another reference system."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError, UsageError
+from vorotool.geometry.crs import crs_name, crs_text
+from vorotool.geometry.extras import needed
+
+
+def reprojected(xy: NDArray[np.float64], name: str, source: Any, target: Any) -> NDArray[np.float64]:
+    """Bring coordinates from one system into another, vertex by vertex: edges stay straight lines between them.
+
+    Parameters
+    ----------
+    xy : (n, 2) float64 array
+        In the system of the input; x is the longitude or the easting.
+    name : str
+        The input.
+    source, target : object
+        Both systems, as the ``crs`` member of GeoJSON has them.
+
+    Returns
+    -------
+    (n, 2) float64 array
+        In the other system.
+
+    Raises
+    ------
+    InputError
+        If a coordinate has no place in the other system.
+    UsageError
+        If pyproj is not installed, or does not know one of the systems.
+
+    Examples
+    --------
+    >>> reprojected(np.array([[9.0, 0.0]]), "a.gpkg", "EPSG:4326", "EPSG:32632").round(6).tolist()
+    [[500000.0, 0.0]]
+    """
+    pyproj = needed("pyproj", "gis", "other coordinate reference systems")
+    systems = [_known(pyproj, each) for each in (source, target)]
+    pyproj.network.set_network_enabled(False)  # grids that are not there are not looked for elsewhere
+    made = np.stack(pyproj.Transformer.from_crs(*systems, always_xy=True).transform(*xy.T), axis=1)
+    bad = np.flatnonzero(~np.isfinite(made).all(axis=1))
+    if bad.size:
+        x, y = xy[bad[0]].tolist()
+        raise InputError(
+            f"{name}: ({x}, {y}) in {crs_name(source)} has no place in {crs_name(target)} ({bad.size} such vertices): "
+            "choose a system that is made for the region"
+        )
+    return made
+
+
+def _known(pyproj: Any, crs: Any) -> Any:
+    try:
+        return pyproj.CRS.from_user_input(crs_text(crs))
+    except pyproj.exceptions.CRSError:
+        raise UsageError(
+            f"the coordinate reference system {crs_name(crs)} is not known: check authority and code, as in EPSG:3857"
+        ) from None

@@ -1,0 +1,64 @@
+"""The items of a list in JSON, or of a collection in GeoJSON, taken from the text as it is written."""
+
+from __future__ import annotations
+
+from types import TracebackType
+from typing import Any, Self
+
+
+class JsonItems:
+    """A file that takes a list in JSON or a collection in GeoJSON, and passes its items on, some at a time.
+
+    JSON has no line break within a string, and our lists have them in three places: after the opening, after the comma
+    behind each item, and before the closing and behind it.
+    """
+
+    def __init__(self) -> None:
+        self._begun: list[bytes] = []  # the parts of a line that has no end yet
+        self._last = b""  # a whole line, which may be the closing
+        self._opening: bytes | None = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if kind is None:
+            self.finish()
+
+    def write(self, data: bytes) -> int:
+        """Take some text; the last line is the closing, which goes nowhere."""
+        lines, end, begun = data.rpartition(b"\n")
+        if end:
+            self._take_lines(b"".join([*self._begun, lines, end]))
+            self._begun = []
+        self._begun.append(begun)
+        return len(data)
+
+    def take(self, items: bytes) -> None:
+        """Take whole items, each on a line."""
+        raise NotImplementedError
+
+    def finish(self) -> None:
+        """Know that there are no more."""
+
+    @property
+    def crs(self) -> Any:
+        """The ``crs`` member of a collection; None where there is none."""
+        import orjson
+
+        opening = self._opening or b""
+        # of an empty list the closing follows the opening at once
+        text = opening.removesuffix(b"\n").removesuffix(b"]}") + b"]}" if opening.startswith(b"{") else b"{}"
+        return orjson.loads(text).get("crs")
+
+    def _take_lines(self, lines: bytes) -> None:
+        """Pass whole lines on but the last, and but the first of all, the opening."""
+        if self._opening is None:
+            self._opening, _, lines = lines.partition(b"\n")
+        lines = self._last + lines
+        place = lines.rfind(b"\n", 0, -1) + 1
+        self._last = lines[place:]
+        if place:
+            self.take(lines[:place].replace(b",\n", b"\n"))

@@ -1,0 +1,38 @@
+"""Numbers in text: attributes of delimited text that are numbers stay so, digit by digit."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+_COLUMN = re.compile(r"(?:(?:-?(?:0|[1-9]\d*)(?:\.\d+)?(?:[eE][+-]?\d+)?)?\n)*", re.ASCII)
+
+
+class NumberText(str):
+    """A number as it is written, which is a number in JSON, too: no digit of it changes on its way.
+
+    Examples
+    --------
+    >>> NumberText("3.50")
+    '3.50'
+    """
+
+    __slots__ = ()
+
+
+def typed_texts(values: list[str]) -> list[Any]:
+    """Give the texts of a column as numbers if all are, but for empty ones, which are None then.
+
+    Codes with leading zeros are no numbers, and neither is any other of their column.
+
+    Examples
+    --------
+    >>> typed_texts(["1.50", ""]), [type(each).__name__ for each in typed_texts(["1.50", ""])]
+    (['1.50', None], ['NumberText', 'NoneType'])
+    >>> typed_texts(["010", "7"]), type(typed_texts(["010", "7"])[1]).__name__
+    (['010', '7'], 'str')
+    """
+    text = "\n".join(values)
+    if text.count("\n") + 1 != len(values) or not any(values) or not _COLUMN.fullmatch(text + "\n"):
+        return values
+    return [NumberText(value) if value else None for value in values]
