@@ -81,8 +81,10 @@ READ = {
 EXPECTED = {
     "help": "html, drawing,",
     "documents": "| `offset` | JSON (`.json`), CSV (`.csv`), GeoJSON (`.geojson`), NPZ (`.npz`), WKT (`.wkt`), "
-    "JSON lines (`.jsonl`, `.ndjson`), Drawing (`.drw`)",
-    "refusal": "offset cannot be written as obj: use one of json, csv, geojson, npz, wkt, jsonl, drawing, svg, png",
+    "JSON lines (`.jsonl`, `.ndjson`), GeoPackage (`.gpkg`), FlatGeobuf (`.fgb`), Shapefile (`.shp`), "
+    "GeoParquet (`.parquet`, `.geoparquet`), Drawing (`.drw`)",
+    "refusal": "offset cannot be written as obj: use one of json, csv, geojson, npz, wkt, jsonl, gpkg, fgb, shp, "
+    "parquet, drawing, svg, png",
     "writing": " curves\n",
     "library": "1 curves\n",
 }

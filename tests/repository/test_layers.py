@@ -30,6 +30,8 @@ engines/delaunay -> engines/common, geometry, geometry/curves, geometry/mesh, ge
 engines/label_images -> engines/common, engines/tessellation, geometry, geometry/points, geometry/polygons
 engines/segment_voronoi -> geometry, geometry/polygons, geometry/skeleton
 formats/text -> geometry, geometry/skeleton
+formats/features -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/points,
+    geometry/polygons
 geometry/alpha -> geometry, geometry/curves, geometry/mesh, geometry/polygons
 render/label_images -> geometry, geometry/points, render/canvas
 batch -> engines/tessellation, formats/io, formats/text, formats/zarr
@@ -54,17 +56,17 @@ engines/offsets -> engines/arrangement, engines/common, engines/features, engine
 engines/pruning -> engines/common, geometry, geometry/curves, geometry/skeleton
 engines/sampled_skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi,
     engines/skeleton, geometry, geometry/curves, geometry/polygons, geometry/skeleton
-formats -> formats/images, formats/io, formats/parsing, formats/points, formats/polygons, geometry, geometry/points,
-    geometry/polygons, geometry/skeleton, products
+formats -> formats/features, formats/images, formats/io, formats/parsing, formats/points, formats/polygons, geometry,
+    geometry/points, geometry/polygons, geometry/skeleton, products
 engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/polygons, geometry/skeleton
 engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton, geometry, geometry/polygons,
     geometry/skeleton
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
     engines/features, engines/from_skeleton, engines/label_images, engines/offsets, engines/pruning,
-    engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, formats,
-    formats/images, formats/io, formats/parsing, formats/points, formats/text, formats/zarr, geometry, geometry/alpha,
-    geometry/any, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, products, render/canvas,
-    render/label_images, render/layers, render/pages
+    engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, formats, formats/images,
+    formats/io, formats/parsing, formats/points, formats/text, formats/zarr, geometry, geometry/alpha, geometry/any,
+    geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, products, render/canvas, render/label_images,
+    render/layers, render/pages
 cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
 cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 cli/commands -> cli/batch, cli/options, jobs, products

@@ -56,7 +56,7 @@ def recognised_geometry(
     'points'
     """
     if geometry == "points" or (geometry is None and columns is not None):
-        return "points", _points(source, said or point_format(source, columns), columns)
+        return "points", _points(source, _by_header(source, said or point_format(source), columns), columns)
     if geometry == "polygons":
         holds: Holds = "polygons"
         source = _plain_source(source, said or polygon_format(source))
@@ -67,10 +67,8 @@ def recognised_geometry(
     return holds, source
 
 
-def point_format(source: Source, columns: str | None = None) -> str:
+def point_format(source: Source) -> str:
     """Tell the format of points, if it is one, by the extension, else by the content.
-
-    Delimited text has them in a column of well-known text where its header has such a column, and no coordinates.
 
     Raises
     ------
@@ -86,13 +84,15 @@ def point_format(source: Source, columns: str | None = None) -> str:
         return "shp"
     refuse_convertible(source)
     found = _SUFFIXES.get(source.suffix)
-    if found is None or "points" not in INPUTS[found].readers:
-        found = _by_content(source.data)
-    if found == "csv" and columns is None:
-        fields = header_fields(text_source(source, found).data)
-        if geometry_column(fields) is not None and not has_coordinates(fields):
-            return "csv-wkt"
-    return found
+    return found if found is not None and "points" in INPUTS[found].readers else _by_content(source.data)
+
+
+def _by_header(source: Source, chosen: str, columns: str | None = None) -> str:
+    """Take points from a column of well-known text where the header names such a one, and no coordinates."""
+    if chosen != "csv" or columns is not None:
+        return chosen
+    fields = header_fields(text_source(source, chosen).data)
+    return "csv-wkt" if geometry_column(fields) is not None and not has_coordinates(fields) else chosen
 
 
 def _by_content(data: bytes) -> str:
@@ -126,14 +126,13 @@ def polygon_format(source: Source) -> str:
     found = point_format(source)
     if found == "geojson" and source.suffix != ".geojson":  # an object: of either kind
         return "json"
-    if "polygons" in INPUTS[found].readers:
-        return found
-    if not source.data.strip():
+    if not source.data.strip() and found == "csv":
         raise InputError(
             f"{source.name} is empty: polygons, lines or an image were expected; check what was to write it"
         )
-    if found == "csv" and geometry_column(header_fields(text_source(source, found).data)) is not None:
-        return "csv-wkt"
+    is_table = found == "csv" and geometry_column(header_fields(text_source(source, found).data)) is None
+    if "polygons" in INPUTS[found].readers and not is_table:
+        return found
     raise InputError(
         f"{source.name} holds no polygons or lines that are read (it looks like {found}): use JSON, GeoJSON, WKT or "
         ".poly, or say which with --input-format; of points alphashape makes polygons"
@@ -144,8 +143,8 @@ def _either(source: Source, said: str | None) -> tuple[Holds, Source]:
     """Tell whether what is no image holds polygons or lines; JSON is parsed for it."""
     if said == "poly" or (said is None and source.suffix == ".poly"):
         return "polygons", text_source(source, "poly")
-    chosen = said or point_format(source)
-    if "polygons" not in INPUTS[chosen].readers:
+    chosen = _by_header(source, said or point_format(source))
+    if chosen == "csv" or "polygons" not in INPUTS[chosen].readers:
         return "points", _points(source, chosen, None)
     source = _plain_source(source, chosen)
     if "features" in INPUTS[chosen].has:

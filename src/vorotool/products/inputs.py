@@ -45,12 +45,15 @@ def _of_maps(name: str, *names: str, module: str = "vector_files", has: str = "b
     return _of(name, *names, has=has, points=f"{place}:read_points", polygons=f"{place}:read_polygons")
 
 
+_WKT_COLUMN = "formats.features.delimited_geometry"
 _IMAGE = "formats.images.reader:read_image"
 _ALL = (
-    _of("csv", "csv", "tsv", "txt", points="formats.points.delimited:read_text"),
+    _of(
+        "csv", "csv", "tsv", "txt", points="formats.points.delimited:read_text", polygons=f"{_WKT_COLUMN}:read_polygons"
+    ),
     _of("node", points="formats.points.node:read_node"),
-    _of_maps("csv-wkt", module="delimited_geometry", has="features"),
     _of("npz", has="bytes", points="formats.points.tables:read_npz"),
+    _of("csv-wkt", has="features", points=f"{_WKT_COLUMN}:read_points", polygons=f"{_WKT_COLUMN}:read_polygons"),
     _of("geojson", points="formats.points.json:read_geojson", polygons="formats.polygons.geojson:read_geojson"),
     _of("wkt", points="formats.points.wkt:read_wkt", polygons="formats.polygons.wkt:read_wkt"),
     _of(
@@ -88,8 +91,8 @@ def names_of(*held: Holds) -> dict[str, str]:
 
     Examples
     --------
-    >>> names_of("polygons")
-    {'geojson': 'geojson', 'wkt': 'wkt', 'json': 'json', 'poly': 'poly'}
+    >>> {name: kind for name, kind in names_of("polygons").items() if name.startswith("geo")}
+    {'geojson': 'geojson', 'geoparquet': 'parquet'}
     """
     return {name: each.name for each in _ALL if each.readers.keys() & set(held) for name in each.names}
 

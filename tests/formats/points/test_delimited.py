@@ -47,7 +47,10 @@ def test_recognised_headers(header, used, point):
         assert notes == []
         return
     assert notes[0] == f"seeds.csv: columns {used} are read as x, y"
-    degrees = "seeds.csv: longitude and latitude are treated as planar, lengths are in degrees"
+    degrees = (
+        "seeds.csv: longitude and latitude are treated as planar, lengths are in degrees; --crs EPSG:32631 works in "
+        "metres (UTM)"
+    )
     is_map = used.lower().startswith("lon")
     assert notes[1:] == ([degrees] if is_map else [])
     points = read(text)
@@ -80,7 +83,8 @@ def test_chosen_columns_without_a_header():
     assert rows("1,2,3\n4,5,6\n", columns="3,1") == [[3, 1], [6, 4]]
     assert rows("n1,2,3\nn2,5,6\n", columns="2,3") == [[2, 3], [5, 6]]
     assert notes_of("n,lon,lat\nn1,5,6\n", columns="lon,lat") == [
-        "seeds.csv: longitude and latitude are treated as planar, lengths are in degrees"
+        "seeds.csv: longitude and latitude are treated as planar, lengths are in degrees; --crs EPSG:32631 works in "
+        "metres (UTM)"
     ]
 
 

@@ -4,6 +4,9 @@ import io
 import json
 
 import numpy as np
+import pyarrow
+import pyarrow.parquet
+import pyogrio
 import pytest
 import shapely
 from hypothesis import given, settings
@@ -43,7 +46,7 @@ def test_detection(name, content, expected):
     assert point_format(Source(name, content if isinstance(content, bytes) else content.encode())) == expected
 
 
-@pytest.mark.parametrize("suffix", [".shp", ".gpkg", ".dxf"])
+@pytest.mark.parametrize("suffix", [".gml", ".tab", ".dxf"])
 def test_files_to_convert(suffix):
     message = error_of(b"", f"data/towns{suffix}")
     assert message == (
@@ -54,13 +57,27 @@ def test_files_to_convert(suffix):
 
 def test_options_that_do_not_fit():
     assert "expected one of csv, tsv, txt, node, npz" in error_of("", kind=UsageError, input_format="xyz")
-    for fmt in set(POINT_FORMATS) - {"csv", "json", "npz"}:
+    for fmt in set(POINT_FORMATS) - {"csv", "json", "npz", "parquet"}:
         assert "--columns is for delimited text" in error_of("", kind=UsageError, input_format=fmt, columns="1,2")
 
 
 def npz(**columns):
     out = io.BytesIO()
     np.savez(out, **columns)
+    return out.getvalue()
+
+
+def vector_file(geometry, driver):
+    out = io.BytesIO()
+    kind = {"driver": driver, "geometry_type": "Point", "crs": "EPSG:3857"}
+    order = {"SPATIAL_INDEX": "NO"} if driver == "FlatGeobuf" else {}
+    pyogrio.raw.write(out, shapely.to_wkb(geometry), [], [], layer="a", layer_options=order, **kind)
+    return out.getvalue()
+
+
+def parquet(**columns):
+    out = io.BytesIO()
+    pyarrow.parquet.write_table(pyarrow.table(columns), out)
     return out.getvalue()
 
 
@@ -82,7 +99,13 @@ def test_all_formats_agree(points):
         "geojson": json.dumps({"type": "MultiPoint", "coordinates": pairs}),
         "wkt": "".join(f"POINT ({x!r} {y!r})\n" for x, y in points),
     }
-    assert set(texts) == set(POINT_FORMATS)
+    geometry = shapely.points(array)
+    for fmt, driver in (("gpkg", "GPKG"), ("fgb", "FlatGeobuf")):
+        texts[fmt] = vector_file(geometry, driver)
+    texts["wkb"] = shapely.to_wkb(shapely.multipoints(array))
+    texts["csv-wkt"] = "wkt\n" + "".join(f"POINT ({x!r} {y!r})\n" for x, y in points)
+    texts["parquet"] = parquet(x=array[:, 0], y=array[:, 1])
+    assert set(texts) == set(POINT_FORMATS) - {"shp", "kml", "gpx"}  # of several files; of longitudes and latitudes
     for fmt, text in texts.items():
         np.testing.assert_array_equal(read(text, STANDARD_INPUT, input_format=fmt).xy, array)
     whole = shapely.multipoints(array).wkt

@@ -122,7 +122,8 @@ def test_geojson_notes():
     assert len(read(text, "a.geojson")) == 1
     wgs84 = {"type": "name", "properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}}
     assert notes_of(collection(feature([7, 46]), crs=wgs84), "a.geojson") == [
-        "a.geojson: longitude and latitude are treated as planar, lengths are in degrees"
+        "a.geojson: longitude and latitude are treated as planar, lengths are in degrees; --crs EPSG:32632 works "
+        "in metres (UTM)"
     ]
     assert len(read(collection(), "a.geojson")) == 0
 

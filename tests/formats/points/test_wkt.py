@@ -17,7 +17,10 @@ def test_wkt():
     assert points.y_up
     assert points.crs == {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::4326"}}
     assert read("POINT (1 2)\nSRID=0;POINT (2 3)", "a.wkt").crs is None
-    degrees = "a.wkt: longitude and latitude are treated as planar, lengths are in degrees"
+    degrees = (
+        "a.wkt: longitude and latitude are treated as planar, lengths are in degrees; --crs EPSG:32631 works in metres "
+        "(UTM)"
+    )
     assert notes_of("SRID=4258;POINT (1 2)", "a.wkt") == [degrees]
     assert notes_of("SRID=2056;POINT (1 2)", "a.wkt") == []
     assert "line 3: the geometry is in EPSG:2" in error_of("SRID=1;POINT (1 2)\n\nSRID=2;POINT (1 2)", "a.wkt")

@@ -87,23 +87,15 @@ def test_points_and_polygons_in_one_file(tmp_path, geometries, message):
 @pytest.mark.parametrize(
     ("data", "name", "message"),
     [
-        (
-            b"",
-            "lakes.shp",
-            "lakes.shp: .shp files are not read; convert it: ogr2ogr -f GeoJSON lakes.geojson lakes.shp",
-        ),
-        (b"", "lakes.gpkg", "lakes.gpkg: .gpkg files are not read; convert it: ogr2ogr -f GeoJSON lakes.geojson lakes"),
+        (b"", "lakes.shp", "lakes.shp is a part of a Shapefile, whose .shx and .dbf are not beside it: copy all of"),
+        (b"", "lakes.gpkg", "lakes.gpkg is no GeoPackage that can be read; is it damaged or cut off?"),
         (b"", "part.dxf", "part.dxf: .dxf files are not read; convert it: ogr2ogr -f GeoJSON part.geojson part.dxf"),
         (
             b"\0\0\x27\x0a\0",
             STANDARD_INPUT,
-            "standard input: .shp files are not read; convert it: ogr2ogr -f GeoJSON FILE",
+            "standard input is the .shp of a Shapefile, which is several files: name it as a file, or give all of them",
         ),
-        (
-            b"SQLite format 3\0",
-            "a",
-            "a: .gpkg files are not read; convert it: ogr2ogr -f GeoJSON FILE.geojson FILE.gpkg",
-        ),
+        (b"SQLite format 3\0", "a", "a is no GeoPackage that can be read; is it damaged or cut off?"),
         (b"1,2\n", "a.csv", "a.csv holds no polygons or lines that are read (it looks like csv): use JSON, GeoJSON"),
         (b"\xff\xfea", "a.wkt", "a.wkt is UTF-16 text"),
         (b"\0", "a.wkt", "a.wkt is binary"),
@@ -111,8 +103,8 @@ def test_points_and_polygons_in_one_file(tmp_path, geometries, message):
 )
 def test_formats_that_are_not_read(data, name, message):
     assert error_of(data, name).startswith(message)
-    with pytest.raises(UsageError, match="invalid --input-format 'csv': expected one of geojson, wkt, json, poly, png"):
-        read(data, name, input_format="csv")
+    with pytest.raises(UsageError, match="invalid --input-format 'node': expected one of csv, tsv, txt, csv-wkt, geo"):
+        read(data, name, input_format="node")
 
 
 @pytest.mark.parametrize("fmt", ["json", "geojson", "wkt", "poly"])

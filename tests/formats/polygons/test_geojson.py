@@ -74,16 +74,17 @@ UNNAMED = (
 
 
 def test_degrees_are_told_by_the_reference_system_alone_and_heights_are_left_out():
-    degrees = "a.geojson: longitude and latitude are treated as planar, lengths are in degrees"
+    utm, other = " EPSG:32631 works in metres (UTM)", " brings them into a projected system"
+    degrees = "a.geojson: longitude and latitude are treated as planar, lengths are in degrees; --crs"
     heights = "a.geojson: only x and y are used, heights are left out"
     lake = [[7.5, 46.9, 400], [8, 46], [8, 47]]
     assert notes_of(collection(feature("Polygon", [lake])), "a.geojson") == [heights, UNNAMED]
     assert notes_of(collection(feature("Polygon", [[[750.5, 46], [8, 46], [8, 47]]])), "a.geojson") == []
     assert notes_of(collection(feature("Polygon", [SHELL])), "a.geojson") == []
     wgs84 = {"type": "name", "properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}}
-    assert notes_of(collection(feature("Polygon", [SHELL]), crs=wgs84), "a.geojson") == [degrees]
+    assert notes_of(collection(feature("Polygon", [SHELL]), crs=wgs84), "a.geojson") == [degrees + utm]
     beyond = [[[180.00000000000014, 46], [8, 46], [8, 47]]]
-    assert notes_of(collection(feature("Polygon", beyond), crs=wgs84), "a.geojson") == [degrees]
+    assert notes_of(collection(feature("Polygon", beyond), crs=wgs84), "a.geojson") == [degrees + other]
     assert notes_of(collection(feature("LineString", lake[1:]), crs=CRS), "a.geojson") == []
 
 

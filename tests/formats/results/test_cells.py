@@ -12,7 +12,7 @@ import shapely
 
 from support.families.point_families import draw
 from support.readers.sources import read_as
-from support.readers.written import rows_of, written
+from support.readers.written import rows_of, streamed, written
 from vorotool import PointSet, UsageError, voronoi_cells, write
 from vorotool.formats.io.sources import Source
 from vorotool.products.registry import PRODUCTS
@@ -125,13 +125,13 @@ def test_precision(fmt):
     assert {len(part.split(".")[1]) for part in re.findall(r"\d+\.\d+", text)} == {3}
 
 
-@pytest.mark.parametrize("fmt", PRODUCTS["delaunay"]["cells"].written)
+@pytest.mark.parametrize("fmt", streamed(PRODUCTS["delaunay"]["cells"]))
 def test_threads_and_slices_change_nothing(fmt):
     cells = voronoi_cells(draw("uniform", 40_000, 1))
     assert written(cells, fmt, threads=1) == written(cells, fmt, threads=3)
 
 
-@pytest.mark.parametrize("fmt", PRODUCTS["delaunay"]["cells"].written)
+@pytest.mark.parametrize("fmt", streamed(PRODUCTS["delaunay"]["cells"]))
 def test_no_cells(fmt):
     cells = voronoi_cells(np.empty((0, 2)))
     data = written(cells, fmt)

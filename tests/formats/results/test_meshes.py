@@ -12,7 +12,7 @@ import shapely
 
 import vorotool
 from support.families.point_families import draw
-from support.readers.written import rows_of
+from support.readers.written import rows_of, streamed
 from support.readers.written import written as written_as
 from vorotool import PointSet, UsageError, delaunay
 from vorotool.products.registry import PRODUCTS
@@ -125,7 +125,7 @@ def test_nothing_and_little():
         mesh = delaunay(np.reshape(points, (-1, 2)))
         for what in ("edges", "triangles"):
             count = edges if what == "edges" else 0
-            for fmt in PRODUCTS["delaunay"][what].written:
+            for fmt in streamed(PRODUCTS["delaunay"][what]):
                 data = written(mesh, fmt, what)
                 if fmt == "geojson":
                     assert len(json.loads(data)["features"]) == count
@@ -149,7 +149,7 @@ def test_precision_and_lengths_that_no_double_holds():
 @pytest.mark.parametrize("what", ["edges", "triangles"])
 def test_the_same_bytes_for_any_threads(what):
     mesh = delaunay(draw("uniform", 30_000, 7))
-    for fmt in PRODUCTS["delaunay"][what].written:
+    for fmt in streamed(PRODUCTS["delaunay"][what]):
         assert len({written(mesh, fmt, what, threads=threads) for threads in (1, 2, 3)}) == 1
 
 

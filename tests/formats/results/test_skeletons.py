@@ -10,7 +10,7 @@ import shapely
 
 import vorotool
 from support.readers.sources import read_as
-from support.readers.written import rows_of, written
+from support.readers.written import rows_of, streamed, written
 from vorotool.errors import UsageError
 from vorotool.formats.results.skeletons import skeleton_arrays
 from vorotool.products.registry import parts_of
@@ -95,7 +95,7 @@ def test_wkt_is_the_same_as_geojson():
 @pytest.mark.parametrize("what", parts_of(MADE))
 def test_nothing_is_written_too(what):
     nothing = vorotool.skeleton_exact([[0, 0], [1, 0], [0, 1]], side="exterior")
-    for fmt in parts_of(MADE)[what].written:
+    for fmt in streamed(parts_of(MADE)[what]):
         text = text_of(fmt, nothing, what=what)
         if fmt in ("json", "geojson"):
             json.loads(text)
@@ -116,5 +116,5 @@ def test_precision():
 
 def test_threads_change_nothing():
 
-    for fmt in parts_of(MADE)["skeleton"].written:
+    for fmt in streamed(parts_of(MADE)["skeleton"]):
         assert text_of(fmt, threads=1) == text_of(fmt, threads=3)

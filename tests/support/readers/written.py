@@ -5,10 +5,16 @@ import io
 
 import numpy as np
 
+from vorotool.products.formats import FORMATS
 from vorotool.products.writing import chosen_part, write_product
 
 ARCS = ("vertices", "radius", "arcs", "control", "sites", "polygon", "side", "branch", "length", "error_bound")
 """Arrays of a skeleton."""
+
+
+def streamed(product):
+    """Give the formats of a product that a stream can hold: those of one file."""
+    return [fmt for fmt in product.written if not FORMATS[fmt].beside]
 
 
 def written(value, fmt, what=None, **options):

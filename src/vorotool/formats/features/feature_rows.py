@@ -46,11 +46,13 @@ class FeatureRows(JsonItems):
         self._geometry: list[NDArray[np.object_]] = []
         self._rows: list[dict[str, Any]] = []
         self._ids: list[Any] = []
+        self._names: dict[str, None] = {}  # of the columns of a table, which may have no rows
         self._measured: set[str] = set()  # names of columns of floating-point numbers
 
     def announce(self, columns: Sequence[Column]) -> None:
         """Learn which columns hold floating-point numbers, which may all be whole."""
         for column in columns:
+            self._names[column.name] = None
             values = column.values.values if isinstance(column.values, Lookup) else column.values
             if isinstance(values, np.ndarray) and values.dtype.kind == "f":
                 self._measured.add(column.name)
@@ -80,7 +82,8 @@ class FeatureRows(JsonItems):
 
     def columns(self) -> dict[str, TypedColumn]:
         """Give the columns in the order in which they came first; the ids too, where nothing else tells them."""
-        names = dict.fromkeys(name for row in self._rows for name in row)
+        own = {} if self.is_of_features else self._names
+        names = own | dict.fromkeys(name for row in self._rows for name in row)
         listed = {name: [row.get(name) for row in self._rows] for name in names}
         numbered = [list(range(1, len(self._rows) + 1)), [None] * len(self._ids)]
         if self.is_of_features and self._ids not in [*listed.values(), *numbered]:
@@ -108,7 +111,7 @@ def _typed(values: list[Any], *, is_measured: bool) -> TypedColumn:
     kinds = {type(value) for value in values if value is not None}
     if kinds == {int} and not is_measured and all(value is None or value in _INTEGERS for value in values):
         return TypedColumn(np.array([value or 0 for value in values], dtype=np.int64), missing)
-    if kinds and kinds <= {int, float}:
+    if is_measured or (kinds and kinds <= {int, float}):
         return TypedColumn(np.array([np.nan if value is None else value for value in values], np.float64), missing)
     if kinds == {bool}:
         return TypedColumn(np.array([bool(value) for value in values]), missing)

@@ -96,9 +96,8 @@ class Shapefile(GeoPackage):
 
     def finish(self) -> None:
         """Write the files."""
-        kind = _kind(self.geometry)
-        if kind in ("Unknown", "GeometryCollection"):
-            held = ", ".join(sorted({each.geom_type for each in self.geometry if each is not None})) or "nothing"
+        held = ", ".join(sorted({each.geom_type for each in self.geometry if each is not None}))
+        if held and _kind(self.geometry) in ("Unknown", "GeometryCollection"):
             raise OutputError(
                 f"{self._path} cannot be written: a Shapefile holds geometry of one kind, but this is {held}; write a "
                 "GeoPackage (.gpkg)"
@@ -133,6 +132,8 @@ def _kind(geometry: NDArray[np.object_]) -> str:
     """The one kind of all geometry, several of which may be one; Unknown where there is no such."""
     kinds = {each.geom_type for each in geometry if each is not None}
     single = {kind.removeprefix("Multi") for kind in kinds}
+    if not single:
+        return "Polygon"  # of nothing, since there must be one
     if len(single) != 1:
         return "Unknown"
     return kinds.pop() if len(kinds) == 1 else f"Multi{single.pop()}"

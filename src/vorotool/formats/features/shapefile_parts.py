@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import zipfile
+from collections.abc import Mapping
 from pathlib import Path
 
 from vorotool.errors import InputError, LimitError
@@ -29,20 +30,27 @@ def archive_of(source: Source) -> bytes:
     """
     if source.data.startswith(ZIP_MAGIC):
         with zipfile.ZipFile(io.BytesIO(source.data)) as archive:
-            size = sum(entry.file_size for entry in archive.infolist())
-        if size > _MOST_BYTES:
-            raise LimitError(f"{source.name} unpacks to {size} bytes, more than {_MOST_BYTES}: unpack and split it")
-        return source.data
+            entries = [entry for entry in archive.infolist() if Path(entry.filename).suffix.lower() in PARTS]
+            size = sum(entry.file_size for entry in entries)
+            if size > _MOST_BYTES:
+                raise LimitError(f"{source.name} unpacks to {size} bytes, more than {_MOST_BYTES}: unpack and split it")
+            return _archived({Path(entry.filename).name: archive.read(entry) for entry in entries})
     if not source.is_file:
         raise InputError(
             f"{source.name} is the .shp of a Shapefile, which is several files: name it as a file, or give all of them "
             "as one .zip"
         )
+    path = Path(source.name)
+    beside = {f"{path.stem}{extension}": part.read_bytes() for extension, part in _beside(path).items()}
+    return _archived({f"{path.stem}.shp": source.data, **beside})
+
+
+def _archived(parts: Mapping[str, bytes]) -> bytes:
+    """Give an archive of nothing but these: GDAL looks at all that is in one."""
     out = io.BytesIO()
     with zipfile.ZipFile(out, "w", zipfile.ZIP_STORED) as archive:
-        archive.writestr("layer.shp", source.data)
-        for extension, path in _beside(Path(source.name)).items():
-            archive.writestr(f"layer{extension}", path.read_bytes())
+        for name, data in parts.items():
+            archive.writestr(name, data)
     return out.getvalue()
 
 

@@ -7,6 +7,7 @@ without geometry (it then crashes); for a million polygons of nine vertices that
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from datetime import date, datetime
 from pathlib import Path
@@ -29,6 +30,15 @@ from vorotool.geometry.polygons.polygon_set import PolygonSet
 TITLES = {"gpkg": "GeoPackage", "fgb": "FlatGeobuf", "shp": "Shapefile", "kml": "KML", "gpx": "GPX"}
 """Formats and what they are called."""
 
+_MARKUP = rb"(?:\xef\xbb\xbf)?\s*(?:<[?!][^>]*>\s*)*<%b[\s>]"
+_BEGINNINGS = {
+    "gpkg": re.compile(rb"SQLite format 3\0"),
+    "fgb": re.compile(rb"fgb\x03fgb"),
+    "shp": re.compile(rb"\0\0\x27\x0a|PK\x03\x04"),
+    "kml": re.compile(_MARKUP % b"kml"),
+    "gpx": re.compile(_MARKUP % b"gpx"),
+}
+"""Of each format: GDAL takes a file for what it begins as, whatever it is called, and some formats name others."""
 _NUMBERED = ("gpkg",)
 """Formats whose files number their features themselves."""
 _TIMES = {"OFTDate": date, "OFTDateTime": datetime}
@@ -58,10 +68,18 @@ def features_of(source: Source) -> Features:
     if isinstance(source.document, Features):
         return source.document
     title = TITLES[source.format]
+    if not _BEGINNINGS[source.format].match(source.data):
+        raise InputError(f"{source.name} is no {title} that can be read: it begins as something else")
     pyogrio = needed("pyogrio", "gis", f"{title} files")
     data = _readable(source)
-    with decoding(source.name, title):
-        return interruptible(lambda: _read(pyogrio, data, source, title))
+    try:
+        with decoding(source.name, title):
+            return interruptible(lambda: _read(pyogrio, data, source))
+    except InputError as error:
+        if error.__cause__ is None:
+            raise
+        # what GDAL says is of drivers and of the place in memory that the file had
+        raise InputError(f"{source.name} is no {title} that can be read; is it damaged or cut off?") from error
 
 
 def _readable(source: Source) -> bytes | Path:
@@ -73,11 +91,11 @@ def _readable(source: Source) -> bytes | Path:
     return source.data
 
 
-def _read(pyogrio: Any, data: bytes | Path, source: Source, title: str) -> Features:
+def _read(pyogrio: Any, data: bytes | Path, source: Source) -> Features:
     import shapely
 
-    layer = _chosen_layer(source, [name for name, kind in pyogrio.list_layers(data).tolist() if kind is not None])
-    options = {"layer": layer, "datetime_as_string": True}
+    layers = pyogrio.list_layers(data).tolist()
+    options = {"layer": _chosen_layer(source, layers), "datetime_as_string": True}
     meta, numbers, wkb, values = pyogrio.raw.read(data, return_fids=True, **options)
     columns = _columns(meta, values)
     lossy = [name for name in columns if _has_lost_digits(meta, name, values)]
@@ -96,19 +114,19 @@ def _read(pyogrio: Any, data: bytes | Path, source: Source, title: str) -> Featu
     return Features(source.name, np.asarray(geometry), columns, ids, member_of_text(meta["crs"]))
 
 
-def _chosen_layer(source: Source, layers: Sequence[str]) -> str:
+def _chosen_layer(source: Source, layers: Sequence[tuple[str, str | None]]) -> int:
+    """The number of the layer: one without a name is called differently each time that it is looked at."""
+    named = {name: number for number, (name, kind) in enumerate(layers) if kind is not None}
+    held = ", ".join(named) or "none with geometry"
     if source.layer is not None:
-        if source.layer not in layers:
-            held = ", ".join(layers) or "none with geometry"
+        if source.layer not in named:
             raise InputError(f"{source.name} has no layer {source.layer!r}: its layers are {held}")
-        return source.layer
-    if not layers:
+        return named[source.layer]
+    if not named:
         raise InputError(f"{source.name} holds no layer with geometry: nothing can be read of it")
-    if len(layers) > 1:
-        raise InputError(
-            f"{source.name} holds {len(layers)} layers: choose one of {', '.join(layers)} by --input-layer"
-        )
-    return layers[0]
+    if len(named) > 1:
+        raise InputError(f"{source.name} holds {len(named)} layers: choose one of {held} by --input-layer")
+    return next(iter(named.values()))
 
 
 def _columns(meta: dict[str, Any], values: Sequence[NDArray[Any]]) -> dict[str, list[Any]]:

@@ -47,6 +47,8 @@ def features_of(source: Source) -> Features:
 
     if isinstance(source.document, Features):
         return source.document
+    if not source.data.strip():
+        raise InputError(f"{source.name} is empty: well-known binary was expected; check what was to write it")
     written = source.data.split() if _HEXADECIMAL.fullmatch(source.data) else [source.data]
     geometry = np.asarray(shapely.from_wkb(np.array(written, dtype=object), on_invalid="ignore")).reshape(-1)
     bad = np.flatnonzero(shapely.is_missing(geometry))

@@ -132,7 +132,7 @@ class DelimitedText:
 
 
 def delimited_text(source: Source) -> DelimitedText:
-    """Take delimited text apart; its first record is a header.
+    r"""Take delimited text apart; its first record is a header.
 
     Examples
     --------
@@ -141,6 +141,8 @@ def delimited_text(source: Source) -> DelimitedText:
     """
     data = _plain_lines(source.data)
     delimiter = _guess_delimiter(data)
+    if delimiter == " ":  # there is one column, whose geometry has blanks and commas
+        delimiter = "\t"
     line, _, fields = _core.text.first_record(data, delimiter) or (1, "", [])
     return DelimitedText(_Layout(source.name, data, delimiter, line, fields, True, 0, 0, None))
 

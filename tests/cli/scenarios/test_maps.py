@@ -1,0 +1,177 @@
+"""Maps on the command line: layers, attributes and reference systems on their way through, streams, folders, extras."""
+
+import json
+import os
+import subprocess
+import sys
+import threading
+
+import geopandas
+import pytest
+import shapely
+
+from support.families.vector_files import DRIVERS, frame, load, save
+
+FORMATS = list(DRIVERS)
+LAKES = [shapely.box(8.0, 47.0, 8.3, 47.1), shapely.box(8.5, 47.2, 8.55, 47.5)]
+
+
+@pytest.fixture
+def lakes(folder):
+    for fmt in FORMATS:
+        save(frame(LAKES, crs="EPSG:4326", name=["Zugersee", "Aegerisee"], depth=[197, 82]), folder / f"lakes.{fmt}")
+    return folder
+
+
+@pytest.mark.parametrize("written", FORMATS)
+@pytest.mark.parametrize("read", FORMATS)
+def test_lakes_become_centerlines_with_attributes_and_system(run, lakes, read, written):
+    done = run("skeleton-exact", f"lakes.{read}", "--crs", "EPSG:2056", "--what", "centerline", "-o", f"axes.{written}")
+    assert (done.code, done.err) == (0, "")
+    axes = load(lakes / f"axes.{written}")
+    assert axes.crs.to_epsg() == 2056
+    assert axes["name"].tolist() == ["Zugersee", "Aegerisee"]
+    assert axes["depth"].tolist() == [197, 82]
+    expected = geopandas.GeoSeries(LAKES, crs="EPSG:4326").to_crs("EPSG:2056")
+    assert all(axis.within(lake.buffer(1e-3)) for axis, lake in zip(axes.geometry, expected, strict=True))
+    assert 20_000 < axes.geometry[0].length < 25_000  # metres: the lake is 0.3 degrees long
+
+
+def test_degrees_are_a_warning_that_names_a_system(run, lakes):
+    done = run("skeleton-exact", "lakes.gpkg", "--what", "centerline")
+    assert done.err == (
+        "warning: lakes.gpkg: longitude and latitude are treated as planar, lengths are in degrees; --crs EPSG:32632 "
+        "works in metres (UTM)\n"
+    )
+
+
+def test_layers_are_named_where_one_must_be_chosen(run, lakes):
+    frame(LAKES[:1], crs="EPSG:4326", name=["x"]).to_file(lakes / "lakes.gpkg", layer="ponds", driver="GPKG")
+    done = run("skeleton-exact", "lakes.gpkg")
+    assert (done.code, done.err) == (
+        3, "error: lakes.gpkg holds 2 layers: choose one of lakes, ponds by --input-layer\n",
+    )  # fmt: skip
+    done = run("skeleton-exact", "lakes.gpkg", "--input-layer", "ponds", "-q", "--what", "table")
+    assert (done.code, len(done.rows)) == (0, 1)
+    assert run("draw", "lakes.gpkg", "--input-layer", "lakes", "-o", "lakes.svg").code == 0
+    done = run("delaunay", "dots.csv", "--input-layer", "a")
+    assert (done.code, done.err) == (
+        2, "error: --input-layer is for files of several layers, but dots.csv has none: leave it out\n",
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("clip", ["area.gpkg", "area.geojson"])
+def test_points_and_what_they_are_clipped_to_are_brought_into_one_system(run, folder, clip):
+    points = shapely.points([[8.1, 47.1], [8.2, 47.3], [8.4, 47.2], [8.3, 47.0]])
+    save(frame(points, crs="EPSG:4326", n=[1, 2, 3, 4]), folder / "towns.gpkg")
+    area = frame([shapely.box(2_680_000, 1_200_000, 2_700_000, 1_240_000)], n=[1])
+    area.to_file(folder / clip, driver="GPKG" if clip.endswith("gpkg") else "GeoJSON")
+    options = ("--what", "cells", "--clip", clip, "-o", "cells.gpkg")
+    done = run("delaunay", "towns.gpkg", *options)
+    assert done.code == 3
+    assert "bring them into one coordinate reference system: --crs" in done.err
+    done = run("delaunay", "towns.gpkg", *options, "--crs", "EPSG:2056")
+    assert (done.code, done.err) == (0, "")
+    cells = load(folder / "cells.gpkg")
+    assert shapely.union_all(cells.geometry).area == pytest.approx(20_000 * 40_000)
+    assert cells["n"].tolist() == [1, 2, 3, 4]
+
+
+def test_a_folder_of_shapefiles_is_a_batch(run, folder):
+    maps = folder / "maps"
+    maps.mkdir()
+    for name in ("north", "south"):
+        save(frame(LAKES, name=["a", "b"]), maps / f"{name}.shp")
+    done = run("skeleton-exact", "maps", "--what", "centerline", "--out-dir", "axes", "-f", "shp", "-j", "1")
+    assert done.code == 0
+    assert sorted(each.name for each in (folder / "axes").glob("*.shp")) == ["north.shp", "south.shp"]
+    assert load(folder / "axes/south.shp")["name"].tolist() == ["a", "b"]
+
+
+@pytest.mark.parametrize("fmt", ["gpkg", "fgb", "parquet"])
+def test_streams_on_both_sides(process, lakes, fmt):
+    data = (lakes / f"lakes.{fmt}").read_bytes()
+    os.mkfifo(lakes / f"pipe.{fmt}")
+    feeder = threading.Thread(target=(lakes / f"pipe.{fmt}").write_bytes, args=(data,))
+    feeder.start()
+    started = process("skeleton-exact", f"pipe.{fmt}", "-q", "-f", fmt, "-o", "/dev/stdout")
+    out, err = started.communicate(timeout=120)
+    feeder.join()
+    assert (started.returncode, err) == (0, b"")
+    (lakes / f"made.{fmt}").write_bytes(out)
+    assert set(load(lakes / f"made.{fmt}")["name"]) == {"Zugersee", "Aegerisee"}
+    started = process("skeleton-exact", "-", "-q", "-f", fmt, stdin=subprocess.PIPE)
+    assert started.communicate(data, timeout=120)[0] == out
+
+
+def test_a_shapefile_does_not_go_through_a_stream(run, lakes):
+    done = run("skeleton-exact", "lakes.gpkg", "-q", "-f", "shp")
+    assert done.code == 2
+    assert "binary" in done.err or "a Shapefile is several files" in done.err
+    done = run("skeleton-exact", "lakes.gpkg", "-q", "-o", "/dev/stdout", "-f", "shp")
+    assert (done.code, done.err) == (
+        2, "error: a Shapefile is several files, and no stream holds them: name a file with -o\n",
+    )  # fmt: skip
+
+
+def test_no_part_of_a_shapefile_is_replaced_unasked(run, lakes):
+    (lakes / "axes.dbf").write_text("mine")
+    done = run("skeleton-exact", "lakes.gpkg", "-q", "-o", "axes.shp", "--no-clobber")
+    assert (done.code, done.err) == (
+        4, "error: axes.dbf exists already and --no-clobber is given: choose another name with -o\n",
+    )  # fmt: skip
+    assert (lakes / "axes.dbf").read_text() == "mine"
+    done = run("skeleton-exact", "lakes.shp", "-q", "-o", "lakes.shp")
+    assert (done.code, done.err) == (
+        2, "error: lakes.shp is also an input, which is never replaced: choose another name with -o\n",
+    )  # fmt: skip
+
+
+WITHOUT = "import sys; sys.modules.update({name: None for name in %r}); from vorotool.cli.main import main; main(%r)"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "lacking", "message"),
+    [
+        (["skeleton-exact", "lakes.gpkg"], "pyogrio", "GeoPackage files need the package pyogrio"),
+        (["skeleton-exact", "lakes.shp"], "pyogrio", "Shapefile files need the package pyogrio"),
+        (["skeleton-exact", "lakes.parquet"], "pyarrow", "Parquet files need the package pyarrow"),
+        (["delaunay", "dots.csv", "-o", "a.fgb"], "pyogrio", "GeoPackage, FlatGeobuf and Shapefile need the package"),
+        (["delaunay", "dots.csv", "-o", "a.parquet"], "pyarrow", "Parquet files need the package pyarrow"),
+        (
+            ["delaunay", "dots.csv", "--input-crs", "EPSG:4326", "--crs", "EPSG:3857"],
+            "pyproj",
+            "other coordinate reference systems need the package pyproj",
+        ),
+    ],
+)
+def test_what_lacks_is_named_with_the_way_to_get_it(lakes, arguments, lacking, message):
+    names = [lacking, *(f"{lacking}.{part}" for part in ("raw", "parquet"))]
+    done = subprocess.run(
+        [sys.executable, "-c", WITHOUT % (names, arguments)], cwd=lakes, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 2
+    assert done.stderr.splitlines()[-1].startswith(f"error: {message}")
+    assert done.stderr.endswith(": pip install 'vorotool[gis]'\n")
+    assert not list(lakes.glob("a.*"))
+
+
+def test_nothing_of_an_extra_is_imported_unasked(folder):
+    for arguments in (["--help"], ["delaunay", "--help"], ["delaunay", "dots.csv", "-q", "-f", "geojson"]):
+        program = (
+            f"import atexit, sys; from vorotool.cli.main import main\n"
+            f"atexit.register(lambda: print(sorted({{'pyogrio', 'pyarrow', 'pyproj'}} & sys.modules.keys()), "
+            f"file=sys.stderr))\nmain({arguments})"
+        )
+        done = subprocess.run([sys.executable, "-c", program], cwd=folder, capture_output=True, text=True, check=False)
+        assert done.stderr == "[]\n"
+
+
+def test_numbers_of_a_table_are_numbers_in_a_map(run, folder):
+    (folder / "towns.csv").write_text("x,y,people,code\n2,1,500,007\n7,5,,010\n1,6,1250.50,3\n")
+    done = run("delaunay", "towns.csv", "--what", "cells")
+    properties = [feature["properties"] for feature in json.loads(done.out)["features"]]
+    assert [each["people"] for each in properties] == [500, None, 1250.5]
+    assert [each["code"] for each in properties] == ["007", "010", "3"]
+    assert run("delaunay", "towns.csv", "--what", "cells", "-o", "cells.gpkg").code == 0
+    assert load(folder / "cells.gpkg")["people"].dtype == float

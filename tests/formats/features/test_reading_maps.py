@@ -1,0 +1,387 @@
+"""Reading GeoPackage, FlatGeobuf, Shapefile and GeoParquet as other programs write them."""
+
+import io
+import sqlite3
+import zipfile
+from datetime import date
+
+import numpy as np
+import pandas
+import pyogrio
+import pytest
+import shapely
+
+import vorotool
+from support.families.vector_files import ATTRIBUTES, DRIVERS, SHAPES, frame, load, save
+from vorotool.errors import InputError, UsageError
+from vorotool.geometry.crs import crs_name
+from vorotool.geometry.polygons.conversion import to_shapely
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+
+FORMATS = list(DRIVERS)
+
+
+def notes_of(path, **options):
+    notes = []
+    vorotool.read(path, note=notes.append, **options)
+    return notes
+
+
+@pytest.mark.parametrize("fmt", FORMATS)
+def test_polygons_with_all_that_they_carry(tmp_path, fmt):
+    shapes = vorotool.read(save(frame(), tmp_path / f"a.{fmt}"))
+    assert isinstance(shapes, PolygonSet)
+    assert shapes.feature.tolist() == [0, 1, 1, 2]
+    assert shapes.part.tolist() == [1, 1, 2, 1]
+    assert shapes.y_up
+    assert crs_name(shapes.crs) == "EPSG:2056"
+    parts = [part for shape in SHAPES for part in shapely.get_parts(shape)]
+    assert all(shapely.equals(made, part) for made, part in zip(to_shapely(shapes), parts, strict=True))
+    for name, values in ATTRIBUTES.items():
+        expected = [values[0], values[1], values[1], values[2]]
+        assert shapes.properties[name] == expected, name
+        assert [type(value) for value in shapes.properties[name]] == [type(value) for value in expected], name
+
+
+@pytest.mark.parametrize("fmt", FORMATS)
+@pytest.mark.parametrize("geometry", [None, "points"])
+def test_points(tmp_path, fmt, geometry):
+    places = [shapely.Point(1, 2), shapely.Point(0.1, 1 / 3), shapely.Point(-5e6, 7)]
+    points = vorotool.read(save(frame(places), tmp_path / f"a.{fmt}"), geometry=geometry)
+    assert points.xy.tolist() == [[1, 2], [0.1, 1 / 3], [-5e6, 7]]
+    assert points.properties["name"] == ATTRIBUTES["name"]
+    assert points.properties["depth"] == ATTRIBUTES["depth"]
+    assert (points.y_up, crs_name(points.crs)) == (True, "EPSG:2056")
+
+
+@pytest.mark.parametrize("fmt", FORMATS)
+def test_several_points_of_one_feature(tmp_path, fmt):
+    places = [shapely.MultiPoint([(1, 2), (3, 4)]), shapely.MultiPoint([(5, 6)])]
+    points = vorotool.read(save(frame(places, name=["a", "b"]), tmp_path / f"a.{fmt}"))
+    assert points.xy.tolist() == [[1, 2], [3, 4], [5, 6]]
+    assert points.properties == {"name": ["a", "a", "b"], "part": [1, 2, 1]}
+
+
+@pytest.mark.parametrize("fmt", FORMATS)
+def test_lines_and_heights_and_no_geometry(tmp_path, fmt):
+    lines = [shapely.LineString([(0, 0, 5), (1, 1, 6)]), None, shapely.from_wkt("LINESTRING Z EMPTY")]
+    path = save(frame(lines, n=list(range(len(lines)))), tmp_path / f"a.{fmt}")
+    shapes = vorotool.read(path)
+    assert shapes.is_line.all()
+    assert shapes.ring(0).tolist() == [[0, 0], [1, 1]]
+    assert notes_of(path) == [
+        f"{path}: 2 features without a geometry are left out",
+        f"{path}: only x and y are used, heights are left out",
+    ]
+
+
+def test_flatgeobuf_without_geometry(tmp_path):
+    """Of which the batches of Arrow that GDAL gives are damaged."""
+    wkb = shapely.to_wkb(np.array([shapely.box(0, 0, 1, 1), None, shapely.box(2, 0, 3, 1)], dtype=object))
+    pyogrio.raw.write(
+        tmp_path / "a.fgb", wkb, [np.arange(3)], ["n"], driver="FlatGeobuf", geometry_type="Polygon", crs="EPSG:3857",
+        layer_options={"SPATIAL_INDEX": "NO"},
+    )  # fmt: skip
+    assert vorotool.read(tmp_path / "a.fgb").properties == {"n": [0, 2]}
+
+
+@pytest.mark.parametrize("driver", ["GPKG", "FlatGeobuf"])
+def test_types_of_attributes(tmp_path, driver):
+    columns = {
+        "flag": np.array([True, False, False]),
+        "whole": np.array([2**53 + 1, 0, -(2**53) - 1]),
+        "real": np.array([1.0, 0, -0.5]),
+        "time": np.array(["2020-01-31T01:02:03", "2000-01-01", "1999-12-01T00:00:00.25"], "datetime64[ms]"),
+    }
+    missing = [np.array([False, True, False])] * len(columns)
+    path = tmp_path / {"GPKG": "a.gpkg", "FlatGeobuf": "a.fgb"}[driver]
+    order = {"layer_options": {"SPATIAL_INDEX": "NO"}} if driver == "FlatGeobuf" else {}
+    pyogrio.raw.write(
+        path, shapely.to_wkb(shapely.points([[0, 0], [1, 2], [3, 4]])), list(columns.values()), list(columns),
+        field_mask=missing, driver=driver, geometry_type="Point", crs="EPSG:3857", **order,
+    )  # fmt: skip
+    read = vorotool.read(path).properties
+    assert read["flag"] == [True, None, False]
+    assert read["whole"] == [2**53 + 1, None, -(2**53) - 1]
+    assert read["real"] == [1.0, None, -0.5]
+    assert [type(read[name][0]) for name in ("flag", "whole", "real")] == [bool, int, float]
+    times = [None if time is None else time.replace(tzinfo=None).isoformat() for time in read["time"]]
+    assert times[::2] == ["2020-01-31T01:02:03", "1999-12-01T00:00:00.250000"]
+
+
+def test_types_in_parquet(tmp_path):
+    table = frame(SHAPES, flag=[True, None, False], whole=[2**53 + 1, None, -(2**53) - 1])
+    table["whole"] = pandas.array([2**53 + 1, None, -(2**53) - 1], dtype="Int64")
+    read = vorotool.read(save(table, tmp_path / "a.parquet")).properties
+    assert read["whole"] == [2**53 + 1, None, None, -(2**53) - 1]
+    assert read["flag"] == [True, None, None, False]
+
+
+@pytest.mark.parametrize("driver", ["GPKG", "ESRI Shapefile"])
+def test_dates(tmp_path, driver):
+    """FlatGeobuf has times alone."""
+    wkb, days = shapely.to_wkb(shapely.points([[0, 0], [1, 2]])), np.array(["2020-01-31", "NaT"], dtype="datetime64[D]")
+    path = tmp_path / {"GPKG": "a.gpkg", "ESRI Shapefile": "a.shp"}[driver]
+    pyogrio.raw.write(path, wkb, [days], ["day"], driver=driver, geometry_type="Point", crs="EPSG:3857")
+    assert vorotool.read(path).properties == {"day": [date(2020, 1, 31), None]}
+
+
+def test_layers(tmp_path):
+    path = tmp_path / "a.gpkg"
+    frame().to_file(path, layer="lakes", driver="GPKG")
+    assert len(vorotool.read(path)) == 4
+    frame(SHAPES[:1], name=["b"]).to_file(path, layer="ponds", driver="GPKG")
+    with pytest.raises(InputError, match=r"a.gpkg holds 2 layers: choose one of lakes, ponds by --input-layer"):
+        vorotool.read(path)
+    assert vorotool.read(path, layer="ponds").properties == {"name": ["b"]}
+    with pytest.raises(InputError, match=r"a.gpkg has no layer 'rivers': its layers are lakes, ponds"):
+        vorotool.read(path, layer="rivers")
+    pyogrio.write_dataframe(pandas.DataFrame({"n": [1]}), tmp_path / "b.gpkg", driver="GPKG")
+    with pytest.raises(InputError, match=r"b.gpkg holds no layer with geometry"):
+        vorotool.read(tmp_path / "b.gpkg")
+
+
+def test_layers_where_there_are_none(tmp_path):
+    (tmp_path / "a.csv").write_text("x,y\n1,2\n")
+    with pytest.raises(UsageError, match=r"--input-layer is for files of several layers, but .*a.csv has none"):
+        vorotool.read(tmp_path / "a.csv", layer="a")
+    vorotool.write(vorotool.tessellate([[1, 1], [5, 3]], shape=(4, 6)), tmp_path / "a.png")
+    with pytest.raises(UsageError, match="--input-layer is for points, polygons and lines, but the input is an image"):
+        vorotool.read(tmp_path / "a.png", layer="a")
+
+
+def test_numbers_of_features_are_ids_unless_they_count(tmp_path):
+    path = save(frame(), tmp_path / "a.gpkg")
+    assert vorotool.read(path).ids is None
+    with sqlite3.connect(path) as database:
+        # triggers of the index ask for functions that SQLite alone has not
+        for (name,) in database.execute("SELECT name FROM sqlite_master WHERE type = 'trigger'").fetchall():
+            database.execute(f'DROP TRIGGER "{name}"')
+        database.execute("UPDATE a SET fid = fid + 100")
+    database.close()
+    assert vorotool.read(path).ids == [101, 102, 102, 103]
+
+
+def test_a_geopackage_that_another_program_writes_to(tmp_path):
+    path = save(frame(), tmp_path / "a.gpkg")
+    database = sqlite3.connect(path)
+    database.execute("PRAGMA journal_mode=WAL")
+    for (name,) in database.execute("SELECT name FROM sqlite_master WHERE type = 'trigger'").fetchall():
+        database.execute(f'DROP TRIGGER "{name}"')
+    database.execute("UPDATE a SET name = 'new'")
+    database.commit()
+    assert (tmp_path / "a.gpkg-wal").stat().st_size > 0
+    assert vorotool.read(path).properties["name"] == ["new"] * 4
+    database.close()
+
+
+@pytest.mark.parametrize("fmt", FORMATS)
+def test_systems_that_have_no_number(tmp_path, fmt):
+    spelled = 'PROJCS["Swiss oblique",GEOGCS["CH1903",DATUM["CH1903",SPHEROID["Bessel 1841",6377397.155,299.1528128]],'
+    spelled += 'PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]],PROJECTION["Mercator_1SP"],UNIT["metre",1]]'
+    shapes = vorotool.read(save(frame(crs=spelled), tmp_path / f"a.{fmt}"))
+    assert crs_name(shapes.crs).replace("_", " ") == "Swiss oblique"
+    vorotool.write(shapes, tmp_path / "again.gpkg")
+    assert load(tmp_path / "again.gpkg").crs == load(tmp_path / f"a.{fmt}").crs
+    with pytest.raises(InputError, match=r"is in Swiss.oblique, as it says itself, not in EPSG:2056"):
+        vorotool.read(tmp_path / f"a.{fmt}", crs="EPSG:2056")
+
+
+@pytest.mark.parametrize("fmt", FORMATS)
+def test_degrees_are_told_by_the_system(tmp_path, fmt):
+    path = save(frame(crs="EPSG:4258"), tmp_path / f"a.{fmt}")
+    assert notes_of(path)[-1].startswith(f"{path}: longitude and latitude are treated as planar, lengths are in deg")
+    path = save(frame(crs=None), tmp_path / f"b.{fmt}")
+    assert notes_of(path) == []
+    assert vorotool.read(path).crs is None
+
+
+@pytest.mark.parametrize("fmt", FORMATS)
+def test_another_system(tmp_path, fmt):
+    lakes = frame([shapely.box(8.5, 47.2, 8.8, 47.4)], crs="EPSG:4326", name=["Zürichsee"])
+    path = save(lakes, tmp_path / f"a.{fmt}")
+    shapes = vorotool.read(path, to_crs="EPSG:2056")
+    expected = lakes.to_crs("EPSG:2056").geometry[0]
+    assert shapely.equals_exact(to_shapely(shapes)[0], expected, 1e-6, normalize=True)
+    assert crs_name(shapes.crs) == "EPSG:2056"
+    assert shapes.properties == {"name": ["Zürichsee"]}
+    assert notes_of(path, to_crs="EPSG:2056") == []
+    unnamed = save(frame(crs=None), tmp_path / f"b.{fmt}")
+    with pytest.raises(InputError, match="names no coordinate reference system, so that --crs cannot"):
+        vorotool.read(unnamed, to_crs="EPSG:2056")
+    with pytest.raises(UsageError, match=r"EPSG:99999 is not known: check authority and code"):
+        vorotool.read(path, to_crs="EPSG:99999")
+
+
+def test_places_that_another_system_has_not(tmp_path):
+    path = save(frame([shapely.box(98, 0, 99, 1)], crs="EPSG:4326", n=[1]), tmp_path / "a.gpkg")
+    with pytest.raises(
+        InputError, match=r"\(99.0, 0.0\) in EPSG:4326 has no place in EPSG:32632 \(. such vertices\): "
+    ):
+        vorotool.read(path, to_crs="EPSG:32632")
+
+
+# ---- Shapefiles ------------------------------------------------------------------------------------
+def zipped(folder, stem, out):
+    with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
+        for part in folder.glob(f"{stem}.*"):
+            archive.write(part, part.name)
+    return out
+
+
+@pytest.mark.parametrize("name", ["a.zip", "a.shz", "a.shp.zip"])
+def test_zipped_shapefiles(tmp_path, name):
+    (tmp_path / "in").mkdir()
+    save(frame(), tmp_path / "in" / "lakes.shp")
+    path = zipped(tmp_path / "in", "lakes", tmp_path / name)
+    assert vorotool.read(path).properties["code"] == ["007", "010", "010", "99"]
+    save(frame(SHAPES[:1], n=[1]), tmp_path / "in" / "ponds.shp")
+    both = tmp_path / "both.zip"
+    with zipfile.ZipFile(both, "w") as archive:
+        for part in (tmp_path / "in").iterdir():
+            archive.write(part, part.name)
+    with pytest.raises(InputError, match=r"both.zip holds 2 layers: choose one of lakes, ponds"):
+        vorotool.read(both)
+    assert len(vorotool.read(both, layer="ponds")) == 1
+
+
+@pytest.mark.parametrize("missing", [".shx", ".dbf"])
+def test_shapefiles_of_which_a_part_is_missing(tmp_path, missing):
+    path = save(frame(), tmp_path / "a.shp")
+    path.with_suffix(missing).unlink()
+    with pytest.raises(InputError, match=rf"a.shp is a part of a Shapefile, whose \{missing} is not beside it: copy"):
+        vorotool.read(path)
+
+
+def test_shapefiles_in_capitals_and_without_a_system(tmp_path):
+    save(frame(), tmp_path / "lakes.shp")
+    for part in list(tmp_path.iterdir()):
+        part.rename(tmp_path / part.name.upper())
+    assert len(vorotool.read(tmp_path / "LAKES.SHP")) == 4
+    (tmp_path / "LAKES.PRJ").unlink()
+    shapes = vorotool.read(tmp_path / "LAKES.SHP", crs="EPSG:2056")
+    assert crs_name(shapes.crs) == "EPSG:2056"
+
+
+def test_names_that_other_programs_take_for_archives_or_addresses(tmp_path):
+    folder = tmp_path / "a!b?c"
+    folder.mkdir()
+    for name in ("x!y.gpkg", "zip:x.gpkg", "x!y.shp"):
+        assert len(vorotool.read(save(frame(), tmp_path / f"a.{name[-4:].strip('.')}"))) == 4
+        for part in tmp_path.glob("a.*"):
+            part.rename(folder / (name.rpartition(".")[0] + part.suffix))
+        assert len(vorotool.read(folder / name)) == 4
+
+
+# ---- Parquet ---------------------------------------------------------------------------------------
+def test_geoparquet_of_a_system_that_is_not_named(tmp_path):
+    save(frame(crs="OGC:CRS84"), tmp_path / "a.parquet")
+    assert crs_name(vorotool.read(tmp_path / "a.parquet").crs) == "OGC:CRS84"
+
+
+def test_geoparquet_in_another_encoding(tmp_path):
+    save(frame(SHAPES[2:], n=[1]), tmp_path / "a.parquet", geometry_encoding="geoarrow", schema_version="1.1.0")
+    with pytest.raises(InputError, match=r"a.parquet: its geometry is encoded as polygon, but WKB is read: write it"):
+        vorotool.read(tmp_path / "a.parquet")
+
+
+def test_parquet_without_geometry(tmp_path):
+    pandas.DataFrame({"name": ["a", "b"], "x": [1.5, 2], "y": [3, 4]}).to_parquet(tmp_path / "a.parquet")
+    points = vorotool.read(tmp_path / "a.parquet")
+    assert points.xy.tolist() == [[1.5, 3], [2, 4]]
+    assert points.properties == {"name": ["a", "b"]}
+    pandas.DataFrame({"e": [1.5, 2], "n": [3, 4]}).to_parquet(tmp_path / "b.parquet")
+    with pytest.raises(InputError, match=r"b.parquet: the header names no known pair of coordinates"):
+        vorotool.read(tmp_path / "b.parquet")
+    assert vorotool.read(tmp_path / "b.parquet", columns="e,n").xy.tolist() == [[1.5, 3], [2, 4]]
+
+
+# ---- what is none ----------------------------------------------------------------------------------
+def reason_against(path, geometry):
+    try:
+        vorotool.read(path, geometry=geometry)
+    except InputError as error:
+        return str(error)
+    return "fine"
+
+
+@pytest.mark.parametrize("fmt", FORMATS)
+@pytest.mark.parametrize("geometry", [None, "points", "polygons"])
+def test_damaged_files(tmp_path, fmt, geometry):
+    data = save(frame(), tmp_path / f"a.{fmt}").read_bytes()
+    random = np.random.default_rng(1)
+    for size in [0, 5, len(data) // 3, len(data) - 7, *random.integers(0, len(data), 10).tolist()]:
+        damaged = bytearray(data[:size])
+        for place in random.integers(0, max(size, 1), min(size, 8)).tolist():
+            damaged[place] ^= 1 << int(random.integers(8))
+        (tmp_path / f"a.{fmt}").write_bytes(damaged)
+        said = reason_against(tmp_path / f"a.{fmt}", geometry)
+        assert said.startswith((str(tmp_path / f"a.{fmt}"), "item", "fine"))
+        assert "vsimem" not in said
+
+
+def test_points_among_polygons(tmp_path):
+    path = save(frame([*SHAPES[:2], shapely.Point(1, 2)]), tmp_path / "a.gpkg")
+    with pytest.raises(InputError, match=r"a.gpkg, feature 3: a Point is no polygon or line; put points into a file"):
+        vorotool.read(path)
+    with pytest.raises(InputError, match=r"a.gpkg, feature 1: a Polygon is not a point; replace it by its centroid"):
+        vorotool.read(path, geometry="points")
+
+
+def test_files_that_name_others_are_not_opened(tmp_path):
+    """A virtual format of GDAL could read anything."""
+    save(frame(), tmp_path / "a.gpkg")
+    virtual = f'<OGRVRTDataSource><OGRVRTLayer name="a"><SrcDataSource>{tmp_path}/a.gpkg</SrcDataSource></OGRVRTLayer>'
+    for fmt in ("gpkg", "fgb", "shp", "kml", "gpx"):
+        for comment in ("", f"<!-- <{fmt}> -->", f"<?x <{fmt} ?>"):
+            path = tmp_path / f"b.{fmt}"
+            path.write_text(f"{comment}{virtual}</OGRVRTDataSource>")
+            with pytest.raises(InputError, match=r"b\.\w+ is no \w+ that can be read: it begins as something else"):
+                vorotool.read(path, input_format=fmt)
+
+
+def test_longitudes_and_latitudes_of_kml_and_gpx(tmp_path):
+    (tmp_path / "a.kml").write_text(
+        '<?xml version="1.0"?><kml xmlns="http://www.opengis.net/kml/2.2"><Placemark><name>a</name><Point>'
+        "<coordinates>8.5,47.25,400</coordinates></Point></Placemark></kml>"
+    )
+    (tmp_path / "a.gpx").write_text(
+        '<?xml version="1.0"?><gpx version="1.1" xmlns="http://www.topografix.com/GPX/1/1">'
+        '<wpt lat="47.25" lon="8.5"><name>a</name></wpt></gpx>'
+    )
+    for name, layer in (("a.kml", None), ("a.gpx", "waypoints")):
+        points = vorotool.read(tmp_path / name, layer=layer)
+        assert points.xy.tolist() == [[8.5, 47.25]]
+        assert crs_name(points.crs) in ("EPSG:4326", "OGC:CRS84")
+
+
+def test_streams(tmp_path, monkeypatch):
+    data = save(frame(), tmp_path / "a.gpkg").read_bytes()
+    for fmt in ("gpkg", "fgb", "parquet"):
+        data = save(frame(), tmp_path / f"a.{fmt}").read_bytes()
+        monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(data)))
+        assert len(vorotool.read("-")) == 4
+    data = save(frame(), tmp_path / "a.shp").read_bytes()
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(data)))
+    with pytest.raises(InputError, match=r"standard input is the .shp of a Shapefile, which is several files: name it"):
+        vorotool.read("-")
+    zipped(tmp_path, "a", tmp_path / "all.zip")
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO((tmp_path / "all.zip").read_bytes())))
+    assert len(vorotool.read("-")) == 4
+
+
+def test_many_features_are_read_as_geopandas_reads_them(tmp_path):
+    """The order, the numbers and the attributes of many, of which some have several parts."""
+    random = np.random.default_rng(2)
+    low, size = random.random((2, 500, 2))
+    boxes = shapely.box(*low.T, *(low + size).T)
+    shapes = [shapely.MultiPolygon(boxes[k : k + 1 + k % 3]) for k in range(497)]
+    table = frame(shapes, n=random.integers(-(2**40), 2**40, 497), t=[f"{k:03}" for k in range(497)])
+    for fmt in FORMATS:
+        path = save(table, tmp_path / f"a.{fmt}")
+        made, expected = vorotool.read(path), load(path)
+        parts = expected.geometry.explode(index_parts=True)
+        assert made.feature.tolist() == [index for index, _ in parts.index]
+        assert all(one.equals(other) for one, other in zip(to_shapely(made), parts, strict=True))
+        assert made.properties["t"] == [expected.t[index] for index, _ in parts.index]
+        assert made.properties["n"] == [int(expected.n[index]) for index, _ in parts.index]
