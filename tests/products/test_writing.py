@@ -35,7 +35,7 @@ def values():
 
 
 VALUES = values()
-OF_SEVERAL_KINDS = {("AlphaHull", "hull"), ("AlphaShape", "general")}
+OF_SEVERAL_KINDS = {("AlphaHull", "hull")}
 
 
 def test_there_is_a_value_of_each_type():
