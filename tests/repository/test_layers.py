@@ -19,6 +19,7 @@ engines/common -> geometry, geometry/points, geometry/polygons
 formats/parsing -> formats/io, geometry, geometry/points, geometry/polygons
 formats/zarr -> formats/compression, formats/io, geometry
 geometry/curves -> geometry, geometry/polygons
+formats/drawing -> formats/compression, formats/io, formats/parsing, geometry, geometry/curves, geometry/polygons
 engines/tessellation -> engines/common, geometry, geometry/curves, geometry/points
 formats/images -> formats/compression, formats/io, formats/parsing, formats/zarr, geometry, geometry/points
 formats/points -> formats/io, formats/parsing, geometry, geometry/points
@@ -54,17 +55,17 @@ engines/offsets -> engines/arrangement, engines/common, engines/features, engine
 engines/pruning -> engines/common, geometry, geometry/curves, geometry/skeleton
 engines/sampled_skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi,
     engines/skeleton, geometry, geometry/curves, geometry/polygons, geometry/skeleton
-formats -> formats/images, formats/io, formats/parsing, formats/points, formats/polygons, geometry, geometry/points,
-    geometry/polygons, geometry/skeleton, products
+formats -> formats/drawing, formats/images, formats/io, formats/parsing, formats/points, formats/polygons, geometry,
+    geometry/points, geometry/polygons, geometry/skeleton, products
 engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/polygons, geometry/skeleton
 engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton, geometry, geometry/polygons,
     geometry/skeleton
 jobs -> batch, engines, engines/alpha, engines/arrangement, engines/centerlines, engines/delaunay, engines/digital,
     engines/features, engines/from_skeleton, engines/label_images, engines/offsets, engines/pruning,
-    engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, formats,
-    formats/images, formats/io, formats/parsing, formats/points, formats/text, formats/zarr, geometry, geometry/alpha,
-    geometry/any, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, products, render/canvas,
-    render/label_images, render/layers, render/pages
+    engines/sampled_skeleton, engines/segment_voronoi, engines/skeleton, engines/tessellation, formats, formats/images,
+    formats/io, formats/parsing, formats/points, formats/text, formats/zarr, geometry, geometry/alpha, geometry/any,
+    geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton, products, render/canvas, render/label_images,
+    render/layers, render/pages
 cli/options -> engines/offsets, engines/pruning, geometry, jobs, products
 cli/batch -> batch, cli/options, formats/io, geometry, jobs, products
 cli/commands -> cli/batch, cli/options, jobs, products

@@ -29,6 +29,8 @@ def read(
     threads: int = 0,
     note: Callable[[str], None] | None = None,
     crs: str | None = None,
+    flatten: float | None = None,
+    join_tolerance: float | None = None,
 ) -> PointSet | PolygonSet | Raster | Skeleton | Offsets:
     """Read points, polygons and lines, an image, or a skeleton or offset curves that were written as JSON.
 
@@ -42,8 +44,8 @@ def read(
     geometry : {"points", "polygons"}, optional
         What must be in a file that is no image; by default its content tells.
     input_format : str, optional
-        One of csv, node, npy, geojson, wkt, json, poly, png, tiff, pnm, zarr, jpeg, bmp, gif, webp and avif (or another
-        usual extension of one), where extension and content leave it unclear.
+        One of csv, node, npy, geojson, wkt, json, poly, svg, dxf, png, tiff, pnm, zarr, jpeg, bmp, gif, webp and avif
+        (or another usual extension of one), where extension and content leave it unclear.
     columns : str, optional
         ``X,Y[,LABEL]`` of a point list, by name or number from 1.
     page : int, optional
@@ -58,6 +60,10 @@ def read(
         Told in words what was recognised.
     crs : str, optional
         The coordinate reference system of points or polygons that name none, such as EPSG:3857.
+    flatten : float, optional
+        How far lines may be from the curves of an SVG or DXF drawing; by default 1/4096 of its extent.
+    join_tolerance : float, optional
+        How far ends of the lines of a DXF drawing may be apart that are joined; by default 2^-20 of its extent.
 
     Returns
     -------
@@ -89,4 +95,6 @@ def read(
             threads=threads,
             note=note,
             crs=crs,
+            flatten=flatten,
+            join_tolerance=join_tolerance,
         )

@@ -14,6 +14,7 @@ from vorotool.formats.io.sources import read_source, reading
 from vorotool.formats.parsing.reader_options import ReadOptions, no_note
 from vorotool.formats.recognition import read_recognised, recognised, refuse_crs
 from vorotool.geometry.checks import checked_threads
+from vorotool.geometry.numbers import checked_tolerance
 from vorotool.products.inputs import NAMES_WITH, known_input_format
 
 if TYPE_CHECKING:
@@ -76,12 +77,25 @@ class Opened:
         return self.array or open_tiff(self.name, self.said, self.page)
 
     def read(
-        self, *, threads: int = 0, note: Callable[[str], None] | None = None, crs: str | None = None, **options: Any
+        self,
+        *,
+        threads: int = 0,
+        note: Callable[[str], None] | None = None,
+        crs: str | None = None,
+        flatten: float | None = None,
+        join_tolerance: float | None = None,
+        **options: Any,
     ) -> PointSet | PolygonSet | Raster | Skeleton | Offsets:
         """Read all, with the options of `vorotool.read` that are not about opening it."""
         declared = None if crs is None else _declared(crs)
         given = ReadOptions(
-            page=self.page, threads=checked_threads(threads), note=note or no_note, crs=declared, **options
+            page=self.page,
+            threads=checked_threads(threads),
+            note=note or no_note,
+            crs=declared,
+            flatten=None if flatten is None else checked_tolerance(flatten),
+            join_tolerance=None if join_tolerance is None else checked_tolerance(join_tolerance, allows_zero=True),
+            **options,
         )
         if self.array is not None:
             refuse_crs(declared)

@@ -6,6 +6,7 @@ import re
 from dataclasses import replace
 
 from vorotool.errors import InputError, UsageError
+from vorotool.formats.drawing.recognition import drawing_format, refuse_drawing
 from vorotool.formats.io.npy_arrays import MAGIC
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.convertible import refuse_convertible, refuse_geometry_column
@@ -25,6 +26,7 @@ _WKT = re.compile(
 _UTF8_MARK = b"\xef\xbb\xbf"
 _UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
 _WITH_COLUMNS = ("csv", "json", "npz")
+_DRAWINGS = ("svg", "dxf")
 
 
 def recognised_geometry(
@@ -72,6 +74,7 @@ def point_format(source: Source) -> str:
     >>> point_format(Source("standard input", b"POINT (1 2)"))
     'wkt'
     """
+    refuse_drawing(source)
     refuse_convertible(source)
     by_suffix = _SUFFIXES.get(source.suffix)
     if by_suffix is not None and "points" in INPUTS[by_suffix].readers:
@@ -98,6 +101,9 @@ def polygon_format(source: Source) -> str:
     """
     if source.suffix in (".poly", ".json"):
         return source.suffix.removeprefix(".")
+    drawn = drawing_format(source)
+    if drawn is not None:
+        return drawn
     found = point_format(source)
     if found == "geojson" and source.suffix != ".geojson":  # an object: of either kind
         return "json"
@@ -119,12 +125,12 @@ def _either(source: Source, said: str | None) -> tuple[Holds, Source]:
     """Tell whether what is no image holds polygons or lines; JSON is parsed for it."""
     if said == "poly" or (said is None and source.suffix == ".poly"):
         return "polygons", text_source(source, "poly")
-    chosen = said or point_format(source)
+    chosen = said or drawing_format(source) or point_format(source)
     if "polygons" not in INPUTS[chosen].readers:
         return "points", _points(source, chosen, None)
     source = text_source(source, chosen)
-    if chosen == "wkt":
-        return ("polygons" if wkt_holds_shapes(source.data) else "points"), source
+    if chosen in (*_DRAWINGS, "wkt"):
+        return ("polygons" if chosen != "wkt" or wkt_holds_shapes(source.data) else "points"), source
     if _is_flat(source.data):
         return "points", source
     document = parse_json(source)
@@ -153,7 +159,9 @@ def _points(source: Source, chosen: str, columns: str | None) -> Source:
 
 
 def text_source(source: Source, chosen: str) -> Source:
-    """Take the byte order mark off, and refuse what is no text in an encoding that is read."""
+    """Take the byte order mark off, and refuse what is no text in an encoding that is read; drawings tell theirs."""
+    if chosen in _DRAWINGS:
+        return replace(source, format=chosen)
     if source.data.startswith(_UTF16_MARKS):
         raise InputError(f"{source.name} is UTF-16 text; save it as UTF-8 (iconv -f UTF-16 -t UTF-8)")
     if source.data.startswith(NPZ_MAGIC):

@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import InputError, Kind, Message, UsageError
-from vorotool.jobs.options import ComputingOptions, JobOptions, SiteOptions
+from vorotool.jobs.options import ComputingOptions, JobOptions, SiteOptions, SkeletonOptions
 from vorotool.jobs.run_log import Run
 
 if TYPE_CHECKING:
@@ -86,6 +86,8 @@ def read_opened(
         threads=o.threads,
         note=run.note,
         crs=o.input_crs,
+        flatten=o.flatten if isinstance(o, SkeletonOptions) else None,
+        join_tolerance=o.join_tolerance if isinstance(o, SkeletonOptions) else None,
     )
     assert isinstance(value, PointSet | PolygonSet | Raster)  # others are read where no geometry is asked for
     if isinstance(value, Raster):

@@ -24,15 +24,18 @@ class InputFormat:
         What ``--input-format`` accepts for it, which are the extensions of its files, too.
     readers : mapping of str to str
         What it may hold, and ``module:function`` of ``function(source, options)`` that reads it.
+    is_drawing : bool
+        It has curves.
     """
 
     name: str
     names: tuple[str, ...]
     readers: Mapping[Holds, str]
+    is_drawing: bool = False
 
 
-def _of(name: str, *names: str, **readers: str) -> InputFormat:
-    return InputFormat(name, names or (name,), readers)  # type: ignore[arg-type]  # they are called as what is held
+def _of(name: str, *names: str, is_drawing: bool = False, **readers: str) -> InputFormat:
+    return InputFormat(name, names or (name,), readers, is_drawing)  # type: ignore[arg-type]  # called as what is held
 
 
 _IMAGE = "formats.images.reader:read_image"
@@ -50,6 +53,8 @@ _ALL = (
         offsets="formats.results.offset_json:read_offsets",
     ),
     _of("poly", polygons="formats.polygons.poly:read_poly"),
+    _of("svg", "svg", "svgz", polygons="formats.drawing.svg_reader:read_svg", is_drawing=True),
+    _of("dxf", polygons="formats.drawing.dxf_reader:read_dxf", is_drawing=True),
     _of("png", image=_IMAGE),
     _of("tiff", "tiff", "tif", image=_IMAGE),
     _of("pnm", "pnm", "pbm", "pgm", "ppm", image=_IMAGE),
@@ -71,7 +76,7 @@ def names_of(*held: Holds) -> dict[str, str]:
     Examples
     --------
     >>> names_of("polygons")
-    {'geojson': 'geojson', 'wkt': 'wkt', 'json': 'json', 'poly': 'poly'}
+    {'geojson': 'geojson', 'wkt': 'wkt', 'json': 'json', 'poly': 'poly', 'svg': 'svg', 'svgz': 'svg', 'dxf': 'dxf'}
     """
     return {name: each.name for each in _ALL if each.readers.keys() & set(held) for name in each.names}
 
@@ -86,6 +91,10 @@ NAMES_WITH = {
 """Formats of inputs that hold an image or such geometry."""
 DRAWN_NAMES = NAMES_WITH["polygons"]
 """Formats of what is drawn again: label images, skeletons, offset curves, polygons and lines."""
+
+
+DRAWINGS = tuple(name for each in _ALL if each.is_drawing for name in each.names)
+"""Names of formats that have curves, which become lines where they are read."""
 
 
 def known_input_format(name: str | None, names: Mapping[str, str] = NAMES_WITH[None]) -> str | None:

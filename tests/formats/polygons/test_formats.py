@@ -93,7 +93,8 @@ def test_points_and_polygons_in_one_file(tmp_path, geometries, message):
             "lakes.shp: .shp files are not read; convert it: ogr2ogr -f GeoJSON lakes.geojson lakes.shp",
         ),
         (b"", "lakes.gpkg", "lakes.gpkg: .gpkg files are not read; convert it: ogr2ogr -f GeoJSON lakes.geojson lakes"),
-        (b"", "part.dxf", "part.dxf: .dxf files are not read; convert it: ogr2ogr -f GeoJSON part.geojson part.dxf"),
+        (b"", "part.kml", "part.kml: .kml files are not read; convert it: ogr2ogr -f GeoJSON part.geojson part.kml"),
+        (b"", "part.dxf", "part.dxf is empty: polygons, lines or an image were expected; check what was to write it"),
         (
             b"\0\0\x27\x0a\0",
             STANDARD_INPUT,
@@ -111,7 +112,7 @@ def test_points_and_polygons_in_one_file(tmp_path, geometries, message):
 )
 def test_formats_that_are_not_read(data, name, message):
     assert error_of(data, name).startswith(message)
-    with pytest.raises(UsageError, match="invalid --input-format 'csv': expected one of geojson, wkt, json, poly, png"):
+    with pytest.raises(UsageError, match="invalid --input-format 'csv': expected one of geojson, wkt, json, poly, svg"):
         read(data, name, input_format="csv")
 
 

@@ -37,6 +37,10 @@ class ReadOptions:
         As of `vorotool.read`.
     crs : object, optional
         The ``crs`` member of GeoJSON for an input that names none.
+    flatten : float, optional
+        How far lines may be from the curves of drawings.
+    join_tolerance : float, optional
+        How far ends of curves may be apart that are joined.
     """
 
     columns: str | None = None
@@ -47,6 +51,8 @@ class ReadOptions:
     threads: int = 0
     note: Callable[[str], None] = no_note
     crs: Any = None
+    flatten: float | None = None
+    join_tolerance: float | None = None
 
     def check_sites(self, name: str, count: int) -> None:
         """Raise LimitError if ``count`` sites are too many."""
