@@ -19,7 +19,6 @@ engines/common -> geometry, geometry/points, geometry/polygons
 formats/parsing -> formats/io, geometry, geometry/points, geometry/polygons
 formats/zarr -> formats/compression, formats/io, geometry
 geometry/curves -> geometry, geometry/polygons
-formats/drawing -> formats/compression, formats/io, formats/parsing, geometry, geometry/curves, geometry/polygons
 engines/tessellation -> engines/common, geometry, geometry/curves, geometry/points
 formats/images -> formats/compression, formats/io, formats/parsing, formats/zarr, geometry, geometry/points
 formats/points -> formats/io, formats/parsing, geometry, geometry/points
@@ -32,6 +31,8 @@ engines/label_images -> engines/common, engines/tessellation, geometry, geometry
 engines/segment_voronoi -> geometry, geometry/polygons, geometry/skeleton
 formats/text -> geometry, geometry/skeleton
 geometry/alpha -> geometry, geometry/curves, geometry/mesh, geometry/polygons
+formats/drawing -> formats/compression, formats/io, formats/parsing, geometry, geometry/alpha, geometry/curves,
+    geometry/polygons, geometry/skeleton, products
 render/label_images -> geometry, geometry/points, render/canvas
 batch -> engines/tessellation, formats/io, formats/text, formats/zarr
 engines/alpha -> engines/delaunay, geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points,

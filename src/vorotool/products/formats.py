@@ -41,6 +41,8 @@ class Format:
         Formats of one family are written together, each result in its own.
     writers : mapping of str to Writer
         What writes results, by their names, beside those formats that a product lists itself.
+    beside : str
+        Only results that have this format, too, are written so.
     made_from : tuple of str
         It is made from the text of the first of these formats that a product has, by ``maker``.
     maker : str
@@ -56,6 +58,7 @@ class Format:
     flattens: bool = False
     family: str = ""
     writers: Mapping[str, Writer] = field(default_factory=dict)
+    beside: str = ""
     made_from: tuple[str, ...] = ()
     maker: str = ""
 
@@ -71,6 +74,11 @@ def _of_objects(name: str, title: str, extensions: tuple[str, ...], maker: str) 
 
 
 _GRAPHML = Writer("formats.results.graphml:write_graphml", ("flatten", "precision", "threads"))
+_DXF = Writer("formats.drawing.dxf_writer:write_dxf", ("what",))
+_DRAWN = (
+    *("skeleton", "diagram", "centerline", "offset", "shape", "points", "transects", "edges", "triangles", "cells"),
+    *("polygons", "complex", "general", "hull"),
+)
 _ALL = (
     Format("png", "PNG", is_text=False, is_image=True),
     Format("tiff", "TIFF", ("tif", "tiff"), is_text=False, is_image=True),
@@ -89,6 +97,7 @@ _ALL = (
     Format("poly", "Triangle", has_digits=True),
     Format("graphml", "GraphML", has_digits=True, flattens=True, writers={"skeleton": _GRAPHML}),
     _of_objects("jsonl", "JSON lines", ("jsonl", "ndjson"), "formats.text.json_lines:JsonLines"),
+    Format("dxf", "DXF", writers=dict.fromkeys(_DRAWN, _DXF), beside="geojson"),
     Format("html", "HTML"),
     Format("zarr", "Zarr", is_text=False, is_image=True),
 )

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 from vorotool.errors import InputError, LimitError, VorotoolError
 from vorotool.formats.drawing.curves import Affine, Curve, tolerance_for
+from vorotool.formats.drawing.dxf_drawing import UNITS
 from vorotool.formats.drawing.dxf_entities import ENTITIES, curves_of, is_flat
 from vorotool.formats.drawing.ezdxf_library import ezdxf_module
 from vorotool.formats.drawing.joining import JOINED, joined
@@ -25,9 +26,6 @@ MOST_ENTITIES = 2**21
 
 MOST_LEVELS = 100
 """Of blocks in blocks."""
-
-UNITS = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m", 7: "km", 10: "yd", 13: "um", 14: "dm"}
-"""Units of length by their numbers in the header."""
 
 
 def read_dxf(source: Source, options: ReadOptions) -> PolygonSet:
