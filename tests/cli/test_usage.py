@@ -66,7 +66,7 @@ import pytest
         ),
         (
             ["draw", "mask.pbm", "-o", "a.png", "--input-format", "xyz"],
-            ["invalid --input-format 'xyz': expected one of geojson, wkt, json, poly, png, tiff, tif"],
+            ["invalid --input-format 'xyz': expected one of geojson, wkt, json, poly, svg, svgz, dxf, png, tiff, tif"],
         ),
         (["paint"], ["paint"]),
         (["--colour"], ["--colour"]),

@@ -82,9 +82,9 @@ EXPECTED = {
     "help": "html, drawing,",
     "documents": "| `offset` | JSON (`.json`), CSV (`.csv`), GeoJSON (`.geojson`), NPZ (`.npz`), WKT (`.wkt`), "
     "JSON lines (`.jsonl`, `.ndjson`), GeoPackage (`.gpkg`), FlatGeobuf (`.fgb`), Shapefile (`.shp`), "
-    "GeoParquet (`.parquet`, `.geoparquet`), Drawing (`.drw`)",
+    "GeoParquet (`.parquet`, `.geoparquet`), DXF (`.dxf`), Drawing (`.drw`)",
     "refusal": "offset cannot be written as obj: use one of json, csv, geojson, npz, wkt, jsonl, gpkg, fgb, shp, "
-    "parquet, drawing, svg, png",
+    "parquet, dxf, drawing, svg, png\n",
     "writing": " curves\n",
     "library": "1 curves\n",
 }
@@ -98,7 +98,7 @@ def test_a_format_is_one_file_and_one_line(place):
 
 
 def test_completion_offers_a_format_more():
-    words = "vorotool skeleton-exact --what offset -f d"
+    words = "vorotool skeleton-exact --what offset -f dr"
     asked = {"_VOROTOOL_COMPLETE": "bash_complete", "COMP_WORDS": words, "COMP_CWORD": "5"}
     code = ADDED + "from vorotool.cli.main import main; main([])"
     done = ended_python("-c", code, env=asked)

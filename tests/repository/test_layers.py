@@ -33,6 +33,8 @@ formats/text -> geometry, geometry/skeleton
 formats/features -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/points,
     geometry/polygons
 geometry/alpha -> geometry, geometry/curves, geometry/mesh, geometry/polygons
+formats/drawing -> formats/compression, formats/io, formats/parsing, geometry, geometry/alpha, geometry/curves,
+    geometry/polygons, geometry/skeleton, products
 render/label_images -> geometry, geometry/points, render/canvas
 batch -> engines/tessellation, formats/io, formats/text, formats/zarr
 engines/alpha -> engines/delaunay, geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points,
@@ -56,8 +58,8 @@ engines/offsets -> engines/arrangement, engines/common, engines/features, engine
 engines/pruning -> engines/common, geometry, geometry/curves, geometry/skeleton
 engines/sampled_skeleton -> engines/arrangement, engines/common, engines/features, engines/segment_voronoi,
     engines/skeleton, geometry, geometry/curves, geometry/polygons, geometry/skeleton
-formats -> formats/features, formats/images, formats/io, formats/parsing, formats/points, formats/polygons, geometry,
-    geometry/points, geometry/polygons, geometry/skeleton, products
+formats -> formats/drawing, formats/features, formats/images, formats/io, formats/parsing, formats/points,
+    formats/polygons, geometry, geometry/points, geometry/polygons, geometry/skeleton, products
 engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/polygons, geometry/skeleton
 engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton, geometry, geometry/polygons,
     geometry/skeleton

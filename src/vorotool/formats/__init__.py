@@ -31,6 +31,8 @@ def read(
     crs: str | None = None,
     to_crs: str | None = None,
     layer: str | None = None,
+    flatten: float | None = None,
+    join_tolerance: float | None = None,
 ) -> PointSet | PolygonSet | Raster | Skeleton | Offsets:
     """Read points, polygons and lines, an image, or a skeleton or offset curves that were written as JSON.
 
@@ -65,6 +67,10 @@ def read(
         The system in which the coordinates are wanted: those of an input in another one are transformed.
     layer : str, optional
         The layer of a map that has several.
+    flatten : float, optional
+        How far lines may be from the curves of an SVG or DXF drawing; by default 1/4096 of its extent.
+    join_tolerance : float, optional
+        How far ends of the lines of a DXF drawing may be apart that are joined; by default 2^-20 of its extent.
 
     Returns
     -------
@@ -97,4 +103,6 @@ def read(
             note=note,
             crs=crs,
             to_crs=to_crs,
+            flatten=flatten,
+            join_tolerance=join_tolerance,
         )

@@ -6,6 +6,7 @@ import re
 from dataclasses import replace
 
 from vorotool.errors import InputError, UsageError
+from vorotool.formats.drawing.recognition import drawing_format, refuse_drawing
 from vorotool.formats.features.delimited_geometry import geometry_column
 from vorotool.formats.features.shapefile_parts import holds_shapefile
 from vorotool.formats.io.npy_arrays import MAGIC
@@ -82,6 +83,7 @@ def point_format(source: Source) -> str:
     """
     if source.suffix == ".zip" and holds_shapefile(source.data):
         return "shp"
+    refuse_drawing(source)
     refuse_convertible(source)
     found = _SUFFIXES.get(source.suffix)
     return found if found is not None and "points" in INPUTS[found].readers else _by_content(source.data)
@@ -123,6 +125,9 @@ def polygon_format(source: Source) -> str:
     """
     if source.suffix in (".poly", ".json"):
         return source.suffix.removeprefix(".")
+    drawn = drawing_format(source)
+    if drawn is not None:
+        return drawn
     found = point_format(source)
     if found == "geojson" and source.suffix != ".geojson":  # an object: of either kind
         return "json"
@@ -143,7 +148,7 @@ def _either(source: Source, said: str | None) -> tuple[Holds, Source]:
     """Tell whether what is no image holds polygons or lines; JSON is parsed for it."""
     if said == "poly" or (said is None and source.suffix == ".poly"):
         return "polygons", text_source(source, "poly")
-    chosen = _by_header(source, said or point_format(source))
+    chosen = _by_header(source, said or drawing_format(source) or point_format(source))
     if chosen == "csv" or "polygons" not in INPUTS[chosen].readers:
         return "points", _points(source, chosen, None)
     source = _plain_source(source, chosen)
@@ -151,8 +156,8 @@ def _either(source: Source, said: str | None) -> tuple[Holds, Source]:
         module = INPUTS[chosen].readers["polygons"].partition(":")[0]
         source = replace(source, document=resolved(f"{module}:features_of")(source))
         return ("polygons" if source.document.holds_shapes else "points"), source
-    if chosen == "wkt":
-        return ("polygons" if wkt_holds_shapes(source.data) else "points"), source
+    if "curves" in INPUTS[chosen].has or chosen == "wkt":
+        return ("polygons" if chosen != "wkt" or wkt_holds_shapes(source.data) else "points"), source
     return _in_json(source, said)
 
 

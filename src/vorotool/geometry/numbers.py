@@ -167,3 +167,25 @@ def shown_number(value: Any) -> str:
     except ValueError:  # Python writes no integers of more than some thousand digits
         text = f"of type {type(value).__name__}"
     return text if len(text) <= MOST_SHOWN else f"{text[: MOST_SHOWN - 1]}…"
+
+
+def checked_tolerance(value: Any, *, allows_zero: bool = False) -> float:
+    """Give a tolerance, such as how far lines may be from curves.
+
+    Raises
+    ------
+    UsageError
+        If it is no finite number, or not positive.
+
+    Examples
+    --------
+    >>> checked_tolerance("0.5")
+    Traceback (most recent call last):
+        ...
+    vorotool.errors.UsageError: the tolerance is '0.5': give a number
+    """
+    length = finite_double(value, "the tolerance")
+    if not (length > 0 or (allows_zero and length == 0)):
+        least = "0 or more" if allows_zero else "positive"
+        raise UsageError(f"the tolerance is {shown_number(value)}: it must be {least}")
+    return length

@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import InputError, Kind, Message, UsageError
-from vorotool.jobs.options import ComputingOptions, JobOptions, SiteOptions, TriangulationOptions
+from vorotool.jobs.options import ComputingOptions, JobOptions, SiteOptions, SkeletonOptions, TriangulationOptions
 from vorotool.jobs.run_log import Run
 
 if TYPE_CHECKING:
@@ -87,6 +87,8 @@ def read_opened(
         note=run.note,
         crs=o.input_crs,
         to_crs=o.crs,
+        flatten=o.flatten if isinstance(o, SkeletonOptions) else None,
+        join_tolerance=o.join_tolerance if isinstance(o, SkeletonOptions) else None,
     )
     assert isinstance(value, PointSet | PolygonSet | Raster)  # others are read where no geometry is asked for
     if isinstance(value, Raster):

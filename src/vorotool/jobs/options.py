@@ -195,6 +195,7 @@ class SkeletonOptions(ComputingOptions):
     distance: tuple[float, ...] | None
     every: float | None
     flatten: float | None
+    join_tolerance: float | None
     simplify: float | None
     outline: Literal["crack", "contour"] | None
     seeds: Literal["components", "labels"] | None

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from vorotool.errors import UsageError
 from vorotool.jobs.options import ApproximateSkeletonOptions, ExactSkeletonOptions, SkeletonOptions
 from vorotool.jobs.targets import Target, check_picture_options, check_precision
 from vorotool.products.formats import FORMATS, PICTURES
+from vorotool.products.inputs import DRAWINGS
 from vorotool.products.registry import PRODUCTS, formats_of, layers_of
 
 
@@ -15,8 +18,13 @@ def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
     products = PRODUCTS[_command(o)]
     check_precision(o, formats_of(_command(o)), targets)
     curved = any(products[target.what].is_curved and FORMATS[target.fmt].flattens for target in targets)
-    if o.flatten is not None and not curved and "shape" not in o.what:
-        raise UsageError("--flatten is for what has no curves: use -f geojson, -f wkt or --what shape, or leave it out")
+    if o.flatten is not None and not curved and "shape" not in o.what and not _may_be_drawn(o):
+        raise UsageError(
+            "--flatten is for drawings that are read, and for what has no curves: use -f geojson, -f wkt or --what "
+            "shape, or leave it out"
+        )
+    if o.join_tolerance is not None and not _may_be_drawn(o):
+        raise UsageError("--join-tolerance is for DXF drawings: leave it out")
     _check_measures(o)
     _check_shapes(o)
     if o.frame is not None and o.side == "interior" and "diagram" not in o.what:
@@ -35,6 +43,13 @@ def check_options(o: SkeletonOptions, targets: list[Target]) -> None:
         png_has_width=True,
         has_page="html" in formats,
     )
+
+
+def _may_be_drawn(o: SkeletonOptions) -> bool:
+    """Whether an input may be a drawing with curves, as far as its name tells."""
+    said = o.input_format and o.input_format.lower()
+    endings = {Path(path).suffix.lower().removeprefix(".") for path in o.inputs}
+    return said in DRAWINGS if said else o.files_from is not None or bool(endings & {*DRAWINGS, ""})
 
 
 def _check_frame(frame: tuple[float, ...]) -> None:

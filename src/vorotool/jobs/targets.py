@@ -221,7 +221,7 @@ def check_targets(options: JobOptions, targets: Sequence[Target], source: str) -
             check_store(target.path, **rules)
         else:
             check_output(target.path, binary=target.is_binary, **rules)
-            for extension in FORMATS[target.fmt].beside if stream_kind(target.path) is None else ():
+            for extension in FORMATS[target.fmt].parts if stream_kind(target.path) is None else ():
                 check_output(Path(target.path).with_suffix(extension), binary=True, **rules)
     if options.stats is not None:
         in_out_dir = options.out_dir is not None and Path(options.stats).parent == Path(options.out_dir)

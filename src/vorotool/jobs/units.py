@@ -43,7 +43,7 @@ def in_units(size: PixelSize | None, value: Value) -> Value:
     from vorotool.geometry.any.scaling import scaled
 
     with _within_doubles():
-        result: Value = scaled(value, size.factor)
+        result: Value = scaled(value, size.factor, unit=size.unit)
     return result
 
 

@@ -41,12 +41,14 @@ class Format:
         Formats of one family are written together, each result in its own.
     writers : mapping of str to Writer
         What writes results, by their names, beside those formats that a product lists itself.
+    beside : str
+        Only results that have this format, too, are written so.
     made_from : tuple of str
         It is made from the text of the first of these formats that a product has, by ``maker``.
     maker : str
         ``module:name`` of ``maker(out, what, path)``: a context in which there is a file that takes that text.
-    beside : tuple of str
-        Extensions of further files that belong to each.
+    parts : tuple of str
+        Extensions of further files that each consists of.
     """
 
     name: str
@@ -58,9 +60,10 @@ class Format:
     flattens: bool = False
     family: str = ""
     writers: Mapping[str, Writer] = field(default_factory=dict)
+    beside: str = ""
     made_from: tuple[str, ...] = ()
     maker: str = ""
-    beside: tuple[str, ...] = ()
+    parts: tuple[str, ...] = ()
 
     @property
     def endings(self) -> tuple[str, ...]:
@@ -80,6 +83,11 @@ def _of_maps(name: str, title: str, maker: str, sources: tuple[str, ...] = ("geo
 
 
 _GRAPHML = Writer("formats.results.graphml:write_graphml", ("flatten", "precision", "threads"))
+_DXF = Writer("formats.drawing.dxf_writer:write_dxf", ("what",))
+_DRAWN = (
+    *("skeleton", "diagram", "centerline", "offset", "shape", "points", "transects", "edges", "triangles", "cells"),
+    *("polygons", "complex", "general", "hull"),
+)
 _ALL = (
     Format("png", "PNG", is_text=False, is_image=True),
     Format("tiff", "TIFF", ("tif", "tiff"), is_text=False, is_image=True),
@@ -100,8 +108,9 @@ _ALL = (
     _of_objects("jsonl", "JSON lines", ("jsonl", "ndjson"), "formats.text.json_lines:JsonLines"),
     _of_maps("gpkg", "GeoPackage", "GeoPackage", ("geojson", "json")),
     _of_maps("fgb", "FlatGeobuf", "FlatGeobuf"),
-    _of_maps("shp", "Shapefile", "Shapefile", beside=(".shx", ".dbf", ".prj", ".cpg")),
+    _of_maps("shp", "Shapefile", "Shapefile", parts=(".shx", ".dbf", ".prj", ".cpg")),
     _of_maps("parquet", "GeoParquet", "GeoParquet", ("geojson", "json"), extensions=("parquet", "geoparquet")),
+    Format("dxf", "DXF", writers=dict.fromkeys(_DRAWN, _DXF), beside="geojson"),
     Format("html", "HTML"),
     Format("zarr", "Zarr", is_text=False, is_image=True),
 )

@@ -25,8 +25,8 @@ class InputFormat:
     readers : mapping of str to str
         What it may hold, and ``module:function`` of ``function(source, options)`` that reads it.
     has : frozenset of str
-        ``bytes``: it is no text. ``layers``: it may hold several. ``features``: what it holds is told by reading it,
-        with ``features_of`` in the module of its readers.
+        ``bytes``: it is no text. ``layers``: it may hold several. ``curves``: which become lines where it is read.
+        ``features``: what it holds is told by reading it, with ``features_of`` in the module of its readers.
     """
 
     name: str
@@ -71,6 +71,8 @@ _ALL = (
     _of_maps("gpx"),
     _of_maps("parquet", "parquet", "geoparquet", module="geoparquet", has="bytes features"),
     _of_maps("wkb", module="wkb", has="bytes features"),
+    _of("svg", "svg", "svgz", has="bytes curves", polygons="formats.drawing.svg_reader:read_svg"),
+    _of("dxf", has="bytes curves", polygons="formats.drawing.dxf_reader:read_dxf"),
     _of("png", image=_IMAGE),
     _of("tiff", "tiff", "tif", image=_IMAGE),
     _of("pnm", "pnm", "pbm", "pgm", "ppm", image=_IMAGE),
@@ -107,6 +109,10 @@ NAMES_WITH = {
 """Formats of inputs that hold an image or such geometry."""
 DRAWN_NAMES = NAMES_WITH["polygons"]
 """Formats of what is drawn again: label images, skeletons, offset curves, polygons and lines."""
+
+
+DRAWINGS = tuple(name for each in _ALL if "curves" in each.has for name in each.names)
+"""Names of formats that have curves, which become lines where they are read."""
 
 
 def known_input_format(name: str | None, names: Mapping[str, str] = NAMES_WITH[None]) -> str | None:

@@ -52,7 +52,8 @@ class Product:
         return tuple(dict.fromkeys([*self.data, *more]))
 
     def _fits(self, each: Format) -> bool:
-        return self.what in each.writers or any(name in self.data for name in each.made_from)
+        has_writer = self.what in each.writers and (not each.beside or each.beside in self.data)
+        return has_writer or any(name in self.data for name in each.made_from)
 
     @property
     def formats(self) -> tuple[str, ...]:

@@ -29,7 +29,7 @@ LINES = {
     "vorotool tessellate --what labels,ta": "labels,table",
     "vorotool tessellate --what = dist": "distance distance2",
     "vorotool tessellate --what table -f ": "csv json npz jsonl",
-    "vorotool delaunay --what = cells --format ": "geojson csv json npz wkt jsonl svg png",
+    "vorotool delaunay --what = cells --format ": "geojson csv json npz wkt jsonl dxf svg png",
     "vorotool tessellate --clu": "--cluster",
     "vorotool skeleton-exact --prune = angle = 30 --sid": "--side",
     "vorotool skeleton-exact --prune s": "scale=",

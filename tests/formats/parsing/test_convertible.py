@@ -9,25 +9,25 @@ import vorotool
 from vorotool.errors import InputError
 
 FEATURE = '{"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [%d, 2]}}\n'
-FILES = {
-    "logo.svg": b'<?xml version="1.0"?>\n<!-- made by hand --><svg xmlns="http://www.w3.org/2000/svg"/>',
-    "drawing": b"\xef\xbb\xbf<svg>",
-    "old.svg": b'<!DOCTYPE svg PUBLIC "-//W3C//DTD SVG 1.1//EN" [ <!ENTITY a "b"> ]><svg/>',
-    "plan.pdf": b"%PDF-1.7\n",
-    "plan": b"%PDF-1.7\n",
-}
+FONTS = {".ttf": b"\0\1\0\0\0\x0f", ".otf": b"OTTO\0\x0f", ".woff2": b"wOF2\0\1", ".ttc": b"ttcf\0\1"}
 
 
 @pytest.mark.parametrize("geometry", [None, "points", "polygons"])
-@pytest.mark.parametrize("name", FILES)
-def test_drawings(tmp_path, name, geometry):
-    path = tmp_path / name
-    path.write_bytes(FILES[name])
-    tool = "pdftoppm" if b"PDF" in FILES[name] else "inkscape"
-    with pytest.raises(
-        InputError, match=rf"files are not read; make an image of it and give --threshold otsu.* {tool}"
-    ):
-        vorotool.read(path, geometry=geometry)
+@pytest.mark.parametrize("name", ["plan.pdf", "plan"])
+def test_documents(tmp_path, name, geometry):
+    (tmp_path / name).write_bytes(b"%PDF-1.7\n")
+    advice = r"make an image of it and give --threshold otsu, .* pdftoppm .*; or, for its outlines, an SVG: inkscape "
+    with pytest.raises(InputError, match=r"\.pdf files are not read; " + advice):
+        vorotool.read(tmp_path / name, geometry=geometry)
+
+
+@pytest.mark.parametrize("geometry", [None, "points", "polygons"])
+@pytest.mark.parametrize("suffix", FONTS)
+def test_fonts(tmp_path, suffix, geometry):
+    for name in (f"a{suffix}", "font"):
+        (tmp_path / name).write_bytes(FONTS[suffix])
+        with pytest.raises(InputError, match=rf"\{suffix} files are not read; it is a font: write the text"):
+            vorotool.read(tmp_path / name, geometry=geometry)
 
 
 @pytest.mark.parametrize("geometry", [None, "points", "polygons"])
@@ -91,12 +91,15 @@ def test_arrays_that_are_lists(tmp_path, shape):
 @pytest.mark.parametrize(
     ("name", "data", "advice"),
     [
-        ("a.eps", b"%!PS-Adobe-3.0 EPSF-3.0\n", r"otsu, for example: gs -o a\.png .* a\.eps$"),
-        ("a.ai", b"%PDF-1.4\n", r"gs -o a\.png .* a\.ai$"),
-        ("page", b"%!PS\n", r"\.ps files are not read; .*gs -o FILE\.png .* FILE\.ps$"),
-        ("a.dwg", b"AC1032\0", r"save it as DXF .*ogr2ogr -f GeoJSON a\.geojson a\.dxf$"),
+        (
+            "a.eps",
+            b"%!PS-Adobe-3.0 EPSF-3.0\n",
+            r"otsu, for example: gs -o a\.png .* a\.eps; or.*inkscape a\.eps .*a\.svg$",
+        ),
+        ("a.ai", b"%PDF-1.4\n", r"gs -o a\.png .* a\.ai; or"),
+        ("page", b"%!PS\n", r"\.ps files are not read; .*gs -o FILE\.png .* FILE\.ps; or"),
+        ("a.dwg", b"AC1032\0", r"save it as DXF .*dwg2dxf -o a\.dxf a\.dwg$"),
         ("plan", b"AC1015\0", r"\.dwg files are not read"),
-        ("a.svgz", b"\x1f\x8b", r"gzip -dc a\.svgz > a\.svg; then .*inkscape a\.svg "),
         ("a.zip", b"PK\3\4", r"unpack it, and give a file that is in it: unzip a\.zip$"),
     ],
 )

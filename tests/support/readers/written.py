@@ -14,7 +14,7 @@ ARCS = ("vertices", "radius", "arcs", "control", "sites", "polygon", "side", "br
 
 def streamed(product):
     """Give the formats of a product that a stream can hold: those of one file."""
-    return [fmt for fmt in product.written if not FORMATS[fmt].beside]
+    return [fmt for fmt in product.written if not FORMATS[fmt].parts]
 
 
 def written(value, fmt, what=None, **options):

@@ -125,8 +125,14 @@ _READING: tuple[Decorator, ...] = (
         "--flatten",
         type=Length(zero=False),
         metavar="TOLERANCE",
-        help=f"How far lines may be from curves where a format ({_FLATTENED}) or --what shape has none; by default "
-        "1/4096 of the extent.",
+        help=f"How far lines may be from curves where a format ({_FLATTENED}) or --what shape has none, and from those "
+        "of an SVG or DXF input; by default 1/4096 of the extent.",
+    ),
+    click.option(
+        "--join-tolerance",
+        type=Length(zero=True),
+        metavar="D",
+        help="How far ends of lines of a DXF input may be apart that are joined; by default a millionth of the extent.",
     ),
     click.option(
         "--simplify",

@@ -69,6 +69,7 @@ def repaired_polygons(graph: PlanarGraph) -> RepairedPolygons:
         {name: [values[i] for i in source.tolist()] for name, values in given.properties.items()},
         given.y_up,
         given.crs,
+        unit=given.unit,
     )
     return RepairedPolygons(polygons, source.astype(np.int32), rings.point, rings.segment)
 

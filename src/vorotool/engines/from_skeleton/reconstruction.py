@@ -330,5 +330,6 @@ def _assembled(skeleton: Skeleton, rings: list[Ring]) -> PolygonSet:
         given.feature[own],
         {name: [values[p] for p in own] for name, values in given.properties.items()},
         y_up=given.y_up,
+        unit=given.unit,
         crs=given.crs,
     )

@@ -9,14 +9,15 @@ from pathlib import Path
 from vorotool.errors import InputError
 from vorotool.formats.io.sources import Source
 
-_MAPS = (".dxf", ".gml", ".gdb", ".tab", ".mif")
-_DRAWINGS = (".svg", ".svgz", ".pdf", ".eps", ".ps", ".ai")
-_OTHERS = (".dwg", ".zip")
-_HEADS = ((b"%PDF-", ".pdf"), (b"%!PS", ".ps"), (b"\xc5\xd0\xd3\xc6", ".eps"))
-_DWG = re.compile(rb"AC10\d\d\0")
-_SVG = re.compile(
-    rb"(\xef\xbb\xbf)?\s*(<\?xml[^>]*>|<!--.*?-->|<!DOCTYPE[^>\[]*(\[.*?\]\s*)?>|\s)*<svg[\s>]", re.DOTALL
+_MAPS = (".gml", ".gdb", ".tab", ".mif")
+_DRAWINGS = (".pdf", ".eps", ".ps", ".ai")
+_FONTS = (".ttf", ".otf", ".ttc", ".woff", ".woff2")
+_OTHERS = (".dwg", ".zip", *_FONTS)
+_HEADS = (
+    *((b"%PDF-", ".pdf"), (b"%!PS", ".ps"), (b"\xc5\xd0\xd3\xc6", ".eps"), (b"OTTO\0", ".otf")),
+    *((b"\0\1\0\0\0", ".ttf"), (b"wOFF", ".woff"), (b"wOF2", ".woff2"), (b"ttcf", ".ttc")),
 )
+_DWG = re.compile(rb"AC10\d\d\0")
 
 
 def refuse_convertible(source: Source) -> None:
@@ -35,18 +36,16 @@ def refuse_convertible(source: Source) -> None:
         ...
     vorotool.errors.InputError: towns.zip: .zip files are not read; unpack it, and give a file that is in it: \
 unzip towns.zip
-    >>> refuse_convertible(Source("logo.svg", b"<svg></svg>"))
+    >>> refuse_convertible(Source("plan.dwg", b""))
     Traceback (most recent call last):
         ...
-    vorotool.errors.InputError: logo.svg: .svg files are not read; make an image of it and give --threshold otsu, for \
-example: inkscape logo.svg --export-filename=logo.png --export-background=white
+    vorotool.errors.InputError: plan.dwg: .dwg files are not read; save it as DXF in the program that made it, or \
+convert it: dwg2dxf -o plan.dxf plan.dwg
     """
     heads = (suffix for head, suffix in _HEADS if source.data.startswith(head))
     found = source.suffix if source.suffix in _MAPS + _DRAWINGS + _OTHERS else next(heads, None)
     if found is None and _DWG.match(source.data):
         found = ".dwg"
-    if found is None and _SVG.match(source.data[:4096]):
-        found = ".svg"
     if found is not None:
         file = source.name if source.suffix == found else f"FILE{found}"
         raise InputError(f"{source.name}: {found} files are not read; {_CONVERSIONS.get(found, _as_map)(file)}")
@@ -56,36 +55,36 @@ def _as_map(file: str) -> str:
     return f"convert it: ogr2ogr -f GeoJSON {Path(file).with_suffix('.geojson')} {file}"
 
 
-def _as_image(command: str) -> Callable[[str], str]:
+def _as_drawing(command: str) -> Callable[[str], str]:
     def advice(file: str) -> str:
-        made = command.format(file=file, stem=Path(file).with_suffix(""))
-        return f"make an image of it and give --threshold otsu, for example: {made}"
+        stem = Path(file).with_suffix("")
+        return (
+            f"make an image of it and give --threshold otsu, for example: {command.format(file=file, stem=stem)}; or, "
+            f"for its outlines, an SVG: inkscape {file} --export-text-to-path --export-plain-svg "
+            f"--export-filename={stem}.svg"
+        )
 
     return advice
 
 
 def _as_dxf(file: str) -> str:
     made = Path(file).with_suffix(".dxf")
-    return f"save it as DXF in the program that made it, and convert that: {_as_map(str(made)).partition(': ')[2]}"
+    return f"save it as DXF in the program that made it, or convert it: dwg2dxf -o {made} {file}"
 
 
 def _unpacked(file: str) -> str:
     return f"unpack it, and give a file that is in it: unzip {file}"
 
 
-def _unpacked_drawing(file: str) -> str:
-    made = Path(file).with_suffix(".svg")
-    return f"unpack it: gzip -dc {file} > {made}; then {_CONVERSIONS['.svg'](str(made))}"
+def _written(file: str) -> str:
+    return "it is a font: write the text in a drawing program, convert it to paths, and save these as SVG"
 
 
-_POSTSCRIPT = _as_image("gs -o {stem}.png -sDEVICE=pnggray -r300 -dEPSCrop {file}")
+_POSTSCRIPT = _as_drawing("gs -o {stem}.png -sDEVICE=pnggray -r300 -dEPSCrop {file}")
 _CONVERSIONS: dict[str, Callable[[str], str]] = {
-    ".eps": _POSTSCRIPT,
-    ".ps": _POSTSCRIPT,
-    ".ai": _POSTSCRIPT,
+    **dict.fromkeys((".eps", ".ps", ".ai"), _POSTSCRIPT),
+    ".pdf": _as_drawing("pdftoppm -r 300 -gray -singlefile {file} {stem}"),
+    **dict.fromkeys(_FONTS, _written),
     ".dwg": _as_dxf,
     ".zip": _unpacked,
-    ".svgz": _unpacked_drawing,
-    ".svg": _as_image("inkscape {file} --export-filename={stem}.png --export-background=white"),
-    ".pdf": _as_image("pdftoppm -r 300 -gray -singlefile {file} {stem}"),
 }

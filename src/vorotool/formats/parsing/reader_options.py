@@ -39,6 +39,10 @@ class ReadOptions:
         The ``crs`` member of GeoJSON for an input that names none.
     to_crs : object, optional
         That of the system in which coordinates are wanted.
+    flatten : float, optional
+        How far lines may be from the curves of drawings.
+    join_tolerance : float, optional
+        How far ends of curves may be apart that are joined.
     """
 
     columns: str | None = None
@@ -50,6 +54,8 @@ class ReadOptions:
     note: Callable[[str], None] = no_note
     crs: Any = None
     to_crs: Any = None
+    flatten: float | None = None
+    join_tolerance: float | None = None
 
     def check_sites(self, name: str, count: int) -> None:
         """Raise LimitError if ``count`` sites are too many."""

@@ -51,7 +51,7 @@ _LENGTHS_OF = {
 """What of each type is a length, or has lengths; all else stays."""
 
 
-def scaled(value: Any, factor: Fraction) -> Any:
+def scaled(value: Any, factor: Fraction, *, unit: str | None = None) -> Any:
     """Give a result in units of which one is ``1 / factor`` of the old.
 
     What was decided in the old units stays: edges, ranks, classes, ties. Each number is rounded once.
@@ -63,6 +63,8 @@ def scaled(value: Any, factor: Fraction) -> Any:
         What to scale; for a table see `scaled_table`.
     factor : Fraction
         More than 0.
+    unit : str, optional
+        Of the result.
 
     Raises
     ------
@@ -77,14 +79,15 @@ def scaled(value: Any, factor: Fraction) -> Any:
     """
     if type(value) not in _LENGTHS_OF:
         raise UsageError(f"a {type(value).__name__} is not scaled")
-    return replace(value, **{name: _scaled(getattr(value, name), factor) for name in _LENGTHS_OF[type(value)].split()})
+    parts = {name: _scaled(getattr(value, name), factor, unit) for name in _LENGTHS_OF[type(value)].split()}
+    return replace(value, **parts, unit=unit) if isinstance(value, PolygonSet) else replace(value, **parts)
 
 
-def _scaled(part: Any, factor: Fraction) -> Any:
+def _scaled(part: Any, factor: Fraction, unit: str | None) -> Any:
     if type(part) in _LENGTHS_OF:
-        return scaled(part, factor)
+        return scaled(part, factor, unit=unit)
     if isinstance(part, Box):
-        return Box(*_scaled(part.sides, factor))
+        return Box(*_scaled(part.sides, factor, unit))
     if isinstance(part, tuple):
         return tuple(side * float(factor) for side in part)
     return None if part is None else part * (factor if isinstance(part, Fraction) else float(factor))

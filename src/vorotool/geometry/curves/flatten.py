@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vorotool.errors import UsageError
 from vorotool.geometry.curves.inverse_functions import hypotenuse
-from vorotool.geometry.numbers import finite_double, shown_number
+from vorotool.geometry.numbers import checked_tolerance
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.ragged import owners, starts_of, within
 
@@ -41,12 +40,7 @@ def checked_flatten(tolerance: float | None, polygons: PolygonSet) -> float:
     UsageError
         If it is no finite number, or not positive.
     """
-    if tolerance is None:
-        return default_flatten(polygons)
-    length = finite_double(tolerance, "the tolerance")
-    if not length > 0:
-        raise UsageError(f"the tolerance is {shown_number(tolerance)}: it must be positive")
-    return length
+    return default_flatten(polygons) if tolerance is None else checked_tolerance(tolerance)
 
 
 def polylines(

@@ -50,6 +50,8 @@ class PolygonSet:
     connectivity : {8, 4}, optional
         Of the pixels that these are the crack outlines of. 8: pieces of a polygon that meet at a vertex only hang
         together there; rings run along both, and no two cross. 4: what is outside does. By default neither.
+    unit : str, optional
+        The unit of length of the coordinates, such as ``mm``, where the input says it.
 
     Raises
     ------
@@ -74,6 +76,7 @@ class PolygonSet:
     y_up: bool = False
     crs: Any = None
     connectivity: int | None = None
+    unit: str | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "xy", coordinate_rows(self.xy, "vertex"))

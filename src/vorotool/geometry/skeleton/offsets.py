@@ -201,6 +201,7 @@ class Offsets:
             self.shape_of_ring,  # type: ignore[arg-type]
             **self._described(),
             y_up=self.polygons.y_up,
+            unit=self.polygons.unit,
             crs=self.polygons.crs,
         )
 

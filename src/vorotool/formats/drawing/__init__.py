@@ -1,0 +1,1 @@
+"""Drawings: SVG and DXF, whose curves become polylines where they are read."""

@@ -1,0 +1,300 @@
+"""Curves of drawings, and the polylines that stand for them.
+
+Circles, ellipses and arcs are affine images of arcs of the unit circle: none is ever an approximation before it is
+flattened, and square roots alone divide it.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from math import ceil, isfinite, sqrt
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.geometry.curves.circular_arcs import chords_of
+from vorotool.geometry.curves.flatten import FLATTEN, MOST_PIECES
+from vorotool.geometry.curves.inverse_functions import PI, cosine_and_sine, hypotenuse
+
+Floats = NDArray[np.float64]
+Point = tuple[float, float]
+
+
+class Affine(NamedTuple):
+    """The map of (x, y) to (a x + c y + e, b x + d y + f), as SVG has it.
+
+    Examples
+    --------
+    >>> Affine(e=5).after(Affine(a=2, d=3)).of((1, 1))
+    (7.0, 3.0)
+    """
+
+    a: float = 1.0
+    b: float = 0.0
+    c: float = 0.0
+    d: float = 1.0
+    e: float = 0.0
+    f: float = 0.0
+
+    def of(self, point: Point) -> Point:
+        """Map a place."""
+        x, y = point
+        return (self.a * x + self.c * y + self.e, self.b * x + self.d * y + self.f)
+
+    def way(self, vector: Point) -> Point:
+        """Map a difference of places."""
+        x, y = vector
+        return (self.a * x + self.c * y, self.b * x + self.d * y)
+
+    def after(self, inner: Affine) -> Affine:
+        """Map by another one first."""
+        (a, b), (c, d), (e, f) = self.way(inner[:2]), self.way(inner[2:4]), self.of(inner[4:])
+        return Affine(a, b, c, d, e, f)
+
+
+class Line(NamedTuple):
+    """A straight line to a place."""
+
+    end: Point
+
+    def mapped(self, by: Affine) -> Line:
+        """Map it."""
+        return Line(by.of(self.end))
+
+    def reach(self) -> Iterable[Point]:
+        """Places whose bounds hold it, with its start."""
+        return (self.end,)
+
+    def flattened(self, start: Point, tolerance: float) -> Floats:
+        """Give places along it, without its start."""
+        return np.array([self.end])
+
+
+class Bezier(NamedTuple):
+    """A Bézier curve of any degree: its control points but the first, the last of which is its end."""
+
+    control: tuple[Point, ...]
+
+    @property
+    def end(self) -> Point:
+        """Where it ends."""
+        return self.control[-1]
+
+    def mapped(self, by: Affine) -> Bezier:
+        """Map it."""
+        return Bezier(tuple(by.of(point) for point in self.control))
+
+    def reach(self) -> Iterable[Point]:
+        """Places whose bounds hold it, with its start."""
+        return self.control
+
+    def flattened(self, start: Point, tolerance: float) -> Floats:
+        """Divide it evenly in its parameter, so that chords are within the tolerance.
+
+        A chord over 1/n of the parameter is off by max |B''| / (8 n^2) at most, and B'' is bounded by the second
+        differences of the control points.
+        """
+        control = np.array([start, *self.control])
+        degree = len(self.control)
+        bend = np.diff(control, n=2, axis=0)
+        most = float(hypotenuse(*bend.T).max()) * degree * (degree - 1)
+        pieces = min(max(ceil(sqrt(min(most / (8 * tolerance), 1e18))), 1), MOST_PIECES)
+        t = (np.arange(1, pieces + 1) / pieces)[:, None]
+        level = [np.broadcast_to(point, (pieces, 2)) for point in control]
+        while len(level) > 1:  # de Casteljau
+            level = [p + t * (q - p) for p, q in itertools.pairwise(level)]
+        points = np.array(level[0])
+        points[-1] = self.end
+        return points
+
+
+class Arc(NamedTuple):
+    """An arc of an ellipse: the image of an arc of the unit circle that turns from the first axis to the second.
+
+    Parameters
+    ----------
+    centre : (float, float)
+        Of the ellipse.
+    first, second : (float, float)
+        Images of the axes: conjugate half-diameters.
+    ways : tuple of (float, float)
+        Places on the unit circle, each at most half a turn behind the one before: its start, its end, and between.
+    end : (float, float)
+        Where it ends: given, since it is where the next piece begins.
+    """
+
+    centre: Point
+    first: Point
+    second: Point
+    ways: tuple[Point, ...]
+    end: Point
+
+    def mapped(self, by: Affine) -> Arc:
+        """Map it."""
+        return Arc(by.of(self.centre), by.way(self.first), by.way(self.second), self.ways, by.of(self.end))
+
+    def reach(self) -> Iterable[Point]:
+        """Places whose bounds hold it, with its start."""
+        (x, y), (a, b), (c, d) = self.centre, self.first, self.second
+        across, down = abs(a) + abs(c), abs(b) + abs(d)
+        return ((x - across, y - down), (x + across, y + down))
+
+    def flattened(self, start: Point, tolerance: float) -> Floats:
+        """Halve it until chords are within the tolerance."""
+        axes = np.array([self.first, self.second])
+        size = sqrt(float((axes * axes).sum()))  # at least the longer half-diameter
+        if not size > 0 or not isfinite(size):
+            return np.array([self.end])
+        ways = np.array(self.ways)
+        count = len(ways) - 1
+        places, _ = chords_of(ways[:-1], ways[1:], np.zeros((count, 2)), np.ones(count, dtype=bool), tolerance / size)
+        across, along = np.concatenate([places[1:], ways[-1:]]).T[:, :, None]
+        points: Floats = across * axes[0] + along * axes[1] + self.centre
+        points[-1] = self.end
+        return points
+
+
+Piece = Line | Bezier | Arc
+
+
+@dataclass
+class Curve:
+    """Pieces of which each begins where the one before ends.
+
+    Parameters
+    ----------
+    start : (float, float)
+        Where the first begins.
+    pieces : list of Line, Bezier and Arc
+        In order.
+    is_closed : bool
+        Whether the last ends where the first begins, by a straight line if need be.
+    """
+
+    start: Point
+    pieces: list[Piece] = field(default_factory=list)
+    is_closed: bool = False
+
+    @property
+    def end(self) -> Point:
+        """Where it ends."""
+        return self.pieces[-1].end if self.pieces else self.start
+
+    def mapped(self, by: Affine) -> Curve:
+        """Map all pieces."""
+        return Curve(by.of(self.start), [piece.mapped(by) for piece in self.pieces], self.is_closed)
+
+    def flattened(self, tolerance: float) -> Floats:
+        """(n, 2) places along it, both ends included, but the start once if it is closed; none twice in succession."""
+        made, begin = [np.array([self.start])], self.start
+        for piece in self.pieces:
+            made.append(piece.flattened(begin, tolerance))
+            begin = piece.end
+        points = np.concatenate(made)
+        kept = np.append(True, (points[1:] != points[:-1]).any(axis=1))
+        if self.is_closed and kept.sum() > 1 and (points[0] == points[-1]).all():
+            kept[np.flatnonzero(kept)[-1]] = False
+        return np.asarray(points[kept])
+
+    def is_finite(self) -> bool:
+        """Whether all its places are."""
+        return all(isfinite(x) and isfinite(y) for piece in self.pieces for x, y in piece.reach()) and all(
+            map(isfinite, self.start)
+        )
+
+
+def tolerance_for(curves: Sequence[Curve]) -> float:
+    """How far lines may be from curves where nobody says: 1/4096 of the larger side of what holds the curves.
+
+    Examples
+    --------
+    >>> tolerance_for([Curve((0.0, 0.0), [Line((4096.0, 1.0))])])
+    1.0
+    """
+    places = [place for curve in curves for piece in curve.pieces for place in piece.reach()]
+    places += [curve.start for curve in curves]
+    if not places:
+        return 1.0
+    across, down = zip(*places, strict=True)
+    with np.errstate(over="ignore"):
+        side = max(max(across) / 2 - min(across) / 2, max(down) / 2 - min(down) / 2)
+    return min(2 * FLATTEN * side, 1e300) or 1.0
+
+
+# ---- arcs ----------------------------------------------------------------------------------------
+_QUARTERS: tuple[Point, ...] = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0), (1.0, 0.0))
+
+
+def turned(degrees: float) -> Point:
+    """Give cosine and sine of an angle; those of quarters of a turn are exact.
+
+    Examples
+    --------
+    >>> turned(-90), turned(720)
+    ((0.0, -1.0), (1.0, 0.0))
+    """
+    quarter = round((degrees % 360) / 90)
+    cosine, sine = (float(value) for value in cosine_and_sine((degrees % 360 - 90 * quarter) * PI / 180))
+    ways = ((cosine, sine), (-sine, cosine), (-cosine, -sine), (sine, -cosine))
+    x, y = ways[quarter % 4]
+    return (x + 0.0, y + 0.0)  # no -0
+
+
+def whole_ellipse(centre: Point, first: Point, second: Point) -> Curve:
+    """An ellipse by its centre and two conjugate half-diameters; it begins at the end of the first.
+
+    Examples
+    --------
+    >>> whole_ellipse((0.0, 0.0), (1.0, 0.0), (0.0, 2.0)).flattened(1.0).tolist()
+    [[1.0, 0.0], [0.0, 2.0], [-1.0, 0.0], [0.0, -2.0]]
+    """
+    start = (centre[0] + first[0], centre[1] + first[1])
+    return Curve(start, [Arc(centre, first, second, _QUARTERS, start)], is_closed=True)
+
+
+def arc_between(centre: Point, first: Point, second: Point, ways: tuple[Point, Point], end: Point) -> Arc:
+    """Give the arc between two ways of the unit circle, counter-clockwise; the end is where it is said to be.
+
+    Examples
+    --------
+    >>> arc = arc_between((0.0, 0.0), (1.0, 0.0), (0.0, 1.0), ((1.0, 0.0), (0.0, -1.0)), (0.0, -1.0))
+    >>> [[round(x, 3) for x in way] for way in arc.ways]
+    [[1.0, 0.0], [-0.707, 0.707], [0.0, -1.0]]
+    """
+    (ax, ay), (bx, by) = ways
+    if ax * by - ay * bx >= 0:  # at most half a turn
+        return Arc(centre, first, second, ways, end)
+    # the perpendicular to the chord leads to the middle; of a chord that is short the opposite of its middle does
+    middle = (by - ay, ax - bx) if ax * bx + ay * by < 0 else (-ax - bx, -ay - by)
+    length = float(hypotenuse(*middle))
+    return Arc(centre, first, second, (ways[0], (middle[0] / length, middle[1] / length), ways[1]), end)
+
+
+def bulged(start: Point, end: Point, bulge: float) -> Piece:
+    """Give the arc of a DXF polyline: its bulge is the tangent of a quarter of its angle, counter-clockwise.
+
+    Examples
+    --------
+    >>> bulged((1.0, 0.0), (-1.0, 0.0), 1.0).flattened((1.0, 0.0), 0.5).round(9).tolist()
+    [[0.0, 1.0], [-1.0, 0.0]]
+    """
+    if not bulge or start == end:
+        return Line(end)
+    across, down = (end[0] - start[0]) / 2, (end[1] - start[1]) / 2
+    rise = (1 - bulge * bulge) / (2 * bulge)
+    centre = (start[0] + across - rise * down, start[1] + down + rise * across)
+    radius = float(hypotenuse(start[0] - centre[0], start[1] - centre[1]))
+    if not isfinite(radius) or not radius > 0:
+        return Line(end)
+    turn = 1.0 if bulge > 0 else -1.0  # clockwise arcs turn in a frame that is mirrored
+
+    def way(place: Point) -> Point:
+        return ((place[0] - centre[0]) / radius, turn * (place[1] - centre[1]) / radius)
+
+    a, b = way(start), way(end)
+    if abs(bulge) == 1:
+        b = (-a[0], -a[1])
+    return arc_between(centre, (radius, 0.0), (0.0, turn * radius), (a, b), end)

@@ -1,0 +1,206 @@
+"""Writing results as DXF: straight lines, true circular arcs, and parabolas as splines of degree 2, which they are."""
+
+from __future__ import annotations
+
+import io
+import itertools
+from collections.abc import Callable, Iterator
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.formats.drawing.dxf_drawing import DxfDrawing
+from vorotool.geometry.alpha.hull import AlphaHull
+from vorotool.geometry.curves.inverse_functions import hypotenuse
+from vorotool.geometry.skeleton.centerline import Centerlines
+from vorotool.geometry.skeleton.offsets import Offsets
+from vorotool.geometry.skeleton.points_along import SkeletonPoints
+from vorotool.geometry.skeleton.skeleton import Skeleton
+
+Floats = NDArray[np.float64]
+
+DEPTH = "depth"
+"""Layer of the lines in space along points."""
+
+
+def write_dxf(out: BinaryIO, value: Any, *, what: str) -> None:
+    """Write a result on a layer of its name; offset curves on one for each distance.
+
+    Places along a skeleton are at the depth of their radius, z = -r, and with all nodes of the skeleton on lines in
+    space, branch by branch, on the layer `DEPTH`. Edges of alpha shapes are on layers of their class, shapes on
+    those of the ``layer`` that their input has. Where y of the input goes downwards, it is turned over.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable.
+    value : value of the library
+        What is written.
+    what : str
+        Which part of it: a product that can be written as GeoJSON.
+
+    Raises
+    ------
+    UsageError
+        If ezdxf is not installed.
+
+    Examples
+    --------
+    >>> import io, vorotool
+    >>> out = io.BytesIO()
+    >>> write_dxf(out, vorotool.offset([[0, 0], [4, 0], [4, 4], [0, 4]], 1), what="offset")
+    >>> out.getvalue().count(b"AcDbPolyline"), b"offset_1" in out.getvalue()
+    (1, True)
+    """
+    unit, y_up = _described(value)
+    drawing = DxfDrawing(unit=unit, y_up=y_up)
+    own: dict[type, Callable[[DxfDrawing, Any, str], None]] = {
+        Skeleton: _add_skeleton,
+        Centerlines: _add_centerlines,
+        Offsets: _add_offsets,
+        AlphaHull: _add_hull,
+    }
+    if isinstance(value, SkeletonPoints) and what == "points":
+        _add_points(drawing, value)
+    else:
+        own.get(type(value), _add_features)(drawing, value, what)
+    drawing.write(out)
+
+
+def _described(value: Any) -> tuple[str | None, bool]:
+    """Unit and direction of the coordinates of a result: of what it is made of, if it does not say so itself."""
+    made_of = value
+    for name in ("path", "skeleton", "shape", "polygons", "family", "mesh"):
+        made_of = getattr(made_of, name, made_of)
+    unit = getattr(made_of, "unit", None)
+    return unit, bool(getattr(made_of, "y_up", False))
+
+
+# ---- curves ----------------------------------------------------------------------------------------
+def _add_skeleton(drawing: DxfDrawing, skeleton: Skeleton, what: str) -> None:
+    """Lines and parabolas of each branch, as many together as follow each other."""
+    for _, arcs in _branches(skeleton):
+        _add_arcs(drawing, what, skeleton, arcs)
+
+
+def _branches(skeleton: Skeleton) -> Iterator[tuple[int, NDArray[np.int64]]]:
+    """The number of each branch, and its arcs."""
+    first = np.flatnonzero(np.diff(skeleton.branch, prepend=-1))
+    for begin, end in itertools.pairwise([*first.tolist(), len(skeleton)]):
+        yield int(skeleton.branch[begin]), np.arange(begin, end)
+
+
+def _add_arcs(drawing: DxfDrawing, layer: str, skeleton: Skeleton, arcs: NDArray[np.int64]) -> None:
+    """Arcs that follow each other; those without a length are left out."""
+    source, target = skeleton.vertices[skeleton.arcs[arcs]].swapaxes(0, 1)
+    kept = (source != target).any(axis=1)
+    arcs, source, target = arcs[kept], source[kept], target[kept]
+    bent = skeleton.is_parabola[arcs]
+    changes = np.flatnonzero(np.diff(bent.astype(np.int8), prepend=-1))
+    for begin, end in itertools.pairwise([*changes.tolist(), len(arcs)]):
+        if bent[begin]:
+            both = np.stack([skeleton.control[arcs[begin:end]], target[begin:end]], axis=1).reshape(-1, 2)
+            drawing.parabolas(layer, np.concatenate([source[begin : begin + 1], both]))
+        else:
+            drawing.polyline(layer, np.concatenate([source[begin : begin + 1], target[begin:end]]))
+
+
+def _add_centerlines(drawing: DxfDrawing, lines: Centerlines, what: str) -> None:
+    """Arcs of each path, and the straight lines that lead on."""
+    for line, (begin, end) in enumerate(itertools.pairwise(lines.arc_start.tolist())):
+        for side, node in enumerate(lines.end_nodes[line].tolist()):
+            led_on = np.stack([lines.path.vertices[node], lines.ends[line, side]])
+            if not np.isnan(led_on).any() and (led_on[0] != led_on[1]).any():
+                drawing.polyline(what, led_on if side else led_on[::-1])
+        _add_arcs(drawing, what, lines.path, np.arange(begin, end))
+
+
+def _add_offsets(drawing: DxfDrawing, offsets: Offsets, what: str) -> None:
+    """Rings of arcs and straight lines, on a layer for each distance."""
+    bulges = _bulges(offsets.start, offsets.end, offsets.centre, offsets.piece_distance > 0)
+    distances = offsets.distance[offsets.shape_of_ring].tolist()
+    _add_rings(drawing, [f"{what}_{distance:g}" for distance in distances], offsets.start, bulges, offsets.ring_start)
+
+
+def _add_hull(drawing: DxfDrawing, hull: AlphaHull, what: str) -> None:
+    """Rings of arcs, and points without extent."""
+    bulges = _bulges(hull.start, hull.end, hull.centre, np.zeros(len(hull), dtype=bool))
+    _add_rings(drawing, [what] * (len(hull.ring_start) - 1), hull.start, bulges, hull.ring_start)
+    drawing.points(what, hull.shape.family.mesh.points[hull.points])
+
+
+def _add_rings(
+    drawing: DxfDrawing, layers: list[str], start: Floats, bulges: list[float], ring_start: NDArray[np.int64]
+) -> None:
+    for layer, (begin, end) in zip(layers, itertools.pairwise(ring_start.tolist()), strict=True):
+        drawing.polyline(layer, start[begin:end], is_closed=True, bulges=bulges[begin:end])
+
+
+def _bulges(start: Floats, end: Floats, centre: Floats, is_left: NDArray[np.bool_]) -> list[float]:
+    """Tangents of a quarter of the angles of arcs, by their heights over half their chords; 0 of straight lines."""
+    is_arc = ~np.isnan(centre[:, 0])
+    half = (end - start) / 2
+    away = np.where(is_arc[:, None], centre - (start + half), 0)
+    across = hypotenuse(*half.T)
+    radius = hypotenuse(across, hypotenuse(*away.T))
+    turn = np.where(is_left, 1.0, -1.0)
+    # above 0: the centre is on the side that the arc turns to, so that it is at most half a circle
+    inner = turn * (half[:, 0] * away[:, 1] - half[:, 1] * away[:, 0])
+    beside = np.where(inner < 0, -1, 1) * hypotenuse(*away.T)
+    short = np.divide(across, radius + np.abs(beside), out=np.zeros_like(across), where=radius > 0)
+    bulge = np.where(beside >= 0, short, np.divide(1.0, short, out=np.zeros_like(short), where=short > 0))
+    return [float(value) for value in np.where(is_arc, turn * bulge, 0.0) + 0.0]
+
+
+# ---- places along a skeleton -----------------------------------------------------------------------
+def _add_points(drawing: DxfDrawing, points: SkeletonPoints) -> None:
+    """Places at the depth of their radius, and lines in space through them and all nodes."""
+    drawing.points("points", np.column_stack([points.xy, -points.radius]))
+    skeleton = points.skeleton
+    nodes = np.column_stack([skeleton.vertices, -skeleton.radius])
+    order = np.argsort(points.arc, kind="stable")
+    places = np.column_stack([points.xy, -points.radius])[order]
+    first = np.searchsorted(points.arc[order], np.arange(len(skeleton) + 1))
+    for _, arcs in _branches(skeleton):
+        path: list[Floats] = []
+        for arc in arcs.tolist():
+            path += [nodes[skeleton.arcs[arc, :1]], places[first[arc] : first[arc + 1]]]
+        whole = np.concatenate([*path, nodes[skeleton.arcs[arcs[-1], 1:]]])
+        kept = np.append(True, (whole[1:] != whole[:-1]).any(axis=1))
+        drawing.line_in_space(DEPTH, whole[kept])
+
+
+# ---- what has no curves ----------------------------------------------------------------------------
+def _add_features(drawing: DxfDrawing, value: Any, what: str) -> None:
+    """What a result has as features in GeoJSON."""
+    import orjson
+
+    from vorotool.products.registry import parts_of
+    from vorotool.products.writing import write_product
+
+    text = io.BytesIO()
+    write_product(text, value, parts_of(value)[what], "geojson")
+    for feature in orjson.loads(text.getvalue())["features"]:
+        own = feature.get("properties") or {}
+        named = own.get("layer" if what == "shape" else "class")
+        _add_geometry(drawing, named if isinstance(named, str) and named else what, feature["geometry"])
+
+
+def _add_geometry(drawing: DxfDrawing, layer: str, geometry: Any) -> None:
+    if geometry is None:
+        return
+    kind, places = geometry["type"], geometry.get("coordinates")
+    if kind == "GeometryCollection":
+        for part in geometry["geometries"]:
+            _add_geometry(drawing, layer, part)
+    elif kind.startswith("Multi"):
+        for part in places:
+            _add_geometry(drawing, layer, {"type": kind.removeprefix("Multi"), "coordinates": part})
+    elif kind == "Polygon":
+        for ring in places:
+            drawing.polyline(layer, np.array(ring, dtype=np.float64)[:-1], is_closed=True)
+    elif kind == "LineString":
+        drawing.polyline(layer, np.array(places, dtype=np.float64))
+    else:
+        drawing.points(layer, np.array([places], dtype=np.float64))

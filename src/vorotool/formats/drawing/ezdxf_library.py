@@ -1,0 +1,35 @@
+"""The library of DXF, imported without the settings files that it looks for."""
+
+from __future__ import annotations
+
+import sys
+from configparser import ConfigParser
+from typing import Any
+
+from vorotool.geometry.extras import needed
+
+
+def ezdxf_module(module: str = "ezdxf") -> Any:
+    """Import ezdxf, or a module of it.
+
+    It reads settings from the folder of the user and from where the program runs, as it is imported; what is read and
+    written here depends on neither.
+
+    Raises
+    ------
+    UsageError
+        If it is not installed.
+
+    Examples
+    --------
+    >>> ezdxf_module("ezdxf.lldxf.const").DXFError.__name__
+    'DXFError'
+    """
+    if "ezdxf" in sys.modules:
+        return needed(module, "cad", "DXF drawings")
+    own = ConfigParser.read
+    try:
+        ConfigParser.read = lambda *_, **__: []  # type: ignore[method-assign]
+        return needed(module, "cad", "DXF drawings")
+    finally:
+        ConfigParser.read = own  # type: ignore[method-assign]

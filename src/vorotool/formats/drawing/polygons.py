@@ -1,0 +1,163 @@
+"""Polygons and lines of the curves of drawings."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError
+from vorotool.formats.drawing.curves import Curve, tolerance_for
+from vorotool.formats.drawing.fill_rules import filled_polygons, nested_polygons
+from vorotool.formats.parsing.reader_options import ReadOptions
+from vorotool.geometry.polygons.polygon_set import HOLE, LINE, SHELL, PolygonSet, set_of_rings
+
+NESTED = "nested"
+"""A rule beside those of SVG: closed curves are shells, holes, and shells in these by how they lie in one another, each
+shell a feature of its own; where they cross each is a shell."""
+
+
+class Shape(NamedTuple):
+    """One feature of a drawing.
+
+    Parameters
+    ----------
+    curves : list of Curve
+        What it is drawn with.
+    rule : {"nonzero", "evenodd", "nested"} or None
+        What of the plane they fill, open ones as if they were closed; None where each is by itself: closed ones are
+        polygons, others lines.
+    id : object
+        Its name in the drawing, if it has one.
+    place : str
+        Words for its place.
+    """
+
+    curves: Sequence[Curve]
+    rule: str | None
+    id: Any
+    place: str
+
+
+def shapes_to_polygons(
+    name: str,
+    shapes: Sequence[Shape],
+    options: ReadOptions,
+    *,
+    unit: str | None = None,
+    y_up: bool = False,
+    properties: dict[str, list[Any]] | None = None,
+) -> PolygonSet:
+    """Flatten the curves of shapes, one feature a shape.
+
+    Parameters
+    ----------
+    name : str
+        The input.
+    shapes : sequence of Shape
+        In order.
+    options : ReadOptions
+        Its ``flatten`` says how far lines may be from curves; by default 1/4096 of the extent.
+    unit, y_up : optional
+        Of the coordinates.
+    properties : dict of str to list, optional
+        One value a shape.
+
+    Raises
+    ------
+    InputError
+        If a place is beyond the largest number.
+    LimitError
+        If there are too many vertices.
+
+    Examples
+    --------
+    >>> from vorotool.formats.drawing.curves import whole_ellipse
+    >>> circle = Shape([whole_ellipse((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))], "nonzero", "o", "circle")
+    >>> len(shapes_to_polygons("a.svg", [circle], ReadOptions(flatten=0.01)).xy)
+    32
+    """
+    beyond = next((shape for shape in shapes if not all(curve.is_finite() for curve in shape.curves)), None)
+    if beyond is not None:
+        raise InputError(f"{beyond.place}: a place is beyond the largest number; correct or remove it")
+    tolerance = options.flatten or tolerance_for([curve for shape in shapes for curve in shape.curves])
+    collected = _Rings(name, options)
+    for index, shape in enumerate(shapes):
+        collected.add(index, shape, tolerance)
+    owner = collected.owner
+    ids = [shapes[k].id for k in owner]
+    named = options.properties and any(value is not None for value in ids)
+    columns = properties if properties and options.properties else {}
+    made = set_of_rings(
+        np.concatenate([np.empty((0, 2)), *collected.rings]),
+        [len(ring) for ring in collected.rings],
+        collected.kinds,
+        collected.polygons,
+        feature=collected.feature,
+        ids=ids if named else None,
+        properties={key: [values[k] for k in owner] for key, values in columns.items()},
+        y_up=y_up,
+        unit=unit,
+    )
+    if collected.outlines:
+        options.note(f"{name}: {collected.outlines} closed lines without a fill are read as polygons")
+    return made
+
+
+class _Rings:
+    """Rings of all shapes."""
+
+    def __init__(self, name: str, options: ReadOptions) -> None:
+        self.name, self.options = name, options
+        self.rings: list[NDArray[np.float64]] = []
+        self.kinds: list[int] = []
+        self.polygons: list[int] = []
+        self.feature: list[int] = []  # of each polygon
+        self.owner: list[int] = []  # its shape
+        self.outlines = self.vertices = self._next = 0
+
+    def add(self, index: int, shape: Shape, tolerance: float) -> None:
+        """Flatten a shape."""
+        flat = []
+        for curve in shape.curves:
+            flat.append(curve.flattened(tolerance))
+            self.vertices += len(flat[-1])
+            self.options.check_vertices(self.name, self.vertices)
+        self._begin()
+        if shape.rule is not None:
+            rings = [_open_end(ring) for ring in flat]
+            for polygon in nested_polygons(rings) if shape.rule == NESTED else filled_polygons(rings, shape.rule):
+                self._polygon(index, polygon)
+                if shape.rule == NESTED:
+                    self._begin()
+            return
+        for curve, points in zip(shape.curves, flat, strict=True):
+            ring = _open_end(points)
+            if (curve.is_closed or len(ring) < len(points)) and len(ring) > 2:
+                self.outlines += 1
+                self._polygon(index, [ring])
+            else:
+                self._take(index, points, LINE)
+
+    def _begin(self) -> None:
+        """Begin a feature, once the one before has anything."""
+        self._next = self.feature[-1] + 1 if self.feature else 0
+
+    def _polygon(self, index: int, rings: Sequence[NDArray[np.float64]]) -> None:
+        for k, ring in enumerate(rings):
+            self._take(index, ring, HOLE if k else SHELL)
+
+    def _take(self, index: int, ring: NDArray[np.float64], kind: int) -> None:
+        if kind != HOLE:
+            self.feature.append(self._next)
+            self.owner.append(index)
+        self.rings.append(ring)
+        self.kinds.append(kind)
+        self.polygons.append(len(self.feature) - 1)
+
+
+def _open_end(ring: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Without the start at the end."""
+    return ring[:-1] if len(ring) > 1 and (ring[0] == ring[-1]).all() else ring

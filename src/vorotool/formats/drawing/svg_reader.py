@@ -1,0 +1,225 @@
+"""Polygons and lines of SVG drawings."""
+
+from __future__ import annotations
+
+import zlib
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from vorotool.errors import InputError, LimitError
+from vorotool.formats.compression.unpacking import unpack_gzip
+from vorotool.formats.drawing.curves import Affine
+from vorotool.formats.drawing.polygons import Shape, shapes_to_polygons
+from vorotool.formats.drawing.svg_document import GROUPS, Document
+from vorotool.formats.drawing.svg_shapes import (
+    MM,
+    PX,
+    SHAPES,
+    Geometry,
+    Viewport,
+    fitted,
+    parsed_length,
+    parsed_transform,
+    viewbox_of,
+)
+from vorotool.formats.drawing.svg_styles import Style
+from vorotool.formats.drawing.xml_tree import Element
+from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.reader_options import ReadOptions
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+
+GZIP_MAGIC = b"\x1f\x8b"
+MOST_BYTES = 2**29
+"""Of a drawing that is unpacked."""
+
+
+def read_svg(source: Source, options: ReadOptions) -> PolygonSet:
+    """Read the shapes of a drawing, one feature an element, with its id; curves become lines within a tolerance.
+
+    What is filled is polygons, by its fill rule; what is stroked only is an open line, or a polygon where it is closed.
+    Coordinates are in millimetres where the drawing has a size in mm, cm, in, pt or pc, else in its own units, with y
+    downwards.
+
+    Raises
+    ------
+    InputError
+        If the drawing is damaged, or holds what is no shape: text, images, clips, masks, patterns.
+    LimitError
+        If there is too much in it.
+    UsageError
+        If svgelements is not installed.
+
+    Examples
+    --------
+    >>> drawing = b'<svg xmlns="http://www.w3.org/2000/svg"><rect id="a" width="4" height="3"/></svg>'
+    >>> shapes = read_svg(Source("a.svg", drawing), ReadOptions())
+    >>> shapes.xy.tolist(), shapes.ids
+    ([[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]], ['a'])
+    """
+    document = Document.parsed(source.name, _unpacked(source))
+    page = _page(document)
+    reader = _Reader(document)
+    reader.walk_in(document.root, _State(page.map, Style(), page.viewport, None))
+    if document.hidden:
+        options.note(f"{source.name}: {document.hidden} elements that are not displayed are left out")
+    if reader.unpainted:
+        options.note(f"{source.name}: {reader.unpainted} shapes without fill and stroke are left out")
+    document.note_styles(options.note)
+    return shapes_to_polygons(source.name, reader.shapes, options, unit=page.unit)
+
+
+def _unpacked(source: Source) -> bytes:
+    """Undo the compression of .svgz files."""
+    if not source.data.startswith(GZIP_MAGIC):
+        return source.data
+    try:
+        data = unpack_gzip(source.data, MOST_BYTES)
+    except (ValueError, zlib.error) as error:
+        raise InputError(f"{source.name}: the compressed drawing is damaged ({error}); save it again") from None
+    if len(data) > MOST_BYTES:
+        raise LimitError(f"{source.name} unpacks to more than {MOST_BYTES} bytes: split the drawing")
+    return data
+
+
+# ---- the page --------------------------------------------------------------------------------------
+class _Page(NamedTuple):
+    """The map to the coordinates that are read, their unit, and what percentages are of."""
+
+    map: Affine
+    unit: str | None
+    viewport: Viewport
+
+
+def _page(document: Document) -> _Page:
+    """Of a drawing with a physical size, in mm; others stay in their own units."""
+    root = document.root
+    place = document.place(root)
+    box = viewbox_of(root.attributes, place)
+    if box is not None and (not box[2] or not box[3]):
+        raise InputError(f"{place}: the viewBox is empty, so that nothing is shown; give it a width and a height")
+    sizes = {name: _size(root, name, place) for name in ("width", "height")}
+    own = Viewport(*(box[2:] if box else (size or 0.0 for size, _ in sizes.values())))
+    if not any(is_physical for _, is_physical in sizes.values()):
+        return _Page(Affine(), None, own)
+    if box is None:
+        return _Page(Affine(PX, 0.0, 0.0, PX), "mm", own)
+    width, height = (sizes[name][0] for name in ("width", "height"))
+    if width is None and height is not None:
+        width = height * box[2] / box[3]
+    if height is None and width is not None:
+        height = width * box[3] / box[2]
+    assert width is not None
+    assert height is not None
+    if not width > 0 or not height > 0:
+        raise InputError(f"{place}: the drawing is {width:g} mm by {height:g} mm; give it a width and a height")
+    viewport = Viewport(width, height)
+    return _Page(fitted(box, viewport, root.attributes.get("preserveAspectRatio", "")), "mm", own)
+
+
+def _size(root: Element, name: str, place: str) -> tuple[float | None, bool]:
+    """Width or height in mm, with whether a physical unit says so; without, in px where it is alone."""
+    text = root.attributes.get(name, "").strip()
+    if text in ("", "auto"):
+        return None, False
+    number, unit = parsed_length(text, f"{place}: {name}")
+    if unit == "%":
+        return None, False
+    return (number * MM[unit], True) if unit in MM else (number * PX, False)
+
+
+# ---- elements --------------------------------------------------------------------------------------
+class _State(NamedTuple):
+    """What elements inherit: the map, the style, what percentages are of, the id of what uses them."""
+
+    map: Affine
+    style: Style
+    viewport: Viewport
+    used_as: str | None
+
+
+@dataclass
+class _Reader:
+    """What is found on a walk through a drawing."""
+
+    document: Document
+    shapes: list[Shape] = field(default_factory=list)
+    unpainted: int = 0
+
+    def walk_in(self, group: Element, state: _State) -> None:
+        for child in self.document.shown(group):
+            self.walk(child, state)
+
+    def walk(self, element: Element, state: _State) -> None:
+        document = self.document
+        is_shown = element.tag in SHAPES or element.tag in (*GROUPS, "use", "text", "image", "foreignObject")
+        if not is_shown:  # definitions, titles, what other programs keep for themselves
+            return
+        own = document.styles.of_element(element)
+        if own.get("display", "").lower() == "none":
+            document.hidden += 1
+            return
+        style = state.style.inherited_by(own)
+        if element.tag in (*SHAPES, "text", "image") and style.visibility in ("hidden", "collapse"):
+            document.hidden += 1
+            return
+        document.check_drawn(element)
+        document.check_own(element, own, style)
+        by = state.map.after(parsed_transform(own.get("transform", ""), document.place(element)))
+        state = state._replace(map=by, style=style)
+        if element.tag == "use":
+            self._use(element, state)
+        elif element.tag == "svg":
+            inner = self._viewport(element, element, state)
+            if inner is not None:
+                self.walk_in(element, inner)
+        elif element.tag in GROUPS:
+            self.walk_in(element, state)
+        else:
+            self._shape(element, state)
+
+    def _use(self, use: Element, state: _State) -> None:
+        target = self.document.target(use)
+        of = Geometry(use.attributes, self.document.place(use), state.viewport)
+        moved = state.map.after(Affine(e=of.across("x"), f=of.down("y")))
+        state = state._replace(map=moved, used_as=state.used_as or use.attributes.get("id"))
+        if target.tag not in ("symbol", "svg"):
+            self.walk(target, state)
+            return
+        own = self.document.styles.of_element(target)
+        self.document.check_own(target, own, state.style)
+        if own.get("display", "").lower() == "none":
+            return
+        inner = self._viewport(target, use, state._replace(style=state.style.inherited_by(own)))
+        if inner is not None:
+            self.walk_in(target, inner)
+
+    def _viewport(self, element: Element, sized: Element, state: _State) -> _State | None:
+        """What is inherited in an svg or a symbol, whose size another element may give; None if it shows nothing."""
+        place = self.document.place(element)
+        given = element.attributes | {k: sized.attributes[k] for k in ("width", "height") if k in sized.attributes}
+        of = Geometry(given, place, state.viewport)
+        width, height = of.across("width", state.viewport.width), of.down("height", state.viewport.height)
+        by = state.map
+        if element.tag == "svg":
+            by = by.after(Affine(e=of.across("x"), f=of.down("y")))
+        box = viewbox_of(element.attributes, place)
+        if box is None:
+            return state._replace(map=by, viewport=Viewport(width, height))
+        if not (box[2] and box[3] and width > 0 and height > 0):
+            return None
+        by = by.after(fitted(box, Viewport(width, height), element.attributes.get("preserveAspectRatio", "")))
+        return state._replace(map=by, viewport=Viewport(box[2], box[3]))
+
+    def _shape(self, element: Element, state: _State) -> None:
+        style, place = state.style, self.document.place(element)
+        is_line = element.tag == "line"
+        if not style.is_stroked and (is_line or not style.is_filled):
+            self.unpainted += 1
+            return
+        curves = SHAPES[element.tag](Geometry(element.attributes, place, state.viewport))
+        mapped = [curve.mapped(state.map) for curve in curves]
+        if not mapped:
+            return
+        identity = state.used_as or element.attributes.get("id")
+        rule = style.rule if style.is_filled and not is_line else None
+        self.shapes.append(Shape(mapped, rule, identity, place))

@@ -1,0 +1,251 @@
+"""The curves of the elements of SVG that are shapes, their lengths, and the transforms and viewports around them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from math import inf, isfinite, sqrt
+from typing import NamedTuple
+
+from vorotool.errors import InputError
+from vorotool.formats.drawing.curves import Affine, Arc, Curve, Line, Point, turned, whole_ellipse
+from vorotool.formats.drawing.svg_paths import path_curves
+from vorotool.formats.parsing.reader_options import shortened
+
+_NUMBER = r"(?>[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?)"  # in one way only: damaged text takes no longer
+_LENGTH = re.compile(rf"\s*({_NUMBER})\s*(|px|mm|cm|in|pt|pc|q|%)\s*", re.IGNORECASE)
+_GAP = r"(?>\s*,\s*|\s+|(?=[-+.)])|$)"
+_NUMBERS = re.compile(rf"\s*(?:{_NUMBER}{_GAP})*+")
+_TRANSFORMS = re.compile(
+    rf"\s*(?:(?:matrix|translate|scale|rotate|skewX|skewY)\s*\(\s*(?:{_NUMBER}(?:px|deg)?{_GAP})++\)[\s,]*+)*+"
+)
+MM = {"mm": 1.0, "cm": 10.0, "in": 25.4, "pt": 25.4 / 72, "pc": 25.4 / 6, "q": 0.25}
+"""Millimetres of the units of physical lengths."""
+PX = 25.4 / 96
+"""Millimetres of a px, which is the unit of coordinates where no viewBox makes another one of it."""
+
+
+class Viewport(NamedTuple):
+    """The width and height that percentages are of."""
+
+    width: float
+    height: float
+
+    @property
+    def diagonal(self) -> float:
+        """What percentages of radii are of."""
+        return sqrt((self.width * self.width + self.height * self.height) / 2)
+
+
+class Geometry:
+    """The attributes of one element that are numbers, with messages that name it."""
+
+    def __init__(self, attributes: Mapping[str, str], place: str, viewport: Viewport) -> None:
+        self.attributes, self.place, self.viewport = attributes, place, viewport
+
+    def length(self, name: str, of: float, default: float = 0.0) -> float:
+        """Give an attribute in px; percentages are of a length."""
+        text = self.attributes.get(name, "")
+        if not text.strip() or text.strip() == "auto":
+            return default
+        number, unit = parsed_length(text, f"{self.place}: {name}")
+        return number * of / 100 if unit == "%" else number * MM[unit] / PX if unit in MM else number
+
+    def across(self, name: str, default: float = 0.0) -> float:
+        """Give one of which percentages are of the width."""
+        return self.length(name, self.viewport.width, default)
+
+    def down(self, name: str, default: float = 0.0) -> float:
+        """Give one of which percentages are of the height."""
+        return self.length(name, self.viewport.height, default)
+
+    def size(self, name: str, of: float) -> float:
+        """Give one that cannot be negative."""
+        value = self.length(name, of)
+        if value < 0:
+            raise InputError(f"{self.place}: {name} is {value:g}; write 0 or more")
+        return value
+
+    def points(self) -> list[Point]:
+        """Give the places of a polyline or polygon."""
+        text = self.attributes.get("points", "")
+        if _NUMBERS.fullmatch(text) is None:
+            raise InputError(f"{self.place}: points is {shortened(text)}; write x,y x,y …")
+        numbers = [float(number) for number in re.findall(_NUMBER, text)]
+        if len(numbers) % 2:
+            raise InputError(f"{self.place}: points has {len(numbers)} numbers; each place needs two")
+        return list(zip(numbers[::2], numbers[1::2], strict=True))
+
+
+def parsed_length(text: str, what: str) -> tuple[float, str]:
+    """Give the number and the unit of a length; a px has none.
+
+    Examples
+    --------
+    >>> parsed_length("10 mm", "width"), parsed_length("3px", "width")
+    ((10.0, 'mm'), (3.0, ''))
+    """
+    match = _LENGTH.fullmatch(text)
+    number = float("nan") if match is None else float(match[1])
+    if match is None or not isfinite(number):
+        raise InputError(f"{what} is {shortened(text)}; write a number with px, mm, cm, in, pt, pc, q, % or no unit")
+    return number, match[2].lower().removesuffix("px")
+
+
+# ---- shapes --------------------------------------------------------------------------------------
+def _path(of: Geometry) -> list[Curve]:
+    data = of.attributes.get("d", "").strip()
+    return [] if data in ("", "none") else path_curves(data, of.place)
+
+
+def _polyline(of: Geometry) -> list[Curve]:
+    points = of.points()
+    return [Curve(points[0], [Line(point) for point in points[1:]])] if points else []
+
+
+def _polygon(of: Geometry) -> list[Curve]:
+    curves = _polyline(of)
+    for curve in curves:
+        curve.is_closed = True
+    return curves
+
+
+def _line(of: Geometry) -> list[Curve]:
+    start, end = ((of.across(f"x{k}"), of.down(f"y{k}")) for k in (1, 2))
+    return [Curve(start, [Line(end)])]
+
+
+def _circle(of: Geometry) -> list[Curve]:
+    return _ellipse_of(of, *[of.size("r", of.viewport.diagonal)] * 2)
+
+
+def _ellipse(of: Geometry) -> list[Curve]:
+    return _ellipse_of(of, *_corner(of))
+
+
+def _ellipse_of(of: Geometry, rx: float, ry: float) -> list[Curve]:
+    if not rx or not ry:
+        return []
+    return [whole_ellipse((of.across("cx"), of.down("cy")), (rx, 0.0), (0.0, ry))]
+
+
+def _corner(of: Geometry) -> tuple[float, float]:
+    """Radii, of which one may stand for both."""
+    rx, ry = of.size("rx", of.viewport.width), of.size("ry", of.viewport.height)
+    given = [of.attributes.get(name, "auto").strip() not in ("", "auto") for name in ("rx", "ry")]
+    return (rx if given[0] else ry, ry if given[1] else rx)
+
+
+def _rect(of: Geometry) -> list[Curve]:
+    width, height = of.size("width", of.viewport.width), of.size("height", of.viewport.height)
+    if not width or not height:
+        return []
+    x, y = of.across("x"), of.down("y")
+    rx, ry = _corner(of)
+    rx, ry = min(rx, width / 2), min(ry, height / 2)
+    right, bottom = x + width, y + height
+    if not rx or not ry:
+        corners = ((right, y), (right, bottom), (x, bottom))
+        return [Curve((x, y), [Line(corner) for corner in corners], is_closed=True)]
+    curve = Curve((x + rx, y), is_closed=True)
+    for cx, cy, end, ways, next_start in (
+        (right - rx, y + ry, (right, y + ry), ((0.0, -1.0), (1.0, 0.0)), (right - rx, y)),
+        (right - rx, bottom - ry, (right - rx, bottom), ((1.0, 0.0), (0.0, 1.0)), (right, bottom - ry)),
+        (x + rx, bottom - ry, (x, bottom - ry), ((0.0, 1.0), (-1.0, 0.0)), (x + rx, bottom)),
+        (x + rx, y + ry, (x + rx, y), ((-1.0, 0.0), (0.0, -1.0)), (x, y + ry)),
+    ):
+        curve.pieces += [Line(next_start), Arc((cx, cy), (rx, 0.0), (0.0, ry), ways, end)]
+    return [curve]
+
+
+SHAPES: dict[str, Callable[[Geometry], list[Curve]]] = {
+    "path": _path,
+    "polygon": _polygon,
+    "polyline": _polyline,
+    "line": _line,
+    "rect": _rect,
+    "circle": _circle,
+    "ellipse": _ellipse,
+}
+"""What makes the curves of each element that is a shape."""
+
+
+# ---- maps ----------------------------------------------------------------------------------------
+def _rotated(degrees: float, x: float = 0.0, y: float = 0.0) -> Affine:
+    cosine, sine = turned(degrees)
+    return Affine(e=x, f=y).after(Affine(cosine, sine, -sine, cosine)).after(Affine(e=-x, f=-y))
+
+
+def _skewed(degrees: float) -> float:
+    cosine, sine = turned(degrees)
+    return sine / cosine if cosine else inf
+
+
+_MAPS: dict[str, Callable[..., Affine]] = {
+    "matrix": Affine,
+    "translate": lambda x, y=0.0: Affine(e=x, f=y),
+    "scale": lambda x, y=None: Affine(a=x, d=x if y is None else y),
+    "rotate": _rotated,
+    "skewX": lambda degrees: Affine(c=_skewed(degrees)),
+    "skewY": lambda degrees: Affine(b=_skewed(degrees)),
+}
+_COUNTS = {"matrix": (6,), "translate": (1, 2), "scale": (1, 2), "rotate": (1, 3), "skewX": (1,), "skewY": (1,)}
+_TRANSFORM = re.compile(r"([a-zA-Z]+)\s*\(([^)]*)\)")
+
+
+def parsed_transform(text: str, place: str) -> Affine:
+    """Give the map of a transform attribute.
+
+    Examples
+    --------
+    >>> parsed_transform("translate(1, 2) scale(3)", "a.svg")
+    Affine(a=3.0, b=0.0, c=0.0, d=3.0, e=1.0, f=2.0)
+    """
+    if text in ("", "none"):
+        return Affine()
+    if _TRANSFORMS.fullmatch(text) is None:
+        raise InputError(
+            f"{place}: transform is {shortened(text)}; write matrix, translate, scale, rotate, skewX, skewY of numbers"
+        )
+    made = Affine()
+    for name, listed in _TRANSFORM.findall(text):
+        numbers = [float(number) for number in re.findall(_NUMBER, listed)]
+        if len(numbers) not in _COUNTS[name]:
+            raise InputError(f"{place}: transform is {shortened(text)}: the count of numbers in {name} is wrong")
+        made = made.after(_MAPS[name](*numbers))
+    if not all(map(isfinite, made)):
+        raise InputError(f"{place}: transform is {shortened(text)}, which goes beyond the largest number")
+    return made
+
+
+def viewbox_of(attributes: Mapping[str, str], place: str) -> tuple[float, float, float, float] | None:
+    """Give x, y, width and height of a viewBox; None if there is none."""
+    text = attributes.get("viewBox", "")
+    if not text.strip():
+        return None
+    numbers = [float(number) for number in re.findall(_NUMBER, text)] if _NUMBERS.fullmatch(text) else []
+    if len(numbers) != 4 or not all(map(isfinite, numbers)) or numbers[2] < 0 or numbers[3] < 0:
+        raise InputError(f"{place}: viewBox is {shortened(text)}; write x y width height")
+    x, y, width, height = numbers
+    return (x, y, width, height)
+
+
+def fitted(box: tuple[float, float, float, float], viewport: Viewport, aspect: str) -> Affine:
+    """Give the map of a viewBox into a viewport, as preserveAspectRatio says.
+
+    Examples
+    --------
+    >>> fitted((0, 0, 10, 10), Viewport(40, 20), "")
+    Affine(a=2.0, b=0.0, c=0.0, d=2.0, e=10.0, f=0.0)
+    """
+    x, y, width, height = box
+    across, down = viewport.width / width, viewport.height / height
+    words = aspect.removeprefix("defer").lower().split() or ["xmidymid"]
+    if words[0] != "none":
+        across = down = (max if "slice" in words else min)(across, down)
+    left, over = viewport.width - across * width, viewport.height - down * height
+    shares = {"min": 0.0, "mid": 0.5, "max": 1.0}
+    along, below = shares.get(words[0][1:4], 0.5), shares.get(words[0][5:8], 0.5)
+    if words[0] == "none":
+        along = below = 0.0
+    return Affine(across, 0.0, 0.0, down, along * left - across * x, below * over - down * y)

@@ -1,0 +1,381 @@
+"""Drawings in DXF, against shapely, what ezdxf flattens, and arcs by their angles."""
+
+import io
+import math
+import subprocess
+import sys
+
+import ezdxf
+import numpy as np
+import pytest
+import shapely
+
+import vorotool
+from vorotool.errors import InputError, LimitError, UsageError
+from vorotool.formats.drawing import dxf_reader
+from vorotool.formats.drawing.curves import Curve, Line
+from vorotool.formats.drawing.joining import joined
+from vorotool.geometry.polygons.conversion import to_shapely
+
+
+@pytest.fixture
+def drawing():
+    return ezdxf.new("R2010")
+
+
+def data_of(drawing, fmt="asc"):
+    if fmt == "bin":
+        out = io.BytesIO()
+        drawing.write(out, fmt="bin")
+        return out.getvalue()
+    out = io.StringIO()
+    drawing.write(out)
+    return out.getvalue().encode(drawing.output_encoding)
+
+
+def read(drawing, **options):
+    """Read a drawing or its bytes; gives it, and what was noted."""
+    from vorotool.formats.drawing.dxf_reader import read_dxf
+    from vorotool.formats.io.sources import Source
+    from vorotool.formats.parsing.reader_options import ReadOptions
+
+    notes = []
+    data = drawing if isinstance(drawing, bytes) else data_of(drawing)
+    return read_dxf(Source("a.dxf", data), ReadOptions(note=notes.append, **options)), notes
+
+
+# ---- entities ------------------------------------------------------------------------------------
+def test_areas(drawing):
+    space = drawing.modelspace()
+    space.add_circle((0, 0), 2)
+    space.add_ellipse((20, 0), (3, 4), 0.5)
+    space.add_lwpolyline([(40, 0, 0, 0, 1), (44, 0, 0, 0, 1)], close=True)
+    space.add_lwpolyline([(60, 0, 0, 0, math.tan(math.pi / 8)), (62, 0, 0, 0, 0), (61, 5, 0, 0, 0)], close=True)
+    space.add_polyline2d([(80, 0, -1), (84, 0, 0)], format="xyb", close=True)
+    space.add_solid([(100, 0), (103, 0), (100, 4), (103, 4)])
+    space.add_lwpolyline([(120, 0), (124, 0), (124, 3), (120, 0)])
+    shapes, notes = read(drawing, flatten=1e-6)
+    segment = math.pi / 2 - 1  # between a quarter of the circle with the radius sqrt(2) and its chord
+    wanted = [4 * math.pi, 12.5 * math.pi, 4 * math.pi, 5 + segment, 2 * math.pi, 12, 6]
+    assert shapely.area(to_shapely(shapes)) == pytest.approx(wanted, rel=1e-5)
+    assert shapes.y_up
+    assert not notes
+    assert not shapes.is_line.any()
+
+
+@pytest.mark.parametrize("bulge", [0.01, 0.3, 1, 1.7, 50, -0.2, -1, -3])
+def test_bulges_as_ezdxf_has_them(drawing, bulge):
+    start, end = (1.0, 2.0), (4.0, -1.0)
+    drawing.modelspace().add_lwpolyline([(*start, 0, 0, bulge), (*end, 0, 0, 0)])
+    line = read(drawing, flatten=1e-4)[0].xy
+    centre, first, last, radius = ezdxf.math.bulge_to_arc(start, end, bulge)
+    assert np.hypot(*(line - centre).T) == pytest.approx(np.full(len(line), radius))
+    assert line[0].tolist() == [*start]
+    assert line[-1].tolist() == [*end]
+    angles = np.unwrap(np.arctan2(*(line - centre).T[::-1]))
+    assert abs(angles[-1] - angles[0]) == pytest.approx((last - first) % (2 * math.pi))
+    assert (np.diff(angles) * bulge > 0).all()
+    middles = (line[1:] + line[:-1]) / 2
+    assert (radius - np.hypot(*(middles - centre).T) <= 1e-4).all()
+
+
+@pytest.mark.parametrize("angles", [(0, 90), (90, 0), (-30, 200), (350, 10), (10, 370), (0, 180), (180, 0), (45, 44)])
+def test_arcs(drawing, angles):
+    drawing.modelspace().add_arc((3, 4), 2, *angles)
+    shapes, _ = read(drawing, flatten=1e-4)
+    way = (angles[1] - angles[0]) % 360 or 360
+    assert bool(shapes.is_line[0]) == (way != 360)
+    line = to_shapely(shapes)[0]
+    length = (line if way != 360 else line.exterior).length
+    assert length == pytest.approx(math.radians(way) * 2, rel=1e-3)
+    if way != 360:
+        ends = [[3 + 2 * math.cos(math.radians(angle)), 4 + 2 * math.sin(math.radians(angle))] for angle in angles]
+        assert shapes.xy[[0, -1]] == pytest.approx(np.array(ends))
+
+
+@pytest.mark.parametrize("params", [(0, 1), (1, 0), (3, 6), (5, 2)])
+@pytest.mark.parametrize("extrusion", [(0, 0, 1), (0, 0, -1)])
+def test_ellipses_as_ezdxf_has_them(drawing, params, extrusion):
+    attributes = {"extrusion": extrusion}
+    ellipse = drawing.modelspace().add_ellipse((1, 2), (3, 1), 0.4, *params, dxfattribs=attributes)
+    theirs = shapely.LineString([(x, y) for x, y, _ in ellipse.vertices(ellipse.params(2001))])
+    ours = shapely.LineString(read(drawing, flatten=1e-4)[0].xy)
+    assert shapely.hausdorff_distance(theirs, ours) < 2e-4
+
+
+@pytest.mark.parametrize("kind", ["control", "rational", "fit", "closed"])
+@pytest.mark.parametrize("degree", [2, 3, 5])
+def test_splines_as_ezdxf_has_them(drawing, kind, degree):
+    space = drawing.modelspace()
+    points = [(0, 0), (3, 9), (8, -4), (12, 7), (20, 1), (18, -9), (5, -12)]
+    if kind == "control":
+        spline = space.add_open_spline(points, degree)
+    elif kind == "rational":
+        spline = space.add_rational_spline(points, [1, 2, 0.5, 3, 1, 1, 2], degree)
+    elif kind == "closed":
+        spline = space.add_spline()
+        spline.set_closed([(*point, 0) for point in points], degree)
+    else:
+        spline = space.add_spline(points, degree)
+    tool = spline.construction_tool()
+    curve = shapely.LineString([(x, y) for x, y, _ in tool.approximate(5000)])
+    shapes, _ = read(drawing, flatten=0.01)
+    line = to_shapely(shapes)[0]
+    assert shapely.hausdorff_distance(line if shapes.is_line[0] else line.exterior, curve) < 0.011
+    assert len(shapes.xy) < 400
+
+
+def test_what_is_seen_from_below_is_mirrored(drawing):
+    space = drawing.modelspace()
+    below = {"extrusion": (0, 0, -1)}
+    arc = space.add_arc((3, 4), 2, 10, 60, dxfattribs=below)
+    space.add_lwpolyline([(10, 0, 0, 0, 0.5), (12, 3, 0, 0, 0)], dxfattribs=below)
+    shapes, _ = read(drawing)
+    ends = sorted([[end.x, end.y] for end in (arc.start_point, arc.end_point)])
+    assert sorted(shapes.ring(0)[[0, -1]].tolist()) == [pytest.approx(end) for end in ends]
+    assert shapes.ring(1)[[0, -1]].tolist() == [[-10, 0], [-12, 3]]
+
+
+# ---- joining, nesting ------------------------------------------------------------------------------
+def test_lines_and_arcs_are_joined(drawing):
+    space = drawing.modelspace()
+    space.add_line((0, 0), (10, 0))
+    space.add_line((0, 0), (0, 10))
+    space.add_arc((10, 5), 5, -90, 90)
+    space.add_line((10, 10.000001), (0, 10))
+    space.add_line((50, 0), (60, 0))
+    shapes, _ = read(drawing, flatten=1e-4)
+    assert shapes.is_line.tolist() == [False, True]
+    assert to_shapely(shapes)[0].area == pytest.approx(100 + 12.5 * math.pi, rel=1e-4)
+    assert read(drawing, join_tolerance=1e-9)[0].is_line.tolist() == [True, True]
+    assert len(np.unique(shapes.ring(0), axis=0)) == len(shapes.ring(0))
+
+
+def test_layers_are_not_joined(drawing):
+    space = drawing.modelspace()
+    for k, (a, b) in enumerate([((0, 0), (4, 0)), ((4, 0), (4, 3)), ((4, 3), (0, 0))]):
+        space.add_line(a, b, dxfattribs={"layer": "ab"[k // 2]})
+    shapes, _ = read(drawing)
+    assert shapes.is_line.all()
+    assert shapes.properties["layer"] == ["a", "b"]
+    assert shapes.ring(0).tolist() == [[0, 0], [4, 0], [4, 3]]
+    assert not read(drawing, properties=False)[0].properties
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_chains_whatever_the_order_and_direction(seed):
+    rng = np.random.default_rng(seed)
+    ring = rng.integers(0, 1000, (8, 2)).astype(float)
+    sides = [(tuple(a), tuple(b)) for a, b in zip(ring, np.roll(ring, -1, axis=0), strict=True)]
+    if seed % 2:
+        sides = sides[:-1]
+    order = rng.permutation(len(sides))
+    curves = []
+    for k in order:
+        a, b = sides[k][:: rng.choice([-1, 1])]
+        curves.append(Curve(a, [Line(b)]))
+    made = joined(curves, 0.0)
+    assert len(made) == 1
+    assert made[0].is_closed == (seed % 2 == 0)
+    flat = made[0].flattened(1.0)
+    assert shapely.equals(shapely.LineString(flat if seed % 2 else [*flat, flat[0]]).normalize(),
+                          shapely.LineString(ring if seed % 2 else [*ring, ring[0]]).normalize())  # fmt: skip
+    assert len(flat) == 8
+
+
+def test_three_ends_that_meet_are_not_joined():
+    curves = [Curve((0.0, 0.0), [Line(end)]) for end in ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0))]
+    assert [len(curve.pieces) for curve in joined(curves, 0.1)] == [1, 1, 1]
+
+
+def test_rings_in_rings_are_holes(drawing):
+    space = drawing.modelspace()
+    for radius in (1, 5, 3, 2):
+        space.add_circle((0, 0), radius)
+    space.add_circle((0, 0), 4, dxfattribs={"layer": "other"})
+    shapes, _ = read(drawing, flatten=1e-5)
+    areas = sorted(shapely.area(to_shapely(shapes)))
+    assert areas == pytest.approx([3 * math.pi, 16 * math.pi, 16 * math.pi], rel=1e-4)
+    assert shapes.properties["layer"] == ["0", "0", "other"]
+    assert shapes.feature.tolist() == [0, 1, 2]
+
+
+def test_rings_that_cross_are_shells(drawing):
+    space = drawing.modelspace()
+    space.add_circle((0, 0), 2)
+    space.add_circle((1, 0), 2)
+    assert read(drawing)[0].ring_kind.tolist() == [0, 0]
+
+
+# ---- blocks, layers, what is left out --------------------------------------------------------------
+def test_blocks(drawing):
+    inner, outer = drawing.blocks.new("inner"), drawing.blocks.new("outer", base_point=(1, 1))
+    inner.add_circle((0, 0), 1)
+    inner.add_circle((0, 0), 0.5, dxfattribs={"layer": "own"})
+    outer.add_blockref("INNER", (1, 1))
+    drawing.modelspace().add_blockref("outer", (10, 5), {"xscale": 3, "yscale": 2, "rotation": 90, "layer": "l"})
+    shapes, _ = read(drawing, flatten=1e-5)
+    assert shapes.properties["layer"] == ["l", "own"]
+    assert shapely.bounds(to_shapely(shapes)[0]).tolist() == pytest.approx([8, 2, 12, 8])
+
+
+def test_arrays_of_blocks(drawing):
+    drawing.blocks.new("b").add_circle((0, 0), 1)
+    array = {"column_count": 3, "row_count": 2, "column_spacing": 10, "row_spacing": 20}
+    drawing.modelspace().add_blockref("b", (0, 0), array)
+    shapes, _ = read(drawing)
+    assert len(shapes) == 6
+    assert shapes.xy.max(axis=0).tolist() == pytest.approx([21, 21])
+
+
+def test_insertions_are_counted_before_they_are_made(drawing):
+    previous = drawing.blocks.new("b0")
+    previous.add_circle((0, 0), 1)
+    for k in range(40):
+        block = drawing.blocks.new(f"b{k + 1}")
+        block.add_blockref(f"b{k}", (0, 0))
+        block.add_blockref(f"b{k}", (1, 0))
+    drawing.modelspace().add_blockref("b40", (0, 0))
+    with pytest.raises(LimitError, match="more than 2097152 entities are drawn, as blocks are inserted many times"):
+        read(drawing)
+    other = ezdxf.new()
+    other.blocks.new("b").add_circle((0, 0), 1)
+    other.modelspace().add_blockref(
+        "b", (0, 0), {"column_count": 30000, "column_spacing": 1, "row_count": 30000, "row_spacing": 1}
+    )
+    with pytest.raises(LimitError, match="entities are drawn"):
+        read(other)
+
+
+def test_blocks_in_themselves(drawing):
+    drawing.blocks.new("a").add_blockref("b", (0, 0))
+    drawing.blocks.new("b").add_blockref("A", (0, 0))
+    drawing.modelspace().add_blockref("a", (0, 0))
+    with pytest.raises(InputError, match="block 'A' is inserted in itself; remove it"):
+        read(drawing)
+
+
+def test_blocks_that_are_not_there(drawing):
+    drawing.modelspace().add_blockref("none", (0, 0))
+    with pytest.raises(InputError, match="there is no block 'none', which is inserted"):
+        read(drawing)
+
+
+def test_deep_blocks(drawing):
+    for k in range(300):
+        drawing.blocks.new(f"b{k}").add_blockref(f"b{k + 1}", (0, 0))
+    drawing.blocks.new("b300")
+    drawing.modelspace().add_blockref("b0", (0, 0))
+    with pytest.raises(InputError, match="blocks are nested more than 100 deep"):
+        read(drawing)
+
+
+def test_what_is_left_out_is_said(drawing):
+    space = drawing.modelspace()
+    space.add_text("a")
+    space.add_mtext("b")
+    space.add_point((1, 2))
+    space.add_3dface([(0, 0), (1, 0), (1, 1)])
+    space.add_hatch()
+    space.add_circle((0, 0), 1, dxfattribs={"extrusion": (1, 0, 0)})
+    space.add_polymesh((2, 2))
+    space.add_linear_dim((0, 0), (0, 0), (1, 0))
+    drawing.layers.add("off").off()
+    drawing.layers.add("frozen").freeze()
+    for layer in ("off", "frozen"):
+        space.add_circle((0, 0), 1, dxfattribs={"layer": layer})
+    shapes, notes = read(drawing)
+    assert not len(shapes)
+    said = "1 3DFACE, 1 CIRCLE, 1 DIMENSION, 1 HATCH, 1 MTEXT, 1 POINT, 1 POLYLINE, 1 TEXT"
+    assert any(note.endswith(f"left out are {said}") for note in notes)
+    assert any("2 entities on layers that are off or frozen" in note for note in notes)
+
+
+@pytest.mark.parametrize(("number", "unit"), [(0, None), (1, "in"), (4, "mm"), (6, "m"), (13, "um"), (20, None)])
+def test_units(drawing, number, unit):
+    drawing.units = number
+    drawing.modelspace().add_circle((0, 0), 1)
+    assert read(drawing)[0].unit == unit
+
+
+@pytest.mark.parametrize("version", ["R12", "R2000", "R2004", "R2007", "R2018"])
+@pytest.mark.parametrize("fmt", ["asc", "bin"])
+def test_versions(version, fmt, tmp_path):
+    drawing = ezdxf.new(version)
+    drawing.modelspace().add_circle((1, 2), 3, dxfattribs={"layer": "Überhöhung"})
+    path = tmp_path / "drawing"
+    path.write_bytes(data_of(drawing, fmt))
+    shapes = vorotool.read(path)
+    assert len(shapes) == 1
+    assert shapes.properties["layer"] == ["Überhöhung"]
+
+
+def test_a_few_lines_are_a_drawing():
+    text = b"0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\n0\n10\n1.0\n20\n2.0\n40\n3.0\n0\nENDSEC\n0\nEOF\n"
+    assert len(read(text)[0]) == 1
+
+
+# ---- damage ------------------------------------------------------------------------------------------
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"",
+        b"0\nSECTION\n",
+        b"0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n40\nx\n0\nENDSEC\n0\nEOF\n",
+        b"x" * 99,
+        b"AutoCAD Binary DXF\r\n\x1a\0",
+        b"AutoCAD Binary DXF\r\n\x1a\0\0\0\0SEC",
+        b"\xff\xfe" * 9,
+    ],
+)
+def test_damaged_files(data):
+    with pytest.raises(InputError, match=r"^a\.dxf is no DXF that can be read \(.*\); save the drawing again"):
+        read(data)
+
+
+def test_places_beyond_numbers(drawing):
+    drawing.modelspace().add_circle((1e308, 0), 1e308)
+    with pytest.raises(InputError, match="layer 0: a place is beyond the largest number"):
+        read(drawing)
+
+
+def test_vertices_are_counted(drawing):
+    drawing.modelspace().add_circle((0, 0), 1)
+    with pytest.raises(LimitError, match="vertices, more than the limit of 10"):
+        read(drawing, max_sites=10)
+
+
+def test_options_of_the_library(tmp_path, drawing):
+    drawing.modelspace().add_circle((0, 0), 1)
+    path = tmp_path / "a.dxf"
+    path.write_bytes(data_of(drawing))
+    assert len(vorotool.read(path, flatten=0.5, join_tolerance=0).xy) == 4
+    with pytest.raises(UsageError, match="the tolerance is -1: it must be 0 or more"):
+        vorotool.read(path, join_tolerance=-1)
+    with pytest.raises(InputError, match="is a drawing, which holds polygons and lines"):
+        vorotool.read(path, geometry="points")
+
+
+# ---- the library -----------------------------------------------------------------------------------
+def test_without_the_library(monkeypatch, drawing):
+    data = data_of(drawing)
+    monkeypatch.setitem(sys.modules, "ezdxf", None)
+    with pytest.raises(UsageError, match=r"DXF drawings need the package ezdxf: pip install 'vorotool\[cad\]'"):
+        read(data)
+
+
+def test_no_settings_are_read(tmp_path, drawing):
+    drawing.modelspace().add_circle((0, 0), 1)
+    (tmp_path / "a.dxf").write_bytes(data_of(drawing))
+    (tmp_path / "ezdxf.ini").write_text("this is no file of settings")
+    script = "import vorotool\nprint(len(vorotool.read('a.dxf')))"
+    done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.stdout == "1\n", done.stderr
+
+
+def test_most_entities(monkeypatch, drawing):
+    monkeypatch.setattr(dxf_reader, "MOST_ENTITIES", 3)
+    for _ in range(4):
+        drawing.modelspace().add_circle((0, 0), 1)
+    with pytest.raises(LimitError, match="more than 3 entities"):
+        read(drawing)

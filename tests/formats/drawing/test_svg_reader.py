@@ -1,0 +1,486 @@
+"""Drawings in SVG: shapes, curves, transforms, units, styles, against svgelements and windings by brute force."""
+
+import gzip
+import io
+import math
+import random
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import shapely
+import svgelements
+
+import vorotool
+from vorotool.errors import InputError, LimitError, UsageError
+from vorotool.formats.drawing import svg_document, xml_tree
+from vorotool.formats.drawing.fill_rules import filled_polygons
+from vorotool.geometry.polygons.conversion import to_shapely
+
+
+def svg(body, attributes="", **options):
+    """Read a drawing with these elements; gives it, and what was noted."""
+    return read(f'<svg xmlns="http://www.w3.org/2000/svg" {attributes}>{body}</svg>', **options)
+
+
+def read(text, **options):
+    from vorotool.formats.drawing.svg_reader import read_svg
+    from vorotool.formats.io.sources import Source
+    from vorotool.formats.parsing.reader_options import ReadOptions
+
+    notes = []
+    data = text if isinstance(text, bytes) else text.encode()
+    return read_svg(Source("a.svg", data), ReadOptions(note=notes.append, **options)), notes
+
+
+def shape_of(body, attributes="", **options):
+    return shapely.union_all(shapely.make_valid(to_shapely(svg(body, attributes, **options)[0])))
+
+
+# ---- shapes --------------------------------------------------------------------------------------
+@pytest.mark.parametrize(
+    ("body", "area"),
+    [
+        ('<rect x="1" y="2" width="4" height="3"/>', 12),
+        ('<rect width="10" height="6" rx="2"/>', 60 - (4 - math.pi) * 4),
+        ('<rect width="10" height="6" rx="9" ry="1"/>', 60 - (4 - math.pi) * 5),
+        ('<circle cx="3" r="2"/>', 4 * math.pi),
+        ('<ellipse rx="2" ry="5"/>', 10 * math.pi),
+        ('<polygon points="0,0 4,0 4,3"/>', 6),
+        ('<polyline points="0 0 4 0 4 3"/>', 6),
+        ('<path d="M0 0H4V3z"/>', 6),
+        ('<path d="M0 0H4V3"/>', 6),
+        ('<path d="M-1 0A1 1 0 0 1 1 0z"/>', math.pi / 2),
+        ('<path d="M1 0A1 1 0 1 1 0 -1L0 0z"/>', 0.75 * math.pi),
+        ('<path d="M0 0Q1 2 2 0z"/>', 4 / 3),
+        ('<path d="M0 0C0 1 1 1 1 0z"/>', 0.6),
+        ('<path d="M0 0q1 2 2 0t2 0V-9H0z"/>', 36),
+        ('<g transform="scale(2,3)"><circle r="1"/></g>', 6 * math.pi),
+        ('<g transform="skewX(40) rotate(10)"><circle r="1"/></g>', math.pi),
+        ('<svg x="5" width="20" height="10" viewBox="0 0 2 2"><rect width="2" height="2"/></svg>', 100),
+        (
+            '<svg width="20" height="10" viewBox="0 0 2 2" preserveAspectRatio="none"><path d="M0 0h2v2h-2z"/></svg>',
+            200,
+        ),
+    ],
+)
+def test_areas(body, area):
+    found = shape_of(body, flatten=1e-6)
+    assert found.area == pytest.approx(area, rel=1e-5)
+
+
+def test_a_cubic_curve_is_within_the_tolerance():
+    control = np.array([[3.0, 1], [90, -40], [-20, 70], [50, 55]])
+    d = "M{} {}C{} {} {} {} {} {}".format(*control.ravel())
+    t = np.linspace(0, 1, 20001)[:, None]
+    curve = sum(math.comb(3, k) * t**k * (1 - t) ** (3 - k) * control[k] for k in range(4))
+    counts = []
+    for tolerance in (1.0, 0.1, 0.01):
+        line = svg(f'<path d="{d}" fill="none" stroke="red"/>', flatten=tolerance)[0].xy
+        assert shapely.hausdorff_distance(shapely.LineString(line), shapely.LineString(curve)) <= tolerance
+        counts.append(len(line))
+    assert counts == sorted(counts)
+    assert counts[-1] < 150
+
+
+def test_the_usual_tolerance_is_a_part_of_the_extent():
+    small, _ = svg('<circle r="1"/>')
+    large, _ = svg('<circle r="1e9"/>')
+    assert len(small) == len(large) == 1
+    assert len(small.xy) == len(large.xy)
+    radii = np.hypot(*small.xy.T)
+    assert np.allclose(radii, 1, atol=1e-15)
+    gaps = 1 - np.hypot(*((small.xy + np.roll(small.xy, 1, axis=0)) / 2).T)
+    assert gaps.max() <= 2 / 4096
+
+
+def random_body(rng, depth=0):
+    """Elements in groups, all with fills of their own."""
+
+    def number(scale=50):
+        return f"{rng.uniform(-scale, scale):.3f}"
+
+    def points(count):
+        return " ".join(number() for _ in range(2 * count))
+
+    def path():
+        text = f"M{points(1)}"
+        lower = "m"
+        for _ in range(rng.randint(1, 6)):
+            # svgelements goes on smoothly behind curves of another degree, too, which SVG does not
+            command = rng.choice("lLhHvVcCqQaAmM" + {"c": "sS" * 3, "s": "sS", "q": "tT" * 3, "t": "tT"}.get(lower, ""))
+            counts = {"l": 1, "c": 3, "s": 2, "q": 2, "t": 1, "m": 1}
+            lower = command.lower()
+            if lower in "hv":
+                text += command + number()
+            elif lower == "a":
+                text += f"{command}{rng.uniform(1, 40):.2f} {rng.uniform(1, 40):.2f} {number(180)} "
+                text += f"{rng.randint(0, 1)} {rng.randint(0, 1)} {points(1)}"
+            else:
+                text += command + points(counts[lower])
+            if rng.random() < 0.15:
+                text += "z"
+        return f'<path d="{text}"/>'
+
+    def transform():
+        each = [
+            f"rotate({number(180)})",
+            f"rotate({number(180)}, {number()}, {number()})",
+            f"translate({number()} {number()})",
+            f"scale({rng.uniform(0.5, 2):.2f})",
+            f"skewX({number(40)})",
+            f"skewY({number(40)})",
+            "matrix(1 .2 -.3 1 4 5)",
+        ]
+        return " ".join(rng.sample(each, rng.randint(1, 2)))
+
+    made = []
+    for _ in range(rng.randint(1, 3)):
+        kind = rng.randint(0, 6)
+        if kind == 0 and depth < 3:
+            made.append(f'<g transform="{transform()}">{random_body(rng, depth + 1)}</g>')
+        elif kind == 1:
+            made.append(
+                f'<rect x="{number()}" y="{number()}" width="{rng.uniform(1, 50)}" height="30" '
+                f'rx="{rng.randint(0, 9)}"/>'
+            )
+        elif kind == 2:
+            made.append(
+                f'<ellipse cx="{number()}" cy="{number()}" rx="{rng.uniform(1, 30)}" ry="7" transform="{transform()}"/>'
+            )
+        elif kind == 3:
+            made.append(f'<polygon points="{points(4)}"/>')
+        elif kind == 4:
+            made.append(f'<use href="#a" x="{number()}" y="{number()}" transform="{transform()}"/>')
+        else:
+            made.append(path())
+    return "".join(made)
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_random_drawings_as_svgelements_has_them(seed):
+    rng = random.Random(seed)
+    body = '<defs><path id="a" d="M0 0C9 9 20 -9 30 5L3 9z"/></defs>' + random_body(rng)
+    body = body.replace("/>", ' fill="none" stroke="red"/>')
+    text = f'<svg xmlns="http://www.w3.org/2000/svg">{body}</svg>'
+    lines = to_shapely(read(text, flatten=0.001)[0])
+    ours = shapely.union_all([line.exterior if line.geom_type == "Polygon" else line for line in lines])
+    places = []
+    for element in svgelements.SVG.parse(io.StringIO(text), reify=False).elements():
+        if isinstance(element, svgelements.Shape):
+            for segment in element.segments(transformed=False):
+                if not isinstance(segment, svgelements.Move) and segment.length() > 0:
+                    places += [tuple(segment.point(t) * element.transform) for t in np.linspace(0, 1, 9)]
+    assert places
+    apart = shapely.distance(shapely.points(places), ours)
+    assert apart.max() < 0.001001
+
+
+# ---- rules of fills ------------------------------------------------------------------------------
+def winding(rings, place):
+    """Sum of the angles that rings turn around a place."""
+    total = 0.0
+    for ring in rings:
+        away = ring - place
+        angle = np.arctan2(away[:, 1], away[:, 0])
+        turn = np.diff(np.append(angle, angle[0]))
+        total += ((turn + np.pi) % (2 * np.pi) - np.pi).sum()
+    return round(total / (2 * np.pi))
+
+
+@pytest.mark.parametrize("rule", ["nonzero", "evenodd"])
+@pytest.mark.parametrize("seed", range(40))
+def test_rules_of_fills_by_windings(seed, rule):
+    rng = np.random.default_rng(seed)
+    rings = []
+    for _ in range(rng.integers(1, 5)):
+        if seed % 2:  # crossing
+            rings.append(rng.uniform(0, 10, (rng.integers(3, 8), 2)))
+        else:  # nested squares, some beside each other
+            x, y, size = rng.integers(0, 3) * 10, 0, rng.integers(1, 5)
+            ring = np.array([[x, y], [x + size, y], [x + size, y + size], [x, y + size]], dtype=float)
+            ring += [5 - size / 2, 5 - size / 2]
+            rings.append(ring[:: rng.choice([-1, 1])])
+    filled = [shapely.Polygon(polygon[0], polygon[1:]) for polygon in filled_polygons(rings, rule)]
+    places = rng.uniform(0, 25, (400, 2))
+    edges = shapely.union_all([shapely.LinearRing(ring) for ring in rings])
+    for place in places:
+        point = shapely.Point(place)
+        if edges.distance(point) < 1e-9:
+            continue
+        turns = winding(rings, place)
+        wanted = turns % 2 == 1 if rule == "evenodd" else turns != 0
+        if len(rings) == 1 and rule == "evenodd":  # one ring, by the rule of `PolygonSet`
+            continue
+        assert sum(polygon.contains(point) for polygon in map(shapely.make_valid, filled)) == wanted
+
+
+def test_rings_that_do_not_cross_keep_their_vertices():
+    shapes, _ = svg('<path fill-rule="evenodd" d="M0 0h9.1v9h-9.1z M3 3v3h3.3v-3z M4 4h.5v.5z M20 0h1v1z"/>')
+    kinds = shapes.ring_kind.tolist()
+    assert kinds == [0, 1, 0, 0]
+    assert len(shapes) == 3
+    assert shapes.feature.tolist() == [0, 0, 0]
+    assert shapes.ring(1).tolist() == [[3, 3], [3, 6], [6.3, 6], [6.3, 3]]
+
+
+# ---- units, styles, structure --------------------------------------------------------------------
+@pytest.mark.parametrize(
+    ("attributes", "scale", "unit"),
+    [
+        ("", 1, None),
+        ('width="300" height="100"', 1, None),
+        ('width="300px" height="100" viewBox="0 0 30 10"', 1, None),
+        ('width="100%" viewBox="0 0 30 10"', 1, None),
+        ('width="100mm" height="50mm" viewBox="0 0 200 100"', 0.5, "mm"),
+        ('width="100mm" viewBox="0 0 200 100"', 0.5, "mm"),
+        ('height="5cm" viewBox="0 0 200 100"', 0.5, "mm"),
+        ('width="1in" height="1in" viewBox="0 0 254 254"', 0.1, "mm"),
+        ('width="1in" height="1in"', 25.4 / 96, "mm"),
+        ('width="72pt" height="6pc" viewBox="0 0 254 254"', 0.1, "mm"),
+        ('width="100mm" height="100mm" viewBox="0 0 200 100" preserveAspectRatio="xMinYMin"', 0.5, "mm"),
+    ],
+)
+def test_units(attributes, scale, unit):
+    shapes, _ = svg('<rect width="10" height="20"/>', attributes)
+    assert shapes.unit == unit
+    assert not shapes.y_up
+    assert shapes.xy.max(axis=0) == pytest.approx([10 * scale, 20 * scale])
+
+
+@pytest.mark.parametrize(
+    ("style", "expected"),
+    [
+        ('fill="none" stroke="red"', "line"),
+        ('style="fill:none;stroke:#000"', "line"),
+        ('class="b"', "line"),
+        ('class="a b c"', "line"),
+        ('id="i" fill="blue"', "line"),
+        ('fill="none"', None),
+        ('style="fill: none !important"', None),
+        ("", "polygon"),
+        ('style="fill:red;stroke:none"', "polygon"),
+        ('fill="url(#gradient)"', "polygon"),
+        ('style="display:none"', None),
+        ('visibility="hidden"', None),
+        ('class="hidden"', None),
+    ],
+)
+def test_styles(style, expected):
+    sheet = "<style>/* a */ .b,#i{fill:none;stroke:red} .hidden{display:none} g rect:hover{fill:none}</style>"
+    shapes, notes = svg(f'{sheet}<linearGradient id="gradient"/><path {style} d="M0 0L4 0 4 3"/>')
+    found = None if not len(shapes) else "line" if shapes.is_line[0] else "polygon"
+    assert found == expected
+    assert any("style rules" in note and "g rect:hover" in note for note in notes)
+    assert expected or any("left out" in note and "style" not in note for note in notes)
+
+
+def test_styles_are_inherited_and_groups_overruled():
+    shapes, _ = svg('<g fill="none" stroke="red"><path d="M0 0L1 0"/><path fill="red" d="M0 0L1 0 1 1"/></g>')
+    assert shapes.is_line.tolist() == [True, False]
+
+
+def test_closed_lines_are_polygons():
+    shapes, notes = svg('<g fill="none" stroke="red"><path d="M0 0h4v3z"/><path d="M0 0h4v3L0 0"/><circle r="3"/></g>')
+    assert not shapes.is_line.any()
+    assert shapes.ring(0).tolist() == shapes.ring(1).tolist()
+    assert any("3 closed lines without a fill are read as polygons" in note for note in notes)
+
+
+def test_ids_and_uses():
+    shapes, _ = svg(
+        '<defs><g id="g"><rect id="r" width="1" height="1"/><rect width="2" height="2"/></g></defs>'
+        '<symbol id="s" viewBox="0 0 2 2"><circle id="c" cx="1" cy="1" r="1"/></symbol>'
+        '<use href="#g" id="u"/><use x:href="#g" x="5" xmlns:x="http://www.w3.org/1999/xlink"/>'
+        '<use href="#s" x="10" width="20" height="20" id="v"/>'
+        '<switch><rect requiredExtensions="x" width="9" height="9"/>'
+        '<g><rect id="last" width="3" height="3"/></g></switch>'
+    )
+    assert list(shapes.ids) == ["u", "u", "r", None, "v", "last"]
+    assert shapely.bounds(to_shapely(shapes)[4]).tolist() == pytest.approx([10, 0, 30, 20])
+
+
+def test_definitions_are_not_drawn():
+    first = '<defs><rect width="1" height="1"/></defs><clipPath><path d="M0 0h1v1z"/></clipPath>'
+    others = '<marker><text>a</text></marker><title>a</title><metadata><rdf xmlns="x"/></metadata>'
+    assert len(svg(first + others)[0]) == 0
+
+
+# ---- what is refused -----------------------------------------------------------------------------
+REFUSED = [
+    ('<text id="t">a</text>', r"text #t is text.* Object to Path"),
+    ('<image href="a.png"/>', "image is an image"),
+    ("<foreignObject/>", "holds what is no SVG"),
+    ('<g clip-path="url(#c)"><rect width="1" height="1"/></g>', "g is clipped.*Path > Intersection"),
+    ('<rect width="1" height="1" style="mask:url(#m)"/>', "has a mask"),
+    ('<pattern id="p"/><rect fill="url(#p)" width="1" height="1"/>', r"painted with a pattern \(#p\).*flat fill"),
+    ('<use href="other.svg#a"/>', "'other.svg#a' is outside of the drawing, and never loaded"),
+    ('<use href="http://example.org/a"/>', "never loaded"),
+    ('<use href="#none"/>', "there is no element #none"),
+    ('<use id="u" href="#u"/>', "use #u is used within itself"),
+    ('<g id="g"><g><use href="#g"/></g></g>', "g #g is used within itself"),
+    ('<g id="g"><use href="#h"/></g><g id="h"><use href="#g"/></g>', "is used within itself"),
+    ('<path id="p" d="M0 0L1 1 Q2"/>', r"path #p: the path data are damaged near character 12 "),
+    ('<path d="M0 0L1 x"/>', r"damaged near character \d+ .*correct or remove it"),
+    ('<path d="L1 1"/>', "damaged"),
+    ('<path d="M0 0 A1 1"/>', "damaged"),
+    ('<path d="M0 0 h"/>', "damaged"),
+    ('<path d="M0 0 L1e999 0"/>', "beyond the largest number"),
+    ('<rect width="1e300" height="1" transform="scale(1e300)"/>', "beyond the largest number"),
+    ('<rect width="-1" height="1"/>', "width is -1; write 0 or more"),
+    ('<rect width="1em" height="1"/>', "width is '1em'; write a number"),
+    ('<circle r="x"/>', "r is 'x'"),
+    ('<polygon points="1 2 3"/>', "points has 3 numbers"),
+    ('<polygon points="1 2 a"/>', "points is '1 2 a'"),
+    ('<g transform="rotate(1 2 3"><rect width="1" height="1"/></g>', "transform is 'rotate"),
+    ('<g transform="matrix(1 2 3)"/>', "transform is 'matrix"),
+    ('<g style="transform-origin:1px 2px"/>', "transform-origin"),
+    ('<svg viewBox="0 0 1"/>', "viewBox is '0 0 1'"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("body", "message"), REFUSED)
+def test_what_is_refused(body, message):
+    with pytest.raises(InputError, match=f"(?s)^a.svg, line 1, .*{message}"):
+        svg(body)
+
+
+@pytest.mark.parametrize(("body", "message"), [each for each in REFUSED if each[0].startswith(("<text", "<image"))])
+def test_what_is_not_shown_is_not_refused(body, message):
+    for wrapped in (f"<defs>{body}</defs>", f'<g display="none">{body}</g>', f'<g visibility="hidden">{body}</g>'):
+        assert len(svg(wrapped)[0]) == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("<svg", "line 1: this is no well-formed XML"),
+        ("", "well-formed"),
+        ("<svg><g></svg>", "mismatched tag"),
+        ("<html/>", "is no SVG: it begins with <html>"),
+        ('<!DOCTYPE svg [<!ENTITY a "b">]><svg>&a;</svg>', r"declares an entity \(a\), and entities are not expanded"),
+        ('<!DOCTYPE svg [<!ENTITY a SYSTEM "file:///etc/passwd">]><svg>&a;</svg>', "entities are not expanded"),
+        ('<?xml version="1.0" encoding="none"?><svg/>', "a.svg"),
+        ("<svg>" * 300 + "</svg>" * 300, "nested more than 200 deep; ungroup"),
+        ('<svg viewBox="0 0 0 4" width="4mm"/>', "the viewBox is empty"),
+        ('<svg viewBox="0 0 4 4" width="0mm"/>', "the drawing is 0 mm by 0 mm"),
+        (b"\x1f\x8bxx", "the compressed drawing is damaged"),
+        (gzip.compress(b"<svg/>", mtime=0)[:-9], "the compressed drawing is damaged"),
+    ],
+)
+def test_damaged_files(text, message):
+    with pytest.raises(InputError, match=message):
+        read(text)
+
+
+def test_a_doctype_without_entities_is_read():
+    old = '<!DOCTYPE svg PUBLIC "-//W3C//DTD SVG 1.1//EN" "http://www.w3.org/Graphics/SVG/1.1/DTD/svg11.dtd">'
+    assert len(read(f'<?xml version="1.0"?>{old}<svg><rect width="1" height="1"/></svg>')[0]) == 1
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "latin-1"])
+def test_encodings(encoding):
+    name = encoding.removesuffix("-sig")
+    text = f'<?xml version="1.0" encoding="{name}"?><svg><rect id="é" width="1" height="1"/></svg>'
+    assert read(text.encode(encoding))[0].ids == ["é"]
+
+
+def test_uses_are_counted_before_they_are_made():
+    doublings = "".join(f'<g id="g{k + 1}"><use href="#g{k}"/><use href="#g{k}"/></g>' for k in range(60))
+    with pytest.raises(LimitError, match="more than 2097152 elements are drawn for it"):
+        svg(f'<g id="g0"><rect width="1" height="1"/></g>{doublings}')
+    assert len(svg(f'<defs><g id="g0"><rect width="1" height="1"/></g>{doublings}</defs><use href="#g4"/>')[0]) == 16
+
+
+def test_long_chains_of_uses_are_refused():
+    chain = "".join(f'<g id="g{k + 1}"><use href="#g{k}"/></g>' for k in range(5000))
+    with pytest.raises(InputError, match="nested more than 250 deep by what they use"):
+        svg(f'<g id="g0"/>{chain}')
+    backwards = "".join(f'<g id="g{k + 1}"><use href="#g{k}"/></g>' for k in reversed(range(5000)))
+    with pytest.raises(InputError, match="nested more than 250 deep by what they use"):
+        svg(f'{backwards}<g id="g0"/>')
+
+
+def test_many_elements_are_refused(monkeypatch):
+    monkeypatch.setattr(xml_tree, "MOST_ELEMENTS", 100)
+    with pytest.raises(LimitError, match="holds more than 100 elements"):
+        svg("<g/>" * 100)
+    monkeypatch.setattr(svg_document, "MOST_ELEMENTS", 10)
+    with pytest.raises(LimitError, match="more than 10 elements"):
+        svg("<g/>" * 12)
+
+
+def test_vertices_are_counted():
+    with pytest.raises(LimitError, match="vertices, more than the limit of 10"):
+        svg('<circle r="1"/>', max_sites=10)
+
+
+@pytest.mark.parametrize("text", ["1", "1.5", "1.2 ", "(", " ", "1e", ",", "-"])
+def test_hostile_attributes_take_no_longer(text):
+    text *= 50000
+    for body in (
+        f'<g transform="translate({text}x)"/>',
+        f'<polygon points="{text}x"/>',
+        f'<path d="M0 0L{text}x"/>',
+        f'<rect width="{text}x" height="1"/>',
+        f'<svg viewBox="{text}x"/>',
+    ):
+        with pytest.raises(InputError):
+            svg(body)
+
+
+# ---- through the front door ----------------------------------------------------------------------
+LOGO = (
+    '<svg xmlns="http://www.w3.org/2000/svg" width="20mm" viewBox="0 0 40 40"><path id="a" d="M0 0h40v20h-40z"/></svg>'
+)
+
+
+@pytest.mark.parametrize("name", ["a.svg", "a.svgz", "a", "b"])
+@pytest.mark.parametrize("geometry", [None, "polygons"])
+def test_files_and_contents(tmp_path, name, geometry):
+    path = tmp_path / name
+    path.write_bytes(gzip.compress(LOGO.encode()) if name in ("a.svgz", "b") else LOGO.encode())
+    shapes = vorotool.read(path, geometry=geometry)
+    assert shapes.xy.tolist() == [[0, 0], [20, 0], [20, 10], [0, 10]]
+    assert shapes.unit == "mm"
+    assert len(vorotool.read(path, input_format="svg", flatten=0.5)) == 1
+    with pytest.raises(InputError, match="is a drawing, which holds polygons and lines, and points or an image"):
+        vorotool.read(path, geometry="points")
+    with pytest.raises(UsageError, match="the tolerance is 0"):
+        vorotool.read(path, flatten=0)
+
+
+def test_the_unit_stays_with_what_is_made(tmp_path):
+    (tmp_path / "a.svg").write_text(LOGO)
+    shapes = vorotool.read(tmp_path / "a.svg")
+    skeleton = vorotool.skeleton_exact(shapes)
+    assert skeleton.polygons.unit == "mm"
+    assert vorotool.rebuild(skeleton).unit == "mm"
+    assert vorotool.offset(shapes, 1).flattened(0.1).unit == "mm"
+
+
+def test_without_the_library(tmp_path, monkeypatch):
+    (tmp_path / "a.svg").write_text(LOGO)
+    monkeypatch.setitem(sys.modules, "svgelements", None)
+    monkeypatch.setitem(sys.modules, "svgelements.svgelements", None)
+    with pytest.raises(UsageError, match=r"SVG drawings need the package svgelements: pip install 'vorotool\[cad\]'"):
+        vorotool.read(tmp_path / "a.svg")
+
+
+def test_nothing_is_loaded_or_fetched(tmp_path):
+    """No module that opens files or connections is asked by a drawing that names some."""
+    hostile = (
+        '<?xml-stylesheet href="http://localhost:9/a.css"?><!DOCTYPE svg SYSTEM "http://localhost:9/a.dtd">'
+        '<svg xmlns="http://www.w3.org/2000/svg"><style>@import url(http://localhost:9/b.css);</style>'
+        '<script href="http://localhost:9/c.js"/><rect width="1" height="1"/></svg>'
+    )
+    (tmp_path / "a.svg").write_text(hostile)
+    script = (
+        "import sys, vorotool\nevents = []\nvalue = vorotool.read('a.svg')\n"
+        "names = 'open', 'socket.connect'\n"
+        "sys.addaudithook(lambda name, args: events.append((name, args)) if name in names else None)\n"
+        "vorotool.read('a.svg')\nprint([args[0] for name, args in events], len(value))"
+    )
+    done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert done.stdout == "['a.svg'] 1\n"
