@@ -48,7 +48,8 @@ def command(**options: Any) -> None:
 
     \b
     Example:
-      vorotool skeleton-approx data/two-shapes.json --step 4 -o skeleton.svg
+      vorotool sample two-shapes.json -o two-shapes.json
+      vorotool skeleton-approx two-shapes.json --step 4 -o skeleton.svg
 
     INPUT is as for skeleton-exact. Of the Voronoi diagram of the samples, the edges between samples of one edge are
     left out, and those that the shapes cross. No point of an arc is farther from the exact skeleton than its

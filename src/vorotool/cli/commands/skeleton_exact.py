@@ -41,7 +41,8 @@ def command(**options: Any) -> None:
 
     \b
     Example:
-      vorotool skeleton-exact data/two-shapes.json -o skeleton.svg
+      vorotool sample two-shapes.json -o two-shapes.json
+      vorotool skeleton-exact two-shapes.json -o skeleton.svg
 
     INPUT holds polygons or open lines (JSON, GeoJSON, WKT, Triangle .poly), or is a mask or a label image (PNG, TIFF,
     PGM, JPEG, NPY), whose objects have outlines; - is standard input. Polygons are placed on a lattice of 31 bits over

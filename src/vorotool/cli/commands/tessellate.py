@@ -66,7 +66,8 @@ def command(**options: Any) -> None:
 
     \b
     Example:
-      vorotool tessellate data/dots.csv --size 512x512 -o labels.png
+      vorotool sample dots.csv -o dots.csv
+      vorotool tessellate dots.csv --size 512x512 -o labels.png
 
     INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, JPEG,
     NPY, Zarr); - is standard input. Label i is the i-th point; an image's own labels are kept.
