@@ -76,17 +76,28 @@ class Opened:
         return self.array or open_tiff(self.name, self.said, self.page)
 
     def read(
-        self, *, threads: int = 0, note: Callable[[str], None] | None = None, crs: str | None = None, **options: Any
+        self,
+        *,
+        threads: int = 0,
+        note: Callable[[str], None] | None = None,
+        crs: str | None = None,
+        told: Callable[[str], None] = no_note,
+        **options: Any,
     ) -> PointSet | PolygonSet | Raster | Skeleton | Offsets:
-        """Read all, with the options of `vorotool.read` that are not about opening it."""
+        """Read all, with the options of `vorotool.read` that are not about opening it.
+
+        ``told`` is called with the format, before what is in it is read.
+        """
         declared = None if crs is None else _declared(crs)
         given = ReadOptions(
             page=self.page, threads=checked_threads(threads), note=note or no_note, crs=declared, **options
         )
         if self.array is not None:
             refuse_crs(declared)
+            told("zarr")
             return read_rows(self.array, max_pixels=given.max_pixels)
         holds, source = recognised(read_source(self.name), self.geometry, self.said, given.columns)
+        told(source.format)
         value: PointSet | PolygonSet | Raster | Skeleton | Offsets = read_recognised(holds, source, given)
         return value
 

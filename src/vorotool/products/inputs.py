@@ -87,6 +87,15 @@ NAMES_WITH = {
 DRAWN_NAMES = NAMES_WITH["polygons"]
 """Formats of what is drawn again: label images, skeletons, offset curves, polygons and lines."""
 
+TAKEN_BY: Mapping[Holds, tuple[str, ...]] = {
+    "points": ("tessellate", "delaunay", "alphashape"),
+    "polygons": ("skeleton-approx", "skeleton-exact", "draw"),
+    "image": ("tessellate", "delaunay", "alphashape", "skeleton-approx", "skeleton-exact", "draw"),
+    "skeleton": ("skeleton-approx", "skeleton-exact", "draw"),
+    "offsets": ("draw",),
+}
+"""Commands that take what an input may hold; of skeletons those that make them take the polygons."""
+
 
 def known_input_format(name: str | None, names: Mapping[str, str] = NAMES_WITH[None]) -> str | None:
     """Return the format that a name stands for, in any case; None stays None.
