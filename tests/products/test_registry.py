@@ -80,9 +80,10 @@ READ = {
 }
 EXPECTED = {
     "help": "html, drawing,",
-    "documents": "| `offset` | JSON (`.json`), CSV (`.csv`), GeoJSON (`.geojson`), NPZ (`.npz`), WKT (`.wkt`), "
-    "JSON lines (`.jsonl`, `.ndjson`), Drawing (`.drw`)",
-    "refusal": "offset cannot be written as obj: use one of json, csv, geojson, npz, wkt, jsonl, drawing, svg, png",
+    "documents": "| `offset` | JSON (`.json`), CSV (`.csv`), TSV (`.tsv`), GeoJSON (`.geojson`), NPZ (`.npz`), "
+    "WKT (`.wkt`), JSON lines (`.jsonl`, `.ndjson`), Drawing (`.drw`)",
+    "refusal": "offset cannot be written as obj: use one of json, csv, tsv, geojson, npz, wkt, jsonl, drawing, svg, "
+    "png",
     "writing": " curves\n",
     "library": "1 curves\n",
 }

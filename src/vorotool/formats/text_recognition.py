@@ -10,6 +10,7 @@ from vorotool.formats.io.npy_arrays import MAGIC
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.convertible import refuse_convertible, refuse_geometry_column
 from vorotool.formats.parsing.geojson import holds_shapes, parse_json
+from vorotool.formats.parsing.json_lines import RECORD_MARK, is_json_lines
 from vorotool.formats.points.delimited import header_fields
 from vorotool.formats.points.tables import NPZ_MAGIC, is_table
 from vorotool.formats.polygons.json import is_list_of_shells
@@ -24,7 +25,7 @@ _WKT = re.compile(
 )
 _UTF8_MARK = b"\xef\xbb\xbf"
 _UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
-_WITH_COLUMNS = ("csv", "json", "npz")
+_WITH_COLUMNS = ("csv", "json", "jsonl", "npz")
 
 
 def recognised_geometry(
@@ -77,7 +78,7 @@ def point_format(source: Source) -> str:
     if by_suffix is not None and "points" in INPUTS[by_suffix].readers:
         return by_suffix
     head = source.data[:4096].removeprefix(_UTF8_MARK).lstrip()
-    for start, name in ((MAGIC, "npy"), (NPZ_MAGIC, "npz"), (b"{", "geojson"), (b"[", "json")):
+    for start, name in ((MAGIC, "npy"), (NPZ_MAGIC, "npz"), (b"{", "geojson"), (b"[", "json"), (RECORD_MARK, "jsonl")):
         if head.startswith(start):
             return name
     return "wkt" if _WKT.match(head) else "csv"
@@ -136,7 +137,8 @@ def _either(source: Source, said: str | None) -> tuple[Holds, Source]:
     if not has_shapes:
         return "points", source
     # an object without an extension may be of either kind: our own JSON, or GeoJSON
-    return "polygons", source if said or source.suffix == ".geojson" else replace(source, format="json")
+    is_told = said or source.suffix == ".geojson" or source.format == "jsonl"
+    return "polygons", source if is_told else replace(source, format="json")
 
 
 def _is_flat(data: bytes) -> bool:
@@ -147,13 +149,14 @@ def _is_flat(data: bytes) -> bool:
 
 
 def _points(source: Source, chosen: str, columns: str | None) -> Source:
-    if columns is not None and chosen not in _WITH_COLUMNS:
+    source = replace(source, format=chosen) if chosen in ("npy", "npz") else text_source(source, chosen)
+    if columns is not None and source.format not in _WITH_COLUMNS:
         raise UsageError(f"--columns is for delimited text, but {source.name} is read as {chosen}: leave it out")
-    return replace(source, format=chosen) if chosen in ("npy", "npz") else text_source(source, chosen)
+    return source
 
 
 def text_source(source: Source, chosen: str) -> Source:
-    """Take the byte order mark off, and refuse what is no text in an encoding that is read."""
+    """Take the byte order mark off, and refuse what is no text in an encoding that is read; tell JSON from lines."""
     if source.data.startswith(_UTF16_MARKS):
         raise InputError(f"{source.name} is UTF-16 text; save it as UTF-8 (iconv -f UTF-16 -t UTF-8)")
     if source.data.startswith(NPZ_MAGIC):
@@ -166,4 +169,6 @@ def text_source(source: Source, chosen: str) -> Source:
             f"{source.name} is binary, not points or polygons; use CSV, .node, NPY, .poly, GeoJSON, WKT or JSON, or "
             "say which with --input-format"
         )
-    return replace(source, data=source.data.removeprefix(_UTF8_MARK), format=chosen)
+    data = source.data.removeprefix(_UTF8_MARK)
+    is_lines = chosen in ("json", "geojson") and is_json_lines(data)
+    return replace(source, data=data, format="jsonl" if is_lines else chosen)

@@ -49,6 +49,12 @@ _ALL = (
         skeleton="formats.results.skeleton_json:read_skeleton",
         offsets="formats.results.offset_json:read_offsets",
     ),
+    _of(
+        "jsonl",
+        *("jsonl", "ndjson", "geojsonl", "geojsons"),
+        points="formats.points.json:read_json",
+        polygons="formats.polygons.json:read_json",
+    ),
     _of("poly", polygons="formats.polygons.poly:read_poly"),
     _of("png", image=_IMAGE),
     _of("tiff", "tiff", "tif", image=_IMAGE),
@@ -70,8 +76,8 @@ def names_of(*held: Holds) -> dict[str, str]:
 
     Examples
     --------
-    >>> names_of("polygons")
-    {'geojson': 'geojson', 'wkt': 'wkt', 'json': 'json', 'poly': 'poly'}
+    >>> names_of("polygons")["ndjson"]
+    'jsonl'
     """
     return {name: each.name for each in _ALL if each.readers.keys() & set(held) for name in each.names}
 

@@ -101,9 +101,9 @@ _CELLS = Writer("formats.results.cells:write_cells", ("fmt", "precision", "threa
 _MESHES = "Triangulation DigitalTriangulation"
 _MESH_LAYERS = _pictures("cells triangles diagram edges points labels")
 _DELAUNAY = (
-    _product("edges", _MESHES, "csv json geojson npz edge obj", _MESH, _MESH_LAYERS, "edges points"),
-    _product("triangles", _MESHES, "csv json geojson npz ele obj", _MESH, _MESH_LAYERS, "triangles edges points"),
-    _product("cells", "CellSet", "geojson csv json npz wkt", _CELLS, _MESH_LAYERS, "cells points"),
+    _product("edges", _MESHES, "csv tsv json geojson npz edge obj", _MESH, _MESH_LAYERS, "edges points"),
+    _product("triangles", _MESHES, "csv tsv json geojson npz ele obj", _MESH, _MESH_LAYERS, "triangles edges points"),
+    _product("cells", "CellSet", "geojson csv tsv json npz wkt", _CELLS, _MESH_LAYERS, "cells points"),
     _product("table", _MESHES, f"{_TABLES} node", _MESH),
     _product("compare", "", _TABLES, TABLE_WRITER),
 )
@@ -111,7 +111,7 @@ _DELAUNAY = (
 # ---- alphashape ----------------------------------------------------------------------------------
 _SHAPE = Writer("formats.results.alpha:write_shape")
 _SHAPE_LAYERS = _pictures("polygons delaunay interior boundary singular hull points labels")
-_EDGES = ("AlphaShape", "csv json geojson npz", _SHAPE, _SHAPE_LAYERS)
+_EDGES = ("AlphaShape", "csv tsv json geojson npz", _SHAPE, _SHAPE_LAYERS)
 _POLYGONS = ("AlphaShape", "geojson wkt json poly", _SHAPE, _SHAPE_LAYERS)
 _GENERAL = ("AlphaShape", "geojson wkt", _SHAPE, _SHAPE_LAYERS)
 _ALPHASHAPE = (
@@ -134,7 +134,7 @@ _CENTERLINES = Writer("formats.results.centerlines:write_centerlines", _LINES)
 _OFFSETS = Writer("formats.results.offsets:write_offsets", _LINES)
 _RINGS = Writer("formats.polygons.writer:write_polygons", ("fmt", "precision"))
 _POINTS = Writer("formats.results.points_along:write_skeleton_points")
-_CURVES = "json csv geojson npz wkt"
+_CURVES = "json csv tsv geojson npz wkt"
 _ARCS = _pictures("polygons elements points skeleton nodes labels")
 _ALONG = _pictures("polygons skeleton transects points")
 _SKELETONS = (

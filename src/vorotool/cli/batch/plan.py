@@ -180,7 +180,7 @@ def _joint_table(o: JobOptions) -> JointTable | None:
     else:
         fmt = EXTENSIONS.get(Path(path).suffix.lower(), "" if stream_kind(path) is None else "csv")
     if fmt not in TABLE_FORMATS:
-        raise UsageError(f"--table {path} is written as CSV or JSON: name it .csv or .json")
+        raise UsageError(f"--table {path} is written as CSV, TSV or JSON: name it .csv, .tsv or .json")
     return JointTable(path, fmt, o.safe_csv)
 
 

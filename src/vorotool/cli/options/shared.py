@@ -219,8 +219,8 @@ OPTIONS: dict[str, Decorator] = {
     "table": click.option(
         "--table",
         metavar="FILE",
-        help="Write the tables of all inputs as one (CSV, JSON).",
-        shell_complete=files(("csv", "json")),
+        help="Write the tables of all inputs as one (CSV, TSV, JSON).",
+        shell_complete=files(("csv", "tsv", "json")),
     ),
     "files-from": click.option(
         "--files-from",
@@ -280,7 +280,7 @@ OPTIONS: dict[str, Decorator] = {
     "safe-csv": click.option(
         "--safe-csv",
         is_flag=True,
-        help="Put ' before texts in CSV that a spreadsheet would take for formulas; numbers stay.",
+        help="Put ' before texts in CSV and TSV that a spreadsheet would take for formulas; numbers stay.",
     ),
     "no-properties": click.option(
         "--no-properties",

@@ -58,7 +58,7 @@ def write_shape(
         As of `vorotool.formats.text.tables.write_table`.
     value : AlphaShape, AlphaComplex or AlphaHull
         What to write.
-    fmt : {"csv", "json", "npz", "geojson", "wkt", "poly"}
+    fmt : {"csv", "tsv", "json", "npz", "geojson", "wkt", "poly"}
         The format.
     what : {"edges", "complex", "polygons", "general", "points", "table", "family", "spectrum", "hull"}
         The part; a family has the table of its radii and those of them at which the shape changes.

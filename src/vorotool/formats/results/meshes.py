@@ -47,7 +47,7 @@ def write_mesh(
         As of `vorotool.formats.text.tables.write_table`.
     mesh : Triangulation or DigitalTriangulation
         Rows are in the order of its arrays.
-    fmt : {"csv", "json", "geojson", "npz", "edge", "ele", "node", "obj"}
+    fmt : {"csv", "tsv", "json", "geojson", "npz", "edge", "ele", "node", "obj"}
         Edges are LineStrings in GeoJSON and lines in OBJ, triangles are Polygons and faces.
     what : {"edges", "triangles", "table"}
         What to write; the table has one row a point.

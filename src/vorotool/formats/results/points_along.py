@@ -33,7 +33,7 @@ def write_skeleton_points(
         As of `vorotool.formats.text.tables.write_table`.
     points : SkeletonPoints
         What to write, in its order.
-    fmt : {"csv", "json", "npz", "geojson", "wkt"}
+    fmt : {"csv", "tsv", "json", "npz", "geojson", "wkt"}
         The first three are of tables. GeoJSON has the id and the properties of the polygon, and ``branch``, ``along``,
         ``r`` and ``width``.
     what : {"points", "transects"}

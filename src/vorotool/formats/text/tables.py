@@ -1,4 +1,4 @@
-"""Writing tables as CSV, JSON or NPZ."""
+"""Writing tables as CSV, TSV, JSON or NPZ."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ _SLICE_VALUES = 1 << 16  # numbers of an array that are gathered and written at 
 def write_table(out: BinaryIO, table: Table, fmt: str, *, precision: int | None = None, threads: int = 0) -> None:
     r"""Write a table; the bytes depend on nothing but the table, the format and the precision.
 
-    What does not exist (masked, ``None``, or a number that is not finite) is an empty field in CSV, ``null``
-    in JSON, and marked in a further array ``<name>_missing`` in NPZ. Truth values are 0 and 1 in CSV.
+    What does not exist (masked, ``None``, or a number that is not finite) is an empty field in CSV and TSV,
+    ``null`` in JSON, and marked in a further array ``<name>_missing`` in NPZ. Truth values are 0 and 1 in CSV and TSV.
 
     Parameters
     ----------
@@ -31,13 +31,13 @@ def write_table(out: BinaryIO, table: Table, fmt: str, *, precision: int | None 
         Need not be seekable.
     table : Table
         Columns of numbers, truth values, text, or mixed objects.
-    fmt : {"csv", "json", "npz"}
-        CSV always has a header; JSON is a list of one object a row; NPZ has one array a column.
+    fmt : {"csv", "tsv", "json", "npz"}
+        CSV and TSV always have a header; JSON is a list of one object a row; NPZ has one array a column.
     precision : int, optional
         Significant digits of floating-point numbers in text; by default the shortest that
         reads back the same.
     threads : int
-        Threads for CSV; 0 for all.
+        Threads for text; 0 for all.
 
     Raises
     ------
@@ -54,15 +54,15 @@ def write_table(out: BinaryIO, table: Table, fmt: str, *, precision: int | None 
     """
     check_precision(precision)
     columns = [Column.of(name, values) for name, values in table.stored().items()]
-    if fmt == "csv":
-        _write_csv(out, columns, precision, threads)
+    if fmt in ("csv", "tsv"):
+        _write_delimited(out, columns, fmt == "tsv", precision, threads)
     elif fmt == "json":
         _write_json(out, columns, precision, threads)
     else:
         write_npz(out, columns, threads)
 
 
-# ---- CSV -----------------------------------------------------------------------------------------
+# ---- CSV and TSV ---------------------------------------------------------------------------------
 _SAFE: ContextVar[bool] = ContextVar("safe", default=False)
 _FORMULA = re.compile(r"[=+\-@\t\r]")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
@@ -70,7 +70,7 @@ _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 
 @contextmanager
 def safe_texts(is_wanted: bool = True) -> Iterator[None]:
-    """Keep spreadsheets from taking texts of the CSV written within for formulas: see `safe_text`."""
+    """Keep spreadsheets from taking texts of the CSV and TSV written within for formulas: see `safe_text`."""
     token = _SAFE.set(is_wanted)
     try:
         yield
@@ -89,11 +89,12 @@ def safe_text(text: str) -> str:
     return f"'{text}" if _FORMULA.match(text) and not _NUMBER.fullmatch(text) else text
 
 
-def _write_csv(out: BinaryIO, columns: list[Column], precision: int | None, threads: int) -> None:
-    write_rows(out, [Column(c.name, [safe_text(c.name) if _SAFE.get() else c.name]) for c in columns])
+def _write_delimited(out: BinaryIO, columns: list[Column], by_tabs: bool, precision: int | None, threads: int) -> None:
+    header = [Column(c.name, [safe_text(c.name) if _SAFE.get() else c.name]) for c in columns]
+    write_rows(out, header, by_tabs=by_tabs)
     is_safe = _SAFE.get()
     texts = [_with_texts(column, precision, is_safe=is_safe) for column in columns]
-    write_rows(out, texts, precision=precision, threads=threads)
+    write_rows(out, texts, by_tabs=by_tabs, precision=precision, threads=threads)
 
 
 def _with_texts(column: Column, precision: int | None, *, is_safe: bool) -> Column:
