@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import hashlib
 import json
 import os
@@ -10,6 +11,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, BinaryIO
 
+from vorotool.errors import InputError
 from vorotool.formats.text.tables import safe_text
 
 TABLE_FORMATS = ("csv", "tsv", "json")
@@ -27,7 +29,9 @@ def part_path(folder: str | os.PathLike[str], source: str, fmt: str) -> str:
     return str(Path(folder) / f"{hashlib.sha256(os.fsencode(source)).hexdigest()[:32]}.{fmt}")
 
 
-def join_tables(out: BinaryIO, parts: Sequence[tuple[str, str]], fmt: str, *, is_safe: bool = False) -> None:
+def join_tables(
+    out: BinaryIO, parts: Sequence[tuple[str, str]], fmt: str, *, is_safe: bool = False, has_unit: bool = False
+) -> None:
     r"""Write the rows of several tables as one, after a first column that names their input.
 
     Parameters
@@ -42,6 +46,13 @@ def join_tables(out: BinaryIO, parts: Sequence[tuple[str, str]], fmt: str, *, is
     is_safe : bool
         Names of inputs in CSV and TSV that look like formulas get an apostrophe, as the texts in the tables have it
         already.
+    has_unit : bool
+        Tables have a column of their unit, which must be one.
+
+    Raises
+    ------
+    InputError
+        If tables are in different units; two of them are named.
 
     Examples
     --------
@@ -51,10 +62,36 @@ def join_tables(out: BinaryIO, parts: Sequence[tuple[str, str]], fmt: str, *, is
     >>> out.getvalue()[:26]
     b'input,x,y\ndots,4,2\ndots,12'
     """
+    if has_unit:
+        _check_units(parts, fmt)
     if fmt == "json":
         _join_json(out, parts)
     else:
         _join_delimited(out, parts, b"\t" if fmt == "tsv" else b",", is_safe=is_safe)
+
+
+def _check_units(parts: Sequence[tuple[str, str]], fmt: str) -> None:
+    """Refuse tables in different units; those without rows are in none."""
+    first: tuple[str, str] | None = None
+    for source, path in parts:
+        row = _first_row(path, fmt)
+        if row is None:
+            continue
+        unit = row.get("voro_unit", row.get("unit"))
+        said = f"in {unit}" if unit else "in no unit"
+        if first is not None and first[1] != said:
+            raise InputError(
+                f"{source} is {said}, but {first[0]} {first[1]}: give --pixel-size for all, or a --table to each unit"
+            )
+        first = first or (source, said)
+
+
+def _first_row(path: str, fmt: str) -> dict[str, Any] | None:
+    if fmt == "json":
+        row: dict[str, Any] | None = json.loads(next(_json_rows(path), b"null"))
+        return row
+    with Path(path).open(encoding="utf-8", errors="surrogateescape", newline="") as file:
+        return next(csv.DictReader(file, dialect="excel-tab" if fmt == "tsv" else "excel"), None)
 
 
 def _columns(headers: Iterable[Iterable[bytes]]) -> list[bytes]:

@@ -10,10 +10,10 @@ import click
 from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.groups import site_options
 from vorotool.cli.options.help_page import GroupedCommand
+from vorotool.cli.options.lengths import Radius
 from vorotool.cli.options.shared import (
     Decimal,
     Names,
-    Radius,
     inputs_argument,
     output_options,
 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
-from math import inf, isfinite, nan
+from math import isfinite, nan
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -129,16 +129,6 @@ class CrsName(ParameterType[str]):
         if crs_member(value) is None:
             self.fail(f"{value!r} is none: write authority and code, such as EPSG:3857 or OGC:CRS84", param, ctx)
         return str(value)
-
-
-class Radius(Decimal):
-    """A decimal number, kept exactly, or infinity."""
-
-    name = "R"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Parse the number."""
-        return inf if value in ("inf", inf) else super().convert(value, param, ctx)
 
 
 class Shard(ParameterType[tuple[int, int]]):

@@ -53,13 +53,38 @@ def write_table(out: BinaryIO, table: Table, fmt: str, *, precision: int | None 
     b'label,x\n1,0.5\n2,\n'
     """
     check_precision(precision)
-    columns = [Column.of(name, values) for name, values in table.stored().items()]
+    columns = [Column.of(name, values) for name, values in _with_unit(table).items()]
     if fmt in ("csv", "tsv"):
         _write_delimited(out, columns, fmt == "tsv", precision, threads)
     elif fmt == "json":
         _write_json(out, columns, precision, threads)
     else:
         write_npz(out, columns, threads)
+
+
+# ---- units ---------------------------------------------------------------------------------------
+_UNIT: ContextVar[str | None] = ContextVar("unit", default=None)
+
+
+@contextmanager
+def unit_column(unit: str | None) -> Iterator[None]:
+    """Give tables that are written within a last column ``unit``; with None they have none.
+
+    Where the input brings a column of this name, ours is ``voro_unit``.
+    """
+    token = _UNIT.set(unit)
+    try:
+        yield
+    finally:
+        _UNIT.reset(token)
+
+
+def _with_unit(table: Table) -> dict[str, Any]:
+    columns, unit = table.stored(), _UNIT.get()
+    if unit is None or not columns:
+        return columns
+    column = Lookup([unit], np.zeros(table.rows, dtype=np.int32))
+    return columns | {"voro_unit" if "unit" in columns else "unit": column}
 
 
 # ---- CSV and TSV ---------------------------------------------------------------------------------
