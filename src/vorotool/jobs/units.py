@@ -132,12 +132,18 @@ def check_units(o: JobOptions, targets: Sequence[Target]) -> None:
     Raises
     ------
     UsageError
-        If all outputs are images or pictures; only the plot of curves has units.
+        If there are no lengths in any output.
     """
     if o.unit is None or _measured(o):
         return
-    if all(FORMATS[target.fmt].is_image and target.what != "curves" for target in targets):
+    if not any(_has_units(target) for target in targets):
         raise UsageError("--pixel-size is for tables and vectors: use --what table, or leave it out")
+
+
+def _has_units(target: Target) -> bool:
+    """Whether there are lengths in an output: of images in the plot of curves, and in arrays of places and radii."""
+    is_array = target.fmt == "npy" and target.what in ("points", "spectrum")
+    return is_array or target.what == "curves" or not FORMATS[target.fmt].is_image
 
 
 def in_units(size: PixelSize | None, value: Value) -> Value:

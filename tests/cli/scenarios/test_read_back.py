@@ -139,3 +139,17 @@ def test_lines_of_a_one_row_table_come_back_through_a_pipe(run, process, tmp_pat
     assert json.loads(made)["x"] == 2
     done = process("info", "-", stdin=-1)
     assert b"points     1\n" in done.communicate(made.encode())[0]
+
+
+def test_arrays_of_places_are_points_for_other_commands(run, tmp_path):
+    run("sample", "shape.json", "-o", "shape.json")
+    for size, more in ((1, []), (2, ["--pixel-size", "2um"])):
+        done = run("skeleton-exact", "shape.json", "--what", "points", "--every", "9", "-o", "a.npy", "-q", *more)
+        assert done.code == 0, done.err
+        rows = run("skeleton-exact", "shape.json", "--what", "points", "--every", "9", "-q").rows
+        assert np.load(tmp_path / "a.npy").tolist() == [
+            [size * float(row["x"]), size * float(row["y"])] for row in rows
+        ]
+        assert run("delaunay", "a.npy", "-q").code == 0
+    refused = run("delaunay", "a.npy", "--what", "triangles", "-o", "b.npy", "--pixel-size", "2um")
+    assert (refused.code, "--pixel-size is for tables and vectors" in refused.err) == (2, True)
