@@ -31,6 +31,8 @@ RUNS = {
     "skeleton-approx": ["shape.json --step 1 -o approximate.json"],
     "skeleton-exact": ["shape.json -o skeleton.json --verify", "shape.json -o skeleton.svg"],
     "draw": ["labels.png -o labels.svg", "skeleton.json -o again.png"],
+    "info": ["dots.csv mask.pgm shape.json", "labels.png --json"],
+    "sample": ["six-seeds.csv", "blobs.png -o blobs.png"],
     "completion": ["bash", "zsh", "fish"],
 }
 """Of each command what it is given, one after the other; a command that is not here is a failure."""

@@ -261,12 +261,12 @@ struct ColumnStore {
   }
 };
 
-// Around, separator and missing; without one, CSV.
+// Around, separator and missing; without one, delimited text.
 using ShapeTexts = nb::typed<nb::tuple, nb::typed<nb::tuple, nb::str, nb::ellipsis>, nb::str, nb::str>;
 
-core::text::RowShape shape_of(const std::optional<ShapeTexts>& shape, std::size_t columns,
+core::text::RowShape shape_of(const std::optional<ShapeTexts>& shape, std::size_t columns, bool by_tabs,
                               ColumnStore& store) {
-  if (!shape) return core::text::csv_shape(columns);
+  if (!shape) return core::text::delimited_shape(columns, by_tabs ? '\t' : ',');
   core::text::RowShape result;
   for (const nb::handle text : nb::cast<nb::tuple>((*shape)[0])) result.around.push_back(store.utf8(text));
   if (result.around.size() != columns + 1) throw nb::value_error("a row has one text more than columns");
@@ -277,11 +277,11 @@ core::text::RowShape shape_of(const std::optional<ShapeTexts>& shape, std::size_
 
 auto format_rows(const nb::typed<nb::list, nb::any>& values,
                  const std::vector<std::optional<InputArray<bool>>>& missing, int precision, unsigned threads,
-                 const std::optional<ShapeTexts>& shape) {
+                 const std::optional<ShapeTexts>& shape, bool by_tabs) {
   if (values.size() != missing.size()) throw nb::value_error("one mask, or None, a column");
   ColumnStore store;
   for (std::size_t i = 0; i < missing.size(); ++i) store.add(values[i], missing[i]);
-  const core::text::RowShape row = shape_of(shape, missing.size(), store);
+  const core::text::RowShape row = shape_of(shape, missing.size(), by_tabs, store);
   const std::vector<std::string> blocks =
       run_interruptible({}, core::text::format_rows, store.columns, row, precision, threads);
   nb::typed<nb::list, nb::bytes> result;
@@ -309,7 +309,7 @@ void bind_text(nb::module_& room) {
   room.def("first_record", &first_record, "text"_a, "delimiter"_a, "Its line, its text and its fields.");
   room.def("find_too_deep", &find_too_deep, "text"_a, "limit"_a);
   room.def("format_rows", &format_rows, "values"_a, "missing"_a, "precision"_a = 0, "threads"_a = 0,
-           "shape"_a = nb::none());
+           "shape"_a = nb::none(), "by_tabs"_a = false);
   nb::class_<core::text::NumberTexts>(room, "NumberTexts")
       .def("__init__", &make_number_texts, "values"_a, "precision"_a = 0, "threads"_a = 0)
       .def("__len__", &core::text::NumberTexts::size);

@@ -38,11 +38,11 @@ def test_rows_are_the_same_bytes(tmp_path):
     ]
 
 
-@pytest.mark.parametrize("fmt", ["csv", "json"])
+@pytest.mark.parametrize("fmt", ["csv", "tsv", "json"])
 def test_columns_of_any_table(tmp_path, fmt):
     data, _ = joined(tmp_path, [PLAIN, EMPTY, ODD], fmt)
-    if fmt == "csv":
-        read = rows_of(data)
+    if fmt != "json":
+        read = rows_of(data, "\t" if fmt == "tsv" else ",")
         none, text = "", str
     else:
         read, none, text = json.loads(data), None, lambda value: value
@@ -50,7 +50,7 @@ def test_columns_of_any_table(tmp_path, fmt):
     assert set(read[0]) == set(names)
     assert [row["voro_input"] for row in read] == ["a", "a", "c"]
     assert [row["note"] for row in read] == [none, none, 'a "b", c\nd']
-    assert [row["x"] for row in read] == [text(0.1), none, "1e+22" if fmt == "csv" else 1e22]
+    assert [row["x"] for row in read] == [text(0.1), none, 1e22 if fmt == "json" else "1e+22"]
     assert [(row["ü"], row["input"]) for row in read] == [(none, none), (none, none), ("é", text(3.5))]
 
 

@@ -62,11 +62,11 @@ import pytest
         ),
         (
             ["tessellate", "dots.csv", "-o", "a.png", "--input-format", "xyz"],
-            ["invalid --input-format 'xyz': expected one of csv, tsv, txt, node, npz, geojson, wkt, json, png, tiff"],
+            ["invalid --input-format 'xyz': expected one of csv, tsv, txt, node, npz, geojson, wkt, json, jsonl"],
         ),
         (
             ["draw", "mask.pbm", "-o", "a.png", "--input-format", "xyz"],
-            ["invalid --input-format 'xyz': expected one of geojson, wkt, json, poly, svg, svgz, dxf, png, tiff, tif"],
+            ["invalid --input-format 'xyz': expected one of csv, tsv, txt, csv-wkt, geojson, wkt, json, jsonl, ndjson"],
         ),
         (["paint"], ["paint"]),
         (["--colour"], ["--colour"]),

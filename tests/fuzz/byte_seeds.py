@@ -172,8 +172,14 @@ def _texts() -> list[tuple[str, str, bytes]]:
     lists = ["[[1,2],[3,4.5],[6,7]]", "[[[0,0],[9,0],[9,6]],[[1,1],[2,1],[2,2]]]", "[[0,0],[9,0],[9,6],[4,2]]"]
     shell = '{"shell":[[0,0],[9,0],[9,9],[0,9]],"holes":[[[1,1],[2,1],[2,2]]],"properties":{"name":"a"}}'
     lists.append(f'{{"polygons":[{shell},{{"line":[[10,1],[12,2]]}}]}}')
+    rows = '{"x":1,"y":2.5,"name":"a"}\n{"x":4,"y":0,"name":null}\n{"x":9,"y":9,"name":"b"}\n'
+    ring = (
+        '{"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9],[0,0]]]}}\n'
+    )
+    lines = [rows, ring + ring, f"\x1e{ring}\x1e{ring}"]
     return (
         [("csv", "a.csv", text.encode()) for text in tables]
+        + [("json", "a.jsonl", text.encode()) for text in lines]
         + [("node", "a.node", node.encode()), ("poly", "a.poly", poly.encode())]
         + [("json", "a.json", text.encode()) for text in lists]
     )

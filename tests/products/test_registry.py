@@ -80,10 +80,10 @@ READ = {
 }
 EXPECTED = {
     "help": "html, drawing,",
-    "documents": "| `offset` | JSON (`.json`), CSV (`.csv`), GeoJSON (`.geojson`), NPZ (`.npz`), WKT (`.wkt`), "
-    "JSON lines (`.jsonl`, `.ndjson`), GeoPackage (`.gpkg`), FlatGeobuf (`.fgb`), Shapefile (`.shp`), "
+    "documents": "| `offset` | JSON (`.json`), CSV (`.csv`), TSV (`.tsv`), GeoJSON (`.geojson`), NPZ (`.npz`), "
+    "WKT (`.wkt`), JSON lines (`.jsonl`, `.ndjson`), GeoPackage (`.gpkg`), FlatGeobuf (`.fgb`), Shapefile (`.shp`), "
     "GeoParquet (`.parquet`, `.geoparquet`), DXF (`.dxf`), Drawing (`.drw`)",
-    "refusal": "offset cannot be written as obj: use one of json, csv, geojson, npz, wkt, jsonl, gpkg, fgb, shp, "
+    "refusal": "offset cannot be written as obj: use one of json, csv, tsv, geojson, npz, wkt, jsonl, gpkg, fgb, shp, "
     "parquet, dxf, drawing, svg, png\n",
     "writing": " curves\n",
     "library": "1 curves\n",

@@ -91,8 +91,8 @@ def test_the_part_that_a_format_is_for(name, fmt, what):
             "what='arcs' is nothing that a Skeleton is written as: use skeleton or elements or",
         ),
         ("Offsets", "csv", "arcs", "what='arcs' is nothing that a Offsets is written as: leave it out"),
-        ("Skeleton", "graphml", "branches", "branches cannot be written as 'graphml': use one of csv, json, npz"),
-        ("Table", "svg", None, "a Table cannot be written as 'svg': use one of csv, json, npz"),
+        ("Skeleton", "graphml", "branches", "branches cannot be written as 'graphml': use one of csv, tsv, json, npz"),
+        ("Table", "svg", None, "a Table cannot be written as 'svg': use one of csv, tsv, json, npz"),
     ],
 )
 def test_what_there_is_not(name, fmt, what, message):

@@ -15,7 +15,7 @@ struct FieldWriter {
   std::string& out;
   std::size_t row;
   int precision;
-  bool is_csv;
+  char delimiter;
 
   bool operator()(std::span<const std::int64_t> values) const {
     append_number(out, values[row]);
@@ -31,8 +31,8 @@ struct FieldWriter {
     return true;
   }
   bool operator()(std::span<const std::string_view> values) const {
-    if (is_csv) {
-      append_csv_field(out, values[row]);
+    if (delimiter != '\0') {
+      append_csv_field(out, values[row], delimiter);
     } else {
       out += values[row];
     }
@@ -45,7 +45,8 @@ struct FieldWriter {
   }
   bool operator()(const PolygonTexts* polygons) const {
     const std::size_t begin = out.size();
-    if (is_csv) out += '"';  // commas abound
+    const bool is_csv = delimiter == ',';  // commas abound
+    if (is_csv) out += '"';
     const bool exists = polygons->append(out, row, precision);
     if (is_csv) out += '"';
     if (!exists) out.resize(begin);
@@ -57,7 +58,7 @@ void append_field(std::string& out, const TextColumn& column, std::size_t row, c
                   int precision) {
   if (column.index) row = (*column.index)[row];
   const bool exists = column.missing.empty() || column.missing[row] == 0;
-  if (!exists || !std::visit(FieldWriter{out, row, precision, shape.is_csv}, column.values)) {
+  if (!exists || !std::visit(FieldWriter{out, row, precision, shape.delimiter}, column.values)) {
     out += shape.missing;
   }
 }
@@ -71,7 +72,7 @@ void append_row(std::string& out, std::span<const TextColumn> columns, std::size
     if (i > 0) out += shape.around[i];
     append_field(out, columns[i], row, shape, precision);
   }
-  if (shape.is_csv && out.size() == begin) out += "\"\"";
+  if (shape.delimiter != '\0' && out.size() == begin) out += "\"\"";
   out += shape.around.back();
 }
 
@@ -85,10 +86,12 @@ std::size_t size_of(std::span<T> values) {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 
-bool needs_quotes(std::string_view value) {
+// Commas and semicolons would make a reader of comma-separated text take them for delimiters; beside tabs, which
+// are looked for first, they are texts like others.
+bool needs_quotes(std::string_view value, char delimiter) {
   if (value.empty()) return false;
   return is_blank(value.front()) || is_blank(value.back()) || value.front() == '#' ||
-         value.find_first_of(",;\t\"\r\n") != std::string_view::npos;
+         value.find_first_of(delimiter == '\t' ? "\t\"\r\n" : ",;\t\"\r\n") != std::string_view::npos;
 }
 
 }  // namespace
@@ -101,8 +104,9 @@ std::size_t row_count(const TextColumn& column) {
   return column.index ? column.index->size : value_count(column);
 }
 
-RowShape csv_shape(std::size_t columns) {
-  RowShape shape{std::vector<std::string_view>(columns + 1, ","), "", "", true};
+RowShape delimited_shape(std::size_t columns, char delimiter) {
+  const std::string_view between = delimiter == '\t' ? "\t" : ",";
+  RowShape shape{std::vector<std::string_view>(columns + 1, between), "", "", between.front()};
   shape.around.front() = "";
   shape.around.back() = "\n";
   return shape;
@@ -122,8 +126,8 @@ std::vector<std::string> format_rows(std::span<const TextColumn> columns, const 
   return blocks;
 }
 
-void append_csv_field(std::string& out, std::string_view value) {
-  if (!needs_quotes(value)) {
+void append_csv_field(std::string& out, std::string_view value, char delimiter) {
+  if (!needs_quotes(value, delimiter)) {
     out += value;
     return;
   }

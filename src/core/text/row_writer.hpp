@@ -45,11 +45,11 @@ struct RowShape {
   std::vector<std::string_view> around;  // before the first field, between fields, after the last one
   std::string_view separator;            // between rows
   std::string_view missing;              // instead of a field that does not exist
-  bool is_csv = false;                   // texts are put in quotes where a reader of CSV would misread them
+  char delimiter = '\0';  // of fields: texts are put in quotes where a reader would misread them; or none
 };
 
-// The shape of comma-separated text with `columns` columns, each row ended by LF.
-RowShape csv_shape(std::size_t columns);
+// The shape of text with `columns` columns, a comma or a tab between them, each row ended by LF.
+RowShape delimited_shape(std::size_t columns, char delimiter);
 
 // The text of the rows in blocks to be written one after the other. All columns have the same length. Doubles
 // have `precision` significant digits, or with 0 the shortest text that reads back the same. The text does
@@ -57,7 +57,7 @@ RowShape csv_shape(std::size_t columns);
 std::vector<std::string> format_rows(std::span<const TextColumn> columns, const RowShape& shape,
                                      int precision, unsigned threads, const base::Monitor& monitor = {});
 
-// A field as it stands in comma-separated text: in quotes where a reader would otherwise misread it.
-void append_csv_field(std::string& out, std::string_view value);
+// A field as it stands in delimited text: in quotes where a reader would otherwise misread it.
+void append_csv_field(std::string& out, std::string_view value, char delimiter = ',');
 
 }  // namespace vorotool::core::text

@@ -8,6 +8,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from vorotool.batch.manifest import RECORD_ENDING
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.zarr.store import is_folder, is_store
@@ -56,8 +57,8 @@ def expand_inputs(
     Parameters
     ----------
     names : iterable of str
-        Files; folders, which are searched for files with the extensions, hidden ones left out; patterns with ``*``,
-        ``?`` or ``[``, of which ``**`` matches any folders.
+        Files; folders, which are searched for files with the extensions, hidden ones and records of batches left out;
+        patterns with ``*``, ``?`` or ``[``, of which ``**`` matches any folders.
     extensions : collection of str
         Without their dots, in lower case.
     without : path, optional
@@ -189,5 +190,9 @@ def _walk(folder: str, extensions: frozenset[str], excluded: str | None) -> Iter
         stores = [name for name in folders if is_store(Path(place) / name)]
         folders[:] = [name for name in folders if name not in stores]
         for name in (*files, *stores):
-            if not name.startswith(".") and Path(name).suffix.lower().lstrip(".") in extensions:
+            if (
+                not name.startswith(".")
+                and not name.endswith(RECORD_ENDING)
+                and Path(name).suffix.lower().lstrip(".") in extensions
+            ):
                 yield below / name

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import hashlib
 import json
 import os
@@ -10,9 +11,10 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, BinaryIO
 
+from vorotool.errors import InputError
 from vorotool.formats.text.tables import safe_text
 
-TABLE_FORMATS = ("csv", "json")
+TABLE_FORMATS = ("csv", "tsv", "json")
 """Formats that are joined row by row."""
 
 
@@ -27,7 +29,9 @@ def part_path(folder: str | os.PathLike[str], source: str, fmt: str) -> str:
     return str(Path(folder) / f"{hashlib.sha256(os.fsencode(source)).hexdigest()[:32]}.{fmt}")
 
 
-def join_tables(out: BinaryIO, parts: Sequence[tuple[str, str]], fmt: str, *, is_safe: bool = False) -> None:
+def join_tables(
+    out: BinaryIO, parts: Sequence[tuple[str, str]], fmt: str, *, is_safe: bool = False, has_unit: bool = False
+) -> None:
     r"""Write the rows of several tables as one, after a first column that names their input.
 
     Parameters
@@ -37,10 +41,18 @@ def join_tables(out: BinaryIO, parts: Sequence[tuple[str, str]], fmt: str, *, is
     parts : sequence of (str, str)
         Name of each input and path of its table, in the order of the rows. Columns that a table does not have are
         empty; all come in the order in which they are first met. One part is in memory at a time.
-    fmt : {"csv", "json"}
+    fmt : {"csv", "tsv", "json"}
         Of the tables, and of what is written.
     is_safe : bool
-        Names of inputs in CSV that look like formulas get an apostrophe, as the texts in the tables have it already.
+        Names of inputs in CSV and TSV that look like formulas get an apostrophe, as the texts in the tables have it
+        already.
+    has_unit : bool
+        Tables have a column of their unit, which must be one.
+
+    Raises
+    ------
+    InputError
+        If tables are in different units; two of them are named.
 
     Examples
     --------
@@ -50,10 +62,36 @@ def join_tables(out: BinaryIO, parts: Sequence[tuple[str, str]], fmt: str, *, is
     >>> out.getvalue()[:26]
     b'input,x,y\ndots,4,2\ndots,12'
     """
-    if fmt == "csv":
-        _join_csv(out, parts, is_safe=is_safe)
-    else:
+    if has_unit:
+        _check_units(parts, fmt)
+    if fmt == "json":
         _join_json(out, parts)
+    else:
+        _join_delimited(out, parts, b"\t" if fmt == "tsv" else b",", is_safe=is_safe)
+
+
+def _check_units(parts: Sequence[tuple[str, str]], fmt: str) -> None:
+    """Refuse tables in different units; those without rows are in none."""
+    first: tuple[str, str] | None = None
+    for source, path in parts:
+        row = _first_row(path, fmt)
+        if row is None:
+            continue
+        unit = row.get("voro_unit", row.get("unit"))
+        said = f"in {unit}" if unit else "in no unit"
+        if first is not None and first[1] != said:
+            raise InputError(
+                f"{source} is {said}, but {first[0]} {first[1]}: give --pixel-size for all, or a --table to each unit"
+            )
+        first = first or (source, said)
+
+
+def _first_row(path: str, fmt: str) -> dict[str, Any] | None:
+    if fmt == "json":
+        row: dict[str, Any] | None = json.loads(next(_json_rows(path), b"null"))
+        return row
+    with Path(path).open(encoding="utf-8", errors="surrogateescape", newline="") as file:
+        return next(csv.DictReader(file, dialect="excel-tab" if fmt == "tsv" else "excel"), None)
 
 
 def _columns(headers: Iterable[Iterable[bytes]]) -> list[bytes]:
@@ -62,30 +100,34 @@ def _columns(headers: Iterable[Iterable[bytes]]) -> list[bytes]:
     return [b"voro_input" if b"input" in names else b"input", *names]
 
 
-# ---- CSV -----------------------------------------------------------------------------------------
+# ---- CSV and TSV ---------------------------------------------------------------------------------
 # The texts of fields stay as they were written, with their quotes.
 _RECORD = re.compile(rb'(?:[^"\n]+|"[^"]*")*\n')
-_FIELDS = re.compile(rb'(?:^|,)((?:[^",]+|"[^"]*")*)')
+_FIELDS = {
+    b",": re.compile(rb'(?:^|,)((?:[^",]+|"[^"]*")*)'),
+    b"\t": re.compile(rb'(?:^|\t)((?:[^"\t]+|"[^"]*")*)'),
+}
 
 
-def _join_csv(out: BinaryIO, parts: Sequence[tuple[str, str]], *, is_safe: bool) -> None:
-    name, *names = _columns(tuple(_header(path)) for _, path in parts)
-    out.write(b",".join([name, *names]) + b"\n")
+def _join_delimited(out: BinaryIO, parts: Sequence[tuple[str, str]], delimiter: bytes, *, is_safe: bool) -> None:
+    fields_of = _FIELDS[delimiter].findall
+    name, *names = _columns(tuple(_header(path, delimiter)) for _, path in parts)
+    out.write(delimiter.join([name, *names]) + b"\n")
     for source, path in parts:
         header, *records = _RECORD.findall(Path(path).read_bytes())
-        before = _quoted(safe_text(source) if is_safe else source) + b","
-        place = _places(_FIELDS.findall(header[:-1]), names)
+        before = _quoted(safe_text(source) if is_safe else source) + delimiter
+        place = _places(fields_of(header[:-1]), names)
         for record in records:
             if place is None:
                 out.write(before + record)
             else:
-                fields = [*_FIELDS.findall(record[:-1]), b""]
-                out.write(before + b",".join(fields[at] for at in place) + b"\n")
+                fields = [*fields_of(record[:-1]), b""]
+                out.write(before + delimiter.join(fields[at] for at in place) + b"\n")
 
 
-def _header(path: str) -> list[bytes]:
+def _header(path: str, delimiter: bytes) -> list[bytes]:
     found = _RECORD.match(Path(path).read_bytes())
-    return [] if found is None else _FIELDS.findall(found[0][:-1])
+    return [] if found is None else _FIELDS[delimiter].findall(found[0][:-1])
 
 
 def _places(header: list[bytes], names: list[bytes]) -> list[int] | None:

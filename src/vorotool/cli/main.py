@@ -27,6 +27,8 @@ COMMANDS = {
     "skeleton-approx": "Skeleton of polygons and lines from samples, with certified errors.",
     "skeleton-exact": "Exact skeleton (medial axis) of polygons and lines.",
     "draw": "Draw label images, skeletons, offset curves and shapes again.",
+    "info": "Tell how a file is read: its format, what it holds, and which commands take it.",
+    "sample": "Write a small file to try commands on.",
     "completion": "Print the script by which bash, zsh or fish complete arguments.",
 }
 """Commands and what they do; the module of a command is imported when it is called."""
@@ -105,7 +107,8 @@ def vorotool() -> None:
 
     \b
     Example:
-      vorotool tessellate data/dots.csv --size 512x512 --what colour -o cells.png
+      vorotool sample dots.csv -o dots.csv
+      vorotool tessellate dots.csv --size 512x512 --what colour -o cells.png
     """
 
 

@@ -91,9 +91,13 @@ class Opened:
         to_crs: str | None = None,
         flatten: float | None = None,
         join_tolerance: float | None = None,
+        told: Callable[[str], None] = no_note,
         **options: Any,
     ) -> PointSet | PolygonSet | Raster | Skeleton | Offsets:
-        """Read all, with the options of `vorotool.read` that are not about opening it."""
+        """Read all, with the options of `vorotool.read` that are not about opening it.
+
+        ``told`` is called with the format, before what is in it is read.
+        """
         given = ReadOptions(
             page=self.page,
             threads=checked_threads(threads),
@@ -106,9 +110,11 @@ class Opened:
         )
         if self.array is not None:
             refuse_for_images(given, self.layer)
+            told("zarr")
             return read_rows(self.array, max_pixels=given.max_pixels)
         content = replace(read_source(self.name), layer=self.layer)
         holds, source = recognised(content, self.geometry, self.said, given.columns)
+        told(source.format)
         value: PointSet | PolygonSet | Raster | Skeleton | Offsets = read_recognised(holds, source, given)
         return value
 

@@ -13,6 +13,7 @@ from vorotool.formats.io.npy_arrays import MAGIC
 from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.convertible import refuse_convertible
 from vorotool.formats.parsing.geojson import holds_shapes, parse_json
+from vorotool.formats.parsing.json_lines import RECORD_MARK, is_json_lines
 from vorotool.formats.points.delimited import has_coordinates, header_fields
 from vorotool.formats.points.tables import NPZ_MAGIC, is_table
 from vorotool.formats.polygons.json import is_list_of_shells
@@ -28,10 +29,10 @@ _WKT = re.compile(
 )
 _UTF8_MARK = b"\xef\xbb\xbf"
 _UTF16_MARKS = (b"\xff\xfe", b"\xfe\xff")
-_WITH_COLUMNS = ("csv", "json", "npz", "parquet")
+_WITH_COLUMNS = ("csv", "json", "jsonl", "npz", "parquet")
 _HEADS = (
     *((MAGIC, "npy"), (NPZ_MAGIC, "npz"), (b"SQLite format 3\0", "gpkg"), (b"fgb\x03fgb", "fgb")),
-    *((b"\0\0\x27\x0a", "shp"), (b"PAR1", "parquet"), (b"{", "geojson"), (b"[", "json")),
+    *((b"\0\0\x27\x0a", "shp"), (b"PAR1", "parquet"), (b"{", "geojson"), (b"[", "json"), (RECORD_MARK, "jsonl")),
 )
 _MARKUP = re.compile(rb"<(kml|gpx)[\s>]")
 
@@ -60,7 +61,7 @@ def recognised_geometry(
         return "points", _points(source, _by_header(source, said or point_format(source), columns), columns)
     if geometry == "polygons":
         holds: Holds = "polygons"
-        source = _plain_source(source, said or polygon_format(source))
+        source = _with_format(source, said or polygon_format(source))
     else:
         holds, source = _either(source, said)
     if holds == "polygons" and columns is not None:
@@ -151,7 +152,7 @@ def _either(source: Source, said: str | None) -> tuple[Holds, Source]:
     chosen = _by_header(source, said or drawing_format(source) or point_format(source))
     if chosen == "csv" or "polygons" not in INPUTS[chosen].readers:
         return "points", _points(source, chosen, None)
-    source = _plain_source(source, chosen)
+    source = _with_format(source, chosen)
     if "features" in INPUTS[chosen].has:
         module = INPUTS[chosen].readers["polygons"].partition(":")[0]
         source = replace(source, document=resolved(f"{module}:features_of")(source))
@@ -162,6 +163,7 @@ def _either(source: Source, said: str | None) -> tuple[Holds, Source]:
 
 
 def _in_json(source: Source, said: str | None) -> tuple[Holds, Source]:
+    """Tell whether JSON holds polygons or lines."""
     if _is_flat(source.data):
         return "points", source
     document = parse_json(source)
@@ -173,7 +175,8 @@ def _in_json(source: Source, said: str | None) -> tuple[Holds, Source]:
     if not has_shapes:
         return "points", source
     # an object without an extension may be of either kind: our own JSON, or GeoJSON
-    return "polygons", source if said or source.suffix == ".geojson" else replace(source, format="json")
+    is_told = said or source.suffix == ".geojson" or source.format == "jsonl"
+    return "polygons", source if is_told else replace(source, format="json")
 
 
 def _is_flat(data: bytes) -> bool:
@@ -184,18 +187,19 @@ def _is_flat(data: bytes) -> bool:
 
 
 def _points(source: Source, chosen: str, columns: str | None) -> Source:
-    if columns is not None and chosen not in _WITH_COLUMNS:
+    source = _with_format(source, chosen)
+    if columns is not None and source.format not in _WITH_COLUMNS:
         raise UsageError(f"--columns is for delimited text, but {source.name} is read as {chosen}: leave it out")
-    return _plain_source(source, chosen)
+    return source
 
 
-def _plain_source(source: Source, chosen: str) -> Source:
+def _with_format(source: Source, chosen: str) -> Source:
     """Give a source with its format; of text, as `text_source` does."""
     return replace(source, format=chosen) if "bytes" in INPUTS[chosen].has else text_source(source, chosen)
 
 
 def text_source(source: Source, chosen: str) -> Source:
-    """Take the byte order mark off, and refuse what is no text in an encoding that is read."""
+    """Take the byte order mark off, and refuse what is no text in an encoding that is read; tell JSON from lines."""
     if source.data.startswith(_UTF16_MARKS):
         raise InputError(f"{source.name} is UTF-16 text; save it as UTF-8 (iconv -f UTF-16 -t UTF-8)")
     if source.data.startswith(NPZ_MAGIC):
@@ -208,4 +212,6 @@ def text_source(source: Source, chosen: str) -> Source:
             f"{source.name} is binary, not points or polygons; use CSV, .node, NPY, .poly, GeoJSON, WKT or JSON, or "
             "say which with --input-format"
         )
-    return replace(source, data=source.data.removeprefix(_UTF8_MARK), format=chosen)
+    data = source.data.removeprefix(_UTF8_MARK)
+    is_lines = chosen in ("json", "geojson") and is_json_lines(data)
+    return replace(source, data=data, format="jsonl" if is_lines else chosen)

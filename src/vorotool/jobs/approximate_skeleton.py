@@ -28,6 +28,9 @@ from vorotool.jobs.options import ApproximateSkeletonOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeleton import SkeletonProducts
 from vorotool.jobs.targets import Target
+from vorotool.jobs.units import table_in_units
+from vorotool.products.registry import PRODUCTS
+from vorotool.products.writing import write_product
 
 ALL_TOGETHER = {"diagram", "elements"}
 """What is of all features together, however they are taken."""
@@ -105,10 +108,9 @@ class ApproximateProducts(SkeletonProducts[ApproximateSkeletonOptions]):
         if target.what != "elements":
             super()._write_data(out, target)
             return
-        from vorotool.formats.text.tables import write_table
-
-        o = self.options
-        write_table(out, sample_table(self.shapes.samples), target.fmt, precision=o.precision, threads=o.threads)
+        o, product = self.options, PRODUCTS["skeleton-approx"]["elements"]
+        table = table_in_units(o.pixel_size, sample_table(self.shapes.samples))
+        write_product(out, table, product, target.fmt, precision=o.precision, threads=o.threads)
 
     def _verify_whole(self, progress: Progress) -> None:
         """Check the samples and the skeleton, from their arrays alone."""

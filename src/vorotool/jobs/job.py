@@ -78,7 +78,7 @@ def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str
         The outputs.
     """
     from vorotool.formats.io.atomic_output import make_folder
-    from vorotool.formats.text.tables import safe_texts
+    from vorotool.formats.text.tables import safe_texts, unit_column
 
     computing = options if isinstance(options, ComputingOptions) else None
     check_targets(options, targets, path)
@@ -92,10 +92,12 @@ def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str
         with run.phase("verify") as progress:
             products.verify(progress)
     end_by_exceptions()
+    unit = None if options.unit is None else options.unit.unit
     for target in targets:
         if options.out_dir is not None:
             make_folder(Path(target.path).parent)
-        with run.phase(f"write {target.what}"), safe_texts(computing is not None and computing.safe_csv):
+        is_safe = computing is not None and computing.safe_csv
+        with run.phase(f"write {target.what}"), safe_texts(is_safe), unit_column(unit):
             products.write(target, inputs=(path,))
     if options.stats is not None:
         with run.phase("count"):

@@ -78,6 +78,20 @@ class JobOptions:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ReadingOptions:
+    """Of ``info``, which writes no file."""
+
+    inputs: tuple[str, ...]
+    json: bool = False
+    input_format: str | None = None
+    input_crs: str | None = None
+    columns: str | None = None
+    page: int | None = None
+    max_pixels: int = 2**31
+    threads: int = 0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class DrawingOptions(JobOptions):
     """Of ``draw``, which has one result."""
 

@@ -6,6 +6,8 @@ from typing import Any, NamedTuple
 
 CRITERIA = ("angle", "chord", "scale", "length", "ratio")
 """As `vorotool.geometry.skeleton.critical_values` has them, which ``--help`` does not import."""
+LENGTHS = ("chord", "length")
+"""Criteria whose thresholds are lengths."""
 
 
 class Pruning(NamedTuple):
@@ -13,7 +15,7 @@ class Pruning(NamedTuple):
 
     name: str
     criterion: str | None = None
-    threshold: float = 0.0
+    threshold: Any = 0.0  # a float, once lengths with a unit are in pixels
 
     def stats(self) -> dict[str, Any]:
         """What statistics say of it."""

@@ -20,7 +20,7 @@ from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.names import DERIVED
 from vorotool.jobs.options import Place, SkeletonOptions
 from vorotool.jobs.pictures import write_layers
-from vorotool.jobs.pruning_choice import CRITERIA, Pruning, chosen_pruning
+from vorotool.jobs.pruning_choice import CRITERIA, LENGTHS, Pruning, chosen_pruning
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeleton_extras import Derived
 from vorotool.jobs.skeleton_input import read_polygons
@@ -240,7 +240,7 @@ class SkeletonProducts(ABC, Generic[Options]):
         values = [critical_values(whole, name) for name in CRITERIA]
         shown = None
         if criterion is not None:
-            is_length = criterion in ("chord", "length")
+            is_length = criterion in LENGTHS
             shown = (criterion, length_in_units(self.options.pixel_size, threshold) if is_length else threshold)
         write_skeleton_html(out, whole, values, arc_profiles(whole), shown=shown, y_up=self.options.y_up)
 

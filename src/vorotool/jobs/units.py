@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from vorotool.errors import UsageError
+from vorotool.jobs.pruning_choice import Pruning
 from vorotool.products.formats import FORMATS
 
 if TYPE_CHECKING:
     from vorotool.geometry.table import Table
+    from vorotool.jobs.options import JobOptions
     from vorotool.jobs.targets import Target
 
 Value = TypeVar("Value")
@@ -24,16 +27,123 @@ class PixelSize(NamedTuple):
     unit: str | None
 
 
-def check_units(size: PixelSize | None, targets: Sequence[Target]) -> None:
-    """Refuse a size of pixels that nothing shows.
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """A length with a unit, as an option has it until the size of a pixel is known.
+
+    Parameters
+    ----------
+    text : str
+        As it was written.
+    number : Fraction
+        Of units.
+    unit : str
+        Its unit.
+    is_exact : bool
+        The option keeps numbers exactly: in pixels it is a fraction, and no float.
+    """
+
+    text: str
+    number: Fraction
+    unit: str
+    is_exact: bool
+
+
+Options = TypeVar("Options", bound="JobOptions")
+
+
+def lengths_in_pixels(o: Options, size: PixelSize | None) -> Options:
+    """Give options whose lengths are numbers of pixels: those that were given with a unit are converted exactly.
+
+    Parameters
+    ----------
+    o : JobOptions
+        Of the command line.
+    size : PixelSize, optional
+        The side of a pixel.
 
     Raises
     ------
     UsageError
-        If all outputs are images or pictures; only the plot of curves has units.
+        If a unit is not known, or what a pixel is in it.
     """
-    if size is not None and all(FORMATS[target.fmt].is_image and target.what != "curves" for target in targets):
+    changed = {name: _in_pixels(name, getattr(o, name), size) for name in _measured(o)}
+    return replace(o, **changed) if changed else o
+
+
+def _measured(o: JobOptions) -> list[str]:
+    """Names of the options that have a unit."""
+    return [field.name for field in fields(o) if _has_unit(getattr(o, field.name))]
+
+
+def _has_unit(value: Any) -> bool:
+    return isinstance(value, Measured) or (isinstance(value, tuple) and any(isinstance(x, Measured) for x in value))
+
+
+def _in_pixels(name: str, value: Any, size: PixelSize | None) -> Any:
+    if isinstance(value, Measured):
+        return _pixels(name, value, size)
+    if isinstance(value, Pruning):
+        length = replace(value.threshold, text=f"{value.criterion}={value.threshold.text}")
+        return value._replace(threshold=_pixels(name, length, size))
+    if isinstance(value, tuple):
+        return tuple(_in_pixels(name, each, size) for each in value)
+    return value
+
+
+def _pixels(name: str, length: Measured, size: PixelSize | None) -> Fraction | float:
+    from vorotool.geometry.length_units import METRES, is_known, ratio
+
+    option, known = _OPTIONS.get(name, f"--{name}").replace("_", "-"), ", ".join(METRES)
+    if not is_known(length.unit) and (size is None or size.unit != length.unit):
+        raise UsageError(f"invalid {option} {length.text!r}: expected a number alone, or with a unit of {known}")
+    if size is None:
+        raise UsageError(
+            f"{option} {length.text} has a unit, but that of the input is not known: give --pixel-size, such as "
+            "0.325um, or 1m for coordinates in metres"
+        )
+    found = None if size.unit is None else ratio(length.unit, size.unit)
+    if found is None:
+        its = "has none" if size.unit is None else f"is in {size.unit}, which is none that is known"
+        raise UsageError(f"{option} {length.text} has a unit, but --pixel-size {its}: give it one of {known}")
+    exact = length.number * found / size.factor
+    rounded = _as_double(exact)
+    if rounded is None:
+        raise UsageError(f"invalid {option} {length.text!r}: expected a number of pixels that a float can hold")
+    return exact if length.is_exact else rounded
+
+
+def _as_double(exact: Fraction) -> float | None:
+    """Give the nearest number; None where that is infinite, or 0 for what is not."""
+    try:
+        rounded = float(exact)
+    except OverflowError:
+        return None
+    return rounded if rounded or not exact else None
+
+
+_OPTIONS = {"r": "-r", "distance": "-d"}
+"""Options that are not called as their fields are."""
+
+
+def check_units(o: JobOptions, targets: Sequence[Target]) -> None:
+    """Refuse a size of pixels that nothing shows, and no length is measured by.
+
+    Raises
+    ------
+    UsageError
+        If there are no lengths in any output.
+    """
+    if o.unit is None or _measured(o):
+        return
+    if not any(_has_units(target) for target in targets):
         raise UsageError("--pixel-size is for tables and vectors: use --what table, or leave it out")
+
+
+def _has_units(target: Target) -> bool:
+    """Whether there are lengths in an output: of images in the plot of curves, and in arrays of places and radii."""
+    is_array = target.fmt == "npy" and target.what in ("points", "spectrum")
+    return is_array or target.what == "curves" or not FORMATS[target.fmt].is_image
 
 
 def in_units(size: PixelSize | None, value: Value) -> Value:

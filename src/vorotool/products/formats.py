@@ -95,6 +95,7 @@ _ALL = (
     Format("text", "text", ("txt",), is_image=True),
     Format("svg", "SVG", is_image=True),
     Format("csv", "CSV", has_digits=True),
+    Format("tsv", "TSV", has_digits=True),
     Format("json", "JSON", has_digits=True),
     Format("npz", "NPZ", is_text=False),
     Format("geojson", "GeoJSON", has_digits=True, flattens=True),
@@ -118,7 +119,7 @@ FORMATS = {each.name: each for each in _ALL}
 """By name."""
 EXTENSIONS = {ending: each.name for each in _ALL for ending in each.endings}
 """The format that an extension stands for."""
-TABLES = ("csv", "json", "npz")
+TABLES = ("csv", "tsv", "json", "npz")
 """Formats of tables."""
 TABLE_WRITER = Writer("formats.text.tables:write_table", ("fmt", "precision", "threads"))
 """Of tables, whatever they tell."""

@@ -63,6 +63,12 @@ _ALL = (
         skeleton="formats.results.skeleton_json:read_skeleton",
         offsets="formats.results.offset_json:read_offsets",
     ),
+    _of(
+        "jsonl",
+        *("jsonl", "ndjson", "geojsonl", "geojsons"),
+        points="formats.points.json:read_json",
+        polygons="formats.polygons.json:read_json",
+    ),
     _of("poly", polygons="formats.polygons.poly:read_poly"),
     _of_maps("gpkg"),
     _of_maps("fgb"),
@@ -93,8 +99,8 @@ def names_of(*held: Holds) -> dict[str, str]:
 
     Examples
     --------
-    >>> {name: kind for name, kind in names_of("polygons").items() if name.startswith("geo")}
-    {'geojson': 'geojson', 'geoparquet': 'parquet'}
+    >>> names_of("polygons")["ndjson"]
+    'jsonl'
     """
     return {name: each.name for each in _ALL if each.readers.keys() & set(held) for name in each.names}
 
@@ -109,6 +115,15 @@ NAMES_WITH = {
 """Formats of inputs that hold an image or such geometry."""
 DRAWN_NAMES = NAMES_WITH["polygons"]
 """Formats of what is drawn again: label images, skeletons, offset curves, polygons and lines."""
+
+TAKEN_BY: Mapping[Holds, tuple[str, ...]] = {
+    "points": ("tessellate", "delaunay", "alphashape"),
+    "polygons": ("skeleton-approx", "skeleton-exact", "draw"),
+    "image": ("tessellate", "delaunay", "alphashape", "skeleton-approx", "skeleton-exact", "draw"),
+    "skeleton": ("skeleton-approx", "skeleton-exact", "draw"),
+    "offsets": ("draw",),
+}
+"""Commands that take what an input may hold; of skeletons those that make them take the polygons."""
 
 
 DRAWINGS = tuple(name for each in _ALL if "curves" in each.has for name in each.names)

@@ -102,9 +102,11 @@ _CELLS = Writer("formats.results.cells:write_cells", ("fmt", "precision", "threa
 _MESHES = "Triangulation DigitalTriangulation"
 _MESH_LAYERS = _pictures("cells triangles diagram edges points labels")
 _DELAUNAY = (
-    _product("edges", _MESHES, "csv json geojson npz edge obj", _MESH, _MESH_LAYERS, "edges points"),
-    _product("triangles", _MESHES, "csv json geojson npz ele obj", _MESH, _MESH_LAYERS, "triangles edges points"),
-    _product("cells", "CellSet", "geojson csv json npz wkt", _CELLS, _MESH_LAYERS, "cells points"),
+    _product("edges", _MESHES, "csv tsv json geojson npz npy edge obj", _MESH, _MESH_LAYERS, "edges points"),
+    _product(
+        "triangles", _MESHES, "csv tsv json geojson npz npy ele obj", _MESH, _MESH_LAYERS, "triangles edges points"
+    ),
+    _product("cells", "CellSet", "geojson csv tsv json npz wkt", _CELLS, _MESH_LAYERS, "cells points"),
     _product("table", _MESHES, f"{_TABLES} node", _MESH),
     _product("compare", "", _TABLES, TABLE_WRITER),
 )
@@ -112,7 +114,7 @@ _DELAUNAY = (
 # ---- alphashape ----------------------------------------------------------------------------------
 _SHAPE = Writer("formats.results.alpha:write_shape")
 _SHAPE_LAYERS = _pictures("polygons delaunay interior boundary singular hull points labels")
-_EDGES = ("AlphaShape", "csv json geojson npz", _SHAPE, _SHAPE_LAYERS)
+_EDGES = ("AlphaShape", "csv tsv json geojson npz npy", _SHAPE, _SHAPE_LAYERS)
 _POLYGONS = ("AlphaShape", "geojson wkt json poly", _SHAPE, _SHAPE_LAYERS)
 _GENERAL = ("AlphaShape", "geojson wkt", _SHAPE, _SHAPE_LAYERS)
 _ALPHASHAPE = (
@@ -121,7 +123,7 @@ _ALPHASHAPE = (
     _product("complex", *_EDGES, "interior boundary singular points", has_page=True),
     _product("general", *_GENERAL, "polygons boundary singular points", has_page=True),
     _product("family", "AlphaComplex", _TABLES, _SHAPE, has_page=True),
-    _product("spectrum", "AlphaComplex", _TABLES, _SHAPE),
+    _product("spectrum", "AlphaComplex", f"{_TABLES} npy", _SHAPE),
     _product("curves", "", _TABLES, TABLE_WRITER, {"svg": ()}, has_page=True),
     _product("hull", "AlphaHull", f"geojson {_TABLES}", _SHAPE, _SHAPE_LAYERS, "hull points"),
     _product("points", "AlphaShape", _TABLES, _SHAPE),
@@ -135,7 +137,7 @@ _CENTERLINES = Writer("formats.results.centerlines:write_centerlines", _LINES)
 _OFFSETS = Writer("formats.results.offsets:write_offsets", _LINES)
 _RINGS = Writer("formats.polygons.writer:write_polygons", ("fmt", "precision"))
 _POINTS = Writer("formats.results.points_along:write_skeleton_points")
-_CURVES = "json csv geojson npz wkt"
+_CURVES = "json csv tsv geojson npz wkt"
 _ARCS = _pictures("polygons elements points skeleton nodes labels")
 _ALONG = _pictures("polygons skeleton transects points")
 _SKELETONS = (
@@ -147,7 +149,7 @@ _SKELETONS = (
     ),
     _product("offset", "Offsets", _CURVES, _OFFSETS, _pictures("polygons offset"), "polygons offset", is_curved=True),
     _product("shape", "PolygonSet", "json geojson wkt poly", _RINGS, _pictures("shape"), "shape"),
-    _product("points", "SkeletonPoints", f"{_TABLES} geojson wkt", _POINTS, _ALONG, "polygons skeleton points"),
+    _product("points", "SkeletonPoints", f"{_TABLES} npy geojson wkt", _POINTS, _ALONG, "polygons skeleton points"),
     _product("transects", "SkeletonPoints", f"geojson wkt {_TABLES}", _POINTS, _ALONG, "polygons skeleton transects"),
     _product("branches", "Skeleton", _TABLES, _SKELETON),
     _product("table", "Skeleton", _TABLES, _SKELETON),

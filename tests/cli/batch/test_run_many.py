@@ -232,7 +232,7 @@ def test_shards_have_tables_and_statistics_of_their_own(run, inputs):
         ("points --out-dir out -j -1", 2, "-1"),
         ("points --out-dir out -j 2 --cluster tcp://127.0.0.1:1", 2, "-j is for this machine"),
         ("points --table all.csv --resume", 2, "--resume needs --out-dir"),
-        ("points --table all.png", 2, "written as CSV or JSON"),
+        ("points --table all.png", 2, "written as CSV, TSV or JSON"),
         ("points --table all.csv --what labels", 2, "--what labels needs --out-dir"),
         ("points --table - --stats -", 2, "--stats - needs --table FILE"),
         ("points --table points/p0.csv", 2, "--table points/p0.csv is also the input"),

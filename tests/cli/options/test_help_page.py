@@ -47,7 +47,8 @@ def test_the_short_page_has_ten_options_and_names_the_long_one(name):
     rows = re.findall(r"^  -", text.partition("Common options:")[2], re.MULTILINE)
     assert 5 <= len(rows) <= MOST
     assert f"vorotool {name} --help" in text
-    assert f"vorotool {name} data/" in text
+    assert "vorotool sample " in text
+    assert f"\n    vorotool {name} " in text
     assert len(text) < len(said(name, "--help")) / 2
 
 

@@ -1,11 +1,17 @@
 """``--pixel-size``: what is written is what a larger input gives, byte by byte where the factor is a power of two."""
 
+import io
 import json
 import re
 
 import numpy as np
 import pytest
 
+from support.readers.written import rows_of
+from vorotool.batch.tables import join_tables
+from vorotool.errors import InputError
+from vorotool.formats.text.tables import write_table
+from vorotool.geometry.table import Table
 from vorotool.products.formats import FORMATS
 from vorotool.products.registry import formats_of
 
@@ -83,7 +89,7 @@ def test_results_are_those_of_a_larger_input(run, tmp_path, command, options):
     small, large = tmp_path / "small", tmp_path / "large"
     write_inputs(small, command, 1)
     write_inputs(large, command, 2)
-    scaled = outputs(run, command, small, list(options), r=1.5, more=["--pixel-size", "2um"])
+    scaled = outputs(run, command, small, list(options), r=1.5, more=["--pixel-size", "2"])
     doubled = outputs(run, command, large, list(options), r=3)
     assert scaled.keys() == doubled.keys()
     assert [name for name in scaled if scaled[name] != doubled[name]] == []
@@ -108,6 +114,7 @@ def test_columns_are_scaled_by_what_they_are(run, tmp_path, options):
     assert len(plain) == len(scaled) > 0
     for name in plain[0]:
         before, after = ([row[name] for row in rows] for rows in (plain, scaled))
+        assert {row["unit"] for row in scaled} == {"µm"}
         own = name if name == "length" else name.removeprefix("voro_")
         if own in KEPT or own == "length":
             assert after == before, name
@@ -166,3 +173,83 @@ def test_the_resolution_of_an_image_is_kept(run, tmp_path, what):
     with tifffile.TiffFile(tmp_path / "out.tif") as file:
         tags = {name: file.pages[0].tags.valueof(name) for name in ("XResolution", "YResolution", "ResolutionUnit")}
     assert tags == {"XResolution": (300, 1), "YResolution": (150, 1), "ResolutionUnit": 2}
+
+
+# ---- the column --------------------------------------------------------------------------------
+def values_of(path, name):
+    """A column of a table in any format, as text."""
+    fmt = path.suffix[1:]
+    if fmt == "npz":
+        with np.load(path) as arrays:
+            return [str(value) for value in arrays[name]] if name in arrays else None
+    if fmt in ("csv", "tsv"):
+        rows = rows_of(path.read_bytes(), "\t" if fmt == "tsv" else ",")
+    else:
+        text = path.read_text(encoding="utf-8")
+        rows = json.loads(text) if fmt == "json" else [json.loads(line) for line in text.splitlines()]
+    return [row[name] for row in rows] if name in rows[0] else None
+
+
+@pytest.mark.parametrize("fmt", ["csv", "tsv", "json", "jsonl", "npz"])
+@pytest.mark.parametrize(
+    "options",
+    [
+        *("tessellate --what table", "tessellate --what neighbours", "delaunay --what table"),
+        *("alphashape --what points -r 9", "skeleton-exact --what branches", "skeleton-exact --what table"),
+        "skeleton-approx --step 2 --what elements",
+    ],
+)
+def test_each_table_tells_its_unit_at_its_end(run, tmp_path, options, fmt):
+    command, *more = options.split()
+    source = write_inputs(tmp_path / "in", command, 1)
+    for size, unit in (("0.5um", "um"), ("0.5 µm", "µm"), ("0.5", None)):
+        assert run(command, source, *more, "-q", "-o", f"a.{fmt}", "--pixel-size", size).code == 0
+        units = values_of(tmp_path / f"a.{fmt}", "unit")
+        assert units is None if unit is None else set(units) == {unit}
+    assert run(command, source, *more, "-q", "-o", f"b.{fmt}").code == 0
+    assert values_of(tmp_path / f"b.{fmt}", "unit") is None
+    if fmt == "csv":
+        plain, scaled = ((tmp_path / f"{name}.csv").read_text().splitlines()[0] for name in "ba")
+        assert plain == scaled, "no unit, no column"
+        run(command, source, *more, "-q", "-o", "c.csv", "--pixel-size", "3mm")
+        assert (tmp_path / "c.csv").read_text().splitlines()[0] == f"{plain},unit"
+
+
+def test_rows_of_arcs_and_cells_have_the_column_and_features_have_not(run, tmp_path):
+    source = write_inputs(tmp_path / "in", "skeleton-exact", 1)
+    assert run("skeleton-exact", source, "-f", "csv", "-q", "--pixel-size", "2mm").rows[0]["unit"] == "mm"
+    made = run("skeleton-exact", source, "-f", "geojson", "-q", "--pixel-size", "2mm").out
+    assert "unit" not in json.loads(made)["features"][0]["properties"]
+    points = write_inputs(tmp_path / "points", "delaunay", 1)
+    assert (
+        run("delaunay", points, "--what", "cells", "-f", "tsv", "-q", "--pixel-size", "2mm").out.count("\tmm\n") == 10
+    )
+
+
+def test_a_column_of_the_input_keeps_its_name(run, tmp_path):
+    (tmp_path / "a.csv").write_text("x,y,unit\n1,2,px\n4,3,px\n2,6,px\n")
+    row = run("delaunay", "a.csv", "--what", "table", "--pixel-size", "2nm", "-q").rows[0]
+    assert (row["unit"], row["voro_unit"], list(row)[-1]) == ("px", "nm", "voro_unit")
+
+
+def test_a_table_of_all_inputs_has_one_unit(run, tmp_path):
+    folder = write_inputs(tmp_path / "in", "delaunay", 1).parent
+    for name in ("all.csv", "all.tsv", "all.json"):
+        assert run("delaunay", folder, "--table", name, "--pixel-size", "3mm", "-q").code == 0
+        assert set(values_of(tmp_path / name, "unit")) == {"mm"}
+
+
+@pytest.mark.parametrize("fmt", ["csv", "tsv", "json"])
+def test_tables_in_different_units_are_not_joined(tmp_path, fmt):
+    parts = []
+    for number, unit in enumerate(("mm", None, "mm", "um", "")):
+        table = {"a": np.arange(0 if unit is None else 2)} | ({"unit": [unit] * 2} if unit else {})
+        with (tmp_path / f"{number}.{fmt}").open("wb") as out:
+            write_table(out, Table(table), fmt)
+        parts.append((f"{number}.png", str(tmp_path / f"{number}.{fmt}")))
+    join_tables(io.BytesIO(), parts[:3], fmt, has_unit=True)
+    with pytest.raises(InputError, match=r"3\.png is in um, but 0\.png in mm: give --pixel-size for all"):
+        join_tables(io.BytesIO(), parts[:4], fmt, has_unit=True)
+    with pytest.raises(InputError, match=r"4\.png is in no unit, but 0\.png in mm"):
+        join_tables(io.BytesIO(), [parts[0], parts[4]], fmt, has_unit=True)
+    join_tables(io.BytesIO(), parts, fmt)  # columns of the inputs may be called so, too

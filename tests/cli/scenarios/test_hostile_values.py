@@ -44,6 +44,8 @@ INPUTS = {
     "skeleton-approx": ("shape.wkt", "-o", "out.json"),
     "skeleton-exact": ("shape.wkt", "-o", "out.json"),
     "draw": ("shape.wkt", "-o", "out.svg"),
+    "info": ("dots.csv",),
+    "sample": ("dots.csv",),
     "completion": (),
 }
 NEEDED = {

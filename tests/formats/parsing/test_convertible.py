@@ -1,7 +1,5 @@
 """Files that are known and not read."""
 
-import subprocess
-
 import numpy as np
 import pytest
 
@@ -49,27 +47,6 @@ def test_columns_of_geometry_that_is_none(tmp_path, text, message, geometry):
 def test_a_column_of_geometry_beside_x_and_y_is_a_column(tmp_path):
     (tmp_path / "towns.csv").write_text("x,y,WKT\n1,2,POINT (1 2)\n")
     assert vorotool.read(tmp_path / "towns.csv").xy.tolist() == [[1, 2]]
-
-
-@pytest.mark.parametrize("name", ["a.geojsonl", "a.geojson", "a.json", "a"])
-def test_a_document_a_line(tmp_path, name):
-    (tmp_path / name).write_text(FEATURE % 1 + FEATURE % 3)
-    with pytest.raises(
-        InputError, match=r"a JSON document a line.* jq -s '\{type: \"FeatureCollection\", features: \.\}' "
-    ):
-        vorotool.read(tmp_path / name)
-
-
-def test_the_command_joins_them(tmp_path):
-    path = tmp_path / "a.ndjson"
-    path.write_text(FEATURE % 1 + FEATURE % 3)
-    with pytest.raises(InputError) as refused:
-        vorotool.read(path)
-    command = str(refused.value).partition("join them to one: ")[2]
-    if subprocess.run(["sh", "-c", "command -v jq"], stdout=subprocess.DEVNULL, check=False).returncode:
-        pytest.skip("jq is not there")
-    subprocess.run(["sh", "-c", command], cwd=tmp_path, check=True)
-    assert vorotool.read(tmp_path / "joined.geojson").xy.tolist() == [[1, 2], [3, 2]]
 
 
 @pytest.mark.parametrize("text", ['{"type": \n"Point"\n', '{"a": 1}\n[1]\n', "[[1, 2],\n[3, 4]\n"])

@@ -57,7 +57,7 @@ def test_files_to_convert(suffix):
 
 def test_options_that_do_not_fit():
     assert "expected one of csv, tsv, txt, node, npz" in error_of("", kind=UsageError, input_format="xyz")
-    for fmt in set(POINT_FORMATS) - {"csv", "json", "npz", "parquet"}:
+    for fmt in set(POINT_FORMATS) - {"csv", "json", "jsonl", "npz", "parquet"}:
         assert "--columns is for delimited text" in error_of("", kind=UsageError, input_format=fmt, columns="1,2")
 
 
@@ -98,6 +98,7 @@ def test_all_formats_agree(points):
         "json": json.dumps(pairs),
         "geojson": json.dumps({"type": "MultiPoint", "coordinates": pairs}),
         "wkt": "".join(f"POINT ({x!r} {y!r})\n" for x, y in points),
+        "jsonl": "".join(json.dumps({"x": x, "y": y}) + "\n" for x, y in points),
     }
     geometry = shapely.points(array)
     for fmt, driver in (("gpkg", "GPKG"), ("fgb", "FlatGeobuf")):

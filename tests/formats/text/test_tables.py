@@ -1,5 +1,6 @@
 """Tables as CSV, JSON and NPZ: read back by other libraries, and the same bytes every time."""
 
+import csv
 import io
 import json
 import math
@@ -46,6 +47,17 @@ def test_csv():
         '3,0.3333333333333333,1,1,"é ""q""",\n'
     )
     assert b"\n3,0.333,1,1" in written(MIXED, "csv", precision=3)
+
+
+def test_tsv():
+    assert written(MIXED, "tsv").decode() == (
+        "label\tx\tnearest_label\ttouches_frame\tname\tother\n"
+        "1\t0.5\t2\t1\ta,b\t1\n"
+        '2\t100000\t\t0\t\t"{""k"":[1,true]}"\n'
+        '3\t0.3333333333333333\t1\t1\t"é ""q"""\t\n'
+    )
+    assert b"\n3\t0.333\t1\t1" in written(MIXED, "tsv", precision=3)
+    assert written(Table({"r": [None, 4.0]}), "tsv") == b'r\n""\n4\n'
 
 
 def test_json():
@@ -129,7 +141,7 @@ def test_npz_holds_no_time_of_day():
 
 
 def test_options_are_checked():
-    with pytest.raises(UsageError, match="a Table cannot be written as 'xls': use one of csv, json, npz"):
+    with pytest.raises(UsageError, match="a Table cannot be written as 'xls': use one of csv, tsv, json, npz"):
         vorotool.write(MIXED, "a.xls")
     for precision in (0, 18, -1):
         with pytest.raises(UsageError, match=f"--precision is {precision}: use 1 to 17"):
@@ -140,15 +152,16 @@ finite = st.floats(allow_nan=False, allow_infinity=False)
 texts = st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\0"), max_size=12)
 
 
+@pytest.mark.parametrize(("fmt", "dialect"), [("csv", "excel"), ("tsv", "excel-tab")])
 @settings(deadline=None)
-@given(st.lists(st.tuples(finite, finite, texts), max_size=20))
-def test_what_is_written_as_csv_is_read_back(rows):
+@given(rows=st.lists(st.tuples(finite, finite, texts), max_size=20))
+def test_what_is_written_as_text_is_read_back(fmt, dialect, rows):
     x, y, names = ([row[i] for row in rows] for i in range(3))
-    data = written(Table({"x": np.array(x), "y": np.array(y), "name": names}), "csv")
-    points = read_as(Source("t.csv", data))
+    data = written(Table({"x": np.array(x), "y": np.array(y), "name": names}), fmt)
+    points = read_as(Source(f"t.{fmt}", data))
     np.testing.assert_array_equal(points.xy, np.array([x, y]).T.reshape(-1, 2))
     assert points.properties.get("name", []) == names
-    by_csv = rows_of(data)
+    by_csv = rows_of(data, csv.get_dialect(dialect).delimiter)
     assert [row["name"] for row in by_csv] == names
     assert [float(row["x"]) for row in by_csv] == x
 

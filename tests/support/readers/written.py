@@ -24,9 +24,10 @@ def written(value, fmt, what=None, **options):
     return out.getvalue()
 
 
-def rows_of(text):
-    """Give the rows of a table in CSV, which may be bytes, by the names of its columns."""
-    return list(csv.DictReader(io.StringIO(text if isinstance(text, str) else text.decode(), newline="")))
+def rows_of(text, delimiter=","):
+    """Give the rows of a table in CSV or TSV, which may be bytes, by the names of its columns."""
+    text = text if isinstance(text, str) else text.decode()
+    return list(csv.DictReader(io.StringIO(text, newline=""), delimiter=delimiter))
 
 
 def assert_same(names, one, other):

@@ -12,7 +12,7 @@ from vorotool.jobs.job import Options, Recipe, process_input
 from vorotool.jobs.options import JobOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import check_stats, plan_targets
-from vorotool.jobs.units import check_units
+from vorotool.jobs.units import check_units, lengths_in_pixels
 
 
 def run_command(recipe: Recipe[Options], o: Options) -> None:
@@ -43,8 +43,9 @@ def run_command(recipe: Recipe[Options], o: Options) -> None:
     check_stats(o, targets, source)
     if o.cluster is not None and any(target.fmt != "zarr" for target in targets):
         raise UsageError("--cluster with -o writes a Zarr store: name it .zarr, or a folder with --out-dir")
+    check_units(o, targets)
+    o = lengths_in_pixels(o, o.unit)
     recipe.check_options(o, targets)
-    check_units(o.unit, targets)
     with Run(
         recipe.name, quiet=o.quiet, verbose=o.verbose, stats=o.stats, no_clobber=o.no_clobber, bar=progress_bar
     ) as run:

@@ -23,7 +23,7 @@ from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_out
 from vorotool.jobs.job import Options, Recipe
 from vorotool.jobs.options import ComputingOptions, JobOptions
 from vorotool.jobs.targets import Target, plan_targets
-from vorotool.jobs.units import check_units
+from vorotool.jobs.units import check_units, lengths_in_pixels
 from vorotool.products.formats import EXTENSIONS
 
 WITHOUT_EFFECT = frozenset(
@@ -42,11 +42,14 @@ class JointTable:
         Where it is written, and how.
     is_safe : bool
         Texts are no formulas.
+    has_unit : bool
+        Tables have a column of their unit.
     """
 
     path: str
     fmt: str
     is_safe: bool
+    has_unit: bool
 
 
 @dataclass(frozen=True)
@@ -110,8 +113,9 @@ def plan_batch(recipe: Recipe[Options], o: Options) -> Plan[Options]:
     if table is not None:
         o = replace(o, what=tuple(dict.fromkeys((*o.what, "table"))))
         targets.append(Target("table", f"part.{table.fmt}", table.fmt))
+    check_units(o, targets)
+    o = lengths_in_pixels(o, o.unit)
     recipe.check_options(o, targets)
-    check_units(o.unit, targets)
     return Plan(o, tasks, targets, table, manifest, notes)
 
 
@@ -180,8 +184,8 @@ def _joint_table(o: JobOptions) -> JointTable | None:
     else:
         fmt = EXTENSIONS.get(Path(path).suffix.lower(), "" if stream_kind(path) is None else "csv")
     if fmt not in TABLE_FORMATS:
-        raise UsageError(f"--table {path} is written as CSV or JSON: name it .csv or .json")
-    return JointTable(path, fmt, o.safe_csv)
+        raise UsageError(f"--table {path} is written as CSV, TSV or JSON: name it .csv, .tsv or .json")
+    return JointTable(path, fmt, o.safe_csv, o.unit is not None)
 
 
 def _record(recipe: Recipe[Options], o: Options, targets: list[Target]) -> tuple[Manifest | None, History]:

@@ -185,4 +185,4 @@ def _write_table(
         if outcome is not None and not outcome.code
     ]
     with open_output(table.path, no_clobber=no_clobber, option="--table") as out:
-        join_tables(out, parts, table.fmt, is_safe=table.is_safe)
+        join_tables(out, parts, table.fmt, is_safe=table.is_safe, has_unit=table.has_unit)

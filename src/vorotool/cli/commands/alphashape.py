@@ -10,10 +10,10 @@ import click
 from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.groups import site_options
 from vorotool.cli.options.help_page import GroupedCommand
+from vorotool.cli.options.lengths import Radius
 from vorotool.cli.options.shared import (
     Decimal,
     Names,
-    Radius,
     inputs_argument,
     output_options,
 )
@@ -68,7 +68,8 @@ def command(**options: Any) -> None:
 
     \b
     Example:
-      vorotool alphashape data/dots.csv -r 60 -o shape.csv
+      vorotool sample dots.csv -o dots.csv
+      vorotool alphashape dots.csv -r 60 -o shape.csv
 
     INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, JPEG,
     NPY), whose components or labels count as points at their centroids; - is standard input. Label i is the i-th

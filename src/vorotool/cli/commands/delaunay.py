@@ -66,7 +66,8 @@ def command(**options: Any) -> None:
 
     \b
     Example:
-      vorotool delaunay data/dots.csv -o edges.csv
+      vorotool sample dots.csv -o dots.csv
+      vorotool delaunay dots.csv -o edges.csv
 
     INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, JPEG,
     NPY), whose components or labels count as points at their centroids; - is standard input. Label i is the i-th

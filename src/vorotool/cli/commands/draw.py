@@ -36,7 +36,8 @@ def command(**options: Any) -> None:
 
     \b
     Example:
-      vorotool draw data/cells.png -o cells.svg
+      vorotool sample cells.png -o cells.png
+      vorotool draw cells.png -o cells.svg
 
     INPUT is a label image (PNG, TIFF, PGM, NPY, Zarr), such as tessellate writes, the JSON of a skeleton or of offset
     curves, or shapes: polygons and lines (GeoJSON, WKT, JSON, Triangle .poly), such as centerlines and alpha shapes;

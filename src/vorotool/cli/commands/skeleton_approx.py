@@ -8,7 +8,8 @@ import click
 
 from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.help_page import GroupedCommand
-from vorotool.cli.options.skeleton import Length, skeleton_options
+from vorotool.cli.options.lengths import Length
+from vorotool.cli.options.skeleton import skeleton_options
 from vorotool.errors import UsageError
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.job import Recipe
@@ -48,7 +49,8 @@ def command(**options: Any) -> None:
 
     \b
     Example:
-      vorotool skeleton-approx data/two-shapes.json --step 4 -o skeleton.svg
+      vorotool sample two-shapes.json -o two-shapes.json
+      vorotool skeleton-approx two-shapes.json --step 4 -o skeleton.svg
 
     INPUT is as for skeleton-exact. Of the Voronoi diagram of the samples, the edges between samples of one edge are
     left out, and those that the shapes cross. No point of an arc is farther from the exact skeleton than its

@@ -8,7 +8,8 @@ import click
 
 from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.help_page import GroupedCommand
-from vorotool.cli.options.skeleton import Length, skeleton_options
+from vorotool.cli.options.lengths import Length
+from vorotool.cli.options.skeleton import skeleton_options
 from vorotool.errors import UsageError
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.job import Recipe
@@ -41,7 +42,8 @@ def command(**options: Any) -> None:
 
     \b
     Example:
-      vorotool skeleton-exact data/two-shapes.json -o skeleton.svg
+      vorotool sample two-shapes.json -o two-shapes.json
+      vorotool skeleton-exact two-shapes.json -o skeleton.svg
 
     INPUT holds polygons or open lines (JSON, GeoJSON, WKT, Triangle .poly), or is a mask or a label image (PNG, TIFF,
     PGM, JPEG, NPY), whose objects have outlines; - is standard input. Polygons are placed on a lattice of 31 bits over

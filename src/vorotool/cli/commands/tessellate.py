@@ -9,8 +9,8 @@ import click
 from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.groups import site_options
 from vorotool.cli.options.help_page import GroupedCommand
+from vorotool.cli.options.lengths import ExactLength
 from vorotool.cli.options.shared import (
-    Decimal,
     Size,
     inputs_argument,
     output_options,
@@ -47,7 +47,7 @@ _PICTURES = {(what, fmt) for what, each in PRODUCTS["tessellate"].items() for fm
 @click.option("--passes", type=click.IntRange(1, 2), metavar="N", help="Passes of the propagation; by default 2.")
 @click.option(
     "--max-distance",
-    type=Decimal(),
+    type=ExactLength(),
     help="Label only pixels within this distance of a seed: others get 0; distances are not cut.",
 )
 @click.option(
@@ -66,7 +66,8 @@ def command(**options: Any) -> None:
 
     \b
     Example:
-      vorotool tessellate data/dots.csv --size 512x512 -o labels.png
+      vorotool sample dots.csv -o dots.csv
+      vorotool tessellate dots.csv --size 512x512 -o labels.png
 
     INPUT is a list of points (CSV, TSV, Triangle .node, NPY, GeoJSON, WKT, JSON) or an image (PNG, TIFF, PGM, JPEG,
     NPY, Zarr); - is standard input. Label i is the i-th point; an image's own labels are kept.

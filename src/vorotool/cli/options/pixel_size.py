@@ -35,5 +35,6 @@ def pixel_size_option() -> Decorator:
     return click.option(
         "--pixel-size",
         type=PixelSizeType(),
-        help="Side of a pixel (or unit of the input), such as 0.325um: scales what is written in tables and vectors.",
+        help="Side of a pixel (or unit of the input), such as 0.325um: scales what is written in tables and vectors, "
+        "and tells how long options with a unit are, such as --max-distance 5um.",
     )

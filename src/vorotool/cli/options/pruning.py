@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from vorotool.cli.options.lengths import measured
 from vorotool.cli.options.parameter_types import ParameterType
 from vorotool.cli.options.suggestions import words
-from vorotool.jobs.pruning_choice import CRITERIA, Pruning
+from vorotool.jobs.pruning_choice import CRITERIA, LENGTHS, Pruning
 
 if TYPE_CHECKING:
     from click.shell_completion import CompletionItem
@@ -33,6 +34,11 @@ class PruningType(ParameterType[Pruning]):
             self.fail(f"{value!r}: expected {FORMS}", param, ctx)
         if ctx is not None and ctx.resilient_parsing:  # a shell completes what follows, and should not wait for numpy
             return Pruning(criterion, criterion)
+        length = measured(text) if criterion in LENGTHS else None
+        if length is not None:
+            if length.number < 0:
+                self.fail(f"{value!r}: expected a length from 0", param, ctx)
+            return Pruning(criterion, criterion, length)
         from vorotool.engines.pruning.pruning import check_threshold
         from vorotool.errors import UsageError
 

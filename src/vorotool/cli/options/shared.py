@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
-from math import inf, isfinite, nan
+from math import isfinite, nan
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -131,16 +131,6 @@ class CrsName(ParameterType[str]):
         return str(value)
 
 
-class Radius(Decimal):
-    """A decimal number, kept exactly, or infinity."""
-
-    name = "R"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Parse the number."""
-        return inf if value in ("inf", inf) else super().convert(value, param, ctx)
-
-
 class Shard(ParameterType[tuple[int, int]]):
     """``I/N``, the I-th of N parts."""
 
@@ -227,8 +217,8 @@ OPTIONS: dict[str, Decorator] = {
     "table": click.option(
         "--table",
         metavar="FILE",
-        help="Write the tables of all inputs as one (CSV, JSON).",
-        shell_complete=files(("csv", "json")),
+        help="Write the tables of all inputs as one (CSV, TSV, JSON).",
+        shell_complete=files(("csv", "tsv", "json")),
     ),
     "files-from": click.option(
         "--files-from",
@@ -288,7 +278,7 @@ OPTIONS: dict[str, Decorator] = {
     "safe-csv": click.option(
         "--safe-csv",
         is_flag=True,
-        help="Put ' before texts in CSV that a spreadsheet would take for formulas; numbers stay.",
+        help="Put ' before texts in CSV and TSV that a spreadsheet would take for formulas; numbers stay.",
     ),
     "no-properties": click.option(
         "--no-properties",

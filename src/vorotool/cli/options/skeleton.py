@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from math import isfinite
-from typing import Any
-
 import click
 
 from vorotool.cli.options.groups import result_options
-from vorotool.cli.options.parameter_types import ParameterType
+from vorotool.cli.options.lengths import Distances, Length
 from vorotool.cli.options.pruning import FORMS, Place, PruningType
 from vorotool.cli.options.shared import (
     Decorator,
@@ -25,48 +22,6 @@ from vorotool.products.registry import all_layers, formats_of
 
 ENDS = ("middle", "corner", "none")
 """As `vorotool.engines.centerlines.centerline` has them, which ``--help`` does not import."""
-
-
-class Length(ParameterType[float]):
-    """A finite length, 0 only where that is allowed."""
-
-    name = "LENGTH"
-
-    def __init__(self, *, zero: bool) -> None:
-        self._zero = zero
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        """Parse the number."""
-        try:
-            number = float(value)
-        except ValueError:
-            self.fail(f"{value!r}: expected a number such as 0.5", param, ctx)
-        if not isfinite(number) or number < 0 or (number == 0 and not self._zero):
-            self.fail(f"{value!r}: expected {'0 or more' if self._zero else 'more than 0'}", param, ctx)
-        return number
-
-
-class Distances(ParameterType[tuple[float, ...]]):
-    """Different finite numbers other than 0, separated by commas."""
-
-    name = "D[,D...]"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[float, ...]:
-        """Parse the numbers."""
-        if isinstance(value, tuple):
-            return value
-        try:
-            numbers = tuple(float(part) for part in value.split(","))
-        except ValueError:
-            self.fail(f"{value!r}: expected numbers such as -2,5", param, ctx)
-        from vorotool.engines.offsets.offsets import checked_distances
-        from vorotool.errors import UsageError
-
-        try:
-            wanted = tuple(checked_distances(numbers))
-        except UsageError as error:
-            self.fail(str(error), param, ctx)
-        return wanted
 
 
 _FLATTENED = ", ".join(each.title for each in FORMATS.values() if each.flattens)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import warnings
 from math import prod
-from typing import Any, NamedTuple
+from typing import Any, BinaryIO, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,3 +74,26 @@ def npy_values(source: Source, header: NpyHeader) -> NDArray[Any]:
         )
     flat = np.frombuffer(source.data, header.dtype, items, header.offset)
     return flat.reshape(header.shape, order="F" if header.fortran_order else "C")
+
+
+def write_array(out: BinaryIO, values: NDArray[Any]) -> None:
+    """Write an array of numbers: the same bytes for the same values, little-endian.
+
+    Parameters
+    ----------
+    out : binary file object
+        Need not be seekable.
+    values : array of numbers
+        Of any shape.
+
+    Examples
+    --------
+    >>> out = io.BytesIO()
+    >>> write_array(out, np.array([[0, 1], [1, 2]]))
+    >>> np.load(io.BytesIO(out.getvalue())).tolist()
+    [[0, 1], [1, 2]]
+    """
+    stored = np.ascontiguousarray(values, dtype=values.dtype.newbyteorder("<"))
+    header = {"descr": np.lib.format.dtype_to_descr(stored.dtype), "fortran_order": False, "shape": values.shape}
+    np.lib.format.write_array_header_1_0(out, header)
+    out.write(stored.data)

@@ -7,16 +7,15 @@ from typing import Any
 
 from vorotool.errors import InputError, LimitError
 from vorotool.formats.io.sources import Source, check_nesting
+from vorotool.formats.parsing.json_lines import parse_lines
 from vorotool.formats.parsing.reader_options import shortened
 
 MOST_CELLS = 10**8
 """Properties times objects: as a table, features that share no names would need memory by the square."""
-_LINES_LOOKED_AT = 1 << 24
-"""Bytes in which two lines must end to be told from a document over several lines."""
 
 
 def parse_json(source: Source) -> Any:
-    """Parse JSON whose nesting has been counted before.
+    """Parse JSON whose nesting has been counted before; lines of it are one document.
 
     Raises
     ------
@@ -30,28 +29,14 @@ def parse_json(source: Source) -> Any:
     if not source.data.strip():
         raise InputError(f"{source.name} is empty: JSON was expected; check what was to write it")
     check_nesting(source.data, name=source.name)
+    if source.format == "jsonl":
+        return parse_lines(source)
     try:
         return orjson.loads(source.data)
     except orjson.JSONDecodeError as error:
-        if _is_json_lines(source.data):
-            raise InputError(
-                f"{source.name} holds a JSON document a line, which is not read; join them to one: "
-                f"jq -s '{{type: \"FeatureCollection\", features: .}}' {source.name} > joined.geojson"
-            ) from None
         raise InputError(
             f"{source.name}, line {error.lineno}, column {error.colno}: this is not JSON ({error.msg}); correct it"
         ) from None
-
-
-def _is_json_lines(data: bytes) -> bool:
-    """Whether the first two lines are JSON objects of their own."""
-    import orjson
-
-    lines = [line for line in data[:_LINES_LOOKED_AT].split(b"\n", 2)[:2] if line.startswith(b"{")]
-    try:
-        return len(lines) == 2 and all(isinstance(orjson.loads(line), dict) for line in lines)
-    except orjson.JSONDecodeError:
-        return False
 
 
 def refuse_table(name: str, document: Sequence[Any], advice: str) -> None:

@@ -7,7 +7,9 @@ from functools import partial
 from typing import Any, BinaryIO
 
 import numpy as np
+from numpy.typing import NDArray
 
+from vorotool.formats.io.npy_arrays import write_array
 from vorotool.formats.polygons.writer import write_polygons
 from vorotool.formats.results.meshes import write_features
 from vorotool.formats.text.coordinate_text import Digits
@@ -58,8 +60,8 @@ def write_shape(
         As of `vorotool.formats.text.tables.write_table`.
     value : AlphaShape, AlphaComplex or AlphaHull
         What to write.
-    fmt : {"csv", "json", "npz", "geojson", "wkt", "poly"}
-        The format.
+    fmt : {"csv", "tsv", "json", "npz", "npy", "geojson", "wkt", "poly"}
+        The format. NPY has the points of edges, from 0 in the order of the input, or the radii of the spectrum.
     what : {"edges", "complex", "polygons", "general", "points", "table", "family", "spectrum", "hull"}
         The part; a family has the table of its radii and those of them at which the shape changes.
 
@@ -73,7 +75,9 @@ def write_shape(
     b'POLYGON ((4 0, 0 3, 0 0, 4 0))\n'
     """
     shape: Any = value
-    if fmt in TABLES and what in _TABLES:
+    if fmt == "npy":
+        write_array(out, _array(shape, what))
+    elif fmt in TABLES and what in _TABLES:
         write_table(out, _TABLES[what](shape), fmt, precision=precision, threads=threads)
     elif what == "polygons":
         write_polygons(out, described_polygons(shape), fmt, precision=precision)
@@ -83,6 +87,15 @@ def write_shape(
         write_hull_geojson(out, shape, precision=precision)
     else:
         write_shape_edges(out, shape, interior=what == "complex", precision=precision, threads=threads)
+
+
+def _array(shape: Any, what: str) -> NDArray[Any]:
+    """Points of edges, from 0 in the order of the input; or the radii of the spectrum."""
+    if what == "spectrum":
+        radii: NDArray[np.float64] = shape.spectrum
+        return radii
+    chosen: NDArray[np.int32] = shape.family.edges[np.flatnonzero(shape.edge_classes())]
+    return chosen if what == "complex" else shape.edges
 
 
 def write_shape_edges(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any, BinaryIO
 
 import numpy as np
@@ -29,11 +30,12 @@ def write_cells(out: BinaryIO, cells: CellSet, fmt: str, *, precision: int | Non
         Need not be seekable; only some cells are in memory as text at a time.
     cells : CellSet
         One row, or feature, a cell.
-    fmt : {"geojson", "csv", "json", "npz", "wkt"}
-        GeoJSON features have the id of the input, else the label; CSV has the cell as WKT after label and place of its
-        site; JSON is that of polygons, with the parts of a cell numbered if any has several; NPZ has beside the columns
-        the vertices, where each ring begins among these (``ring_starts``), each polygon among the rings, each cell
-        among the polygons, and the sides of the frame; WKT is one geometry a line, without the columns.
+    fmt : {"geojson", "csv", "tsv", "json", "npz", "wkt"}
+        GeoJSON features have the id of the input, else the label; CSV and TSV have the cell as WKT after label and
+        place of its site; JSON is that of polygons, with the parts of a cell numbered if any has several; NPZ has
+        beside the columns the vertices, where each ring begins among these (``ring_starts``), each polygon among the
+        rings, each cell among the polygons, and the sides of the frame; WKT is one geometry a line, without the
+        columns.
 
     Examples
     --------
@@ -68,8 +70,8 @@ def _table(cells: CellSet, shapes: Computed | None = None) -> Table:
     return Table(columns).with_properties(cells.properties)
 
 
-def _write_csv(out: BinaryIO, cells: CellSet, precision: int | None, threads: int) -> None:
-    write_table(out, _table(cells, _shapes(cells, "wkt")), "csv", precision=precision, threads=threads)
+def _write_csv(out: BinaryIO, cells: CellSet, precision: int | None, threads: int, fmt: str = "csv") -> None:
+    write_table(out, _table(cells, _shapes(cells, "wkt")), fmt, precision=precision, threads=threads)
 
 
 def _write_wkt(out: BinaryIO, cells: CellSet, precision: int | None, threads: int) -> None:
@@ -143,6 +145,7 @@ def _write_npz(out: BinaryIO, cells: CellSet, _precision: int | None, threads: i
 _WRITERS: dict[str, Callable[[BinaryIO, CellSet, int | None, int], None]] = {
     "geojson": _write_geojson,
     "csv": _write_csv,
+    "tsv": partial(_write_csv, fmt="tsv"),
     "json": _write_json,
     "npz": _write_npz,
     "wkt": _write_wkt,

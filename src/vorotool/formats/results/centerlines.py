@@ -32,7 +32,7 @@ def write_centerlines(
         As of `vorotool.formats.text.tables.write_table`.
     lines : Centerlines
         What to write.
-    fmt : {"geojson", "csv", "json", "npz", "wkt"}
+    fmt : {"geojson", "csv", "tsv", "json", "npz", "wkt"}
         The format.
     flatten : float, optional
         As of `vorotool.formats.results.skeletons.write_skeleton`.

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import UsageError
+from vorotool.formats.io.npy_arrays import write_array
 from vorotool.formats.text.feature_collection import write_collection
 from vorotool.formats.text.row_writer import Column, RowShape, write_rows
 from vorotool.formats.text.tables import json_column, object_shape, write_table
@@ -36,10 +37,10 @@ def write_mesh(
 ) -> None:
     r"""Write edges, triangles or points; the bytes depend on nothing but the mesh, the format and the precision.
 
-    Tables (CSV, JSON, NPZ) and GeoJSON tell the labels of the vertices. The others number the points in the order of
-    the input, duplicates included. OBJ holds them. An ``.edge`` or ``.ele`` file of Triangle belongs to a ``.node``
-    file: the one that was read, whose numbering from 0 or 1 is kept, or the one that the table is written as. The
-    marker of an edge or node is 1 on the hull, else 0.
+    Tables (CSV, TSV, JSON, NPZ) and GeoJSON tell the labels of the vertices. The others number the points in the order
+    of the input, duplicates included: NPY from 0, in an array of shape (m, 2) or (m, 3). OBJ holds them. An ``.edge``
+    or ``.ele`` file of Triangle belongs to a ``.node`` file: the one that was read, whose numbering from 0 or 1 is
+    kept, or the one that the table is written as. The marker of an edge or node is 1 on the hull, else 0.
 
     Parameters
     ----------
@@ -47,7 +48,7 @@ def write_mesh(
         As of `vorotool.formats.text.tables.write_table`.
     mesh : Triangulation or DigitalTriangulation
         Rows are in the order of its arrays.
-    fmt : {"csv", "json", "geojson", "npz", "edge", "ele", "node", "obj"}
+    fmt : {"csv", "tsv", "json", "geojson", "npz", "npy", "edge", "ele", "node", "obj"}
         Edges are LineStrings in GeoJSON and lines in OBJ, triangles are Polygons and faces.
     what : {"edges", "triangles", "table"}
         What to write; the table has one row a point.
@@ -65,7 +66,9 @@ def write_mesh(
             f"{what} as {fmt!r} is for triangulations: what a digital tessellation shows need not be one; write its "
             "edges or triangles as csv, json, geojson, npz or obj"
         )
-    if fmt in TABLES:
+    if fmt == "npy":
+        write_array(out, mesh.edges if what == "edges" else mesh.triangles)
+    elif fmt in TABLES:
         write_table(out, _TABLES[what](mesh), fmt, precision=precision, threads=threads)
     else:
         _WRITERS[fmt](out, mesh, what, precision, threads)

@@ -33,7 +33,7 @@ def write_offsets(
         As of `vorotool.formats.text.tables.write_table`.
     offsets : Offsets
         What to write, in its order.
-    fmt : {"json", "csv", "geojson", "npz", "wkt"}
+    fmt : {"json", "csv", "tsv", "geojson", "npz", "wkt"}
         The format.
     flatten : float, optional
         How far a chord may be from its arc, in input units; by default 1/4096 of the larger side of the bounds of the
@@ -53,7 +53,7 @@ def write_offsets(
     >>> out.getvalue()
     b'POLYGON ((1 1, 3 1, 3 3, 1 3, 1 1))\n'
     """
-    if fmt == "csv":
+    if fmt in ("csv", "tsv"):
         write_table(out, offsets.table(), fmt, precision=precision, threads=threads)
     elif fmt == "json":
         write_json(out, offsets, precision=precision, threads=threads)

@@ -6,6 +6,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
+from vorotool.formats.io.npy_arrays import write_array
 from vorotool.formats.text.feature_collection import write_collection
 from vorotool.formats.text.row_writer import Column, RowShape, write_rows
 from vorotool.formats.text.tables import json_text, write_table
@@ -33,9 +34,9 @@ def write_skeleton_points(
         As of `vorotool.formats.text.tables.write_table`.
     points : SkeletonPoints
         What to write, in its order.
-    fmt : {"csv", "json", "npz", "geojson", "wkt"}
-        The first three are of tables. GeoJSON has the id and the properties of the polygon, and ``branch``, ``along``,
-        ``r`` and ``width``.
+    fmt : {"csv", "tsv", "json", "npz", "npy", "geojson", "wkt"}
+        The first four are of tables, NPY has the places of points. GeoJSON has the id and the properties of the
+        polygon, and ``branch``, ``along``, ``r`` and ``width``.
     what : {"points", "transects"}
         What to write.
 
@@ -51,6 +52,9 @@ def write_skeleton_points(
     """
     if what == "transects":
         points = points.transects()
+    if fmt == "npy":
+        write_array(out, points.xy)
+        return
     if fmt in TABLES:
         write_table(out, points.table(), fmt, precision=precision, threads=threads)
         return

@@ -29,8 +29,8 @@ def write_skeleton(
 ) -> None:
     r"""Write a skeleton, its branches or a row a polygon; the bytes depend on nothing but the skeleton and the options.
 
-    JSON (version 1) and NPZ hold all there is, CSV one row an arc. GeoJSON and WKT have no curves: each branch is a
-    LineString, in GeoJSON with the id and the properties of its polygon.
+    JSON (version 1) and NPZ hold all there is, CSV and TSV one row an arc. GeoJSON and WKT have no curves: each branch
+    is a LineString, in GeoJSON with the id and the properties of its polygon.
 
     Parameters
     ----------
@@ -38,7 +38,7 @@ def write_skeleton(
         As of `vorotool.formats.text.tables.write_table`.
     skeleton : Skeleton
         What to write, in its order.
-    fmt : {"json", "csv", "geojson", "npz", "wkt"}
+    fmt : {"json", "csv", "tsv", "geojson", "npz", "wkt"}
         The format; parts are written as CSV, JSON or NPZ.
     what : {"skeleton", "diagram", "elements", "branches", "table"}
         What to write.
@@ -55,7 +55,7 @@ def write_skeleton(
     """
     if fmt in TABLES and what not in ("skeleton", "diagram"):
         write_table(out, _table(skeleton, what, threads), fmt, precision=precision, threads=threads)
-    elif fmt == "csv":
+    elif fmt in ("csv", "tsv"):
         write_table(out, arc_table(skeleton), fmt, precision=precision, threads=threads)
     elif fmt == "json":
         write_json(out, skeleton, precision=precision, threads=threads)

@@ -118,6 +118,7 @@ def write_rows(
     columns: Sequence[Column],
     shape: RowShape | None = None,
     *,
+    by_tabs: bool = False,
     precision: int | None = None,
     threads: int = 0,
 ) -> None:
@@ -131,6 +132,8 @@ def write_rows(
         Of one length. Lists hold str.
     shape : RowShape, optional
         By default rows of CSV.
+    by_tabs : bool
+        Without a shape: rows of TSV.
     precision : int, optional
         Significant digits of floating-point numbers; by default the shortest that reads back the same.
     threads : int
@@ -153,7 +156,7 @@ def write_rows(
     def formatted(part: slice) -> list[bytes]:
         parts = [column.part(part) for column in columns]
         values = [_core_values(column, texts) for column in parts]
-        return _core.text.format_rows(values, [column.missing for column in parts], digits, 1, shape)
+        return _core.text.format_rows(values, [column.missing for column in parts], digits, 1, shape, by_tabs)
 
     between = b"" if shape is None else shape.separator.encode()
     for number, blocks in enumerate(in_order(formatted, slices(rows, SLICE_ROWS), threads if rows > SLICE_ROWS else 1)):

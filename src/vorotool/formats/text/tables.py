@@ -1,4 +1,4 @@
-"""Writing tables as CSV, JSON or NPZ."""
+"""Writing tables as CSV, TSV, JSON or NPZ."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ _SLICE_VALUES = 1 << 16  # numbers of an array that are gathered and written at 
 def write_table(out: BinaryIO, table: Table, fmt: str, *, precision: int | None = None, threads: int = 0) -> None:
     r"""Write a table; the bytes depend on nothing but the table, the format and the precision.
 
-    What does not exist (masked, ``None``, or a number that is not finite) is an empty field in CSV, ``null``
-    in JSON, and marked in a further array ``<name>_missing`` in NPZ. Truth values are 0 and 1 in CSV.
+    What does not exist (masked, ``None``, or a number that is not finite) is an empty field in CSV and TSV,
+    ``null`` in JSON, and marked in a further array ``<name>_missing`` in NPZ. Truth values are 0 and 1 in CSV and TSV.
 
     Parameters
     ----------
@@ -33,13 +33,13 @@ def write_table(out: BinaryIO, table: Table, fmt: str, *, precision: int | None 
         Need not be seekable.
     table : Table
         Columns of numbers, truth values, text, or mixed objects.
-    fmt : {"csv", "json", "npz"}
-        CSV always has a header; JSON is a list of one object a row; NPZ has one array a column.
+    fmt : {"csv", "tsv", "json", "npz"}
+        CSV and TSV always have a header; JSON is a list of one object a row; NPZ has one array a column.
     precision : int, optional
         Significant digits of floating-point numbers in text; by default the shortest that
         reads back the same.
     threads : int
-        Threads for CSV; 0 for all.
+        Threads for text; 0 for all.
 
     Raises
     ------
@@ -55,16 +55,41 @@ def write_table(out: BinaryIO, table: Table, fmt: str, *, precision: int | None 
     b'label,x\n1,0.5\n2,\n'
     """
     check_precision(precision)
-    columns = [Column.of(name, values) for name, values in table.stored().items()]
-    if fmt == "csv":
-        _write_csv(out, columns, precision, threads)
+    columns = [Column.of(name, values) for name, values in _with_unit(table).items()]
+    if fmt in ("csv", "tsv"):
+        _write_delimited(out, columns, fmt == "tsv", precision, threads)
     elif fmt == "json":
         _write_json(out, columns, precision, threads)
     else:
         write_npz(out, columns, threads)
 
 
-# ---- CSV -----------------------------------------------------------------------------------------
+# ---- units ---------------------------------------------------------------------------------------
+_UNIT: ContextVar[str | None] = ContextVar("unit", default=None)
+
+
+@contextmanager
+def unit_column(unit: str | None) -> Iterator[None]:
+    """Give tables that are written within a last column ``unit``; with None they have none.
+
+    Where the input brings a column of this name, ours is ``voro_unit``.
+    """
+    token = _UNIT.set(unit)
+    try:
+        yield
+    finally:
+        _UNIT.reset(token)
+
+
+def _with_unit(table: Table) -> dict[str, Any]:
+    columns, unit = table.stored(), _UNIT.get()
+    if unit is None or not columns:
+        return columns
+    column = Lookup([unit], np.zeros(table.rows, dtype=np.int32))
+    return columns | {"voro_unit" if "unit" in columns else "unit": column}
+
+
+# ---- CSV and TSV ---------------------------------------------------------------------------------
 _SAFE: ContextVar[bool] = ContextVar("safe", default=False)
 _FORMULA = re.compile(r"[=+\-@\t\r]")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
@@ -72,7 +97,7 @@ _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 
 @contextmanager
 def safe_texts(is_wanted: bool = True) -> Iterator[None]:
-    """Keep spreadsheets from taking texts of the CSV written within for formulas: see `safe_text`."""
+    """Keep spreadsheets from taking texts of the CSV and TSV written within for formulas: see `safe_text`."""
     token = _SAFE.set(is_wanted)
     try:
         yield
@@ -91,11 +116,12 @@ def safe_text(text: str) -> str:
     return f"'{text}" if _FORMULA.match(text) and not _NUMBER.fullmatch(text) else text
 
 
-def _write_csv(out: BinaryIO, columns: list[Column], precision: int | None, threads: int) -> None:
-    write_rows(out, [Column(c.name, [safe_text(c.name) if _SAFE.get() else c.name]) for c in columns])
+def _write_delimited(out: BinaryIO, columns: list[Column], by_tabs: bool, precision: int | None, threads: int) -> None:
+    header = [Column(c.name, [safe_text(c.name) if _SAFE.get() else c.name]) for c in columns]
+    write_rows(out, header, by_tabs=by_tabs)
     is_safe = _SAFE.get()
     texts = [_with_texts(column, precision, is_safe=is_safe) for column in columns]
-    write_rows(out, texts, precision=precision, threads=threads)
+    write_rows(out, texts, by_tabs=by_tabs, precision=precision, threads=threads)
 
 
 def _with_texts(column: Column, precision: int | None, *, is_safe: bool) -> Column:

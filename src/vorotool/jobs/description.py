@@ -1,0 +1,334 @@
+"""How a file is read: its format, what it holds, how much, where, and which commands take it."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Collection, Mapping
+from functools import singledispatch
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.batch.inputs import expand_inputs, is_several
+from vorotool.engines.tessellation.raster_objects import default_objects, foreground_values, numbered_components
+from vorotool.errors import BatchError, InputError, UsageError, VorotoolError
+from vorotool.formats.io.atomic_output import open_output
+from vorotool.formats.opening import Opened, opened
+from vorotool.geometry.box import bounds
+from vorotool.geometry.crs import crs_name
+from vorotool.geometry.points.point_set import PointSet
+from vorotool.geometry.points.raster import Raster
+from vorotool.geometry.polygons.polygon_set import HOLE, PolygonSet
+from vorotool.geometry.skeleton.offsets import Offsets
+from vorotool.geometry.skeleton.skeleton import Skeleton
+from vorotool.jobs.inputs import refuse
+from vorotool.jobs.options import ReadingOptions
+from vorotool.jobs.run_log import tell
+from vorotool.products.inputs import NAMES_WITH, TAKEN_BY
+
+MOST_PIXELS_READ = 2**28
+"""Larger images that can be read band by band are told by their headers alone."""
+
+Description = dict[str, Any]
+"""What there is to tell, by names, in the order in which it is told; None where a file does not say."""
+
+_TYPES = {bool: "truth", int: "integer", float: "number", str: "text"}
+
+
+def describe_inputs(options: ReadingOptions) -> None:
+    """Print how each input is read; of several, one that cannot be read ends nothing.
+
+    Raises
+    ------
+    BatchError
+        If one of several cannot be read; what is wrong with it has been said.
+    InputError, LimitError, UsageError
+        As `described`, of a single one.
+    """
+    names = [each for name in options.inputs for each in _named_by(name)]
+    if not names:
+        raise UsageError("0 inputs are given: name files, a folder, or - for standard input")
+    failed = 0
+    for name in names:
+        try:
+            told = described(name, options)
+        except VorotoolError as error:
+            if len(names) == 1 or isinstance(error, UsageError):
+                raise
+            tell(f"error: {error}")
+            failed += 1
+            continue
+        with open_output("-") as out:
+            out.write(as_json(told) if options.json else as_text(told))
+    if failed:
+        raise BatchError(f"{failed} of {len(names)} inputs cannot be read")
+
+
+def _named_by(name: str) -> list[str]:
+    """Give the files of a folder or a pattern, or the name itself."""
+    if not is_several(name):
+        return [name]
+    return [each.source for each in expand_inputs([name], extensions=NAMES_WITH[None])]
+
+
+def described(path: str, options: ReadingOptions) -> Description:
+    """Read an input, and tell how.
+
+    Parameters
+    ----------
+    path : str
+        ``-`` is standard input.
+    options : ReadingOptions
+        Of the command line.
+
+    Raises
+    ------
+    InputError, LimitError, UsageError
+        As `vorotool.read`.
+
+    Examples
+    --------
+    >>> told = described("data/six-seeds.csv", ReadingOptions(inputs=("data/six-seeds.csv",)))
+    >>> told["format"], told["kind"], told["points"], told["bounds"]
+    ('csv', 'points', 6, [2.0, 2.0, 13.0, 14.0])
+    """
+    notes: list[str] = []
+    with opened(path, geometry=None, input_format=options.input_format, page=options.page) as source:
+        told = _of_header(source)
+        if told is None:
+            told = _of_content(source, options, notes.append)
+    return {"input": path, **told, "notes": notes}
+
+
+def _of_header(source: Opened) -> Description | None:
+    """Tell of an image that is too large to look at each pixel; None of all else."""
+    rows = source.rows()
+    if rows is None or rows.shape[0] * rows.shape[1] <= MOST_PIXELS_READ:
+        return None
+    height, width = rows.shape
+    return {
+        "format": "tiff" if source.array is None else "zarr",
+        "kind": "image",
+        **_of_pixels(width, height, rows.rows(0, 1).dtype, rows.resolution),
+        "commands": list(TAKEN_BY["image"]),
+    }
+
+
+def _of_content(source: Opened, options: ReadingOptions, note: Callable[[str], None]) -> Description:
+    formats: list[str] = []
+    value = source.read(
+        columns=options.columns,
+        max_pixels=options.max_pixels,
+        threads=options.threads,
+        note=note,
+        crs=options.input_crs,
+        told=formats.append,
+    )
+    told = {"format": formats[0], **_told_of(value, note)}
+    if not isinstance(value, Raster):
+        refuse({"page": options.page}, f"is for images, but the input holds {told['kind']}")
+    if _may_be_a_ring(value, formats[0]):
+        note(
+            "as a polygon, which a plain list of pairs may be as well, skeleton-approx, skeleton-exact and draw take it"
+        )
+    return told
+
+
+def _may_be_a_ring(value: object, fmt: str) -> bool:
+    """Whether points are a plain list in JSON, which is a ring where polygons are asked for."""
+    return (
+        isinstance(value, PointSet) and fmt == "json" and value.labels is None and not (value.properties or value.crs)
+    )
+
+
+@singledispatch
+def _told_of(value: Any, note: Callable[[str], None]) -> Description:
+    raise TypeError(type(value).__name__)
+
+
+@_told_of.register
+def _of_points(value: PointSet, note: Callable[[str], None]) -> Description:
+    return {
+        "kind": "points",
+        "points": len(value),
+        **_of_places(value.xy, value),
+        "has_labels": value.labels is not None,
+        "columns": _column_types(value.properties),
+        "commands": list(TAKEN_BY["points"]),
+    }
+
+
+@_told_of.register
+def _of_polygons(value: PolygonSet, note: Callable[[str], None]) -> Description:
+    lines = int(value.is_line.sum())
+    polygons = len(value) - lines
+    kind = " and ".join(name for name, count in (("polygons", polygons), ("lines", lines)) if count)
+    return {
+        "kind": kind or "polygons",
+        "features": len(set(value.feature.tolist())) if value.feature is not None else len(value),
+        "polygons": polygons,
+        "holes": int((value.ring_kind == HOLE).sum()),
+        "lines": lines,
+        "vertices": len(value.xy),
+        **_of_places(value.xy, value),
+        "columns": _column_types(value.properties),
+        "commands": list(TAKEN_BY["polygons"]),
+    }
+
+
+@_told_of.register
+def _of_skeleton(value: Skeleton, note: Callable[[str], None]) -> Description:
+    return {
+        "kind": "skeleton",
+        "arcs": len(value),
+        "nodes": len(value.vertices),
+        "polygons": len(value.polygons),
+        **_of_places(value.vertices, value.polygons),
+        "columns": _column_types(value.polygons.properties),
+        "commands": list(TAKEN_BY["skeleton"]),
+    }
+
+
+@_told_of.register
+def _of_offsets(value: Offsets, note: Callable[[str], None]) -> Description:
+    return {
+        "kind": "offset curves",
+        "shapes": len(value),
+        "pieces": len(value.site),
+        "distances": sorted(set(np.asarray(value.distance).tolist())),
+        **_of_places(np.concatenate([value.start, value.end]), value.polygons),
+        "columns": _column_types(value.polygons.properties),
+        "commands": list(TAKEN_BY["offsets"]),
+    }
+
+
+@_told_of.register
+def _of_image(value: Raster, note: Callable[[str], None]) -> Description:
+    height, width = value.shape
+    told = {"kind": "", **_of_pixels(width, height, value.values.dtype, value.resolution)}
+    commands = list(TAKEN_BY["image"])
+    if value.is_colour:
+        told["channels"] = value.values.shape[2]
+    try:
+        objects = foreground_values(value, None, invert=False)
+        told["kind"] = {"components": "mask", "labels": "label image"}[default_objects(objects, note=note)]
+        told["foreground_pixels"] = int(np.count_nonzero(objects))
+        told["objects"] = _count_of_objects(objects, told["kind"])
+    except InputError as error:  # what it says is what there is to know of a picture
+        note(str(error))
+        told["kind"] = "picture"
+        commands.remove("draw")
+    return {**told, "commands": commands}
+
+
+def _count_of_objects(values: NDArray[Any], kind: str) -> int:
+    if kind == "mask":
+        return int(numbered_components(values).max())
+    return int(np.count_nonzero(np.unique(values)))
+
+
+def _of_pixels(width: int, height: int, kind: Any, resolution: tuple[float, float, str] | None) -> Description:
+    """Size and type of an image, and the size of its pixels where the file says it in a length; dpi are of paper."""
+    known = resolution is not None and resolution[2] != "inch"
+    x, y, unit = resolution if known and resolution is not None else (1, 1, None)
+    return {
+        "width": width,
+        "height": height,
+        "type": np.dtype(kind).name,
+        "pixel_size": [1 / x, 1 / y] if known else None,
+        "unit": unit,
+    }
+
+
+def _of_places(xy: NDArray[np.float64], value: PointSet | PolygonSet) -> Description:
+    low, high = bounds(xy) if len(xy) else (None, None)
+    return {
+        "bounds": None if low is None or high is None else [*low.tolist(), *high.tolist()],
+        "crs": None if value.crs is None else crs_name(value.crs),
+        "y": "up" if value.y_up else "down",
+    }
+
+
+def _column_types(properties: Mapping[str, Collection[Any]]) -> dict[str, str]:
+    return {name: _type_of(values) for name, values in properties.items()}
+
+
+def _type_of(values: Collection[Any]) -> str:
+    """What the values of a column are that are there."""
+    if isinstance(values, np.ndarray):
+        values = values.tolist()
+    names = {_TYPES.get(type(value), "other") for value in values if value is not None}
+    if names == {"integer", "number"}:
+        return "number"
+    return names.pop() if len(names) == 1 else "mixed" if names else "empty"
+
+
+def as_json(told: Description) -> bytes:
+    r"""Give it as an object of JSON on one line.
+
+    Examples
+    --------
+    >>> as_json({"input": "a.csv", "points": 3, "crs": None})
+    b'{"input":"a.csv","points":3,"crs":null}\n'
+    """
+    return json.dumps(told, separators=(",", ":")).encode() + b"\n"
+
+
+def as_text(told: Description) -> bytes:
+    r"""Give it as lines for people: what a file does not say is left out.
+
+    Examples
+    --------
+    >>> print(as_text({"input": "a.csv", "points": 3, "crs": None, "bounds": [0.0, 1.0, 2.5, 9.0]}).decode(), end="")
+    a.csv
+      points     3
+      bounds     x 0 to 2.5, y 1 to 9
+    """
+    shown = {name: _words(name, value, told) for name, value in told.items() if name not in ("input", "unit", "notes")}
+    lines = [f"  {_TITLES.get(name, name):10} {text}" for name, text in shown.items() if text]
+    lines += [f"  {'note':10} {text}" for text in told.get("notes", ())]
+    title = "standard input" if told["input"] == "-" else told["input"]
+    return "\n".join([title, *lines, ""]).encode("utf-8", "surrogateescape")
+
+
+_TITLES = {
+    "pixel_size": "pixel size",
+    "has_labels": "labels",
+    "foreground_pixels": "foreground",
+    "commands": "taken by",
+}
+_MAY_BE_NONE = ("holes", "lines", "polygons")
+"""Counts that are left out where they are 0."""
+
+
+def _words(name: str, value: Any, told: Description) -> str:
+    """What stands behind a title; nothing where there is nothing to tell."""
+    if value is None or value is False or value == {} or (value == 0 and name in _MAY_BE_NONE):
+        return ""
+    return _WORDS[name](value, told) if name in _WORDS else str(value)
+
+
+def _extent(value: list[float], _: Description) -> str:
+    x0, y0, x1, y1 = map(_number, value)
+    return f"x {x0} to {x1}, y {y0} to {y1}"
+
+
+def _side(value: list[float], told: Description) -> str:
+    return f"{' x '.join(dict.fromkeys(map(_number, value)))} {told['unit']}"
+
+
+def _number(value: float) -> str:
+    return repr(value).removesuffix(".0")
+
+
+_WORDS: dict[str, Callable[[Any, Description], str]] = {
+    "bounds": _extent,
+    "pixel_size": _side,
+    "columns": lambda value, _: ", ".join(f"{column} ({kind})" for column, kind in value.items()),
+    "has_labels": lambda value, _: "the input's own",
+    "foreground_pixels": lambda value, _: f"{value} pixels",
+    "distances": lambda value, _: ", ".join(map(_number, value)),
+    "commands": lambda value, _: ", ".join(value),
+}
+"""Words of what is more than a number or a name."""

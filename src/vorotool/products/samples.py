@@ -1,0 +1,15 @@
+"""Small files to try commands on, which are in the package."""
+
+from __future__ import annotations
+
+SAMPLES = {
+    "dots.csv": "53 points in 512 x 512 pixels",
+    "six-seeds.csv": "6 points in 16 x 16 pixels",
+    "blobs.png": "a mask of 24 ellipses, 300 x 200 pixels",
+    "cells.png": "a label image: the regions of blobs.png",
+    "shape.json": "a polygon",
+    "two-shapes.json": "two polygons, one with a hole",
+    "segments.wkt": "four line segments",
+    "great-lakes.geojson": "three lakes in longitude and latitude (Natural Earth, public domain)",
+}
+"""Their names, and what is in them; the files are in the folder ``samples`` of the package."""

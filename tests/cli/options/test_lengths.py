@@ -1,0 +1,174 @@
+"""Lengths with units on the command line: the bytes are those of the same number of pixels, which is exact."""
+
+import json
+import shutil
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from vorotool.cli.options.lengths import Distances, ExactLength, Length, Radius, measured
+from vorotool.geometry.length_units import METRES, is_known, ratio
+from vorotool.jobs.options import TessellationOptions
+from vorotool.jobs.units import Measured, PixelSize, lengths_in_pixels
+
+XY = np.array([[0, 0], [9, 1], [4, 7], [12, 8], [2, 3], [7, 4], [11, 2], [1, 9], [5, 2], [8, 9]])
+
+
+@pytest.fixture
+def inputs(tmp_path):
+    (tmp_path / "in.csv").write_text("x,y\n" + "".join(f"{x},{y}\n" for x, y in XY))
+    (tmp_path / "in.json").write_text(
+        "[[[0, 0], [9, 0], [9, 9], [5, 3], [0, 9]], [[20, 0], [33, 1], [30, 8], [21, 7]]]"
+    )
+    return tmp_path
+
+
+# A pixel is 0.325 um: each length is given with a unit, and as what it is in pixels.
+CASES = [
+    ("tessellate in.csv -o {}.npy --max-distance", "1.3um", "4"),
+    ("tessellate in.csv -o {}.npy --max-distance", "1625nm", "5"),
+    ("tessellate in.csv -o {}.csv --what table --max-distance", "0.00000065 m", "2"),
+    ("alphashape in.csv -o {}.csv -r", "0.00195mm", "6"),
+    ("alphashape in.csv -o {}.svg -r", "0.000195 cm", "6"),
+    ("alphashape in.csv -o {}.csv -r", "inf", "inf"),
+    ("skeleton-exact in.json -o {}.csv --what offset -d", "-0.325um,0.65µm,7", "-1,2,7"),
+    ("skeleton-exact in.json -o {}.geojson --what points --every", "325nm", "1"),
+    ("skeleton-exact in.json -o {}.wkt --flatten", "0.0325um", "0.1"),
+    ("skeleton-exact in.json -o {}.json --simplify", "0.325\u03bcm", "1"),
+    ("skeleton-exact in.json -o {}.json --prune", "length=0.65um", "length=2"),
+    ("skeleton-exact in.json -o {}.json --prune", "chord=0.65um", "chord=2"),
+    ("skeleton-exact in.json -o {}.json --gap", "0.0325um", "0.1"),
+    ("skeleton-approx in.json -o {}.json --step", "0.325um", "1"),
+    ("skeleton-approx in.json -o {}.json --tolerance", "0.0325um", "0.1"),
+]
+
+
+@pytest.mark.parametrize(("command", "length", "pixels"), CASES, ids=lambda text: text.split()[0])
+def test_a_length_is_its_number_of_pixels(run, inputs, command, length, pixels):
+    written = []
+    for name, given in (("unit", length), ("plain", pixels)):
+        words = command.format(name).split()
+        # without a length in a unit a size of pixels is refused where there is nothing that it scales
+        is_needed = name == "unit" or not words[3].endswith(("npy", "svg"))
+        done = run(*words, given, *(["--pixel-size", "0.325um"] if is_needed else []), "-q")
+        assert done.code == 0, done.err
+        written.append((inputs / words[3]).read_bytes())
+    assert written[0] == written[1]
+
+
+def test_what_is_exact_stays_so(run, inputs):
+    """A third of an inch is no decimal number: of pixels at distance 1 none is lost or won by rounding."""
+    (inputs / "two.csv").write_text("x,y\n3,3\n")
+    size = ["--pixel-size", "0.1in", "--size", "7x7", "-q", "-o"]
+    assert run("tessellate", "two.csv", "--max-distance", "2.54mm", *size, "one.npy").code == 0
+    assert run("tessellate", "two.csv", "--max-distance", "2.5399999999999999999999mm", *size, "less.npy").code == 0
+    assert np.count_nonzero(np.load(inputs / "one.npy")) == 5
+    assert np.count_nonzero(np.load(inputs / "less.npy")) == 1
+
+
+def test_a_batch_and_its_statistics(run, inputs):
+    (inputs / "many").mkdir()
+    for name in "ab":
+        shutil.copy(inputs / "in.csv", inputs / "many" / f"{name}.csv")
+    options = ["--pixel-size", "0.5mm", "-r", "3mm", "-q"]
+    assert run("alphashape", "many", "--out-dir", "out", "-f", "csv", *options, "--stats", "s.json").code == 0
+    assert run("alphashape", "in.csv", "-o", "one.csv", *options).code == 0
+    assert {path.read_bytes() for path in (inputs / "out").glob("*.csv")} == {(inputs / "one.csv").read_bytes()}
+    assert json.loads((inputs / "s.json").read_text())["unit"] == "mm"
+    again = run("alphashape", "many", "--out-dir", "out", "-f", "csv", *options, "--resume", "--dry-run")
+    assert again.out.count('"kept"') == 2
+    other = run("alphashape", "many", "--out-dir", "out", "-f", "csv", *options[:3], "2mm", "--resume", "--dry-run")
+    assert other.out.count('"planned"') == 2
+
+
+KNOWN = "nm, um, µm, mm, cm, m, km, in, ft"
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (
+            "tessellate in.csv --max-distance 5um",
+            "5um has a unit, but that of the input is not known: give --pixel-size",
+        ),
+        (
+            "tessellate in.csv --max-distance 5parsec",
+            f"invalid --max-distance '5parsec': expected a number alone, or with a unit of {KNOWN}",
+        ),
+        ("tessellate in.csv --max-distance 5um --pixel-size 2", f"but --pixel-size has none: give it one of {KNOWN}"),
+        ("tessellate in.csv --max-distance 5um --pixel-size 2voxel", "is in voxel, which is none that is known"),
+        ("tessellate in.csv --max-distance 5voxel --pixel-size 2um", "invalid --max-distance '5voxel'"),
+        ("alphashape in.csv -r 5um", "error: -r 5um has a unit"),
+        ("skeleton-exact in.json --what offset -d 2m", "error: -d 2m has a unit"),
+        ("skeleton-exact in.json --prune chord=2m", "error: --prune chord=2m has a unit"),
+        ("skeleton-exact in.json --what points --every 1ell", "invalid --every '1ell'"),
+        ("skeleton-exact in.json --gap -1um", "'-1um': expected 0 or more"),
+        ("skeleton-exact in.json --what points --every 0um", "'0um': expected more than 0"),
+        ("skeleton-exact in.json --what offset -d 0um,2", "a distance is 0"),
+        ("skeleton-exact in.json --what offset -d 1mm,1000um --pixel-size 1mm", "the distance 1 is there 2 times"),
+        ("skeleton-exact in.json --prune angle=2um", "'2um' is no number"),
+        ("skeleton-exact in.json --prune length=-2um", "expected a length from 0"),
+        ("skeleton-exact in.json --what points --every 1e300km --pixel-size 1e-20nm", "invalid --every '1e300km'"),
+        ("skeleton-exact in.json --what points --every 1e-300nm --pixel-size 1e30km", "invalid --every '1e-300nm'"),
+        ("tessellate in.csv --max-distance 1e999um --pixel-size 1um", "expected a decimal"),
+    ],
+)
+def test_lengths_that_mean_nothing(run, inputs, options, words):
+    done = run(*options.split(), "-o", "out.npy" if options.startswith("tess") else "out.csv")
+    assert done.code == 2
+    assert words in done.err
+    assert not list(inputs.glob("out*"))
+
+
+def test_a_unit_of_its_own_is_as_good_as_any(run, inputs):
+    assert run("tessellate", "in.csv", "--max-distance", "6voxel", "--pixel-size", "2voxel", "-o", "a.npy").code == 0
+    assert run("tessellate", "in.csv", "--max-distance", "3", "-o", "b.npy").code == 0
+    assert (inputs / "a.npy").read_bytes() == (inputs / "b.npy").read_bytes()
+
+
+# ---- units and parsing ---------------------------------------------------------------------------
+def test_ratios_are_those_of_the_units():
+    assert ratio("in", "mm") == Fraction("25.4")
+    assert ratio("ft", "in") == 12
+    assert ratio("km", "nm") == 10**12
+    assert ratio("µm", "\u03bcm") == ratio("um", "µm") == 1
+    assert ratio("mm", "parsec") is None
+    for one in METRES:
+        for two in METRES:
+            assert ratio(one, two) * ratio(two, one) == 1
+    assert is_known("\u03bcm")
+    assert not is_known("Mm")
+
+
+@pytest.mark.parametrize(
+    "text", ["1e5", "inf", "nan", "5", "-2.5", "", "um", "5 5um", "5um2", "1_000um", "5um,", ".um"]
+)
+def test_what_has_no_unit(text):
+    assert measured(text) is None
+
+
+@pytest.mark.parametrize(
+    ("text", "number", "unit"),
+    [("5um", "5", "um"), (".5 mm", "0.5", "mm"), ("5.m", "5", "m"), ("1e-3km", "0.001", "km"), ("+2in", "2", "in")],
+)
+def test_what_has_one(text, number, unit):
+    assert measured(text) == Measured(text, Fraction(number), unit, False)
+    assert Length(zero=False).convert(text, None, None) == Measured(text, Fraction(number), unit, False)
+    assert ExactLength().convert(text, None, None) == Measured(text, Fraction(number), unit, True)
+
+
+def test_plain_numbers_are_what_they_were():
+    assert Length(zero=False).convert("0.5", None, None) == 0.5
+    assert ExactLength().convert("0.1", None, None) == Fraction(1, 10)
+    assert Radius().convert("inf", None, None) == float("inf")
+    assert Distances().convert("-2,5", None, None) == (-2.0, 5.0)
+
+
+def test_options_without_units_are_the_same_value():
+    options = TessellationOptions(**dict.fromkeys(TessellationOptions.__dataclass_fields__))
+    assert lengths_in_pixels(options, None) is options
+    size = PixelSize(Fraction("0.325"), "um")
+    given = replace(options, max_distance=ExactLength().convert("1.3um", None, None))
+    assert lengths_in_pixels(given, size).max_distance == 4

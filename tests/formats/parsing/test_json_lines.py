@@ -1,0 +1,144 @@
+"""JSON lines: features and rows of tables, by line and by record separator; what one document of them would hold."""
+
+import json
+
+import numpy as np
+import pytest
+
+import vorotool
+from vorotool.errors import InputError, UsageError
+from vorotool.products.inputs import INPUTS
+
+POINTS = [
+    {
+        "type": "Feature",
+        "id": k,
+        "properties": {"name": f"n{k}"},
+        "geometry": {"type": "Point", "coordinates": [k, 2.5]},
+    }
+    for k in range(4)
+]
+SHAPES = [
+    {"type": "Feature", "properties": {"k": 1}, "geometry": {"type": "Polygon", "coordinates": [RING]}}
+    for RING in ([[0, 0], [4, 0], [0, 3], [0, 0]], [[9, 9], [14, 9], [9, 13], [9, 9]])
+] + [{"type": "Feature", "properties": {"k": 2}, "geometry": {"type": "LineString", "coordinates": [[1, 1], [2, 5]]}}]
+ROWS = [{"label": 3, "x": 1, "y": 0.5, "note": "ä\u2028\x1e"}, {"label": 4, "x": -1e300, "y": 7, "note": None}]
+
+
+def lines_of(items, **options):
+    return "".join(json.dumps(item, **options) + "\n" for item in items)
+
+
+def sequence_of(items, **options):
+    return "".join(f"\x1e{json.dumps(item, **options)}\n" for item in items)
+
+
+FORMS = {
+    "lines": lines_of,
+    "Windows": lambda items: lines_of(items).replace("\n", "\r\n"),
+    "blank lines": lambda items: "\n" + lines_of(items).replace("\n", "\n\n"),
+    "no last end": lambda items: lines_of(items)[:-1],
+    "byte order mark": lambda items: "\ufeff" + lines_of(items),
+    "sequence": sequence_of,
+    "sequence over lines": lambda items: sequence_of(items, indent=2),
+    "with its letters": lambda items: lines_of(items, ensure_ascii=False),
+}
+
+
+@pytest.fixture
+def written(tmp_path):
+    def write(text, name="a.jsonl"):
+        (tmp_path / name).write_bytes(text.encode())
+        return tmp_path / name
+
+    return write
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("name", ["a.jsonl", "a.ndjson", "a.geojsonl", "a.geojsons", "a.geojson", "a.json", "a"])
+@pytest.mark.parametrize("items", [POINTS, SHAPES], ids=["points", "shapes"])
+def test_features_are_those_of_a_collection(written, form, name, items):
+    if form == "blank lines" and name in ("a.geojson", "a.json", "a"):
+        pytest.skip("lines are told by the first two")
+    whole = vorotool.read(written(json.dumps({"type": "FeatureCollection", "features": items}), "whole.geojson"))
+    read = vorotool.read(written(FORMS[form](items), name))
+    assert type(read) is type(whole)
+    assert np.array_equal(read.xy, whole.xy)
+    assert read.properties == whole.properties
+    assert read.y_up
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_rows_are_those_of_a_list(written, form):
+    whole, read = vorotool.read(written(json.dumps(ROWS), "a.json")), vorotool.read(written(FORMS[form](ROWS)))
+    assert np.array_equal(read.xy, whole.xy)
+    assert read.properties == whole.properties == {"label": [3, 4], "note": ["ä\u2028\x1e", None]}
+    assert vorotool.read(written(FORMS[form](ROWS)), columns="x,y,label").labels.tolist() == [3, 4]
+
+
+def test_geometries_and_single_lines(written):
+    assert vorotool.read(written(lines_of([each["geometry"] for each in POINTS]))).xy[:, 0].tolist() == [0, 1, 2, 3]
+    for name in ("a.jsonl", "a.json", "a"):
+        assert len(vorotool.read(written(lines_of(ROWS[:1]), name))) == 1
+        assert len(vorotool.read(written(lines_of(SHAPES[:1]), name))) == 1
+
+
+def test_a_system_that_features_name_is_that_of_all(written):
+    crs = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::3857"}}
+    items = [{**POINTS[0], "crs": crs}, POINTS[1], {**POINTS[2], "crs": crs}]
+    assert vorotool.read(written(lines_of(items))).crs == crs
+    other = {"type": "name", "properties": {"name": "EPSG:2056"}}
+    with pytest.raises(
+        InputError, match=r"a.jsonl, line 3: the feature is in EPSG:2056, but that of line 1 in EPSG:3857"
+    ):
+        vorotool.read(written(lines_of([*items[:2], {**POINTS[2], "crs": other}])))
+
+
+def test_what_is_written_is_read_back(tmp_path):
+    shape = vorotool.skeleton_exact([[0, 0], [40, 0], [40, 12], [14, 12], [14, 30], [0, 30]])
+    for fmt in ("geojson", "jsonl"):
+        vorotool.write(shape, tmp_path / f"a.{fmt}")
+    whole, lines = (vorotool.read(tmp_path / f"a.{fmt}") for fmt in ("geojson", "jsonl"))
+    assert np.array_equal(whole.xy, lines.xy)
+    assert whole.properties == lines.properties
+
+
+def test_many_lines_are_read_at_once(written):
+    text = "".join(f'{{"x":{k},"y":{k % 7}}}\n' for k in range(50_000))
+    assert vorotool.read(written(text)).xy[-1].tolist() == [49_999, 49_999 % 7]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ('{"x":1,"y":2}\n{"x":1,\n', "a.jsonl, line 2, column 8: this is not JSON"),
+        ('{"x":1,"y":2}\n\n[1,2]\n', r"a.jsonl, line 3: \[1, 2\] is no object; write one on each line"),
+        ('{"x":1,"y":2} {"x":1,"y":2}\n', "a.jsonl, line 1, column 15: this is not JSON"),
+        ('{"x":1,"y":2}\n{"x":1}\n', "a.jsonl, row 2: .* has other fields than the first"),
+        ('{"type":"Point","coordinates":[1,2]}\n{"x":1}\n', "a.jsonl, line 2: .* is no feature, as those before are"),
+        (
+            '{"type":"Point","coordinates":[1,2]}\n{"type":"Point","coordinates":[1]}\n',
+            r"a.jsonl, feature 2: \[1\] is not",
+        ),
+        ('\x1e{"x":1,\n"y":2}\n\x1e{"x":\n1,}', "a.jsonl, line 4, column 2: this is not JSON"),
+        ("[" * 200, "nest"),
+        ("", "a.jsonl is empty: JSON was expected"),
+        ("\n \n", "a.jsonl is empty: JSON was expected"),
+        ("[1,2]\n[3,4]\n", r"a.jsonl, line 1: \[1, 2\] is no object"),
+        ("null\n", "line 1: None is no object"),
+    ],
+)
+def test_what_is_wrong_is_named_with_its_line(written, text, words):
+    with pytest.raises(InputError, match=words):
+        vorotool.read(written(text))
+
+
+def test_polygons_are_not_made_of_rows(written):
+    with pytest.raises(InputError, match=r"a.jsonl holds a table, whose rows have label, x, y, note, not polygons"):
+        vorotool.read(written(lines_of(ROWS)), geometry="polygons")
+    with pytest.raises(UsageError, match="--columns is for delimited text"):
+        vorotool.read(written(lines_of(POINTS)), columns="x,y")
+
+
+def test_the_registry_has_a_line_for_it():
+    assert set(INPUTS["jsonl"].readers) == {"points", "polygons"}

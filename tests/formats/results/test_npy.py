@@ -1,0 +1,81 @@
+"""Plain arrays of results as NPY: those of the library, the same as the other formats have, and read back as points."""
+
+import io
+
+import numpy as np
+import pytest
+from scipy.spatial import Delaunay
+
+import vorotool
+from support.readers.written import rows_of, written
+from vorotool.errors import UsageError
+
+XY = np.random.default_rng(8).integers(0, 60, (40, 2)).astype(float)
+SHAPE = [[0, 0], [40, 0], [40, 12], [14, 12], [14, 30], [0, 30]]
+
+
+def array(value, what):
+    return np.load(io.BytesIO(written(value, "npy", what)))
+
+
+def unordered(rows):
+    return {tuple(sorted(row)) for row in rows.tolist()}
+
+
+def test_triangles_and_edges_are_those_of_scipy():
+    points = np.random.default_rng(9).random((50, 2))
+    mesh, peer = vorotool.delaunay(points), Delaunay(points)
+    triangles = array(mesh, "triangles")
+    assert (triangles.dtype, triangles.shape) == (np.dtype("<i4"), (len(peer.simplices), 3))
+    assert unordered(triangles) == unordered(peer.simplices)
+    edges = array(mesh, "edges")
+    assert unordered(edges) == {pair for row in peer.simplices for pair in unordered(row[[[0, 1], [1, 2], [0, 2]]])}
+
+
+@pytest.mark.parametrize("what", ["edges", "triangles"])
+def test_numbers_are_labels_less_one(what):
+    mesh = vorotool.delaunay(XY)
+    rows = rows_of(written(mesh, "csv", what))
+    labels = [[int(row[name]) for name in ("label_a", "label_b", "label_c") if name in row] for row in rows]
+    assert (array(mesh, what) + 1).tolist() == labels
+    assert array(mesh, what).tolist() == getattr(mesh, what).tolist()
+
+
+@pytest.mark.parametrize("what", ["edges", "complex"])
+def test_edges_of_shapes(what):
+    shape = vorotool.alpha_shape(XY, r=8)
+    labels = [[int(row["label_a"]), int(row["label_b"])] for row in rows_of(written(shape, "csv", what))]
+    assert len(labels) > 4
+    assert (array(shape, what) + 1).tolist() == labels
+
+
+def test_radii_of_the_spectrum():
+    family = vorotool.alpha_complex(XY)
+    assert array(family, "spectrum").tolist() == [
+        float(row["r"]) for row in rows_of(written(family, "csv", "spectrum"))
+    ]
+    assert array(family, "spectrum").dtype == np.dtype("<f8")
+
+
+def test_points_along_are_points_for_all(tmp_path):
+    along = vorotool.points_along(vorotool.skeleton_exact(SHAPE), every=3)
+    assert np.array_equal(array(along, "points"), along.xy)
+    vorotool.write(along, tmp_path / "a.npy")
+    assert np.array_equal(vorotool.read(tmp_path / "a.npy").xy, along.xy)
+
+
+def test_nothing_is_an_array_without_rows():
+    assert array(vorotool.delaunay([[1, 2]]), "edges").shape == (0, 2)
+    assert array(vorotool.delaunay([[1, 2], [3, 4]]), "triangles").shape == (0, 3)
+
+
+def test_the_same_bytes_from_any_memory():
+    mesh = vorotool.delaunay(XY)
+    assert written(mesh, "npy", "edges") == written(vorotool.delaunay(np.asfortranarray(XY)), "npy", "edges")
+
+
+@pytest.mark.parametrize("what", ["table", "cells"])
+def test_what_is_no_plain_array(what):
+    value = vorotool.delaunay(XY) if what == "table" else vorotool.voronoi_cells(XY)
+    with pytest.raises(UsageError, match="cannot be written as 'npy': use one of"):
+        written(value, "npy", what)
