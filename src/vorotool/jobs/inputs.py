@@ -31,10 +31,13 @@ class JobInput(NamedTuple):
         The input; ``-`` is standard input.
     backdrop : Backdrop, optional
         The image that pictures of it are drawn over.
+    has_units : bool
+        An output has lengths.
     """
 
     path: str
     backdrop: Backdrop | None = None
+    has_units: bool = False
 
     @property
     def name(self) -> str:
@@ -90,7 +93,12 @@ def read_opened(
     assert isinstance(value, PointSet | PolygonSet | Raster)  # others are read where no geometry is asked for
     if isinstance(value, Raster):
         note_other_size(run, o, given, value.values.shape)
-    elif isinstance(o, SiteOptions):
+        return value
+    if o.pixel_size is not None and o.pixel_size.is_auto:
+        raise UsageError(
+            "--pixel-size auto is for images, whose files may say it: give a number and its unit, such as 0.325um"
+        )
+    if isinstance(o, SiteOptions):
         refuse(o.for_images(), "is for images, but the input is a list of points")
     return value
 
@@ -224,24 +232,35 @@ def _note_of_clip(run: Run, message: str) -> None:
 def _in_one_crs(run: Run, clip: tuple[str, PolygonSet], data: tuple[str, PointSet | SeedSet]) -> PointSet | SeedSet:
     """Check that polygons and points are in one coordinate reference system, as far as they name any."""
     from vorotool.formats.parsing.reference_systems import with_crs
-    from vorotool.geometry.crs import crs_name, same_crs
+    from vorotool.geometry.crs import crs_name
     from vorotool.geometry.points.point_set import PointSet
 
     (path, polygons), (source, points) = clip, data
-    if not isinstance(points, PointSet) or (points.crs is None and polygons.crs is None):
+    if not isinstance(points, PointSet):
+        if points.grid is not None and points.grid.crs is not None and polygons.crs is not None:
+            _require_same(path, polygons.crs, source, points.grid.crs)
+        return points
+    if points.crs is None and polygons.crs is None:
         return points
     if points.crs is None or polygons.crs is None:
         unnamed, named, crs = (source, path, polygons.crs) if points.crs is None else (path, source, points.crs)
         _check_they_meet(points, polygons, f"{unnamed} names no coordinate reference system", f"{named} is in", crs)
         run.note(f"{unnamed} names no coordinate reference system: it is taken to be in {crs_name(crs)}, as {named} is")
         return with_crs(points, source, crs, run.note) if points.crs is None else points
-    if not same_crs(points.crs, polygons.crs):
-        wanted = crs_name(points.crs)
-        raise InputError(
-            f"{path} is in {crs_name(polygons.crs)}, but {source} in {wanted}: bring them into one coordinate "
-            f"reference system, for example: ogr2ogr -f GeoJSON -t_srs {wanted} clip.geojson {path}"
-        )
+    _require_same(path, polygons.crs, source, points.crs)
     return points
+
+
+def _require_same(path: str, crs: Any, source: str, wanted: Any) -> None:
+    """Refuse polygons in another coordinate reference system than the sites."""
+    from vorotool.geometry.crs import crs_name, same_crs
+
+    if not same_crs(wanted, crs):
+        name = crs_name(wanted)
+        raise InputError(
+            f"{path} is in {crs_name(crs)}, but {source} in {name}: bring them into one coordinate "
+            f"reference system, for example: ogr2ogr -f GeoJSON -t_srs {name} clip.geojson {path}"
+        )
 
 
 def _check_they_meet(points: PointSet, polygons: PolygonSet, unnamed: str, named: str, crs: Any) -> None:

@@ -59,7 +59,7 @@ class StreamedProducts:
 
     def __init__(self, run: Run, options: TessellationOptions, image: ZarrRows | TiffRows) -> None:
         refuse(options.of_frame(), "is for lists of points, but the input is an image, which brings its own")
-        self.run, self.options, self.resolution = run, options, image.resolution
+        self.run, self.options, self.grid = run, options, image.grid
         from vorotool.formats.zarr.arrays import CHUNK
 
         assert options.seeds != "centroids"  # of such images, and of those with Otsu's threshold, all is held
@@ -117,9 +117,11 @@ class StreamedProducts:
             dtype = self.image.square_dtype
             largest = int(np.iinfo(dtype).max)
         band = partial(self.image.band, what, dtype, max_distance=self._max_distance(what))
-        return Stream(
-            self.image.frame, partial(self._rows, what, dtype), dtype, largest, band, {"resolution": self.resolution}
-        )
+        return Stream(self.image.frame, partial(self._rows, what, dtype), dtype, largest, band, self._kind(what))
+
+    def _kind(self, what: str) -> dict[str, Any]:
+        """What TIFF files say of the pixels."""
+        return {"grid": self.grid, "nodata": 0 if self._max_distance(what) is not None else None}
 
     def _rows(self, what: Quantity, dtype: np.dtype[Any], first: int, rows: int) -> NDArray[Any]:
         show = self._progress
