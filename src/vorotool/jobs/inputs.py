@@ -8,6 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import InputError, Kind, Message, UsageError
+from vorotool.jobs.masks import settled_foreground
 from vorotool.jobs.options import ComputingOptions, JobOptions, SiteOptions
 from vorotool.jobs.run_log import Run
 
@@ -43,21 +44,6 @@ class JobInput(NamedTuple):
     def name(self) -> str:
         """What messages call it."""
         return "standard input" if self.path == "-" else self.path
-
-
-class Foreground(NamedTuple):
-    """What of an image is foreground: what is larger than the threshold, or else what is not.
-
-    Parameters
-    ----------
-    threshold : float, optional
-        None where values tell.
-    invert : bool
-        Exchange foreground and background.
-    """
-
-    threshold: float | None
-    invert: bool
 
 
 def opened_input(o: ComputingOptions, given: JobInput, geometry: str) -> AbstractContextManager[Opened]:
@@ -103,24 +89,6 @@ def read_opened(
     return value
 
 
-def settled_foreground(run: Run, o: ComputingOptions, image: Raster) -> Foreground:
-    """Find the threshold of Otsu's method if it is asked for: as a number it is said, and in the statistics."""
-    if o.threshold != "otsu":
-        if o.threshold is not None:
-            run.stats["threshold"] = o.threshold
-        return Foreground(o.threshold, o.invert)
-    from vorotool.engines.tessellation.raster_objects import counted_values, is_flat, settled_threshold
-
-    found = Foreground(*settled_threshold(image, "otsu", invert=o.invert))
-    if is_flat(counted_values(image)):
-        run.note(f"all pixels have the value {found.threshold:.17g}: Otsu's method finds no foreground")
-        run.stats["threshold"] = None
-    else:
-        run.note(f"threshold {found.threshold:.17g}, by Otsu's method")
-        run.stats["threshold"] = found.threshold
-    return found
-
-
 def check_components(o: SiteOptions) -> None:
     """Refuse ``--connectivity`` where no components are made."""
     if o.connectivity is not None and o.seeds in ("pixels", "labels"):
@@ -155,7 +123,7 @@ def seeds_of_image(run: Run, o: SiteOptions, image: Raster, mode: SeedMode | Non
     """Find the seeds of an image, as the options say."""
     from vorotool.engines.tessellation.seeding import seeds_from_raster
 
-    threshold, invert = settled_foreground(run, o, image)
+    image, threshold, invert = settled_foreground(run, o, image)
     return seeds_from_raster(
         image,
         mode=mode,

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
-from vorotool.jobs.inputs import JobInput, opened_input, read_opened, refuse, settled_foreground
+from vorotool.jobs.inputs import JobInput, opened_input, read_opened, refuse
+from vorotool.jobs.masks import settled_foreground
 from vorotool.jobs.options import SkeletonOptions
 from vorotool.jobs.pixel_sizes import placed_polygons, with_pixel_size
 from vorotool.jobs.run_log import Run
@@ -54,7 +55,7 @@ def read_polygons(run: Run, o: Options, given: JobInput) -> ReadPolygons[Options
 def _outlines(run: Run, o: SkeletonOptions, image: Raster) -> PolygonSet:
     from vorotool.engines.label_images.outlines import outlines
 
-    threshold, invert = settled_foreground(run, o, image)
+    image, threshold, invert = settled_foreground(run, o, image)
     with run.phase("outline") as progress:
         return outlines(
             image,

@@ -36,6 +36,7 @@ STREAMED = frozenset({"labels", "distance", "distance2"})
 def rows_of_large(o: TessellationOptions, source: Opened) -> ZarrRows | TiffRows | None:
     """Give an image band by band, if it is large or its bands go to a cluster, and the options allow that."""
     held = o.verify or o.seeds == "centroids" or o.threshold == "otsu" or o.method != "exact" or o.columns is not None
+    held = held or bool(o.cleans_masks)
     rows = None if held or not set(o.what) <= STREAMED else source.rows()
     if rows is None:
         return None

@@ -13,7 +13,8 @@ _GROUPS = {
     "Output": "output format what dtype chunk flatten precision no_properties safe_csv no_clobber",
     "Method": "method passes max_distance r alpha auto regions rule hole_threshold region_threshold step tolerance "
     "sampling compare side gap complete features prune start end ends distance every",
-    "Input": "columns input_format input_crs page pixel_size seeds connectivity threshold invert outline simplify",
+    "Input": "columns input_format input_crs page pixel_size seeds connectivity threshold invert min_area fill_holes "
+    "outline simplify",
     "Frame": "size window frame clip",
     "Pictures": "layers overlay width y_up",
     "Many inputs": "out_dir files_from null jobs keep_going dry_run resume shard table cluster",
