@@ -90,6 +90,12 @@ def _tiffs() -> list[tuple[str, str, bytes]]:
         files.append(_tiff(GREY.astype(dtype), byteorder=byteorder, metadata=None, **options))
     for options in ({"compression": "zlib", "predictor": 2, "tile": (16, 16)}, {"imagej": True, "resolution": (4, 5)}):
         files.append(_tiff(GREY.astype("u2"), **options))
+    places = [(33550, 12, 3, (2.0, 2.0, 0.0), True), (33922, 12, 6, (0.0, 0.0, 0.0, 5.0, 7.0, 0.0), True)]
+    keys = (1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, 2056)
+    tags = [*places, (34735, 3, len(keys), keys, True), (42113, 2, 0, "3", True)]
+    files.append(_tiff(GREY, metadata=None, extratags=tags))
+    sizes = {"PhysicalSizeX": 0.25, "PhysicalSizeY": 0.25}
+    files.append(_tiff(GREY, ome=True, metadata={"axes": "YX", "UUID": "urn:uuid:0", **sizes}))
     for compression in ("tiff_adobe_deflate", "tiff_lzw", "packbits"):
         files.append(_saved(Image.fromarray(GREY.astype(bool)), "TIFF", compression=compression))
     colour = np.dstack([GREY, GREY + 1, GREY + 2])

@@ -43,7 +43,7 @@ engines/digital -> engines/common, engines/delaunay, engines/label_images, engin
     geometry/curves, geometry/mesh, geometry/points
 engines/features -> engines/arrangement, geometry, geometry/polygons, geometry/skeleton
 formats/polygons -> formats/io, formats/parsing, formats/points, formats/text, geometry, geometry/polygons
-geometry/any -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton
+geometry/any -> geometry, geometry/alpha, geometry/mesh, geometry/points, geometry/polygons, geometry/skeleton
 render/layers -> geometry, geometry/alpha, geometry/mesh, geometry/polygons, geometry/skeleton, render/canvas,
     render/label_images
 render/pages -> geometry, geometry/alpha, geometry/curves, geometry/skeleton, render/canvas

@@ -1,4 +1,4 @@
-"""Units of length, and the exact ratios between them."""
+"""Units of length as files and users write them: one name for each, and the exact ratios between them."""
 
 from __future__ import annotations
 
@@ -15,9 +15,43 @@ METRES = {
     "in": Fraction(254, 10**4),
     "ft": Fraction(3048, 10**4),
 }
-"""Of how many metres each unit is."""
+"""Of how many metres each unit is that options may have."""
 
-_OTHER_LETTERS = {"\N{GREEK SMALL LETTER MU}m": "µm"}
+_NAMES = {
+    "um": "µm",
+    "\N{GREEK SMALL LETTER MU}m": "µm",
+    "micron": "µm",
+    "microns": "µm",
+    "angstrom": "Å",
+    "inches": "inch",
+    "in": "inch",
+    '"': "inch",
+    "foot": "ft",
+    "feet": "ft",
+    "degree": "deg",
+    "degrees": "deg",
+    "°": "deg",
+}
+_PREFIXES = {"pico": "pm", "nano": "nm", "micro": "µm", "milli": "mm", "centi": "cm", "": "m", "kilo": "km"}
+_NAMES |= {
+    f"{prefix}{metre}": name for prefix, name in _PREFIXES.items() for metre in ("metre", "metres", "meter", "meters")
+}
+_OTHERS = {"pm": Fraction(1, 10**12), "Å": Fraction(1, 10**10)}
+_LENGTHS = {_NAMES.get(unit, unit): metres for unit, metres in METRES.items()} | _OTHERS
+"""By the one name of each unit."""
+_IMPERIAL = ("inch", "ft")
+
+
+def unit_name(text: str) -> str:
+    """Give the one name of a unit, whatever its spelling; a unit that is not known keeps its own.
+
+    Examples
+    --------
+    >>> unit_name("microns"), unit_name("um"), unit_name("Millimeters"), unit_name("furlong")
+    ('µm', 'µm', 'mm', 'furlong')
+    """
+    plain = text.strip()
+    return _NAMES.get(plain) or _NAMES.get(plain.lower()) or plain
 
 
 def ratio(unit: str, other: str) -> Fraction | None:
@@ -28,18 +62,40 @@ def ratio(unit: str, other: str) -> Fraction | None:
     >>> ratio("in", "mm"), ratio("um", "µm"), ratio("voxel", "voxel"), ratio("voxel", "um")
     (Fraction(127, 5), Fraction(1, 1), Fraction(1, 1), None)
     """
-    one, two = (_OTHER_LETTERS.get(name, name) for name in (unit, other))
+    one, two = unit_name(unit), unit_name(other)
     if one == two:
         return Fraction(1)
-    return METRES[one] / METRES[two] if one in METRES and two in METRES else None
+    return _LENGTHS[one] / _LENGTHS[two] if one in _LENGTHS and two in _LENGTHS else None
 
 
 def is_known(unit: str) -> bool:
-    """Whether a unit is one of these.
+    """Whether a unit is a length.
 
     Examples
     --------
     >>> is_known("km"), is_known("parsec")
     (True, False)
     """
-    return _OTHER_LETTERS.get(unit, unit) in METRES
+    return unit_name(unit) in _LENGTHS
+
+
+def metres(unit: str | None) -> Fraction | None:
+    """Give the metres of a unit of the metric system, by its one name; None of any other.
+
+    Examples
+    --------
+    >>> metres("mm"), metres("inch"), metres(None)
+    (Fraction(1, 1000), None, None)
+    """
+    return None if unit is None or unit in _IMPERIAL else _LENGTHS.get(unit)
+
+
+def same_unit(a: str | None, b: str | None) -> bool:
+    """Tell whether two units are one.
+
+    Examples
+    --------
+    >>> same_unit("um", "micron"), same_unit("um", None)
+    (True, False)
+    """
+    return a == b if a is None or b is None else unit_name(a) == unit_name(b)

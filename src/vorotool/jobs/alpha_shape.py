@@ -32,6 +32,7 @@ from vorotool.jobs.inputs import JobInput, read_sites, window_of
 from vorotool.jobs.names import OF_ONE_SHAPE
 from vorotool.jobs.options import AlphaShapeOptions
 from vorotool.jobs.pictures import write_layers
+from vorotool.jobs.pixel_sizes import placed_backdrop, placed_mesh, placed_sites
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, length_in_units, table_in_units
@@ -50,6 +51,7 @@ def products(run: Run, o: AlphaShapeOptions, given: JobInput) -> ShapeProducts:
     radius = chosen_radius(o.r, o.alpha, o.auto)
     with run.phase("read"):
         points = read_sites(run, o, given, properties="points" in o.what, is_digital=o.method != "exact")
+        o, points = placed_sites(run, o, given, points)
     return ShapeProducts(run, o, given, points, radius)
 
 
@@ -78,10 +80,12 @@ class ShapeProducts:
         points: PointSet | SeedSet,
         radius: Radius | None,
     ) -> None:
-        self.run, self.options, self.backdrop, self.radius = run, options, given.backdrop, radius
+        self.run, self.options, self.radius = run, options, radius
+        self.backdrop = placed_backdrop(options.pixel_size, given.backdrop)
         self._empty: dict[str, Any] = {"strict": options.strict, "allow_empty": isinstance(points, SeedSet)}
         with run.phase("triangulate") as progress:
             mesh = self._triangulation(points, progress)
+            mesh = mesh if isinstance(mesh, SeedSet) else placed_mesh(options.pixel_size, mesh)
         with run.phase("alpha complex") as progress:
             self.family = alpha_complex(
                 mesh, rule=options.rule, **self._empty, threads=options.threads, progress=progress

@@ -17,6 +17,7 @@ from vorotool.formats.io.atomic_output import open_output
 from vorotool.formats.opening import Opened, opened
 from vorotool.geometry.box import bounds
 from vorotool.geometry.crs import crs_name
+from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.raster import Raster
 from vorotool.geometry.polygons.polygon_set import HOLE, PolygonSet
@@ -110,7 +111,7 @@ def _of_header(source: Opened) -> Description | None:
     return {
         "format": "tiff" if source.array is None else "zarr",
         "kind": "image",
-        **_of_pixels(width, height, rows.rows(0, 1).dtype, rows.resolution),
+        **_of_pixels(width, height, rows.rows(0, 1).dtype, rows.grid),
         "commands": list(TAKEN_BY["image"]),
     }
 
@@ -206,7 +207,7 @@ def _of_offsets(value: Offsets, note: Callable[[str], None]) -> Description:
 @_told_of.register
 def _of_image(value: Raster, note: Callable[[str], None]) -> Description:
     height, width = value.shape
-    told = {"kind": "", **_of_pixels(width, height, value.values.dtype, value.resolution)}
+    told = {"kind": "", **_of_pixels(width, height, value.values.dtype, value.grid)}
     commands = list(TAKEN_BY["image"])
     if value.is_colour:
         told["channels"] = value.values.shape[2]
@@ -228,17 +229,18 @@ def _count_of_objects(values: NDArray[Any], kind: str) -> int:
     return int(np.count_nonzero(np.unique(values)))
 
 
-def _of_pixels(width: int, height: int, kind: Any, resolution: tuple[float, float, str] | None) -> Description:
+def _of_pixels(width: int, height: int, kind: Any, grid: PixelGrid | None) -> Description:
     """Size and type of an image, and the size of its pixels where the file says it in a length; dpi are of paper."""
-    known = resolution is not None and resolution[2] != "inch"
-    x, y, unit = resolution if known and resolution is not None else (1, 1, None)
-    return {
-        "width": width,
-        "height": height,
-        "type": np.dtype(kind).name,
-        "pixel_size": [1 / x, 1 / y] if known else None,
-        "unit": unit,
-    }
+    told = {"width": width, "height": height, "type": np.dtype(kind).name}
+    if grid is None or not grid.is_size:
+        return {**told, "pixel_size": None, "unit": None}
+    told |= {"pixel_size": [float(grid.width), float(grid.height)], "unit": grid.unit}
+    if grid.transform is not None:
+        a, b, x, c, d, y = grid.transform
+        corners = [(a * i + b * j + x, c * i + d * j + y) for i in (0, width) for j in (0, height)]
+        low, high = bounds(np.array(corners))
+        told |= {"bounds": [*low.tolist(), *high.tolist()], "crs": None if grid.crs is None else crs_name(grid.crs)}
+    return told
 
 
 def _of_places(xy: NDArray[np.float64], value: PointSet | PolygonSet) -> Description:

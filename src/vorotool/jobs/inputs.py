@@ -8,6 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import InputError, Kind, Message, UsageError
+from vorotool.jobs.masks import settled_foreground
 from vorotool.jobs.options import ComputingOptions, JobOptions, SiteOptions, SkeletonOptions, TriangulationOptions
 from vorotool.jobs.run_log import Run
 
@@ -31,30 +32,18 @@ class JobInput(NamedTuple):
         The input; ``-`` is standard input.
     backdrop : Backdrop, optional
         The image that pictures of it are drawn over.
+    has_units : bool
+        An output has lengths.
     """
 
     path: str
     backdrop: Backdrop | None = None
+    has_units: bool = False
 
     @property
     def name(self) -> str:
         """What messages call it."""
         return "standard input" if self.path == "-" else self.path
-
-
-class Foreground(NamedTuple):
-    """What of an image is foreground: what is larger than the threshold, or else what is not.
-
-    Parameters
-    ----------
-    threshold : float, optional
-        None where values tell.
-    invert : bool
-        Exchange foreground and background.
-    """
-
-    threshold: float | None
-    invert: bool
 
 
 def opened_input(o: ComputingOptions, given: JobInput, geometry: str) -> AbstractContextManager[Opened]:
@@ -93,27 +82,14 @@ def read_opened(
     assert isinstance(value, PointSet | PolygonSet | Raster)  # others are read where no geometry is asked for
     if isinstance(value, Raster):
         note_other_size(run, o, given, value.values.shape)
-    elif isinstance(o, SiteOptions):
+        return value
+    if o.pixel_size is not None and o.pixel_size.is_auto:
+        raise UsageError(
+            "--pixel-size auto is for images, whose files may say it: give a number and its unit, such as 0.325um"
+        )
+    if isinstance(o, SiteOptions):
         refuse(o.for_images(), "is for images, but the input is a list of points")
     return value
-
-
-def settled_foreground(run: Run, o: ComputingOptions, image: Raster) -> Foreground:
-    """Find the threshold of Otsu's method if it is asked for: as a number it is said, and in the statistics."""
-    if o.threshold != "otsu":
-        if o.threshold is not None:
-            run.stats["threshold"] = o.threshold
-        return Foreground(o.threshold, o.invert)
-    from vorotool.engines.tessellation.raster_objects import counted_values, is_flat, settled_threshold
-
-    found = Foreground(*settled_threshold(image, "otsu", invert=o.invert))
-    if is_flat(counted_values(image)):
-        run.note(f"all pixels have the value {found.threshold:.17g}: Otsu's method finds no foreground")
-        run.stats["threshold"] = None
-    else:
-        run.note(f"threshold {found.threshold:.17g}, by Otsu's method")
-        run.stats["threshold"] = found.threshold
-    return found
 
 
 def check_components(o: SiteOptions) -> None:
@@ -150,7 +126,7 @@ def seeds_of_image(run: Run, o: SiteOptions, image: Raster, mode: SeedMode | Non
     """Find the seeds of an image, as the options say."""
     from vorotool.engines.tessellation.seeding import seeds_from_raster
 
-    threshold, invert = settled_foreground(run, o, image)
+    image, threshold, invert = settled_foreground(run, o, image)
     return seeds_from_raster(
         image,
         mode=mode,
@@ -232,11 +208,15 @@ def _note_of_clip(run: Run, message: str) -> None:
 def _in_one_crs(run: Run, clip: tuple[str, PolygonSet], data: tuple[str, PointSet | SeedSet]) -> PointSet | SeedSet:
     """Check that polygons and points are in one coordinate reference system, as far as they name any."""
     from vorotool.formats.parsing.reference_systems import declared_in, note_degrees
-    from vorotool.geometry.crs import crs_name, same_crs
+    from vorotool.geometry.crs import crs_name
     from vorotool.geometry.points.point_set import PointSet
 
     (path, polygons), (source, points) = clip, data
-    if not isinstance(points, PointSet) or (points.crs is None and polygons.crs is None):
+    if not isinstance(points, PointSet):
+        if points.grid is not None and points.grid.crs is not None and polygons.crs is not None:
+            _require_same(path, polygons.crs, source, points.grid.crs)
+        return points
+    if points.crs is None and polygons.crs is None:
         return points
     if points.crs is None or polygons.crs is None:
         unnamed, named, crs = (source, path, polygons.crs) if points.crs is None else (path, source, points.crs)
@@ -246,13 +226,20 @@ def _in_one_crs(run: Run, clip: tuple[str, PolygonSet], data: tuple[str, PointSe
             points = declared_in(points, source, crs)
             note_degrees(points, source, run.note)
         return points
-    if not same_crs(points.crs, polygons.crs):
-        wanted = crs_name(points.crs)
-        raise InputError(
-            f"{path} is in {crs_name(polygons.crs)}, but {source} in {wanted}: bring them into one coordinate "
-            f"reference system: --crs {wanted} does"
-        )
+    _require_same(path, polygons.crs, source, points.crs)
     return points
+
+
+def _require_same(path: str, crs: Any, source: str, wanted: Any) -> None:
+    """Refuse polygons in another coordinate reference system than the sites."""
+    from vorotool.geometry.crs import crs_name, same_crs
+
+    if not same_crs(wanted, crs):
+        name = crs_name(wanted)
+        raise InputError(
+            f"{path} is in {crs_name(crs)}, but {source} in {name}: bring them into one coordinate reference system: "
+            f"--crs {name} does"
+        )
 
 
 def _check_they_meet(points: PointSet, polygons: PolygonSet, unnamed: str, named: str, crs: Any) -> None:

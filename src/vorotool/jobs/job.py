@@ -12,7 +12,7 @@ from vorotool.jobs.inputs import JobInput, naming, read_backdrop
 from vorotool.jobs.options import ComputingOptions, JobOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_targets
-from vorotool.jobs.units import unit_stats
+from vorotool.jobs.units import shows_units, unit_stats
 from vorotool.signals import end_by_exceptions
 
 Options = TypeVar("Options", bound=JobOptions)
@@ -83,7 +83,7 @@ def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str
     computing = options if isinstance(options, ComputingOptions) else None
     check_targets(options, targets, path)
     with run.phase("read"):
-        given = JobInput(path, read_backdrop(options))
+        given = JobInput(path, read_backdrop(options), shows_units(targets))
     with naming(given):
         products = recipe.make(run, options, given)
     for target in targets:
@@ -92,7 +92,8 @@ def process_input(recipe: Recipe[Options], run: Run, options: Options, path: str
         with run.phase("verify") as progress:
             products.verify(progress)
     end_by_exceptions()
-    unit = None if options.unit is None else options.unit.unit
+    size = options.unit
+    unit = None if size is None else run.stats.get("unit") if size.is_auto else size.unit
     for target in targets:
         if options.out_dir is not None:
             make_folder(Path(target.path).parent)

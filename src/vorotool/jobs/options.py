@@ -107,6 +107,8 @@ class ComputingOptions(JobOptions):
     connectivity: Literal["8", "4"] | None
     threshold: float | Literal["otsu"] | None
     invert: bool
+    min_area: int | None
+    fill_holes: bool
     strict: bool
     verify: bool
     precision: int | None
@@ -126,6 +128,11 @@ class ComputingOptions(JobOptions):
         """The file of the tables of all inputs."""
         return self.table
 
+    @property
+    def cleans_masks(self) -> str:
+        """The option that changes a mask; empty where there is none."""
+        return "--fill-holes" if self.fill_holes else "--min-area" if self.min_area is not None else ""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SiteOptions(ComputingOptions):
@@ -144,6 +151,8 @@ class SiteOptions(ComputingOptions):
             "connectivity": self.connectivity,
             "threshold": self.threshold,
             "invert": self.invert,
+            "min-area": self.min_area,
+            "fill-holes": self.fill_holes,
         }
 
     def of_frame(self) -> dict[str, Any]:
@@ -227,6 +236,8 @@ class SkeletonOptions(ComputingOptions):
             "connectivity": self.connectivity,
             "threshold": self.threshold,
             "invert": self.invert,
+            "min-area": self.min_area,
+            "fill-holes": self.fill_holes,
             "outline": self.outline,
         }
 

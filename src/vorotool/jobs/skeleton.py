@@ -20,6 +20,7 @@ from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.names import DERIVED
 from vorotool.jobs.options import Place, SkeletonOptions
 from vorotool.jobs.pictures import write_layers
+from vorotool.jobs.pixel_sizes import placed_backdrop
 from vorotool.jobs.pruning_choice import CRITERIA, LENGTHS, Pruning, chosen_pruning
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.skeleton_extras import Derived
@@ -53,9 +54,10 @@ class SkeletonProducts(ABC, Generic[Options]):
     """
 
     def __init__(self, run: Run, options: Options, given: JobInput) -> None:
-        self.run, self.options, self.backdrop = run, options, given.backdrop
+        self.run = run
         with run.phase("read"):
-            self._polygons, self.is_mask = read_polygons(run, options, given)
+            self._polygons, self.is_mask, options = read_polygons(run, options, given)
+        self.options, self.backdrop = options, placed_backdrop(options.pixel_size, given.backdrop)
         self._is_told = False  # what was repaired, once
         self.derived = Derived(run, options, self.backdrop, lambda: self.skeleton, self._shapes)
 

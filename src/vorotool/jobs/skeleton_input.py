@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Generic, NamedTuple, TypeVar
 
-from vorotool.jobs.inputs import JobInput, opened_input, read_opened, refuse, settled_foreground
+from vorotool.jobs.inputs import JobInput, opened_input, read_opened, refuse
+from vorotool.jobs.masks import settled_foreground
 from vorotool.jobs.options import SkeletonOptions
+from vorotool.jobs.pixel_sizes import placed_polygons, with_pixel_size
 from vorotool.jobs.run_log import Run
 
 if TYPE_CHECKING:
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.polygons.polygon_set import PolygonSet
 
+Options = TypeVar("Options", bound=SkeletonOptions)
 
-class ReadPolygons(NamedTuple):
+
+class ReadPolygons(NamedTuple, Generic[Options]):
     """What skeletons are made of.
 
     Parameters
@@ -22,13 +26,16 @@ class ReadPolygons(NamedTuple):
         Those of the input, or outlines.
     is_mask : bool
         Whether they are the outlines of an image.
+    options : SkeletonOptions
+        With the size of pixels, and places, as the image has them.
     """
 
     polygons: PolygonSet
     is_mask: bool
+    options: Options
 
 
-def read_polygons(run: Run, o: SkeletonOptions, given: JobInput) -> ReadPolygons:
+def read_polygons(run: Run, o: Options, given: JobInput) -> ReadPolygons[Options]:
     """Read polygons, or the outlines of an image."""
     from vorotool.geometry.points.raster import Raster
     from vorotool.geometry.polygons.polygon_set import PolygonSet
@@ -36,16 +43,19 @@ def read_polygons(run: Run, o: SkeletonOptions, given: JobInput) -> ReadPolygons
     with opened_input(o, given, "polygons") as source:
         value = read_opened(run, o, given, source)
     if isinstance(value, Raster):
-        return ReadPolygons(_outlines(run, o, value), is_mask=True)
+        o = with_pixel_size(run, o, given, value.grid)
+        return ReadPolygons(placed_polygons(o.pixel_size, _outlines(run, o, value)), is_mask=True, options=o)
     assert isinstance(value, PolygonSet)  # what is asked for is polygons, or an image
     refuse(o.for_images(), "is for images, but the input is polygons or lines")
-    return ReadPolygons(value if o.simplify is None else _simplified(run, o, value, o.simplify), is_mask=False)
+    return ReadPolygons(
+        value if o.simplify is None else _simplified(run, o, value, o.simplify), is_mask=False, options=o
+    )
 
 
 def _outlines(run: Run, o: SkeletonOptions, image: Raster) -> PolygonSet:
     from vorotool.engines.label_images.outlines import outlines
 
-    threshold, invert = settled_foreground(run, o, image)
+    image, threshold, invert = settled_foreground(run, o, image)
     with run.phase("outline") as progress:
         return outlines(
             image,

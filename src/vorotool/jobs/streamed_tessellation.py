@@ -36,6 +36,7 @@ STREAMED = frozenset({"labels", "distance", "distance2"})
 def rows_of_large(o: TessellationOptions, source: Opened) -> ZarrRows | TiffRows | None:
     """Give an image band by band, if it is large or its bands go to a cluster, and the options allow that."""
     held = o.verify or o.seeds == "centroids" or o.threshold == "otsu" or o.method != "exact" or o.columns is not None
+    held = held or bool(o.cleans_masks)
     rows = None if held or not set(o.what) <= STREAMED else source.rows()
     if rows is None:
         return None
@@ -59,7 +60,7 @@ class StreamedProducts:
 
     def __init__(self, run: Run, options: TessellationOptions, image: ZarrRows | TiffRows) -> None:
         refuse(options.of_frame(), "is for lists of points, but the input is an image, which brings its own")
-        self.run, self.options, self.resolution = run, options, image.resolution
+        self.run, self.options, self.grid = run, options, image.grid
         from vorotool.formats.zarr.arrays import CHUNK
 
         assert options.seeds != "centroids"  # of such images, and of those with Otsu's threshold, all is held
@@ -117,9 +118,11 @@ class StreamedProducts:
             dtype = self.image.square_dtype
             largest = int(np.iinfo(dtype).max)
         band = partial(self.image.band, what, dtype, max_distance=self._max_distance(what))
-        return Stream(
-            self.image.frame, partial(self._rows, what, dtype), dtype, largest, band, {"resolution": self.resolution}
-        )
+        return Stream(self.image.frame, partial(self._rows, what, dtype), dtype, largest, band, self._kind(what))
+
+    def _kind(self, what: str) -> dict[str, Any]:
+        """What TIFF files say of the pixels."""
+        return {"grid": self.grid, "nodata": 0 if self._max_distance(what) is not None else None}
 
     def _rows(self, what: Quantity, dtype: np.dtype[Any], first: int, rows: int) -> NDArray[Any]:
         show = self._progress

@@ -26,6 +26,7 @@ from vorotool.engines.tessellation.tessellate import labelled_rows, verify_rows
 from vorotool.engines.tessellation.tessellator import Tessellator
 from vorotool.errors import LimitError
 from vorotool.geometry.pixel_frame import Frame
+from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.raster import Raster
@@ -35,11 +36,12 @@ from vorotool.geometry.progress import Progress
 from vorotool.geometry.table import Table
 from vorotool.jobs.inputs import JobInput, frame_of, opened_input, read_opened, refuse, seeds_of_image
 from vorotool.jobs.options import TessellationOptions
+from vorotool.jobs.pixel_sizes import with_pixel_size
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.streamed_output import RowsOf, Stream, check_chunks, write_file, write_store
 from vorotool.jobs.streamed_tessellation import StreamedProducts, rows_of_large
 from vorotool.jobs.targets import Target
-from vorotool.jobs.units import table_in_units
+from vorotool.jobs.units import measured, table_in_units
 from vorotool.products.registry import PRODUCTS
 from vorotool.products.writing import write_product
 
@@ -56,13 +58,13 @@ class ReadSeeds(NamedTuple):
         Of the input.
     y_up : bool
         Whether y of its points goes upwards.
-    resolution : tuple, optional
-        Pixels a unit of the image.
+    grid : PixelGrid, optional
+        Sides and places of the pixels of the image.
     """
 
     seeds: SeedSet
     y_up: bool = False
-    resolution: tuple[float, float, str] | None = None
+    grid: PixelGrid | None = None
 
 
 def products(run: Run, o: TessellationOptions, given: JobInput) -> Products | StreamedProducts:
@@ -73,8 +75,11 @@ def products(run: Run, o: TessellationOptions, given: JobInput) -> Products | St
             if large is None:
                 value = read_opened(run, o, given, source, columns=o.columns, properties="table" in o.what)
         if large is not None:
+            o = with_pixel_size(run, o, given, large.grid) if measured(o) else o
             return StreamedProducts(run, o, large)
         read = _seeds_of(run, o, value)
+        if isinstance(value, Raster):
+            o = with_pixel_size(run, o, given, read.grid)
     with run.phase("prepare" if o.method == "exact" else "tessellate"):
         return Products(run, o, given, read, _rows_of(run, o, read.seeds))
 
@@ -86,7 +91,7 @@ def _seeds_of(run: Run, o: TessellationOptions, value: PointSet | PolygonSet | R
     assert isinstance(value, Raster)  # what is asked for is points, or an image
     alone = {"columns": o.columns, **o.of_frame()}
     refuse(alone, "is for lists of points, but the input is an image, which brings its own")
-    return ReadSeeds(seeds_of_image(run, o, value, o.seeds), resolution=value.resolution)
+    return ReadSeeds(seeds_of_image(run, o, value, o.seeds), grid=value.grid)
 
 
 def _rows_of(run: Run, o: TessellationOptions, seeds: SeedSet) -> Tessellator | PropagatedRows:
@@ -230,7 +235,9 @@ class Products:
 
     def _streamed(self, what: Any, rows_of: RowsOf, dtype: np.dtype[Any], largest: int, **kind: Any) -> Stream:
         band = partial(self._band, what, dtype)
-        return Stream(self.rows.frame, rows_of, dtype, largest, band, {"resolution": self.read.resolution, **kind})
+        is_cut = what == "labels" and self.options.max_distance is not None
+        about = {"grid": self.read.grid, "nodata": 0 if is_cut else None}
+        return Stream(self.rows.frame, rows_of, dtype, largest, band, {**about, **kind})
 
     def _band(self, what: Quantity, dtype: np.dtype[Any], first: int, rows: int) -> Band:
         """Give some rows as what computes them anywhere."""
@@ -253,7 +260,8 @@ class Products:
         has_distances = isinstance(self.rows, Tessellator) and len(self.rows.seeds)
         squares = self._exact_rows().squared_distances() if has_distances else None
         table = region_table(image, distance2=squares, measures=measures, threads=self.options.threads)
-        return table_in_units(self.options.pixel_size, table, properties=self.rows.seeds.properties)
+        properties = self.rows.seeds.properties
+        return table_in_units(self.options.pixel_size, table, properties=properties, has_rows=True)
 
     def _neighbours(self) -> Table:
         return table_in_units(self.options.pixel_size, neighbour_table(self.image, measures=self.measures))

@@ -17,6 +17,7 @@ from vorotool.geometry.progress import Progress
 from vorotool.jobs.inputs import JobInput, read_clip, read_sites
 from vorotool.jobs.options import Rectangle, TriangulationOptions
 from vorotool.jobs.pictures import write_layers
+from vorotool.jobs.pixel_sizes import clip_in_pixels, placed_backdrop, placed_mesh, placed_sites
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import in_units, table_in_units
@@ -50,10 +51,12 @@ def products(run: Run, o: TriangulationOptions, given: JobInput) -> MeshProducts
     is_digital = o.triangulated_by != "exact"
     with run.phase("read"):
         properties = bool({"table", "cells"} & set(o.what))
-        read = ReadPoints(read_sites(run, o, given, properties=properties, is_digital=is_digital), None)
+        o, points = placed_sites(run, o, given, read_sites(run, o, given, properties=properties, is_digital=is_digital))
+        read = ReadPoints(points, None)
     if o.clip is not None:
         with reading(o.clip), run.phase("read polygons"):
-            read = ReadPoints(*read_clip(run, o, o.clip, read.points, given))
+            points, clip = read_clip(run, o, o.clip, points, given)
+            read = ReadPoints(points, clip_in_pixels(o, clip))
     if not is_digital:
         return MeshProducts(run, o, given, read)
     from vorotool.jobs.digital_triangulation import DigitalProducts, RepairedProducts
@@ -78,12 +81,12 @@ class MeshProducts:
 
     def __init__(self, run: Run, options: TriangulationOptions, given: JobInput, read: ReadPoints) -> None:
         self.run, self.options = run, options
-        self.backdrop, self.clip = given.backdrop, read.clip
+        self.backdrop, self.clip = placed_backdrop(options.pixel_size, given.backdrop), read.clip
         self._cells: CellSet | None = None
         points = read.points
         if self.wants_mesh:
             with run.phase("triangulate") as progress:
-                self.mesh: Any = self._triangulate(points, progress)
+                self.mesh: Any = placed_mesh(options.pixel_size, self._triangulate(points, progress))
 
     @property
     def wants_mesh(self) -> bool:

@@ -21,10 +21,39 @@ Value = TypeVar("Value")
 
 
 class PixelSize(NamedTuple):
-    """The side of a pixel: a number, and the name of its unit."""
+    """The side of a pixel, and where pixels are on a map.
+
+    Parameters
+    ----------
+    factor : Fraction
+        The side.
+    unit : str, optional
+        Its unit.
+    is_auto : bool
+        It is yet to be read from the file.
+    origin : (float, float), optional
+        Where on the map the centre of the first pixel is.
+    y_up : bool
+        Rows go down on the map: what is made of the image is made with y upwards.
+    crs : object, optional
+        The coordinate reference system of the map.
+    """
 
     factor: Fraction
     unit: str | None
+    is_auto: bool = False
+    origin: tuple[float, float] | None = None
+    y_up: bool = False
+    crs: Any = None
+
+
+AUTO = PixelSize(Fraction(1), None, is_auto=True)
+"""What the file says."""
+
+
+def shows_units(targets: Sequence[Target]) -> bool:
+    """Tell whether an output has lengths."""
+    return any(_has_units(target) for target in targets)
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,13 +94,15 @@ def lengths_in_pixels(o: Options, size: PixelSize | None) -> Options:
     Raises
     ------
     UsageError
-        If a unit is not known, or what a pixel is in it.
+        If a unit is not known, or what a pixel is in it. What the file is yet to say is asked for later.
     """
-    changed = {name: _in_pixels(name, getattr(o, name), size) for name in _measured(o)}
+    if size is not None and size.is_auto:
+        return o
+    changed = {name: _in_pixels(name, getattr(o, name), size) for name in measured(o)}
     return replace(o, **changed) if changed else o
 
 
-def _measured(o: JobOptions) -> list[str]:
+def measured(o: JobOptions) -> list[str]:
     """Names of the options that have a unit."""
     return [field.name for field in fields(o) if _has_unit(getattr(o, field.name))]
 
@@ -134,9 +165,9 @@ def check_units(o: JobOptions, targets: Sequence[Target]) -> None:
     UsageError
         If there are no lengths in any output.
     """
-    if o.unit is None or _measured(o):
+    if o.unit is None or measured(o):
         return
-    if not any(_has_units(target) for target in targets):
+    if not shows_units(targets):
         raise UsageError("--pixel-size is for tables and vectors: use --what table, or leave it out")
 
 
@@ -153,18 +184,33 @@ def in_units(size: PixelSize | None, value: Value) -> Value:
     from vorotool.geometry.any.scaling import scaled
 
     with _within_doubles():
-        result: Value = scaled(value, size.factor, unit=size.unit)
+        result: Value = scaled(value, size.factor, size.origin, unit=size.unit)
     return result
 
 
-def table_in_units(size: PixelSize | None, table: Table, *, properties: Collection[str] = ()) -> Table:
-    """Give a table in the units of the pixel size, if there is one; the input's own columns stay as they are."""
+def table_in_units(
+    size: PixelSize | None, table: Table, *, properties: Collection[str] = (), has_rows: bool = False
+) -> Table:
+    """Give a table in the units of the pixel size, if there is one; the input's own columns stay as they are.
+
+    Parameters
+    ----------
+    size : PixelSize, optional
+        The unit, and the map.
+    table : Table
+        In pixels.
+    properties : collection of str
+        The input's own columns.
+    has_rows : bool
+        Its y counts rows downwards, whatever the map.
+    """
     if size is None:
         return table
     from vorotool.geometry.any.scaling import scaled_table
 
     with _within_doubles():
-        return scaled_table(table, size.factor, properties=properties)
+        y_up = has_rows and size.y_up
+        return scaled_table(table, size.factor, properties=properties, origin=size.origin, y_up=y_up)
 
 
 @contextmanager
@@ -188,4 +234,11 @@ def length_in_units(size: PixelSize | None, length: Any) -> Any:
 
 def unit_stats(size: PixelSize | None) -> dict[str, Any]:
     """What statistics say of the size."""
-    return {} if size is None else {"pixel_size": float(size.factor), "unit": size.unit}
+    if size is None or size.is_auto:
+        return {}
+    found = {"pixel_size": float(size.factor), "unit": size.unit}
+    if size.crs is None:
+        return found
+    from vorotool.geometry.crs import crs_name
+
+    return {**found, "crs": crs_name(size.crs)}

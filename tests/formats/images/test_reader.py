@@ -2,6 +2,7 @@ import io
 import struct
 import time
 import zlib
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from support.readers.sources import image_of
 from vorotool.errors import InputError, LimitError, UsageError
 from vorotool.formats.io.sources import Source
 from vorotool.formats.recognition import image_format
+from vorotool.geometry.pixel_grid import PixelGrid
 
 LIMIT = 10**7
 
@@ -293,11 +295,13 @@ def test_tiff_pages() -> None:
 
 def test_tiff_resolution() -> None:
     raster = image_of(Source("a.tif", tiff(GREY, resolution=(300, 150), resolutionunit="INCH")), max_pixels=LIMIT)
-    assert raster.resolution == (300.0, 150.0, "inch")
+    assert raster.grid == PixelGrid(Fraction(1, 300), Fraction(1, 150), "inch")
+    assert not raster.grid.is_size
     out = io.BytesIO()
     tifffile.imwrite(out, GREY, imagej=True, resolution=(4, 5), metadata={"unit": "um"})
-    assert image_of(Source("a.tif", out.getvalue()), max_pixels=LIMIT).resolution == (4.0, 5.0, "um")
-    assert image_of(Source("a.tif", tiff(GREY, metadata=None)), max_pixels=LIMIT).resolution is None
+    grid = image_of(Source("a.tif", out.getvalue()), max_pixels=LIMIT).grid
+    assert grid == PixelGrid(Fraction(1, 4), Fraction(1, 5), "µm", "imagej")
+    assert image_of(Source("a.tif", tiff(GREY, metadata=None)), max_pixels=LIMIT).grid is None
 
 
 def test_tiff_bigtiff() -> None:

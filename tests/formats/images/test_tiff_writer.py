@@ -1,6 +1,7 @@
 import io
 import itertools
 import tracemalloc
+from fractions import Fraction
 from types import SimpleNamespace
 
 import numpy as np
@@ -13,6 +14,7 @@ from vorotool.errors import LimitError
 from vorotool.formats.images import tiff_writer as tiff
 from vorotool.formats.images.tiff_reader import read_tiff
 from vorotool.formats.images.tiff_writer import write_tiff
+from vorotool.geometry.pixel_grid import PixelGrid
 
 
 def written(bands: object, shape: tuple[int, int], **options: object) -> bytes:
@@ -99,20 +101,24 @@ def test_memory_stays_bounded(dtype: str, tmp_path: object) -> None:
 @pytest.mark.parametrize(
     ("given", "kept"),
     [
-        ((300.0, 150.0, "inch"), (300, 150, "inch")),
-        ((40.0, 40.0, "cm"), (40, 40, "cm")),
-        ((1 / 0.325, 1 / 0.325, "um"), (1e4 / 0.325, 1e4 / 0.325, "cm")),
-        ((2.0, 3.0, "mm"), (20, 30, "cm")),
-        ((2.0, 3.0, "furlong"), None),
-        ((1e300, 3.0, "cm"), None),
-        ((3.0, 1e-300, "cm"), None),
+        (("1/300", "1/150", "inch"), ("1/300", "1/150", "inch")),
+        (("1/40", "1/40", "cm"), ("1/40", "1/40", "cm")),
+        (("0.325", "0.325", "um"), ("0.0000325", "0.0000325", "cm")),
+        (("1/2", "1/3", "mm"), ("1/20", "1/30", "cm")),
+        (("1/2", "1/3", "furlong"), None),
+        (("1e-300", "1/3", "cm"), None),
+        (("1/3", "1e300", "cm"), None),
+        (("0.325", "0.325", "um", "imagej"), ("0.325", "0.325", "µm", "imagej")),
+        (("0.325", "0.5", "Å", "imagej"), ("0.325", "0.5", "Å", "imagej")),
+        (("0.325", "0.5", "micron", "ome"), ("0.325", "0.5", "µm", "ome")),
+        (("1e-9", "1e9", "furlong", "ome"), ("1e-9", "1e9", "furlong", "ome")),
         (None, None),
     ],
 )
-def test_resolution(given, kept):
-    data = written([np.ones((2, 3), np.uint8)], (2, 3), dtype=np.uint8, resolution=given)
+def test_grids(given, kept):
+    def grid_of(values):
+        return values and PixelGrid(Fraction(values[0]), Fraction(values[1]), *values[2:])
+
+    data = written([np.ones((2, 3), np.uint8)], (2, 3), dtype=np.uint8, grid=grid_of(given))
     _, found = read_tiff(SimpleNamespace(name="a.tif", data=data), page=None, max_pixels=10)
-    assert (found is None) == (kept is None)
-    if kept is not None:
-        assert found[2] == kept[2]
-        assert np.allclose(found[:2], kept[:2], rtol=1e-6)
+    assert found.grid == grid_of(kept)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import replace
 from functools import partial
@@ -21,10 +21,11 @@ from vorotool.batch.tasks import Outcome, Process, Task, digest_of, is_done
 from vorotool.cli.batch.plan import JointTable, Plan, plan_batch
 from vorotool.cli.batch.progress_bar import progress_bar
 from vorotool.cli.batch.report import Report
-from vorotool.errors import OutputError
+from vorotool.errors import InputError, OutputError
 from vorotool.formats.io.atomic_output import check_output, open_output
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.temporaries import new_folder, temporary_beside
+from vorotool.geometry.length_units import unit_name
 from vorotool.jobs.failures import explained
 from vorotool.jobs.job import Options, Recipe, process_input
 from vorotool.jobs.options import JobOptions
@@ -176,6 +177,28 @@ def _results(recipe: Recipe[Options], plan: Plan[Options], count: int) -> Result
     return partial(cluster_results, process, address=o.cluster, jobs=jobs)
 
 
+def _check_units(tasks: Sequence[Task], outcomes: Sequence[Outcome | None]) -> None:
+    """Refuse one table of lengths in several units, or of places on several maps."""
+    seen: dict[str, str] = {}
+    for task, outcome in zip(tasks, outcomes, strict=True):
+        if outcome is not None and not outcome.code and not outcome.kept:
+            seen.setdefault(_unit_text(outcome.stats), task.source)
+    if len(seen) > 1:
+        (one, first), (other, second) = list(seen.items())[:2]
+        raise InputError(
+            f"--table would hold lengths in {one} ({first}) and in {other} ({second}): give each of them a table, or "
+            "one --pixel-size to all"
+        )
+
+
+def _unit_text(stats: Mapping[str, Any]) -> str:
+    """Words for the unit of what was made of an input."""
+    if "pixel_size" not in stats:
+        return "pixels, or the units of the file"
+    unit = "units without a name" if stats["unit"] is None else unit_name(stats["unit"])
+    return f"{unit} in {stats['crs']}" if "crs" in stats else unit
+
+
 def _write_table(
     table: JointTable, tasks: Sequence[Task], outcomes: Sequence[Outcome | None], *, no_clobber: bool
 ) -> None:
@@ -184,5 +207,6 @@ def _write_table(
         for task, outcome in zip(tasks, outcomes, strict=True)
         if outcome is not None and not outcome.code
     ]
+    _check_units(tasks, outcomes)
     with open_output(table.path, no_clobber=no_clobber, option="--table") as out:
         join_tables(out, parts, table.fmt, is_safe=table.is_safe, has_unit=table.has_unit)

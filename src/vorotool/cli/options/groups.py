@@ -10,7 +10,7 @@ def site_options(layers: tuple[str, ...]) -> Decorator:
     """Add the options of commands whose input is points or an image, and whose pictures have these layers."""
     return together(
         shared("size", "window", "columns", "input-format", "input-layer", "input-crs", "crs"),
-        shared("page", "seeds", "connectivity", "threshold", "invert"),
+        shared("page", "seeds", "connectivity", "threshold", "invert", "min-area", "fill-holes"),
         result_options(layers),
     )
 

@@ -14,7 +14,7 @@ _GROUPS = {
     "Method": "method passes max_distance r alpha auto regions rule hole_threshold region_threshold step tolerance "
     "sampling compare side gap complete features prune start end ends distance every",
     "Input": "columns input_format input_layer input_crs crs page pixel_size seeds connectivity threshold invert "
-    "outline simplify join_tolerance",
+    "min_area fill_holes outline simplify join_tolerance",
     "Frame": "size window frame clip",
     "Pictures": "layers overlay width y_up",
     "Many inputs": "out_dir files_from null jobs keep_going dry_run resume shard table cluster",

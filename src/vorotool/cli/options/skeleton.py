@@ -106,7 +106,7 @@ _READING: tuple[Decorator, ...] = (
         type=click.Choice(["components", "labels"], case_sensitive=False),
         help="What an image's objects are; by default components of a mask (0, and 1 or 255 or all bits), else labels.",
     ),
-    shared("connectivity", "threshold", "invert"),
+    shared("connectivity", "threshold", "invert", "min-area", "fill-holes"),
 )
 """Options before a command's own, and after them."""
 

@@ -22,6 +22,9 @@ Note = Callable[[str], None] | None
 
 LARGEST_LABEL = 0xFFFFFFFF
 
+MOSTLY = 0.75
+"""Of an image that is light, so that its objects are likelier dark."""
+
 MASK_VALUES = (1, 255)
 """Of masks, beside the largest value of the type."""
 
@@ -57,10 +60,12 @@ def foreground_values(raster: Raster, threshold: Threshold, *, invert: bool) -> 
         grey = grey_values(raster)
         values = grey > whole_threshold(grey, number)
     elif raster.is_colour:
-        raise InputError("a colour image holds no objects by itself: use --threshold T or --threshold otsu")
+        made = mask_options(grey_values(raster))
+        raise InputError(f"a colour image holds no objects by itself: use --threshold T or {made}")
     elif raster.is_lossy and not is_flat(values[values != values.min()]):
         raise InputError(
-            "the file is lossy, as JPEG is: its values are no labels; use --threshold T or --threshold otsu, or a PNG"
+            "the file is lossy, as JPEG is: its values are no labels; use --threshold T or "
+            f"{mask_options(values)}, or a PNG"
         )
     if values.dtype.kind == "f" and not np.isfinite(values).all():
         raise InputError("the image holds NaN or infinite values: use --threshold T, a number, or repair them")
@@ -267,9 +272,23 @@ def refuse_photograph(values: NDArray[Any]) -> None:
                 "for an image use --seeds labels or --threshold"
             )
         raise InputError(
-            f"the image holds {distinct} values in {fragments} fragments: a photograph? use --threshold otsu, "
-            f"or --seeds labels if these are labels"
+            f"the image holds {distinct} values in {fragments} fragments: a photograph? use "
+            f"{mask_options(values)}, or --seeds labels if these are labels"
         )
+
+
+def mask_options(grey: NDArray[Any]) -> str:
+    """Give the options that make a mask of an image: of what is dark where most of it is light, as paper is.
+
+    Examples
+    --------
+    >>> mask_options(np.array([250, 250, 250, 250, 3])), mask_options(np.array([3, 250]))
+    ('--threshold otsu --invert (most of it is light)', '--threshold otsu')
+    """
+    finite = grey[np.isfinite(grey)]
+    middle = (float(finite.min()) + float(finite.max())) / 2 if finite.size else 0.0
+    is_light = np.count_nonzero(finite > middle) > MOSTLY * finite.size
+    return "--threshold otsu --invert (most of it is light)" if is_light else "--threshold otsu"
 
 
 def _fragments(labels: NDArray[Any]) -> tuple[int, int]:

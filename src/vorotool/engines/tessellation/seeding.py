@@ -207,15 +207,16 @@ def seeds_from_raster(
     frame = Frame(0, 0, values.shape[1], values.shape[0])
     if not values.any():
         report_no_foreground(strict=strict)
-        return _no_seeds(frame, has_objects=mode != "pixels")
+        return replace(_no_seeds(frame, has_objects=mode != "pixels"), grid=raster.grid)
     kind = default_objects(values, note=note) if mode in (None, "centroids") else mode
     if kind == "pixels":
         x, y = _foreground(values, max_sites)
         labels = np.arange(1, len(x) + 1, dtype=np.uint32)
         sites = np.stack([x, y], axis=1).astype(np.float64)
-        return SeedSet(x, y, labels, frame=frame, sites=sites, site_labels=labels)
+        return SeedSet(x, y, labels, frame=frame, sites=sites, site_labels=labels, grid=raster.grid)
     objects = label_values(values) if kind == "labels" else numbered_components(values, connectivity)
-    return _seeds_of_objects(objects, frame, centroids_only=mode == "centroids", max_sites=max_sites, strict=strict)
+    made = _seeds_of_objects(objects, frame, centroids_only=mode == "centroids", max_sites=max_sites, strict=strict)
+    return replace(made, grid=raster.grid)
 
 
 def _no_seeds(frame: Frame, *, has_objects: bool) -> SeedSet:

@@ -12,8 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.formats.images.nodata import missing_values, placed_grid
+from vorotool.formats.images.tiff_grid import PageGrid, grid_of
 from vorotool.formats.images.tiff_layout import TiffLayout
-from vorotool.formats.images.tiff_reader import Resolution, opened_tiff, page_layout, page_of, resolution_of
+from vorotool.formats.images.tiff_reader import opened_tiff, page_layout, page_of
 from vorotool.formats.images.tiff_segments import decode_rows, is_decoded_here
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.limits import check_pixels, decoding
@@ -21,6 +23,7 @@ from vorotool.formats.zarr.metadata import read_metadata
 from vorotool.formats.zarr.reader import StoredArray
 from vorotool.formats.zarr.store import is_array, is_folder, is_group, is_store
 from vorotool.geometry.pixel_frame import MAX_PIXELS
+from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.points.raster import Raster
 
 _TIFF_MAGIC = (b"II*\x00", b"MM\x00*", b"II+\x00", b"MM\x00+")
@@ -45,7 +48,7 @@ class ZarrRows:
 
     name: str
     path: str
-    resolution: Resolution | None = None
+    grid: PixelGrid | None = None
 
     @cached_property
     def _array(self) -> StoredArray:
@@ -83,7 +86,7 @@ class ZarrRows:
 
     def __getstate__(self) -> dict[str, Any]:
         """Leave out what is open."""
-        return {"name": self.name, "path": self.path, "resolution": self.resolution}
+        return {"name": self.name, "path": self.path, "grid": self.grid}
 
 
 @dataclass(frozen=True)
@@ -108,22 +111,27 @@ class TiffRows:
     page: int | None = None
 
     @cached_property
-    def _opened(self) -> tuple[TiffLayout, Resolution | None]:
-        """Where the pixels of the page are, which are read when they are asked for, and its resolution."""
+    def _opened(self) -> tuple[TiffLayout, PageGrid]:
+        """Where the pixels of the page are, which are read when they are asked for, and what is said of them."""
         with opened_tiff(self.name, self.path) as file:
             page = page_of(file, self.name, self.page)
             layout = page_layout(self.name, file.filehandle.size, page)
             with decoding(self.name, "TIFF"):
-                return layout, resolution_of(file, page)
+                return layout, grid_of(self.name, file, page)
 
     @property
     def _layout(self) -> TiffLayout:
         return self._opened[0]
 
     @property
-    def resolution(self) -> Resolution | None:
-        """Pixels a unit."""
-        return self._opened[1]
+    def grid(self) -> PixelGrid | None:
+        """Sides and places of the pixels."""
+        return placed_grid(self.name, self._opened[1].grid)
+
+    @property
+    def note(self) -> str:
+        """What of its grid is not used."""
+        return self._opened[1].note
 
     @property
     def is_plain(self) -> bool:
@@ -136,7 +144,7 @@ class TiffRows:
         return self._layout.height, self._layout.width
 
     def rows(self, first: int, count: int) -> NDArray[Any]:
-        """Read some rows; bool becomes uint8."""
+        """Read some rows; bool becomes uint8, and what has no value is masked."""
         layout = self._layout
         rows = np.empty((count, layout.width), layout.dtype)
         with decoding(self.name, "TIFF"), Path(self.path).open("rb") as file:
@@ -152,7 +160,9 @@ class TiffRows:
                     place = rows[top - first : bottom - first, x : x + layout.columns]
                     decoded = decode_rows(layout, read, index, top - y, bottom - top)
                     place[...] = decoded[:, : place.shape[1], 0]
-        return _plain(rows)
+        values = _plain(rows)
+        missing = missing_values(values, self._opened[1].nodata)
+        return values if missing is None else np.ma.MaskedArray(values, missing)
 
     def __getstate__(self) -> dict[str, Any]:
         """Leave out what is open."""
@@ -204,7 +214,7 @@ def read_rows(rows: ZarrRows | TiffRows, *, max_pixels: int = MAX_PIXELS) -> Ras
     """
     height, width = rows.shape
     check_pixels(rows.name, width, height, max_pixels)
-    return Raster(rows.rows(0, height), rows.resolution)
+    return Raster(rows.rows(0, height), rows.grid)
 
 
 def _plain(values: NDArray[Any]) -> NDArray[Any]:

@@ -13,6 +13,7 @@ from vorotool.formats.images.label_text import write_label_text
 from vorotool.formats.images.npy import write_npy
 from vorotool.formats.images.png_writer import write_png
 from vorotool.formats.images.tiff_writer import write_tiff
+from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.points.label_image import LabelImage
 from vorotool.geometry.points.raster import Raster
 
@@ -31,7 +32,8 @@ def write_label_image(
     largest_label: int,
     palette: NDArray[np.uint8] | None = None,
     bit_depth: int | None = None,
-    resolution: tuple[float, float, str] | None = None,
+    grid: PixelGrid | None = None,
+    nodata: int | None = None,
     threads: int = 0,
 ) -> None:
     r"""Write an image from bands of rows; what the format cannot hold is refused before anything is written.
@@ -55,8 +57,10 @@ def write_label_image(
         the indices.
     bit_depth : {1, 2, 4, 8, 16}, optional
         Of a PNG; by default 16, with a palette 8.
-    resolution : (float, float, str), optional
-        Pixels a unit in x and y, and the unit, for TIFF.
+    grid : PixelGrid, optional
+        Of the pixels, for TIFF.
+    nodata : int, optional
+        What pixels without a value have, for TIFF on a map.
     threads : int
         0 for all processors.
 
@@ -84,7 +88,7 @@ def write_label_image(
         check_png(kind, largest_label, depth)
         write_png(out, bands, shape, bit_depth=depth, palette=palette, threads=threads)
     elif fmt == "tiff":
-        write_tiff(out, bands, shape, dtype=kind, palette=palette, resolution=resolution, threads=threads)
+        write_tiff(out, bands, shape, dtype=kind, palette=palette, grid=grid, nodata=nodata, threads=threads)
     elif fmt == "npy":
         write_npy(out, bands, shape, dtype=kind)
     elif fmt == "text":
@@ -106,7 +110,14 @@ def write_labels(out: BinaryIO, image: LabelImage, fmt: LabelFormat, *, threads:
     """
     kind, largest = image.labels.dtype, int(image.labels.max())
     write_label_image(
-        out, [image.labels], shape=image.shape, dtype=kind, fmt=fmt, largest_label=largest, threads=threads
+        out,
+        [image.labels],
+        shape=image.shape,
+        dtype=kind,
+        fmt=fmt,
+        largest_label=largest,
+        grid=image.grid,
+        threads=threads,
     )
 
 

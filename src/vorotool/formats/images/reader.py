@@ -10,7 +10,9 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.formats.images import npy, png_reader, pnm_reader, tiff_reader
+from vorotool.formats.images.nodata import tiff_raster
 from vorotool.formats.images.picture_reader import PICTURES, is_lossy, read_picture_file
+from vorotool.formats.images.world_file import world_grid
 from vorotool.formats.io.limits import check_pixels
 from vorotool.formats.io.npy_arrays import npy_header
 from vorotool.formats.io.sources import Source
@@ -36,8 +38,8 @@ def read_image(source: Source, options: ReadOptions) -> Raster:
     Returns
     -------
     Raster
-        Values of the stored integer or floating-point type (uint8 for two-valued images), and the resolution,
-        if the file states one.
+        Values of the stored integer or floating-point type (uint8 for two-valued images), and the grid of
+        its pixels, if the file, or a world file beside it, states one. Pixels without a value (``nodata``) are masked.
 
     Raises
     ------
@@ -53,18 +55,18 @@ def read_image(source: Source, options: ReadOptions) -> Raster:
     """
     kind, page, max_pixels = source.format, options.page, options.max_pixels
     if kind == "tiff":
-        values, resolution = tiff_reader.read_tiff(source, page=page, max_pixels=max_pixels)
-        return Raster(_plain(values), resolution)
+        values, about = tiff_reader.read_tiff(source, page=page, max_pixels=max_pixels)
+        return tiff_raster(source.name, _plain(values), about, options.note)
     if kind in PICTURES:
         seen = read_picture_file(source, kind, page=page, max_pixels=max_pixels, note=options.note)
-        return Raster(_plain(seen), is_lossy=is_lossy(source.data, kind))
+        return Raster(_plain(seen), world_grid(source.name), is_lossy=is_lossy(source.data, kind))
     _check_page(source, page)
     readers: dict[str, Callable[[Source, int], NDArray[Any]]] = {
         "png": png_reader.read_png,
         "pnm": pnm_reader.read_pnm,
         "npy": _read_npy,
     }
-    return Raster(_plain(readers[kind](source, max_pixels)))
+    return Raster(_plain(readers[kind](source, max_pixels)), world_grid(source.name))
 
 
 def _check_page(source: Source, page: int | None) -> None:

@@ -11,15 +11,13 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError, LimitError
 from vorotool.formats.images.jpeg_sizes import check_jpegs
+from vorotool.formats.images.tiff_grid import PageGrid, grid_of
 from vorotool.formats.images.tiff_layout import JPEGS, TiffLayout, layout_of
 from vorotool.formats.images.tiff_segments import decode_image, is_decoded_here
 from vorotool.formats.images.tiff_tags import check_tags
 from vorotool.formats.io.limits import check_pixels, decoding, interruptible
 from vorotool.formats.io.sources import Source
 
-Resolution = tuple[float, float, str]
-
-_UNITS = {2: "inch", 3: "cm"}
 _MOST_CHANNELS = 4
 _PILLOW_MODES = {"1", "L", "P", "LA", "RGB", "RGBA", "I;16", "I;16B"}
 
@@ -30,8 +28,8 @@ def tiff_pages(source: Source) -> int:
         return len(file.pages)
 
 
-def read_tiff(source: Source, *, page: int | None, max_pixels: int) -> tuple[NDArray[Any], Resolution | None]:
-    """Return the stored values, (H, W) or (H, W, C), and pixels a unit, where the file states them."""
+def read_tiff(source: Source, *, page: int | None, max_pixels: int) -> tuple[NDArray[Any], PageGrid]:
+    """Return the stored values, (H, W) or (H, W, C), and what the file says of its pixels."""
     with opened_tiff(source.name, io.BytesIO(source.data)) as file:
         chosen = page_of(file, source.name, page)
         layout = page_layout(source.name, len(source.data), chosen)
@@ -42,7 +40,7 @@ def read_tiff(source: Source, *, page: int | None, max_pixels: int) -> tuple[NDA
                 f"these are more than {_MOST_CHANNELS} x --max-pixels {max_pixels}"
             )
         with decoding(source.name, "TIFF"):
-            resolution = resolution_of(file, chosen)
+            about = grid_of(source.name, file, chosen)
             if is_decoded_here(layout):
                 values = decode_image(layout, source.data)
             else:
@@ -51,7 +49,7 @@ def read_tiff(source: Source, *, page: int | None, max_pixels: int) -> tuple[NDA
         raise InputError(
             f"{source.name} holds {values.dtype} of shape {values.shape}: an image of numbers was expected"
         )
-    return values, resolution
+    return values, about
 
 
 def page_layout(name: str, size: int, page: Any) -> TiffLayout:
@@ -126,19 +124,3 @@ def _by_pillow(source: Source, page: Any) -> NDArray[Any]:
                 "install imagecodecs, or save it with deflate or no compression"
             )
         return np.asarray(image)
-
-
-def resolution_of(file: Any, page: Any) -> Resolution | None:
-    """Pixels a unit in x and y, and the unit, where the file states them."""
-    if "XResolution" not in page.tags or "YResolution" not in page.tags:
-        return None
-    per_unit = [page.tags[name].value for name in ("XResolution", "YResolution")]
-    if any(denominator == 0 or numerator == 0 for numerator, denominator in per_unit):
-        return None
-    unit = _UNITS.get(int(page.tags.valueof("ResolutionUnit", default=2)))
-    if file.is_imagej:
-        unit = (file.imagej_metadata or {}).get("unit") or unit
-    if unit is None:
-        return None
-    x, y = (numerator / denominator for numerator, denominator in per_unit)
-    return x, y, str(unit)

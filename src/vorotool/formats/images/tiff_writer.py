@@ -12,22 +12,17 @@ from __future__ import annotations
 import shutil
 import tempfile
 import zlib
-from collections.abc import Iterable, Iterator
-from fractions import Fraction
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, BinaryIO
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.formats.images.npy import stored
+from vorotool.formats.images.tiff_grid_tags import grid_tags
 from vorotool.formats.io.row_bands import BLOCK_BYTES, blocks
 from vorotool.geometry.parallel import in_order
-
-_CENTIMETRES = {"m": 0.01, "cm": 1, "mm": 10, "um": 1e4, "µm": 1e4, "μm": 1e4, "micron": 1e4, "microns": 1e4, "nm": 1e7}
-"""How many of each unit a centimetre has."""
-
-_LARGEST = 2**32 - 1
-"""The largest numerator and denominator."""
+from vorotool.geometry.pixel_grid import PixelGrid
 
 _CLASSIC_LIMIT = 2**32 - 2**25
 """Bytes of pixels from which offsets may need BigTIFF; the rest is room for tags and tables of strips."""
@@ -40,7 +35,8 @@ def write_tiff(
     *,
     dtype: DTypeLike,
     palette: NDArray[np.uint8] | None = None,
-    resolution: tuple[float, float, str] | None = None,
+    grid: PixelGrid | None = None,
+    nodata: int | None = None,
     threads: int = 0,
 ) -> None:
     r"""Write a single-page TIFF from bands of rows, in bounded memory; a BigTIFF where the pixels need it.
@@ -58,8 +54,10 @@ def write_tiff(
         uint8, uint16, uint32, uint64, int32 or float32.
     palette : (k, 3) uint8 array, optional
         Colours of uint8 indices.
-    resolution : (float, float, str), optional
-        Pixels a unit in x and y, and the unit; lengths of the metric system become centimetres.
+    grid : PixelGrid, optional
+        Of the pixels; lengths of the metric system become centimetres.
+    nodata : int, optional
+        What pixels without a value have, where the grid is that of a map.
     threads : int
         0 for all processors.
 
@@ -76,11 +74,12 @@ def write_tiff(
     >>> out.getvalue()[:4]
     b'II*\x00'
     """
+    tags = grid_tags(grid, shape, np.dtype(dtype), nodata=nodata)
     if out.seekable():
-        _write(out, bands, shape, np.dtype(dtype), palette, resolution, threads)
+        _write(out, bands, shape, np.dtype(dtype), palette, tags, threads)
         return
     with tempfile.TemporaryFile() as spool:
-        _write(spool, bands, shape, np.dtype(dtype), palette, resolution, threads)
+        _write(spool, bands, shape, np.dtype(dtype), palette, tags, threads)
         spool.seek(0)
         shutil.copyfileobj(spool, out)
 
@@ -91,7 +90,7 @@ def _write(
     shape: tuple[int, int],
     dtype: np.dtype[Any],
     palette: NDArray[np.uint8] | None,
-    resolution: tuple[float, float, str] | None,
+    tags: Mapping[str, Any],
     threads: int,
 ) -> None:
     import tifffile
@@ -115,32 +114,8 @@ def _write(
             rowsperstrip=rows,
             metadata=None,
             software=False,
-            **_resolution_tags(resolution),
+            **tags,
         )
-
-
-def _resolution_tags(resolution: tuple[float, float, str] | None) -> dict[str, Any]:
-    """Arguments of tifffile for pixels a unit; TIFF knows inches, centimetres and units without a name."""
-    if resolution is None:
-        return {}
-    x, y, unit = resolution
-    in_centimetres = _CENTIMETRES.get(unit)
-    number = 2 if unit == "inch" else 1 if in_centimetres is None else 3
-    ratios = [_ratio(value * (in_centimetres or 1)) for value in (x, y)]
-    return {} if None in ratios else {"resolution": tuple(ratios), "resolutionunit": number}
-
-
-def _ratio(value: float) -> tuple[int, int] | None:
-    """Nearest ratio of two 32-bit integers, as TIFF stores numbers; None beyond what they can tell.
-
-    Examples
-    --------
-    >>> _ratio(0.5), _ratio(1e-12)
-    ((1, 2), None)
-    """
-    if not 1 / _LARGEST <= value <= _LARGEST:
-        return None
-    return Fraction(value).limit_denominator(min(_LARGEST, int(_LARGEST / value))).as_integer_ratio()
 
 
 def _strips(

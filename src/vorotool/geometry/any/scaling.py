@@ -1,8 +1,8 @@
-"""Results in other units: coordinates and lengths times a factor, areas times its square."""
+"""Results in other units: coordinates and lengths times a factor, areas times its square; and placed on a map."""
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
@@ -23,6 +23,8 @@ from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.points_along import SkeletonPoints
 from vorotool.geometry.skeleton.skeleton import SiteTable, Skeleton
 from vorotool.geometry.table import Table
+
+Place = tuple[float, float] | None
 
 LENGTHS = frozenset(
     {
@@ -50,8 +52,13 @@ _LENGTHS_OF = {
 }
 """What of each type is a length, or has lengths; all else stays."""
 
+_DISTANCES = frozenset(
+    {*("r", "r_min", "r_mid", "r_max", "spectrum", "radius", "length"), *("error_bound", "gap", "along", "distance")}
+)
+"""What of these is a length, and no place."""
 
-def scaled(value: Any, factor: Fraction, *, unit: str | None = None) -> Any:
+
+def scaled(value: Any, factor: Fraction, origin: Place = None, *, unit: str | None = None) -> Any:
     """Give a result in units of which one is ``1 / factor`` of the old.
 
     What was decided in the old units stays: edges, ranks, classes, ties. Each number is rounded once.
@@ -63,6 +70,8 @@ def scaled(value: Any, factor: Fraction, *, unit: str | None = None) -> Any:
         What to scale; for a table see `scaled_table`.
     factor : Fraction
         More than 0.
+    origin : (float, float), optional
+        Where the origin of the old coordinates is in the new ones; by default theirs.
     unit : str, optional
         Of the result.
 
@@ -79,21 +88,34 @@ def scaled(value: Any, factor: Fraction, *, unit: str | None = None) -> Any:
     """
     if type(value) not in _LENGTHS_OF:
         raise UsageError(f"a {type(value).__name__} is not scaled")
-    parts = {name: _scaled(getattr(value, name), factor, unit) for name in _LENGTHS_OF[type(value)].split()}
+    parts = {
+        name: _scaled(getattr(value, name), factor, None if name in _DISTANCES else origin, unit)
+        for name in _LENGTHS_OF[type(value)].split()
+    }
     return replace(value, **parts, unit=unit) if isinstance(value, PolygonSet) else replace(value, **parts)
 
 
-def _scaled(part: Any, factor: Fraction, unit: str | None) -> Any:
+def _scaled(part: Any, factor: Fraction, origin: Place, unit: str | None) -> Any:
     if type(part) in _LENGTHS_OF:
-        return scaled(part, factor, unit=unit)
+        return scaled(part, factor, origin, unit=unit)
+    number = float(factor)
     if isinstance(part, Box):
-        return Box(*_scaled(part.sides, factor, unit))
-    if isinstance(part, tuple):
-        return tuple(side * float(factor) for side in part)
-    return None if part is None else part * (factor if isinstance(part, Fraction) else float(factor))
+        sides = (side * number for side in part.sides)
+        return Box(
+            *(sides if origin is None else (side + shift for side, shift in zip(sides, 2 * origin, strict=True)))
+        )
+    if isinstance(part, tuple):  # a frame: x, y, width, height
+        shifts = (*(origin or (0.0, 0.0)), 0.0, 0.0)
+        return tuple(side * number + shift for side, shift in zip(part, shifts, strict=True))
+    if part is None:
+        return None
+    made = part * (factor if isinstance(part, Fraction) else number)
+    return made if origin is None else made + np.asarray(origin)
 
 
-def scaled_table(table: Table, factor: Fraction, *, properties: Collection[str] = ()) -> Table:
+def scaled_table(
+    table: Table, factor: Fraction, *, properties: Collection[str] = (), origin: Place = None, y_up: bool = False
+) -> Table:
     """Give a table of tessellations, triangulations or alpha shapes in other units.
 
     Parameters
@@ -104,6 +126,10 @@ def scaled_table(table: Table, factor: Fraction, *, properties: Collection[str] 
         More than 0.
     properties : collection of str
         Names of the input's own columns, which are not.
+    origin : (float, float), optional
+        Where the centre of the first pixel is in the new coordinates: boxes then begin at the outer sides of pixels.
+    y_up : bool
+        With an origin: the new y goes upwards, where the old one goes downwards.
 
     Examples
     --------
@@ -111,7 +137,30 @@ def scaled_table(table: Table, factor: Fraction, *, properties: Collection[str] 
     >>> table["label"], table["area"].tolist(), table["perimeter"].tolist()
     ([1], [2.0], [6.0])
     """
-    return Table({name: _scaled_column(name, column, factor, properties) for name, column in table.stored().items()})
+    columns = table.stored()
+    made = {name: _scaled_column(name, column, factor, properties) for name, column in columns.items()}
+    if origin is not None:
+        made |= _placed_columns(columns, float(factor), origin, y_up=y_up, properties=properties)
+    return Table(made)
+
+
+def _placed_columns(
+    columns: Mapping[str, Any], side: float, origin: tuple[float, float], *, y_up: bool, properties: Collection[str]
+) -> dict[str, Any]:
+    """Coordinates on the map: of sites, and of the left and the lower side of boxes."""
+    own = {"" if name in properties else name.removeprefix("voro_"): name for name in columns}
+    x, y, left, top, high = (
+        np.ma.asanyarray(columns[own[name]]) if name in own else None
+        for name in ("x", "y", "bbox_x", "bbox_y", "bbox_h")
+    )
+    made: dict[str, Any] = {}
+    if x is not None and y is not None:
+        made[own["x"]] = x * side + origin[0]
+        made[own["y"]] = (-y if y_up else y) * side + origin[1]
+    if left is not None and top is not None and high is not None:
+        made[own["bbox_x"]] = (left - 0.5) * side + origin[0]
+        made[own["bbox_y"]] = (-(top + high - 0.5) if y_up else top - 0.5) * side + origin[1]
+    return made
 
 
 def _scaled_column(name: str, column: Any, factor: Fraction, properties: Collection[str]) -> Any:

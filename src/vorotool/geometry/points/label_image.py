@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vorotool.errors import InputError
 from vorotool.geometry.pixel_frame import Frame
+from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.points.seed_set import SeedSet
 
 
@@ -25,6 +26,8 @@ class LabelImage:
         Where the pixels lie; by default pixel (0, 0) is at the origin.
     seeds : SeedSet, optional
         The seeds that the labels come from.
+    grid : PixelGrid, optional
+        Sides and places of the pixels in units of the world; by default those of the image that the seeds come from.
 
     Examples
     --------
@@ -35,6 +38,7 @@ class LabelImage:
     labels: NDArray[Any]
     frame: Frame | None = None
     seeds: SeedSet | None = None
+    grid: PixelGrid | None = None
 
     def __post_init__(self) -> None:
         labels = self.labels
@@ -46,6 +50,8 @@ class LabelImage:
             object.__setattr__(self, "frame", Frame(0, 0, labels.shape[1], labels.shape[0]))
         elif self.frame.shape != labels.shape:
             raise InputError(f"labels have shape {labels.shape}, but the frame {self.frame.shape}")
+        if self.grid is None and self.seeds is not None and self.seeds.frame == self.frame:
+            object.__setattr__(self, "grid", self.seeds.grid)
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
+from vorotool.geometry.pixel_grid import PixelGrid
 
 
 @dataclass(frozen=True)
@@ -19,8 +20,8 @@ class Raster:
     ----------
     values : (H, W) or (H, W, C) array
         Truth values, integers or floats. PBM: 1 is foreground. Palette images: the indices.
-    resolution : tuple of (float, float, str), optional
-        Pixels a unit in x and y, and the unit, where the file says so.
+    grid : PixelGrid, optional
+        Sides and places of the pixels, where the file says them.
     mask : (H, W) bool array, optional
         Pixels that are background whatever their values, as those of a masked array are.
     is_lossy : bool
@@ -38,7 +39,7 @@ class Raster:
     """
 
     values: NDArray[Any]
-    resolution: tuple[float, float, str] | None = None
+    grid: PixelGrid | None = None
     mask: NDArray[np.bool_] | None = None
     is_lossy: bool = False
 

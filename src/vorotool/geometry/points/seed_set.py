@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vorotool.errors import InputError
 from vorotool.geometry.checks import whole_numbers
 from vorotool.geometry.pixel_frame import Frame
+from vorotool.geometry.pixel_grid import PixelGrid
 
 FINEST_SCALE = 256
 """Lattice steps a pixel at most: coordinates are kept to 1/256 of a pixel."""
@@ -43,6 +44,8 @@ class SeedSet:
         Seeds that were moved to the lattice.
     largest_move : float
         The largest of these moves, in pixels.
+    grid : PixelGrid, optional
+        Sides and places of the pixels of the image that the seeds come from.
 
     Raises
     ------
@@ -67,6 +70,7 @@ class SeedSet:
     properties: dict[str, Any] = field(default_factory=dict)
     snapped: int = 0
     largest_move: float = 0.0
+    grid: PixelGrid | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "x", whole_numbers(self.x, "x of seed", np.int64))

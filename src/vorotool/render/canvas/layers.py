@@ -374,14 +374,17 @@ class Backdrop:
         Red, green and blue.
     encode : callable
         Gives the image as the bytes of a PNG file.
+    y_up : bool
+        What is drawn over it has y upwards: row r is at y = -r.
     """
 
     pixels: NDArray[np.uint8]
     encode: Callable[[], bytes]
+    y_up: bool = False
 
 
 class ImagePage(Page):
-    """The page of an image: a px is a pixel, whose centre is at integers of the data; y downwards.
+    """The page of an image: a px is a pixel, whose centre is at integers of the data.
 
     Parameters
     ----------
@@ -397,7 +400,8 @@ class ImagePage(Page):
 
     def __init__(self, backdrop: Backdrop) -> None:
         height, width = backdrop.pixels.shape[:2]
-        super().__init__((-0.5, -0.5, width - 0.5, height - 0.5), width=width, y_up=False)
+        top = 0.5 - height if backdrop.y_up else -0.5
+        super().__init__((-0.5, top, width - 0.5, top + height), width=width, y_up=backdrop.y_up)
         self.height, self._backdrop = height, backdrop
 
     @property
@@ -407,7 +411,7 @@ class ImagePage(Page):
 
     def place(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """(n, 2) px from the left and from the top."""
-        return points + 0.5
+        return (points * (1.0, -1.0) if self.y_up else points) + 0.5
 
     def length(self, distance: float) -> float:
         """Px of a distance."""

@@ -1,0 +1,123 @@
+"""The sizes of pixels in OME-XML, which a parser without entities reads, and the XML of a single image."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from vorotool.geometry.numbers import shown_number
+
+LARGEST_XML = 2**25
+"""Bytes that are parsed at most; of an image with many planes they are some millions."""
+
+_SIZES = ("PhysicalSizeX", "PhysicalSizeY")
+_TYPES = {"uint8", "uint16", "uint32", "int8", "int16", "int32"}
+
+_XML = (
+    '<?xml version="1.0" encoding="UTF-8"?>'
+    '<OME xmlns="http://www.openmicroscopy.org/Schemas/OME/2016-06" '
+    'xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:schemaLocation='
+    '"http://www.openmicroscopy.org/Schemas/OME/2016-06 http://www.openmicroscopy.org/Schemas/OME/2016-06/ome.xsd">'
+    '<Image ID="Image:0"><Pixels ID="Pixels:0" DimensionOrder="XYCZT" Type="{type}" SizeX="{width}" SizeY="{height}" '
+    'SizeC="1" SizeZ="1" SizeT="1" PhysicalSizeX="{x}" PhysicalSizeXUnit="{unit}" PhysicalSizeY="{y}" '
+    'PhysicalSizeYUnit="{unit}"><Channel ID="Channel:0:0" SamplesPerPixel="1"/><TiffData IFD="0" PlaneCount="1"/>'
+    "</Pixels></Image></OME>"
+)
+
+
+class _Refused(Exception):  # noqa: N818, nothing is wrong with the image
+    """What is no OME-XML that is read."""
+
+
+def ome_sizes(text: str) -> tuple[Fraction, Fraction, str] | None:
+    """Read both sides of a pixel and their unit; None where they are not stated, or not the same for all images.
+
+    Parameters
+    ----------
+    text : str
+        The description of an OME-TIFF: anything.
+
+    Examples
+    --------
+    >>> ome_sizes('<OME><Image><Pixels PhysicalSizeX="0.325" PhysicalSizeY="0.325"/></Image></OME>')
+    (Fraction(13, 40), Fraction(13, 40), 'µm')
+    >>> ome_sizes('<!DOCTYPE x [<!ENTITY a "b">]><OME/>') is None
+    True
+    """
+    from xml.parsers import expat
+
+    found: set[tuple[Fraction, Fraction, str] | None] = set()
+
+    def refuse(*_: Any) -> None:
+        raise _Refused
+
+    def start(name: str, attributes: dict[str, str]) -> None:
+        if name.rpartition(":")[2] == "Pixels":
+            found.add(_sizes_of(attributes))
+
+    data = text.encode("utf-8", "replace")
+    if len(data) > LARGEST_XML:
+        return None
+    parser = expat.ParserCreate("utf-8")
+    parser.StartDoctypeDeclHandler = refuse
+    parser.StartElementHandler = start
+    try:
+        parser.Parse(data, True)
+    except (expat.ExpatError, _Refused):
+        return None
+    return found.pop() if len(found) == 1 else None
+
+
+def _sizes_of(attributes: dict[str, str]) -> tuple[Fraction, Fraction, str] | None:
+    """Sides of the pixels of one image."""
+    units = {attributes.get(f"{name}Unit", "µm") for name in _SIZES}
+    sides = [decimal_side(attributes.get(name, "")) for name in _SIZES]
+    if len(units) > 1 or sides[0] is None or sides[1] is None or units & {"pixel", "reference frame"}:
+        return None
+    return sides[0], sides[1], units.pop()
+
+
+def decimal_side(text: str) -> Fraction | None:
+    """Give the side of a pixel that a text states, exactly; None if it states none.
+
+    Examples
+    --------
+    >>> decimal_side("0.25"), decimal_side("1e999999"), decimal_side("-1"), decimal_side("NaN")
+    (Fraction(1, 4), None, None, None)
+    """
+    try:
+        if not 1e-100 < float(text) < 1e100:
+            return None
+        return Fraction(text)
+    except (ValueError, ZeroDivisionError):
+        return None
+
+
+def ome_xml(shape: tuple[int, int], dtype: np.dtype[Any], width: Fraction, height: Fraction, unit: str) -> bytes | None:
+    """Write the XML of one image of one channel; None where OME has no such type of pixels.
+
+    Examples
+    --------
+    >>> made = ome_xml((2, 3), np.dtype(np.uint16), Fraction(1, 4), Fraction(1, 4), "µm").decode("ascii")
+    >>> 'PhysicalSizeX="0.25" PhysicalSizeXUnit="&#181;m"' in made
+    True
+    """
+    kind = "float" if dtype == np.float32 else dtype.name
+    if kind != "float" and kind not in _TYPES:
+        return None
+    values = {"type": kind, "width": shape[1], "height": shape[0], "unit": unit}
+    sides = {"x": shown_side(width), "y": shown_side(height)}
+    return _XML.format(**values, **sides).encode("ascii", "xmlcharrefreplace")
+
+
+def shown_side(side: Fraction) -> str:
+    """Write the side of a pixel in decimal digits, with which a double is found again.
+
+    Examples
+    --------
+    >>> shown_side(Fraction(13, 40)), shown_side(Fraction(2))
+    ('0.325', '2')
+    """
+    return shown_number(float(side)).removesuffix(".0")

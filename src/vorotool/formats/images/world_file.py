@@ -1,0 +1,64 @@
+"""World files: six numbers in a text file beside an image, which place it on a map."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import isfinite
+from pathlib import Path
+
+from vorotool.errors import InputError
+from vorotool.formats.io.descriptors import stream_kind
+from vorotool.formats.io.sources import STANDARD_INPUT
+from vorotool.geometry.pixel_grid import PixelGrid, map_grid
+
+_LARGEST = 4096
+"""Bytes; six numbers need some hundred."""
+
+
+def world_grid(name: str) -> PixelGrid | None:
+    """Read the grid of an image from the world file beside it; None where there is none, or the image is a stream.
+
+    The file is called as the image is, with the first and the last letter of its extension and a w (``a.tfw`` for
+    ``a.tif``), with all of it and a w (``a.tifw``), or with ``.wld``, in lower or upper case.
+
+    Parameters
+    ----------
+    name : str
+        The image, as the user wrote it.
+
+    Raises
+    ------
+    InputError
+        If it is there, and has not six finite numbers, or pixels would have no area.
+    """
+    if name == STANDARD_INPUT or stream_kind(name) is not None:
+        return None
+    for path in _candidates(Path(name)):
+        try:
+            with path.open("rb") as file:
+                data = file.read(_LARGEST + 1)
+        except (OSError, ValueError):
+            continue
+        return _parsed(str(path), data)
+    return None
+
+
+def _candidates(image: Path) -> Iterator[Path]:
+    letters = image.suffix[1:]
+    endings = [f"{letters[0]}{letters[-1]}w", f"{letters}w"] if letters else []
+    for ending in dict.fromkeys([*endings, "wld"]):
+        for each in dict.fromkeys((ending.lower(), ending.upper())):
+            yield image.with_suffix(f".{each}")
+
+
+def _parsed(name: str, data: bytes) -> PixelGrid:
+    try:
+        numbers = [float(text) for text in data.decode("ascii").replace(",", ".").split()]
+    except ValueError:
+        numbers = []
+    if len(data) > _LARGEST or len(numbers) != 6 or not all(map(isfinite, numbers)):
+        raise InputError(f"{name} is no world file: six lines of a number each were expected; repair or remove it")
+    a, d, b, e, x, y = numbers  # the place is that of the centre of the first pixel
+    if a * e == b * d:
+        raise InputError(f"{name} gives pixels without an area: repair or remove it")
+    return map_grid((a, b, x - (a + b) / 2, d, e, y - (d + e) / 2))

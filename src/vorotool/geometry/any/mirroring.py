@@ -1,0 +1,49 @@
+"""What lies in the pixels of an image with y upwards instead of downwards: y becomes -y, and nothing is rounded."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from vorotool.geometry.points.seed_set import SeedSet
+from vorotool.geometry.polygons.polygon_set import LINE, PolygonSet
+from vorotool.geometry.ragged import within
+
+
+def mirrored_polygons(polygons: PolygonSet) -> PolygonSet:
+    """Mirror polygons; closed rings begin at the same vertex, and run the other way, so that areas keep their signs.
+
+    Examples
+    --------
+    >>> square = PolygonSet([[0, 0], [2, 0], [2, 1], [0, 1]], [0, 4], [0], [0])
+    >>> mirrored_polygons(square).xy.tolist()
+    [[0.0, 0.0], [0.0, -1.0], [2.0, -1.0], [2.0, 0.0]]
+    """
+    sizes = np.diff(polygons.ring_start)
+    place = within(sizes)
+    size, first = np.repeat(sizes, sizes), np.repeat(polygons.ring_start[:-1], sizes)
+    is_line = np.repeat(polygons.ring_kind == LINE, sizes)
+    taken = first + np.where(is_line, place, (size - place) % np.maximum(size, 1))
+    return replace(polygons, xy=polygons.xy[taken] * (1.0, -1.0) + 0.0, y_up=True)
+
+
+def mirrored_seeds(seeds: SeedSet) -> SeedSet:
+    """Mirror seeds and the frame that they bring.
+
+    Examples
+    --------
+    >>> from vorotool.geometry.pixel_frame import Frame
+    >>> seeds = mirrored_seeds(SeedSet(np.array([0, 5]), np.array([0, 1]), np.array([1, 2]), frame=Frame(0, 0, 9, 4)))
+    >>> seeds.y.tolist(), seeds.frame
+    ([0, -1], Frame(x=0, y=-3, width=9, height=4))
+    """
+    frame, sites = seeds.frame, seeds.sites
+    if frame is not None:
+        frame = replace(frame, y=-(frame.y + frame.height - 1))
+    return replace(
+        seeds,
+        y=-seeds.y,
+        frame=frame,
+        sites=None if sites is None else sites * (1.0, -1.0) + 0.0,
+    )

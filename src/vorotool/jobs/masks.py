@@ -1,0 +1,97 @@
+"""Which pixels of an image are foreground, as the options say: by a threshold, without holes and small objects."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
+
+from vorotool.errors import InputError, UsageError
+from vorotool.jobs.options import ComputingOptions, SiteOptions, SkeletonOptions
+from vorotool.jobs.run_log import Run
+
+if TYPE_CHECKING:
+    from vorotool.geometry.points.raster import Raster
+
+
+class Foreground(NamedTuple):
+    """What of an image is foreground: what is larger than the threshold, or else what is not.
+
+    Parameters
+    ----------
+    image : Raster
+        With its values, or a mask that was cleaned.
+    threshold : float, optional
+        None where values tell.
+    invert : bool
+        Exchange foreground and background.
+    """
+
+    image: Raster
+    threshold: float | None
+    invert: bool
+
+
+def settled_foreground(run: Run, o: SiteOptions | SkeletonOptions, image: Raster) -> Foreground:
+    """Find the threshold, which is in the statistics, and clean the mask if that is asked for."""
+    found = _by_threshold(run, o, image)
+    return found if not o.cleans_masks else _cleaned(run, o, found)
+
+
+def _by_threshold(run: Run, o: ComputingOptions, image: Raster) -> Foreground:
+    """Find the threshold of Otsu's method if it is asked for: as a number it is said."""
+    if o.threshold != "otsu":
+        if o.threshold is not None:
+            run.stats["threshold"] = o.threshold
+        return Foreground(image, o.threshold, o.invert)
+    from vorotool.engines.tessellation.raster_objects import (
+        MOSTLY,
+        counted_values,
+        is_flat,
+        settled_threshold,
+        whole_threshold,
+    )
+
+    grey = counted_values(image)
+    found = Foreground(image, *settled_threshold(image, "otsu", invert=o.invert))
+    if is_flat(grey):
+        run.note(f"all pixels have the value {found.threshold:.17g}: Otsu's method finds no foreground")
+        run.stats["threshold"] = None
+        return found
+    run.note(f"threshold {found.threshold:.17g}, by Otsu's method")
+    run.stats["threshold"] = found.threshold
+    assert found.threshold is not None  # Otsu's method gives a number
+    bright = float((grey > whole_threshold(grey, found.threshold)).mean())
+    if not o.invert and bright > MOSTLY:
+        share = f"{bright:.0%} of the image"
+        run.note(f"{share} is brighter than that, and foreground: --invert takes what is dark, such as ink on paper")
+    return found
+
+
+def _cleaned(run: Run, o: SiteOptions | SkeletonOptions, found: Foreground) -> Foreground:
+    """Fill holes and leave out small objects, as the options say."""
+    import numpy as np
+
+    from vorotool.engines.tessellation.cleaned_masks import cleaned_mask
+    from vorotool.engines.tessellation.raster_objects import default_objects, foreground_values
+
+    names = o.cleans_masks
+    if isinstance(o, SkeletonOptions) and o.outline == "contour" and found.threshold is not None:
+        raise UsageError(f"{names} is for outlines of pixels: leave out --outline contour, which follows grey values")
+    values = foreground_values(found.image, found.threshold, invert=found.invert)
+    if o.seeds == "labels" or (o.seeds is None and default_objects(values) == "labels"):
+        raise InputError(f"the image holds labels, but {names} is for masks: use --threshold T or --seeds components")
+    cleaned = cleaned_mask(
+        values != 0,
+        min_area=o.min_area or 0,
+        fill_holes=o.fill_holes,
+        connectivity=int(o.connectivity or 8),
+        missing=found.image.mask,
+    )
+    if o.fill_holes:
+        run.stats["filled_pixels"] = cleaned.filled
+    if o.min_area is not None:
+        run.stats["small_objects"] = cleaned.removed
+        if cleaned.removed:
+            run.note(f"{cleaned.removed} of {cleaned.objects} objects have fewer than {o.min_area} pixels: left out")
+    mask = cleaned.mask.view(np.uint8)
+    return Foreground(replace(found.image, values=mask, mask=None, is_lossy=False), None, invert=False)

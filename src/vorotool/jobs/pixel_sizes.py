@@ -1,0 +1,174 @@
+"""``--pixel-size auto``, and images that lie on a map: what a file says of its pixels becomes the unit of results."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from vorotool.errors import InputError, Kind, Message
+from vorotool.jobs.inputs import JobInput
+from vorotool.jobs.options import ComputingOptions, SkeletonOptions, TriangulationOptions
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.units import PixelSize, lengths_in_pixels, measured, unit_stats
+
+if TYPE_CHECKING:
+    from vorotool.geometry.pixel_grid import PixelGrid
+    from vorotool.geometry.points.point_set import PointSet
+    from vorotool.geometry.points.seed_set import SeedSet
+    from vorotool.geometry.polygons.polygon_set import PolygonSet
+    from vorotool.render.canvas.layers import Backdrop
+
+Options = TypeVar("Options", bound=ComputingOptions)
+Placed = TypeVar("Placed")
+
+
+def with_pixel_size(run: Run, o: Options, given: JobInput, grid: PixelGrid | None) -> Options:
+    """Give options with the size of the pixels of an image: as the user says, else what the file says of a map.
+
+    Places among the options, which are in pixels, are mirrored where rows go down on the map.
+
+    Parameters
+    ----------
+    run : Run
+        Takes notes and statistics.
+    o : ComputingOptions
+        Of the command line.
+    given : JobInput
+        The image.
+    grid : PixelGrid, optional
+        What its file says of its pixels.
+
+    Raises
+    ------
+    InputError
+        If the size is to be that of the file, and it has none, or pixels that are no squares; or if its pixels are
+        turned on the map.
+    """
+    asked = o.pixel_size
+    if asked is not None and not asked.is_auto:
+        return o
+    if not given.has_units and not measured(o):
+        return o
+    if grid is not None and grid.transform is not None:
+        size = _on_map(run, given, grid, is_asked=asked is not None)
+    elif asked is not None:
+        size = _of_file(grid)
+    else:
+        size = None
+        if grid is not None and grid.is_size:
+            run.note(_note_of_size(given, grid))
+    run.stats |= unit_stats(size)
+    return _mirrored_places(lengths_in_pixels(replace(o, pixel_size=size), size))
+
+
+def _of_file(grid: PixelGrid | None) -> PixelSize:
+    instead = "give a number and its unit, such as --pixel-size 0.325um"
+    if grid is None:
+        raise InputError(f"the image carries no pixel size: {instead}")
+    if not grid.is_size:
+        dots = f"{float(1 / grid.width):.10g}"
+        raise InputError(f"the image carries {dots} dots an inch, which is for print, and no pixel size: {instead}")
+    if not grid.is_square:
+        raise InputError(f"the image has pixels of {grid.size_text()}, which are no squares: {instead}")
+    return PixelSize(grid.width, grid.unit)
+
+
+def _note_of_size(given: JobInput, grid: PixelGrid) -> str:
+    if grid.is_square:
+        return f"{given.name} carries a pixel size of {grid.size_text()}: --pixel-size auto uses it"
+    return f"{given.name} has pixels of {grid.size_text()}, which are no squares: results are in pixels"
+
+
+def _on_map(run: Run, given: JobInput, grid: PixelGrid, *, is_asked: bool) -> PixelSize | None:
+    """Size and place of the pixels of a map; None where they are no squares, and nobody asked for them."""
+    in_pixels = "--pixel-size 1 gives results in pixels"
+    if not grid.is_upright:
+        raise InputError(
+            f"the image is turned or mirrored on the map, which vectors and tables cannot follow: {in_pixels}, and "
+            "gdalwarp in.tif upright.tif an image that is not"
+        )
+    if not grid.is_square:
+        if is_asked:
+            raise InputError(
+                f"the image has pixels of {grid.size_text()}, which are no squares: {in_pixels}, and "
+                "gdalwarp -tr SIDE SIDE in.tif square.tif an image with squares"
+            )
+        run.note(_note_of_size(given, grid))
+        return None
+    from vorotool.geometry.crs import crs_name, is_geographic
+
+    if is_geographic(grid.crs):
+        text = f"{given.name}: longitude and latitude are treated as planar, lengths are in degrees"
+        run.note(Message(text, Kind.DEGREES, source=given.name))
+    if not is_asked:
+        where = "on a map" if grid.crs is None else f"in {crs_name(grid.crs)}"
+        run.note(f"{given.name} lies {where}: results are in its coordinates; {in_pixels}")
+    return PixelSize(grid.width, grid.unit, origin=grid.centre, y_up=grid.is_north_up, crs=grid.crs)
+
+
+def _mirrored_places(o: Options) -> Options:
+    """Options of places and frames, which are given in pixels with y downwards."""
+    if o.pixel_size is None or not o.pixel_size.y_up:
+        return o
+    if isinstance(o, SkeletonOptions | TriangulationOptions) and o.frame is not None:
+        x, y, width, height = o.frame
+        o = replace(o, frame=(x, -(y + height), width, height))
+    if isinstance(o, SkeletonOptions):
+        start, end = (None if place is None else (place[0], -place[1]) for place in (o.start, o.end))
+        o = replace(o, start=start, end=end)
+    return o
+
+
+def placed_polygons(size: PixelSize | None, polygons: PolygonSet) -> PolygonSet:
+    """Give outlines of an image as they lie on its map, in pixels."""
+    if size is None or size.origin is None:
+        return polygons
+    from vorotool.geometry.any.mirroring import mirrored_polygons
+
+    return replace(mirrored_polygons(polygons) if size.y_up else polygons, y_up=True, crs=size.crs)
+
+
+def placed_sites(
+    run: Run, o: Options, given: JobInput, points: PointSet | SeedSet
+) -> tuple[Options, PointSet | SeedSet]:
+    """Give options with the size of pixels, see `with_pixel_size`, and seeds of an image as they lie on its map."""
+    from vorotool.geometry.points.seed_set import SeedSet
+
+    if not isinstance(points, SeedSet):
+        return o, points
+    o = with_pixel_size(run, o, given, points.grid)
+    if o.pixel_size is None or not o.pixel_size.y_up:
+        return o, points
+    from vorotool.geometry.any.mirroring import mirrored_seeds
+
+    return o, mirrored_seeds(points)
+
+
+def clip_in_pixels(o: ComputingOptions, clip: Sequence[Any]) -> Sequence[Any]:
+    """Give the polygons of ``--clip``, which are on the map where results are, in pixels."""
+    size = o.pixel_size
+    if size is None or size.origin is None:
+        return clip
+    import numpy as np
+    import shapely
+
+    placed: Sequence[Any] = shapely.transform(
+        np.asarray(clip, dtype=object), lambda xy: (xy - np.asarray(size.origin)) / float(size.factor)
+    )
+    return placed
+
+
+def placed_mesh(size: PixelSize | None, mesh: Placed) -> Placed:
+    """Give a triangulation of such seeds the coordinate reference system of the map."""
+    if size is None or size.origin is None:
+        return mesh
+    made: Placed = replace(mesh, y_up=True, crs=size.crs)  # type: ignore[type-var]  # triangulations have both
+    return made
+
+
+def placed_backdrop(size: PixelSize | None, backdrop: Backdrop | None) -> Backdrop | None:
+    """Give the image of ``--overlay`` as what is drawn over it lies."""
+    if backdrop is None or size is None or not size.y_up:
+        return backdrop
+    return replace(backdrop, y_up=True)

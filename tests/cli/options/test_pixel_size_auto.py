@@ -1,0 +1,170 @@
+"""``--pixel-size auto``: sizes and units of pixels as files carry them, and as outputs carry them on."""
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import tifffile
+
+MASK = np.zeros((24, 32), np.uint8)
+MASK[3:9, 4:11] = MASK[12:20, 15:30] = 255
+
+
+def write(path, kind, sides=(0.325, 0.325), unit="µm"):
+    """A mask in the form of a microscope, of ImageJ, or of any other program."""
+    x, y = sides
+    if kind == "ome":
+        sizes = {"PhysicalSizeX": x, "PhysicalSizeY": y, "PhysicalSizeXUnit": unit, "PhysicalSizeYUnit": unit}
+        tifffile.imwrite(path, MASK, ome=True, metadata={"axes": "YX", **sizes})
+    elif kind == "imagej":
+        tifffile.imwrite(path, MASK, imagej=True, resolution=(1 / x, 1 / y), metadata={"unit": unit})
+    else:
+        tifffile.imwrite(path, MASK, resolution=(1 / x, 1 / y), resolutionunit=kind)
+    return path
+
+
+FILES = [
+    ("ome", (0.325, 0.325), "µm", "0.325 µm"),
+    ("ome", (2.5, 2.5), "nm", "2.5 nm"),
+    ("imagej", (0.325, 0.325), "um", "0.325 µm"),
+    ("imagej", (0.25, 0.25), "micron", "0.25 µm"),
+    ("imagej", (0.25, 0.25), "\\u00B5m", "0.25 µm"),
+    (3, (0.02, 0.02), None, "0.02 cm"),
+]
+
+
+@pytest.mark.parametrize(("kind", "sides", "unit", "words"), FILES)
+def test_what_a_file_carries_is_what_a_user_would_type(run, tmp_path, kind, sides, unit, words):
+    write(tmp_path / "in.tif", kind, sides, unit)
+    plain = run("tessellate", "in.tif", "--what", "table")
+    assert f"note: in.tif carries a pixel size of {words}: --pixel-size auto uses it" in plain.err
+    auto = run("tessellate", "in.tif", "--what", "table", "--pixel-size", "auto", "--stats", "s.json")
+    typed = run("tessellate", "in.tif", "--what", "table", "--pixel-size", words)
+    assert (auto.code, auto.out) == (0, typed.out) != (0, plain.out)
+    assert "note" not in auto.err
+    stats = json.loads((tmp_path / "s.json").read_text())
+    assert f"{stats['pixel_size']:g} {stats['unit']}" == words
+
+
+COMMANDS = [
+    "delaunay --what table",
+    "alphashape --seeds pixels --auto --what table",
+    "skeleton-exact --what table",
+    "skeleton-approx --step 1 --what table",
+]
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command(run, tmp_path, command):
+    write(tmp_path / "in.tif", "ome")
+    auto = run(*command.split(), "in.tif", "-f", "csv", "-q", "--pixel-size", "auto")
+    assert auto.code == 0
+    assert auto.out == run(*command.split(), "in.tif", "-f", "csv", "-q", "--pixel-size", "0.325um").out
+
+
+def test_areas_of_objects(run, tmp_path):
+    """42 and 120 pixels of 0.25 µm: their areas are known without any program."""
+    write(tmp_path / "in.tif", "ome", (0.25, 0.25))
+    rows = run("tessellate", "in.tif", "--what", "table", "-q", "--pixel-size", "auto").rows
+    assert [float(row["object_area"]) for row in rows] == [42 / 16, 120 / 16]
+    assert sum(float(row["area"]) for row in rows) == MASK.size / 16
+
+
+@pytest.mark.parametrize(
+    ("kind", "sides", "unit", "words"),
+    [
+        (2, (1 / 300, 1 / 300), None, "the image carries 300 dots an inch, which is for print, and no pixel size"),
+        ("imagej", (0.25, 0.5), "um", "pixels of 0.25 x 0.5 µm, which are no squares"),
+        ("ome", (0.25, 0.5), "µm", "pixels of 0.25 x 0.5 µm, which are no squares"),
+        (1, (0.25, 0.25), None, "the image carries no pixel size"),
+        ("imagej", (0.25, 0.25), "pixel", "the image carries no pixel size"),
+        ("ome", (0.25, 0.25), "reference frame", "the image carries no pixel size"),
+    ],
+)
+def test_files_without_a_size(run, tmp_path, kind, sides, unit, words):
+    write(tmp_path / "in.tif", kind, sides, unit)
+    done = run("tessellate", "in.tif", "--what", "table", "--pixel-size", "auto")
+    assert done.code == 3
+    assert f"error: in.tif: {words}" in done.err.replace("the image has pixels", "pixels")
+    assert "--pixel-size 0.325um" in done.err
+    plain = run("tessellate", "in.tif", "--what", "table")
+    assert plain.code == 0
+    assert ("no squares: results are in pixels" in plain.err) == ("squares" in words)
+
+
+def test_what_has_no_pixels_has_no_size_of_them(run, folder):
+    for options in (["tessellate", "dots.csv", "--what", "table"], ["delaunay", "dots.csv"]):
+        done = run(*options, "--pixel-size", "auto")
+        assert done.code == 2
+        assert "--pixel-size auto is for images" in done.err
+    done = run("tessellate", "mask.pbm", "-o", "a.tif", "--pixel-size", "auto")
+    assert (done.code, "--pixel-size is for tables and vectors" in done.err) == (2, True)
+    done = run("tessellate", "mask.pbm", "--what", "table", "--pixel-size", "auto")
+    assert (done.code, "carries no pixel size" in done.err) == (3, True)
+
+
+@pytest.mark.parametrize("what", ["labels", "diagram", "distance"])
+@pytest.mark.parametrize(("kind", "sides", "unit", "words"), FILES)
+def test_outputs_carry_sizes_on(run, tmp_path, kind, sides, unit, words, what):
+    write(tmp_path / "in.tif", kind, sides, unit)
+    assert run("tessellate", "in.tif", "-o", "out.tif", "--what", what, "-q").code == 0
+    done = run("tessellate", "out.tif", "--what", "table", *(["--threshold", "1"] if what == "distance" else []))
+    assert f"out.tif carries a pixel size of {words}" in done.err
+    with tifffile.TiffFile(tmp_path / "out.tif") as file:
+        assert (file.is_ome, file.is_imagej) == (kind == "ome", kind == "imagej")
+        assert file.asarray().shape == MASK.shape
+        assert file.series[0].axes == "YX"
+
+
+def test_ome_xml_that_is_hostile(run, tmp_path):
+    """Entities are not expanded, sizes are numbers, and two images of different sizes have none in common."""
+    bodies = [
+        '<!DOCTYPE OME [<!ENTITY a "0.5"><!ENTITY b "&a;&a;">]><OME><Pixels PhysicalSizeX="&b;"/></OME>',
+        '<OME><Pixels PhysicalSizeX="1e99999999" PhysicalSizeY="1"/></OME>',
+        '<OME><Pixels PhysicalSizeX="0" PhysicalSizeY="-1"/></OME>',
+        '<OME><Pixels PhysicalSizeX="1" PhysicalSizeY="1"/><Pixels PhysicalSizeX="2" PhysicalSizeY="2"/></OME>',
+        '<OME><Pixels PhysicalSizeX="1" PhysicalSizeY="1"></OME>',
+    ]
+    for body in bodies:
+        tifffile.imwrite(tmp_path / "in.tif", MASK, description=body, metadata=None)
+        done = run("tessellate", "in.tif", "--what", "table", "--pixel-size", "auto")
+        assert (done.code, "carries no pixel size" in done.err) == (3, True), body
+        assert run("tessellate", "in.tif", "-o", "out.png").code == 0
+
+
+def test_streams(tmp_path):
+    """What comes through a pipe carries its size, too."""
+    data = write(tmp_path / "in.tif", "imagej", unit="um").read_bytes()
+    command = [sys.executable, "-m", "vorotool", "tessellate", "-", "--what", "table", "--pixel-size"]
+    auto, typed = (subprocess.run([*command, size], input=data, capture_output=True, check=True).stdout
+                   for size in ("auto", "0.325um"))  # fmt: skip
+    assert auto == typed
+
+
+def test_many_inputs_in_one_table(run, tmp_path):
+    folder = tmp_path / "in"
+    folder.mkdir()
+    write(folder / "a.tif", "imagej", unit="um")
+    write(folder / "b.tif", "ome")
+    done = run("tessellate", "in", "--table", "all.csv", "--pixel-size", "auto", "-q")
+    assert done.code == 0
+    assert len((tmp_path / "all.csv").read_text().splitlines()) == 5
+    write(folder / "c.tif", "ome", (0.3, 0.3), "nm")
+    done = run("tessellate", "in", "--table", "all.csv", "--pixel-size", "auto", "-q")
+    assert done.code == 3
+    assert "lengths in µm (in/a.tif) and in nm (in/c.tif)" in done.err
+    assert run("tessellate", "in", "--table", "all.csv", "--pixel-size", "2um", "-q").code == 0
+
+
+def test_the_library_carries_sizes(tmp_path):
+    import vorotool
+
+    write(tmp_path / "in.tif", "ome")
+    raster = vorotool.read(tmp_path / "in.tif")
+    assert raster.grid.size_text() == "0.325 µm"
+    image = vorotool.tessellate(raster)
+    assert image.grid == raster.grid
+    vorotool.write(image, tmp_path / "out.tif")
+    assert vorotool.read(tmp_path / "out.tif").grid == raster.grid

@@ -1,0 +1,372 @@
+"""Images that lie on a map: GeoTIFF and world files, checked with rasterio and with shapely."""
+
+import json
+
+import numpy as np
+import pytest
+import rasterio
+import shapely
+import tifffile
+from rasterio.transform import Affine
+from shapely.affinity import affine_transform
+
+from vorotool.engines.tessellation.raster_objects import numbered_components
+
+rng = np.random.default_rng(5)
+MASK = np.zeros((40, 50), np.uint8)
+MASK[4:15, 6:20] = MASK[20:37, 25:45] = MASK[30:34, 3:9] = 255
+MASK[25:30, 30:38] = 0
+DOTS = (rng.random((40, 50)) < 0.02).astype(np.uint8)
+
+
+def from_origin(west, north, x, y):
+    return Affine(x, 0, west, 0, -y, north)
+
+
+NORTH_UP = from_origin(2600000, 1200000, 25, 25)
+SOUTH_UP = Affine(0.5, 0, 10, 0, 0.5, -7)
+
+
+def write(path, values=MASK, transform=NORTH_UP, crs="EPSG:2056", **options):
+    height, width = values.shape
+    kind = {"driver": "GTiff", "count": 1, "height": height, "width": width, "dtype": values.dtype}
+    with rasterio.open(path, "w", **kind, crs=crs, transform=transform, **options) as file:
+        file.write(values, 1)
+    return path
+
+
+def about(path):
+    with rasterio.open(path) as file:
+        return file.transform, file.crs, file.shape, file.nodata, file.tags().get("AREA_OR_POINT")
+
+
+CASES = [
+    (NORTH_UP, "EPSG:2056", {}),
+    (SOUTH_UP, "EPSG:32632", {}),
+    (from_origin(7.4, 47.1, 0.01, 0.01), "EPSG:4326", {}),
+    (from_origin(7.4, 47.1, 0.01, 0.02), "EPSG:4258", {}),
+    (Affine(3, 1, 50, -1, 3, 60), "EPSG:3857", {}),
+    (Affine(-3, 0, 50, 0, -2, 60), "EPSG:3857", {}),
+    (NORTH_UP, "+proj=laea +lat_0=10 +lon_0=20 +datum=WGS84", {}),
+    (NORTH_UP, None, {}),
+    (NORTH_UP, "EPSG:2056", {"nodata": 3, "tiled": True, "blockxsize": 16, "blockysize": 16, "compress": "lzw"}),
+]
+
+
+@pytest.mark.parametrize("what", ["labels", "distance", "diagram"])
+@pytest.mark.parametrize(("transform", "crs", "options"), CASES)
+def test_images_line_up_with_their_input(run, tmp_path, transform, crs, options, what):
+    write(tmp_path / "in.tif", transform=transform, crs=crs, **options)
+    done = run("tessellate", "in.tif", "-o", "out.tif", "--what", what)
+    assert done.code == 0
+    assert "results are" not in done.err
+    before, after = about(tmp_path / "in.tif"), about(tmp_path / "out.tif")
+    assert after[0].almost_equals(before[0], 1e-12)
+    assert after[1:3] == before[1:3]
+    assert after[3] is None
+
+
+def test_pixels_that_are_points(run, tmp_path):
+    path = write(tmp_path / "in.tif")
+    with rasterio.open(path, "r+") as file:
+        file.update_tags(AREA_OR_POINT="Point")
+    assert run("tessellate", "in.tif", "-o", "out.tif").code == 0
+    assert about(tmp_path / "out.tif") == about(path)
+    assert about(path)[4] == "Point"
+
+
+def test_labels_within_a_distance_have_nodata(run, tmp_path):
+    write(tmp_path / "in.tif")
+    assert run("tessellate", "in.tif", "-o", "out.tif", "--max-distance", "3").code == 0
+    with rasterio.open(tmp_path / "out.tif") as file:
+        assert file.nodata == 0
+        assert (file.read_masks(1) == 0).any()
+
+
+def placed(transform, column, row):
+    """A place on the map."""
+    a, b, c, d, e, f = tuple(transform)[:6]
+    return a * column + b * row + c, d * column + e * row + f
+
+
+def component(number):
+    """The pixels of an object of the mask."""
+    return numbered_components(MASK) == number + 1
+
+
+def geometry(features):
+    """All features in one, so that neither their order nor their direction counts."""
+    return shapely.union_all(
+        [shapely.from_geojson(json.dumps(each["geometry"])) for each in features if each["geometry"]]
+    )
+
+
+VECTORS = [
+    "skeleton-exact --what skeleton",
+    "skeleton-exact --what skeleton --side both --prune none",
+    "skeleton-exact --what centerline",
+    "skeleton-exact --what offset -d -1,2",
+    "skeleton-exact --what shape",
+    "skeleton-exact --what diagram --frame -5,-6,70,60",
+    "skeleton-approx --what skeleton --step 1",
+    "delaunay --seeds pixels --what edges",
+    "delaunay --seeds pixels --what triangles",
+    "delaunay --seeds pixels --what cells",
+    "delaunay --seeds pixels --what cells --frame 3,5,30,20",
+    "delaunay --seeds pixels --what edges --method digital",
+    "alphashape --seeds pixels --what polygons -r 9",
+    "alphashape --seeds pixels --what complex -r 6",
+    "alphashape --seeds pixels --what general -r 4",
+]
+
+
+@pytest.mark.parametrize("transform", [NORTH_UP, SOUTH_UP])
+@pytest.mark.parametrize("command", VECTORS)
+def test_vectors_are_those_of_pixels_on_the_map(run, tmp_path, command, transform):
+    values = DOTS if "pixels" in command else MASK
+    write(tmp_path / "in.tif", values, transform)
+    on_map = run(*command.split(), "in.tif", "-f", "geojson")
+    assert (on_map.code, "note: in.tif lies in EPSG:2056: results are in its coordinates" in on_map.err) == (0, True)
+    pixels = run(*command.split(), "in.tif", "-f", "geojson", "--pixel-size", "1")
+    assert (pixels.code, pixels.err) == (0, "")
+    on_map, pixels = json.loads(on_map.out), json.loads(pixels.out)
+    assert on_map["crs"]["properties"]["name"] == "urn:ogc:def:crs:EPSG::2056"
+    assert "crs" not in pixels
+    assert len(on_map["features"]) == len(pixels["features"]) > 0
+    a, b, c, d, e, f = tuple(transform)[:6]
+    placed = affine_transform(geometry(pixels["features"]), [a, b, d, e, c + a / 2, f + e / 2])
+    assert placed.hausdorff_distance(geometry(on_map["features"])) < 1e-5 * a
+    rings = [
+        each["geometry"] for each in on_map["features"] if each["geometry"] and each["geometry"]["type"] == "Polygon"
+    ]
+    assert all(shapely.from_geojson(json.dumps(ring)).exterior.is_ccw for ring in rings)
+
+
+@pytest.mark.parametrize("command", ["skeleton-exact --what table", "alphashape --seeds pixels --auto --what table"])
+def test_tables_without_places(run, tmp_path, command):
+    write(tmp_path / "in.tif", DOTS if "pixels" in command else MASK)
+    on_map = run(*command.split(), "in.tif", "-f", "csv", "-q", "--verify").rows
+    metres = run(*command.split(), "in.tif", "-f", "csv", "-q", "--pixel-size", "25m").rows
+    for one, other in zip(on_map, metres, strict=True):
+        for row in (one, other):
+            row.pop("bbox_x", None), row.pop("bbox_y", None)
+        assert {name: pytest.approx(float(text or 0), rel=1e-9) for name, text in one.items()} == {
+            name: float(text or 0) for name, text in other.items()
+        }
+
+
+@pytest.mark.parametrize("transform", [NORTH_UP, SOUTH_UP])
+def test_the_table_of_regions(run, tmp_path, transform):
+    write(tmp_path / "in.tif", transform=transform)
+    rows = run("tessellate", "in.tif", "--what", "table", "-q").rows
+    run("tessellate", "in.tif", "-o", "labels.tif", "-q")
+    with rasterio.open(tmp_path / "labels.tif") as file:
+        labels, side = file.read(1), transform.a
+        for row in rows:
+            y, x = np.nonzero(labels == int(row["label"]))
+            corners = [placed(transform, x[k] + dx, y[k] + dy) for k in range(len(x)) for dx in (0, 1) for dy in (0, 1)]
+            (left, low), (right, high) = np.min(corners, axis=0), np.max(corners, axis=0)
+            box = [float(row[f"bbox_{name}"]) for name in "xywh"]
+            assert box == pytest.approx([left, low, right - left, high - low])
+            assert float(row["area"]) == pytest.approx(len(x) * side**2)
+        masses = [shapely.centroid(shapely.MultiPoint(np.argwhere(component(k))[:, ::-1])) for k in range(3)]
+        centres = [placed(transform, mass.x + 0.5, mass.y + 0.5) for mass in masses]
+        assert np.allclose([(float(row["x"]), float(row["y"])) for row in rows], centres, rtol=1e-12)
+    neighbours = run("tessellate", "in.tif", "--what", "neighbours", "-q").rows
+    metres = run("tessellate", "in.tif", "--what", "neighbours", "-q", "--pixel-size", str(side)).rows
+    assert neighbours == metres
+
+
+def test_points_along_lie_on_the_skeleton(run, tmp_path):
+    """Steps begin at one end of a branch or the other."""
+    write(tmp_path / "in.tif")
+    points, lines = (json.loads(run("skeleton-exact", "in.tif", "--what", *options, "-f", "geojson", "-q").out)
+                     for options in (["points", "--every", "2.5"], ["skeleton"]))  # fmt: skip
+    lines = geometry(lines["features"])
+    assert len(points["features"]) > 5
+    assert all(shapely.distance(geometry([each]), lines) < 2.5 for each in points["features"])
+
+
+@pytest.mark.parametrize("command", ["skeleton-exact --what skeleton", "skeleton-exact --what table", "delaunay"])
+def test_results_are_verified(run, tmp_path, command):
+    write(tmp_path / "in.tif", MASK)
+    assert run(*command.split(), "in.tif", "-f", "json", "-o", "a.json", "--verify").code == 0
+
+
+def test_paths_between_places_of_the_image(run, tmp_path):
+    """Places among the options are in pixels, as without a map."""
+    write(tmp_path / "in.tif", MASK)
+    options = ["--what", "centerline", "--from", "7,5", "--to", "18,13", "-f", "geojson"]
+    on_map = json.loads(run("skeleton-exact", "in.tif", *options).out)
+    pixels = json.loads(run("skeleton-exact", "in.tif", *options, "--pixel-size", "1").out)
+    placed = affine_transform(geometry(pixels["features"]), [25, 0, 0, -25, 2600012.5, 1199987.5])
+    assert placed.hausdorff_distance(geometry(on_map["features"])) < 1e-6
+
+
+def test_clip_is_on_the_map(run, tmp_path):
+    write(tmp_path / "in.tif", DOTS)
+    area = shapely.box(2600100, 1199300, 2600900, 1199900)
+    crs = {"type": "name", "properties": {"name": "EPSG:2056"}}
+    clip = {"type": "Feature", "properties": {}, "geometry": json.loads(shapely.to_geojson(area)), "crs": crs}
+    (tmp_path / "clip.geojson").write_text(json.dumps(clip))
+    command = ["delaunay", "in.tif", "--seeds", "pixels", "--what", "cells", "-f", "geojson", "--clip", "clip.geojson"]
+    done = run(*command)
+    cells = [each for each in json.loads(done.out)["features"] if each["geometry"]]
+    assert geometry(cells).symmetric_difference(area).area < 1e-3
+    clip["crs"]["properties"]["name"] = "EPSG:3857"
+    (tmp_path / "clip.geojson").write_text(json.dumps(clip))
+    done = run(*command)
+    assert (done.code, "clip.geojson is in EPSG:3857, but in.tif in EPSG:2056" in done.err) == (3, True)
+
+
+def test_pictures_stay_as_they_are(run, tmp_path):
+    """Those beside vectors are drawn from what lies on the map, and show the same."""
+    write(tmp_path / "in.tif")
+    tifffile.imwrite(tmp_path / "plain.tif", MASK)
+    options = ["-f", "svg", "--overlay", "in.tif"]
+    for name in ("in", "plain"):
+        assert run("skeleton-exact", f"{name}.tif", *options, "-o", f"{name}.svg").code == 0
+    assert (tmp_path / "in.svg").read_bytes() == (tmp_path / "plain.svg").read_bytes()
+    for name in ("in", "plain"):
+        options = ["--what", "skeleton,table", "-f", "png,csv", "--overlay", "in.tif", "--out-dir", f"{name}-out"]
+        options[3] = "png"
+        assert run("skeleton-exact", f"{name}.tif", "--what", "skeleton", *options[2:]).code == 0
+    made = [next((tmp_path / f"{name}-out").glob("*.png")).read_bytes() for name in ("in", "plain")]
+    assert made[0] == made[1]
+
+
+def test_degrees_are_told_of(run, tmp_path):
+    write(tmp_path / "in.tif", transform=from_origin(7.4, 47.1, 0.01, 0.01), crs="EPSG:4326")
+    done = run("skeleton-exact", "in.tif", "-o", "a.geojson")
+    assert "longitude and latitude are treated as planar, lengths are in degrees" in done.err
+
+
+@pytest.mark.parametrize(
+    ("transform", "code", "words"),
+    [
+        (Affine(3, 1, 50, -1, 3, 60), 3, "the image is turned or mirrored on the map"),
+        (Affine(-3, 0, 50, 0, -3, 60), 3, "the image is turned or mirrored on the map"),
+        (from_origin(0, 100, 2, 3), 0, "in.tif has pixels of 2 x 3 m, which are no squares: results are in pixels"),
+    ],
+)
+def test_maps_that_results_cannot_follow(run, tmp_path, transform, code, words):
+    write(tmp_path / "in.tif", transform=transform)
+    done = run("skeleton-exact", "in.tif", "-o", "a.geojson")
+    assert (done.code, words in done.err) == (code, True)
+    done = run("skeleton-exact", "in.tif", "-o", "a.geojson", "--pixel-size", "auto")
+    assert (done.code, "--pixel-size 1 gives results in pixels" in done.err) == (3, True)
+    done = run("skeleton-exact", "in.tif", "-o", "a.geojson", "--pixel-size", "1")
+    assert (done.code, done.err) == (0, "")
+
+
+def test_a_system_without_a_code(run, tmp_path):
+    write(tmp_path / "in.tif", crs="+proj=laea +lat_0=10 +lon_0=20 +datum=WGS84")
+    done = run("skeleton-exact", "in.tif", "-f", "geojson")
+    assert "without an EPSG code: vectors made of it name none" in done.err
+    assert "crs" not in json.loads(done.out)
+
+
+# ---- nodata --------------------------------------------------------------------------------------
+@pytest.mark.parametrize("options", [[], ["--invert"], ["--threshold", "100"], ["--threshold", "100", "--invert"]])
+def test_nodata_is_background(run, tmp_path, options):
+    values = MASK.copy()
+    values[:, 40:] = 7
+    write(tmp_path / "in.tif", values, nodata=7)
+    assert run("tessellate", "in.tif", "-o", "out.npy", *options).code == 0
+    plain = np.where(values == 7, 0, values)
+    if options:
+        plain = (plain > 100) != ("--invert" in options)
+        plain = np.where(values == 7, 0, plain).astype(np.uint8) * 255
+    tifffile.imwrite(tmp_path / "plain.tif", plain)
+    assert run("tessellate", "plain.tif", "-o", "plain.npy").code == 0
+    assert (np.load(tmp_path / "out.npy") == np.load(tmp_path / "plain.npy")).all()
+
+
+@pytest.mark.parametrize("options", [[], ["--invert"], ["--threshold", "100"], ["--threshold", "100", "--invert"]])
+def test_nodata_of_images_that_are_not_held(run, tmp_path, monkeypatch, options):
+    import vorotool.jobs.streamed_tessellation as streamed
+
+    values = MASK.copy()
+    values[:, 40:] = 7
+    write(tmp_path / "in.tif", values, nodata=7)
+    assert run("tessellate", "in.tif", "-o", "held.tif", *options).code == 0
+    monkeypatch.setattr(streamed, "LARGE", 100)
+    assert run("tessellate", "in.tif", "-o", "rows.tif", *options).code == 0
+    assert (tmp_path / "held.tif").read_bytes() == (tmp_path / "rows.tif").read_bytes()
+
+
+def test_nodata_that_is_no_number(run, tmp_path):
+    values = np.where(MASK == 255, 1, np.nan).astype(np.float32)
+    values[0] = 0
+    write(tmp_path / "in.tif", values, nodata=np.nan)
+    assert run("tessellate", "in.tif", "-o", "out.npy").code == 0
+    tifffile.imwrite(tmp_path / "plain.tif", MASK)
+    assert run("tessellate", "plain.tif", "-o", "plain.npy").code == 0
+    assert (np.load(tmp_path / "out.npy") == np.load(tmp_path / "plain.npy")).all()
+
+
+# ---- world files ---------------------------------------------------------------------------------
+@pytest.mark.parametrize(
+    ("image", "world"),
+    [("a.tif", "a.tfw"), ("a.tif", "a.TFW"), ("a.tif", "a.tifw"), ("a.png", "a.pgw"), ("a.png", "a.pngw"),
+     ("a.bmp", "a.bpw"), ("a.gif", "a.gfw"), ("a.png", "a.wld"), ("a.jpg", "a.jgw")],
+)  # fmt: skip
+def test_world_files(run, tmp_path, image, world):
+    from PIL import Image
+
+    Image.fromarray(MASK).save(tmp_path / image)
+    (tmp_path / world).write_text("25\n0\n0\n-25\n2600012.5\n1199987.5\n")
+    write(tmp_path / "map.tif")
+    options = ["--what", "table", *(["--threshold", "100"] if image.endswith("jpg") else [])]
+    done = run("tessellate", image, *options)
+    assert f"note: {image} lies on a map: results are in its coordinates" in done.err
+    assert done.out == run("tessellate", "map.tif", "--what", "table").out
+    assert run("tessellate", image, "-o", "out.tif", *options[2:]).code == 0
+    transform, crs, *_ = about(tmp_path / "out.tif")
+    assert (transform, crs) == (NORTH_UP, None)
+
+
+@pytest.mark.parametrize("text", ["", "1\n2\n3\n4\n5\n", "1 0 0 -1 0 nan", "1 1 1 1 0 0", "a b c d e f", "9" * 5000])
+def test_world_files_that_are_none(run, tmp_path, text):
+    tifffile.imwrite(tmp_path / "a.tif", MASK)
+    (tmp_path / "a.tfw").write_text(text)
+    done = run("tessellate", "a.tif", "-o", "out.png")
+    assert done.code == 3
+    assert "a.tfw" in done.err
+    assert "repair or remove it" in done.err
+
+
+# ---- damage --------------------------------------------------------------------------------------
+@pytest.mark.parametrize(
+    ("tags", "words"),
+    [
+        ([(33550, 12, 2, (1.0, 1.0), True), (33922, 12, 6, (0.0,) * 6, True)], "its ModelPixelScale has not 3 finite"),
+        ([(33550, 12, 3, (1.0, 1.0, 0.0), True), (33922, 12, 3, (0.0,) * 3, True)], "its ModelTiepoint has not 6"),
+        ([(34264, 12, 16, (np.nan,) * 16, True)], "its ModelTransformation has not 16 finite"),
+        ([(34264, 12, 16, (0.0,) * 16, True)], "its pixels have no area on the map"),
+    ],
+)
+def test_damaged_tags(run, tmp_path, tags, words):
+    tifffile.imwrite(tmp_path / "a.tif", MASK, extratags=tags)
+    done = run("tessellate", "a.tif", "-o", "out.png")
+    assert done.code == 3
+    assert words in done.err
+
+
+def test_control_points_are_not_used(run, tmp_path):
+    points = tuple(float(k) for k in range(24))
+    tifffile.imwrite(tmp_path / "a.tif", MASK, extratags=[(33922, 12, 24, points, True)])
+    done = run("tessellate", "a.tif", "--what", "table")
+    assert (done.code, "placed by control points, which are not used" in done.err) == (0, True)
+
+
+def test_many_images_of_maps(run, tmp_path):
+    (tmp_path / "in").mkdir()
+    write(tmp_path / "in" / "a.tif")
+    write(tmp_path / "in" / "b.tif", transform=from_origin(0, 0, 50, 50))
+    assert run("tessellate", "in", "--table", "all.csv", "--out-dir", "out", "-f", "tiff", "-q").code == 0
+    assert about(tmp_path / "out" / "b.tif")[:2] == about(tmp_path / "in" / "b.tif")[:2]
+    write(tmp_path / "in" / "c.tif", crs="EPSG:3857")
+    done = run("tessellate", "in", "--table", "all.csv", "-q")
+    assert done.code == 3
+    assert "lengths in m in EPSG:2056 (in/a.tif) and in m in EPSG:3857 (in/c.tif)" in done.err
