@@ -13,11 +13,16 @@ class NumberText(str):
 
     Examples
     --------
-    >>> NumberText("3.50")
-    '3.50'
+    >>> NumberText("3.50"), NumberText("3.50").number, NumberText("7").number
+    ('3.50', 3.5, 7)
     """
 
     __slots__ = ()
+
+    @property
+    def number(self) -> int | float:
+        """Its value: an integer where it is written as one, of no more digits than are usual."""
+        return int(self) if len(self) < 64 and not any(mark in self for mark in ".eE") else float(self)
 
 
 def typed_texts(values: list[str]) -> list[Any]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import zipfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from datetime import date
@@ -257,8 +257,23 @@ def _npz_values(column: Column) -> NDArray[Any] | Lookup | Computed:
             return values
         return np.where(missing, np.zeros((), values.dtype), values)
     absent = [False] * len(values) if missing is None else missing.tolist()
-    pairs = zip(values, absent, strict=True)
-    return np.array(["" if none else _text_of(value, 0) for value, none in pairs], dtype=np.str_)
+    present = [(None if none else value) for value, none in zip(values, absent, strict=True)]
+    numbers = _numbers(present)
+    if numbers is not None:
+        return numbers
+    return np.array(["" if value is None else _text_of(value, 0) for value in present], dtype=np.str_)
+
+
+def _numbers(values: Sequence[Any]) -> NDArray[Any] | None:
+    """Give values as integers, numbers or truth values, if all are, with 0 for what is missing; else None."""
+    plain = [value.number if type(value) is NumberText else value for value in values]
+    kinds = {type(value) for value in plain if value is not None}
+    if kinds == {int} and not all(value is None or -(2**63) <= value < 2**63 for value in plain):
+        return None
+    for kind, dtype in ((bool, np.bool_), (int, np.int64), (float, np.float64)):
+        if kinds == {kind} or (kind is float and kinds == {int, float}):
+            return np.array([value or 0 for value in plain], dtype=dtype)
+    return None
 
 
 def _write_array(archive: zipfile.ZipFile, name: str, values: NDArray[Any] | Lookup | Computed, threads: int) -> None:

@@ -1,0 +1,170 @@
+"""What each format carries: each is written and read, and the table of that in the documents is what was found.
+
+``python tests/formats/test_abilities.py > docs/reference/abilities.md`` writes the table.
+"""
+
+import sys
+import tempfile
+import warnings
+from pathlib import Path
+
+import geopandas
+import numpy as np
+import pytest
+import shapely
+
+import vorotool
+from vorotool.errors import UsageError
+from vorotool.geometry.crs import crs_name, member_of_text
+from vorotool.geometry.number_text import NumberText
+from vorotool.geometry.polygons.polygon_set import PolygonSet
+from vorotool.products.formats import FORMATS
+from vorotool.products.inputs import INPUTS, NAMES_WITH
+
+ROOT = Path(__file__).parents[2]
+PAGE = ROOT / "docs" / "reference" / "abilities.md"
+VERTICES = np.array([[0.1, 0], [4, 1 / 3], [0, 3], [10, 0], [14, 0], [10, 3.5]])
+ATTRIBUTES = {"name": ["a", "b"], "code": ["007", "8"], "count": [3, -4], "depth": [0.5, 2.0]}
+SYSTEM = member_of_text("EPSG:2056")
+GEOGRAPHIC = ("kml", "gpx")
+"""Formats of longitudes and latitudes alone, which are not written."""
+
+
+def shapes():
+    return PolygonSet(VERTICES, [0, 3, 6], [0, 0], [0, 1], y_up=True, crs=SYSTEM, properties=ATTRIBUTES)
+
+
+def values():
+    """What may be written in a format, and which part of it."""
+    mesh = vorotool.delaunay(vorotool.PointSet(VERTICES[:2], None, ATTRIBUTES, True, SYSTEM))
+    triangle = vorotool.delaunay(VERTICES[:3])
+    skeleton = vorotool.skeleton_exact(VERTICES[:3])
+    return ((shapes(), None), (mesh, "table"), (mesh, "edges"), (triangle, "triangles"), (skeleton, "skeleton"))
+
+
+def made_elsewhere(fmt, path):
+    """Write what vorotool reads alone."""
+    if fmt == "kml":
+        places = geopandas.GeoDataFrame(ATTRIBUTES, geometry=shapely.points(VERTICES[:2]), crs="EPSG:4326")
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            places.to_file(path, driver="KML")
+    elif fmt == "gpx":
+        names = geopandas.GeoDataFrame({"name": ["a", "b"]}, geometry=shapely.points(VERTICES[:2]), crs="EPSG:4326")
+        names.to_file(path, driver="GPX", layer="waypoints")
+    elif fmt == "csv-wkt":
+        rows = zip(*ATTRIBUTES.values(), shapely.points(VERTICES[:2]), strict=True)
+        lines = [",".join([*map(str, row[:-1]), f'"SRID=2056;{shapely.to_wkt(row[-1], -1)}"']) for row in rows]
+        path.write_text("\n".join([",".join([*ATTRIBUTES, "wkt"]), *lines]) + "\n")
+    elif fmt == "wkb":
+        path.write_bytes(shapely.to_wkb(shapely.set_srid(shapely.multipoints(VERTICES[:2]), 2056), include_srid=True))
+    elif fmt == "svg":
+        path.write_text('<svg xmlns="http://www.w3.org/2000/svg"><path d="M0.1,0 L4,0.25 L0,3 Z"/></svg>')
+    else:
+        return False
+    return True
+
+
+def vector_row(fmt, folder):
+    """What a format of points, polygons and lines carries."""
+    extension = FORMATS[fmt].endings[0] if fmt in FORMATS else f".{fmt}"
+    path = folder / f"a{extension.replace('.csv-wkt', '.csv')}"
+    is_written = True
+    for value, what in values():
+        try:
+            vorotool.write(value, path, fmt=fmt, what=what)
+            break
+        except UsageError:
+            continue
+    else:
+        is_written = False
+    if fmt in NAMES_WITH[None] and (is_written or made_elsewhere(fmt, path)):
+        options = {"layer": "waypoints"} if fmt == "gpx" else {}
+        read = vorotool.read(path, input_format=fmt, **options)
+        whole = np.array_equal(np.sort(read.xy, axis=0), np.sort(VERTICES[: len(read.xy)], axis=0))
+        system = "yes" if read.crs is not None and crs_name(read.crs) == "EPSG:2056" else "no"
+        if fmt in GEOGRAPHIC:
+            system = "degrees"
+        return [
+            "yes",
+            "yes" if is_written else "no",
+            system,
+            carried(read),
+            "–",
+            "yes" if whole and is_written else "–",
+        ]
+    return ["no", "yes" if is_written else "no", "–", "–", "–", "–"]
+
+
+def carried(read):
+    """Whether attributes come back: with their types, as text, or not."""
+    found = {name: read.properties.get(name) for name in ATTRIBUTES}
+    if any(values is None for values in found.values()):
+        return "no"
+    first = {name: [type(value) for value in values] for name, values in found.items()}
+    if first["count"] == [int, int] or first["count"] == [NumberText, NumberText]:
+        return "with types"
+    return "as text"
+
+
+def image_row(fmt, folder):
+    """What a format of images carries."""
+    grid = folder / "grid.tif"
+    import tifffile
+
+    labels = np.array([[1, 0, 2], [3, 2, 2]], np.uint8)
+    tifffile.imwrite(grid, labels, resolution=(20000, 20000), resolutionunit=3)
+    image = vorotool.tessellate(vorotool.read(grid))
+    path = folder / f"b{FORMATS[fmt].endings[0] if fmt in FORMATS else '.' + fmt}"
+    try:
+        vorotool.write(image, path, fmt=fmt, what="labels" if fmt != "svg" else None)
+        is_written = True
+    except UsageError:
+        is_written = False
+    if fmt not in INPUTS or "image" not in INPUTS[fmt].readers:
+        return ["no", "yes" if is_written else "no", "–", "–", "no", "–"]
+    if not is_written:
+        from PIL import Image
+
+        Image.fromarray(labels * 60).save(path, **({"format": "PPM"} if fmt == "pnm" else {}))
+    read = vorotool.read(path, input_format=fmt)
+    is_same = is_written and np.array_equal(read.values, image.labels)
+    has_size = read.grid is not None and read.grid.is_size
+    return ["yes", "yes" if is_written else "no", "–", "–", "yes" if has_size else "no", "yes" if is_same else "–"]
+
+
+def table(folder):
+    """Give the page."""
+    images = [name for name, each in INPUTS.items() if "image" in each.readers] + ["text"]
+    vectors = [name for name in (*INPUTS, *FORMATS) if name not in images and name not in ("html",)]
+    rows = {name: vector_row(name, folder) for name in dict.fromkeys(vectors)}
+    rows |= {name: image_row(name, folder) for name in images}
+    lines = [f"| `{name}` | {' | '.join(cells)} |" for name, cells in rows.items()]
+    return "\n".join(
+        [
+            "# What formats carry",
+            "",
+            "Made by `python tests/formats/test_abilities.py`, which writes and reads each format; a test keeps it true.",
+            "A round trip is one to the last bit of each coordinate or pixel; attributes are texts, codes such as `007`,",
+            "integers and numbers. TIFF carries more: see [units](../howto/units.md).",
+            "",
+            "| format | read | written | coordinate reference system | attributes | pixel size | round trip |",
+            "| --- | --- | --- | --- | --- | --- | --- |",
+            *lines,
+            "",
+        ]
+    )
+
+
+def test_the_table_is_what_was_found(tmp_path):
+    assert table(tmp_path) == PAGE.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("fmt", ["gpkg", "fgb", "shp", "parquet", "geojson", "jsonl"])
+def test_maps_carry_everything(tmp_path, fmt):
+    assert vector_row(fmt, tmp_path) == ["yes", "yes", "yes", "with types", "–", "yes"]
+
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as made:
+        sys.stdout.write(table(Path(made)))
