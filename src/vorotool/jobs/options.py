@@ -9,9 +9,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal
 
+from vorotool.jobs.picture_style import Looks
+
 if TYPE_CHECKING:
     from vorotool.engines.centerlines.centerline import Ends
     from vorotool.engines.tessellation.seeding import SeedMode
+    from vorotool.jobs.picture_style import Scale
     from vorotool.jobs.pruning_choice import Pruning
     from vorotool.jobs.units import PixelSize
 
@@ -61,6 +64,11 @@ class JobOptions:
         return None
 
     @property
+    def looks(self) -> Looks:
+        """The looks of pictures that are made of layers."""
+        return Looks()
+
+    @property
     def is_of_many(self) -> bool:
         """Whether there are options that make a batch of one input, too."""
         given = (self.files_from, self.null, self.keep_going, self.dry_run, self.resume, self.shard, self.table_of_all)
@@ -79,6 +87,17 @@ class JobOptions:
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DrawingOptions(JobOptions):
     """Of ``draw``, which has one result."""
+
+    scale: Scale | None
+    drawing_unit: str | None
+    background: str | None
+    colours: tuple[tuple[str, str], ...]
+    line_widths: tuple[tuple[str, float], ...]
+
+    @property
+    def looks(self) -> Looks:
+        """The looks of pictures."""
+        return Looks(self.scale, self.drawing_unit, self.background, self.colours, self.line_widths)
 
     what: tuple[str, ...] = ("picture",)
 
@@ -147,7 +166,23 @@ class TessellationOptions(SiteOptions):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class TriangulationOptions(SiteOptions):
+class LayeredOptions(SiteOptions):
+    """What the commands have whose pictures are made of layers."""
+
+    scale: Scale | None
+    drawing_unit: str | None
+    background: str | None
+    colours: tuple[tuple[str, str], ...]
+    line_widths: tuple[tuple[str, float], ...]
+
+    @property
+    def looks(self) -> Looks:
+        """The looks of pictures."""
+        return Looks(self.scale, self.drawing_unit, self.background, self.colours, self.line_widths)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TriangulationOptions(LayeredOptions):
     """Of ``delaunay``."""
 
     method: Method
@@ -165,7 +200,7 @@ class TriangulationOptions(SiteOptions):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class AlphaShapeOptions(SiteOptions):
+class AlphaShapeOptions(LayeredOptions):
     """Of ``alphashape``."""
 
     method: Method
@@ -197,6 +232,16 @@ class SkeletonOptions(ComputingOptions):
     simplify: float | None
     outline: Literal["crack", "contour"] | None
     seeds: Literal["components", "labels"] | None
+    scale: Scale | None
+    drawing_unit: str | None
+    background: str | None
+    colours: tuple[tuple[str, str], ...]
+    line_widths: tuple[tuple[str, float], ...]
+
+    @property
+    def looks(self) -> Looks:
+        """The looks of pictures."""
+        return Looks(self.scale, self.drawing_unit, self.background, self.colours, self.line_widths)
 
     @property
     def wants_skeleton(self) -> bool:

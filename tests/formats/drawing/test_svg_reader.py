@@ -334,6 +334,7 @@ REFUSED = [
     ('<polygon points="1 2 3"/>', "points has 3 numbers"),
     ('<polygon points="1 2 a"/>', "points is '1 2 a'"),
     ('<g transform="rotate(1 2 3"><rect width="1" height="1"/></g>', "transform is 'rotate"),
+    ('<g transform="rotate(1e999)"/>', "transform is 'rotate.*beyond the largest number"),
     ('<g transform="matrix(1 2 3)"/>', "transform is 'matrix"),
     ('<g style="transform-origin:1px 2px"/>', "transform-origin"),
     ('<svg viewBox="0 0 1"/>', "viewBox is '0 0 1'"),

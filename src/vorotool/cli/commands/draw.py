@@ -8,6 +8,7 @@ import click
 
 from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.help_page import GroupedCommand
+from vorotool.cli.options.picture_style import picture_style_options
 from vorotool.cli.options.shared import batch_options, inputs_argument, layers_option, output_options, shared
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.job import Recipe
@@ -28,7 +29,9 @@ FORMATS = formats_of("draw")
 @output_options(FORMATS)
 @shared("input-format", "page")
 @layers_option(all_layers("draw"))
-@shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "max-pixels")
+@shared("overlay", "width", "y-up")
+@picture_style_options()
+@shared("out-dir", "threads", "stats", "max-pixels")
 @batch_options(table=False)
 @shared("no-clobber", "quiet", "verbose")
 def command(**options: Any) -> None:
