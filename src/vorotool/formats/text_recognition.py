@@ -116,8 +116,8 @@ def polygon_format(source: Source) -> str:
     if found != "npy":
         refuse_geometry_column(source.name, header_fields(text_source(source, found).data))
     raise InputError(
-        f"{source.name} holds no polygons or lines that are read (it looks like {found}): use JSON, GeoJSON, WKT or "
-        ".poly, or say which with --input-format; of points alphashape makes polygons"
+        f"{source.name} holds no polygons or lines that are read (it looks like {found}): use JSON, GeoJSON, WKT, "
+        ".poly, SVG or DXF, or say which with --input-format; of points alphashape makes polygons"
     )
 
 

@@ -99,8 +99,8 @@ def _read(run: Run, o: DrawingOptions, given: JobInput) -> LabelImage | Lined:
         if not (_is_empty_collection(source.document) or is_table(source.document)):
             raise InputError(
                 f"{source.name} is not drawn: give a label image, the JSON of a skeleton or of offset curves, or "
-                "polygons and lines (GeoJSON, WKT, JSON, .poly); other results are drawn by the command that makes "
-                "them, with -f svg"
+                "polygons and lines (GeoJSON, WKT, JSON, .poly, SVG, DXF); other results are drawn by the command that "
+                "makes them, with -f svg"
             )
         holds = "polygons"  # whose reader says more of tables
     options = ReadOptions(page=o.page, properties=False, max_pixels=o.max_pixels, note=partial(_note, run))

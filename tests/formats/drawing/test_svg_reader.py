@@ -403,6 +403,13 @@ def test_long_chains_of_uses_are_refused():
         svg(f'{backwards}<g id="g0"/>')
 
 
+def test_a_bomb_is_not_unpacked():
+    bomb = gzip.compress(b"<svg>" + b" " * 2**28, 1)
+    assert len(bomb) < 2**21
+    with pytest.raises(LimitError, match="unpacks to more than 134217728 bytes: split the drawing"):
+        read(bomb)
+
+
 def test_many_elements_are_refused(monkeypatch):
     monkeypatch.setattr(xml_tree, "MOST_ELEMENTS", 100)
     with pytest.raises(LimitError, match="holds more than 100 elements"):

@@ -42,8 +42,8 @@ def command(**options: Any) -> None:
       vorotool draw data/cells.png -o cells.svg
 
     INPUT is a label image (PNG, TIFF, PGM, NPY, Zarr), such as tessellate writes, the JSON of a skeleton or of offset
-    curves, or shapes: polygons and lines (GeoJSON, WKT, JSON, Triangle .poly), such as centerlines and alpha shapes;
-    - is standard input.
+    curves, or shapes: polygons and lines (GeoJSON, WKT, JSON, Triangle .poly, SVG, DXF), such as centerlines and alpha
+    shapes; - is standard input.
     """
     run_command(RECIPE, DrawingOptions(**options))
 
