@@ -26,7 +26,7 @@ LONGEST = 2**22
 
 READ, REFUSED, LIMIT, WRONG = "read", "refused", "limit", "wrong"
 IMAGES = {"png", "tiff", "npy", "pnm", "zarr", "jpeg", "bmp", "gif", "webp", "avif"}
-SHAPES = {"json", "geojson", "wkt", "poly", "skeleton"}
+SHAPES = {"json", "geojson", "wkt", "poly", "skeleton", "svg", "dxf"}
 COMMANDS = {
     "images": (
         ["tessellate", "{}", "-o", "out.npy"],

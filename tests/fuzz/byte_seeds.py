@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import io
 import itertools
 import tempfile
@@ -9,6 +10,7 @@ import zlib
 from dataclasses import dataclass
 from pathlib import Path
 
+import ezdxf
 import numpy as np
 import tifffile
 from PIL import Image, features
@@ -35,7 +37,16 @@ def seeds() -> list[Bundle]:
     """All of them, in the same order on every run."""
     return [
         Bundle(kind, name, {name: data})
-        for kind, name, data in (*_pngs(), *_tiffs(), *_pictures(), *_arrays(), *_maps(), *_texts(), *_results())
+        for kind, name, data in (
+            *_pngs(),
+            *_tiffs(),
+            *_pictures(),
+            *_arrays(),
+            *_maps(),
+            *_texts(),
+            *_drawings(),
+            *_results(),
+        )
     ] + _stores()
 
 
@@ -189,6 +200,44 @@ def _texts() -> list[tuple[str, str, bytes]]:
         + [("node", "a.node", node.encode()), ("poly", "a.poly", poly.encode())]
         + [("json", "a.json", text.encode()) for text in lists]
     )
+
+
+def _drawings() -> list[tuple[str, str, bytes]]:
+    style = "<style>.a{fill:none;stroke:red}#b,g rect{display:none}</style>"
+    shapes = (
+        '<path id="a" class="a" d="M1 2L9 2q3 4 0 8zm1 1c1 2 3 4 5 6s1 2 0-3A4 3 20 1 0 2 2Z" '
+        'transform="rotate(20 3 4)"/>'
+        '<g transform="matrix(1 .2 -.3 1 4 5) scale(2)" fill-rule="evenodd"><rect x="1" width="5" height="4" rx="1"/>'
+        '<ellipse cx="10" rx="3" ry="2mm"/><polygon points="0,0 4,0 4,3"/><line x2="5" stroke="red"/></g>'
+    )
+    uses = '<symbol id="s" viewBox="0 0 2 2"><circle r="1"/></symbol><use href="#s" x="3" width="9" height="9"/>'
+    head = '<svg xmlns="http://www.w3.org/2000/svg" width="90mm" height="5cm" viewBox="0 0 30 20">'
+    svg = [f"{head}{style}{shapes}</svg>", f"{head}<defs><g id='g'>{shapes}</g></defs>{uses}<use href='#g'/></svg>"]
+    entities = [
+        "LINE 10 0.0 20 0.0 11 9.0 21 0.0",
+        "ARC 10 9.0 20 5.0 40 5.0 50 270.0 51 90.0",
+        "LINE 10 9.0 20 10.0 11 0.0 21 0.0",
+        "CIRCLE 10 5.0 20 4.0 40 1.0 230 -1.0",
+        "LWPOLYLINE 100 AcDbEntity 100 AcDbPolyline 90 3 70 1 10 20.0 20 0.0 42 0.5 10 24.0 20 0.0 10 24.0 20 5.0",
+        "ELLIPSE 100 AcDbEntity 100 AcDbEllipse 10 40.0 20 0.0 11 3.0 21 1.0 40 0.5 41 0.0 42 4.0",
+        "SPLINE 100 AcDbEntity 100 AcDbSpline 70 8 71 2 72 6 73 3 40 0 40 0 40 0 40 1 40 1 40 1 "
+        "10 0.0 20 20.0 10 5.0 20 29.0 10 9.0 20 20.0",
+        "INSERT 2 B 10 50.0 20 3.0 41 2.0 50 30.0 70 2 44 5.0",
+        "TEXT 10 0.0 20 0.0 40 1.0 1 hello",
+    ]
+    block = "0 SECTION 2 BLOCKS 0 BLOCK 2 B 70 0 10 0.0 20 0.0 0 CIRCLE 8 0 10 0.0 20 0.0 40 1.0 0 ENDBLK 0 ENDSEC "
+    drawn = " ".join(f"0 {kind} 8 cut {rest}" for kind, _, rest in (entity.partition(" ") for entity in entities))
+    text = f"0 SECTION 2 HEADER 9 $ACADVER 1 AC1015 9 $INSUNITS 70 4 0 ENDSEC {block}"
+    text += f"0 SECTION 2 ENTITIES {drawn} 0 ENDSEC 0 EOF "
+    dxf = text.replace(" ", "\n").encode()
+    binary = io.BytesIO()
+    ezdxf.read(io.StringIO(dxf.decode())).write(binary, fmt="bin")
+    return [
+        *(("svg", "a.svg", drawing.encode()) for drawing in svg),
+        ("svg", "a.svgz", gzip.compress(svg[0].encode(), mtime=0)),
+        ("dxf", "a.dxf", dxf),
+        ("dxf", "a.dxf", binary.getvalue()),
+    ]
 
 
 def _results() -> list[tuple[str, str, bytes]]:

@@ -34,7 +34,7 @@ def test_neither_help_nor_completion_loads_a_heavy_module(line, completed):
 
 
 EXTRAS = {"zarr", "numcodecs", "dask", "distributed", "networkx", "pandas", "geopandas", "pyarrow", "matplotlib"}
-UNUSED = EXTRAS | {"imageio"}  # which is for inputs of other kinds
+UNUSED = EXTRAS | {"imageio", "svgelements", "ezdxf"}  # which is for inputs of other kinds
 
 
 @pytest.mark.parametrize(

@@ -140,8 +140,8 @@ def polygon_format(source: Source) -> str:
     if "polygons" in INPUTS[found].readers and not is_table:
         return found
     raise InputError(
-        f"{source.name} holds no polygons or lines that are read (it looks like {found}): use JSON, GeoJSON, WKT or "
-        ".poly, or say which with --input-format; of points alphashape makes polygons"
+        f"{source.name} holds no polygons or lines that are read (it looks like {found}): use JSON, GeoJSON, WKT, "
+        ".poly, SVG or DXF, or say which with --input-format; of points alphashape makes polygons"
     )
 
 

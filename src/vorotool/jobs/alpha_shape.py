@@ -31,6 +31,7 @@ from vorotool.geometry.table import Table
 from vorotool.jobs.inputs import JobInput, read_sites, window_of
 from vorotool.jobs.names import OF_ONE_SHAPE
 from vorotool.jobs.options import AlphaShapeOptions
+from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.pixel_sizes import placed_backdrop, placed_mesh, placed_sites
 from vorotool.jobs.run_log import Run
@@ -250,8 +251,9 @@ class ShapeProducts:
         from vorotool.render.layers.mesh import mesh_page
 
         if self.backdrop is not None:
-            return ImagePage(self.backdrop)
-        return mesh_page(self.family.mesh, width=self.options.width or 1000, y_up=self.options.y_up)
+            return styled_page(ImagePage(self.backdrop), self.options, None)
+        page = mesh_page(self.family.mesh, width=self.options.width or 1000, y_up=self.options.y_up)
+        return styled_page(page, self.options, None)
 
     def _write_picture(self, out: BinaryIO, target: Target) -> None:
         from vorotool.render.layers.alpha import alpha_layers

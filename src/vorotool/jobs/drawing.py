@@ -24,6 +24,7 @@ from vorotool.geometry.skeleton.offsets import Offsets
 from vorotool.geometry.skeleton.skeleton import Skeleton
 from vorotool.jobs.inputs import JobInput, note_other_size, refuse
 from vorotool.jobs.options import DrawingOptions
+from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.pictures import default_layers, drawing_of, write_label_picture, write_layers
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target, check_picture_options
@@ -99,8 +100,8 @@ def _read(run: Run, o: DrawingOptions, given: JobInput) -> LabelImage | Lined:
         if not (_is_empty_collection(source.document) or is_table(source.document)):
             raise InputError(
                 f"{source.name} is not drawn: give a label image, the JSON of a skeleton or of offset curves, or "
-                "polygons and lines (GeoJSON, WKT, JSON, .poly); other results are drawn by the command that makes "
-                "them, with -f svg"
+                "polygons and lines (GeoJSON, WKT, JSON, .poly, SVG, DXF); other results are drawn by the command that "
+                "makes them, with -f svg"
             )
         holds = "polygons"  # whose reader says more of tables
     options = ReadOptions(page=o.page, properties=False, max_pixels=o.max_pixels, note=partial(_note, run))
@@ -162,7 +163,15 @@ def _of_layers(run: Run, o: DrawingOptions, given: JobInput, value: Lined, fmt: 
     refuse({"page": o.page}, f"is for images, but the input is {kind}")
     if not len(value):
         run.warn(f"the picture is empty: the input is {kind}, but there are none in it")
-    drawing = drawing_of(value, layers=o.layers, width=o.width or 1000, y_up=o.y_up, backdrop=given.backdrop)
+    polygons = value if isinstance(value, PolygonSet) else value.polygons
+    drawing = drawing_of(
+        value,
+        layers=o.layers,
+        width=o.width or 1000,
+        y_up=o.y_up,
+        backdrop=given.backdrop,
+        styled=partial(styled_page, o=o, unit=polygons.unit),
+    )
     if fmt == "png":
         check_picture_size(drawing.page, o.max_pixels)
     return partial(write_layers, layers=drawing.layers, page=drawing.page, fmt=fmt, threads=o.threads), counts

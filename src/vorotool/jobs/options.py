@@ -9,9 +9,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, Literal
 
+from vorotool.jobs.picture_style import Looks
+
 if TYPE_CHECKING:
     from vorotool.engines.centerlines.centerline import Ends
     from vorotool.engines.tessellation.seeding import SeedMode
+    from vorotool.jobs.picture_style import Scale
     from vorotool.jobs.pruning_choice import Pruning
     from vorotool.jobs.units import PixelSize
 
@@ -62,6 +65,11 @@ class JobOptions:
         return None
 
     @property
+    def looks(self) -> Looks:
+        """The looks of pictures that are made of layers."""
+        return Looks()
+
+    @property
     def is_of_many(self) -> bool:
         """Whether there are options that make a batch of one input, too."""
         given = (self.files_from, self.null, self.keep_going, self.dry_run, self.resume, self.shard, self.table_of_all)
@@ -94,6 +102,17 @@ class ReadingOptions:
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DrawingOptions(JobOptions):
     """Of ``draw``, which has one result."""
+
+    scale: Scale | None
+    drawing_unit: str | None
+    background: str | None
+    colours: tuple[tuple[str, str], ...]
+    line_widths: tuple[tuple[str, float], ...]
+
+    @property
+    def looks(self) -> Looks:
+        """The looks of pictures."""
+        return Looks(self.scale, self.drawing_unit, self.background, self.colours, self.line_widths)
 
     what: tuple[str, ...] = ("picture",)
 
@@ -172,7 +191,23 @@ class TessellationOptions(SiteOptions):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class TriangulationOptions(SiteOptions):
+class LayeredOptions(SiteOptions):
+    """What the commands have whose pictures are made of layers."""
+
+    scale: Scale | None
+    drawing_unit: str | None
+    background: str | None
+    colours: tuple[tuple[str, str], ...]
+    line_widths: tuple[tuple[str, float], ...]
+
+    @property
+    def looks(self) -> Looks:
+        """The looks of pictures."""
+        return Looks(self.scale, self.drawing_unit, self.background, self.colours, self.line_widths)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TriangulationOptions(LayeredOptions):
     """Of ``delaunay``."""
 
     method: Method
@@ -190,7 +225,7 @@ class TriangulationOptions(SiteOptions):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class AlphaShapeOptions(SiteOptions):
+class AlphaShapeOptions(LayeredOptions):
     """Of ``alphashape``."""
 
     method: Method
@@ -222,6 +257,16 @@ class SkeletonOptions(ComputingOptions):
     simplify: float | None
     outline: Literal["crack", "contour"] | None
     seeds: Literal["components", "labels"] | None
+    scale: Scale | None
+    drawing_unit: str | None
+    background: str | None
+    colours: tuple[tuple[str, str], ...]
+    line_widths: tuple[tuple[str, float], ...]
+
+    @property
+    def looks(self) -> Looks:
+        """The looks of pictures."""
+        return Looks(self.scale, self.drawing_unit, self.background, self.colours, self.line_widths)
 
     @property
     def wants_skeleton(self) -> bool:

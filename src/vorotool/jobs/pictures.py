@@ -159,6 +159,9 @@ def write_layers(out: BinaryIO, layers: Sequence[Layer], page: Page, *, fmt: str
     threads : int
         0 uses all.
     """
+    from vorotool.render.canvas.scaled_page import styled_layers
+
+    layers = styled_layers(layers, page.style)
     if page.backdrop is not None:
         from vorotool.render.canvas.layers import with_halos
 
@@ -190,6 +193,7 @@ def drawing_of(
     width: int = 1000,
     y_up: bool | None = None,
     backdrop: Backdrop | None = None,
+    styled: Callable[[Page], Page] | None = None,
 ) -> Drawing:
     """Make the layers of the picture of a value other than a label image.
 
@@ -207,6 +211,8 @@ def drawing_of(
         Draw y upwards; by default as the input is drawn.
     backdrop : Backdrop, optional
         An image to draw over, whose size the page then has.
+    styled : callable, optional
+        Gives the page that is drawn on for the one that it would be else.
 
     Raises
     ------
@@ -229,6 +235,7 @@ def drawing_of(
         if chosen not in drawn:
             raise UsageError(f"what={what!r} is no picture of a {type(value).__name__}: use {' or '.join(drawn)}")
         page = page_of(value, width=width, y_up=y_up) if backdrop is None else ImagePage(backdrop)
+        page = page if styled is None else styled(page)
         usual = [layer for layer in drawn[chosen].usual_layers if backdrop is None or layer != "polygons"]
         return Drawing(layers_of(value, page, layers or usual), page)
     raise UsageError(f"there is no picture of a {type(value).__name__}: write it as a table")

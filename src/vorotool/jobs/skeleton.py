@@ -6,7 +6,7 @@ import warnings
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, BinaryIO, Generic, TypeVar
 
 import numpy as np
@@ -19,6 +19,7 @@ from vorotool.geometry.skeleton.skeleton import EXTERIOR, Skeleton
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.names import DERIVED
 from vorotool.jobs.options import Place, SkeletonOptions
+from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.pixel_sizes import placed_backdrop
 from vorotool.jobs.pruning_choice import CRITERIA, LENGTHS, Pruning, chosen_pruning
@@ -59,7 +60,8 @@ class SkeletonProducts(ABC, Generic[Options]):
             self._polygons, self.is_mask, options = read_polygons(run, options, given)
         self.options, self.backdrop = options, placed_backdrop(options.pixel_size, given.backdrop)
         self._is_told = False  # what was repaired, once
-        self.derived = Derived(run, options, self.backdrop, lambda: self.skeleton, self._shapes)
+        styled = partial(styled_page, o=options, unit=self._polygons.unit)
+        self.derived = Derived(run, options, self.backdrop, lambda: self.skeleton, self._shapes, styled)
 
     @contextmanager
     def telling_once(self) -> Iterator[None]:
@@ -251,8 +253,9 @@ class SkeletonProducts(ABC, Generic[Options]):
         from vorotool.render.layers.skeleton import skeleton_page
 
         if self.backdrop is not None:
-            return ImagePage(self.backdrop)
-        return skeleton_page(value, width=self.options.width or 1000, y_up=self.options.y_up)
+            return styled_page(ImagePage(self.backdrop), self.options, None)
+        page = skeleton_page(value, width=self.options.width or 1000, y_up=self.options.y_up)
+        return styled_page(page, self.options, self._polygons.unit)
 
     def _write_picture(self, out: BinaryIO, target: Target) -> None:
         from vorotool.render.layers.skeleton import centerline_layers, picture_layers

@@ -19,7 +19,7 @@ from vorotool.jobs.targets import Target
 
 if TYPE_CHECKING:
     from vorotool.engines.skeleton.exact import ShapeDiagram
-    from vorotool.render.canvas.layers import Backdrop
+    from vorotool.render.canvas.layers import Backdrop, Page
 
 
 class Derived:
@@ -35,6 +35,8 @@ class Derived:
         The image that pictures are drawn over.
     skeleton, shapes : callable
         Give the skeleton, and the shapes or their exact diagram.
+    styled : callable
+        Gives the page that is drawn on as the options say.
     """
 
     def __init__(
@@ -44,9 +46,10 @@ class Derived:
         backdrop: Backdrop | None,
         skeleton: Callable[[], Skeleton],
         shapes: Callable[[], ShapeDiagram | PolygonSet],
+        styled: Callable[[Page], Page],
     ) -> None:
         self.run, self.options, self.backdrop = run, options, backdrop
-        self._skeleton, self._shapes = skeleton, shapes
+        self._skeleton, self._shapes, self._styled = skeleton, shapes, styled
 
     @property
     def distances(self) -> tuple[float, ...]:
@@ -108,6 +111,7 @@ class Derived:
             width=o.width or 1000,
             y_up=o.y_up,
             backdrop=self.backdrop,
+            styled=self._styled,
         )
 
     def write_picture(self, out: BinaryIO, target: Target) -> None:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from vorotool.errors import UsageError
 from vorotool.formats.io.atomic_output import is_same_file, spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
+from vorotool.jobs.picture_style import check_style
 from vorotool.products.formats import EXTENSIONS, FORMATS, format_named, with_digits
 
 if TYPE_CHECKING:
@@ -144,6 +145,7 @@ def check_picture_options(
     UsageError
         If a layer is none of a picture's format, or the width is for SVG only.
     """
+    check_style(options, pictures, layers, is_of_lines=png_has_width)
     if options.overlay is not None:
         _check_overlay(options, pictures)
     if options.y_up is not None and not pictures and not has_page:

@@ -16,6 +16,7 @@ from vorotool.geometry.points.seed_set import SeedSet
 from vorotool.geometry.progress import Progress
 from vorotool.jobs.inputs import JobInput, read_clip, read_sites
 from vorotool.jobs.options import Rectangle, TriangulationOptions
+from vorotool.jobs.picture_style import styled_page
 from vorotool.jobs.pictures import write_layers
 from vorotool.jobs.pixel_sizes import clip_in_pixels, placed_backdrop, placed_mesh, placed_sites
 from vorotool.jobs.run_log import Run
@@ -160,9 +161,10 @@ class MeshProducts:
         from vorotool.render.layers.mesh import mesh_page
 
         if self.backdrop is not None:
-            return ImagePage(self.backdrop)
+            return styled_page(ImagePage(self.backdrop), self.options, None)
         bounds = self.cells.frame.sides if {"cells", "diagram"} & set(self._layers(what)) else None
-        return mesh_page(self.mesh, width=self.options.width or 1000, y_up=self.options.y_up, bounds=bounds)
+        page = mesh_page(self.mesh, width=self.options.width or 1000, y_up=self.options.y_up, bounds=bounds)
+        return styled_page(page, self.options, None)
 
     def _write_picture(self, out: BinaryIO, fmt: str, what: str) -> None:
         from vorotool.render.layers import mesh as mesh_layers

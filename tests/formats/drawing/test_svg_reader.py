@@ -334,6 +334,7 @@ REFUSED = [
     ('<polygon points="1 2 3"/>', "points has 3 numbers"),
     ('<polygon points="1 2 a"/>', "points is '1 2 a'"),
     ('<g transform="rotate(1 2 3"><rect width="1" height="1"/></g>', "transform is 'rotate"),
+    ('<g transform="rotate(1e999)"/>', "transform is 'rotate.*beyond the largest number"),
     ('<g transform="matrix(1 2 3)"/>', "transform is 'matrix"),
     ('<g style="transform-origin:1px 2px"/>', "transform-origin"),
     ('<svg viewBox="0 0 1"/>', "viewBox is '0 0 1'"),
@@ -400,6 +401,13 @@ def test_long_chains_of_uses_are_refused():
     backwards = "".join(f'<g id="g{k + 1}"><use href="#g{k}"/></g>' for k in reversed(range(5000)))
     with pytest.raises(InputError, match="nested more than 250 deep by what they use"):
         svg(f'{backwards}<g id="g0"/>')
+
+
+def test_a_bomb_is_not_unpacked():
+    bomb = gzip.compress(b"<svg>" + b" " * 2**28, 1)
+    assert len(bomb) < 2**21
+    with pytest.raises(LimitError, match="unpacks to more than 134217728 bytes: split the drawing"):
+        read(bomb)
 
 
 def test_many_elements_are_refused(monkeypatch):

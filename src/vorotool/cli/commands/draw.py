@@ -8,6 +8,7 @@ import click
 
 from vorotool.cli.batch.dispatch import run_command
 from vorotool.cli.options.help_page import GroupedCommand
+from vorotool.cli.options.picture_style import picture_style_options
 from vorotool.cli.options.shared import batch_options, inputs_argument, layers_option, output_options, shared
 from vorotool.jobs.inputs import JobInput
 from vorotool.jobs.job import Recipe
@@ -28,7 +29,9 @@ FORMATS = formats_of("draw")
 @output_options(FORMATS)
 @shared("input-format", "input-layer", "page")
 @layers_option(all_layers("draw"))
-@shared("overlay", "width", "y-up", "out-dir", "threads", "stats", "max-pixels")
+@shared("overlay", "width", "y-up")
+@picture_style_options()
+@shared("out-dir", "threads", "stats", "max-pixels")
 @batch_options(table=False)
 @shared("no-clobber", "quiet", "verbose")
 def command(**options: Any) -> None:
@@ -40,8 +43,8 @@ def command(**options: Any) -> None:
       vorotool draw cells.png -o cells.svg
 
     INPUT is a label image (PNG, TIFF, PGM, NPY, Zarr), such as tessellate writes, the JSON of a skeleton or of offset
-    curves, or shapes: polygons and lines (GeoJSON, WKT, JSON, Triangle .poly), such as centerlines and alpha shapes;
-    - is standard input.
+    curves, or shapes: polygons and lines (GeoJSON, WKT, JSON, Triangle .poly, SVG, DXF), such as centerlines and alpha
+    shapes; - is standard input.
     """
     run_command(RECIPE, DrawingOptions(**options))
 

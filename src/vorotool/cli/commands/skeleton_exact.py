@@ -45,11 +45,11 @@ def command(**options: Any) -> None:
       vorotool sample two-shapes.json -o two-shapes.json
       vorotool skeleton-exact two-shapes.json -o skeleton.svg
 
-    INPUT holds polygons or open lines (JSON, GeoJSON, WKT, Triangle .poly), or is a mask or a label image (PNG, TIFF,
-    PGM, JPEG, NPY), whose objects have outlines; - is standard input. Polygons are placed on a lattice of 31 bits over
-    their extent; where one crosses, touches or overlaps itself it is cut, with a warning. Of the
-    Voronoi diagram of vertices and open edges, the edges between an edge and its own end are left out. What is drawn
-    inside polygons comes first, polygon by polygon; arcs of a branch follow each other.
+    INPUT holds polygons or open lines (JSON, GeoJSON, WKT, Triangle .poly, SVG, DXF), or is a mask or a label image
+    (PNG, TIFF, PGM, JPEG, NPY), whose objects have outlines; - is standard input. Polygons are placed on a lattice
+    of 31 bits over their extent; where one crosses, touches or overlaps itself it is cut, with a warning. Of the
+    Voronoi diagram of vertices and open edges, the edges between an edge and its own end are left out. What is
+    drawn inside polygons comes first, polygon by polygon; arcs of a branch follow each other.
     """
     o = ExactSkeletonOptions(**options)
     if o.complete is not None and not o.gap:

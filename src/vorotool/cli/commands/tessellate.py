@@ -60,7 +60,7 @@ _PICTURES = {(what, fmt) for what, each in PRODUCTS["tessellate"].items() for fm
     type=Size(),
     help="Columns x rows of the chunks of a Zarr store; by default 2048x512, fewer rows if wide.",
 )
-@site_options(all_layers("tessellate"))
+@site_options(all_layers("tessellate"), has_style=False)
 def command(**options: Any) -> None:
     """Label every pixel with its nearest seed, exactly; ties go to the smallest label.
 

@@ -29,7 +29,7 @@ from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 
 GZIP_MAGIC = b"\x1f\x8b"
-MOST_BYTES = 2**29
+MOST_BYTES = 2**27
 """Of a drawing that is unpacked."""
 
 

@@ -212,6 +212,8 @@ def parsed_transform(text: str, place: str) -> Affine:
         numbers = [float(number) for number in re.findall(_NUMBER, listed)]
         if len(numbers) not in _COUNTS[name]:
             raise InputError(f"{place}: transform is {shortened(text)}: the count of numbers in {name} is wrong")
+        if not all(map(isfinite, numbers)):
+            raise InputError(f"{place}: transform is {shortened(text)}, which goes beyond the largest number")
         made = made.after(_MAPS[name](*numbers))
     if not all(map(isfinite, made)):
         raise InputError(f"{place}: transform is {shortened(text)}, which goes beyond the largest number")

@@ -14,6 +14,7 @@ from vorotool.geometry.curves.circular_arcs import chords_of
 from vorotool.geometry.curves.flatten import polylines
 from vorotool.geometry.ragged import following, owners
 from vorotool.render.canvas.palettes import INK, SEED, WHITE
+from vorotool.render.canvas.styles import PictureStyle
 
 MARGIN = 0.02
 """Of the larger side of the data, on each side of the page."""
@@ -320,6 +321,13 @@ class Page:
     y_up : bool
         Draw y upwards.
 
+    Attributes
+    ----------
+    style : PictureStyle
+        What is chosen of the looks of the picture.
+    decimals : int
+        Of px in SVG.
+
     Examples
     --------
     >>> page = Page((0, 0, 100, 46), width=104, y_up=True)
@@ -327,7 +335,11 @@ class Page:
     (50, [[2.0, 48.0]])
     """
 
+    style = PictureStyle()
+    decimals = 2
+
     def __init__(self, bounds: tuple[float, float, float, float], *, width: int, y_up: bool) -> None:
+        self.bounds = bounds
         box = np.array(bounds, dtype=np.float64)
         self._exponent = int(np.frexp(np.abs(box).max())[1])  # a power of two keeps differences within range
         low, high = np.ldexp(box, -self._exponent).reshape(2, 2)
@@ -343,6 +355,16 @@ class Page:
     def backdrop(self) -> Backdrop | None:
         """The ground beneath the layers."""
         return None
+
+    @property
+    def size(self) -> str:
+        """Attributes of its size in SVG."""
+        return f'width="{self.width}" height="{self.height}"'
+
+    @property
+    def extent(self) -> str:
+        """Its width and height in px, as a viewBox has them."""
+        return f"{self.width} {self.height}"
 
     def place(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """(n, 2) px from the left and from the top."""

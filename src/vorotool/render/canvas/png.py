@@ -103,7 +103,7 @@ class _Canvas:
     def bands(self) -> Iterator[NDArray[np.uint8]]:
         """Means of the colours of FINE x FINE pixels; where nothing is drawn, that is white or the image."""
         backdrop = self.page.backdrop
-        names = [WHITE if backdrop is None else NOTHING, *self.colours]
+        names = [(self.page.style.ground or WHITE) if backdrop is None else NOTHING, *self.colours]
         palette = np.array([list(bytes.fromhex(name[1:])) for name in names], dtype=np.uint16)
         for top in range(0, self.page.height, BAND_ROWS):
             fine = self.indices[top * FINE : (top + BAND_ROWS) * FINE]

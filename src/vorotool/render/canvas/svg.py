@@ -14,7 +14,6 @@ from vorotool import _core
 from vorotool.geometry.curves.inverse_functions import hypotenuse
 from vorotool.geometry.xml_text import xml_characters
 from vorotool.render.canvas.layers import Arcs, Backdrop, Curves, Layer, Lines, Page, Points, Polygons, Texts
-from vorotool.render.canvas.palettes import WHITE
 
 PATH_ROWS = 4096
 """Lines or polygons of one path: viewers slow down with longer ones, and with many elements."""
@@ -56,11 +55,9 @@ def write_layers_svg(out: BinaryIO, layers: Iterable[Layer], page: Page, *, thre
     >>> out.getvalue().count(b"<circle")
     3
     """
-    size = f'width="{page.width}" height="{page.height}"'
-    out.write(
-        f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="0 0 {page.width} {page.height}">\n'
-        f'<rect {size} fill="{WHITE}"/>\n'.encode()
-    )
+    ground = "" if page.style.ground is None else f'<rect {page.size} fill="{page.style.ground}"/>\n'
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" {page.size} viewBox="0 0 {page.extent}">\n'
+    out.write((head + ground).encode())
     if page.backdrop is not None:
         out.write(image_element(page.backdrop))
     for layer in layers:
@@ -89,7 +86,7 @@ def fill_style(backdrop: Backdrop | None) -> str:
 def _parts(layer: Layer, page: Page, threads: int) -> Iterator[bytes]:
     if isinstance(layer, Arcs):
         return _arcs(layer, page)
-    x, y = np.ascontiguousarray(np.round(page.place(layer.points), DECIMALS).T + 0.0)  # no -0
+    x, y = np.ascontiguousarray(np.round(page.place(layer.points), page.decimals).T + 0.0)  # no -0
     if isinstance(layer, Lines):
         return _lines(layer, x, y, threads)
     if isinstance(layer, Curves):
@@ -217,7 +214,7 @@ def _texts(layer: Texts, x: NDArray[Any], y: NDArray[Any], threads: int) -> Iter
 
 def _arcs(layer: Arcs, page: Page) -> Iterator[bytes]:
     """One path of all curves; with y downwards what turned clockwise turns counter-clockwise."""
-    start, end = (np.round(page.place(places), DECIMALS) + 0.0 for places in (layer.start, layer.end))
+    start, end = (np.round(page.place(places), page.decimals) + 0.0 for places in (layer.start, layer.end))
     is_arc = ~np.isnan(layer.centre[:, 0])
     radii = hypotenuse(*np.where(is_arc[:, None], layer.start - layer.centre, 0).T).tolist()
     sweeps = (layer.turns_left != page.y_up).astype(int).tolist()  # 1 is clockwise as seen
@@ -225,19 +222,20 @@ def _arcs(layer: Arcs, page: Page) -> Iterator[bytes]:
     for k, (x, y) in enumerate(end.tolist()):
         command = "L"
         if is_arc[k]:
-            radius = f"{page.length(radii[k]):.3f}".rstrip("0").rstrip(".")
+            radius = _short(page.length(radii[k]), page.decimals + 1)
             command = f"A{radius} {radius} 0 0 {sweeps[k]} "
-        commands.append(f"{command}{_short(x)} {_short(y)}")
+        commands.append(f"{command}{_short(x, page.decimals)} {_short(y, page.decimals)}")
     paths = []
     for first, last in zip(layer.rings[:-1].tolist(), layer.rings[1:].tolist(), strict=True):
         x, y = start[first].tolist()
-        paths.append(f"M{_short(x)} {_short(y)}{''.join(commands[first:last])}Z")
+        begin = f"M{_short(x, page.decimals)} {_short(y, page.decimals)}"
+        paths.append(f"{begin}{''.join(commands[first:last])}Z")
     style = 'fill="none"'
     if layer.fill is not None:
         style = f'fill="{layer.fill}" fill-rule="evenodd"{fill_style(page.backdrop)}'
     yield f'<g id="{_escaped(layer.name)}" {style} {_stroke(layer.edge, layer.width)}>\n'.encode()
-    for begin in range(0, len(paths), PATH_ROWS):
-        yield f'<path {_UNSCALED} d="{"".join(paths[begin : begin + PATH_ROWS])}"/>\n'.encode()
+    for rows in _chunks(len(paths), PATH_ROWS):
+        yield f'<path {_UNSCALED} d="{"".join(paths[rows])}"/>\n'.encode()
     yield b"</g>\n"
 
 
@@ -245,8 +243,8 @@ def _escaped(text: str) -> str:
     return escape(xml_characters(text))
 
 
-def _short(number: float) -> str:
-    return f"{number:.{DECIMALS}f}".rstrip("0").rstrip(".")
+def _short(number: float, decimals: int) -> str:
+    return f"{number:.{decimals}f}".rstrip("0").rstrip(".")
 
 
 _UNSCALED = 'vector-effect="non-scaling-stroke"'

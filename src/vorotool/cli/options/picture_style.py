@@ -1,0 +1,135 @@
+"""``--scale``, ``--unit``, ``--background``, ``--color`` and ``--line-width`` of pictures."""
+
+from __future__ import annotations
+
+import re
+from math import isfinite
+from typing import Any
+
+import click
+
+from vorotool.cli.options.parameter_types import ParameterType
+from vorotool.cli.options.shared import SPELLINGS, Decorator, together
+from vorotool.cli.options.suggestions import words
+from vorotool.jobs.picture_style import MILLIMETRES, Scale
+
+
+class ScaleType(ParameterType[Scale]):
+    """``S``, millimetres a unit, or ``1:N``."""
+
+    name = "S|1:N"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Scale:
+        """Parse the number."""
+        if isinstance(value, Scale):
+            return value
+        one, colon, rest = value.partition(":")
+        try:
+            number = float(rest if colon else one)
+            is_wrong = bool(colon) and float(one) != 1
+        except ValueError:
+            is_wrong, number = True, 0.0
+        if is_wrong or not isfinite(number) or not number > 0:
+            self.fail(f"{value!r}: expected millimetres a unit, such as 0.5, or a ratio, such as 1:100", param, ctx)
+        return Scale(number, is_ratio=bool(colon))
+
+
+class Colour(ParameterType[str]):
+    """A colour: ``#rrggbb``, or a name as in CSS."""
+
+    name = "COLOR"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """Give it as ``#rrggbb``."""
+        from PIL import ImageColor
+
+        text = str(value).strip().lower()
+        try:
+            rgb: tuple[int, ...] = ImageColor.getrgb(text)
+        except ValueError:
+            rgb = ()
+        if len(rgb) != 3:
+            self.fail(f"{value!r}: expected a colour such as #aa3344 or navy", param, ctx)
+        return "#" + "".join(f"{channel:02x}" for channel in rgb)
+
+
+class Ground(Colour):
+    """A colour, or ``none``."""
+
+    name = "none|COLOR"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """Give it as ``#rrggbb``, or ``none``."""
+        return "none" if value == "none" else super().convert(value, param, ctx)
+
+
+class OfLayer(ParameterType[tuple[str, Any]]):
+    """``LAYER=`` and what it gets."""
+
+    def __init__(self, kind: ParameterType[Any], example: str) -> None:
+        self.name, self._kind, self._example = f"LAYER={kind.name}", kind, example
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[str, Any]:
+        """Split, and parse what stands behind the sign."""
+        if isinstance(value, tuple):
+            return value
+        layer, sign, rest = value.partition("=")
+        if not sign or not layer.strip():
+            self.fail(f"{value!r}: expected {self.name}, such as skeleton={self._example}", param, ctx)
+        name = layer.strip().lower()
+        return SPELLINGS.get(name, name), self._kind.convert(rest, param, ctx)
+
+
+class Width(ParameterType[float]):
+    """A width in px, or with ``mm``."""
+
+    name = "W"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Give it in px."""
+        match = re.fullmatch(r"\s*([0-9.]+(?:[eE][-+]?[0-9]+)?)\s*(px|mm)?\s*", value)
+        try:
+            number = float(match[1]) if match else 0.0
+        except ValueError:
+            number = 0.0
+        if match is None or not 0 < number < 1e6:
+            self.fail(f"{value!r}: expected a width in px such as 0.5, or 0.1mm", param, ctx)
+        return number * 96 / 25.4 if match[2] == "mm" else number
+
+
+def picture_style_options() -> Decorator:
+    """Add the options of the looks of pictures."""
+    return together(
+        click.option(
+            "--scale",
+            type=ScaleType(),
+            help="Draw SVG to scale: S millimetres a unit of the input, or 1:N in its unit.",
+        ),
+        click.option(
+            "--unit",
+            "drawing_unit",
+            type=click.Choice([*MILLIMETRES], case_sensitive=False),
+            help="Unit of the input, for SVG to scale; by default what it names. Without --scale, 1:1.",
+        ),
+        click.option(
+            "--background",
+            type=Ground(),
+            help="Ground of pictures, none in SVG for nothing; by default white.",
+            shell_complete=words(("none", "white", "black")),
+        ),
+        click.option(
+            "--color",
+            "--colour",
+            "colours",
+            type=OfLayer(Colour(), "red"),
+            multiple=True,
+            help="Colour of a layer of pictures, such as skeleton=#0000ff or points=red; may be given again.",
+        ),
+        click.option(
+            "--line-width",
+            "line_widths",
+            type=OfLayer(Width(), "0.5"),
+            multiple=True,
+            help="Width of the lines of a layer, in px or with mm, such as skeleton=0.1mm; may be given again.",
+        ),
+    )

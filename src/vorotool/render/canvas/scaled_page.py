@@ -1,0 +1,102 @@
+"""Pages on which lengths of the data have a size on paper, and layers in chosen colours."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from math import isfinite
+
+import numpy as np
+
+from vorotool.errors import UsageError
+from vorotool.render.canvas.layers import MARGIN, Arcs, Layer, Page, Points, Polygons, Texts
+from vorotool.render.canvas.styles import PictureStyle
+
+PX = 96 / 25.4
+"""Of a millimetre."""
+
+LARGEST = 1e6
+"""Millimetres: a kilometre of paper."""
+
+LEAST = 1e-3
+"""Millimetres: what is smaller has no digits left."""
+
+
+class ScaledPage(Page):
+    """A page whose lengths are those of the data, by a scale; a px is 1/96 in.
+
+    Parameters
+    ----------
+    bounds, y_up
+        As of `Page`.
+    millimetres : float
+        Of a unit of the data.
+
+    Raises
+    ------
+    UsageError
+        If the page would be larger than a kilometre, or nothing.
+
+    Examples
+    --------
+    >>> page = ScaledPage((0, 0, 100, 46), y_up=True, millimetres=0.5)
+    >>> page.size
+    'width="52mm" height="25mm"'
+    """
+
+    decimals = 4
+
+    def __init__(self, bounds: tuple[float, float, float, float], *, y_up: bool, millimetres: float) -> None:
+        super().__init__(bounds, width=1000, y_up=y_up)
+        low, high = np.ldexp(np.array(bounds, dtype=np.float64), -self._exponent).reshape(2, 2)
+        span = high - low
+        with np.errstate(over="ignore", under="ignore"):
+            scale = float(np.ldexp(millimetres, self._exponent))
+            sides = [float(side) for side in (span + 2 * MARGIN * (span.max() or 1.0)) * scale]
+        if not (isfinite(scale) and min(sides) > 0 and LEAST <= max(sides) <= LARGEST):
+            raise UsageError(
+                f"the page would be {sides[0]:.3g} mm by {sides[1]:.3g} mm: choose another --scale, from "
+                f"{LEAST:g} to {LARGEST:g} mm"
+            )
+        self._sides = sides
+        self.scale = scale * PX
+        self.width, self.height = (side * PX for side in sides)  # type: ignore[assignment]
+
+    @property
+    def size(self) -> str:
+        """Attributes of its size."""
+        across, down = (_short(side) for side in self._sides)
+        return f'width="{across}mm" height="{down}mm"'
+
+    @property
+    def extent(self) -> str:
+        """Its width and height in px, as a viewBox has them."""
+        return f"{_short(self.width)} {_short(self.height)}"
+
+
+def _short(number: float) -> str:
+    return f"{number:.6f}".rstrip("0").rstrip(".")
+
+
+def styled_layers(layers: Iterable[Layer], style: PictureStyle) -> list[Layer]:
+    """Give layers the colours and widths that are chosen for them.
+
+    Examples
+    --------
+    >>> red = PictureStyle(colours={"sites": "#ff0000"})
+    >>> [layer.colour for layer in styled_layers([Points("sites", np.zeros((1, 2)))], red)]
+    ['#ff0000']
+    """
+    return [_styled(layer, *style.of(layer.name)) for layer in layers]
+
+
+def _styled(layer: Layer, colour: str | None, width: float | None) -> Layer:
+    if width is not None and not isinstance(layer, Points | Texts):
+        layer = replace(layer, width=width)
+    if colour is None:
+        return layer
+    if isinstance(layer, Arcs):
+        return replace(layer, edge=colour)
+    if isinstance(layer, Polygons):  # areas of many colours keep them: what is chosen is that of their outlines
+        return replace(layer, colours=[colour]) if len(layer.colours) == 1 else replace(layer, edge=colour)
+    return replace(layer, colour=colour)

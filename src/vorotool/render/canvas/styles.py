@@ -1,0 +1,40 @@
+"""What a picture looks like where somebody chooses: its ground, the colours and the widths of its layers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from vorotool.render.canvas.palettes import WHITE
+
+DRAWN_AS = {"lines": "polygons", "centerline": "skeleton", "diagram": "skeleton"}
+"""Names of layers in pictures that are chosen by another name, if not by their own."""
+
+
+@dataclass(frozen=True)
+class PictureStyle:
+    """What of a picture is not left to what draws it.
+
+    Parameters
+    ----------
+    ground : str, optional
+        Colour of what lies beneath all layers, ``#rrggbb``; None is nothing.
+    colours : mapping of str to str
+        Of layers, by their names.
+    widths : mapping of str to float
+        Of the lines of layers, in px.
+
+    Examples
+    --------
+    >>> PictureStyle(colours={"skeleton": "#ff0000"}).of("centerline")
+    ('#ff0000', None)
+    """
+
+    ground: str | None = WHITE
+    colours: Mapping[str, str] = field(default_factory=dict)
+    widths: Mapping[str, float] = field(default_factory=dict)
+
+    def of(self, layer: str) -> tuple[str | None, float | None]:
+        """Give colour and width of a layer, None where they are left to what draws it."""
+        other = DRAWN_AS.get(layer, layer)
+        return self.colours.get(layer, self.colours.get(other)), self.widths.get(layer, self.widths.get(other))

@@ -1,0 +1,157 @@
+"""Drawings on the command line: streams, batches, options, from a logo to the way of a bit, what is said."""
+
+import gzip
+import io
+import json
+import os
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import ezdxf
+import numpy as np
+import pytest
+
+import vorotool
+
+LOGO = Path(__file__).parents[3] / "data" / "logo.svg"
+NOISY = (
+    '<svg xmlns="http://www.w3.org/2000/svg"><circle r="4" fill="none" stroke="red"/><g display="none"><path/></g>'
+    '<path d="M0 0L9 9" fill="none"/></svg>'
+)
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "logo.svg").write_bytes(LOGO.read_bytes())
+    drawing = ezdxf.new()
+    drawing.units = 4
+    for ends in (((0, 0), (40, 0)), ((40, 0), (40, 30)), ((40, 30), (0, 30.0001)), ((0, 30), (0, 0))):
+        drawing.modelspace().add_line(*ends, dxfattribs={"layer": "plate"})
+    drawing.modelspace().add_circle((20, 15), 5, dxfattribs={"layer": "plate"})
+    drawing.saveas(tmp_path / "plate.dxf")
+    return tmp_path
+
+
+def called(folder, *arguments, data=b""):
+    """Run the command as a process of its own."""
+    command = [sys.executable, "-m", "vorotool", *arguments]
+    return subprocess.run(command, cwd=folder, input=data, capture_output=True, check=False)
+
+
+def test_streams_give_the_same_bytes(folder):
+    from_file = called(folder, "skeleton-exact", "logo.svg", "-f", "dxf")
+    assert from_file.returncode == 0
+    for data in (LOGO.read_bytes(), gzip.compress(LOGO.read_bytes())):
+        assert called(folder, "skeleton-exact", "-", "-f", "dxf", data=data).stdout == from_file.stdout
+    os.mkfifo(folder / "pipe")
+    feeder = threading.Thread(target=lambda: (folder / "pipe").write_bytes(LOGO.read_bytes()))
+    feeder.start()
+    assert called(folder, "skeleton-exact", "pipe", "-f", "dxf").stdout == from_file.stdout
+    feeder.join()
+    again = called(folder, "draw", "-", "-f", "svg", data=from_file.stdout)
+    assert (again.returncode, b"<path" in again.stdout) == (0, True)
+
+
+def test_batches(run, folder):
+    (folder / "more.svg").write_text('<svg xmlns="http://www.w3.org/2000/svg"><text>a</text></svg>')
+    done = run(
+        "skeleton-exact", "logo.svg", "plate.dxf", "more.svg", "--out-dir", "out", "--keep-going", "-f", "dxf", "-q"
+    )
+    assert done.code == 6
+    assert "more.svg, line 1, text is text" in done.err
+    assert sorted(path.name for path in (folder / "out").glob("*.dxf")) == ["logo.dxf", "plate.dxf"]
+    alone = called(folder, "skeleton-exact", "plate.dxf", "-f", "dxf")
+    assert (folder / "out/plate.dxf").read_bytes() == alone.stdout
+
+
+def test_from_a_logo_to_the_way_of_a_bit(run, folder):
+    done = run("skeleton-exact", "logo.svg", "--prune", "angle=40", "--what", "points", "--every", "0.5", "-o", "a.dxf")
+    assert (done.code, done.err) == (0, "")
+    drawing = ezdxf.readfile("a.dxf")
+    places = np.array([point.dxf.location for point in drawing.modelspace().query("POINT")])
+    shapes = vorotool.read("logo.svg")
+    axis = vorotool.prune(vorotool.skeleton_exact(shapes), angle=40)
+    points = vorotool.points_along(axis, every=0.5)
+    assert np.array_equal(places, np.column_stack([points.xy * [1, -1], -points.radius]))
+    assert drawing.units == 4
+    assert np.ptp(shapes.xy[:, 0]) < 90
+
+
+def test_joined_lines_with_a_hole(run, folder):
+    done = run("skeleton-exact", "plate.dxf", "--what", "table", "-f", "json", "--join-tolerance", "0.001")
+    assert done.code == 0, done.err
+    row = json.loads(done.out)[0]
+    assert (row["layer"], row["holes"]) == ("plate", 1)
+    done = run("draw", "plate.dxf", "-f", "svg")
+    assert done.code == 0
+    done = run("skeleton-exact", "plate.dxf", "--what", "table", "-f", "json", "--join-tolerance", "0")
+    assert json.loads(done.out)[0]["holes"] == 0
+
+
+def test_coarse_curves(run, folder):
+    counts = []
+    for tolerance in ("1", "0.1", "0.01"):
+        run("skeleton-exact", "logo.svg", "--flatten", tolerance, "--stats", "s.json", "-o", "o.json", "-q")
+        counts.append(json.loads((folder / "s.json").read_text())["vertices"])
+    assert counts[0] < counts[1] < counts[2]
+
+
+def test_notes(run, folder):
+    (folder / "a.svg").write_text(NOISY)
+    done = run("draw", "a.svg", "-f", "svg")
+    assert done.code == 0
+    for words in (
+        "1 closed lines without a fill",
+        "1 elements that are not displayed",
+        "1 shapes without fill and stroke",
+    ):
+        assert f"note: a.svg: {words}" in done.err
+    assert run("draw", "a.svg", "-f", "svg", "-q").err == ""
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "words"),
+    [
+        (["delaunay", "logo.svg"], 3, "logo.svg is a drawing, which holds polygons and lines, and points or an image"),
+        (["tessellate", "plate.dxf", "-o", "a.png"], 3, "plate.dxf is a drawing"),
+        (["skeleton-exact", "logo.svg", "--flatten", "0"], 2, "'0': expected more than 0"),
+        (["skeleton-exact", "logo.svg", "--max-sites", "9"], 5, "logo.svg holds"),
+        (
+            ["skeleton-exact", "a.json", "--join-tolerance", "1"],
+            2,
+            "--join-tolerance is for DXF drawings: leave it out",
+        ),
+        (["skeleton-exact", "a.json", "--flatten", "1", "-f", "csv"], 2, "--flatten is for drawings that are read"),
+        (["skeleton-exact", "logo.svg", "--what", "table", "-f", "dxf"], 2, "table cannot be written as dxf"),
+        (["skeleton-exact", "logo.svg", "--threshold", "1"], 2, "--threshold is for images, but the input is polygons"),
+    ],
+)
+def test_what_is_refused(run, folder, arguments, code, words):
+    done = run(*arguments)
+    assert done.code == code, done.err
+    assert words in done.err
+    assert not done.out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "package"), [(["logo.svg"], "svgelements"), (["a.json", "-o", "a.dxf"], "ezdxf")]
+)
+def test_without_the_extra(folder, arguments, package):
+    (folder / "a.json").write_text("[[0, 0], [4, 0], [0, 3]]")
+    script = f"import sys\nsys.modules[{package!r}] = None\nfrom vorotool.cli.main import main\n"
+    script += "main(['skeleton-exact', *sys.argv[1:]])"
+    command = [sys.executable, "-c", script, *arguments]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stderr.splitlines()[-1].endswith(f"need the package {package}: pip install 'vorotool[cad]'")
+    assert not (folder / "a.dxf").exists()
+
+
+def test_binary_drawings(run, folder):
+    data = io.BytesIO()
+    ezdxf.readfile(folder / "plate.dxf").write(data, fmt="bin")
+    (folder / "b.dxf").write_bytes(data.getvalue())
+    made = [run("skeleton-exact", name, "-f", "json").out for name in ("plate.dxf", "b.dxf")]
+    assert made[0] == made[1]

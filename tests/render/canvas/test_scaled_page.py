@@ -1,0 +1,93 @@
+"""Pictures to scale, read back with their sizes, and in the colours and widths that are chosen."""
+
+import io
+
+import numpy as np
+import pytest
+
+from vorotool.errors import UsageError
+from vorotool.formats.drawing.svg_reader import read_svg
+from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.reader_options import ReadOptions
+from vorotool.geometry.polygons.conversion import to_shapely
+from vorotool.render.canvas.layers import Arcs, Curves, Lines, Points, Polygons, Texts
+from vorotool.render.canvas.palettes import WHITE
+from vorotool.render.canvas.scaled_page import ScaledPage, styled_layers
+from vorotool.render.canvas.styles import PictureStyle
+from vorotool.render.canvas.svg import write_layers_svg
+
+SQUARE = np.array([[0.0, 0.0], [3.0, 0.0], [3.0, 2.0], [0.0, 2.0]])
+
+
+def svg_of(layers, page):
+    out = io.BytesIO()
+    write_layers_svg(out, layers, page)
+    return out.getvalue()
+
+
+def shapes_of(svg):
+    return to_shapely(read_svg(Source("a.svg", svg), ReadOptions(flatten=1e-4)))
+
+
+def square(scale=1.0):
+    return Polygons("shape", SQUARE * scale, np.arange(4, dtype=np.int32), np.array([0, 4]))
+
+
+@pytest.mark.parametrize("millimetres", [1e-3, 0.5, 1, 25.4, 1000])
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e9])
+@pytest.mark.parametrize("y_up", [False, True])
+def test_sizes_return(millimetres, size, y_up):
+    if not 1e-3 <= size * millimetres <= 1e5:
+        pytest.skip("no page for it")
+    page = ScaledPage((0, 0, 3 * size, 2 * size), y_up=y_up, millimetres=millimetres)
+    shape = shapes_of(svg_of([square(size)], page))[-1]  # the first is the ground
+    x, y, right, bottom = shape.bounds
+    across = size * millimetres
+    assert right - x == pytest.approx(3 * across, rel=1e-6, abs=1e-4)
+    assert bottom - y == pytest.approx(2 * across, rel=1e-6, abs=1e-4)
+    assert x == pytest.approx(0.06 * across, rel=1e-6, abs=1e-4)
+
+
+def test_arcs_return():
+    page = ScaledPage((-1, -1, 1, 1), y_up=True, millimetres=20)
+    places = np.array([[1.0, 0.0], [-1.0, 0.0]])
+    arcs = Arcs("offset", places, places[::-1], np.zeros((2, 2)), np.array([0, 2]), None, WHITE, 1.0, np.ones(2, bool))
+    circle = shapes_of(svg_of([arcs], page))[-1]
+    assert circle.area == pytest.approx(400 * np.pi, rel=1e-4)
+
+
+@pytest.mark.parametrize("millimetres", [1e300, 1e7, 0.0, 1e-320, float("inf"), float("nan")])
+def test_pages_that_nobody_has(millimetres):
+    with pytest.raises(UsageError, match=r"the page would be .* choose another --scale"):
+        ScaledPage((0, 0, 3, 2), y_up=False, millimetres=millimetres)
+
+
+def test_ground():
+    page = ScaledPage((0, 0, 3, 2), y_up=False, millimetres=1)
+    page.style = PictureStyle(None)
+    assert b"<rect" not in svg_of([], page)
+    page.style = PictureStyle("#112233")
+    assert b'fill="#112233"/>' in svg_of([], page)
+
+
+def test_colours_and_widths_of_all_layers():
+    pairs = np.array([[0, 1]], dtype=np.int32)
+    control = np.array([-1], dtype=np.int32)
+    centre = np.full((4, 2), np.nan)
+    layers = [
+        Lines("a", SQUARE, pairs),
+        Curves("centerline", SQUARE, pairs, control),
+        square(),
+        Polygons("cells", SQUARE, np.arange(4, dtype=np.int32), np.array([0, 4]), colours=["#111111", "#222222"]),
+        Points("points", SQUARE),
+        Texts("labels", SQUARE, ["1", "2", "3", "4"]),
+        Arcs("offset", SQUARE, np.roll(SQUARE, -1, axis=0), centre, np.array([0, 4]), None, WHITE),
+    ]
+    names = ("a", "skeleton", "shape", "cells", "points", "labels", "offset")
+    style = PictureStyle(colours=dict.fromkeys(names, "#abcdef"), widths=dict.fromkeys(names, 7.0))
+    made = styled_layers(layers, style)
+    colours = [getattr(layer, "colour", None) or getattr(layer, "edge", None) or layer.colours[0] for layer in made]
+    assert colours == ["#abcdef"] * 7
+    assert made[3].colours == ["#111111", "#222222"]
+    assert [layer.width for layer in made if hasattr(layer, "width")] == [7.0] * 5
+    assert styled_layers(layers, PictureStyle()) == layers
