@@ -66,7 +66,7 @@ import pytest
         ),
         (
             ["draw", "mask.pbm", "-o", "a.png", "--input-format", "xyz"],
-            ["invalid --input-format 'xyz': expected one of geojson, wkt, json, jsonl, ndjson"],
+            ["invalid --input-format 'xyz': expected one of npz, geojson, wkt, json, jsonl"],
         ),
         (["paint"], ["paint"]),
         (["--colour"], ["--colour"]),

@@ -11,8 +11,9 @@ from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.convertible import refuse_convertible, refuse_geometry_column
 from vorotool.formats.parsing.geojson import holds_shapes, parse_json
 from vorotool.formats.parsing.json_lines import RECORD_MARK, is_json_lines
+from vorotool.formats.parsing.npz_columns import NPZ_MAGIC, npz_holds
 from vorotool.formats.points.delimited import header_fields
-from vorotool.formats.points.tables import NPZ_MAGIC, is_table
+from vorotool.formats.points.tables import is_table
 from vorotool.formats.polygons.json import is_list_of_shells
 from vorotool.formats.polygons.wkt import holds_shapes as wkt_holds_shapes
 from vorotool.products.inputs import INPUTS, Holds
@@ -52,7 +53,7 @@ def recognised_geometry(
         return "points", _points(source, said or point_format(source), columns)
     if geometry == "polygons":
         holds: Holds = "polygons"
-        source = text_source(source, said or polygon_format(source))
+        source = _with_format(source, said or polygon_format(source))
     else:
         holds, source = _either(source, said)
     if holds == "polygons" and columns is not None:
@@ -123,9 +124,16 @@ def _either(source: Source, said: str | None) -> tuple[Holds, Source]:
     chosen = said or point_format(source)
     if "polygons" not in INPUTS[chosen].readers:
         return "points", _points(source, chosen, None)
-    source = text_source(source, chosen)
+    source = _with_format(source, chosen)
+    if chosen == "npz":
+        return npz_holds(source.data), source
     if chosen == "wkt":
         return ("polygons" if wkt_holds_shapes(source.data) else "points"), source
+    return _in_json(source, said)
+
+
+def _in_json(source: Source, said: str | None) -> tuple[Holds, Source]:
+    """Tell whether JSON holds polygons or lines."""
     if _is_flat(source.data):
         return "points", source
     document = parse_json(source)
@@ -149,10 +157,15 @@ def _is_flat(data: bytes) -> bool:
 
 
 def _points(source: Source, chosen: str, columns: str | None) -> Source:
-    source = replace(source, format=chosen) if chosen in ("npy", "npz") else text_source(source, chosen)
+    source = _with_format(source, chosen)
     if columns is not None and source.format not in _WITH_COLUMNS:
         raise UsageError(f"--columns is for delimited text, but {source.name} is read as {chosen}: leave it out")
     return source
+
+
+def _with_format(source: Source, chosen: str) -> Source:
+    """Give a source with its format; of text, as `text_source` does."""
+    return replace(source, format=chosen) if chosen in ("npy", "npz") else text_source(source, chosen)
 
 
 def text_source(source: Source, chosen: str) -> Source:
@@ -161,8 +174,7 @@ def text_source(source: Source, chosen: str) -> Source:
         raise InputError(f"{source.name} is UTF-16 text; save it as UTF-8 (iconv -f UTF-16 -t UTF-8)")
     if source.data.startswith(NPZ_MAGIC):
         raise InputError(
-            f"{source.name} is an NPZ or ZIP archive, which is read as a table of points only: of polygons, skeletons "
-            "and offset curves give the JSON (-f json), unpack others"
+            f"{source.name} is an NPZ or ZIP archive: for NPZ leave out --input-format, or call it .npz; unpack others"
         )
     if b"\0" in source.data[:4096]:
         raise InputError(

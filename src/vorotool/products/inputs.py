@@ -39,7 +39,12 @@ _IMAGE = "formats.images.reader:read_image"
 _ALL = (
     _of("csv", "csv", "tsv", "txt", points="formats.points.delimited:read_text"),
     _of("node", points="formats.points.node:read_node"),
-    _of("npz", points="formats.points.tables:read_npz"),
+    _of(
+        "npz",
+        points="formats.points.tables:read_npz",
+        polygons="formats.results.npz_reader:read_polygons",
+        skeleton="formats.results.npz_reader:read_skeleton",
+    ),
     _of("geojson", points="formats.points.json:read_geojson", polygons="formats.polygons.geojson:read_geojson"),
     _of("wkt", points="formats.points.wkt:read_wkt", polygons="formats.polygons.wkt:read_wkt"),
     _of(

@@ -112,7 +112,7 @@ def test_points_and_polygons_in_one_file(tmp_path, geometries, message):
 def test_formats_that_are_not_read(data, name, message):
     assert error_of(data, name).startswith(message)
     with pytest.raises(
-        UsageError, match="invalid --input-format 'csv': expected one of geojson, wkt, json, jsonl, ndjson"
+        UsageError, match="invalid --input-format 'csv': expected one of npz, geojson, wkt, json, jsonl"
     ):
         read(data, name, input_format="csv")
 

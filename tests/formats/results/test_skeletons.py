@@ -103,7 +103,11 @@ def test_nothing_is_written_too(what):
 
 @pytest.mark.parametrize(
     ("fmt", "what", "words"),
-    [("obj", "skeleton", "json, csv, tsv, geojson"), ("wkt", "table", "csv, tsv, json, npz"), ("csv", "arcs", "skeleton")],
+    [
+        ("obj", "skeleton", "json, csv, tsv, geojson"),
+        ("wkt", "table", "csv, tsv, json, npz"),
+        ("csv", "arcs", "skeleton"),
+    ],
 )
 def test_what_cannot_be_written(fmt, what, words):
     with pytest.raises(UsageError, match=words):
