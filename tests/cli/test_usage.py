@@ -66,7 +66,7 @@ import pytest
         ),
         (
             ["draw", "mask.pbm", "-o", "a.png", "--input-format", "xyz"],
-            ["invalid --input-format 'xyz': expected one of csv, tsv, txt, csv-wkt, geojson, wkt, json, jsonl, ndjson"],
+            ["invalid --input-format 'xyz': expected one of csv, tsv, txt, npz, csv-wkt, geojson, wkt, json, jsonl"],
         ),
         (["paint"], ["paint"]),
         (["--colour"], ["--colour"]),

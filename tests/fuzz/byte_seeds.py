@@ -248,6 +248,8 @@ def _results() -> list[tuple[str, str, bytes]]:
         shape = vorotool.skeleton_exact([[0, 0], [6, 0], [6, 3], [0, 5]])
         vorotool.write(shape, path)
         found.append(("skeleton", "a.json", path.read_bytes()))
+        vorotool.write(shape, path.with_suffix(".npz"))
+        found.append(("npz", "a.npz", path.with_suffix(".npz").read_bytes()))
         vorotool.write(vorotool.offset(shape, [0.5, 1]), path)
         found.append(("offsets", "a.json", path.read_bytes()))
     return found

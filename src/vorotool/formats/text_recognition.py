@@ -14,8 +14,9 @@ from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.convertible import refuse_convertible
 from vorotool.formats.parsing.geojson import holds_shapes, parse_json
 from vorotool.formats.parsing.json_lines import RECORD_MARK, is_json_lines
+from vorotool.formats.parsing.npz_columns import NPZ_MAGIC, npz_holds
 from vorotool.formats.points.delimited import has_coordinates, header_fields
-from vorotool.formats.points.tables import NPZ_MAGIC, is_table
+from vorotool.formats.points.tables import is_table
 from vorotool.formats.polygons.json import is_list_of_shells
 from vorotool.formats.polygons.wkt import holds_shapes as wkt_holds_shapes
 from vorotool.products.formats import resolved
@@ -157,6 +158,8 @@ def _either(source: Source, said: str | None) -> tuple[Holds, Source]:
         module = INPUTS[chosen].readers["polygons"].partition(":")[0]
         source = replace(source, document=resolved(f"{module}:features_of")(source))
         return ("polygons" if source.document.holds_shapes else "points"), source
+    if chosen == "npz":
+        return npz_holds(source.data), source
     if "curves" in INPUTS[chosen].has or chosen == "wkt":
         return ("polygons" if chosen != "wkt" or wkt_holds_shapes(source.data) else "points"), source
     return _in_json(source, said)
@@ -204,8 +207,7 @@ def text_source(source: Source, chosen: str) -> Source:
         raise InputError(f"{source.name} is UTF-16 text; save it as UTF-8 (iconv -f UTF-16 -t UTF-8)")
     if source.data.startswith(NPZ_MAGIC):
         raise InputError(
-            f"{source.name} is an NPZ or ZIP archive, which is read as a table of points only: of polygons, skeletons "
-            "and offset curves give the JSON (-f json), unpack others"
+            f"{source.name} is an NPZ or ZIP archive: for NPZ leave out --input-format, or call it .npz; unpack others"
         )
     if b"\0" in source.data[:4096]:
         raise InputError(

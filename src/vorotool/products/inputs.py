@@ -52,7 +52,13 @@ _ALL = (
         "csv", "csv", "tsv", "txt", points="formats.points.delimited:read_text", polygons=f"{_WKT_COLUMN}:read_polygons"
     ),
     _of("node", points="formats.points.node:read_node"),
-    _of("npz", has="bytes", points="formats.points.tables:read_npz"),
+    _of(
+        "npz",
+        has="bytes",
+        points="formats.points.tables:read_npz",
+        polygons="formats.results.npz_reader:read_polygons",
+        skeleton="formats.results.npz_reader:read_skeleton",
+    ),
     _of("csv-wkt", has="features", points=f"{_WKT_COLUMN}:read_points", polygons=f"{_WKT_COLUMN}:read_polygons"),
     _of("geojson", points="formats.points.json:read_geojson", polygons="formats.polygons.geojson:read_geojson"),
     _of("wkt", points="formats.points.wkt:read_wkt", polygons="formats.polygons.wkt:read_wkt"),

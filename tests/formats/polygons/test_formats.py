@@ -104,7 +104,7 @@ def test_points_and_polygons_in_one_file(tmp_path, geometries, message):
 )
 def test_formats_that_are_not_read(data, name, message):
     assert error_of(data, name).startswith(message)
-    with pytest.raises(UsageError, match="invalid --input-format 'node': expected one of csv, tsv, txt, csv-wkt, geo"):
+    with pytest.raises(UsageError, match="invalid --input-format 'node': expected one of csv, tsv, txt, npz, csv-w"):
         read(data, name, input_format="node")
 
 

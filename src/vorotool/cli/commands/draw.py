@@ -42,9 +42,9 @@ def command(**options: Any) -> None:
       vorotool sample cells.png -o cells.png
       vorotool draw cells.png -o cells.svg
 
-    INPUT is a label image (PNG, TIFF, PGM, NPY, Zarr), such as tessellate writes, the JSON of a skeleton or of offset
-    curves, or shapes: polygons and lines (GeoJSON, WKT, JSON, Triangle .poly, SVG, DXF), such as centerlines and alpha
-    shapes; - is standard input.
+    INPUT is a label image (PNG, TIFF, PGM, NPY, Zarr), such as tessellate writes, a skeleton (JSON, NPZ), the JSON
+    of offset curves, or shapes: polygons and lines (GeoJSON, WKT, JSON, Triangle .poly, SVG, DXF), such as
+    centerlines and alpha shapes; - is standard input.
     """
     run_command(RECIPE, DrawingOptions(**options))
 

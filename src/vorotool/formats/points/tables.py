@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import io
 import math
-import zipfile
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -12,15 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vorotool.errors import InputError
-from vorotool.formats.io.limits import decoding
 from vorotool.formats.io.sources import Source
+from vorotool.formats.parsing.npz_columns import npz_columns
 from vorotool.formats.parsing.reader_options import LARGEST_LABEL, ReadOptions, shortened
 from vorotool.formats.points.delimited import chosen_columns, placed_by
 from vorotool.geometry.coordinates import INEXACT, first_inexact
 from vorotool.geometry.numbers import shown_number
 from vorotool.geometry.points.point_set import PointSet
 
-NPZ_MAGIC = b"PK\x03\x04"
 _MISSING = "_missing"
 
 
@@ -71,10 +68,7 @@ def read_npz(source: Source, options: ReadOptions) -> PointSet:
     InputError
         If it is no archive of uncompressed 1-D arrays of one length, or has no coordinates.
     """
-    columns: dict[str, NDArray[Any]] = {}
-    with decoding(source.name, "NPZ"), zipfile.ZipFile(io.BytesIO(source.data)) as archive:
-        for entry in archive.infolist():
-            columns[entry.filename.removesuffix(".npy")] = _column(source.name, archive, entry, options)
+    columns = npz_columns(source, options)
     lengths = {len(values) for values in columns.values()}
     if len(lengths) != 1:
         held = "no arrays" if not lengths else f"arrays of {min(lengths)} to {max(lengths)} values"
@@ -85,27 +79,6 @@ def read_npz(source: Source, options: ReadOptions) -> PointSet:
     kept = {name: values for name, values in columns.items() if not name.endswith(_MISSING)}
     values = {name: _present(values, columns.get(f"{name}{_MISSING}")) for name, values in kept.items()}
     return points_of_columns(source.name, values, options)
-
-
-def _column(name: str, archive: zipfile.ZipFile, entry: zipfile.ZipInfo, options: ReadOptions) -> NDArray[Any]:
-    """One array, of which no more is read than its header announces and the file holds."""
-    if entry.compress_type != zipfile.ZIP_STORED:
-        raise InputError(f"{name}: {entry.filename} is compressed; save it with numpy.savez, which does not compress")
-    with archive.open(entry) as member:
-        version = np.lib.format.read_magic(member)
-        read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
-        shape, _, dtype = read(member)
-        if len(shape) != 1 or dtype.kind not in "biufU" or dtype.itemsize == 0:
-            raise InputError(
-                f"{name}: {entry.filename} is of type {dtype} and shape {shape}; a table has 1-D columns of numbers or "
-                "text"
-            )
-        options.check_sites(name, shape[0])
-        needed = math.prod(shape) * dtype.itemsize
-        data = member.read(needed)
-    if len(data) < needed:
-        raise InputError(f"{name}: {entry.filename} is cut off: {needed} bytes are announced, {len(data)} are there")
-    return np.frombuffer(data, dtype)
 
 
 def _present(values: NDArray[Any], missing: NDArray[Any] | None) -> list[Any]:

@@ -1,0 +1,169 @@
+"""Skeletons and cells as NPZ: what their JSON gives is read back, and damage is named."""
+
+import io
+import json
+
+import numpy as np
+import pytest
+import shapely
+
+import vorotool
+from support.readers.written import ARCS, assert_same, written
+from vorotool.errors import InputError, VorotoolError
+from vorotool.formats.text.tables import write_arrays
+
+SHAPES = {
+    "polygon": [[0, 0], [40, 0], [40, 12], [14, 12], [14, 30], [0, 30]],
+    "holes and lines": {
+        "polygons": [
+            {
+                "shell": [[0, 0], [30, 0], [30, 20], [0, 20]],
+                "holes": [[[3, 3], [8, 3], [5, 8]], [[20, 9], [25, 9], [22, 12]]],
+            },
+            {"line": [[40, 0], [50, 9], [60, 0]]},
+            {"shell": [[70, 0], [80, 0], [75, 9]]},
+        ]
+    },
+}
+
+
+CLIP = [shapely.Point(20, 20).buffer(18) - shapely.Point(22, 20).buffer(7), shapely.box(42, 42, 60, 60)]
+"""In several pieces, with a hole: cells have parts and holes, too, and some are empty."""
+
+
+@pytest.fixture
+def shapes(tmp_path):
+    def read(name):
+        (tmp_path / "in.json").write_text(json.dumps(SHAPES[name]))
+        return vorotool.read(tmp_path / "in.json", geometry="polygons")
+
+    return read
+
+
+@pytest.mark.parametrize("name", SHAPES)
+@pytest.mark.parametrize("side", ["interior", "exterior", "both"])
+@pytest.mark.parametrize("gap", [0, 0.25])
+def test_skeletons_are_those_of_the_library(shapes, tmp_path, name, side, gap):
+    skeleton = vorotool.skeleton_exact(shapes(name), side=side, gap=gap)
+    for fmt in ("npz", "json"):
+        vorotool.write(skeleton, tmp_path / f"a.{fmt}")
+    read, plain = (vorotool.read(tmp_path / f"a.{fmt}") for fmt in ("npz", "json"))
+    assert_same(ARCS, read, skeleton)
+    assert_same(("xy", "ring_start", "ring_kind", "ring_polygon"), read.polygons, skeleton.polygons)
+    assert_same(
+        ("kind", "polygon", "ring", "index", "source_ring", "source_index"), read.site_table, skeleton.site_table
+    )
+    assert (read.frame, read.gap) == (plain.frame, plain.gap) == (skeleton.frame, skeleton.gap)
+    assert len(vorotool.read(tmp_path / "a.npz", geometry="polygons")) == len(skeleton.polygons)
+
+
+def test_approximate_skeletons_keep_their_bounds(shapes, tmp_path):
+    skeleton = vorotool.skeleton_approx(shapes("polygon"), step=2)
+    vorotool.write(skeleton, tmp_path / "a.npz")
+    assert_same(ARCS, vorotool.read(tmp_path / "a.npz"), skeleton)
+
+
+def test_cells_are_those_of_their_json(tmp_path):
+    points = vorotool.PointSet(
+        np.random.default_rng(3).random((30, 2)) * 50, None, {"id": [f"n{k}" for k in range(30)]}
+    )
+    cells = vorotool.voronoi_cells(points, clip=CLIP)
+    read = []
+    for fmt in ("npz", "json"):
+        vorotool.write(cells, tmp_path / f"a.{fmt}")
+        read.append(vorotool.read(tmp_path / f"a.{fmt}", geometry="polygons"))
+    assert_same(("xy", "ring_start", "ring_kind", "ring_polygon", "feature"), *read)
+    assert read[0].ids == read[1].ids
+    assert read[0].properties == read[1].properties
+    assert type(vorotool.read(tmp_path / "a.npz")).__name__ == "PolygonSet"
+
+
+def arrays_of(value, what=None):
+    with np.load(io.BytesIO(written(value, "npz", what))) as arrays:
+        return dict(arrays)
+
+
+def damaged(tmp_path, arrays):
+    with (tmp_path / "a.npz").open("wb") as out:
+        write_arrays(out, arrays)
+    return tmp_path / "a.npz"
+
+
+@pytest.mark.parametrize(
+    ("changed", "words"),
+    [
+        ({"arc_target": None}, "has no array arc_target"),
+        ({"frame": None}, "has no array frame"),
+        ({"vertex_x": np.zeros(3)}, "arrays that belong together are of different lengths"),
+        ({"vertex_r": "nan"}, "vertex_r holds what is no finite number"),
+        ({"ring_x": "nan"}, "ring_x holds what is no finite number"),
+        ({"ring_start": np.array([0, 9])}, "ring_start should grow from 0 to 6"),
+        ({"ring_start": np.array([0.0, 6.0])}, "ring_start should grow from 0 to 6"),
+        ({"ring_start": np.array([0, 0, 6])}, "ring_start has the same place twice"),
+        ({"ring_start": np.array([], int)}, "ring_start should grow"),
+        ({"ring_kind": np.zeros(2, int), "ring_polygon": np.zeros(2, int)}, "are not of as many rings as ring_start"),
+        ({"ring_polygon": np.array([1])}, "ring_polygon has 1 after -1"),
+        ({"ring_polygon": np.array([-1])}, "ring_polygon has -1 after -1"),
+        ({"arc_control_x": "text", "arc_control_y": "text"}, "arcs 0: control is"),
+        ({"arc_source": "large"}, "arcs 0: source is 99; write a whole number from 0"),
+        ({"arc_kind": "large"}, 'arcs 0: kind is 99; write "line" or "parabola"'),
+        ({"arc_side": "large"}, "arcs 0: side is 99"),
+        ({"arc_site_a": "large"}, "arcs 0: sites are"),
+        ({"site_kind": "large"}, "sites 0: kind is 99"),
+        ({"site_index": "large"}, "sites 0: index is 99"),
+        ({"frame": np.zeros(3)}, "the frame is"),
+        ({"gap": np.array([-1.0])}, "the gap is -1.0"),
+        ({"arc_source": np.array([f"{k}" for k in range(9)])}, "arcs 0: source is '0'"),
+    ],
+)
+def test_damage_is_named(tmp_path, changed, words):
+    arrays = arrays_of(vorotool.skeleton_exact(SHAPES["polygon"]))
+    for name, value in changed.items():
+        if value is None:
+            del arrays[name]
+        elif isinstance(value, str) and value == "text":
+            arrays[name] = arrays[name].astype(str)
+        elif isinstance(value, str):
+            arrays[name] = arrays[name].copy()
+            arrays[name].flat[0] = {"nan": np.nan, "large": 99}[value]
+        else:
+            arrays[name] = value
+    with pytest.raises(InputError) as refused:
+        vorotool.read(damaged(tmp_path, arrays))
+    assert words in str(refused.value)
+    assert "a.npz" in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("changed", "words"),
+    [
+        ({"vertex_x": np.array([np.nan])}, "arrays that belong together are of different lengths"),
+        ({"ring_starts": np.array([0, 1])}, "ring_starts should grow from 0 to"),
+        ({"polygon_starts": np.array([0, 1])}, "polygon_starts should grow from 0 to"),
+        ({"cell_starts": np.array([0, 1])}, "cell_starts should grow from 0 to"),
+        ({"x": np.zeros(1)}, "its columns have other lengths than the 5 cells"),
+    ],
+)
+def test_damage_of_cells_is_named(tmp_path, changed, words):
+    arrays = arrays_of(vorotool.voronoi_cells([[0, 0], [4, 1], [2, 5], [6, 6], [1, 3]]))
+    with pytest.raises(InputError, match=words):
+        vorotool.read(damaged(tmp_path, arrays | changed))
+
+
+def test_cut_files_are_refused(tmp_path):
+    whole = written(vorotool.skeleton_exact(SHAPES["polygon"]), "npz")
+    for size in range(4, len(whole), 97):
+        (tmp_path / "a.npz").write_bytes(whole[:size])
+        for geometry in (None, "points", "polygons"):
+            with pytest.raises(VorotoolError, match=r"a\.npz"):
+                vorotool.read(tmp_path / "a.npz", geometry=geometry)
+
+
+def test_what_holds_no_polygons(tmp_path):
+    points = damaged(tmp_path, {"x": np.arange(3.0), "y": np.arange(3.0)})
+    assert len(vorotool.read(points)) == 3
+    with pytest.raises(InputError, match=r"a\.npz holds no polygons that are read: an NPZ has those of cells"):
+        vorotool.read(points, geometry="polygons")
+    offsets = damaged(tmp_path, arrays_of(vorotool.offset(SHAPES["polygon"], 1)))
+    with pytest.raises(InputError, match=r"offset curves the table \(--what points -f npz\) or the JSON"):
+        vorotool.read(offsets)
