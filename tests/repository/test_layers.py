@@ -19,7 +19,7 @@ engines/common -> geometry, geometry/points, geometry/polygons
 formats/parsing -> formats/io, geometry, geometry/points, geometry/polygons
 formats/zarr -> formats/compression, formats/io, geometry
 geometry/curves -> geometry, geometry/polygons
-engines/tessellation -> engines/common, geometry, geometry/curves, geometry/points
+engines/tessellation -> engines/common, geometry, geometry/curves, geometry/points, geometry/polygons
 formats/images -> formats/compression, formats/io, formats/parsing, formats/zarr, geometry, geometry/points
 formats/points -> formats/io, formats/parsing, geometry, geometry/points
 geometry/mesh -> geometry, geometry/curves

@@ -125,7 +125,12 @@ class SiteOptions(ComputingOptions):
     columns: str | None
     seeds: SeedMode | None
     size: tuple[int, int] | None
-    window: tuple[int, int, int, int] | None
+    window: Any
+
+    @property
+    def cell_side(self) -> Fraction | None:
+        """The side of the cells of a map, where the frame is in its units."""
+        return None
 
     def for_images(self) -> dict[str, Any]:
         """Give the options that mean nothing for a list of points, by their names."""
@@ -153,6 +158,12 @@ class TessellationOptions(SiteOptions):
     max_distance: Fraction | None
     dtype: Literal["uint8", "uint16", "uint32", "int32"] | None
     chunk: tuple[int, int] | None
+    cell_size: Fraction | None
+
+    @property
+    def cell_side(self) -> Fraction | None:
+        """The side of the cells of a map, where the frame is in its units."""
+        return self.cell_size
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
