@@ -85,7 +85,7 @@ class Opened:
         )
         if self.array is not None:
             refuse_crs(declared)
-            return read_rows(self.array, max_pixels=given.max_pixels)
+            return read_rows(self.array, max_pixels=given.max_pixels, note=given.note)
         holds, source = recognised(read_source(self.name), self.geometry, self.said, given.columns)
         value: PointSet | PolygonSet | Raster | Skeleton | Offsets = read_recognised(holds, source, given)
         return value
