@@ -32,7 +32,6 @@ engines/segment_voronoi -> geometry, geometry/polygons, geometry/skeleton
 formats/text -> geometry, geometry/skeleton
 geometry/alpha -> geometry, geometry/curves, geometry/mesh, geometry/polygons
 render/label_images -> geometry, geometry/points, render/canvas
-batch -> engines/tessellation, formats/io, formats/text, formats/zarr
 engines/alpha -> engines/delaunay, geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points,
     geometry/polygons
 engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry,
@@ -56,6 +55,7 @@ engines/sampled_skeleton -> engines/arrangement, engines/common, engines/feature
     engines/skeleton, geometry, geometry/curves, geometry/polygons, geometry/skeleton
 formats -> formats/images, formats/io, formats/parsing, formats/points, formats/polygons, geometry, geometry/points,
     geometry/polygons, geometry/skeleton, products
+batch -> engines/tessellation, formats, formats/io, formats/text, formats/zarr
 engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/polygons, geometry/skeleton
 engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton, geometry, geometry/polygons,
     geometry/skeleton

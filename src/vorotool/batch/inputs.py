@@ -31,6 +31,75 @@ class Input:
     name: str
 
 
+class PageName(str):
+    """One page of a stack as an input: its words are those of messages and tables.
+
+    Parameters
+    ----------
+    text : str
+        The words.
+    path : str
+        The file.
+    page : int
+        Which page, from 0.
+
+    Examples
+    --------
+    >>> page = PageName.of("stack.tif", 3)
+    >>> page, page.path, page.page
+    ('stack.tif, page 3', 'stack.tif', 3)
+    """
+
+    path: str
+    page: int
+
+    def __new__(cls, text: str = "", path: str = "", page: int = 0) -> PageName:
+        """Make the name."""
+        made = super().__new__(cls, text)
+        made.path, made.page = path, page
+        return made
+
+    @classmethod
+    def of(cls, path: str, page: int) -> PageName:
+        """Name a page of a file."""
+        return cls(f"{path}, page {page}", path, page)
+
+
+def path_of(source: str) -> str:
+    """Give the file that an input is in.
+
+    Examples
+    --------
+    >>> path_of(PageName.of("stack.tif", 3)), path_of("a.tif")
+    ('stack.tif', 'a.tif')
+    """
+    return source.path if isinstance(source, PageName) else source
+
+
+def pages_of(inputs: Iterable[Input]) -> list[Input]:
+    """Give each page of the images among inputs as an input, whose outputs are named after it: ``stack-p003``.
+
+    Examples
+    --------
+    >>> pages_of([Input("data/blobs.png", "blobs.png"), Input("data/dots.csv", "dots.csv")])
+    [Input(source='data/blobs.png, page 0', name='blobs-p000.png'), Input(source='data/dots.csv', name='dots.csv')]
+    """
+    from vorotool.formats.pages import page_count
+
+    found: list[Input] = []
+    for each in inputs:
+        count = page_count(each.source)
+        if count is None:
+            found.append(each)
+            continue
+        name, digits = Path(each.name), max(3, len(str(count - 1)))
+        found += [
+            Input(PageName.of(each.source, page), str(name.with_stem(f"{name.stem}-p{page:0{digits}}")))
+            for page in range(count)
+        ]
+    return found
+
+
 def is_several(name: str) -> bool:
     """Whether a name given as an input stands for several: a folder, or a pattern that no file has for a name.
 

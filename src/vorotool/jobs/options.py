@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 Place = tuple[float, float]
 Rectangle = tuple[float, float, float, float]
+ALL_PAGES = -1
+"""Of ``--page all``: each page is an input of a batch."""
+
 Method = Literal["exact", "digital", "digital-valid"]
 
 
@@ -64,7 +67,7 @@ class JobOptions:
     def is_of_many(self) -> bool:
         """Whether there are options that make a batch of one input, too."""
         given = (self.files_from, self.null, self.keep_going, self.dry_run, self.resume, self.shard, self.table_of_all)
-        return any(given)
+        return any(given) or self.page == ALL_PAGES
 
     def files_of_inputs(self) -> dict[str, str]:
         """Give the files that are read beside each input, by the names of the options."""

@@ -165,6 +165,24 @@ class Shard(ParameterType[tuple[int, int]]):
         return (int(match[1]), int(match[2]))
 
 
+class Page(ParameterType[int]):
+    """The number of a page, or ``all``."""
+
+    name = "N|all"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
+        """Parse the number."""
+        from vorotool.jobs.options import ALL_PAGES
+
+        if isinstance(value, int):
+            return value
+        if value == "all":
+            return ALL_PAGES
+        if not re.fullmatch("[0-9]{1,9}", value):
+            self.fail(f"{value!r}: expected the number of a page, from 0, or all", param, ctx)
+        return int(value)
+
+
 class Names(ParameterType[tuple[str, ...]]):
     """Names from a list, separated by commas."""
 
@@ -299,7 +317,9 @@ OPTIONS: dict[str, Decorator] = {
     "columns": click.option(
         "--columns", metavar="X,Y[,LABEL]", help="Columns of a point list, by name or number (from 1)."
     ),
-    "page": click.option("--page", type=click.IntRange(min=0), metavar="N", help="Page of an image stack, from 0."),
+    "page": click.option(
+        "--page", type=Page(), help="Page of an image stack, from 0; all makes each page an input of a batch."
+    ),
     "seeds": click.option(
         "--seeds",
         type=click.Choice(["pixels", "components", "labels", "centroids"], case_sensitive=False),
