@@ -144,9 +144,9 @@ def table(folder):
         [
             "# What formats carry",
             "",
-            "Made by `python tests/formats/test_abilities.py`, which writes and reads each format; a test keeps it true.",
-            "A round trip is one to the last bit of each coordinate or pixel; attributes are texts, codes such as `007`,",
-            "integers and numbers. TIFF carries more: see [units](../howto/units.md).",
+            "Made by `python tests/formats/test_abilities.py`, which writes and reads each format; a test keeps it so.",
+            "A round trip is one to the last bit of each coordinate or pixel. Attributes are texts, codes such as `007`,",
+            "integers and numbers; KML and GPX have their own. Maps in TIFF: [units](../howto/units.md).",
             "",
             "| format | read | written | coordinate reference system | attributes | pixel size | round trip |",
             "| --- | --- | --- | --- | --- | --- | --- |",

@@ -19,7 +19,7 @@ engines/common -> geometry, geometry/points, geometry/polygons
 formats/parsing -> formats/io, geometry, geometry/points, geometry/polygons
 formats/zarr -> formats/compression, formats/io, geometry
 geometry/curves -> geometry, geometry/polygons
-engines/tessellation -> engines/common, geometry, geometry/curves, geometry/points
+engines/tessellation -> engines/common, geometry, geometry/curves, geometry/points, geometry/polygons
 formats/images -> formats/compression, formats/io, formats/parsing, formats/zarr, geometry, geometry/points
 formats/points -> formats/io, formats/parsing, geometry, geometry/points
 geometry/mesh -> geometry, geometry/curves
@@ -36,7 +36,6 @@ geometry/alpha -> geometry, geometry/curves, geometry/mesh, geometry/polygons
 formats/drawing -> formats/compression, formats/io, formats/parsing, geometry, geometry/alpha, geometry/curves,
     geometry/polygons, geometry/skeleton, products
 render/label_images -> geometry, geometry/points, render/canvas
-batch -> engines/tessellation, formats/io, formats/text, formats/zarr
 engines/alpha -> engines/delaunay, geometry, geometry/alpha, geometry/curves, geometry/mesh, geometry/points,
     geometry/polygons
 engines/digital -> engines/common, engines/delaunay, engines/label_images, engines/tessellation, geometry,
@@ -60,6 +59,7 @@ engines/sampled_skeleton -> engines/arrangement, engines/common, engines/feature
     engines/skeleton, geometry, geometry/curves, geometry/polygons, geometry/skeleton
 formats -> formats/drawing, formats/features, formats/images, formats/io, formats/parsing, formats/points,
     formats/polygons, geometry, geometry/points, geometry/polygons, geometry/skeleton, products
+batch -> engines/tessellation, formats, formats/io, formats/text, formats/zarr
 engines -> engines/sampled_skeleton, engines/skeleton, geometry, geometry/polygons, geometry/skeleton
 engines/centerlines -> engines/from_skeleton, engines/pruning, engines/skeleton, geometry, geometry/polygons,
     geometry/skeleton

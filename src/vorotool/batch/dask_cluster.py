@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from vorotool import __version__
+from vorotool.batch.pages import PageName, path_of
 from vorotool.batch.tasks import Outcome, Process, Task, carry_out
 from vorotool.errors import UsageError
 
@@ -186,7 +187,9 @@ def _absolute(task: Task) -> Task:
     """The task for a process in another folder."""
     done = task.done and {name and str(Path(name).absolute()): digest for name, digest in task.done.items()}
     outputs = tuple(str(Path(path).absolute()) for path in task.outputs)
-    return replace(task, source=str(Path(task.source).absolute()), outputs=outputs, done=done)
+    path = str(Path(path_of(task.source)).absolute())
+    source = PageName.of(path, task.source.page) if isinstance(task.source, PageName) else path
+    return replace(task, source=source, outputs=outputs, done=done)
 
 
 def _outcome(task: Task, future: Any, result: Any) -> Outcome:

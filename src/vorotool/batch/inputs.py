@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from vorotool.batch.manifest import RECORD_ENDING
+from vorotool.batch.pages import PageName
 from vorotool.errors import InputError, UsageError
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.zarr.store import is_folder, is_store
@@ -30,6 +31,30 @@ class Input:
 
     source: str
     name: str
+
+
+def pages_of(inputs: Iterable[Input]) -> list[Input]:
+    """Give each page of the images among inputs as an input, whose outputs are named after it: ``stack-p003``.
+
+    Examples
+    --------
+    >>> pages_of([Input("data/blobs.png", "blobs.png"), Input("data/dots.csv", "dots.csv")])
+    [Input(source='data/blobs.png, page 0', name='blobs-p000.png'), Input(source='data/dots.csv', name='dots.csv')]
+    """
+    from vorotool.formats.pages import page_count
+
+    found: list[Input] = []
+    for each in inputs:
+        count = page_count(each.source)
+        if count is None:
+            found.append(each)
+            continue
+        name, digits = Path(each.name), max(3, len(str(count - 1)))
+        found += [
+            Input(PageName.of(each.source, page), str(name.with_stem(f"{name.stem}-p{page:0{digits}}")))
+            for page in range(count)
+        ]
+    return found
 
 
 def is_several(name: str) -> bool:

@@ -11,6 +11,7 @@ from pathlib import Path, PurePath
 
 from vorotool.batch.inputs import Input
 from vorotool.batch.manifest import RECORD_ENDING
+from vorotool.batch.pages import path_of
 from vorotool.batch.tasks import Task
 from vorotool.errors import OutputError, UsageError
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of
@@ -114,7 +115,7 @@ def _comparable(path: str) -> str:
 def _check_inputs(tasks: Sequence[Task], others: Mapping[str, str], read: Mapping[str, str]) -> None:
     """An output that is there already may be what is read, by a link or by the same name."""
     sources = {_identity(path): f"file of {option}, {path}" for option, path in read.items()}
-    sources |= {_identity(task.source): f"input {task.source}" for task in tasks}
+    sources |= {_identity(path_of(task.source)): f"input {path_of(task.source)}" for task in tasks}
     sources.pop(_NOWHERE, None)
     for path in (path for task in tasks for path in task.outputs):
         if (source := sources.get(_identity(path))) is not None:

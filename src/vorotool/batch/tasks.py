@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from vorotool import __version__
+from vorotool.batch.pages import path_of
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.temporaries import tagged_temporaries
 
@@ -91,7 +92,7 @@ def carry_out(process: Process, task: Task) -> Outcome:
     task : Task
         The input.
     """
-    digest = digest_of(task.source)
+    digest = digest_of(path_of(task.source))
     if task.done is not None and is_done(task, digest):
         return Outcome(digest=digest, outputs={path: task.done[path] for path in task.outputs}, kept=True)
     with tagged_temporaries(task.tag):

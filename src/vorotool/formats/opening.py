@@ -111,7 +111,7 @@ class Opened:
         if self.array is not None:
             refuse_for_images(given, self.layer)
             told("zarr")
-            return read_rows(self.array, max_pixels=given.max_pixels)
+            return read_rows(self.array, max_pixels=given.max_pixels, note=given.note)
         content = replace(read_source(self.name), layer=self.layer)
         holds, source = recognised(content, self.geometry, self.said, given.columns)
         told(source.format)

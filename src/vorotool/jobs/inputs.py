@@ -46,8 +46,8 @@ class JobInput(NamedTuple):
         return "standard input" if self.path == "-" else self.path
 
 
-def opened_input(o: ComputingOptions, given: JobInput, geometry: str) -> AbstractContextManager[Opened]:
-    """Open points or polygons, or an image, as the options say."""
+def opened_input(o: ComputingOptions, given: JobInput, geometry: str | None) -> AbstractContextManager[Opened]:
+    """Open points or polygons, or an image, as the options say; without a geometry any of these."""
     from vorotool.formats.opening import opened
 
     return opened(given.path, geometry=geometry, input_format=o.input_format, page=o.page, layer=o.input_layer)
@@ -79,7 +79,10 @@ def read_opened(
         flatten=o.flatten if isinstance(o, SkeletonOptions) else None,
         join_tolerance=o.join_tolerance if isinstance(o, SkeletonOptions) else None,
     )
-    assert isinstance(value, PointSet | PolygonSet | Raster)  # others are read where no geometry is asked for
+    if not isinstance(value, PointSet | PolygonSet | Raster):  # which is read where no geometry is asked for
+        raise InputError(
+            f"{given.name} is a result of vorotool, of {type(value).__name__}: points or polygons were due"
+        )
     if isinstance(value, Raster):
         note_other_size(run, o, given, value.values.shape)
         return value
@@ -102,6 +105,9 @@ def check_frame_options(o: SiteOptions, *, is_digital: bool) -> None:
     """Refuse two frames, and any where nothing is tessellated."""
     if o.size is not None and o.window is not None:
         raise UsageError("give --size or --window, not both")
+    if o.window is not None and o.cell_side is None and not all(isinstance(number, int) for number in o.window):
+        shown = ",".join(f"{float(number):g}" for number in o.window)
+        raise UsageError(f"invalid --window '{shown}': expected four integers X,Y,W,H, such as -10,-10,640,480")
     if not is_digital:
         refuse(o.of_frame(), "is the frame of a tessellation: use --method digital or digital-valid")
 

@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 
 Place = tuple[float, float]
 Rectangle = tuple[float, float, float, float]
+ALL_PAGES = -1
+"""Of ``--page all``: each page is an input of a batch."""
+
 Method = Literal["exact", "digital", "digital-valid"]
 
 
@@ -73,7 +76,7 @@ class JobOptions:
     def is_of_many(self) -> bool:
         """Whether there are options that make a batch of one input, too."""
         given = (self.files_from, self.null, self.keep_going, self.dry_run, self.resume, self.shard, self.table_of_all)
-        return any(given)
+        return any(given) or self.page == ALL_PAGES
 
     def files_of_inputs(self) -> dict[str, str]:
         """Give the files that are read beside each input, by the names of the options."""
@@ -160,7 +163,12 @@ class SiteOptions(ComputingOptions):
     columns: str | None
     seeds: SeedMode | None
     size: tuple[int, int] | None
-    window: tuple[int, int, int, int] | None
+    window: Any
+
+    @property
+    def cell_side(self) -> Fraction | None:
+        """The side of the cells of a map, where the frame is in its units."""
+        return None
 
     def for_images(self) -> dict[str, Any]:
         """Give the options that mean nothing for a list of points, by their names."""
@@ -188,6 +196,12 @@ class TessellationOptions(SiteOptions):
     max_distance: Fraction | None
     dtype: Literal["uint8", "uint16", "uint32", "int32"] | None
     chunk: tuple[int, int] | None
+    cell_size: Fraction | None
+
+    @property
+    def cell_side(self) -> Fraction | None:
+        """The side of the cells of a map, where the frame is in its units."""
+        return self.cell_size
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -115,6 +115,7 @@ def write_store(run: Run, o: TessellationOptions, target: Target, stream: Stream
     """Write an image to a Zarr store, if there is room for it: here, or on a cluster."""
     from vorotool.formats.io.disk_space import check_space
     from vorotool.formats.zarr.arrays import create_array, write_rows
+    from vorotool.formats.zarr.multiscales import array_folder
     from vorotool.formats.zarr.store import open_store
 
     frame, dtype = stream.frame, stream.dtype
@@ -126,7 +127,9 @@ def write_store(run: Run, o: TessellationOptions, target: Target, stream: Stream
         return sum(map(len, files.values()))
 
     check_space(target.path, frame.pixels * dtype.itemsize, lambda: expected_bytes(stream, chunks[0], size_of))
-    with open_store(target.path, no_clobber=o.no_clobber, inputs=inputs) as folder:
+    with open_store(target.path, no_clobber=o.no_clobber, inputs=inputs) as store:
+        grid = stream.kind.get("grid")
+        folder = array_folder(store, target.path, grid=grid, is_labels=target.what == "labels")
         array = create_array(folder, frame.shape, dtype=dtype, chunks=chunks)
         limits = [(first, min(chunks[0], frame.height - first)) for first in range(0, frame.height, chunks[0])]
         if o.cluster is not None and o.out_dir is None:

@@ -59,7 +59,10 @@ class StreamedProducts:
     """
 
     def __init__(self, run: Run, options: TessellationOptions, image: ZarrRows | TiffRows) -> None:
-        refuse(options.of_frame(), "is for lists of points, but the input is an image, which brings its own")
+        refuse(
+            {"cell-size": options.cell_size, **options.of_frame()},
+            "is for lists of points, but the input is an image, which brings its own",
+        )
         self.run, self.options, self.grid = run, options, image.grid
         from vorotool.formats.zarr.arrays import CHUNK
 

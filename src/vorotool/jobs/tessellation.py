@@ -35,6 +35,7 @@ from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.geometry.progress import Progress
 from vorotool.geometry.table import Table
 from vorotool.jobs.inputs import JobInput, frame_of, opened_input, read_opened, refuse, seeds_of_image
+from vorotool.jobs.map_cells import seeds_on_map
 from vorotool.jobs.options import TessellationOptions
 from vorotool.jobs.pixel_sizes import with_pixel_size
 from vorotool.jobs.run_log import Run
@@ -70,15 +71,19 @@ class ReadSeeds(NamedTuple):
 def products(run: Run, o: TessellationOptions, given: JobInput) -> Products | StreamedProducts:
     """Read points or an image, and prepare what labels any rows."""
     with run.phase("read"):
-        with opened_input(o, given, "points") as source:
+        with opened_input(o, given, "points" if o.cell_size is None else None) as source:
             large = rows_of_large(o, source)
             if large is None:
                 value = read_opened(run, o, given, source, columns=o.columns, properties="table" in o.what)
         if large is not None:
             o = with_pixel_size(run, o, given, large.grid) if measured(o) else o
             return StreamedProducts(run, o, large)
-        read = _seeds_of(run, o, value)
-        if isinstance(value, Raster):
+        if o.cell_size is not None and not isinstance(value, Raster):
+            o, seeds = seeds_on_map(run, o, value)
+            read = ReadSeeds(seeds, grid=seeds.grid)
+        else:
+            read = _seeds_of(run, o, value)
+        if read.grid is not None or isinstance(value, Raster):
             o = with_pixel_size(run, o, given, read.grid)
     with run.phase("prepare" if o.method == "exact" else "tessellate"):
         return Products(run, o, given, read, _rows_of(run, o, read.seeds))
@@ -89,7 +94,7 @@ def _seeds_of(run: Run, o: TessellationOptions, value: PointSet | PolygonSet | R
         seeds = seeds_from_points(value, strict=o.strict, check=lambda seeds: frame_of(o, seeds))
         return ReadSeeds(seeds, value.y_up)
     assert isinstance(value, Raster)  # what is asked for is points, or an image
-    alone = {"columns": o.columns, **o.of_frame()}
+    alone = {"columns": o.columns, "cell-size": o.cell_size, **o.of_frame()}
     refuse(alone, "is for lists of points, but the input is an image, which brings its own")
     return ReadSeeds(seeds_of_image(run, o, value, o.seeds), grid=value.grid)
 

@@ -149,7 +149,7 @@ def _write_data(
     if fmt == "zarr":
         from vorotool.formats.zarr.arrays import write_zarr
 
-        write_zarr(path, value.labels, threads=threads)
+        write_zarr(path, value.labels, grid=value.grid, threads=threads)
         return
     with open_output(path, binary=not FORMATS[fmt].is_text) as out:
         write_product(out, value, product, fmt, flatten=flatten, precision=precision, threads=threads, path=path)

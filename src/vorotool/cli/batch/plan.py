@@ -11,7 +11,7 @@ from typing import Any, Generic
 import click
 from click.core import ParameterSource
 
-from vorotool.batch.inputs import Input, expand_inputs, read_names
+from vorotool.batch.inputs import Input, expand_inputs, pages_of, read_names
 from vorotool.batch.manifest import RECORD_ENDING, History, Manifest, digest_of_values, read_history
 from vorotool.batch.plan import check_outputs, output_paths, share
 from vorotool.batch.tables import TABLE_FORMATS
@@ -21,7 +21,7 @@ from vorotool.errors import UsageError
 from vorotool.formats.io.atomic_output import spoken
 from vorotool.formats.io.descriptors import STANDARD, descriptor_of, is_same_output, stream_kind
 from vorotool.jobs.job import Options, Recipe
-from vorotool.jobs.options import ComputingOptions, JobOptions
+from vorotool.jobs.options import ALL_PAGES, ComputingOptions, JobOptions
 from vorotool.jobs.targets import Target, plan_targets
 from vorotool.jobs.units import check_units, lengths_in_pixels
 from vorotool.products.formats import EXTENSIONS
@@ -229,4 +229,5 @@ def _inputs(recipe: Recipe[Options], o: Options, note: Callable[[str], None]) ->
         if o.files_from is not None:
             advice = f"--files-from {o.files_from} holds no names; write one on each line"
         raise UsageError(f"0 inputs are given: {advice}")
-    return expand_inputs(names, extensions=known, without=o.out_dir, note=note)
+    found = expand_inputs(names, extensions=known, without=o.out_dir, note=note)
+    return pages_of(found) if o.page == ALL_PAGES else found

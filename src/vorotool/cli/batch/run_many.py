@@ -14,6 +14,7 @@ from typing import Any
 
 import click
 
+from vorotool.batch.pages import PageName, path_of
 from vorotool.batch.plan import check_inside
 from vorotool.batch.run import Results, run_batch
 from vorotool.batch.tables import join_tables, part_path
@@ -28,7 +29,7 @@ from vorotool.formats.io.temporaries import new_folder, temporary_beside
 from vorotool.geometry.length_units import unit_name
 from vorotool.jobs.failures import explained
 from vorotool.jobs.job import Options, Recipe, process_input
-from vorotool.jobs.options import JobOptions
+from vorotool.jobs.options import ALL_PAGES, JobOptions
 from vorotool.jobs.run_log import Run
 from vorotool.jobs.targets import Target
 from vorotool.jobs.units import unit_stats
@@ -54,6 +55,9 @@ def process_one(
         Their paths.
     """
     targets = [Target(what, path, fmt) for (what, fmt), path in zip(kinds, outputs, strict=True)]
+    if options.page == ALL_PAGES:
+        options = replace(options, page=source.page if isinstance(source, PageName) else None)
+    source = path_of(source)
     message, code = "", 0
     with Run(recipe.name, quiet=True, verbose=False, stats=None) as run:
         try:
@@ -118,7 +122,7 @@ def run_many(recipe: Recipe[Options], o: Options) -> None:
 
 def _print_plan(plan: Plan[Options]) -> None:
     for task in plan.tasks:
-        kept = task.done is not None and is_done(task, digest_of(task.source))
+        kept = task.done is not None and is_done(task, digest_of(path_of(task.source)))
         record = {"input": task.source, "status": "kept" if kept else "planned", "outputs": task.outputs}
         click.echo(json.dumps(record))
 

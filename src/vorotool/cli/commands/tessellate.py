@@ -11,6 +11,7 @@ from vorotool.cli.options.groups import site_options
 from vorotool.cli.options.help_page import GroupedCommand
 from vorotool.cli.options.lengths import ExactLength
 from vorotool.cli.options.shared import (
+    Decimal,
     Size,
     inputs_argument,
     output_options,
@@ -60,6 +61,11 @@ _PICTURES = {(what, fmt) for what, each in PRODUCTS["tessellate"].items() for fm
     type=Size(),
     help="Columns x rows of the chunks of a Zarr store; by default 2048x512, fewer rows if wide.",
 )
+@click.option(
+    "--cell-size",
+    type=Decimal(),
+    help="Side of a pixel in the units of points, lines or polygons on a map; --window is in these units, too.",
+)
 @site_options(all_layers("tessellate"), has_style=False)
 def command(**options: Any) -> None:
     """Label every pixel with its nearest seed, exactly; ties go to the smallest label.
@@ -84,10 +90,20 @@ def _check_options(o: TessellationOptions, targets: list[Target]) -> None:
     if o.method == "propagation" and {"distance", "distance2"} & {target.what for target in targets}:
         raise UsageError("distances are those of the exact tessellation: leave out --method propagation")
     check_components(o)
+    _check_cells(o)
     if o.method == "propagation" and o.cluster is not None and o.out_dir is None:
         raise UsageError("a cluster computes bands of the exact tessellation: leave out --method propagation")
     check_precision(o, FORMATS, targets)
     _check_output_options(o, {(target.what, target.fmt) for target in targets})
+
+
+def _check_cells(o: TessellationOptions) -> None:
+    if o.cell_size is None:
+        return
+    if not 1e-100 < o.cell_size < 1e100:
+        raise UsageError("--cell-size must be more than 0, and at most 1e100")
+    if o.size is not None:
+        raise UsageError("--size is in pixels: with --cell-size give --window X,Y,W,H in the units of the map")
 
 
 def _check_output_options(o: TessellationOptions, outputs: set[tuple[str, str]]) -> None:

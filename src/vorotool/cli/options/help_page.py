@@ -15,7 +15,7 @@ _GROUPS = {
     "sampling compare side gap complete features prune start end ends distance every",
     "Input": "columns input_format input_layer input_crs crs page pixel_size seeds connectivity threshold invert "
     "min_area fill_holes outline simplify join_tolerance",
-    "Frame": "size window frame clip",
+    "Frame": "size window cell_size frame clip",
     "Pictures": "layers overlay width y_up scale drawing_unit background colours line_widths",
     "Many inputs": "out_dir files_from null jobs keep_going dry_run resume shard table cluster",
     "Checks and resources": "verify strict stats threads max_pixels max_sites quiet verbose",

@@ -42,24 +42,33 @@ class Size(ParameterType[tuple[int, int]]):
         return (int(parts[0]), int(parts[1]))
 
 
-class Window(ParameterType[tuple[int, int, int, int]]):
-    """``X,Y,W,H`` in pixels."""
+class Window(ParameterType[tuple[Any, Any, Any, Any]]):
+    """``X,Y,W,H``: integers in pixels, or decimal numbers in the units of a map, which are kept exactly."""
 
     name = "X,Y,W,H"
 
     def convert(
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[int, int, int, int]:
-        """Parse four integers of which the last two are positive."""
+    ) -> tuple[Any, Any, Any, Any]:
+        """Parse four numbers of which the last two are positive."""
         if isinstance(value, tuple):
             return value
         try:
-            x, y, w, h = (int(part) for part in value.split(","))
-        except ValueError:
+            x, y, w, h = (_number(part) for part in value.split(","))
+        except (ValueError, ZeroDivisionError):
             self.fail(f"{value!r}: expected four integers X,Y,W,H, such as -10,-10,640,480", param, ctx)
-        if w < 1 or h < 1:
+        if w <= 0 or h <= 0:
             self.fail(f"{value!r} is an empty window: W and H must be at least 1", param, ctx)
         return (x, y, w, h)
+
+
+def _number(text: str) -> int | Fraction:
+    """An integer, or a decimal number that is no larger than a float's."""
+    try:
+        return int(text)
+    except ValueError:
+        number = Decimal().convert(text, None, None) if isfinite(float(text)) else nan
+        return Fraction(number)
 
 
 class Rectangle(ParameterType[tuple[float, float, float, float]]):
@@ -144,6 +153,24 @@ class Shard(ParameterType[tuple[int, int]]):
         if match is None or not 1 <= int(match[1]) <= int(match[2]):
             self.fail(f"{value!r}: expected I/N with I from 1 to N, such as 2/8", param, ctx)
         return (int(match[1]), int(match[2]))
+
+
+class Page(ParameterType[int]):
+    """The number of a page, or ``all``."""
+
+    name = "N|all"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
+        """Parse the number."""
+        from vorotool.jobs.options import ALL_PAGES
+
+        if isinstance(value, int):
+            return value
+        if value == "all":
+            return ALL_PAGES
+        if not re.fullmatch("[0-9]{1,9}", value):
+            self.fail(f"{value!r}: expected the number of a page, from 0, or all", param, ctx)
+        return int(value)
 
 
 class Names(ParameterType[tuple[str, ...]]):
@@ -288,7 +315,9 @@ OPTIONS: dict[str, Decorator] = {
     "columns": click.option(
         "--columns", metavar="X,Y[,LABEL]", help="Columns of a point list, by name or number (from 1)."
     ),
-    "page": click.option("--page", type=click.IntRange(min=0), metavar="N", help="Page of an image stack, from 0."),
+    "page": click.option(
+        "--page", type=Page(), help="Page of an image stack, from 0; all makes each page an input of a batch."
+    ),
     "seeds": click.option(
         "--seeds",
         type=click.Choice(["pixels", "components", "labels", "centroids"], case_sensitive=False),

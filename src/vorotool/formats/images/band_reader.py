@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -20,6 +21,7 @@ from vorotool.formats.images.tiff_segments import decode_rows, is_decoded_here
 from vorotool.formats.io.descriptors import stream_kind
 from vorotool.formats.io.limits import check_pixels, decoding
 from vorotool.formats.zarr.metadata import read_metadata
+from vorotool.formats.zarr.multiscales import Level, full_size, label_images
 from vorotool.formats.zarr.reader import StoredArray
 from vorotool.formats.zarr.store import is_array, is_folder, is_group, is_store
 from vorotool.geometry.pixel_frame import MAX_PIXELS
@@ -48,10 +50,28 @@ class ZarrRows:
 
     name: str
     path: str
-    grid: PixelGrid | None = None
+
+    @cached_property
+    def _level(self) -> Level | None:
+        """The image of an OME-Zarr group."""
+        return None if is_array(self.path) or not is_group(self.path) else full_size(self.name, self.path)
+
+    @property
+    def grid(self) -> PixelGrid | None:
+        """Sides of the pixels."""
+        return None if self._level is None else self._level.grid
+
+    @property
+    def note(self) -> str:
+        """Where else there are labels."""
+        found = [] if self._level is None else label_images(self.path)
+        return f"{self.name} has label images: {self.name.rstrip(os.sep)}/labels/{found[0]} names one" if found else ""
 
     @cached_property
     def _array(self) -> StoredArray:
+        level = self._level
+        if level is not None:
+            return self._image(str(Path(self.path, *level.path.split("/"))), level.axes)
         if not is_array(self.path):
             if is_group(self.path):
                 example = f"{self.name.rstrip(os.sep)}/0"
@@ -63,9 +83,20 @@ class ZarrRows:
             raise InputError(
                 f"{self.name} holds no Zarr array: a zarr.json or .zarray that describes one must be in it"
             )
+        return self._image(self.path, None)
+
+    def _image(self, path: str, axes: tuple[str, ...] | None) -> StoredArray:
+        """Open an array that has two axes, or more of one step each which are named."""
         with decoding(self.name, "Zarr"):
-            array = StoredArray(self.name, self.path)
+            array = StoredArray(self.name, path)
         shape, kind = array.shape, array.dtype
+        if axes is not None and len(axes) == len(shape):
+            for axis, steps in zip(axes[:-2], shape[:-2], strict=True):
+                if steps != 1:
+                    raise InputError(
+                        f"{self.name} has {steps} steps along the axis {axis}: an image has one; save one of them alone"
+                    )
+            shape = shape[-2:]
         if len(shape) != 2:
             raise InputError(f"{self.name} has {len(shape)} axes, shape {shape}: an image has two, rows and columns")
         if kind.kind not in "biuf":
@@ -76,17 +107,20 @@ class ZarrRows:
     @property
     def shape(self) -> tuple[int, int]:
         """Rows and columns."""
-        height, width = self._array.shape
+        height, width = self._array.shape[-2:]
         return height, width
 
     def rows(self, first: int, count: int) -> NDArray[Any]:
         """Read some rows; bool becomes uint8."""
         with decoding(self.name, "Zarr"):
-            return _plain(self._array.read((slice(first, first + count), slice(0, self.shape[1]))))
+            array = self._array
+            plane = (slice(first, first + count), slice(0, self.shape[1]))
+            read = array.read((*[slice(0, 1)] * (len(array.shape) - 2), *plane))
+            return _plain(read.reshape(read.shape[-2:]))
 
     def __getstate__(self) -> dict[str, Any]:
         """Leave out what is open."""
-        return {"name": self.name, "path": self.path, "grid": self.grid}
+        return {"name": self.name, "path": self.path}
 
 
 @dataclass(frozen=True)
@@ -204,8 +238,10 @@ def open_zarr(name: str, input_format: str | None = None, page: int | None = Non
     return ZarrRows(name, str(Path(name).absolute()))
 
 
-def read_rows(rows: ZarrRows | TiffRows, *, max_pixels: int = MAX_PIXELS) -> Raster:
-    """Read a whole image.
+def read_rows(
+    rows: ZarrRows | TiffRows, *, max_pixels: int = MAX_PIXELS, note: Callable[[str], None] | None = None
+) -> Raster:
+    """Read a whole image, and say what of it is not used.
 
     Raises
     ------
@@ -214,6 +250,8 @@ def read_rows(rows: ZarrRows | TiffRows, *, max_pixels: int = MAX_PIXELS) -> Ras
     """
     height, width = rows.shape
     check_pixels(rows.name, width, height, max_pixels)
+    if note is not None and rows.note:
+        note(rows.note)
     return Raster(rows.rows(0, height), rows.grid)
 
 

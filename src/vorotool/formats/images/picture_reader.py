@@ -103,6 +103,20 @@ def read_picture_file(
     return values
 
 
+def picture_pages(source: Source, kind: str) -> int:
+    """Count the pictures of an animation; others hold one.
+
+    Raises
+    ------
+    InputError
+        If the file is damaged.
+    """
+    if kind not in _ANIMATED:
+        return 1
+    with _opened(source, kind) as file:
+        return int(interruptible(lambda: file.properties(index=...).n_images))
+
+
 @contextmanager
 def _opened(source: Source, kind: str) -> Iterator[Any]:
     """Open a file by its header."""

@@ -85,7 +85,7 @@ def page_of(file: Any, name: str, page: int | None) -> Any:
         if 0 <= (page or 0) < count and (page is not None or count == 1):
             return file.pages[page or 0]
     if page is None and count > 1:
-        raise InputError(f"{name} has {count} pages: choose one with --page 0 to --page {count - 1}")
+        raise InputError(f"{name} has {count} pages: choose one with --page 0 to --page {count - 1}, or --page all")
     if count == 0:
         raise InputError(f"{name} is damaged: it begins as a TIFF, but there is no image in it")
     raise InputError(f"{name} has {count} page{'s' * (count != 1)}, counted from 0: there is no --page {page}")

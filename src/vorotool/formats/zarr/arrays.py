@@ -12,8 +12,10 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from vorotool.errors import UsageError
+from vorotool.formats.zarr.multiscales import array_folder
 from vorotool.formats.zarr.store import open_store
 from vorotool.geometry.parallel import in_order, start
+from vorotool.geometry.pixel_grid import PixelGrid
 
 Result = TypeVar("Result")
 
@@ -157,7 +159,9 @@ def _to_its_end(function: Callable[[], Result], stop: Callable[[], None] = lambd
         raise
 
 
-def write_zarr(path: str | os.PathLike[str], image: NDArray[Any], *, threads: int = 0) -> None:
+def write_zarr(
+    path: str | os.PathLike[str], image: NDArray[Any], *, grid: PixelGrid | None = None, threads: int = 0
+) -> None:
     """Write an image that is held to a store, which replaces an older one when all is written.
 
     Parameters
@@ -165,7 +169,9 @@ def write_zarr(path: str | os.PathLike[str], image: NDArray[Any], *, threads: in
     path : str or path
         Of the store.
     image : (H, W) array
-        Numbers.
+        Labels.
+    grid : PixelGrid, optional
+        Of the pixels: a store that is named as OME-Zarr tells their size.
     threads : int
         0 for all processors.
 
@@ -181,7 +187,8 @@ def write_zarr(path: str | os.PathLike[str], image: NDArray[Any], *, threads: in
     height, width = image.shape
     chunks = chunks_of((height, width), image.dtype)
     zarr_module()
-    with open_store(path) as folder:
+    with open_store(path) as store:
+        folder = array_folder(store, path, grid=grid, is_labels=True)
         array = create_array(folder, (height, width), dtype=image.dtype, chunks=chunks)
         for first in range(0, height, chunks[0]):
             write_rows(array, first, image[first : first + chunks[0]], threads=threads)

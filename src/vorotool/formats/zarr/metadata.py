@@ -89,21 +89,33 @@ def read_metadata(path: str | os.PathLike[str]) -> dict[str, Any] | None:
         file = folder / name
         if not file.is_file():
             continue
-        with file.open("rb") as opened:
-            text = opened.read(LARGEST_METADATA + 1)
-        if len(text) > LARGEST_METADATA:
-            raise InputError(f"{file} has more than {LARGEST_METADATA} bytes: metadata of an array are far shorter")
-        check_nesting(text, name=str(file))
-        try:
-            made = json.loads(text)
-        except ValueError as error:
-            raise InputError(f"{file} is no JSON: {error}") from None
-        if not isinstance(made, dict):
-            raise InputError(f"{file} holds no JSON object, which metadata are")
+        made = read_json(file)
         if name != _VERSION_3:
             made = made | {"zarr_format": 2, "node_type": "array" if name == _VERSION_2 else "group"}
         return made
     return None
+
+
+def read_json(file: Path) -> dict[str, Any]:
+    """Read a file of metadata.
+
+    Raises
+    ------
+    InputError
+        As `read_metadata`.
+    """
+    with file.open("rb") as opened:
+        text = opened.read(LARGEST_METADATA + 1)
+    if len(text) > LARGEST_METADATA:
+        raise InputError(f"{file} has more than {LARGEST_METADATA} bytes: metadata of an array are far shorter")
+    check_nesting(text, name=str(file))
+    try:
+        made = json.loads(text)
+    except ValueError as error:
+        raise InputError(f"{file} is no JSON: {error}") from None
+    if not isinstance(made, dict):
+        raise InputError(f"{file} holds no JSON object, which metadata are")
+    return made
 
 
 def array_metadata(name: str, made: dict[str, Any]) -> ZarrMetadata:

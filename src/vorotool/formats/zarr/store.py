@@ -112,7 +112,7 @@ def check_store(
     with explained(name):
         target = followed(name)
         exists = target.exists()
-    if exists and not is_array(target):
+    if exists and not _may_be_replaced(target):
         raise _other_error(name)
     for each in inputs:
         within = target in Path(os.path.realpath(each)).parents
@@ -122,6 +122,13 @@ def check_store(
         raise clobber_error(name)
     check_folder(name, target.parent, makes_folder=makes_folder)
     return target
+
+
+def _may_be_replaced(target: Path) -> bool:
+    """Whether a folder is an image that could have been written here: an array, or an OME-Zarr group of one."""
+    from vorotool.formats.zarr.multiscales import is_single_image
+
+    return is_array(target) or is_single_image(target)
 
 
 def _other_error(name: str) -> OutputError:
@@ -177,7 +184,7 @@ def _replace(target: Path, temporary: Temporary, no_clobber: bool) -> None:
     """
     if no_clobber:
         raise clobber_error(str(target))
-    if not is_array(target):
+    if not _may_be_replaced(target):
         raise _other_error(str(target))
     temporary.check()
     if _exchange(temporary.path, target):

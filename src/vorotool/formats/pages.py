@@ -1,0 +1,41 @@
+"""How many images a file holds."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from vorotool.errors import VorotoolError
+from vorotool.formats.images.picture_reader import picture_format, picture_pages
+from vorotool.formats.images.tiff_reader import opened_tiff
+from vorotool.formats.io.limits import decoding
+from vorotool.formats.io.sources import Source
+from vorotool.formats.recognition import image_format
+
+_HEAD = 4096
+"""Bytes that tell the format."""
+
+
+def page_count(path: str) -> int | None:
+    """Count the pages of a TIFF or the pictures of an animation; other images have one, and what is none has none.
+
+    Of a file that cannot be read one is counted, too: who reads it says what is wrong.
+
+    Examples
+    --------
+    >>> page_count("data/blobs.png"), page_count("data/dots.csv"), page_count("no-such-file.tif")
+    (1, None, 1)
+    """
+    try:
+        if Path(path).is_dir():
+            return 1
+        with Path(path).open("rb") as file:
+            head = file.read(_HEAD)
+        kind = image_format(Source(path, head))
+        if kind == "tiff":
+            with opened_tiff(path, path) as tiff, decoding(path, "TIFF"):
+                return max(1, len(tiff.pages))
+        if kind is not None and picture_format(head) == kind:
+            return picture_pages(Source(path, Path(path).read_bytes()), kind)
+        return None if kind is None else 1
+    except (OSError, ValueError, VorotoolError):
+        return 1

@@ -1,0 +1,180 @@
+"""OME-Zarr (NGFF 0.4 and 0.5): which array of a group is an image at its full size, and how large its pixels are."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+from vorotool.errors import InputError
+from vorotool.formats.zarr.metadata import read_json, read_metadata
+from vorotool.geometry.pixel_grid import PixelGrid
+
+VERSION = "0.5"
+"""Of the metadata that are written."""
+
+OME_ENDING = ".ome.zarr"
+"""Names with it are written as OME-Zarr; other stores are plain arrays."""
+
+_PLANE = ["y", "x"]
+_LONG_UNITS = {"pm": "picometer", "nm": "nanometer", "µm": "micrometer", "mm": "millimeter", "cm": "centimeter"}
+_LONG_UNITS |= {"m": "meter", "km": "kilometer", "Å": "angstrom", "inch": "inch", "ft": "foot"}
+
+
+@dataclass(frozen=True)
+class Level:
+    """The largest image of a pyramid.
+
+    Parameters
+    ----------
+    path : str
+        Of its array, from the group.
+    axes : tuple of str
+        Names of the axes, of which the last two are y and x.
+    grid : PixelGrid, optional
+        Of its pixels.
+    """
+
+    path: str
+    axes: tuple[str, ...]
+    grid: PixelGrid | None
+
+
+def full_size(name: str, folder: str) -> Level | None:
+    """Find the image of an OME-Zarr group; None if the group is none.
+
+    Parameters
+    ----------
+    name : str
+        For messages.
+    folder : str
+        The group.
+
+    Raises
+    ------
+    InputError
+        If its metadata are damaged, or its last two axes are not y and x.
+    """
+    about = _ome_attributes(folder)
+    scales = about.get("multiscales")
+    if not scales:
+        return None
+    try:
+        first = scales[0]
+        dataset, axes = first["datasets"][0], tuple(_axis_name(axis) for axis in first["axes"])
+        path = str(dataset["path"])
+        changes = [*dataset.get("coordinateTransformations", ()), *first.get("coordinateTransformations", ())]
+        grid = _grid(first["axes"], changes)
+    except (AttributeError, KeyError, TypeError, ValueError, IndexError):
+        raise InputError(
+            f"{name}: its multiscales are no metadata of OME-Zarr 0.4 or 0.5; name an array in it"
+        ) from None
+    place = PurePosixPath(path)
+    if place.is_absolute() or ".." in place.parts or not place.parts or "\\" in path or "\0" in path:
+        raise InputError(f"{name}: its image is {path!r}, which is not in the store")
+    if list(axes[-2:]) != _PLANE:
+        raise InputError(f"{name} has the axes {', '.join(axes)}: an image has y and x for the last ones")
+    return Level(path, axes, grid)
+
+
+def label_images(folder: str) -> list[str]:
+    """Names of the label images that belong to an image of OME-Zarr."""
+    try:
+        about = _ome_attributes(str(Path(folder) / "labels"))
+    except InputError:
+        return []
+    found = about.get("labels")
+    return [str(each) for each in found] if isinstance(found, list) else []
+
+
+def _axis_name(axis: Any) -> str:
+    return str(axis["name"] if isinstance(axis, dict) else axis)
+
+
+def _ome_attributes(folder: str) -> dict[str, Any]:
+    """Attributes of a group, of format 2 or 3, as far as they are about OME-Zarr."""
+    made = read_metadata(folder) or {}
+    if made.get("node_type") != "group":
+        return {}
+    attributes = made.get("attributes")
+    if made.get("zarr_format") == 2:
+        file = Path(folder) / ".zattrs"
+        attributes = read_json(file) if file.is_file() else {}
+    if not isinstance(attributes, dict):
+        return {}
+    inner = attributes.get("ome")
+    return inner if isinstance(inner, dict) else attributes
+
+
+def _grid(axes: list[Any], changes: list[dict[str, Any]]) -> PixelGrid | None:
+    """Sides of the pixels: the products of all scales, if there is a unit."""
+    sides = [Fraction(1), Fraction(1)]
+    for change in changes:
+        if change.get("type") == "scale":
+            sides = [
+                side * Fraction(repr(float(factor))) for side, factor in zip(sides, change["scale"][-2:], strict=True)
+            ]
+    units = {axis.get("unit") if isinstance(axis, dict) else None for axis in axes[-2:]}
+    unit = units.pop() if len(units) == 1 else None
+    if not unit or not all(1e-100 < side < 1e100 for side in sides):
+        return None
+    return PixelGrid(sides[1], sides[0], str(unit), "ome")
+
+
+def write_group(folder: Path, *, grid: PixelGrid | None, name: str, is_labels: bool) -> None:
+    """Write the metadata of a group whose array ``0`` is an image of two axes.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the group.
+    grid : PixelGrid, optional
+        Of its pixels; degrees, or dots an inch, give no scale.
+    name : str
+        Of the image.
+    is_labels : bool
+        Whether it is a label image.
+    """
+    axes: list[dict[str, str]] = [{"name": axis, "type": "space"} for axis in _PLANE]
+    scale = [1.0, 1.0]
+    if grid is not None and grid.unit in _LONG_UNITS and grid.is_size:
+        axes = [{**axis, "unit": _LONG_UNITS[grid.unit]} for axis in axes]
+        scale = [float(grid.height), float(grid.width)]
+    dataset = {"path": "0", "coordinateTransformations": [{"type": "scale", "scale": scale}]}
+    ome: dict[str, Any] = {"version": VERSION, "multiscales": [{"name": name, "axes": axes, "datasets": [dataset]}]}
+    if is_labels:
+        ome["image-label"] = {}
+    made = {"zarr_format": 3, "node_type": "group", "attributes": {"ome": ome}}
+    (folder / "zarr.json").write_text(json.dumps(made, indent=2, ensure_ascii=False) + "\n", encoding="utf-8")
+
+
+def array_folder(store: Path, path: str | os.PathLike[str], *, grid: PixelGrid | None, is_labels: bool) -> Path:
+    """Where the array of an image goes: in the store itself, or in the group of what is to be called as OME-Zarr.
+
+    Parameters
+    ----------
+    store : Path
+        The empty folder.
+    path : str or path
+        What it will be called.
+    grid, is_labels
+        As of `write_group`.
+    """
+    name = Path(path).name
+    if not name.lower().endswith(OME_ENDING):
+        return store
+    write_group(store, grid=grid, name=name[: -len(OME_ENDING)], is_labels=is_labels)
+    return store / "0"
+
+
+def is_single_image(folder: Path) -> bool:
+    """Whether a folder is what `write_group` makes, and nothing else: what may be replaced."""
+    try:
+        return {path.name for path in folder.iterdir()} == {"zarr.json", "0"} and "multiscales" in _ome_attributes(
+            str(folder)
+        )
+    except (OSError, InputError):
+        return False

@@ -1,0 +1,95 @@
+"""A frame of square cells over a part of a map."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import ceil, floor
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vorotool.errors import InputError, LimitError, UsageError
+from vorotool.geometry.pixel_frame import FARTHEST, Frame
+from vorotool.geometry.pixel_grid import PixelGrid, map_grid
+
+MapWindow = tuple[Fraction, Fraction, Fraction, Fraction]
+
+MOST_UNASKED = 2**28
+"""Cells that a frame may have which follows from the bounds alone."""
+
+
+def map_frame(
+    low: NDArray[np.float64], high: NDArray[np.float64], side: Fraction, *, window: MapWindow | None, crs: Any = None
+) -> tuple[Frame, PixelGrid]:
+    """Lay cells over what lies between two corners, or over a window; the first row is the northernmost.
+
+    Without a window the sides of cells are at multiples of their length, so that frames of one length fit together.
+
+    Parameters
+    ----------
+    low, high : (2,) float64 arrays
+        The corners.
+    side : Fraction
+        Of a cell.
+    window : (x, y, width, height), optional
+        Its lower left corner, and its size: whole numbers of cells.
+    crs : object, optional
+        The coordinate reference system of the map.
+
+    Raises
+    ------
+    InputError
+        If the map is farther from its origin than cells are counted.
+    LimitError
+        If there is no window, and there are more than 2^28 cells.
+    UsageError
+        If the window is no whole number of cells wide or high.
+
+    Examples
+    --------
+    >>> frame, grid = map_frame(np.array([12.0, 5.0]), np.array([31.0, 20.0]), Fraction(10), window=None)
+    >>> frame.shape, grid.transform
+    ((2, 3), (10.0, 0.0, 10.0, 0.0, -10.0, 20.0))
+    """
+    if window is not None:
+        left, bottom = window[:2]
+        columns, rows = window[2] / side, window[3] / side
+        if columns.denominator != 1 or rows.denominator != 1:
+            nearest = ",".join(f"{float(max(1, round(number)) * side):.17g}" for number in (columns, rows))
+            raise UsageError(
+                f"--window is {float(window[2]):.17g} x {float(window[3]):.17g}, no whole number of cells of "
+                f"{float(side):.17g}: the nearest W,H is {nearest}"
+            )
+        width, height = int(columns), int(rows)
+    else:
+        first = [floor(Fraction(float(value)) / side) for value in low]
+        last = [ceil(Fraction(float(value)) / side) for value in high]
+        if max(map(abs, [*first, *last])) > FARTHEST:
+            raise InputError(
+                f"coordinates are more than 2^44 cells of {float(side):.17g} from 0: use a larger --cell-size"
+            )
+        width, height = (max(1, b - a) for a, b in zip(first, last, strict=True))
+        left, bottom = first[0] * side, first[1] * side
+        if width * height > MOST_UNASKED:
+            raise LimitError(
+                f"what is read needs {width} x {height} cells of {float(side):.17g}, more than {MOST_UNASKED}: use a "
+                "larger --cell-size, or choose a part with --window X,Y,W,H"
+            )
+    top = bottom + height * side
+    step = float(side)
+    return Frame(0, 0, width, height), map_grid((step, 0.0, float(left), 0.0, -step, float(top)), crs=crs)
+
+
+def in_cells(xy: NDArray[np.float64], grid: PixelGrid) -> NDArray[np.float64]:
+    """Coordinates in cells: (0, 0) is the centre of the first one, y goes down.
+
+    Examples
+    --------
+    >>> grid = map_grid((10.0, 0.0, 10.0, 0.0, -10.0, 20.0))
+    >>> in_cells(np.array([[15.0, 15.0], [10.0, 0.0]]), grid).tolist()
+    [[0.0, 0.0], [-0.5, 1.5]]
+    """
+    assert grid.transform is not None
+    a, _, c, _, e, f = grid.transform
+    return (xy - (c, f)) / (a, e) - 0.5

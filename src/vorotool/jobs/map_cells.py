@@ -1,0 +1,91 @@
+"""``--cell-size``: points, lines and polygons of a map as seeds in a frame of square cells."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from vorotool.errors import InputError, Kind, Message, VorotoolWarning
+from vorotool.jobs.options import TessellationOptions
+from vorotool.jobs.run_log import Run
+from vorotool.jobs.units import AUTO
+
+if TYPE_CHECKING:
+    from vorotool.geometry.pixel_frame import Frame
+    from vorotool.geometry.points.point_set import PointSet
+    from vorotool.geometry.points.seed_set import SeedSet
+    from vorotool.geometry.polygons.polygon_set import PolygonSet
+
+MOST_NAMED = 5
+"""Features without a cell that a warning names."""
+
+
+def seeds_on_map(run: Run, o: TessellationOptions, value: PointSet | PolygonSet) -> tuple[TessellationOptions, SeedSet]:
+    """Lay cells over a map, and find the seeds in them: points, or the cells of lines and polygons.
+
+    Parameters
+    ----------
+    run : Run
+        Takes seconds.
+    o : TessellationOptions
+        Of the command line.
+    value : PointSet or PolygonSet
+        In the units of the map.
+
+    Returns
+    -------
+    options : TessellationOptions
+        With the frame in cells, and the map as the unit of tables.
+    seeds : SeedSet
+        With the grid of the cells.
+
+    Raises
+    ------
+    InputError
+        If there is nothing on the map, or no feature has a cell.
+    """
+    from vorotool.engines.tessellation.seeding import seeds_from_points
+    from vorotool.geometry.box import bounds
+    from vorotool.geometry.map_frame import in_cells, map_frame
+    from vorotool.geometry.points.point_set import PointSet
+
+    if not len(value.xy):
+        raise InputError("there are no seeds, so nothing could be labelled: give at least one point")
+    assert o.cell_size is not None
+    frame, grid = map_frame(*bounds(value.xy), o.cell_size, window=o.window, crs=value.crs)
+    o = replace(o, window=(frame.x, frame.y, frame.width, frame.height), size=None, pixel_size=o.pixel_size or AUTO)
+    placed = replace(value, xy=in_cells(value.xy, grid))
+    if isinstance(placed, PointSet):
+        seeds = seeds_from_points(placed, strict=o.strict)
+    else:
+        with run.phase("rasterize"):
+            seeds = _seeds_of_features(o, placed, frame)
+    return o, replace(seeds, grid=grid)
+
+
+def _seeds_of_features(o: TessellationOptions, polygons: PolygonSet, frame: Frame) -> SeedSet:
+    """The cells of each feature are the seeds of its label; its properties are those of its first part."""
+    import numpy as np
+
+    from vorotool.engines.tessellation.frames import require_memory
+    from vorotool.engines.tessellation.rasterized import rasterized
+    from vorotool.engines.tessellation.seeding import seeds_from_raster
+    from vorotool.geometry.points.raster import Raster
+
+    require_memory(frame, o.max_pixels)
+    labels = rasterized(polygons, frame)
+    if not labels.any():
+        raise InputError("no feature has a cell in the frame: use a smaller --cell-size, or another --window")
+    seeds = seeds_from_raster(Raster(labels), mode="labels", max_sites=o.max_sites)
+    assert seeds.site_labels is not None
+    assert polygons.feature is not None
+    features, first = np.unique(polygons.feature, return_index=True)
+    known = first[np.searchsorted(features, seeds.site_labels.astype(np.int64) - 1)].tolist()
+    without = len(features) - len(known)
+    if without:
+        names = [str(int(number) + 1) for number in np.setdiff1d(features, seeds.site_labels.astype(np.int64) - 1)]
+        shown = ", ".join([*names[:MOST_NAMED], *(["…"] if len(names) > MOST_NAMED else [])])
+        text = f"{without} of {len(features)} features have no cell, as they are small, covered or outside: {shown}"
+        warnings.warn(VorotoolWarning(Message(text, Kind.GENERAL)), stacklevel=2)
+    return replace(seeds, properties={name: [column[k] for k in known] for name, column in polygons.properties.items()})

@@ -1,0 +1,114 @@
+"""``--page all``: each page of a stack or an animation is an input of a batch."""
+
+import json
+
+import numpy as np
+import pytest
+import tifffile
+from PIL import Image
+
+RNG = np.random.default_rng(4)
+PAGES = [((RNG.random((20, 30)) < 0.03) * 255).astype(np.uint8) for _ in range(3)]
+
+
+@pytest.fixture
+def stack(tmp_path):
+    tifffile.imwrite(tmp_path / "stack.tif", np.array(PAGES), photometric="minisblack")
+    return tmp_path
+
+
+def test_outputs_are_those_of_each_page(run, stack):
+    done = run("tessellate", "stack.tif", "--page", "all", "--out-dir", "out", "-f", "npy", "--table", "all.csv")
+    assert done.code == 0, done.err
+    assert "3/3 stack.tif, page 2: done" in done.err
+    names = sorted(path.name for path in (stack / "out").glob("*.npy"))
+    assert names == [f"stack-p00{k}.npy" for k in range(3)]
+    for k in range(3):
+        assert run("tessellate", "stack.tif", "--page", k, "-o", "one.npy").code == 0
+        assert (stack / "one.npy").read_bytes() == (stack / f"out/stack-p00{k}.npy").read_bytes()
+    rows = (stack / "all.csv").read_text().splitlines()[1:]
+    assert {row.partition('",')[0] for row in rows} == {f'"stack.tif, page {k}' for k in range(3)}
+
+
+COMMANDS = ["delaunay --seeds pixels", "skeleton-exact", "draw", "alphashape --seeds pixels -r 9"]
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_other_commands(run, stack, command):
+    done = run(*command.split(), "stack.tif", "--page", "all", "--out-dir", "out", "-f", "svg", "-q")
+    assert done.code == 0, done.err
+    assert len(list((stack / "out").glob("stack-p00?.svg"))) == 3
+    assert run(*command.split(), "stack.tif", "--page", "1", "-o", "one.svg", "-q").code == 0
+    assert (stack / "one.svg").read_bytes() == (stack / "out/stack-p001.svg").read_bytes()
+
+
+def test_folders_hold_all_kinds(run, stack):
+    folder = stack / "in"
+    folder.mkdir()
+    (stack / "stack.tif").rename(folder / "stack.tif")
+    images = [Image.fromarray(page) for page in PAGES[:2]]
+    images[0].save(folder / "moving.gif", save_all=True, append_images=images[1:])
+    images[0].save(folder / "still.png")
+    (folder / "dots.csv").write_text("x,y\n2,1\n7,5\n1,6\n")
+    done = run("tessellate", "in", "--page", "all", "--out-dir", "out", "-f", "npy", "-q")
+    assert done.code == 0, done.err
+    names = sorted(path.stem for path in (stack / "out").glob("*.npy"))
+    assert names == ["dots", "moving-p000", "moving-p001", *(f"stack-p00{k}" for k in range(3)), "still-p000"]
+    assert (np.load(stack / "out/moving-p001.npy") == np.load(stack / "out/stack-p001.npy")).all()
+
+
+def test_plans_and_what_was_done_before(run, stack):
+    options = ["tessellate", "stack.tif", "--page", "all", "--out-dir", "out", "-f", "npy"]
+    planned = [json.loads(line) for line in run(*options, "--dry-run").out.splitlines()]
+    assert [each["input"] for each in planned] == [f"stack.tif, page {k}" for k in range(3)]
+    assert run(*options, "-q").code == 0
+    (stack / "out/stack-p001.npy").unlink()
+    done = run(*options, "--resume")
+    assert [line.split(": ")[1] for line in done.err.splitlines()] == ["kept", "done", "kept"]
+    shards = [run(*options, "--dry-run", "--shard", f"{k}/2").out.splitlines() for k in (1, 2)]
+    assert sum(map(len, shards)) == 3
+
+
+def test_processes(run, stack):
+    options = ["tessellate", "stack.tif", "--page", "all", "-f", "npy", "-q", "--out-dir"]
+    assert run(*options, "one").code == 0
+    assert run(*options, "two", "-j", "2").code == 0
+    for path in (stack / "one").glob("*.npy"):
+        assert path.read_bytes() == (stack / "two" / path.name).read_bytes()
+
+
+def test_a_page_that_fails(run, stack):
+    tifffile.imwrite(stack / "bad.tif", np.array([PAGES[0], np.zeros_like(PAGES[0])]), photometric="minisblack")
+    done = run("tessellate", "bad.tif", "--page", "all", "--strict", "--out-dir", "out", "--keep-going")
+    assert done.code == 6
+    assert "error: bad.tif, page 1: " in done.err
+    assert "the image has no foreground" in done.err
+    (stack / "cut.tif").write_bytes((stack / "stack.tif").read_bytes()[:100])
+    done = run("tessellate", "cut.tif", "--page", "all", "--out-dir", "out", "--keep-going")
+    assert (done.code, "error: cut.tif" in done.err) == (6, True)
+
+
+@pytest.mark.parametrize(
+    ("options", "code", "words"),
+    [
+        ("stack.tif --page all -o a.png", 2, "name a folder for all with --out-dir"),
+        ("stack.tif --page all", 2, "name a folder for their outputs with --out-dir"),
+        ("stack.tif --page -1 -o a.png", 2, "'-1': expected the number of a page, from 0, or all"),
+        ("stack.tif --page x -o a.png", 2, "'x': expected the number of a page, from 0, or all"),
+        ("stack.tif -o a.png", 3, "stack.tif has 3 pages: choose one with --page 0 to --page 2, or --page all"),
+        ("- --page all --out-dir out", 2, "- is standard input, which is one input"),
+    ],
+)
+def test_what_is_refused(run, stack, options, code, words):
+    done = run("tessellate", *options.split())
+    assert (done.code, words in done.err) == (code, True), done.err
+
+
+@pytest.mark.slow
+def test_a_cluster(run, stack):
+    pytest.importorskip("distributed")
+    options = ["tessellate", "stack.tif", "--page", "all", "-f", "npy", "-q", "--out-dir"]
+    assert run(*options, "one").code == 0
+    assert run(*options, "two", "--cluster", "local", "-j", "1").code == 0
+    for path in (stack / "one").glob("*.npy"):
+        assert path.read_bytes() == (stack / "two" / path.name).read_bytes()

@@ -1,0 +1,169 @@
+"""``tessellate --cell-size``: points, lines and polygons of a map as images on it, checked with rasterio."""
+
+import json
+
+import numpy as np
+import pytest
+import rasterio
+import rasterio.features
+import shapely
+
+RNG = np.random.default_rng(21)
+XY = np.round(RNG.uniform((2600000, 1199000), (2603000, 1201000), (40, 2)), 1)
+
+
+def read(path):
+    with rasterio.open(path) as file:
+        return file.read(1), file.transform, file.crs, file.nodata
+
+
+def write(path, geometries, crs="EPSG:2056"):
+    features = [
+        {"type": "Feature", "properties": {"name": f"n{k}"}, "geometry": json.loads(shapely.to_geojson(each))}
+        for k, each in enumerate(geometries)
+    ]
+    named = {"crs": {"type": "name", "properties": {"name": crs}}} if crs else {}
+    path.write_text(json.dumps({"type": "FeatureCollection", **named, "features": features}))
+
+
+def centres(transform, shape):
+    a, _, c, _, e, f = tuple(transform)[:6]
+    x, y = np.meshgrid(c + a * (np.arange(shape[1]) + 0.5), f + e * (np.arange(shape[0]) + 0.5))
+    return np.stack([x, y], axis=2)
+
+
+def nearest_misses(labels, transform, sites):
+    """Pixels whose label is farther than the nearest site, by more than sites were moved."""
+    distances = np.linalg.norm(centres(transform, labels.shape)[:, :, None] - sites, axis=3)
+    chosen = np.take_along_axis(distances, labels[:, :, None].astype(int) - 1, axis=2)[:, :, 0]
+    return (chosen > distances.min(axis=2) + 2 * transform.a / 256).sum()
+
+
+@pytest.mark.parametrize("kind", ["csv", "geojson"])
+def test_points(run, tmp_path, kind):
+    if kind == "csv":
+        np.savetxt(tmp_path / "in.csv", XY, delimiter=",", header="x,y", comments="", fmt="%.1f")
+    else:
+        write(tmp_path / "in.geojson", [shapely.Point(xy) for xy in XY])
+    done = run("tessellate", f"in.{kind}", "--cell-size", "25", "-o", "out.tif", "--verify", "-q")
+    assert done.code == 0, done.err
+    labels, transform, crs, nodata = read(tmp_path / "out.tif")
+    assert (transform.a, transform.e, crs, nodata) == (25, -25, "EPSG:2056" if kind == "geojson" else None, None)
+    low, high = XY.min(axis=0), XY.max(axis=0)
+    assert (transform.c, transform.f) == (25 * (low[0] // 25), 25 * -(-high[1] // 25))
+    assert labels.shape == (-(-high[1] // 25) - low[1] // 25, -(-high[0] // 25) - low[0] // 25)
+    assert nearest_misses(labels, transform, XY) == 0
+
+
+def test_a_window_of_the_map(run, tmp_path):
+    write(tmp_path / "in.geojson", [shapely.Point(xy) for xy in XY])
+    window = ["--window", "2600512.5,1199512.5,625,500"]
+    done = run("tessellate", "in.geojson", "--cell-size", "12.5", *window, "-o", "out.tif", "-q")
+    assert done.code == 0, done.err
+    labels, transform, _, _ = read(tmp_path / "out.tif")
+    assert labels.shape == (40, 50)
+    assert (transform.c, transform.f) == (2600512.5, 1200012.5)
+    assert nearest_misses(labels, transform, XY) == 0
+    rows = run("tessellate", "in.geojson", "--cell-size", "12.5", *window, "--what", "table", "-q").rows
+    assert [row["name"] for row in rows] == [f"n{k}" for k in range(40)]
+    assert sum(float(row["area"]) for row in rows) == 625 * 500
+    assert np.allclose([[float(row["x"]), float(row["y"])] for row in rows], XY, atol=12.5 / 256)
+
+
+def test_polygons_are_those_of_rasterio(run, folder_of_data):
+    run("tessellate", "lakes.geojson", "--cell-size", "0.05", "--max-distance", "0", "-o", "out.tif", "-q")
+    labels, transform, _, nodata = read("out.tif")
+    assert nodata == 0
+    features = json.loads((folder_of_data / "lakes.geojson").read_text(encoding="utf-8"))["features"]
+    shapes = [(each["geometry"], k + 1) for k, each in enumerate(features)]
+    expected = rasterio.features.rasterize(shapes, labels.shape, transform=transform, dtype="uint16")
+    assert (labels == expected).all()
+    rows = run("tessellate", "lakes.geojson", "--cell-size", "0.05", "--what", "table", "-q").rows
+    assert [row["name"] for row in rows] == ["Lake Michigan", "Lake Superior", "Lake Huron"]
+    counts = np.bincount(labels.ravel())[1:]
+    assert np.allclose([float(row["object_area"]) for row in rows], counts * 0.05**2)
+
+
+@pytest.fixture
+def folder_of_data(tmp_path):
+    from pathlib import Path
+
+    data = Path(__file__).parents[3] / "data/great-lakes.geojson"
+    (tmp_path / "lakes.geojson").write_bytes(data.read_bytes())
+    return tmp_path
+
+
+def test_lines(run, tmp_path):
+    lines = [shapely.LineString(XY[:3]), shapely.LineString(XY[3:6])]
+    write(tmp_path / "in.geojson", lines)
+    assert run("tessellate", "in.geojson", "--cell-size", "20", "-o", "out.tif", "--what", "labels", "-q").code == 0
+    labels, transform, _, _ = read(tmp_path / "out.tif")
+    distance = np.array([shapely.distance(shapely.points(centres(transform, labels.shape)), line) for line in lines])
+    chosen = np.take_along_axis(distance, labels[None].astype(int) - 1, axis=0)[0]
+    assert (chosen <= distance.min(axis=0) + 20 * np.sqrt(2)).all()
+    assert (labels[distance[0] < 5] == 1).mean() > 0.95
+
+
+def test_allocation_lines_up_with_a_mask(run, folder_of_data):
+    """A GeoTIFF mask, its allocation, and vectors of both are at one place."""
+    assert (
+        run("tessellate", "lakes.geojson", "--cell-size", "0.1", "--max-distance", "0", "-o", "a.tif", "-q").code == 0
+    )
+    assert run("tessellate", "a.tif", "-o", "b.tif", "-q").code == 0
+    a, b = read("a.tif"), read("b.tif")
+    assert a[1:3] == b[1:3]
+    assert (b[0][a[0] > 0] == a[0][a[0] > 0]).all()
+    done = run("skeleton-exact", "a.tif", "--what", "shape", "--prune", "none", "-f", "geojson", "-q")
+    shapes = [shapely.from_geojson(json.dumps(each["geometry"])) for each in json.loads(done.out)["features"]]
+    features = json.loads((folder_of_data / "lakes.geojson").read_text(encoding="utf-8"))["features"]
+    lakes = [shapely.from_geojson(json.dumps(each["geometry"])) for each in features]
+    overlap = shapely.union_all(shapes).intersection(shapely.union_all(lakes)).area
+    assert overlap > 0.93 * shapely.union_all(lakes).area
+
+
+def test_small_features_are_told_of(run, tmp_path):
+    write(tmp_path / "in.geojson", [shapely.box(0, 0, 100, 100), shapely.box(3, 3, 4, 4), shapely.box(30, 30, 50, 50)])
+    done = run("tessellate", "in.geojson", "--cell-size", "10", "-o", "out.tif")
+    assert "warning: 2 of 3 features have no cell, as they are small, covered or outside: 2, 3" in done.err
+    labels, *_ = read(tmp_path / "out.tif")
+    assert (labels == 1).all()
+
+
+@pytest.mark.parametrize(
+    ("options", "code", "words"),
+    [
+        ("--cell-size 0", 2, "--cell-size must be more than 0"),
+        ("--cell-size x", 2, "expected a decimal"),
+        ("--cell-size 10 --size 5x5", 2, "with --cell-size give --window X,Y,W,H in the units of the map"),
+        ("--cell-size 10 --window 0,0,15,20", 2, "no whole number of cells of 10: the nearest W,H is 20,20"),
+        ("--window 0.5,0,15,20", 2, "invalid --window '0.5,0,15,20': expected four integers"),
+        ("--window 0,0,nan,20", 2, "'0,0,nan,20': expected four"),
+        ("--cell-size 0.0001", 5, "use a larger --cell-size, or choose a part with --window"),
+        ("--cell-size 1e-99", 3, "more than 2^44 cells"),
+        ("--cell-size 10 --window 900,900,10,10", 3, "no feature has a cell in the frame"),
+    ],
+)
+def test_what_is_refused(run, tmp_path, options, code, words):
+    write(tmp_path / "in.geojson", [shapely.box(0, 0, 100, 100)])
+    done = run("tessellate", "in.geojson", *options.split(), "-o", "out.tif")
+    assert (done.code, words in done.err) == (code, True), done.err
+    (tmp_path / "mask.pbm").write_text("P1 2 1 0 1")
+    done = run("tessellate", "mask.pbm", "--cell-size", "2", "-o", "out.tif")
+    assert (done.code, "--cell-size is for lists of points" in done.err) == (2, True)
+    assert run("skeleton-exact", "in.geojson", "-o", "s.json", "-q").code == 0
+    done = run("tessellate", "s.json", "--cell-size", "2", "-o", "out.tif")
+    assert (done.code, "is a result of vorotool, of Skeleton" in done.err) == (3, True)
+
+
+def test_batches_and_streams(run, tmp_path, process):
+    (tmp_path / "in").mkdir()
+    write(tmp_path / "in/a.geojson", [shapely.Point(xy) for xy in XY])
+    write(tmp_path / "in/b.geojson", [shapely.box(2600000, 1200000, 2600100, 1200100)])
+    done = run("tessellate", "in", "--cell-size", "50", "--out-dir", "out", "-f", "tiff", "--table", "all.csv", "-q")
+    assert done.code == 0, done.err
+    assert len((tmp_path / "all.csv").read_text().splitlines()) == 42
+    run("tessellate", "in/a.geojson", "--cell-size", "50", "-o", "a.tif", "-q")
+    assert (tmp_path / "a.tif").read_bytes() == (tmp_path / "out/a.tif").read_bytes()
+    with (tmp_path / "in/a.geojson").open() as stdin:
+        started = process("tessellate", "-", "--cell-size", "50", "-f", "tiff", "-q", stdin=stdin)
+        assert started.communicate()[0] == (tmp_path / "a.tif").read_bytes()

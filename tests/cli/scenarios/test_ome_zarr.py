@@ -1,0 +1,71 @@
+"""OME-Zarr in all commands: labels in and out, sizes of pixels, bands, batches."""
+
+import json
+
+import numpy as np
+import pytest
+import tifffile
+
+zarr = pytest.importorskip("zarr")
+
+MASK = np.zeros((60, 70), np.uint8)
+MASK[5:20, 5:30] = MASK[30:50, 40:60] = 255
+
+
+@pytest.fixture
+def store(tmp_path):
+    sizes = {"PhysicalSizeX": 0.325, "PhysicalSizeY": 0.325}
+    tifffile.imwrite(tmp_path / "in.ome.tif", MASK, ome=True, metadata={"axes": "YX", **sizes})
+    return tmp_path
+
+
+@pytest.mark.parametrize("what", ["labels", "distance"])
+def test_stores_have_metadata(run, store, what):
+    assert run("tessellate", "in.ome.tif", "-o", "out.ome.zarr", "--what", what, "-q").code == 0
+    assert run("tessellate", "in.ome.tif", "-o", "out.npy", "--what", what, "-q").code == 0
+    group = zarr.open_group(store / "out.ome.zarr", mode="r")
+    np.testing.assert_array_equal(group["0"][...], np.load(store / "out.npy"))
+    ome = group.attrs["ome"]
+    assert ("image-label" in ome, ome["version"]) == (what == "labels", "0.5")
+    scale = ome["multiscales"][0]
+    assert scale["axes"] == [{"name": name, "type": "space", "unit": "micrometer"} for name in "yx"]
+    assert scale["datasets"] == [
+        {"path": "0", "coordinateTransformations": [{"type": "scale", "scale": [0.325, 0.325]}]}
+    ]
+    assert run("tessellate", "in.ome.tif", "-o", "out.ome.zarr", "--what", what, "-q").code == 0  # replaced
+    assert run("tessellate", "in.ome.tif", "-o", "out.ome.zarr", "--what", what, "--no-clobber").code == 4
+
+
+def test_sizes_go_all_the_way(run, store):
+    table = ["--what", "table", "-q", "--pixel-size", "auto"]
+    rows = run("tessellate", "in.ome.tif", *table).rows
+    run("tessellate", "in.ome.tif", "-o", "a.ome.zarr", "--max-distance", "0", "-q")
+    assert run("tessellate", "a.ome.zarr", *table).rows == rows
+    assert run("tessellate", "a.ome.zarr", "-o", "b.ome.tif", "-q").code == 0
+    with tifffile.TiffFile(store / "b.ome.tif") as file:
+        assert 'PhysicalSizeX="0.325"' in file.ome_metadata
+    done = run("skeleton-exact", "a.ome.zarr", "--what", "table", "-f", "csv")
+    assert "a.ome.zarr carries a pixel size of 0.325 µm" in done.err
+
+
+def test_plain_stores_are_as_they_were(run, store):
+    run("tessellate", "in.ome.tif", "-o", "a.zarr", "-q")
+    assert zarr.open(store / "a.zarr", mode="r").shape == MASK.shape
+    assert not json.loads((store / "a.zarr/zarr.json").read_text()).get("attributes")
+
+
+def test_bands_and_batches(run, store, monkeypatch):
+    import vorotool.jobs.streamed_tessellation as streamed
+
+    run("tessellate", "in.ome.tif", "-o", "a.ome.zarr", "--max-distance", "0", "-q")
+    run("tessellate", "a.ome.zarr", "-o", "held.tif", "-q")
+    monkeypatch.setattr(streamed, "LARGE", 100)
+    run("tessellate", "a.ome.zarr", "-o", "rows.tif", "-q")
+    assert (store / "held.tif").read_bytes() == (store / "rows.tif").read_bytes()
+    (store / "in").mkdir()
+    (store / "a.ome.zarr").rename(store / "in/a.ome.zarr")
+    (store / "in.ome.tif").rename(store / "in/b.ome.tif")
+    done = run("tessellate", "in", "--out-dir", "out", "-f", "zarr", "-q")
+    assert done.code == 0, done.err
+    one, other = (zarr.open_group(store / f"out/{name}.ome.zarr", mode="r")["0"][...] for name in "ab")
+    np.testing.assert_array_equal(one, other)
