@@ -6,17 +6,21 @@
 import sys
 import tempfile
 import warnings
+from fractions import Fraction
 from pathlib import Path
 
 import geopandas
 import numpy as np
 import pytest
 import shapely
+from PIL import Image
 
 import vorotool
 from vorotool.errors import UsageError
 from vorotool.geometry.crs import crs_name, member_of_text
+from vorotool.geometry.length_units import metres
 from vorotool.geometry.number_text import NumberText
+from vorotool.geometry.pixel_grid import PixelGrid, map_grid
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 from vorotool.products.formats import FORMATS
 from vorotool.products.inputs import INPUTS, NAMES_WITH
@@ -28,6 +32,10 @@ ATTRIBUTES = {"name": ["a", "b"], "code": ["007", "8"], "count": [3, -4], "depth
 SYSTEM = member_of_text("EPSG:2056")
 GEOGRAPHIC = ("kml", "gpx")
 """Formats of longitudes and latitudes alone, which are not written."""
+
+
+SIZED = PixelGrid(Fraction(1, 2), Fraction(1, 2), "µm")
+PLACED = map_grid((30.0, 0.0, 2600000.0, 0.0, -30.0, 1200000.0), unit="m", crs=SYSTEM)
 
 
 def shapes():
@@ -109,28 +117,28 @@ def carried(read):
 
 def image_row(fmt, folder):
     """What a format of images carries."""
-    grid = folder / "grid.tif"
-    import tifffile
-
-    labels = np.array([[1, 0, 2], [3, 2, 2]], np.uint8)
-    tifffile.imwrite(grid, labels, resolution=(20000, 20000), resolutionunit=3)
-    image = vorotool.tessellate(vorotool.read(grid))
-    path = folder / f"b{FORMATS[fmt].endings[0] if fmt in FORMATS else '.' + fmt}"
+    labels = np.array([[1, 1, 2], [3, 2, 2]], np.uint8)
+    path = folder / f"b{'.ome' if fmt == 'zarr' else ''}{FORMATS[fmt].endings[0] if fmt in FORMATS else '.' + fmt}"
     try:
-        vorotool.write(image, path, fmt=fmt, what="labels" if fmt != "svg" else None)
+        vorotool.write(vorotool.LabelImage(labels, grid=SIZED), path, fmt=fmt, what="labels")
         is_written = True
     except UsageError:
         is_written = False
     if fmt not in INPUTS or "image" not in INPUTS[fmt].readers:
         return ["no", "yes" if is_written else "no", "–", "–", "no", "–"]
     if not is_written:
-        from PIL import Image
-
         Image.fromarray(labels * 60).save(path, **({"format": "PPM"} if fmt == "pnm" else {}))
-    read = vorotool.read(path, input_format=fmt)
-    is_same = is_written and np.array_equal(read.values, image.labels)
-    has_size = read.grid is not None and read.grid.is_size
-    return ["yes", "yes" if is_written else "no", "–", "–", "yes" if has_size else "no", "yes" if is_same else "–"]
+    read = vorotool.read(path, input_format=None if fmt == "zarr" else fmt)
+    is_same = is_written and np.array_equal(read.values, labels)
+    has_size = read.grid is not None and read.grid.width * (metres(read.grid.unit) or 0) == Fraction(1, 2 * 10**6)
+    system = "no"
+    if is_written and fmt != "zarr":
+        vorotool.write(vorotool.LabelImage(labels, grid=PLACED), path, fmt=fmt, what="labels")
+        grid = vorotool.read(path, input_format=fmt).grid
+        system = "yes" if grid is not None and grid.transform == PLACED.transform else "no"
+    return [
+        "yes", "yes" if is_written else "no", system, "–", "yes" if has_size else "no", "yes" if is_same else "–",
+    ]  # fmt: skip
 
 
 def table(folder):
@@ -145,7 +153,7 @@ def table(folder):
             "# What formats carry",
             "",
             "Made by `python tests/formats/test_abilities.py`, which writes and reads each format; a test keeps it so.",
-            "A round trip is one to the last bit of each coordinate or pixel. Attributes are texts, codes such as `007`,",
+            "A round trip is one to the last bit of each coordinate or pixel. Attributes are texts, codes (`007`),",
             "integers and numbers; KML and GPX have their own. Maps in TIFF: [units](../howto/units.md).",
             "",
             "| format | read | written | coordinate reference system | attributes | pixel size | round trip |",

@@ -33,7 +33,7 @@ LINES = {
     "vorotool tessellate --clu": "--cluster",
     "vorotool skeleton-exact --prune = angle = 30 --sid": "--side",
     "vorotool skeleton-exact --prune s": "scale=",
-    "vorotool skeleton-exact ": "more a.json b.PNG",
+    "vorotool skeleton-exact ": "more dots.csv a.json b.PNG",
     "vorotool alphashape ": "more dots.csv a.json b.PNG",
     "vorotool draw more/": "more/x y.png",
     "vorotool delaunay --out-dir ": "more",

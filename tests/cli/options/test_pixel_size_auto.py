@@ -61,7 +61,7 @@ def test_every_command(run, tmp_path, command):
     write(tmp_path / "in.tif", "ome")
     auto = run(*command.split(), "in.tif", "-f", "csv", "-q", "--pixel-size", "auto")
     assert auto.code == 0
-    assert auto.out == run(*command.split(), "in.tif", "-f", "csv", "-q", "--pixel-size", "0.325um").out
+    assert auto.out == run(*command.split(), "in.tif", "-f", "csv", "-q", "--pixel-size", "0.325µm").out
 
 
 def test_areas_of_objects(run, tmp_path):
@@ -139,7 +139,7 @@ def test_streams(tmp_path):
     data = write(tmp_path / "in.tif", "imagej", unit="um").read_bytes()
     command = [sys.executable, "-m", "vorotool", "tessellate", "-", "--what", "table", "--pixel-size"]
     auto, typed = (subprocess.run([*command, size], input=data, capture_output=True, check=True).stdout
-                   for size in ("auto", "0.325um"))  # fmt: skip
+                   for size in ("auto", "0.325µm"))  # fmt: skip
     assert auto == typed
 
 

@@ -46,7 +46,7 @@ def test_detection(name, content, expected):
     assert point_format(Source(name, content if isinstance(content, bytes) else content.encode())) == expected
 
 
-@pytest.mark.parametrize("suffix", [".gml", ".tab", ".dxf"])
+@pytest.mark.parametrize("suffix", [".gml", ".tab", ".mif"])
 def test_files_to_convert(suffix):
     message = error_of(b"", f"data/towns{suffix}")
     assert message == (
