@@ -42,8 +42,8 @@ def read(
     geometry : {"points", "polygons"}, optional
         What must be in a file that is no image; by default its content tells.
     input_format : str, optional
-        One of csv, node, npy, geojson, wkt, json, poly, png, tiff, pnm, zarr, jpeg, bmp, gif, webp and avif (or another
-        usual extension of one), where extension and content leave it unclear.
+        One of csv, node, npy, npz, geojson, jsonl, wkt, json, poly, png, tiff, pnm, zarr, jpeg, bmp, gif, webp and avif
+        (or another usual extension of one), where extension and content leave it unclear.
     columns : str, optional
         ``X,Y[,LABEL]`` of a point list, by name or number from 1.
     page : int, optional
