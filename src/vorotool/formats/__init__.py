@@ -46,9 +46,9 @@ def read(
     geometry : {"points", "polygons"}, optional
         What must be in a file that is no image; by default its content tells.
     input_format : str, optional
-        One of csv, csv-wkt, node, npy, npz, geojson, wkt, wkb, json, poly, gpkg, fgb, shp, kml, gpx, parquet, png,
-        tiff, pnm, zarr, jpeg, bmp, gif, webp and avif (or another usual extension of one), where extension and content
-        leave it unclear.
+        One of csv, csv-wkt, node, npy, npz, geojson, jsonl, wkt, wkb, json, poly, gpkg, fgb, shp, kml, gpx, parquet,
+        svg, dxf, png, tiff, pnm, zarr, jpeg, bmp, gif, webp and avif (or another usual extension of one), where
+        extension and content leave it unclear.
     columns : str, optional
         ``X,Y[,LABEL]`` of a point list, by name or number from 1.
     page : int, optional

@@ -17,6 +17,7 @@ from vorotool.formats.io.atomic_output import open_output
 from vorotool.formats.opening import Opened, opened
 from vorotool.geometry.box import bounds
 from vorotool.geometry.crs import crs_name
+from vorotool.geometry.number_text import NumberText
 from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.raster import Raster
@@ -34,7 +35,7 @@ MOST_PIXELS_READ = 2**28
 Description = dict[str, Any]
 """What there is to tell, by names, in the order in which it is told; None where a file does not say."""
 
-_TYPES = {bool: "truth", int: "integer", float: "number", str: "text"}
+_TYPES = {bool: "truth", int: "integer", float: "number", str: "text", NumberText: "number"}
 
 
 def describe_inputs(options: ReadingOptions) -> None:

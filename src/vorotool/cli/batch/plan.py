@@ -220,9 +220,9 @@ def _tasks(recipe: Recipe[Options], o: Options, targets: list[Target], note: Cal
 
 
 def _inputs(recipe: Recipe[Options], o: Options, note: Callable[[str], None]) -> list[Input]:
-    from vorotool.products.inputs import DRAWN_NAMES, NAMES_WITH
+    from vorotool.products.inputs import NAMES_WITH, TABLE_NAMES
 
-    known = DRAWN_NAMES if recipe.geometry is None else NAMES_WITH[recipe.geometry]
+    known = NAMES_WITH[recipe.geometry or "polygons"].keys() - (TABLE_NAMES if recipe.geometry != "points" else set())
     names = [*o.inputs, *(read_names(o.files_from, null=o.null) if o.files_from is not None else ())]
     if not names:
         advice = "name files, folders, or a list of them with --files-from"

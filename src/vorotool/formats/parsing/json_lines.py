@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import re
 from collections.abc import Iterator
 from typing import Any
@@ -37,7 +38,7 @@ def is_json_lines(data: bytes) -> bool:
     if data.startswith(RECORD_MARK):
         return True
     lines = [line for line in data[:_LOOKED_AT].split(b"\n", 2)[:2] if line.startswith(b"{")]
-    if len(lines) == 1 and len(data.strip()) == len(lines[0].strip()) < _LONGEST_ROW:
+    if len(lines) == 1 and len(data) < _LONGEST_ROW and len(data.strip()) == len(lines[0].strip()):
         return not _NO_ROW.search(lines[0])
     try:
         return len(lines) == 2 and all(isinstance(orjson.loads(line), dict) for line in lines)
@@ -84,12 +85,11 @@ def parse_lines(source: Source) -> Any:
 
 def _records(data: bytes) -> Iterator[tuple[int, bytes]]:
     """Give the texts that are not blank, each with the number of the line that it begins on."""
-    mark = RECORD_MARK if data.startswith(RECORD_MARK) else b"\n"
     line = 1
-    for text in data.split(mark):
-        if not text.isspace() and text:
-            yield line, text
-        line += text.count(b"\n") + (mark == b"\n")
+    for text in data.split(RECORD_MARK) if data.startswith(RECORD_MARK) else io.BytesIO(data):
+        if text and not text.isspace():
+            yield line, text.rstrip()
+        line += text.count(b"\n")
 
 
 def _feature(name: str, line: int, row: dict[str, Any]) -> dict[str, Any]:
