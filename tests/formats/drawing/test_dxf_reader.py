@@ -151,6 +151,14 @@ def test_lines_and_arcs_are_joined(drawing):
     assert len(np.unique(shapes.ring(0), axis=0)) == len(shapes.ring(0))
 
 
+def test_places_are_no_lines(drawing):
+    space = drawing.modelspace()
+    for a, b in (((0, 0), (4, 0)), ((4, 0), (4, 0)), ((4, 0), (4, 3)), ((4, 3), (0, 0))):
+        space.add_line(a, b)
+    shapes, _ = read(drawing)
+    assert shapes.xy.tolist() == [[0, 0], [4, 0], [4, 3]]
+
+
 def test_layers_are_not_joined(drawing):
     space = drawing.modelspace()
     for k, (a, b) in enumerate([((0, 0), (4, 0)), ((4, 0), (4, 3)), ((4, 3), (0, 0))]):

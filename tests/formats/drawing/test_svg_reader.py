@@ -281,6 +281,23 @@ def test_styles_are_inherited_and_groups_overruled():
     assert shapes.is_line.tolist() == [True, False]
 
 
+def test_the_outermost_element_has_a_style_too():
+    icon = '<path d="M0 0l4 4"/><circle r="3"/><path fill="red" d="M0 0h4v3z"/>'
+    for own in ('fill="none" stroke="currentColor"', 'style="fill:none;stroke:red"', 'class="icon"'):
+        shapes, _ = svg(f"<style>.icon{{fill:none;stroke:red}}</style>{icon}", own)
+        assert shapes.is_line.tolist() == [True, False, False]
+    assert len(svg(icon, 'display="none"')[0]) == 0
+    assert svg('<path d="M0 0h4v3z"/>', 'transform="scale(2)"')[0].xy.max() == 8
+    with pytest.raises(InputError, match="line 1, svg is clipped"):
+        svg(icon, 'clip-path="url(#a)"')
+
+
+def test_what_fills_nothing_is_a_line_where_it_has_a_stroke():
+    shapes, _ = svg('<path d="M0 0L4 4M9 9h3v3" stroke="red"/><path d="M0 0L4 4"/><path d="M1 1z" stroke="red"/>')
+    assert shapes.is_line.tolist() == [False, True]
+    assert shapes.feature.tolist() == [0, 0]
+
+
 def test_closed_lines_are_polygons():
     shapes, notes = svg('<g fill="none" stroke="red"><path d="M0 0h4v3z"/><path d="M0 0h4v3L0 0"/><circle r="3"/></g>')
     assert not shapes.is_line.any()

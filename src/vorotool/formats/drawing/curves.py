@@ -199,6 +199,10 @@ class Curve:
             kept[np.flatnonzero(kept)[-1]] = False
         return np.asarray(points[kept])
 
+    def has_extent(self) -> bool:
+        """Whether it is more than one place."""
+        return any(place != self.start for piece in self.pieces for place in piece.reach())
+
     def is_finite(self) -> bool:
         """Whether all its places are."""
         return all(isfinite(x) and isfinite(y) for piece in self.pieces for x, y in piece.reach()) and all(

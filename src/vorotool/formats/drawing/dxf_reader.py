@@ -192,7 +192,8 @@ class _Blocks:
                 self.left_out[kind] += 1
             else:
                 found = self.curves.setdefault(own, [])
-                found += [curve.mapped(by) if block is not None else curve for curve in curves_of(entity, flatten)]
+                curves = [curve for curve in curves_of(entity, flatten) if curve.has_extent()]
+                found += curves if block is None else [curve.mapped(by) for curve in curves]
 
     def _is_shown(self, layer: str) -> bool:
         if layer not in self._shown:

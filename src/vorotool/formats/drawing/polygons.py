@@ -33,12 +33,15 @@ class Shape(NamedTuple):
         Its name in the drawing, if it has one.
     place : str
         Words for its place.
+    is_stroked : bool
+        Whether lines are drawn along what fills nothing, as one or two places do not.
     """
 
     curves: Sequence[Curve]
     rule: str | None
     id: Any
     place: str
+    is_stroked: bool = True
 
 
 def shapes_to_polygons(
@@ -126,12 +129,18 @@ class _Rings:
             self.vertices += len(flat[-1])
             self.options.check_vertices(self.name, self.vertices)
         self._begin()
+        if shape.rule == NESTED:
+            for polygon in nested_polygons([_open_end(ring) for ring in flat]):
+                self._polygon(index, polygon)
+                self._begin()
+            return
         if shape.rule is not None:
             rings = [_open_end(ring) for ring in flat]
-            for polygon in nested_polygons(rings) if shape.rule == NESTED else filled_polygons(rings, shape.rule):
+            areas = [ring for ring in rings if len(ring) > 2]
+            for polygon in filled_polygons(areas, shape.rule) if areas else ():
                 self._polygon(index, polygon)
-                if shape.rule == NESTED:
-                    self._begin()
+            for ring in (ring for ring in rings if len(ring) == 2 and shape.is_stroked):
+                self._take(index, ring, LINE)
             return
         for curve, points in zip(shape.curves, flat, strict=True):
             ring = _open_end(points)

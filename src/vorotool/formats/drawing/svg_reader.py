@@ -59,7 +59,7 @@ def read_svg(source: Source, options: ReadOptions) -> PolygonSet:
     document = Document.parsed(source.name, _unpacked(source))
     page = _page(document)
     reader = _Reader(document)
-    reader.walk_in(document.root, _State(page.map, Style(), page.viewport, None))
+    reader.walk_root(_State(page.map, Style(), page.viewport, None))
     if document.hidden:
         options.note(f"{source.name}: {document.hidden} elements that are not displayed are left out")
     if reader.unpainted:
@@ -145,6 +145,18 @@ class _Reader:
     shapes: list[Shape] = field(default_factory=list)
     unpainted: int = 0
 
+    def walk_root(self, state: _State) -> None:
+        """Walk through all of it; its outermost element has its place already."""
+        document, root = self.document, self.document.root
+        own = document.styles.of_element(root)
+        style = state.style.inherited_by(own)
+        document.check_own(root, own, style)
+        by = state.map.after(parsed_transform(own.get("transform", ""), document.place(root)))
+        if own.get("display", "").lower() == "none":
+            document.hidden += 1
+        else:
+            self.walk_in(root, state._replace(map=by, style=style))
+
     def walk_in(self, group: Element, state: _State) -> None:
         for child in self.document.shown(group):
             self.walk(child, state)
@@ -222,4 +234,4 @@ class _Reader:
             return
         identity = state.used_as or element.attributes.get("id")
         rule = style.rule if style.is_filled and not is_line else None
-        self.shapes.append(Shape(mapped, rule, identity, place))
+        self.shapes.append(Shape(mapped, rule, identity, place, style.is_stroked))
