@@ -15,6 +15,7 @@ from vorotool.engines.tessellation.raster_objects import default_objects, foregr
 from vorotool.errors import BatchError, InputError, UsageError, VorotoolError
 from vorotool.formats.io.atomic_output import open_output
 from vorotool.formats.opening import Opened, opened
+from vorotool.formats.text.tables import json_text
 from vorotool.geometry.box import bounds
 from vorotool.geometry.crs import crs_name
 from vorotool.geometry.number_text import NumberText
@@ -261,10 +262,15 @@ def _type_of(values: Collection[Any]) -> str:
     """What the values of a column are that are there."""
     if isinstance(values, np.ndarray):
         values = values.tolist()
-    names = {_TYPES.get(type(value), "other") for value in values if value is not None}
+    names = {_TYPES.get(type(value)) or _type_in_json(value) for value in values if value is not None}
     if names == {"integer", "number"}:
         return "number"
     return names.pop() if len(names) == 1 else "mixed" if names else "empty"
+
+
+def _type_in_json(value: Any) -> str:
+    """What a value is that is of none of the plain types: numbers in text, days, arrays."""
+    return _TYPES.get(type(json.loads(json_text(value))), "other")
 
 
 def as_json(told: Description) -> bytes:

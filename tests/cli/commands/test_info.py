@@ -258,3 +258,20 @@ def test_what_is_wrong(run, folder, arguments, code, words):
     done = run("info", *arguments.split())
     assert (done.code, done.out) == (code, ""), done.err
     assert words in done.err
+
+
+def test_types_are_those_of_values_in_json():
+    """Whatever readers keep columns as: numbers of numpy, text of a type of its own, arrays."""
+
+    class Code(str):
+        __slots__ = ()
+
+    columns = {
+        "whole": [np.int32(3), None],
+        "broken": [np.float64(0.5), 2],
+        "text": [Code("007"), "8"],
+        "array": np.array([1.5, 2]),
+        "lists": [[1], {"a": 1}],
+    }
+    found = description._column_types(columns)
+    assert found == {"whole": "integer", "broken": "number", "text": "text", "array": "number", "lists": "other"}
