@@ -184,7 +184,10 @@ def test_pictures(run, folder):
         ),
         (["--what", "offset", "-d", "-1e71"], "use at most 1e+70"),
         (["--side", "both", "--frame", "0,0,1e71,1"], "use numbers of at most 1e+70"),
-        (["--what", "offset", "-d", "1", "--flatten", "1", "-f", "csv"], "--flatten is for what has no curves"),
+        (
+            ["--what", "offset", "-d", "1", "--flatten", "1", "-f", "csv"],
+            "--flatten is for drawings that are read, and for what has no curves",
+        ),
     ],
 )
 def test_wrong_options(run, folder, options, words):
