@@ -97,16 +97,18 @@ class Bezier(NamedTuple):
         A chord over 1/n of the parameter is off by max |B''| / (8 n^2) at most, and B'' is bounded by the second
         differences of the control points.
         """
-        control = np.array([start, *self.control])
-        degree = len(self.control)
-        bend = np.diff(control, n=2, axis=0)
-        most = float(hypotenuse(*bend.T).max()) * degree * (degree - 1)
+        control, degree = [start, *self.control], len(self.control)
+        bend = 0.0
+        for (a, b), (c, d), (e, f) in zip(control[:-2], control[1:-1], control[2:], strict=True):
+            x, y = a - 2 * c + e, b - 2 * d + f
+            bend = max(bend, x * x + y * y)
+        most = sqrt(bend) * degree * (degree - 1)
         pieces = min(max(ceil(sqrt(min(most / (8 * tolerance), 1e18))), 1), MOST_PIECES)
         t = (np.arange(1, pieces + 1) / pieces)[:, None]
-        level = [np.broadcast_to(point, (pieces, 2)) for point in control]
+        level = [np.array(point) for point in control]
         while len(level) > 1:  # de Casteljau
             level = [p + t * (q - p) for p, q in itertools.pairwise(level)]
-        points = np.array(level[0])
+        points = level[0]
         points[-1] = self.end
         return points
 

@@ -56,6 +56,8 @@ def filled_polygons(rings: Sequence[Floats], rule: str) -> list[list[Floats]]:
     scaled = [np.ldexp(ring - middle, -exponent) for ring in flat]
     shapes = np.array([shapely.Polygon(ring) for ring in scaled], dtype=object)
     if shapely.is_valid(shapes).all() and not _cross(shapes):
+        if len(flat) == 1:
+            return [*alone, [flat[0]]]
         return alone + _nested(flat, shapes, rule)
     return alone + [[np.ldexp(ring, exponent) + middle for ring in polygon] for polygon in _of_faces(scaled, rule)]
 
