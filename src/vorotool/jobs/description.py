@@ -18,7 +18,6 @@ from vorotool.formats.opening import Opened, opened
 from vorotool.formats.text.tables import json_text
 from vorotool.geometry.box import bounds
 from vorotool.geometry.crs import crs_name
-from vorotool.geometry.number_text import NumberText
 from vorotool.geometry.pixel_grid import PixelGrid
 from vorotool.geometry.points.point_set import PointSet
 from vorotool.geometry.points.raster import Raster
@@ -36,7 +35,7 @@ MOST_PIXELS_READ = 2**28
 Description = dict[str, Any]
 """What there is to tell, by names, in the order in which it is told; None where a file does not say."""
 
-_TYPES = {bool: "truth", int: "integer", float: "number", str: "text", NumberText: "number"}
+_TYPES = {bool: "truth", int: "integer", float: "number", str: "text"}
 
 
 def describe_inputs(options: ReadingOptions) -> None:

@@ -119,7 +119,7 @@ NAMES_WITH = {
     None: names_of("points", "polygons", "image"),
 }
 """Formats of inputs that hold an image or such geometry."""
-TABLE_NAMES = frozenset({"csv", "tsv", "txt", "npz"})
+TABLE_NAMES = frozenset({"csv", "tsv", "txt", "npz", "jsonl", "ndjson"})
 """Formats of which most files are tables: in a folder of polygons these are left alone."""
 DRAWN_NAMES = NAMES_WITH["polygons"]
 """Formats of what is drawn again: label images, skeletons, offset curves, polygons and lines."""

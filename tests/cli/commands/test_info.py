@@ -35,7 +35,7 @@ def test_points(info, tmp_path):
     (told,) = info("a.csv")
     assert (told["format"], told["kind"], told["points"], told["bounds"]) == ("csv", "points", 2, [-3, 40, 7.5, 48.25])
     assert (told["crs"], told["y"]) == ("OGC:CRS84", "up")
-    assert told["columns"] == {"name": "text", "n": "text"}
+    assert told["columns"] == {"name": "text", "n": "integer"}
     assert told["notes"] == [
         "a.csv: columns lon, lat are read as x, y",
         "a.csv: longitude and latitude are treated as planar, lengths are in degrees",

@@ -149,8 +149,8 @@ def test_the_inside_of_lines_is_missed_once_and_where_it_is_asked_for(run, folde
 
 
 def test_what_is_no_text_is_called_so(run, folder):
-    (folder / "a.npz").write_bytes(b"PK\0\1" * 20)
-    assert "a.npz is binary, not points or polygons" in run("skeleton-exact", "a.npz").err
+    (folder / "a.wkt").write_bytes(b"PK\0\1" * 20)
+    assert "a.wkt is binary, not points or polygons" in run("skeleton-exact", "a.wkt").err
 
 
 def test_too_many_vertices(run):

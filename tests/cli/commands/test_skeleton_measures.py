@@ -186,7 +186,7 @@ def test_pictures(run, folder):
         (["--side", "both", "--frame", "0,0,1e71,1"], "use numbers of at most 1e+70"),
         (
             ["--what", "offset", "-d", "1", "--flatten", "1", "-f", "csv"],
-            "--flatten is for drawings that are read, and for what has no curves",
+            "--flatten is for drawings that are read",
         ),
     ],
 )

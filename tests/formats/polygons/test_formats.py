@@ -87,7 +87,7 @@ def test_points_and_polygons_in_one_file(tmp_path, geometries, message):
 @pytest.mark.parametrize(
     ("data", "name", "message"),
     [
-        (b"", "lakes.shp", "lakes.shp is a part of a Shapefile, whose .shx and .dbf are not beside it: copy all of"),
+        (b"", "lakes.shp", "lakes.shp is no Shapefile that can be read: it begins as something else"),
         (b"", "lakes.gpkg", "lakes.gpkg is no GeoPackage that can be read: it begins as something else"),
         (b"", "part.gml", "part.gml: .gml files are not read; convert it: ogr2ogr -f GeoJSON part.geojson part.gml"),
         (b"", "part.dxf", "part.dxf is empty: polygons, lines or an image were expected; check what was to write it"),
