@@ -62,7 +62,7 @@ import pytest
         ),
         (
             ["tessellate", "dots.csv", "-o", "a.png", "--input-format", "xyz"],
-            ["invalid --input-format 'xyz': expected one of csv, tsv, txt, node, npz, geojson, wkt, json, jsonl"],
+            ["invalid --input-format 'xyz': expected one of csv, tsv, txt, node, npz, csv-wkt, geojson"],
         ),
         (
             ["draw", "mask.pbm", "-o", "a.png", "--input-format", "xyz"],

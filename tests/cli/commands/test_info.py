@@ -38,7 +38,8 @@ def test_points(info, tmp_path):
     assert told["columns"] == {"name": "text", "n": "integer"}
     assert told["notes"] == [
         "a.csv: columns lon, lat are read as x, y",
-        "a.csv: longitude and latitude are treated as planar, lengths are in degrees",
+        "a.csv: longitude and latitude are treated as planar, lengths are in degrees; --crs EPSG:32631 works in "
+        "metres (UTM)",
     ]
 
 
