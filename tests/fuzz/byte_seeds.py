@@ -6,12 +6,14 @@ import gzip
 import io
 import itertools
 import tempfile
+import zipfile
 import zlib
 from dataclasses import dataclass
 from pathlib import Path
 
 import ezdxf
 import numpy as np
+import shapely
 import tifffile
 from PIL import Image, features
 
@@ -43,11 +45,12 @@ def seeds() -> list[Bundle]:
             *_pictures(),
             *_arrays(),
             *_maps(),
+            *_layers(),
             *_texts(),
             *_drawings(),
             *_results(),
         )
-    ] + _stores()
+    ] + [*_stores(), *_shapefiles()]
 
 
 def _saved(image: Image.Image, fmt: str, **options: object) -> bytes:
@@ -171,6 +174,46 @@ def _maps() -> list[tuple[str, str, bytes]]:
     return [("geojson", "a.geojson", json.dumps(value).encode()) for value in values] + [
         ("wkt", "a.wkt", text.encode()) for text in texts
     ]
+
+
+def _layer(folder: Path, name: str) -> Path:
+    """A file of polygons with attributes, as its extension says."""
+    shells = [[ring, SHAPES[1:2] if ring is SHAPES[0] else []] for ring in (SHAPES[0], SHAPES[2])]
+    crs = {"type": "name", "properties": {"name": "EPSG:3057"}}
+    rings = [ring for shell, holes in shells for ring in (shell, *holes)]
+    shapes = vorotool.PolygonSet(
+        np.concatenate([np.array(ring) for ring in rings]),
+        np.cumsum([0, *map(len, rings)]),
+        [0, 1, 0],
+        [0, 0, 1],
+        properties={"name": ["a", "b"], "n": [1, None], "r": [0.5, 2.0]},
+        y_up=True,
+        crs=crs,
+    )
+    vorotool.write(shapes, folder / name)
+    return folder / name
+
+
+def _layers() -> list[tuple[str, str, bytes]]:
+    wkb = shapely.to_wkb(shapely.polygons(SHAPES[0], SHAPES[1:2]), hex=True)
+    kml = '<kml xmlns="http://www.opengis.net/kml/2.2"><Placemark><Point><coordinates>8,47</coordinates></Point></Placemark>'
+    gpx = '<gpx version="1.1" xmlns="http://www.topografix.com/GPX/1/1"><wpt lat="47" lon="8"/></gpx>'
+    rows = f'id,geometry\n7,"{shapely.from_wkb(wkb).wkt}"\n8,{wkb}\n9,SRID=3057;POINT (1 2)\n'
+    with tempfile.TemporaryDirectory() as folder:
+        files = [(fmt, f"a.{fmt}", _layer(Path(folder), f"a.{fmt}").read_bytes()) for fmt in ("gpkg", "fgb", "parquet")]
+    texts = [("kml", "a.kml", f"{kml}</kml>"), ("gpx", "a.gpx", gpx), ("csv", "a.csv", rows), ("wkb", "a.wkb", wkb)]
+    return [*files, *((kind, name, text.encode()) for kind, name, text in texts)]
+
+
+def _shapefiles() -> list[Bundle]:
+    with tempfile.TemporaryDirectory() as folder:
+        path = _layer(Path(folder), "a.shp")
+        files = {part.name: part.read_bytes() for part in sorted(path.parent.iterdir())}
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, data in files.items():
+            archive.writestr(name, data)
+    return [Bundle("shp", "a.shp", files), Bundle("shp", "a.zip", {"a.zip": out.getvalue()})]
 
 
 def _texts() -> list[tuple[str, str, bytes]]:

@@ -71,10 +71,9 @@ def features_of(source: Source) -> Features:
     if not _BEGINNINGS[source.format].match(source.data):
         raise InputError(f"{source.name} is no {title} that can be read: it begins as something else")
     pyogrio = needed("pyogrio", "gis", f"{title} files")
-    data = _readable(source)
     try:
         with decoding(source.name, title):
-            return interruptible(lambda: _read(pyogrio, data, source))
+            return interruptible(lambda: _read(pyogrio, _readable(source), source))
     except InputError as error:
         if error.__cause__ is None:
             raise
