@@ -318,6 +318,18 @@ def test_ids_and_uses():
     assert shapely.bounds(to_shapely(shapes)[4]).tolist() == pytest.approx([10, 0, 30, 20])
 
 
+def test_layers_of_inkscape():
+    name = 'xmlns:i="http://www.inkscape.org/namespaces/inkscape"'
+    box = '<path d="M0 0h4v3z"/>'
+    layers = (
+        f'<g i:groupmode="layer" i:label="Cut out">{box}<g>{box}</g></g><g i:groupmode="layer" id="b">{box}</g>{box}'
+    )
+    shapes, _ = svg(layers, name)
+    assert shapes.properties == {"layer": ["Cut out", "Cut out", "b", None]}
+    assert svg(layers, name, properties=False)[0].properties == {}
+    assert svg(box)[0].properties == {}
+
+
 def test_definitions_are_not_drawn():
     first = '<defs><rect width="1" height="1"/></defs><clipPath><path d="M0 0h1v1z"/></clipPath>'
     others = '<marker><text>a</text></marker><title>a</title><metadata><rdf xmlns="x"/></metadata>'

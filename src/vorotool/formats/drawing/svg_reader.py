@@ -28,6 +28,7 @@ from vorotool.formats.io.sources import Source
 from vorotool.formats.parsing.reader_options import ReadOptions
 from vorotool.geometry.polygons.polygon_set import PolygonSet
 
+_INKSCAPE = "http://www.inkscape.org/namespaces/inkscape}"
 GZIP_MAGIC = b"\x1f\x8b"
 MOST_BYTES = 2**27
 """Of a drawing that is unpacked."""
@@ -36,9 +37,9 @@ MOST_BYTES = 2**27
 def read_svg(source: Source, options: ReadOptions) -> PolygonSet:
     """Read the shapes of a drawing, one feature an element, with its id; curves become lines within a tolerance.
 
-    What is filled is polygons, by its fill rule; what is stroked only is an open line, or a polygon where it is closed.
-    Coordinates are in millimetres where the drawing has a size in mm, cm, in, pt or pc, else in its own units, with y
-    downwards.
+    What is filled is polygons, by its fill rule; what is stroked only is an open line, or a polygon where it is
+    closed. Layers of Inkscape are the property ``layer``. Coordinates are in millimetres where the drawing has a
+    size in mm, cm, in, pt or pc, else in its own units, with y downwards.
 
     Raises
     ------
@@ -65,7 +66,8 @@ def read_svg(source: Source, options: ReadOptions) -> PolygonSet:
     if reader.unpainted:
         options.note(f"{source.name}: {reader.unpainted} shapes without fill and stroke are left out")
     document.note_styles(options.note)
-    return shapes_to_polygons(source.name, reader.shapes, options, unit=page.unit)
+    layers = {"layer": reader.layers} if any(layer is not None for layer in reader.layers) else None
+    return shapes_to_polygons(source.name, reader.shapes, options, unit=page.unit, properties=layers)
 
 
 def _unpacked(source: Source) -> bytes:
@@ -129,12 +131,13 @@ def _size(root: Element, name: str, place: str) -> tuple[float | None, bool]:
 
 # ---- elements --------------------------------------------------------------------------------------
 class _State(NamedTuple):
-    """What elements inherit: the map, the style, what percentages are of, the id of what uses them."""
+    """What elements inherit: the map, the style, what percentages are of, the id of what uses them, their layer."""
 
     map: Affine
     style: Style
     viewport: Viewport
     used_as: str | None
+    layer: str | None = None
 
 
 @dataclass
@@ -143,6 +146,7 @@ class _Reader:
 
     document: Document
     shapes: list[Shape] = field(default_factory=list)
+    layers: list[str | None] = field(default_factory=list)
     unpainted: int = 0
 
     def walk_root(self, state: _State) -> None:
@@ -185,7 +189,7 @@ class _Reader:
             if inner is not None:
                 self.walk_in(element, inner)
         elif element.tag in GROUPS:
-            self.walk_in(element, state)
+            self.walk_in(element, state._replace(layer=_layer_of(element, state.layer)))
         else:
             self._shape(element, state)
 
@@ -234,4 +238,13 @@ class _Reader:
             return
         identity = state.used_as or element.attributes.get("id")
         rule = style.rule if style.is_filled and not is_line else None
+        self.layers.append(state.layer)
         self.shapes.append(Shape(mapped, rule, identity, place, style.is_stroked))
+
+
+def _layer_of(group: Element, outer: str | None) -> str | None:
+    """Give the layer of a group: its own if it is one, as Inkscape has them, else that around it."""
+    attributes = group.attributes
+    if attributes.get(f"{_INKSCAPE}groupmode") != "layer":
+        return outer
+    return attributes.get(f"{_INKSCAPE}label", attributes.get("id", outer))
