@@ -23,6 +23,7 @@ _HOME = {
     "CellSet": "vorotool.geometry.mesh.cells",
     "Frame": "vorotool.geometry.pixel_frame",
     "LabelImage": "vorotool.geometry.points.label_image",
+    "PixelGrid": "vorotool.geometry.pixel_grid",
     "PlanarGraph": "vorotool.geometry.polygons.planar_graph",
     "PointSet": "vorotool.geometry.points.point_set",
     "PolygonSet": "vorotool.geometry.polygons.polygon_set",

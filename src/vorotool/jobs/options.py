@@ -162,6 +162,7 @@ class TessellationOptions(SiteOptions):
     dtype: Literal["uint8", "uint16", "uint32", "int32"] | None
     chunk: tuple[int, int] | None
     cell_size: Fraction | None
+    tiled: bool
 
     @property
     def cell_side(self) -> Fraction | None:

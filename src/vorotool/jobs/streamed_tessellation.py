@@ -64,6 +64,8 @@ class StreamedProducts:
             "is for lists of points, but the input is an image, which brings its own",
         )
         self.run, self.options, self.grid = run, options, image.grid
+        if image.note:
+            run.note(image.note)
         from vorotool.formats.zarr.arrays import CHUNK
 
         assert options.seeds != "centroids"  # of such images, and of those with Otsu's threshold, all is held
@@ -125,7 +127,8 @@ class StreamedProducts:
 
     def _kind(self, what: str) -> dict[str, Any]:
         """What TIFF files say of the pixels."""
-        return {"grid": self.grid, "nodata": 0 if self._max_distance(what) is not None else None}
+        nodata = None if self._max_distance(what) is None else 0
+        return {"grid": self.grid, "nodata": nodata, "tiled": self.options.tiled}
 
     def _rows(self, what: Quantity, dtype: np.dtype[Any], first: int, rows: int) -> NDArray[Any]:
         show = self._progress

@@ -238,7 +238,7 @@ class Products:
     def _streamed(self, what: Any, rows_of: RowsOf, dtype: np.dtype[Any], largest: int, **kind: Any) -> Stream:
         band = partial(self._band, what, dtype)
         is_cut = what == "labels" and self.options.max_distance is not None
-        about = {"grid": self.read.grid, "nodata": 0 if is_cut else None}
+        about = {"grid": self.read.grid, "nodata": 0 if is_cut else None, "tiled": self.options.tiled}
         return Stream(self.rows.frame, rows_of, dtype, largest, band, {**about, **kind})
 
     def _band(self, what: Quantity, dtype: np.dtype[Any], first: int, rows: int) -> Band:

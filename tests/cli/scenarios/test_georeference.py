@@ -266,6 +266,37 @@ def test_a_system_without_a_code(run, tmp_path):
     assert "crs" not in json.loads(done.out)
 
 
+@pytest.mark.parametrize("what", ["labels", "distance", "diagram"])
+@pytest.mark.parametrize("size", ["1300x700", "512x512", "513x1", "3x1025"])
+@pytest.mark.filterwarnings("ignore::rasterio.errors.NotGeoreferencedWarning")
+def test_tiles(run, tmp_path, size, what):
+    (tmp_path / "in.csv").write_text("x,y\n2,0\n700,500\n1,600\n1200,90\n")
+    options = ["tessellate", "in.csv", "--size", size, "--what", what, "-q", "-o"]
+    assert run(*options, "strips.tif").code == 0
+    assert run(*options, "tiles.tif", "--tiled").code == 0
+    with rasterio.open(tmp_path / "strips.tif") as strips, rasterio.open(tmp_path / "tiles.tif") as tiles:
+        assert tiles.block_shapes == [(512, 512)]
+        assert (strips.read(1) == tiles.read(1)).all()
+    image = tifffile.imread(tmp_path / "tiles.tif")
+    assert (image == tifffile.imread(tmp_path / "strips.tif")).all()
+    if what == "labels":
+        rows = [run("tessellate", f"{name}.tif", "--what", "table", "-q", "--seeds", "labels").rows
+                for name in ("strips", "tiles")]  # fmt: skip
+        assert rows[0] == rows[1]
+    done = run("tessellate", "in.csv", "--size", size, "-o", "a.png", "--tiled")
+    assert (done.code, "--tiled is for TIFF" in done.err) == (2, True)
+
+
+def test_tiles_of_images_that_are_not_held(run, tmp_path, monkeypatch):
+    import vorotool.jobs.streamed_tessellation as streamed
+
+    write(tmp_path / "in.tif")
+    assert run("tessellate", "in.tif", "-o", "held.tif", "--tiled").code == 0
+    monkeypatch.setattr(streamed, "LARGE", 100)
+    assert run("tessellate", "in.tif", "-o", "rows.tif", "--tiled").code == 0
+    assert (tmp_path / "held.tif").read_bytes() == (tmp_path / "rows.tif").read_bytes()
+
+
 # ---- nodata --------------------------------------------------------------------------------------
 @pytest.mark.parametrize("options", [[], ["--invert"], ["--threshold", "100"], ["--threshold", "100", "--invert"]])
 def test_nodata_is_background(run, tmp_path, options):
@@ -293,6 +324,16 @@ def test_nodata_of_images_that_are_not_held(run, tmp_path, monkeypatch, options)
     monkeypatch.setattr(streamed, "LARGE", 100)
     assert run("tessellate", "in.tif", "-o", "rows.tif", *options).code == 0
     assert (tmp_path / "held.tif").read_bytes() == (tmp_path / "rows.tif").read_bytes()
+
+
+def test_nodata_is_not_drawn(run, tmp_path):
+    values = np.zeros((20, 20), np.uint16)
+    values[3:9, 3:9], values[12:18] = 4, 65535
+    write(tmp_path / "in.tif", values, nodata=65535)
+    write(tmp_path / "plain.tif", np.where(values == 65535, 0, values).astype(np.uint16))
+    for name in ("in", "plain"):
+        assert run("draw", f"{name}.tif", "-o", f"{name}.png").code == 0
+    assert (tmp_path / "in.png").read_bytes() == (tmp_path / "plain.png").read_bytes()
 
 
 def test_nodata_that_is_no_number(run, tmp_path):

@@ -60,6 +60,7 @@ _PICTURES = {(what, fmt) for what, each in PRODUCTS["tessellate"].items() for fm
     type=Size(),
     help="Columns x rows of the chunks of a Zarr store; by default 2048x512, fewer rows if wide.",
 )
+@click.option("--tiled", is_flag=True, help="Tiles of 512 x 512 pixels in TIFFs, instead of strips of whole rows.")
 @click.option(
     "--cell-size",
     type=Decimal(),
@@ -110,6 +111,8 @@ def _check_output_options(o: TessellationOptions, outputs: set[tuple[str, str]])
         raise UsageError("--dtype is for labels in TIFF, NPY and Zarr: use -f tiff or -f npy, or leave it out")
     if o.chunk is not None and "zarr" not in {fmt for _, fmt in outputs}:
         raise UsageError("--chunk is for Zarr stores: use -f zarr, or leave it out")
+    if o.tiled and "tiff" not in {fmt for _, fmt in outputs}:
+        raise UsageError("--tiled is for TIFF: use -f tiff, or leave it out")
     if o.layers is not None and not outputs & _PICTURES:
         raise UsageError("--layers is for pictures: --what colour, labels as SVG, or the diagram as PNG")
     pictures = sorted(outputs & _PICTURES - ({("diagram", "png")} if o.layers is None and o.overlay is None else set()))

@@ -10,7 +10,7 @@ import click
 from vorotool.cli.options.shared import Names
 
 _GROUPS = {
-    "Output": "output format what dtype chunk flatten precision no_properties safe_csv no_clobber",
+    "Output": "output format what dtype chunk tiled flatten precision no_properties safe_csv no_clobber",
     "Method": "method passes max_distance r alpha auto regions rule hole_threshold region_threshold step tolerance "
     "sampling compare side gap complete features prune start end ends distance every",
     "Input": "columns input_format input_crs page pixel_size seeds connectivity threshold invert min_area fill_holes "

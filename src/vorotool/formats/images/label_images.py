@@ -34,6 +34,7 @@ def write_label_image(
     bit_depth: int | None = None,
     grid: PixelGrid | None = None,
     nodata: int | None = None,
+    tiled: bool = False,
     threads: int = 0,
 ) -> None:
     r"""Write an image from bands of rows; what the format cannot hold is refused before anything is written.
@@ -61,6 +62,8 @@ def write_label_image(
         Of the pixels, for TIFF.
     nodata : int, optional
         What pixels without a value have, for TIFF on a map.
+    tiled : bool
+        Whether a TIFF has tiles instead of strips.
     threads : int
         0 for all processors.
 
@@ -88,7 +91,9 @@ def write_label_image(
         check_png(kind, largest_label, depth)
         write_png(out, bands, shape, bit_depth=depth, palette=palette, threads=threads)
     elif fmt == "tiff":
-        write_tiff(out, bands, shape, dtype=kind, palette=palette, grid=grid, nodata=nodata, threads=threads)
+        write_tiff(
+            out, bands, shape, dtype=kind, palette=palette, grid=grid, nodata=nodata, tiled=tiled, threads=threads
+        )
     elif fmt == "npy":
         write_npy(out, bands, shape, dtype=kind)
     elif fmt == "text":
@@ -145,7 +150,7 @@ def check_png(kind: np.dtype[Any], largest: int, depth: int = 16) -> None:
 
 
 def label_image_of(image: Raster, name: str) -> LabelImage:
-    """Take the values of an image for labels.
+    """Take the values of an image for labels; masked pixels have none.
 
     Raises
     ------
@@ -164,6 +169,8 @@ def label_image_of(image: Raster, name: str) -> LabelImage:
         raise InputError(f"{name} is lossy: its values are no labels; give a PNG, TIFF or NPY file")
     if values.dtype.kind not in "bui":
         raise InputError(f"{name} holds {values.dtype} values: labels need integers")
+    if image.mask is not None:
+        values = np.where(image.mask, values.dtype.type(0), values)
     return LabelImage(values.view(np.uint8) if values.dtype == np.bool_ else _as_labels(values, name))
 
 

@@ -20,9 +20,12 @@ from numpy.typing import DTypeLike, NDArray
 
 from vorotool.formats.images.npy import stored
 from vorotool.formats.images.tiff_grid_tags import grid_tags
-from vorotool.formats.io.row_bands import BLOCK_BYTES, blocks
+from vorotool.formats.io.row_bands import BLOCK_BYTES, blocks, checked
 from vorotool.geometry.parallel import in_order
 from vorotool.geometry.pixel_grid import PixelGrid
+
+TILE = 512
+"""Pixels a side of a tile, as cloud-optimized GeoTIFFs have them."""
 
 _CLASSIC_LIMIT = 2**32 - 2**25
 """Bytes of pixels from which offsets may need BigTIFF; the rest is room for tags and tables of strips."""
@@ -37,6 +40,7 @@ def write_tiff(
     palette: NDArray[np.uint8] | None = None,
     grid: PixelGrid | None = None,
     nodata: int | None = None,
+    tiled: bool = False,
     threads: int = 0,
 ) -> None:
     r"""Write a single-page TIFF from bands of rows, in bounded memory; a BigTIFF where the pixels need it.
@@ -58,6 +62,8 @@ def write_tiff(
         Of the pixels; lengths of the metric system become centimetres.
     nodata : int, optional
         What pixels without a value have, where the grid is that of a map.
+    tiled : bool
+        In tiles of `TILE` pixels a side, of which a part of the image is read without the rest of its rows.
     threads : int
         0 for all processors.
 
@@ -75,6 +81,8 @@ def write_tiff(
     b'II*\x00'
     """
     tags = grid_tags(grid, shape, np.dtype(dtype), nodata=nodata)
+    if tiled:
+        tags["tile"] = (TILE, TILE)
     if out.seekable():
         _write(out, bands, shape, np.dtype(dtype), palette, tags, threads)
         return
@@ -103,15 +111,16 @@ def _write(
     handle = tifffile.FileHandle(out, name="image.tif", size=0)
     large = width * height * kind.itemsize >= _CLASSIC_LIMIT
     with tifffile.TiffWriter(handle, bigtiff=large, byteorder="<") as writer:
+        is_tiled = "tile" in tags
         writer.write(
-            _strips(bands, shape, kind, compressed, threads),
+            (_tiles if is_tiled else _strips)(bands, shape, kind, compressed, threads),
             shape=shape,
             dtype=kind,
             photometric="minisblack" if palette is None else "palette",
             colormap=None if palette is None else _colormap(palette),
             compression="zlib" if compressed else None,
             predictor=2 if compressed else None,
-            rowsperstrip=rows,
+            rowsperstrip=None if is_tiled else rows,
             metadata=None,
             software=False,
             **tags,
@@ -128,6 +137,41 @@ def _strips(
     if compressed:
         return in_order(_deflated, strips, threads)
     return (strip[1:].tobytes() for strip in strips)
+
+
+def _tiles(
+    bands: Iterable[NDArray[Any]], shape: tuple[int, int], kind: np.dtype[Any], compressed: bool, threads: int
+) -> Iterator[bytes]:
+    """Tiles row by row, from left to right; those at the right and lower sides are filled up with zeros."""
+
+    def each() -> Iterator[NDArray[Any]]:
+        for rows in _rows_of_tiles(bands, shape, kind):
+            for left in range(0, shape[1], TILE):
+                part = rows[:, left : left + TILE]
+                tile = np.zeros((1 + TILE, TILE), kind)  # as a strip has it, after the row before
+                tile[1 : 1 + len(part), : part.shape[1]] = part
+                yield tile
+
+    return in_order(_deflated, each(), threads) if compressed else (tile[1:].tobytes() for tile in each())
+
+
+def _rows_of_tiles(
+    bands: Iterable[NDArray[Any]], shape: tuple[int, int], kind: np.dtype[Any]
+) -> Iterator[NDArray[Any]]:
+    """Regroup bands into rows of tiles."""
+    held: list[NDArray[Any]] = []
+    count = 0
+    for band in checked(bands, shape):
+        start = 0
+        while start < len(band):
+            part = band[start : start + TILE - count]
+            held.append(stored(part, kind))
+            start, count = start + len(part), count + len(part)
+            if count == TILE:
+                yield np.concatenate(held)
+                held, count = [], 0
+    if held:
+        yield np.concatenate(held)
 
 
 def _deflated(strip: NDArray[Any]) -> bytes:
