@@ -323,7 +323,8 @@ def _extent(value: list[float], _: Description) -> str:
 
 
 def _side(value: list[float], told: Description) -> str:
-    return f"{' x '.join(dict.fromkeys(map(_number, value)))} {told['unit']}"
+    sides = " x ".join(dict.fromkeys(map(_number, value)))
+    return sides if told["unit"] is None else f"{sides} {told['unit']}"
 
 
 def _number(value: float) -> str:
