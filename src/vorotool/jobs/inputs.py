@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.jobs.masks import settled_foreground
-from vorotool.jobs.options import ComputingOptions, JobOptions, SiteOptions
+from vorotool.jobs.options import ComputingOptions, JobOptions, SiteOptions, TessellationOptions
 from vorotool.jobs.run_log import Run
 
 if TYPE_CHECKING:
@@ -153,7 +153,10 @@ def frame_of(o: SiteOptions, seeds: SeedSet) -> Frame | None:
         return Frame(0, 0, *o.size)
     if not len(seeds) and not seeds.is_empty_image:
         return None
-    return default_frame(seeds, how="give one with --size WxH or --window X,Y,W,H", instead="delaunay --what cells")
+    instead = "delaunay --what cells"
+    if isinstance(o, TessellationOptions):
+        instead = f"--cell-size C, or {instead}"
+    return default_frame(seeds, how="give one with --size WxH or --window X,Y,W,H", instead=instead)
 
 
 def window_of(o: SiteOptions, seeds: SeedSet) -> tuple[int, int, int, int] | None:
