@@ -9,7 +9,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from vorotool.errors import InputError, Kind, Message, UsageError
 from vorotool.jobs.masks import settled_foreground
-from vorotool.jobs.options import ComputingOptions, JobOptions, SiteOptions, SkeletonOptions, TriangulationOptions
+from vorotool.jobs.options import (
+    ComputingOptions,
+    JobOptions,
+    SiteOptions,
+    SkeletonOptions,
+    TessellationOptions,
+    TriangulationOptions,
+)
 from vorotool.jobs.run_log import Run
 
 if TYPE_CHECKING:
@@ -156,7 +163,10 @@ def frame_of(o: SiteOptions, seeds: SeedSet) -> Frame | None:
         return Frame(0, 0, *o.size)
     if not len(seeds) and not seeds.is_empty_image:
         return None
-    return default_frame(seeds, how="give one with --size WxH or --window X,Y,W,H", instead="delaunay --what cells")
+    instead = "delaunay --what cells"
+    if isinstance(o, TessellationOptions):
+        instead = f"--cell-size C, or {instead}"
+    return default_frame(seeds, how="give one with --size WxH or --window X,Y,W,H", instead=instead)
 
 
 def window_of(o: SiteOptions, seeds: SeedSet) -> tuple[int, int, int, int] | None:
@@ -220,7 +230,8 @@ def _in_one_crs(run: Run, clip: tuple[str, PolygonSet], data: tuple[str, PointSe
     (path, polygons), (source, points) = clip, data
     if not isinstance(points, PointSet):
         if points.grid is not None and points.grid.crs is not None and polygons.crs is not None:
-            _require_same(path, polygons.crs, source, points.grid.crs)
+            warp = "bring the polygons into that of the image: ogr2ogr -t_srs {} clip.gpkg {}"
+            _require_same(path, polygons.crs, source, points.grid.crs, warp)
         return points
     if points.crs is None and polygons.crs is None:
         return points
@@ -232,20 +243,18 @@ def _in_one_crs(run: Run, clip: tuple[str, PolygonSet], data: tuple[str, PointSe
             points = declared_in(points, source, crs)
             note_degrees(points, source, run.note)
         return points
-    _require_same(path, polygons.crs, source, points.crs)
+    advice = "bring them into one coordinate reference system: --crs {} does"
+    _require_same(path, polygons.crs, source, points.crs, advice)
     return points
 
 
-def _require_same(path: str, crs: Any, source: str, wanted: Any) -> None:
+def _require_same(path: str, crs: Any, source: str, wanted: Any, advice: str) -> None:
     """Refuse polygons in another coordinate reference system than the sites."""
     from vorotool.geometry.crs import crs_name, same_crs
 
     if not same_crs(wanted, crs):
         name = crs_name(wanted)
-        raise InputError(
-            f"{path} is in {crs_name(crs)}, but {source} in {name}: bring them into one coordinate reference system: "
-            f"--crs {name} does"
-        )
+        raise InputError(f"{path} is in {crs_name(crs)}, but {source} in {name}: {advice.format(name, path)}")
 
 
 def _check_they_meet(points: PointSet, polygons: PolygonSet, unnamed: str, named: str, crs: Any) -> None:
