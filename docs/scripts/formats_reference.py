@@ -13,7 +13,8 @@ def reference() -> str:
     parts = [
         "# Formats",
         "",
-        "Made by `python docs/scripts/formats_reference.py`; a test keeps it true.",
+        "Made by `python docs/scripts/formats_reference.py`; a test keeps it true. [What formats carry](abilities.md):",
+        "reference systems, attributes, sizes of pixels.",
         "",
         "## Inputs",
         "",

@@ -61,7 +61,7 @@ BAD_INPUTS = {
     "shapes.json": (b'{"polygons":[]}', 3, ["shapes.json holds polygons", "skeleton-exact reads it"]),
     "polygon.geojson": (b'{"type": "Polygon", "coordinates": [[[0,0],[1,0],[1,1],[0,0]]]}', 3, ["Polygon"]),
     "polygon.wkt": (b"POLYGON ((0 0, 1 0, 1 1, 0 0))", 3, ["polygon.wkt, line 1: a Polygon is not a point"]),
-    "a.shp": (b"\0\0\x27\x0a", 3, ["ogr2ogr"]),
+    "a.shp": (b"\0\0\x27\x0a", 3, ["is a part of a Shapefile, whose .shx and .dbf are not beside it"]),
     "nan.npy": (
         npy_header("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 2), }\n")
         + struct.pack("<4d", 1, 2, float("nan"), 4),

@@ -66,7 +66,7 @@ def cleaned_mask(
     --------
     >>> ring = np.array([[1, 1, 1, 0, 1], [1, 0, 1, 0, 0], [1, 1, 1, 0, 0]], dtype=bool)
     >>> made = cleaned_mask(ring, min_area=2, fill_holes=True)
-    >>> made.mask.sum(), made.filled, made.removed
+    >>> int(made.mask.sum()), made.filled, made.removed
     (9, 1, 1)
     """
     if connectivity not in (4, 8):
